@@ -1,0 +1,143 @@
+//! What can go wrong, one enum a kind of failure.
+
+/// A number that a model cannot have.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// A quantity outside the range in which the model means anything.
+    #[error("{quantity}: expected {expected}, found {found}")]
+    OutOfRange {
+        /// Name of the quantity with its unit, as the constructor calls it.
+        quantity: &'static str,
+        /// The range, in words.
+        expected: &'static str,
+        /// The value given, in the quantity's SI unit.
+        found: f64,
+    },
+    /// Lists that must have one entry a storey and have not.
+    #[error("{quantity}: expected {expected} values, one a storey, found {found}")]
+    WrongCount {
+        /// Name of the list.
+        quantity: &'static str,
+        /// Number of storeys.
+        expected: usize,
+        /// Length of the list given.
+        found: usize,
+    },
+}
+
+/// Samples that are no ground motion.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MotionError {
+    /// Fewer than two samples, or lists of different lengths.
+    #[error("expected at least two samples with one value each, found {found}")]
+    TooShort {
+        /// Number of samples or of values found.
+        found: usize,
+    },
+    /// More samples than any analysis needs.
+    #[error("expected at most 100 000 000 samples, found {found:e}")]
+    TooLong {
+        /// Number asked for.
+        found: f64,
+    },
+    /// A value that is not finite.
+    #[error("sample {index}: expected a finite {quantity}, found {found}")]
+    NotFinite {
+        /// Index of the sample, from 0.
+        index: usize,
+        /// Which of its values.
+        quantity: &'static str,
+        /// The value.
+        found: f64,
+    },
+    /// Time that runs backwards, or stands still for more than one jump.
+    #[error(
+        "sample {index}: expected a time after {previous_s} s (or once the same, for a jump), \
+         found {found_s} s"
+    )]
+    TimeOrder {
+        /// Index of the sample, from 0.
+        index: usize,
+        /// Time of the sample before it, in s.
+        previous_s: f64,
+        /// Its own time, in s.
+        found_s: f64,
+    },
+    /// A parameter of a made motion, or a factor, outside its range.
+    #[error("{quantity}: expected {expected}, found {found}")]
+    OutOfRange {
+        /// Name of the parameter with its unit.
+        quantity: &'static str,
+        /// The range, in words.
+        expected: &'static str,
+        /// The value given.
+        found: f64,
+    },
+    /// A peak was asked of a motion that is zero throughout.
+    #[error("scale_to: expected a motion that is not zero throughout, its peak is 0 m/s²")]
+    ZeroPeak,
+}
+
+/// An analysis that has no answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SolveError {
+    /// More events in one sample interval than any real system has.
+    #[error(
+        "more than {limit} stick/slip events in one sample interval, at {time_s} s: \
+         the block chatters; check masses, stiffnesses and friction"
+    )]
+    TooManyEvents {
+        /// When it was noticed, in s.
+        time_s: f64,
+        /// The limit.
+        limit: u32,
+    },
+    /// A system so stiff that the phase of its fastest mode is lost to rounding.
+    #[error(
+        "the fastest mode turns {radians:e} rad in {duration_s} s: expected at most {limit:e}; \
+         a spring, damper or storey is too stiff for its mass"
+    )]
+    TooStiff {
+        /// Bound on the fastest rate times the duration.
+        radians: f64,
+        /// Duration of the motion, in s.
+        duration_s: f64,
+        /// The limit.
+        limit: f64,
+    },
+    /// A state that left the range of numbers.
+    #[error("the response is not finite at {time_s} s: check masses, stiffnesses and the motion")]
+    NotFinite {
+        /// When it was noticed, in s.
+        time_s: f64,
+    },
+    /// The iteration of the stepwise method did not converge.
+    #[error(
+        "stepwise method: {iterations} iterations did not converge at {time_s} s; it converges \
+         only where the fastest mode times the step is below 2, here {omega_dt:.3}"
+    )]
+    NoConvergence {
+        /// Time of the step's end, in s.
+        time_s: f64,
+        /// Iterations made.
+        iterations: u32,
+        /// Largest rate of the system times the step.
+        omega_dt: f64,
+    },
+}
+
+/// Text that is not a record, in the `file:line:column` form an editor can jump to.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{source_name}:{line}:{column}: expected {expected}, found {found:?}")]
+pub struct RecordError {
+    /// The caller's name for the text: a path, or the name of a dropped file.
+    pub source_name: String,
+    /// Line of the first offending character, counted from 1.
+    pub line: usize,
+    /// Its column in characters, counted from 1.
+    pub column: usize,
+    /// What the format asks for here.
+    pub expected: String,
+    /// The offending word, cut to 40 characters.
+    pub found: String,
+}

@@ -1,0 +1,1 @@
+//! Propagators and modes.

@@ -1,0 +1,318 @@
+//! Masses, springs, dampers, storeys: inert, checked data without an algorithm.
+
+use crate::error::ModelError;
+use crate::friction::{Direction, Friction};
+use crate::units::STANDARD_GRAVITY_M_PER_S2;
+
+/// The rigid block that slides, `M1`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Block {
+    /// Mass `M1` in kg.
+    pub mass_kg: f64,
+    /// Width along x in m; with storey heights the overturning ratio is reported.
+    pub width_m: Option<f64>,
+    /// Height in m, where the block's own inertia counts for overturning; a thin block has none.
+    pub height_m: Option<f64>,
+}
+
+/// The bearing between table and block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slider {
+    /// The friction law.
+    pub friction: Friction,
+    /// Stiffness `K1` of the spring between table and block in N/m, 0 without one.
+    pub stiffness_n_per_m: f64,
+    /// Damper `C1` between table and block in N s/m, 0 without one.
+    pub damper_n_s_per_m: f64,
+    /// Tilt θ of the surface in rad, positive uphill towards +x.
+    pub tilt_rad: f64,
+    /// Sliding displacement that the detailing allows, in m.
+    pub gap_m: Option<f64>,
+}
+
+/// Damping of the storeys.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Damping {
+    /// The same ratio of critical damping in every fixed-base mode:
+    /// `C = M Φ diag(2 ξ ω) Φᵀ M` with mass-normalised modes Φ.
+    Ratio(f64),
+    /// Dampers between neighbouring floors in N s/m, from the block up.
+    Dampers(Vec<f64>),
+}
+
+/// The linear structure on the block: a shear frame of any number of storeys, from the block up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Mass of each floor in kg.
+    pub masses_kg: Vec<f64>,
+    /// Stiffness of each storey (between a floor and the one below it) in N/m.
+    pub stiffnesses_n_per_m: Vec<f64>,
+    /// Damping.
+    pub damping: Damping,
+    /// Height of each storey in m.
+    pub heights_m: Option<Vec<f64>>,
+}
+
+impl Frame {
+    /// No storeys: the rigid block alone (section 3 of the paper).
+    #[must_use]
+    pub fn none() -> Self {
+        Self {
+            masses_kg: Vec::new(),
+            stiffnesses_n_per_m: Vec::new(),
+            damping: Damping::Ratio(0.0),
+            heights_m: None,
+        }
+    }
+}
+
+/// State at t = 0; storey values are relative to the block, one a storey.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InitialState {
+    /// Sliding displacement `s` in m; the spring is unstressed at 0.
+    pub sliding_displacement_m: f64,
+    /// Sliding velocity `ṡ` in m/s.
+    pub sliding_velocity_m_per_s: f64,
+    /// Storey displacements `q` in m; `None`: static equilibrium on the slope.
+    pub storey_displacement_m: Option<Vec<f64>>,
+    /// Storey velocities `q̇` in m/s; `None`: at rest.
+    pub storey_velocity_m_per_s: Option<Vec<f64>>,
+}
+
+impl InitialState {
+    /// All at rest, the spring unstressed, friction carries the slope.
+    #[must_use]
+    pub fn rest() -> Self {
+        Self {
+            sliding_displacement_m: 0.0,
+            sliding_velocity_m_per_s: 0.0,
+            storey_displacement_m: None,
+            storey_velocity_m_per_s: None,
+        }
+    }
+}
+
+/// A checked model: block, slider, structure, gravity and initial state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    block: Block,
+    slider: Slider,
+    frame: Frame,
+    gravity_m_per_s2: f64,
+    initial: InitialState,
+}
+
+impl Model {
+    /// Checks every number; repairs none.
+    ///
+    /// # Errors
+    /// [`ModelError`] names the first quantity that is not finite or out of range: masses and
+    /// storey stiffnesses must be > 0, `K1`, `C1`, dampers and damping ratios ≥ 0, |θ| < π/2,
+    /// gravity, gap, width and heights > 0, one value a storey.
+    pub fn new(
+        block: Block,
+        slider: Slider,
+        frame: Frame,
+        gravity_m_per_s2: f64,
+        initial: InitialState,
+    ) -> Result<Self, ModelError> {
+        let n = frame.masses_kg.len();
+        positive("block mass_kg", block.mass_kg)?;
+        optional_positive("block width_m", block.width_m)?;
+        optional_positive("block height_m", block.height_m)?;
+        not_negative("slider stiffness_n_per_m", slider.stiffness_n_per_m)?;
+        not_negative("slider damper_n_s_per_m", slider.damper_n_s_per_m)?;
+        optional_positive("slider gap_m", slider.gap_m)?;
+        if !(slider.tilt_rad.abs() < core::f64::consts::FRAC_PI_2) {
+            return Err(ModelError::OutOfRange {
+                quantity: "slider tilt_rad",
+                expected: "a tilt between −π/2 and π/2",
+                found: slider.tilt_rad,
+            });
+        }
+        positive("gravity_m_per_s2", gravity_m_per_s2)?;
+        each("storey masses_kg", n, &frame.masses_kg, positive)?;
+        each("storey stiffnesses_n_per_m", n, &frame.stiffnesses_n_per_m, positive)?;
+        match &frame.damping {
+            Damping::Ratio(ratio) => not_negative("storey damping_ratio", *ratio)?,
+            Damping::Dampers(c) => each("storey dampers_n_s_per_m", n, c, not_negative)?,
+        }
+        if let Some(heights_m) = &frame.heights_m {
+            each("storey heights_m", n, heights_m, positive)?;
+        }
+        finite("initial sliding_displacement_m", initial.sliding_displacement_m)?;
+        finite("initial sliding_velocity_m_per_s", initial.sliding_velocity_m_per_s)?;
+        if let Some(q) = &initial.storey_displacement_m {
+            each("initial storey_displacement_m", n, q, finite)?;
+        }
+        if let Some(v) = &initial.storey_velocity_m_per_s {
+            each("initial storey_velocity_m_per_s", n, v, finite)?;
+        }
+        Ok(Self { block, slider, frame, gravity_m_per_s2, initial })
+    }
+
+    /// The rigid block alone on a level surface at rest, under standard gravity.
+    ///
+    /// # Errors
+    /// As [`Model::new`].
+    pub fn rigid_block(mass_kg: f64, friction: Friction) -> Result<Self, ModelError> {
+        Self::new(
+            Block { mass_kg, width_m: None, height_m: None },
+            Slider {
+                friction,
+                stiffness_n_per_m: 0.0,
+                damper_n_s_per_m: 0.0,
+                tilt_rad: 0.0,
+                gap_m: None,
+            },
+            Frame::none(),
+            STANDARD_GRAVITY_M_PER_S2,
+            InitialState::rest(),
+        )
+    }
+
+    /// The block.
+    #[must_use]
+    pub fn block(&self) -> &Block {
+        &self.block
+    }
+
+    /// The bearing.
+    #[must_use]
+    pub fn slider(&self) -> &Slider {
+        &self.slider
+    }
+
+    /// The structure on the block.
+    #[must_use]
+    pub fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    /// Number of storeys `n`.
+    #[must_use]
+    pub fn storeys(&self) -> usize {
+        self.frame.masses_kg.len()
+    }
+
+    /// Acceleration of gravity `g` in m/s².
+    #[must_use]
+    pub fn gravity_m_per_s2(&self) -> f64 {
+        self.gravity_m_per_s2
+    }
+
+    /// The state at t = 0.
+    #[must_use]
+    pub fn initial(&self) -> &InitialState {
+        &self.initial
+    }
+
+    /// `M_tot = M1 + Σ m_i` in kg.
+    #[must_use]
+    pub fn total_mass_kg(&self) -> f64 {
+        self.frame.masses_kg.iter().fold(self.block.mass_kg, |sum, m| sum + m)
+    }
+
+    /// `M_tot g` in N.
+    #[must_use]
+    pub fn weight_n(&self) -> f64 {
+        self.total_mass_kg() * self.gravity_m_per_s2
+    }
+
+    /// `g sin θ` in m/s²: the slope's pull towards −x as an acceleration of the table.
+    #[must_use]
+    pub fn slope_m_per_s2(&self) -> f64 {
+        self.gravity_m_per_s2 * libm::sin(self.slider.tilt_rad)
+    }
+
+    /// `g cos θ` in m/s²: what presses the block on the surface at rest.
+    #[must_use]
+    pub fn normal_gravity_m_per_s2(&self) -> f64 {
+        self.gravity_m_per_s2 * libm::cos(self.slider.tilt_rad)
+    }
+
+    /// The same model with another friction law (lower- and upper-bound friction).
+    #[must_use]
+    pub fn with_friction(&self, friction: Friction) -> Self {
+        let mut model = self.clone();
+        model.slider.friction = friction;
+        model
+    }
+
+    /// Static friction coefficients for sliding towards +x and −x.
+    #[must_use]
+    pub fn static_friction(&self) -> [f64; 2] {
+        [Direction::Positive, Direction::Negative]
+            .map(|d| self.slider.friction.static_coefficient(d))
+    }
+
+    /// Kinetic friction coefficients while sliding towards +x and −x.
+    #[must_use]
+    pub fn kinetic_friction(&self) -> [f64; 2] {
+        [Direction::Positive, Direction::Negative]
+            .map(|d| self.slider.friction.kinetic_coefficient(d))
+    }
+
+    /// Storey displacements at t = 0 in m: as given, else `−K⁻¹ M 1 g sin θ`.
+    #[must_use]
+    pub fn initial_storey_displacement_m(&self) -> Vec<f64> {
+        if let Some(q) = &self.initial.storey_displacement_m {
+            return q.clone();
+        }
+        let slope = self.slope_m_per_s2();
+        let (m, k) = (&self.frame.masses_kg, &self.frame.stiffnesses_n_per_m);
+        let mut q = vec![0.0; m.len()];
+        let mut below_m = 0.0;
+        for i in 0..m.len() {
+            // Storey i carries the slope's pull on all floors from i up.
+            let carried_kg: f64 = m[i..].iter().sum();
+            below_m -= carried_kg * slope / k[i];
+            q[i] = below_m;
+        }
+        q
+    }
+
+    /// Storey velocities at t = 0 in m/s: as given, else 0.
+    #[must_use]
+    pub fn initial_storey_velocity_m_per_s(&self) -> Vec<f64> {
+        let at_rest = || vec![0.0; self.storeys()];
+        self.initial.storey_velocity_m_per_s.clone().unwrap_or_else(at_rest)
+    }
+}
+
+fn finite(quantity: &'static str, found: f64) -> Result<(), ModelError> {
+    in_range(quantity, "a finite number", found, found.is_finite())
+}
+
+fn positive(quantity: &'static str, found: f64) -> Result<(), ModelError> {
+    in_range(quantity, "a finite number > 0", found, found.is_finite() && found > 0.0)
+}
+
+fn not_negative(quantity: &'static str, found: f64) -> Result<(), ModelError> {
+    in_range(quantity, "a finite number ≥ 0", found, found.is_finite() && found >= 0.0)
+}
+
+fn optional_positive(quantity: &'static str, found: Option<f64>) -> Result<(), ModelError> {
+    found.map_or(Ok(()), |value| positive(quantity, value))
+}
+
+fn in_range(
+    quantity: &'static str,
+    expected: &'static str,
+    found: f64,
+    holds: bool,
+) -> Result<(), ModelError> {
+    if holds { Ok(()) } else { Err(ModelError::OutOfRange { quantity, expected, found }) }
+}
+
+fn each(
+    quantity: &'static str,
+    expected: usize,
+    values: &[f64],
+    check: fn(&'static str, f64) -> Result<(), ModelError>,
+) -> Result<(), ModelError> {
+    if values.len() != expected {
+        return Err(ModelError::WrongCount { quantity, expected, found: values.len() });
+    }
+    values.iter().try_for_each(|&value| check(quantity, value))
+}

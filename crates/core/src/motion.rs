@@ -1,0 +1,165 @@
+//! Ground motion: piecewise-linear table acceleration along and normal to the sliding surface.
+
+use crate::error::MotionError;
+
+/// Most samples that a motion may have.
+pub const MAX_SAMPLES: usize = 100_000_000;
+
+/// Acceleration of the table, linear between samples.
+///
+/// Times start at 0 and do not decrease; a time that stands twice is a jump (left limit, then right
+/// limit). Before the first sample the table is at rest: a first sample other than 0 is a jump at
+/// t = 0. After the last sample both accelerations are 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GroundMotion {
+    times_s: Vec<f64>,
+    horizontal_m_per_s2: Vec<f64>,
+    vertical_m_per_s2: Option<Vec<f64>>,
+    dt_s: Option<f64>,
+}
+
+impl GroundMotion {
+    /// A motion from samples at any times; the clock is moved to start at the first.
+    ///
+    /// `horizontal` is Ü in m/s², positive towards +x; `vertical` is Üv in m/s², positive upwards.
+    /// Times that follow a constant step to within rounding (8 ulp of the duration) are taken as
+    /// evenly spaced.
+    ///
+    /// # Errors
+    /// [`MotionError`] for fewer than two samples, lists of different lengths, values that are not
+    /// finite, times that decrease or stand still for more than two samples, no duration.
+    pub fn new(
+        mut times_s: Vec<f64>,
+        horizontal: Vec<f64>,
+        vertical: Option<Vec<f64>>,
+    ) -> Result<Self, MotionError> {
+        let n = times_s.len();
+        check_values(n, &horizontal, vertical.as_deref())?;
+        if let Some((index, &found)) = times_s.iter().enumerate().find(|(_, t)| !t.is_finite()) {
+            return Err(MotionError::NotFinite { index, quantity: "time", found });
+        }
+        let start_s = times_s[0];
+        if start_s != 0.0 {
+            for t in &mut times_s {
+                *t -= start_s;
+            }
+        }
+        for index in 1..n {
+            let previous_s = times_s[index - 1];
+            let found_s = times_s[index];
+            let third = index >= 2 && times_s[index - 2] == found_s;
+            if !found_s.is_finite() || found_s < previous_s || third {
+                return Err(MotionError::TimeOrder { index, previous_s, found_s });
+            }
+        }
+        if times_s[n - 1] <= 0.0 {
+            return Err(MotionError::TimeOrder { index: n - 1, previous_s: 0.0, found_s: 0.0 });
+        }
+        let dt_s = constant_step(&times_s);
+        Ok(Self { times_s, horizontal_m_per_s2: horizontal, vertical_m_per_s2: vertical, dt_s })
+    }
+
+    /// A motion with samples at `0, dt, 2 dt, …`.
+    ///
+    /// # Errors
+    /// As [`GroundMotion::new`], and [`MotionError::OutOfRange`] unless `dt_s` is finite and > 0.
+    pub fn evenly_spaced(
+        dt_s: f64,
+        horizontal: Vec<f64>,
+        vertical: Option<Vec<f64>>,
+    ) -> Result<Self, MotionError> {
+        if !(dt_s.is_finite() && dt_s > 0.0) {
+            let expected = "a finite time step > 0";
+            return Err(MotionError::OutOfRange { quantity: "dt_s", expected, found: dt_s });
+        }
+        let n = horizontal.len();
+        check_values(n, &horizontal, vertical.as_deref())?;
+        let times_s: Vec<f64> = (0..n).map(|i| i as f64 * dt_s).collect();
+        if !times_s[n - 1].is_finite() {
+            let expected = "a time step whose multiples are finite";
+            return Err(MotionError::OutOfRange { quantity: "dt_s", expected, found: dt_s });
+        }
+        Ok(Self {
+            times_s,
+            horizontal_m_per_s2: horizontal,
+            vertical_m_per_s2: vertical,
+            dt_s: Some(dt_s),
+        })
+    }
+
+    /// Times of the samples in s, from 0, not decreasing.
+    #[must_use]
+    pub fn times_s(&self) -> &[f64] {
+        &self.times_s
+    }
+
+    /// Acceleration along the sliding surface at the samples, Ü in m/s².
+    #[must_use]
+    pub fn horizontal_m_per_s2(&self) -> &[f64] {
+        &self.horizontal_m_per_s2
+    }
+
+    /// Acceleration normal to the sliding surface at the samples, Üv in m/s², positive upwards.
+    #[must_use]
+    pub fn vertical_m_per_s2(&self) -> Option<&[f64]> {
+        self.vertical_m_per_s2.as_deref()
+    }
+
+    /// The constant step in s, or `None` where the samples are unevenly spaced or jump.
+    #[must_use]
+    pub fn dt_s(&self) -> Option<f64> {
+        self.dt_s
+    }
+
+    /// Time of the last sample in s.
+    #[must_use]
+    pub fn duration_s(&self) -> f64 {
+        self.times_s[self.times_s.len() - 1]
+    }
+
+    /// Number of samples.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.times_s.len()
+    }
+
+    /// Never: a motion has at least two samples.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        false
+    }
+}
+
+fn check_values(n: usize, horizontal: &[f64], vertical: Option<&[f64]>) -> Result<(), MotionError> {
+    if n < 2 {
+        return Err(MotionError::TooShort { found: n });
+    }
+    if n > MAX_SAMPLES {
+        return Err(MotionError::TooLong { found: n as f64 });
+    }
+    for (quantity, values) in
+        [("horizontal acceleration", Some(horizontal)), ("vertical acceleration", vertical)]
+    {
+        let Some(values) = values else { continue };
+        if values.len() != n {
+            return Err(MotionError::TooShort { found: values.len() });
+        }
+        if let Some((index, &found)) = values.iter().enumerate().find(|(_, a)| !a.is_finite()) {
+            return Err(MotionError::NotFinite { index, quantity, found });
+        }
+    }
+    Ok(())
+}
+
+/// The step of `times_s` (which start at 0) if every time is a multiple of it to within rounding.
+fn constant_step(times_s: &[f64]) -> Option<f64> {
+    let n = times_s.len();
+    let end_s = times_s[n - 1];
+    let dt_s = end_s / (n - 1) as f64;
+    let slack_s = 8.0 * f64::EPSILON * end_s;
+    let even = times_s.iter().enumerate().all(|(i, t)| (t - i as f64 * dt_s).abs() <= slack_s);
+    // The step as it was written, where the first interval is that: 0.01 rather than 0.01 ± 1 ulp.
+    let written_s = times_s[1];
+    let as_written = even && ((n - 1) as f64 * written_s - end_s).abs() <= slack_s;
+    even.then_some(if as_written { written_s } else { dt_s })
+}

@@ -1,0 +1,227 @@
+//! What an analysis returns: peaks and counts, events, histories, warnings.
+
+use crate::friction::Direction;
+
+/// Whether the block is held by friction or slides, and which way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// The block moves with the table.
+    Stick,
+    /// The block slides over the table.
+    Slip(Direction),
+}
+
+impl Mode {
+    /// Sign of the sliding velocity: 0 in stick, ±1 in slip.
+    #[must_use]
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Stick => 0.0,
+            Self::Slip(direction) => direction.sign(),
+        }
+    }
+}
+
+/// How an analysis was made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Linear phases propagated exactly, events located.
+    Exact,
+    /// The paper's own program: trapezoidal rule with fixed-point iteration.
+    Stepwise,
+}
+
+/// What happened at an event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EventKind {
+    /// From stick to slip.
+    Slip,
+    /// From slip to stick.
+    Stick,
+    /// From sliding one way to sliding the other, without a stick between.
+    Reversal,
+}
+
+/// A change between stick and slip, or of the direction of sliding.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Event {
+    /// When, in s.
+    pub time_s: f64,
+    /// What.
+    pub kind: EventKind,
+    /// The mode after it.
+    pub mode: Mode,
+    /// Sliding displacement then, in m.
+    pub sliding_displacement_m: f64,
+}
+
+/// States at *knots*: every sample and both sides of every event, in order of time.
+///
+/// Between two neighbouring knots with different times the table acceleration is linear and the
+/// mode constant (and stored at both). Knots with the same time are the two sides of an event or a
+/// jump. Storey values are stored knot by knot, `storeys` values each.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct History {
+    /// Number of storeys.
+    pub storeys: usize,
+    /// Times in s.
+    pub time_s: Vec<f64>,
+    /// Modes; at an event first the one before it, then the one after.
+    pub mode: Vec<Mode>,
+    /// Table acceleration `Ü` in m/s², on the knot's side of a jump.
+    pub table_acceleration_m_per_s2: Vec<f64>,
+    /// `s` in m.
+    pub sliding_displacement_m: Vec<f64>,
+    /// `ṡ` in m/s.
+    pub sliding_velocity_m_per_s: Vec<f64>,
+    /// Total acceleration of the block, `s̈ + Ü`, in m/s².
+    pub block_acceleration_m_per_s2: Vec<f64>,
+    /// Force of the table on the block by friction, `T`, in N.
+    pub friction_force_n: Vec<f64>,
+    /// `q_i` in m, relative to the block.
+    pub storey_displacement_m: Vec<f64>,
+    /// `q̇_i` in m/s, relative to the block.
+    pub storey_velocity_m_per_s: Vec<f64>,
+    /// Total acceleration of the floors, `q̈_i + s̈ + Ü`, in m/s².
+    pub storey_acceleration_m_per_s2: Vec<f64>,
+    /// Indices of the knots that are rows of `history.csv`: one a sample, the limit from the right
+    /// (at a repeated time two, left then right; the last is the left limit).
+    pub rows: Vec<usize>,
+}
+
+impl History {
+    /// Number of knots.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.time_s.len()
+    }
+
+    /// Whether nothing was stored.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.time_s.is_empty()
+    }
+
+    /// Storey displacements at a knot, in m.
+    #[must_use]
+    pub fn storey_displacements(&self, knot: usize) -> &[f64] {
+        &self.storey_displacement_m[knot * self.storeys..(knot + 1) * self.storeys]
+    }
+
+    /// Storey velocities at a knot, in m/s.
+    #[must_use]
+    pub fn storey_velocities(&self, knot: usize) -> &[f64] {
+        &self.storey_velocity_m_per_s[knot * self.storeys..(knot + 1) * self.storeys]
+    }
+
+    /// Total accelerations of the floors at a knot, in m/s².
+    #[must_use]
+    pub fn storey_accelerations(&self, knot: usize) -> &[f64] {
+        &self.storey_acceleration_m_per_s2[knot * self.storeys..(knot + 1) * self.storeys]
+    }
+}
+
+/// Peaks of one storey over the whole run, absolute values.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StoreyDemands {
+    /// Total acceleration in m/s².
+    pub peak_acceleration_m_per_s2: f64,
+    /// Displacement relative to the block in m.
+    pub peak_displacement_m: f64,
+    /// Displacement relative to the floor below in m.
+    pub peak_drift_m: f64,
+    /// Drift over the storey's height, where heights are given.
+    pub peak_drift_ratio: Option<f64>,
+}
+
+/// What the response asks of the structure: peaks of the continuous motion, residuals, counts.
+///
+/// Peaks are absolute values over the whole run, the start and both sides of jumps included;
+/// accelerations are total (absolute) accelerations.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Demands {
+    /// Largest |s| in m.
+    pub peak_sliding_displacement_m: f64,
+    /// When |s| is largest (first time), in s.
+    pub peak_sliding_displacement_time_s: f64,
+    /// Largest s in m.
+    pub max_sliding_displacement_m: f64,
+    /// Smallest s in m.
+    pub min_sliding_displacement_m: f64,
+    /// s at the last instant, signed, tail included, in m.
+    pub residual_sliding_displacement_m: f64,
+    /// Whether the block still slides at the last instant.
+    pub sliding_at_end: bool,
+    /// Path ∫|ṡ| dt in m.
+    pub sliding_path_m: f64,
+    /// Largest |ṡ| in m/s.
+    pub peak_sliding_velocity_m_per_s: f64,
+    /// Time spent sliding in s.
+    pub sliding_time_s: f64,
+    /// Events from stick to slip.
+    pub slip_count: u64,
+    /// Direct reversals.
+    pub reversal_count: u64,
+    /// Events from slip to stick.
+    pub stick_count: u64,
+    /// Largest total acceleration of the block in m/s².
+    pub peak_block_acceleration_m_per_s2: f64,
+    /// One entry a storey, from the block up.
+    pub storeys: Vec<StoreyDemands>,
+    /// Largest force of spring and damper of storey 1 in N, 0 without storeys.
+    pub peak_base_shear_n: f64,
+    /// Largest |T| in N, stuck or sliding.
+    pub peak_friction_force_n: f64,
+    /// Largest |T − K1 s − C1 ṡ| in N.
+    pub peak_slider_force_n: f64,
+    /// Peak base shear over the weight.
+    pub base_shear_coefficient: f64,
+    /// Peak friction force over the weight.
+    pub friction_coefficient_used: f64,
+    /// Peak slider force over the weight.
+    pub slider_force_coefficient: f64,
+    /// Peak sliding displacement over the gap, where one is given.
+    pub gap_ratio: Option<f64>,
+    /// Largest overturning moment about the sliding surface over `M_tot g width/2`, where width and
+    /// heights are given.
+    pub overturning_ratio: Option<f64>,
+}
+
+/// Iterations a step of the stepwise method took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iterations {
+    /// Mean over all steps.
+    pub mean: f64,
+    /// Largest.
+    pub max: u32,
+}
+
+/// Something that the reader of a result must know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Warning {
+    /// Short stable name, such as `gap_exceeded`.
+    pub kind: &'static str,
+    /// When, in s, if it has a time.
+    pub time_s: Option<f64>,
+    /// One sentence.
+    pub message: String,
+}
+
+/// The result of one analysis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Response {
+    /// How it was computed.
+    pub method: Method,
+    /// Peaks, residuals and counts.
+    pub demands: Demands,
+    /// All events in order.
+    pub events: Vec<Event>,
+    /// States at knots, where asked for.
+    pub history: Option<History>,
+    /// Intervals in which contact was lost, in s.
+    pub contact_loss_s: Vec<[f64; 2]>,
+    /// Iterations, of the stepwise method only.
+    pub iterations: Option<Iterations>,
+    /// What the solver noticed.
+    pub warnings: Vec<Warning>,
+}

@@ -1,0 +1,1 @@
+//! Opens models and records and writes results, whole or not at all.
