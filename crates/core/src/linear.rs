@@ -1,1 +1,5 @@
 //! Propagators and modes.
+
+mod frame;
+
+pub use frame::shear_frame_frequencies;
