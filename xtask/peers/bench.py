@@ -14,6 +14,7 @@ import statistics
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -190,9 +191,29 @@ def suite(helpers, ops, cache, rounds, quick):
     return out
 
 
+def pieces(case, helper, rounds):
+    """Seconds that an event and the set-up of a system take.
+
+    Cutting every sample in two doubles the ordinary samples and leaves the events.
+    """
+    dt, ground = case.finer(2)
+    finer = replace(case, dt=dt, ground=ground)
+    times = {"coarse": [], "fine": [], "setup": []}
+    for _ in range(rounds):
+        helper.load(case)
+        events = helper.answer()[2]
+        times["coarse"] += helper.seconds("demands", 10)
+        times["setup"] += helper.seconds("setup", 10)
+        helper.load(finer)
+        times["fine"] += helper.seconds("demands", 10)
+    median = {key: statistics.median(values) for key, values in times.items()}
+    event = (2.0 * median["coarse"] - median["fine"] - median["setup"]) / events
+    return {"case": case.name, "event_seconds": event, "setup_seconds": median["setup"]}
+
+
 def quantity(seconds):
     for size, unit in ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs")):
-        if seconds >= size:
+        if abs(seconds) >= size:
             break
     return f"{seconds / size:.3g} {unit}"
 
@@ -201,8 +222,8 @@ def per_cent(fraction):
     return "" if fraction is None else f"{100.0 * abs(fraction):.1e}"
 
 
-def table(rows, machine):
-    """Markdown: one table a case."""
+def table(rows, parts, machine):
+    """Markdown: one table a case, and what an event and a set-up cost."""
     lines = [
         "<!-- Written by `cargo xtask bench-peers --write`. -->",
         "",
@@ -229,6 +250,10 @@ def table(rows, machine):
                 per_cent(row["history_error"]), per_cent(row["history_error_same_friction"]),
             ]
             lines.append("| " + " | ".join(cells) + " |")
+    lines += ["", "| Slipstick, case | an event | set-up of a system |", "|---|--:|--:|"]
+    for part in parts:
+        cells = part["case"], quantity(part["event_seconds"]), quantity(part["setup_seconds"])
+        lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
 
 
@@ -274,10 +299,12 @@ def main():
         rows += measure(case, helpers, ops, options.folder, rounds, options.quick)
     note("far-field records")
     rows += suite(helpers, ops, options.folder, min(rounds, 3), options.quick)
+    parts = [pieces(case, helpers["slipstick"], rounds)
+             for case in cases.named_cases() if case.name in ("A", "B", "F")]
     where = machine()
-    result = {"machine": where, "rows": rows}
+    result = {"machine": where, "rows": rows, "pieces": parts}
     (options.folder / "peers.json").write_text(json.dumps(result, indent=1, default=float) + "\n")
-    (options.folder / "peers.md").write_text(table(rows, where))
+    (options.folder / "peers.md").write_text(table(rows, parts, where))
 
 
 main()
