@@ -3,6 +3,7 @@
 mod combine;
 mod figures;
 mod made;
+mod oscillator;
 mod spectrum;
 
 pub use figures::Figures;
