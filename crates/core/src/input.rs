@@ -5,7 +5,7 @@
 //! expected and what was found. [`json_schema`] and [`Override`] speak of the same keys by the same
 //! paths, because all three read one description.
 
-use crate::error::{InputError, Place};
+use crate::error::{InputError, MotionError, Place};
 use crate::model::Model;
 use crate::response::Method;
 
@@ -24,9 +24,7 @@ mod tree;
 
 pub use json_schema::json_schema;
 pub use keys::MAX_STOREYS;
-pub use motion::{
-    Channel, MotionSource, Pulse, PulseShape, RecordSource, Scale, Sine, Sweep, SweepKind,
-};
+pub use motion::{MotionSource, RecordSource, Scale};
 pub use overrides::Override;
 
 /// All that a model file says.
@@ -160,6 +158,11 @@ impl Analysis {
         found: impl Into<String>,
     ) -> InputError {
         self.values.error(path, expected, found)
+    }
+
+    /// The error for a motion that cannot be made or scaled, at the key that caused it.
+    pub fn motion_error(&self, error: &MotionError) -> InputError {
+        motion::error(&self.values, self.motion.as_ref(), error)
     }
 
     /// How the table moves.
