@@ -27,6 +27,9 @@ pub use keys::MAX_STOREYS;
 pub use motion::{MotionSource, RecordSource, Scale};
 pub use overrides::Override;
 
+/// The longest text that can be a model, in bytes: a storey takes a hundred.
+pub const MAX_TEXT_BYTES: usize = 1 << 20;
+
 /// All that a model file says.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
@@ -97,6 +100,11 @@ pub fn parse(
 ) -> Result<Analysis, InputError> {
     let mut sources = tree::Sources::default();
     let file = sources.add(source_name, text);
+    if text.len() > MAX_TEXT_BYTES {
+        let start = tree::Spot { source: file, span: 0..0 };
+        let expected = format!("a model of at most {MAX_TEXT_BYTES} bytes");
+        return Err(sources.error(&start, "", expected, text.len().to_string()));
+    }
     let mut root = tree::parse_document(&sources, file)?;
     for set in overrides {
         set.apply(&mut sources, &mut root)?;
