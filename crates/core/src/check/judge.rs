@@ -11,6 +11,10 @@ use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::response::{History, Mode};
 
+/// A sliding velocity below this part of its peak has no sign: the depth of a dip through zero that
+/// the exact method may miss.
+const STILL: f64 = 1e-12;
+
 /// Largest defects so far, and what they are measured by.
 #[derive(Default)]
 struct Figures {
@@ -376,8 +380,11 @@ impl<'a> Judge<'a> {
         let path: &Path = self.scheme.path();
         let rule: &Rule = &self.scheme.rule;
         let (mut work, mut size, mut damping, mut friction) = (0.0, 0.0, 0.0, 0.0);
+        let (mut sliding, mut speed) = (0.0_f64, self.figures.velocity[1]);
         for node in 0..NODES {
             let (v, c) = (path.velocity(node), rule.points[node + 1]);
+            sliding = v[0].abs().max(sliding);
+            speed = v.iter().fold(speed, |speed, v| v.abs().max(speed));
             let weight = step_s * rule.weights[node];
             let a = loads[0].a + (loads[1].a - loads[0].a) * c;
             let force = forces[0] + (forces[1] - forces[0]) * c;
@@ -388,6 +395,11 @@ impl<'a> Judge<'a> {
             friction -= weight * force * v[0];
         }
         self.energy.spend(work, size, damping, friction);
+        // Between two knots the motion may be faster and go farther than at any.
+        self.figures.velocity[1] = speed;
+        self.still = (STILL * sliding).max(self.still);
+        let x = path.end()[..self.structure.degrees()].iter();
+        self.figures.displacement[1] = x.fold(self.figures.displacement[1], |p, x| x.abs().max(p));
     }
 
     /// Judges a step of a stick from the demand at its points.
