@@ -52,8 +52,7 @@ fn page(
     output: &mut slipstick_files::OutputFolder,
 ) -> Result<(), Failure> {
     let mut text = Vec::new();
-    let command = command.clone().name(name.to_owned());
-    clap_mangen::Man::new(command).render(&mut text)?;
+    clap_mangen::Man::new(command.clone()).title(name).render(&mut text)?;
     output.write(&format!("{name}.1"), &text)?;
     Ok(())
 }
