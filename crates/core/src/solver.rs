@@ -1,1 +1,75 @@
-//! Exact and stepwise solutions.
+//! Solves the equations of motion: exactly, or by the paper's stepwise program.
+
+mod exact;
+mod excitation;
+mod extremes;
+mod recorder;
+mod stepwise;
+mod summary;
+
+use crate::error::SolveError;
+use crate::model::Model;
+use crate::motion::GroundMotion;
+use crate::response::{Method, Response};
+
+pub use exact::EVENTS_PER_INTERVAL_LIMIT;
+
+/// Exact response with its history.
+///
+/// Between two events the motion is the Taylor series of a linear system, summed to rounding;
+/// events are located to a few ulp of the time within their sample. See the book's chapter
+/// "Theory" for the method and for the proof that no event is missed.
+///
+/// # Errors
+/// [`SolveError`] with time and cause.
+///
+/// # Examples
+/// ```
+/// use slipstick::friction::{Coulomb, Friction};
+/// use slipstick::{model::Model, motion::GroundMotion, solver};
+///
+/// // Newmark's block: 0.4 g for 0.5 s over friction of 0.2 stops after 1 s, 0.49 m behind.
+/// let g = slipstick::units::STANDARD_GRAVITY_M_PER_S2;
+/// let friction = Friction::Coulomb(Coulomb::new([0.2; 2], [0.2; 2])?);
+/// let model = Model::rigid_block(124.0, friction)?;
+/// let times_s = vec![0.0, 0.5, 0.5, 1.5];
+/// let motion = GroundMotion::new(times_s, vec![0.4 * g, 0.4 * g, 0.0, 0.0], None)?;
+/// let response = solver::exact(&model, &motion)?;
+/// assert!((response.events[1].time_s - 1.0).abs() < 1e-12);
+/// assert!((response.demands.residual_sliding_displacement_m + 0.05 * g).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn exact(model: &Model, motion: &GroundMotion) -> Result<Response, SolveError> {
+    exact::solve(model, motion, true)
+}
+
+/// Exact response without a history: peaks, counts and events only.
+///
+/// # Errors
+/// [`SolveError`] with time and cause.
+pub fn exact_demands(model: &Model, motion: &GroundMotion) -> Result<Response, SolveError> {
+    exact::solve(model, motion, false)
+}
+
+/// Response by the paper's own program (eqs 5, 6, 15–18), with history and iteration counts.
+///
+/// The trapezoidal rule for velocity and displacement, iterated from the last accelerations until
+/// both change by less than 1e-5 m/s², 200 times at most; stick is tested when the sign of the
+/// sliding velocity differs from the last step's. Events, peaks and counts are those at samples.
+///
+/// # Errors
+/// [`SolveError::NoConvergence`] with the time where the iteration does not converge.
+pub fn stepwise(model: &Model, motion: &GroundMotion) -> Result<Response, SolveError> {
+    stepwise::solve(model, motion)
+}
+
+/// Response by either method, with its history.
+///
+/// # Errors
+/// [`SolveError`] with time and cause.
+pub fn solve(model: &Model, motion: &GroundMotion, method: Method) -> Result<Response, SolveError> {
+    match method {
+        Method::Exact => exact(model, motion),
+        Method::Stepwise => stepwise(model, motion),
+    }
+}

@@ -1,0 +1,249 @@
+//! Polynomials on [0, 1]: value, first root, largest value.
+//!
+//! Both searches rest on the error of a chord: where `|g''| ≤ D` on an interval of width `w`,
+//! `g` departs from the chord through its ends by at most `D w² / 8`. `D` is the sum of
+//! `k (k − 1) |c_k|`. An interval is dismissed only by that bound, else halved.
+
+/// Degree of the Taylor polynomials.
+pub const DEGREE: usize = 12;
+
+/// Coefficients, constant first.
+pub type Polynomial = [f64; DEGREE + 1];
+
+/// Narrowest interval that is searched: a dip that a chord over it can hide is below 1e-17 of `D`.
+const NARROWEST: f64 = 1.0 / (1_u64 << 26) as f64;
+
+/// Value at `x` in [0, 1], by Estrin's scheme in a fixed order.
+#[inline(always)]
+#[must_use]
+pub fn value(c: &Polynomial, x: f64) -> f64 {
+    let x2 = x * x;
+    let x4 = x2 * x2;
+    let p0 = (c[0] + c[1] * x) + (c[2] + c[3] * x) * x2;
+    let p1 = (c[4] + c[5] * x) + (c[6] + c[7] * x) * x2;
+    let p2 = (c[8] + c[9] * x) + (c[10] + c[11] * x) * x2;
+    p0 + (p1 + (p2 + c[12] * x4) * x4) * x4
+}
+
+/// Derivative.
+#[inline(always)]
+#[must_use]
+pub fn derivative(c: &Polynomial) -> Polynomial {
+    let mut d = [0.0; DEGREE + 1];
+    for k in 1..=DEGREE {
+        d[k - 1] = k as f64 * c[k];
+    }
+    d
+}
+
+/// Bound on the second derivative over [0, 1].
+#[inline(always)]
+#[must_use]
+pub fn curvature_bound(c: &Polynomial) -> f64 {
+    let mut bound = 0.0;
+    for k in 2..=DEGREE {
+        bound += (k * (k - 1)) as f64 * c[k].abs();
+    }
+    bound
+}
+
+/// The polynomial over `x^order`: what is left of one whose first `order` coefficients are 0.
+#[inline(always)]
+#[must_use]
+pub fn deflated(c: &Polynomial, order: usize) -> Polynomial {
+    let mut d = [0.0; DEGREE + 1];
+    d[..=DEGREE - order].copy_from_slice(&c[order..]);
+    d
+}
+
+/// First point of [0, 1] after which the polynomial is negative, `None` if there is none.
+///
+/// The polynomial is taken to be ≥ 0 at 0. A dip below zero is missed only if it is shallower than
+/// 1e-17 of the bound on the second derivative; a root is located to the last few bits.
+#[inline]
+#[must_use]
+pub fn first_root(c: &Polynomial) -> Option<f64> {
+    let curvature = curvature_bound(c);
+    let (start, end) = (c[0], value(c, 1.0));
+    if start.min(end) > 0.125 * curvature {
+        return None;
+    }
+    let slope = derivative(c);
+    Search { c, slope: &slope, curvature }.first([0.0, start], [1.0, end])
+}
+
+struct Search<'a> {
+    c: &'a Polynomial,
+    slope: &'a Polynomial,
+    curvature: f64,
+}
+
+impl Search<'_> {
+    fn first(&self, [a, ga]: [f64; 2], [b, gb]: [f64; 2]) -> Option<f64> {
+        let width = b - a;
+        if ga.min(gb) > 0.125 * self.curvature * width * width {
+            return None;
+        }
+        let middle = a + 0.5 * width;
+        if gb < 0.0 {
+            let steepest = value(self.slope, middle) + 0.5 * self.curvature * width;
+            if steepest < 0.0 || width <= NARROWEST {
+                return Some(self.bracketed([a, ga], [b, gb]));
+            }
+        } else if width <= NARROWEST {
+            return None;
+        }
+        let gm = value(self.c, middle);
+        self.first([a, ga], [middle, gm]).or_else(|| self.first([middle, gm], [b, gb]))
+    }
+
+    /// The root between `a`, where the value is ≥ 0, and `b`, where it is negative: Newton's
+    /// method, which bisection keeps inside the shrinking bracket.
+    fn bracketed(&self, [mut a, ga]: [f64; 2], [mut b, gb]: [f64; 2]) -> f64 {
+        if ga <= 0.0 {
+            return a;
+        }
+        let mut x = a + (b - a) * (ga / (ga - gb));
+        for _ in 0..100 {
+            if !(a < x && x < b) {
+                x = a + 0.5 * (b - a);
+                if x <= a || x >= b {
+                    break;
+                }
+            }
+            let g = value(self.c, x);
+            if g < 0.0 {
+                b = x;
+            } else {
+                a = x;
+            }
+            let step = g / value(self.slope, x);
+            let next = x - step;
+            if g == 0.0 || next == x || step.abs() <= 2.0 * f64::EPSILON * x {
+                return next.clamp(a, b);
+            }
+            x = next;
+        }
+        b
+    }
+}
+
+/// The larger of `attained` and the polynomial's largest value on [0, 1], to a few ulp.
+#[must_use]
+pub fn largest(c: &Polynomial, attained: f64) -> f64 {
+    let (start, end) = (c[0], value(c, 1.0));
+    let slope = derivative(c);
+    let mut peak = Peak {
+        c,
+        slope: &slope,
+        bend: derivative(&slope),
+        curvature: curvature_bound(c),
+        third: curvature_bound(&slope),
+        attained: attained.max(start).max(end),
+    };
+    peak.search([0.0, start], [1.0, end]);
+    peak.attained
+}
+
+struct Peak<'a> {
+    c: &'a Polynomial,
+    slope: &'a Polynomial,
+    bend: Polynomial,
+    curvature: f64,
+    third: f64,
+    attained: f64,
+}
+
+impl Peak<'_> {
+    fn search(&mut self, [a, ga]: [f64; 2], [b, gb]: [f64; 2]) {
+        let width = b - a;
+        if ga.max(gb) + 0.125 * self.curvature * width * width <= self.attained
+            || width <= NARROWEST
+        {
+            return;
+        }
+        let middle = a + 0.5 * width;
+        if value(self.slope, middle).abs() > 0.5 * self.curvature * width {
+            return; // monotone: the ends are the extremes
+        }
+        if value(&self.bend, middle) + 0.5 * self.third * width < 0.0 {
+            if value(self.slope, a) > 0.0 && value(self.slope, b) < 0.0 {
+                let search = Search { c: self.slope, slope: &self.bend, curvature: self.third };
+                let top = search.bracketed([a, value(self.slope, a)], [b, value(self.slope, b)]);
+                self.attained = self.attained.max(value(self.c, top));
+            }
+            return;
+        }
+        let gm = value(self.c, middle);
+        self.attained = self.attained.max(gm);
+        self.search([a, ga], [middle, gm]);
+        self.search([middle, gm], [b, gb]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn from_roots(roots: &[f64], factor: f64) -> Polynomial {
+        let mut c = [0.0; DEGREE + 1];
+        c[0] = factor;
+        for (k, root) in roots.iter().enumerate() {
+            for i in (0..=k).rev() {
+                c[i + 1] += c[i];
+                c[i] *= -root;
+            }
+        }
+        c
+    }
+
+    #[test]
+    fn exact_first_of_several_roots() {
+        let c = from_roots(&[0.3, 0.4, 0.9], -1.0);
+        let x = first_root(&c).expect("three roots");
+        assert!((x - 0.3).abs() < 1e-15, "{x}");
+    }
+
+    #[test]
+    fn exact_dip_between_equal_ends() {
+        let dip = |depth: f64| {
+            let mut c = from_roots(&[0.37, 0.37], 1.0);
+            c[0] -= depth;
+            first_root(&c)
+        };
+        for depth in [1e-4, 1e-8, 1e-12, 1e-14] {
+            let x = dip(depth).expect("dip");
+            let error = (x - (0.37 - depth.sqrt())).abs();
+            assert!(error < 1e-16 / depth.sqrt() + 1e-15, "{depth} {error}");
+        }
+        assert_eq!(dip(-1e-14), None);
+    }
+
+    #[test]
+    fn exact_root_at_a_start_on_zero_is_deflated_away() {
+        let c = from_roots(&[0.0, 0.0, 0.6], -1.0);
+        let x = first_root(&deflated(&c, 2)).expect("one root");
+        assert!((x - 0.6).abs() < 2e-16);
+    }
+
+    #[test]
+    fn exact_largest_value_between_the_ends() {
+        let mut c = from_roots(&[0.2, 0.8], -1.0);
+        c[0] += 1.0;
+        assert!((largest(&c, f64::MIN) - 1.09).abs() < 1e-15);
+        assert_eq!(largest(&c, 2.0), 2.0);
+    }
+
+    /// The worst case of the chord bound: a parabola that touches it.
+    #[test]
+    fn exact_chord_bound_is_reached_by_a_parabola() {
+        let touching = |gap: f64| {
+            let mut c = [0.0; DEGREE + 1];
+            (c[0], c[1], c[2]) = (0.25 + gap, -1.0, 1.0);
+            c
+        };
+        assert_eq!(first_root(&touching(1e-15)), None);
+        let x = first_root(&touching(-1e-12)).expect("dips by 1e-12");
+        assert!((x - (0.5 - 1e-6)).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,345 @@
+//! Extremes of the continuous motion, without looking closely at more than a few samples.
+//!
+//! Each tracked quantity is a linear function of the state, or of its derivative, whose second
+//! derivative over a piece of motion is bounded by its dual norm times the energy norm of `ẍ` at
+//! the start of the piece. With the error of a chord, its extremes lie within `length²/8` times
+//! that bound of the values at the ends. Pieces whose bound exceeds what has been attained so far
+//! are kept; what is still in question at the end, or when too many have gathered, is looked at
+//! by its Taylor polynomial.
+
+use super::excitation::{Excitation, Stretch};
+use crate::linear::polynomial::{DEGREE, largest};
+use crate::linear::{MAX_RATE_STEP, PerStorey, Series, State, System};
+use crate::model::Model;
+use crate::response::Mode;
+
+/// Order of the tracked quantities: six of the system, then three groups of one a storey.
+pub(super) mod tracked {
+    /// `ṡ` in m/s.
+    pub(in crate::solver) const VELOCITY: usize = 0;
+    /// `u = s̈ + a` in m/s².
+    pub(in crate::solver) const BLOCK: usize = 1;
+    /// `T − K1 s − C1 ṡ` in N.
+    pub(in crate::solver) const SLIDER: usize = 2;
+    /// `T` in N.
+    pub(in crate::solver) const FRICTION: usize = 3;
+    /// `L·f` in N.
+    pub(in crate::solver) const BASE_SHEAR: usize = 4;
+    /// Overturning moment about the sliding surface in N m.
+    pub(in crate::solver) const OVERTURNING: usize = 5;
+    /// Storey displacements, then drifts, then accelerations `−Φ_i f`.
+    pub(in crate::solver) const STOREYS: usize = 6;
+}
+
+/// Most pieces in question that are kept before they are looked at.
+const ROOM: usize = 48;
+
+/// The values of the tracked quantities, their bounds and what has been attained.
+pub(super) struct Extremes<V: PerStorey> {
+    /// `Φᵀ z`, the floors' masses times their heights, and half the block's.
+    arm: Option<(V, f64)>,
+    stick_norm: V::Tracked,
+    slip_norm: V::Tracked,
+    pub(super) largest: V::Tracked,
+    pub(super) smallest: V::Tracked,
+    pieces: Vec<Piece<V>>,
+}
+
+/// A piece of motion that may hold an extreme.
+struct Piece<V: PerStorey> {
+    stretch: Stretch,
+    from_s: f64,
+    length_s: f64,
+    mode: Mode,
+    state: State<V>,
+    above: V::Tracked,
+    below: V::Tracked,
+}
+
+/// Where a piece of motion lies, for a second look.
+pub(super) struct Place<'a, V: PerStorey> {
+    pub(super) interval: usize,
+    pub(super) from_s: f64,
+    pub(super) length_s: f64,
+    pub(super) mode: Mode,
+    pub(super) state: &'a State<V>,
+}
+
+impl<V: PerStorey> Extremes<V> {
+    pub(super) fn new(model: &Model, system: &System<V>) -> Self {
+        let n = system.storeys();
+        let arm = overturning_arm(model, system);
+        let mut extremes = Self {
+            arm,
+            stick_norm: V::tracked(n, 0.0),
+            slip_norm: V::tracked(n, 0.0),
+            largest: V::tracked(n, f64::NEG_INFINITY),
+            smallest: V::tracked(n, f64::INFINITY),
+            pieces: Vec::new(),
+        };
+        extremes.set_norms(model, system);
+        extremes
+    }
+
+    /// Whether the overturning moment is tracked.
+    pub(super) fn overturns(&self) -> bool {
+        self.arm.is_some()
+    }
+
+    fn set_norms(&mut self, model: &Model, system: &System<V>) {
+        let n = system.storeys();
+        let (mass, k1, c1) =
+            (system.block_mass_kg, system.stiffness_n_per_m, system.damper_n_s_per_m);
+        let l = system.participation.clone();
+        let over_mass = |x: &V| {
+            let mut x = x.clone();
+            x.as_mut().iter_mut().for_each(|x| *x /= mass);
+            x
+        };
+        let (zero, drag) = (V::zeros(n), system.drag(l.as_ref()));
+        let shear = system.dual_norm(0.0, 0.0, l.as_ref(), drag.as_ref());
+        let block = system.dual_norm(
+            -k1 / mass,
+            -c1 / mass,
+            over_mass(&l).as_ref(),
+            over_mass(&drag).as_ref(),
+        );
+        let moment = self.arm.as_ref().map_or([0.0; 2], |(arm, half)| {
+            let of_floors =
+                system.dual_norm(0.0, 0.0, arm.as_ref(), system.drag(arm.as_ref()).as_ref());
+            [of_floors, of_floors + half * block]
+        });
+        let (slip, stick) = (self.slip_norm.as_mut(), self.stick_norm.as_mut());
+        slip[tracked::VELOCITY] = 1.0 / mass.sqrt();
+        slip[tracked::BLOCK] = block;
+        slip[tracked::SLIDER] = system.dual_norm(-k1, -c1, zero.as_ref(), zero.as_ref());
+        stick[tracked::SLIDER] = shear;
+        stick[tracked::FRICTION] = shear;
+        stick[tracked::BASE_SHEAR] = shear;
+        slip[tracked::BASE_SHEAR] = shear;
+        [stick[tracked::OVERTURNING], slip[tracked::OVERTURNING]] = moment;
+        let mut flexibility = 0.0;
+        for i in 0..n {
+            let storey = 1.0 / model.frame().stiffnesses_n_per_m[i];
+            flexibility += storey;
+            let row = &system.shapes[i * n..(i + 1) * n];
+            let acceleration = system.dual_norm(0.0, 0.0, row, system.drag(row).as_ref());
+            for norm in [&mut *slip, &mut *stick] {
+                norm[tracked::STOREYS + i] = flexibility.sqrt();
+                norm[tracked::STOREYS + n + i] = storey.sqrt();
+                norm[tracked::STOREYS + 2 * n + i] = acceleration;
+            }
+        }
+    }
+
+    /// Dual norm of the sliding velocity.
+    pub(super) fn velocity_norm(&self) -> f64 {
+        self.slip_norm.as_ref()[tracked::VELOCITY]
+    }
+
+    /// Dual norm of the demand of stick.
+    pub(super) fn demand_norm(&self) -> f64 {
+        self.stick_norm.as_ref()[tracked::FRICTION]
+    }
+
+    /// Values of the tracked quantities in a state, or coefficient by coefficient in a series.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)] // the letters of the equations
+    pub(super) fn values(
+        &self,
+        system: &System<V>,
+        s: f64,
+        w: f64,
+        eta: &[f64],
+        f: &[f64],
+        u: f64,
+        friction: f64,
+    ) -> V::Tracked {
+        let n = eta.len();
+        let mut out = V::tracked(n, 0.0);
+        let y = out.as_mut();
+        y[tracked::VELOCITY] = w;
+        y[tracked::BLOCK] = u;
+        y[tracked::SLIDER] = friction - system.stiffness_n_per_m * s - system.damper_n_s_per_m * w;
+        y[tracked::FRICTION] = friction;
+        y[tracked::BASE_SHEAR] = system.base_shear_n(f);
+        let (q, rest) = y[tracked::STOREYS..].split_at_mut(n);
+        let (drift, acceleration) = rest.split_at_mut(n);
+        system.floors(eta, q);
+        system.floors(f, acceleration);
+        let mut below = 0.0;
+        for i in 0..n {
+            drift[i] = q[i] - below;
+            below = q[i];
+            acceleration[i] = -acceleration[i];
+        }
+        if let Some((arm, half)) = &self.arm {
+            let floors = arm.as_ref().iter().zip(f).fold(0.0, |sum, (arm, f)| sum - arm * f);
+            y[tracked::OVERTURNING] = floors + half * u;
+        }
+        out
+    }
+
+    /// Whether a piece may hold more than what has been attained, by the values at both ends;
+    /// `reach` is `length²/8` times the norm of `ẍ`.
+    #[inline(always)]
+    pub(super) fn may_exceed(
+        &self,
+        start: &V::Tracked,
+        end: &V::Tracked,
+        reach: f64,
+        mode: Mode,
+    ) -> bool {
+        let norm = match mode {
+            Mode::Stick => &self.stick_norm,
+            Mode::Slip(_) => &self.slip_norm,
+        };
+        let (start, end, norm) = (start.as_ref(), end.as_ref(), norm.as_ref());
+        let (up, down) = (self.largest.as_ref(), self.smallest.as_ref());
+        let mut open = false;
+        for j in 0..start.len() {
+            let (low, high) =
+                if start[j] < end[j] { (start[j], end[j]) } else { (end[j], start[j]) };
+            let slack = reach * norm[j];
+            open |= high + slack > up[j] || low - slack < down[j];
+        }
+        open
+    }
+
+    /// Takes the values at both ends for certain, and keeps the piece if it may hold more.
+    #[inline(never)]
+    pub(super) fn keep(
+        &mut self,
+        system: &System<V>,
+        excitation: &Excitation<'_>,
+        start: &V::Tracked,
+        end: &V::Tracked,
+        reach: f64,
+        place: &Place<'_, V>,
+    ) {
+        let norm = match place.mode {
+            Mode::Stick => &self.stick_norm,
+            Mode::Slip(_) => &self.slip_norm,
+        };
+        let (mut above, mut below) = (start.clone(), end.clone());
+        let mut open = false;
+        {
+            let (above, below) = (above.as_mut(), below.as_mut());
+            let (up, down) = (self.largest.as_mut(), self.smallest.as_mut());
+            for (j, norm) in norm.as_ref().iter().enumerate() {
+                let (a, b) = (start.as_ref()[j], end.as_ref()[j]);
+                let (low, high) = if a < b { (a, b) } else { (b, a) };
+                up[j] = if high > up[j] { high } else { up[j] };
+                down[j] = if low < down[j] { low } else { down[j] };
+                // A slack of a few ulp is no more than the rounding of the ends.
+                let slack = reach * norm;
+                above[j] = if slack > 1e-15 * high.abs() { high + slack } else { high };
+                below[j] = if slack > 1e-15 * low.abs() { low - slack } else { low };
+                open |= above[j] > up[j] || below[j] < down[j];
+            }
+        }
+        if !open {
+            return;
+        }
+        if self.pieces.len() == ROOM {
+            self.drop_overtaken();
+            if self.pieces.len() > ROOM / 2 {
+                self.settle(system, excitation);
+            }
+        }
+        self.pieces.push(Piece {
+            stretch: excitation.stretch(
+                place.interval,
+                place.from_s,
+                place.from_s + place.length_s,
+            ),
+            from_s: place.from_s,
+            length_s: place.length_s,
+            mode: place.mode,
+            state: place.state.clone(),
+            above,
+            below,
+        });
+    }
+
+    fn drop_overtaken(&mut self) {
+        let (up, down) = (self.largest.as_ref(), self.smallest.as_ref());
+        self.pieces.retain(|piece| {
+            let (above, below) = (piece.above.as_ref(), piece.below.as_ref());
+            (0..up.len()).any(|j| above[j] > up[j] || below[j] < down[j])
+        });
+    }
+
+    /// Looks at all pieces still in question.
+    pub(super) fn settle(&mut self, system: &System<V>, excitation: &Excitation<'_>) {
+        self.drop_overtaken();
+        for piece in core::mem::take(&mut self.pieces) {
+            self.look_at(system, excitation, &piece);
+        }
+    }
+
+    fn look_at(&mut self, system: &System<V>, excitation: &Excitation<'_>, piece: &Piece<V>) {
+        let in_question = |up: &V::Tracked, down: &V::Tracked, j: usize| {
+            piece.above.as_ref()[j] > up.as_ref()[j] || piece.below.as_ref()[j] < down.as_ref()[j]
+        };
+        let tracked = self.largest.as_ref().len();
+        if !(0..tracked).any(|j| in_question(&self.largest, &self.smallest, j)) {
+            return;
+        }
+        let (rate, direction) = match piece.mode {
+            Mode::Stick => (system.stick_rate_rad_per_s, None),
+            Mode::Slip(direction) => (system.slip_rate_rad_per_s, Some(direction)),
+        };
+        let parts = (rate * piece.length_s / MAX_RATE_STEP).ceil().max(1.0);
+        let length_s = piece.length_s / parts;
+        let (mut series, mut state) = (Series::zeros(system.storeys()), piece.state.clone());
+        for part in 0..parts as usize {
+            let from_s = piece.from_s + length_s * part as f64;
+            let load = excitation.load(&piece.stretch, from_s, length_s, direction);
+            let mut friction = [0.0; DEGREE + 1];
+            if direction.is_some() {
+                series.slip(system, &state, &load, length_s);
+                (friction[0], friction[1]) = (load.friction, load.friction_change);
+            } else {
+                series.stick(system, &state, &load, length_s);
+                friction = series.demand(system);
+            }
+            let coefficients: [V::Tracked; DEGREE + 1] = core::array::from_fn(|k| {
+                let (eta, f) = (series.eta[k].as_ref(), series.f[k].as_ref());
+                self.values(system, series.s[k], series.w[k], eta, f, series.u[k], friction[k])
+            });
+            for j in 0..tracked {
+                if in_question(&self.largest, &self.smallest, j) {
+                    let c = core::array::from_fn(|k| coefficients[k].as_ref()[j]);
+                    let up = &mut self.largest.as_mut()[j];
+                    *up = largest(&c, *up);
+                    let down = &mut self.smallest.as_mut()[j];
+                    *down = -largest(&c.map(|c| -c), -*down);
+                }
+            }
+            series.state_at(1.0, &mut state);
+        }
+    }
+}
+
+/// Moment arms of the floors' and the block's inertia, where width and heights are given.
+fn overturning_arm<V: PerStorey>(model: &Model, system: &System<V>) -> Option<(V, f64)> {
+    let (block, frame) = (model.block(), model.frame());
+    block.width_m?;
+    let n = system.storeys();
+    let block_height_m = block.height_m.unwrap_or(0.0);
+    let heights_m = match &frame.heights_m {
+        Some(heights_m) => heights_m.as_slice(),
+        None if n == 0 && block.height_m.is_some() => &[],
+        None => return None,
+    };
+    let mut arm = V::zeros(n);
+    let mut above_m = block_height_m;
+    for (i, height_m) in heights_m.iter().enumerate() {
+        above_m += height_m;
+        for (j, arm) in arm.as_mut().iter_mut().enumerate() {
+            *arm += frame.masses_kg[i] * above_m * system.shapes[i * n + j];
+        }
+    }
+    Some((arm, 0.5 * block_height_m * block.mass_kg))
+}

@@ -1,0 +1,105 @@
+//! Peaks and counts in the words of the result, and what the reader must be told.
+
+use super::exact::Outcome;
+use super::extremes::tracked;
+use crate::friction::Direction;
+use crate::model::Model;
+use crate::response::{Demands, Event, EventKind, StoreyDemands, Warning};
+
+/// What the response asks of the structure.
+pub(super) fn demands(model: &Model, outcome: &Outcome) -> Demands {
+    let n = model.storeys();
+    let slope = model.slope_m_per_s2();
+    let weight_n = model.weight_n();
+    let (up, down) = (&outcome.largest, &outcome.smallest);
+    let peak = |j: usize| up[j].max(-down[j]);
+    // Accelerations are tracked with the slope's pull in them; the true ones are without.
+    let acceleration = |j: usize| (up[j] - slope).abs().max((down[j] - slope).abs());
+    let group = |k: usize, i: usize| tracked::STOREYS + k * n + i;
+    let storeys: Vec<StoreyDemands> = (0..n)
+        .map(|i| StoreyDemands {
+            peak_acceleration_m_per_s2: acceleration(group(2, i)),
+            peak_displacement_m: peak(group(0, i)),
+            peak_drift_m: peak(group(1, i)),
+            peak_drift_ratio: model
+                .frame()
+                .heights_m
+                .as_ref()
+                .map(|heights_m| peak(group(1, i)) / heights_m[i]),
+        })
+        .collect();
+    let count = |kind| outcome.events.iter().filter(|e| e.kind == kind).count() as u64;
+    let sliding = &outcome.sliding;
+    let peak_sliding_displacement_m = sliding.max_m.max(-sliding.min_m);
+    let peak_base_shear_n = if n == 0 { 0.0 } else { peak(tracked::BASE_SHEAR) };
+    Demands {
+        peak_sliding_displacement_m,
+        peak_sliding_displacement_time_s: sliding.peak_time_s,
+        max_sliding_displacement_m: sliding.max_m,
+        min_sliding_displacement_m: sliding.min_m,
+        residual_sliding_displacement_m: outcome.residual_m,
+        sliding_at_end: outcome.sliding_at_end,
+        sliding_path_m: sliding.path_m,
+        peak_sliding_velocity_m_per_s: peak(tracked::VELOCITY),
+        sliding_time_s: sliding.time_s,
+        slip_count: count(EventKind::Slip),
+        reversal_count: count(EventKind::Reversal),
+        stick_count: count(EventKind::Stick),
+        peak_block_acceleration_m_per_s2: acceleration(tracked::BLOCK),
+        storeys,
+        peak_base_shear_n,
+        peak_friction_force_n: peak(tracked::FRICTION),
+        peak_slider_force_n: peak(tracked::SLIDER),
+        base_shear_coefficient: peak_base_shear_n / weight_n,
+        friction_coefficient_used: peak(tracked::FRICTION) / weight_n,
+        slider_force_coefficient: peak(tracked::SLIDER) / weight_n,
+        gap_ratio: model.slider().gap_m.map(|gap_m| peak_sliding_displacement_m / gap_m),
+        overturning_ratio: model
+            .block()
+            .width_m
+            .filter(|_| outcome.overturns)
+            .map(|width_m| peak(tracked::OVERTURNING) / (0.5 * width_m * weight_n)),
+    }
+}
+
+/// What follows from model and events alone.
+pub(super) fn warnings(
+    model: &Model,
+    events: &[Event],
+    contact_loss_s: &[[f64; 2]],
+) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    if let Some(first) = events.first().filter(|e| e.time_s == 0.0 && e.kind == EventKind::Slip) {
+        warnings.push(Warning {
+            kind: "slips_at_start",
+            time_s: Some(first.time_s),
+            message: "friction cannot hold the block at t = 0: it slips at once".into(),
+        });
+    }
+    let tilt_rad = model.slider().tilt_rad;
+    let downhill = if tilt_rad > 0.0 { Direction::Negative } else { Direction::Positive };
+    let kinetic = model.slider().friction.kinetic_coefficient(downhill);
+    if libm::tan(tilt_rad).abs() > kinetic && model.slider().stiffness_n_per_m == 0.0 {
+        warnings.push(Warning {
+            kind: "slide_need_not_stop",
+            time_s: None,
+            message: format!(
+                "the slope {:.4} is above the kinetic friction {kinetic} downhill and no spring \
+                 holds the block: a slide need not stop",
+                libm::tan(tilt_rad).abs()
+            ),
+        });
+    }
+    if let (Some([from_s, _]), Some([_, to_s])) = (contact_loss_s.first(), contact_loss_s.last()) {
+        warnings.push(Warning {
+            kind: "contact_lost",
+            time_s: Some(*from_s),
+            message: format!(
+                "contact is lost {} times between {from_s:.4} s and {to_s:.4} s: friction is zero \
+                 there, and what the model says of that time is void",
+                contact_loss_s.len()
+            ),
+        });
+    }
+    warnings
+}
