@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use super::dd::{Dd, ONE, ZERO};
 
 /// Degree of the Taylor series.
-pub const DEGREE: usize = 16;
+pub const DEGREE: usize = 22;
 /// Coefficients of a polynomial, powers or Bernstein.
 pub type Poly<T> = [T; DEGREE + 1];
 
@@ -30,9 +30,8 @@ fn weights() -> &'static [Poly<Dd>; DEGREE + 1] {
 /// The same rounded to doubles, by powers.
 fn rounded_weights() -> &'static [Poly<f64>; DEGREE + 1] {
     static WEIGHTS: OnceLock<[Poly<f64>; DEGREE + 1]> = OnceLock::new();
-    WEIGHTS.get_or_init(|| {
-        std::array::from_fn(|k| std::array::from_fn(|i| weights()[i][k].value()))
-    })
+    WEIGHTS
+        .get_or_init(|| std::array::from_fn(|k| std::array::from_fn(|i| weights()[i][k].value())))
 }
 
 /// The doubles nearest to the coefficients.
@@ -76,6 +75,9 @@ pub fn value(p: &Poly<Dd>, x: Dd) -> Dd {
 /// Largest |value| on `[0, 1]` of a polynomial given by powers, if it is above `known`; else
 /// `known`. To 1e-15 relative.
 pub fn largest(p: &Poly<f64>, known: f64) -> f64 {
+    if p.iter().fold(0.0, |sum, c| sum + c.abs()) <= known {
+        return known;
+    }
     largest_of(&rounded_bernstein(p), known, 0)
 }
 
@@ -104,7 +106,11 @@ pub fn first_root(p: &Poly<Dd>, noise: f64) -> Option<Dd> {
     // Divided by the power that makes the root at 0.
     let mut q = [ZERO; DEGREE + 1];
     q[..=DEGREE - start].copy_from_slice(&p[start..]);
-    let quick = rounded_bernstein(&rounded(&q));
+    let nearest = rounded(&q);
+    if nearest[0].abs() > 1.001 * nearest[1..].iter().fold(0.0, |sum, c| sum + c.abs()) {
+        return None;
+    }
+    let quick = rounded_bernstein(&nearest);
     let size = quick.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
     let clear = 1e-12 * size;
     if quick.iter().all(|&c| c > clear) || quick.iter().all(|&c| c < -clear) {

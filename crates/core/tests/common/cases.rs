@@ -111,12 +111,7 @@ impl Case {
                 tilt_rad: p("tilt"),
                 gap_m: None,
             },
-            Frame {
-                masses_kg: masses,
-                stiffnesses_n_per_m: stiffnesses,
-                damping,
-                heights_m: None,
-            },
+            Frame { masses_kg: masses, stiffnesses_n_per_m: stiffnesses, damping, heights_m: None },
             self.parameter("g", 9.81),
             InitialState {
                 sliding_displacement_m: start("z"),
@@ -191,9 +186,8 @@ pub fn cycles(
 ) -> GroundMotion {
     let dt_s = std::f64::consts::TAU / horizontal[1] / per_cycle as f64;
     let samples = from * per_cycle..=to * per_cycle;
-    let values = |term: [f64; 3]| {
-        samples.clone().map(|k| sum(&[term], k as f64 * dt_s)).collect::<Vec<_>>()
-    };
+    let values =
+        |term: [f64; 3]| samples.clone().map(|k| sum(&[term], k as f64 * dt_s)).collect::<Vec<_>>();
     GroundMotion::evenly_spaced(dt_s, values(horizontal), vertical.map(|v| values(*v)))
         .expect("a motion")
 }

@@ -195,7 +195,8 @@ pub fn differences(case: &Case, solve: Solve) -> Vec<String> {
             let Some(values) = expected.get(name) else { continue };
             let tolerance = number(&expected[format!("tol_{name}")]);
             for (i, value) in numbers(values).into_iter().enumerate() {
-                let key = if values.is_array() { format!("{name}{}", i + 1) } else { name.to_owned() };
+                let key =
+                    if values.is_array() { format!("{name}{}", i + 1) } else { name.to_owned() };
                 compare(&what(&key), state[&key], value, tolerance);
             }
         }

@@ -1,6 +1,6 @@
 //! The plain reference: slow, short, and independent of the solver.
 //!
-//! Physical coordinates, double-double numbers, Taylor series of degree 16 over steps so short that
+//! Physical coordinates, double-double numbers, Taylor series of degree 22 over steps so short that
 //! their remainder is below 1e-26; events isolated by the signs of Bernstein coefficients; peaks by
 //! bisection with Bernstein bounds. At 32 digits the reference needs no tolerance of its own: what
 //! is below 1e-26 of its terms is zero, and a difference of doubles never is.
@@ -16,8 +16,8 @@ use super::system::{Load, Series, State, System};
 
 /// Part of its terms below which a number is rounding.
 const NOISE: f64 = 1e-26;
-/// Rate of the fastest motion times the step: 0.2^17 / 17! is 4e-27.
-const RATE_TIMES_STEP: f64 = 0.2;
+/// Rate of the fastest motion times the step: 0.6^23 / 23! is 3e-28.
+const RATE_TIMES_STEP: f64 = 0.6;
 
 /// What the reference says about a sample; accelerations and mode are limits from the left.
 #[derive(Clone, Debug)]
@@ -114,8 +114,20 @@ pub fn reference(model: &Model, motion: &GroundMotion) -> Reference {
         v: dd(model.initial_storey_velocity_m_per_s()),
     };
     let n = system.n;
-    let mut run = Run { sign: state.w.sign(), fresh: false, slip: Slip::default(), system, state, out: Reference::default() };
-    for list in [&mut run.out.peaks.q, &mut run.out.peaks.v, &mut run.out.peaks.drift, &mut run.out.peaks.floors] {
+    let mut run = Run {
+        sign: state.w.sign(),
+        fresh: false,
+        slip: Slip::default(),
+        system,
+        state,
+        out: Reference::default(),
+    };
+    for list in [
+        &mut run.out.peaks.q,
+        &mut run.out.peaks.v,
+        &mut run.out.peaks.drift,
+        &mut run.out.peaks.floors,
+    ] {
         list.resize(n, 0.0);
     }
     let times = motion.times_s();
@@ -212,15 +224,15 @@ impl Run {
         let mut stalls = 0;
         let mut last = None;
         for j in 1..=count {
-            let end = if j == count {
-                ONE
-            } else {
-                Dd::from(j as f64) / Dd::from(count as f64)
-            };
+            let end = if j == count { ONE } else { Dd::from(j as f64) / Dd::from(count as f64) };
             while x < end {
                 let (next, series) = self.step(piece, x, end);
                 stalls = if (next - x).value() > 1e-25 { 0 } else { stalls + 1 };
-                assert!(stalls < 20, "the reference makes no progress at {:?}", piece.start + piece.length * x);
+                assert!(
+                    stalls < 20,
+                    "the reference makes no progress at {:?}",
+                    piece.start + piece.length * x
+                );
                 x = next;
                 last = Some(series);
             }
@@ -272,7 +284,9 @@ impl Run {
     /// What is left of the bound for pushes towards −x and +x in stick, and the noise of it.
     fn bounds(&self, stick: &Series, load: Load) -> [(Poly<Dd>, f64); 2] {
         let b = self.system.block_kg * load.b[0];
-        let terms = b.value().abs() + size(&stick.friction) + size(&stick.shear)
+        let terms = b.value().abs()
+            + size(&stick.friction)
+            + size(&stick.shear)
             + (self.system.spring * self.state.s).value().abs();
         [(1, -1.0), (0, 1.0)].map(|(direction, push)| {
             let factor = self.system.static_friction[direction] * self.system.total_kg;
@@ -332,9 +346,7 @@ impl Run {
         block[0] = (x.block[0] - system.slope).value();
         grow(&mut peaks.block, block);
         grow(&mut peaks.friction, rounded(&x.friction));
-        let link = |k: usize| {
-            x.friction[k] - system.spring * x.s[k] - system.damper * x.w[k]
-        };
+        let link = |k: usize| x.friction[k] - system.spring * x.s[k] - system.damper * x.w[k];
         grow(&mut peaks.slider, std::array::from_fn(|k| link(k).value()));
         grow(&mut peaks.shear, rounded(&x.shear));
         for i in 0..system.n {
@@ -367,7 +379,9 @@ impl Run {
             let depth = x.w[0].value().abs() / self.slip.peak;
             self.out.dips.push(Dip { time_s, depth });
         }
-        if start < 0 && let Some(root) = first_root(&rate, noise) {
+        if start < 0
+            && let Some(root) = first_root(&rate, noise)
+        {
             let depth = value(&x.w, root).value().abs() / self.slip.peak;
             self.out.dips.push(Dip { time_s: time_s + root.value() * h, depth });
         }

@@ -8,6 +8,8 @@
 //! stick: s̈ = 0, T = M1 b + K1 s − Σ f_i        slip: T = −μ_k N sgn ṡ
 //! ```
 
+use std::sync::OnceLock;
+
 use slipstick::model::{Damping, Model};
 
 use super::bernstein::{DEGREE, Poly};
@@ -19,6 +21,8 @@ pub struct System {
     pub block_kg: Dd,
     pub total_kg: Dd,
     pub masses: Vec<Dd>,
+    /// One over the masses, the block's first.
+    inverses: Vec<Dd>,
     /// Rows of the stiffness and damping matrices.
     pub stiffness: Vec<Vec<Dd>>,
     pub damping: Vec<Vec<Dd>>,
@@ -66,7 +70,8 @@ pub struct Series {
 impl Series {
     /// Makes `[0, to]` the unit interval.
     pub fn cut(&mut self, to: Dd) {
-        let single = [&mut self.s, &mut self.w, &mut self.block, &mut self.friction, &mut self.shear];
+        let single =
+            [&mut self.s, &mut self.w, &mut self.block, &mut self.friction, &mut self.shear];
         let lists = [&mut self.q, &mut self.v, &mut self.floors];
         let all = lists.into_iter().flatten().chain(single);
         for p in all {
@@ -95,6 +100,7 @@ impl System {
         let mut system = Self {
             n,
             block_kg,
+            inverses: [block_kg].iter().chain(&masses).map(|&m| ONE / m).collect(),
             total_kg: masses.iter().fold(block_kg, |sum, &m| sum + m),
             masses,
             stiffness,
@@ -116,9 +122,7 @@ impl System {
     fn fastest(&self) -> f64 {
         let norm = |matrix: &[Vec<Dd>], link: Dd| {
             let row = |r: &Vec<Dd>| r.iter().fold(0.0, |sum, x| sum + x.abs().value());
-            let column = |j: usize| {
-                matrix.iter().fold(ZERO, |sum, r| sum + r[j]).abs().value()
-            };
+            let column = |j: usize| matrix.iter().fold(ZERO, |sum, r| sum + r[j]).abs().value();
             let all: f64 = (0..self.n).map(column).sum();
             let block = (link.value() + all) / self.block_kg.value();
             let rows = matrix.iter().zip(&self.masses).map(|(r, m)| row(r) / m.value());
@@ -154,7 +158,7 @@ impl System {
                 for j in 0..n {
                     force += self.stiffness[i][j] * x.q[j][k] + self.damping[i][j] * x.v[j][k];
                 }
-                x.floors[i][k] = -(force / self.masses[i]);
+                x.floors[i][k] = -(force * self.inverses[i + 1]);
                 shear += force;
             }
             x.shear[k] = shear;
@@ -165,12 +169,12 @@ impl System {
             } else {
                 x.friction[k] = kinetic * input(load.normal) * f64::from(-sign);
                 let force = x.friction[k] - link - self.damper * x.w[k] + shear;
-                x.block[k] = force / self.block_kg;
+                x.block[k] = force * self.inverses[0];
             }
             if k == DEGREE {
                 break;
             }
-            let step = h / Dd::from((k + 1) as f64);
+            let step = h * reciprocals()[k];
             if sign != 0 {
                 x.s[k + 1] = x.w[k] * step;
                 x.w[k + 1] = (x.block[k] - input(load.b)) * step;
@@ -182,6 +186,12 @@ impl System {
         }
         x
     }
+}
+
+/// `1/(k + 1)`.
+fn reciprocals() -> &'static Poly<Dd> {
+    static RECIPROCALS: OnceLock<Poly<Dd>> = OnceLock::new();
+    RECIPROCALS.get_or_init(|| std::array::from_fn(|k| ONE / Dd::from((k + 1) as f64)))
 }
 
 /// Matrix of springs (or dampers) between neighbouring floors.

@@ -36,8 +36,10 @@ pub fn judged(case: &Case, values: &Numbers, per_cycle: usize) -> Vec<(String, f
         let (wanted, stated) = (number(&expected["value"]), number(&expected["tol_abs"]));
         let fineness = 200.0 / per_cycle as f64;
         let rule = measured.map_or(0.0, |m| 3.0 * m * fineness * fineness * wanted.abs());
-        let counted = name.starts_with("n_events");
-        (name, (value - wanted).abs(), if counted { stated } else { stated.max(rule) })
+        // Counts, formulas, and what is found with a fineness of its own.
+        let own = ["n_events", "contraction", "critical", "first-order"];
+        let stands = own.iter().any(|start| name.starts_with(start));
+        (name, (value - wanted).abs(), if stands { stated } else { stated.max(rule) })
     };
     case.list("expect").iter().map(judge).collect()
 }
@@ -77,7 +79,8 @@ fn fixed(model: &Model) -> Model {
 /// Half of the distance between the turning points, which are events, and their middle.
 fn half_range(events: &[Event]) -> (f64, f64) {
     let z = events.iter().map(|e| e.sliding_displacement_m);
-    let (low, high) = (z.clone().fold(f64::INFINITY, f64::min), z.fold(f64::NEG_INFINITY, f64::max));
+    let (low, high) =
+        (z.clone().fold(f64::INFINITY, f64::min), z.fold(f64::NEG_INFINITY, f64::max));
     if low > high { (0.0, 0.0) } else { (0.5 * (high - low), 0.5 * (high + low)) }
 }
 
@@ -120,17 +123,22 @@ fn limit_cycle(case: &Case, solve: Solve, n: usize) -> Numbers {
             put("slip end phase", phase(&slip, omega) + omega * (stop.time_s - slip.time_s));
         }
     }
-    if let Some(contraction) = contraction(case, solve, n) {
-        put("contraction_per_half_cycle", contraction);
+    let name = "contraction_per_half_cycle";
+    if case.list("expect").iter().any(|e| e["q"] == name) {
+        put(name, contraction(case, solve).unwrap_or(f64::NAN));
     }
     x
 }
 
 /// Ratio of successive deviations of the reversal phase from that of the limit cycle (C6), from
 /// the first pair small enough for the ratio to be the limit's.
-fn contraction(case: &Case, solve: Solve, n: usize) -> Option<f64> {
+///
+/// It hangs on the table acceleration at the very reversal, which straight lines get wrong by
+/// ω²h²/8 in a way that depends on where between two samples it falls: so many samples that the
+/// stated tolerance of 1e-6 holds.
+fn contraction(case: &Case, solve: Solve) -> Option<f64> {
     let [_, omega, _] = case.sine();
-    let outcome = solve(&case.model(), &case.cycles(n, 0, 160));
+    let outcome = solve(&case.model(), &case.cycles(4000, 0, 80));
     let turns = outcome.events.iter().filter(|e| e.kind == EventKind::Reversal);
     // Both directions of a cycle turn at the same phase of their own half cycle.
     let half = |e: &Event| (e.time_s * omega).rem_euclid(PI);
@@ -151,10 +159,7 @@ fn from_rest(case: &Case, solve: Solve, n: usize) -> Numbers {
     Numbers::from([
         ("half_pp_z".to_owned(), half),
         ("offset".to_owned(), offset),
-        (
-            "offset of limit-cycle mid position / (A/omega^2)".to_owned(),
-            offset * omega * omega / a,
-        ),
+        ("offset of limit-cycle mid position / (A/omega^2)".to_owned(), offset * omega * omega / a),
         ("max_abs_z".to_owned(), outcome.numbers["peak_abs_z"]),
     ])
 }
@@ -176,15 +181,13 @@ fn drift(case: &Case, solve: Solve, n: usize) -> Numbers {
         (from_s, mode) = (time_s, next);
     }
     let p = |name| case.parameter(name, 0.0);
-    let eta = p("mu_d") * p("g") / a;
-    let small_tilt = -PI * PI * a / (omega * omega) * p("tilt") / p("mu_d");
+    let theta = p("tilt");
+    let eta = p("mu_d") * theta.cos() * p("g") / a;
+    let small_tilt = -PI * PI * a / (omega * omega) * theta.tan() / p("mu_d");
     Numbers::from([
         ("drift_per_cycle".to_owned(), per_cycle),
         ("drift_per_cycle/(A/omega^2)".to_owned(), per_cycle * omega * omega / a),
-        (
-            "fraction of the cycle with w>0".to_owned(),
-            positive_s * omega / (TAU * KEPT as f64),
-        ),
+        ("fraction of the cycle with w>0".to_owned(), positive_s * omega / (TAU * KEPT as f64)),
         (
             "first-order (small tilt) estimate, informative".to_owned(),
             small_tilt * (1.0 - (0.5 * PI * eta).powi(2)).sqrt(),
@@ -220,24 +223,27 @@ fn fixed_base(case: &Case, solve: Solve, n: usize) -> Numbers {
         gap_m: None,
     };
     let block = Block { mass_kg: p("M1"), width_m: None, height_m: None };
-    let steady = |state: InitialState, from: usize, to: usize| {
-        let model = Model::new(block, slider, frame.clone(), 9.81, state).expect("a model");
-        solve(&model, &cycles([1.0, TAU * frequency_hz, 0.0], None, n, from, to)).numbers
-    };
-    // What is left of the transient: exp(−0.01 · 2π · 600) = 4e-17.
-    let before = steady(InitialState::rest(), 0, 600);
+    // The steady state of the undisturbed sine, H = q/Ü; what sampling leaves of a transient is of
+    // the order of what it takes off the sine, and goes with it in the extrapolation.
+    let omega = TAU * frequency_hz;
+    let (re, im) = (rate * rate - omega * omega, 2.0 * p("xi") * rate * omega);
+    let gain = -1.0 / (re * re + im * im);
     let state = InitialState {
-        storey_displacement_m: Some(vec![before["final_y"]]),
-        storey_velocity_m_per_s: Some(vec![before["final_v"]]),
+        storey_displacement_m: Some(vec![-gain * im]),
+        storey_velocity_m_per_s: Some(vec![gain * re * omega]),
         ..InitialState::rest()
     };
-    let x = steady(state, 600, 602);
+    let model = Model::new(block, slider, frame, 9.81, state).expect("a model");
+    let peaks = |n: usize| {
+        let x = solve(&model, &cycles([1.0, omega, 0.0], None, n, 0, 2)).numbers;
+        ["peak_abs_a2", "peak_abs_y"].map(|name| x[name])
+    };
+    // Errors fall as 1/N²: from N and 2N the limit.
+    let (coarse, fine) = (peaks(10 * n), peaks(20 * n));
+    let [a2, y] = [0, 1].map(|i| fine[i] + (fine[i] - coarse[i]) / 3.0);
     Numbers::from([
-        ("abs acceleration amplification".to_owned(), x["peak_abs_a2"]),
-        (
-            "pseudo (relative displacement) amplification".to_owned(),
-            x["peak_abs_y"] * rate * rate,
-        ),
+        ("abs acceleration amplification".to_owned(), a2),
+        ("pseudo (relative displacement) amplification".to_owned(), y * rate * rate),
     ])
 }
 
@@ -248,17 +254,19 @@ fn amplification(case: &Case, solve: Solve, n: usize) -> Numbers {
     let held = fixed(&model);
     let motion = case.motion(n, false);
     let sliding = solve(&model, &motion);
-    let [run, run_held] = [sliding.numbers["peak_abs_a2"], solve(&held, &motion).numbers["peak_abs_a2"]];
+    let [run, run_held] =
+        [sliding.numbers["peak_abs_a2"], solve(&held, &motion).numbers["peak_abs_a2"]];
     let names = case.list("expect").iter().map(|e| text_of(&e["q"]));
-    let steady_name = names.clone().find(|q| q.contains("10 cycles after")).expect("a steady state");
+    let steady_name =
+        names.clone().find(|q| q.contains("10 cycles after")).expect("a steady state");
     let word = steady_name.split_whitespace().rev().nth(1).expect("a number of cycles");
     let from: usize = word.parse().expect("a number of cycles");
     let peak = |m: &Model, from: usize, to: usize| {
         window(case, m, solve, n, from, to).outcome.numbers["peak_abs_a2"]
     };
     let steady = peak(&model, from, from + 10);
-    // The transient of a held oscillator, exp(−ξ ω t), is below 1e-12 after that.
-    let steady_held = peak(&held, 1000, 1002);
+    // What is left of the transient of the held oscillator, exp(−ξ ω t), is below 1e-9 then.
+    let steady_held = peak(&held, 400, 402);
     let mut x = Numbers::new();
     for name in names {
         let value = match name.as_str() {
