@@ -273,12 +273,6 @@ def note(text):
     print(text, file=sys.stderr, flush=True)
 
 
-def quieten():
-    """OpenSees writes to the process's own stderr: ours stays, that one is closed."""
-    sys.stderr = os.fdopen(os.dup(2), "w", buffering=1)
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
-
-
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--helper", required=True)
@@ -290,7 +284,6 @@ def main():
     helpers = {"slipstick": Helper(options.helper, options.folder)}
     if options.native_helper:
         helpers["slipstick-native"] = Helper(options.native_helper, options.folder)
-    quieten()
     ops = opensees.load()
     rounds = 3 if options.quick else 15
     rows = []
