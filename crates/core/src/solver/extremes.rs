@@ -206,6 +206,15 @@ impl<V: PerStorey> Extremes<V> {
         open
     }
 
+    /// Takes the values at an instant.
+    pub(super) fn attain(&mut self, values: &V::Tracked) {
+        let (up, down) = (self.largest.as_mut(), self.smallest.as_mut());
+        for (j, value) in values.as_ref().iter().enumerate() {
+            up[j] = if *value > up[j] { *value } else { up[j] };
+            down[j] = if *value < down[j] { *value } else { down[j] };
+        }
+    }
+
     /// Takes the values at both ends for certain, and keeps the piece if it may hold more.
     #[inline(never)]
     pub(super) fn keep(
@@ -221,16 +230,17 @@ impl<V: PerStorey> Extremes<V> {
             Mode::Stick => &self.stick_norm,
             Mode::Slip(_) => &self.slip_norm,
         };
+        let norm = norm.clone();
+        self.attain(start);
+        self.attain(end);
         let (mut above, mut below) = (start.clone(), end.clone());
         let mut open = false;
         {
             let (above, below) = (above.as_mut(), below.as_mut());
-            let (up, down) = (self.largest.as_mut(), self.smallest.as_mut());
+            let (up, down) = (self.largest.as_ref(), self.smallest.as_ref());
             for (j, norm) in norm.as_ref().iter().enumerate() {
                 let (a, b) = (start.as_ref()[j], end.as_ref()[j]);
                 let (low, high) = if a < b { (a, b) } else { (b, a) };
-                up[j] = if high > up[j] { high } else { up[j] };
-                down[j] = if low < down[j] { low } else { down[j] };
                 // A slack of a few ulp is no more than the rounding of the ends.
                 let slack = reach * norm;
                 above[j] = if slack > 1e-15 * high.abs() { high + slack } else { high };
