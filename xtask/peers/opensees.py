@@ -12,7 +12,7 @@ import numpy as np
 
 
 def load():
-    """The module, silenced; its wheel's own Fortran and BLAS first, which Python 3.11 does not find alone."""
+    """The module, silenced. Its wheel's own BLAS comes first: Python 3.11 does not find it alone."""
     bundled = Path(sysconfig.get_paths()["purelib"], "openseespylinux", "lib")
     for pattern in ("libquadmath*", "libgfortran*", "libblas*", "liblapack*"):
         for library in sorted(bundled.glob(pattern)):
