@@ -88,7 +88,7 @@ impl Table {
 
     /// Whether the last row is full.
     pub fn is_full(&self) -> bool {
-        self.cells.len() % self.columns == 0
+        self.cells.len().is_multiple_of(self.columns)
     }
 
     /// Values of a column.
