@@ -1,3 +1,52 @@
-//! `cargo xtask`: the project's own tasks.
+//! `cargo xtask`: the project's own tasks, on cargo and rustup alone unless a task says otherwise.
 
-fn main() {}
+mod ci;
+mod peers;
+mod shell;
+mod tools;
+
+use std::process::ExitCode;
+
+const HELP: &str = "\
+Slipstick's own tasks
+
+Usage: cargo xtask TASK
+
+  ci                             formatting, lints, every test, documentation, wasm, examples,
+                                 licences; last line: N passed, N failed, N skipped
+  reference [--write]            every reference case: truth, tolerance, error reached
+                                 (--write: into book/src/generated/verification.md)
+  bench-peers [--json] [--quick] [--write]
+                                 times the same analyses here, in a numba loop, SciPy and
+                                 OpenSeesPy (needs python3; makes .venv)
+                                 (--write: into book/src/generated/peers.md)
+  fuzz [TARGET] [--seconds N]    all fuzz targets or one, 60 s each (installs cargo-fuzz)
+  deny                           licences, advisories, doubles (installs cargo-deny)
+  book                           the manual, into book/build (installs mdbook)
+  help                           this text
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let outcome = match words.as_slice() {
+        ["ci"] => return ci::ci(),
+        ["reference", options @ ..] => tools::reference(options),
+        ["bench-peers", options @ ..] => peers::bench_peers(options),
+        ["fuzz", options @ ..] => tools::fuzz(options),
+        ["deny"] => tools::deny(),
+        ["book"] => tools::book(),
+        [] | ["help" | "--help" | "-h"] => {
+            print!("{HELP}");
+            Ok(())
+        }
+        _ => Err(format!("unknown task: {}\n\n{HELP}", words.join(" "))),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("xtask: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}

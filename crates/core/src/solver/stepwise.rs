@@ -1,10 +1,277 @@
-//! The paper's stepwise program.
+//! The paper's own program, eqs (5), (6), (15)–(18): what it computed, errors included.
 
+use super::exact::{Outcome, Sliding, system_of};
+use super::excitation::Excitation;
+use super::extremes::Extremes;
+use super::recorder::{Everything, Knot, Recorder};
+use super::summary;
 use crate::error::SolveError;
+use crate::friction::Direction;
+use crate::linear::{State, System};
 use crate::model::Model;
 use crate::motion::GroundMotion;
-use crate::response::Response;
+use crate::response::{Event, EventKind, Iterations, Method, Mode, Response};
+
+/// Largest change of an acceleration in the last iteration, `δ` of eqs (17), (18), in m/s².
+const TOLERANCE_M_PER_S2: f64 = 1e-5;
+
+/// Most iterations in a step.
+const ITERATIONS_LIMIT: u32 = 200;
+
+type Frame = Vec<f64>;
+
+/// State at a sample with the accelerations that belong to it.
+#[derive(Clone)]
+struct Step {
+    mode: Mode,
+    s: f64,
+    w: f64,
+    eta: Frame,
+    eta_dot: Frame,
+    /// `u = s̈ + a`, the block's acceleration.
+    u: f64,
+    /// `f = D η̇ + Ω η`: minus the floors' accelerations.
+    f: Frame,
+}
 
 pub(super) fn solve(model: &Model, motion: &GroundMotion) -> Result<Response, SolveError> {
-    super::exact::solve(model, motion, true)
+    let system = system_of::<Frame>(model);
+    let excitation = Excitation::new(model, motion);
+    let program = Program { system: &system, excitation: &excitation };
+    let mut recorder = Everything::new(model.storeys(), motion.len(), model.slope_m_per_s2());
+    let mut extremes = Extremes::new(model, &system);
+    let mut step = program.start(model);
+    let mut sliding = Sliding::new(step.s);
+    let mut events = Vec::new();
+    let (mut total, mut most) = (0_u64, 0);
+    let table = motion.horizontal_m_per_s2();
+    let mut note = |sample: usize, step: &Step, mode: Mode, row: bool| {
+        let friction_n = program.friction_n(step, sample);
+        let state = step.state();
+        let values = extremes.values(
+            &system,
+            step.s,
+            step.w,
+            &step.eta,
+            &step.f,
+            system.base_shear_n(&step.f),
+            step.u,
+            friction_n,
+        );
+        extremes.attain(&values);
+        let time_s = excitation.times_s[sample];
+        let (u, f, table) = (step.u, step.f.as_slice(), table[sample]);
+        let knot = Knot { time_s, mode, table, state: &state, u, f, friction_n };
+        recorder.knot(&system, &knot, row);
+    };
+    if step.mode != Mode::Stick && model.initial().sliding_velocity_m_per_s == 0.0 {
+        events.push(event(EventKind::Slip, &step, 0.0));
+    }
+    note(0, &step, step.mode, true);
+    for sample in 1..motion.len() {
+        let (next, iterations) = program.advance(&step, sample)?;
+        total += u64::from(iterations);
+        most = most.max(iterations);
+        let time_s = excitation.times_s[sample];
+        if step.mode != Mode::Stick || next.mode != Mode::Stick {
+            sliding.begin(excitation.times_s[sample - 1], step.s);
+            sliding.end(time_s, next.s);
+        }
+        let kind = match (step.mode, next.mode) {
+            (Mode::Stick, Mode::Slip(_)) => Some(EventKind::Slip),
+            (Mode::Slip(_), Mode::Stick) => Some(EventKind::Stick),
+            (Mode::Slip(before), Mode::Slip(after)) if before != after => Some(EventKind::Reversal),
+            _ => None,
+        };
+        if let Some(kind) = kind {
+            note(sample, &next, step.mode, false);
+            events.push(event(kind, &next, time_s));
+        }
+        note(sample, &next, next.mode, true);
+        step = next;
+    }
+    let contact_loss_s = excitation.contact_loss_s();
+    let warnings = summary::warnings(model, &events, &contact_loss_s);
+    let outcome = Outcome {
+        events,
+        largest: extremes.largest.clone(),
+        smallest: extremes.smallest.clone(),
+        overturns: extremes.overturns(),
+        sliding,
+        residual_m: step.s,
+        sliding_at_end: step.mode != Mode::Stick,
+    };
+    Ok(Response {
+        method: Method::Stepwise,
+        demands: summary::demands(model, &outcome),
+        events: outcome.events,
+        history: Some(recorder.history),
+        contact_loss_s,
+        iterations: Some(Iterations { mean: total as f64 / (motion.len() - 1) as f64, max: most }),
+        warnings,
+    })
+}
+
+fn event(kind: EventKind, step: &Step, time_s: f64) -> Event {
+    Event { time_s, kind, mode: step.mode, sliding_displacement_m: step.s }
+}
+
+impl Step {
+    fn state(&self) -> State<Frame> {
+        let mut x = vec![self.s, self.w];
+        x.extend_from_slice(&self.eta);
+        x.extend_from_slice(&self.eta_dot);
+        State(x)
+    }
+}
+
+struct Program<'a> {
+    system: &'a System<Frame>,
+    excitation: &'a Excitation<'a>,
+}
+
+impl Program<'_> {
+    fn start(&self, model: &Model) -> Step {
+        let masses_kg = &model.frame().masses_kg;
+        let eta = self.system.coordinates(masses_kg, &model.initial_storey_displacement_m());
+        let eta_dot = self.system.coordinates(masses_kg, &model.initial_storey_velocity_m_per_s());
+        let f = self.system.restoring(&eta, &eta_dot);
+        let w = model.initial().sliding_velocity_m_per_s;
+        let s = model.initial().sliding_displacement_m;
+        let mut step = Step { mode: Mode::Stick, s, w, eta, eta_dot, u: 0.0, f };
+        step.mode = if w > 0.0 {
+            Mode::Slip(Direction::Positive)
+        } else if w < 0.0 {
+            Mode::Slip(Direction::Negative)
+        } else {
+            self.held_or_not(&step, 0)
+        };
+        step.u = self.block_acceleration(&step, 0);
+        step
+    }
+
+    /// One step of eqs (15), (16), iterated until (17), (18) hold; the step and its iterations.
+    fn advance(&self, last: &Step, sample: usize) -> Result<(Step, u32), SolveError> {
+        let times_s = self.excitation.times_s;
+        let a = &self.excitation.acceleration;
+        let (a0, a1) = (a[sample - 1], a[sample]);
+        let half_s = 0.5 * (times_s[sample] - times_s[sample - 1]);
+        let l = &self.system.participation;
+        let mut next = last.clone();
+        for iteration in 1..=ITERATIONS_LIMIT {
+            let (u, f) = (next.u, next.f.clone());
+            next.w = match next.mode {
+                Mode::Stick => 0.0,
+                Mode::Slip(_) => last.w + ((last.u - a0) + (u - a1)) * half_s,
+            };
+            next.s = last.s + (last.w + next.w) * half_s;
+            let block = if next.mode == Mode::Stick { a1 } else { u };
+            for j in 0..f.len() {
+                let acceleration = -(last.f[j] + l[j] * last.u) - (f[j] + l[j] * block);
+                next.eta_dot[j] = last.eta_dot[j] + acceleration * half_s;
+                next.eta[j] = last.eta[j] + (last.eta_dot[j] + next.eta_dot[j]) * half_s;
+            }
+            next.f = self.system.restoring(&next.eta, &next.eta_dot);
+            self.test_stick(last, &mut next, sample);
+            next.u = self.block_acceleration(&next, sample);
+            let change = self.largest_change(u, &f, &next);
+            if change <= TOLERANCE_M_PER_S2 && iteration > 1 {
+                self.settle(last, &mut next, [a0, a1], half_s);
+                return Ok((next, iteration));
+            }
+        }
+        Err(SolveError::NoConvergence {
+            time_s: times_s[sample],
+            iterations: ITERATIONS_LIMIT,
+            omega_dt: self.system.slip_rate_rad_per_s * 2.0 * half_s,
+        })
+    }
+
+    /// Stick is left when the demand passes its bound, eq. (8), and tested for when the sign of the
+    /// sliding velocity differs from the last step's, eqs (3), (4), (14).
+    fn test_stick(&self, last: &Step, next: &mut Step, sample: usize) {
+        let turned = match (last.mode, next.mode) {
+            (_, Mode::Stick) => true,
+            (Mode::Slip(direction), Mode::Slip(_)) => direction.sign() * next.w < 0.0,
+            (Mode::Stick, Mode::Slip(_)) => false,
+        };
+        if turned {
+            next.mode = self.held_or_not(next, sample);
+        }
+    }
+
+    fn held_or_not(&self, step: &Step, sample: usize) -> Mode {
+        let demand = self.demand_n(step, sample);
+        let normal = self.excitation.normal_at_sample(sample).max(0.0);
+        let [low, high] = self.excitation.bounds().map(|bound| bound * normal);
+        if demand > high {
+            Mode::Slip(Direction::Negative)
+        } else if demand < low {
+            Mode::Slip(Direction::Positive)
+        } else {
+            Mode::Stick
+        }
+    }
+
+    fn demand_n(&self, step: &Step, sample: usize) -> f64 {
+        self.system.block_mass_kg * self.excitation.acceleration[sample]
+            + self.system.stiffness_n_per_m * step.s
+            - self.system.base_shear_n(&step.f)
+    }
+
+    fn friction_n(&self, step: &Step, sample: usize) -> f64 {
+        match step.mode {
+            Mode::Stick => self.demand_n(step, sample),
+            Mode::Slip(direction) => {
+                self.excitation.kinetic(direction)
+                    * self.excitation.normal_at_sample(sample).max(0.0)
+            }
+        }
+    }
+
+    /// Eq. (11), or the table's acceleration in stick.
+    fn block_acceleration(&self, step: &Step, sample: usize) -> f64 {
+        let system = self.system;
+        match step.mode {
+            Mode::Stick => self.excitation.acceleration[sample],
+            Mode::Slip(_) => {
+                (self.friction_n(step, sample) - system.damper_n_s_per_m * step.w
+                    + system.base_shear_n(&step.f)
+                    - system.stiffness_n_per_m * step.s)
+                    / system.block_mass_kg
+            }
+        }
+    }
+
+    /// Largest change of the block's and the floors' accelerations; NaN counts as infinite.
+    fn largest_change(&self, u: f64, f: &[f64], next: &Step) -> f64 {
+        let n = f.len();
+        let difference: Vec<f64> = next.f.iter().zip(f).map(|(new, old)| new - old).collect();
+        let mut floors = vec![0.0; n];
+        self.system.floors(&difference, &mut floors);
+        floors.into_iter().chain([next.u - u]).fold(0.0, |largest: f64, change| {
+            if change.abs() <= largest {
+                largest
+            } else if change.is_nan() {
+                f64::INFINITY
+            } else {
+                change.abs()
+            }
+        })
+    }
+
+    /// Velocities and displacements of the accelerations that the iteration has settled on.
+    fn settle(&self, last: &Step, next: &mut Step, [a0, a1]: [f64; 2], half_s: f64) {
+        let l = &self.system.participation;
+        next.w = match next.mode {
+            Mode::Stick => 0.0,
+            Mode::Slip(_) => last.w + ((last.u - a0) + (next.u - a1)) * half_s,
+        };
+        next.s = last.s + (last.w + next.w) * half_s;
+        for j in 0..next.f.len() {
+            let acceleration = -(last.f[j] + l[j] * last.u) - (next.f[j] + l[j] * next.u);
+            next.eta_dot[j] = last.eta_dot[j] + acceleration * half_s;
+            next.eta[j] = last.eta[j] + (last.eta_dot[j] + next.eta_dot[j]) * half_s;
+        }
+    }
 }

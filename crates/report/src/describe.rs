@@ -1,0 +1,188 @@
+//! The model in words and numbers, shared by the plain-text table and the report.
+
+use core::f64::consts::TAU;
+
+use slipstick::model::{Damping, Model};
+use slipstick::response::{Event, EventKind, Mode};
+
+use crate::display::{DisplayUnits, Quantity};
+use crate::number::{compact, significant};
+
+/// A value given in SI with its unit, as `325 kg`.
+#[must_use]
+pub fn value(display: DisplayUnits, quantity: Quantity, si: f64) -> String {
+    let unit = display.unit(quantity, si);
+    let text = compact(unit.of(si));
+    if unit.symbol.is_empty() { text } else { format!("{text} {}", unit.symbol) }
+}
+
+/// One line: `block 325 kg, 1 storey, friction 0.02 static, 0.012 kinetic, spring 143 kN/m`.
+#[must_use]
+pub fn model_line(model: &Model, display: DisplayUnits) -> String {
+    let slider = model.slider();
+    let mut parts =
+        vec![format!("block {}", value(display, Quantity::Mass, model.block().mass_kg))];
+    parts.push(match model.storeys() {
+        0 => "no storeys".to_owned(),
+        1 => format!("1 storey of {}", value(display, Quantity::Mass, model.frame().masses_kg[0])),
+        n => {
+            let above = model.total_mass_kg() - model.block().mass_kg;
+            format!("{n} storeys of {} in all", value(display, Quantity::Mass, above))
+        }
+    });
+    parts.push(format!(
+        "friction {} static, {} kinetic",
+        by_direction(model.static_friction()),
+        by_direction(model.kinetic_friction())
+    ));
+    for (name, quantity, si) in [
+        ("spring", Quantity::Stiffness, slider.stiffness_n_per_m),
+        ("damper", Quantity::Damping, slider.damper_n_s_per_m),
+    ] {
+        if si > 0.0 {
+            parts.push(format!("{name} {}", value(display, quantity, si)));
+        }
+    }
+    if slider.tilt_rad != 0.0 {
+        parts.push(format!("tilt {} mrad", compact(1e3 * slider.tilt_rad)));
+    }
+    if let Some(gap_m) = slider.gap_m {
+        parts.push(format!("gap {}", value(display, Quantity::Length, gap_m)));
+    }
+    parts.join(", ")
+}
+
+/// A coefficient, or both where the directions differ.
+fn by_direction([positive, negative]: [f64; 2]) -> String {
+    if positive == negative {
+        compact(positive)
+    } else {
+        format!("{} (+x) and {} (-x)", compact(positive), compact(negative))
+    }
+}
+
+/// Every quantity of block, slider and start with its value, in plain characters.
+#[must_use]
+pub fn model_rows(model: &Model, display: DisplayUnits) -> Vec<(&'static str, String)> {
+    let (block, slider) = (model.block(), model.slider());
+    let show = |quantity, si| value(display, quantity, si);
+    let derived = |quantity, si| {
+        let unit = display.unit(quantity, si);
+        format!("{} {}", significant(unit.of(si), 4), unit.symbol)
+    };
+    let mut rows = vec![("Mass of the block M₁", show(Quantity::Mass, block.mass_kg))];
+    if model.storeys() > 0 {
+        rows.push(("Total mass", show(Quantity::Mass, model.total_mass_kg())));
+    }
+    rows.push(("Weight", derived(Quantity::Force, model.weight_n())));
+    rows.push(("Static friction μₛ", by_direction(model.static_friction())));
+    rows.push(("Kinetic friction μₖ", by_direction(model.kinetic_friction())));
+    let k1 = slider.stiffness_n_per_m;
+    if k1 > 0.0 {
+        let total = model.total_mass_kg();
+        rows.push(("Spring K₁ of the slider", show(Quantity::Stiffness, k1)));
+        rows.push(("  as a pendulum of radius", derived(Quantity::Length, model.weight_n() / k1)));
+        rows.push((
+            "  period of sliding on it",
+            derived(Quantity::Time, TAU * (total / k1).sqrt()),
+        ));
+    } else {
+        rows.push(("Spring K₁ of the slider", "none".to_owned()));
+    }
+    rows.push((
+        "Damper C₁ of the slider",
+        if slider.damper_n_s_per_m > 0.0 {
+            show(Quantity::Damping, slider.damper_n_s_per_m)
+        } else {
+            "none".to_owned()
+        },
+    ));
+    rows.push((
+        "Tilt θ, uphill towards +x",
+        match slider.tilt_rad {
+            0.0 => "none".to_owned(),
+            tilt_rad => format!("{} mrad", compact(1e3 * tilt_rad)),
+        },
+    ));
+    rows.push(("Gap", slider.gap_m.map_or("not given".into(), |gap| show(Quantity::Length, gap))));
+    if let Some(width) = block.width_m {
+        rows.push(("Width of the block", show(Quantity::Length, width)));
+    }
+    if let Some(height) = block.height_m {
+        rows.push(("Height of the block", show(Quantity::Length, height)));
+    }
+    rows.push(("Gravity", format!("{} m/s²", compact(model.gravity_m_per_s2()))));
+    let initial = model.initial();
+    for (name, quantity, si) in [
+        ("Sliding displacement at start", Quantity::Length, initial.sliding_displacement_m),
+        ("Sliding velocity at start", Quantity::Velocity, initial.sliding_velocity_m_per_s),
+    ] {
+        if si != 0.0 {
+            rows.push((name, show(quantity, si)));
+        }
+    }
+    if let Damping::Ratio(ratio) = model.frame().damping
+        && model.storeys() > 0
+    {
+        rows.push((
+            "Damping of the structure",
+            format!("{} % in every mode", compact(1e2 * ratio)),
+        ));
+    }
+    rows
+}
+
+/// Header and one row a storey, from the roof down; columns without a value are left out.
+#[must_use]
+pub fn storey_rows(
+    model: &Model,
+    display: DisplayUnits,
+) -> Option<(Vec<String>, Vec<Vec<String>>)> {
+    let (frame, n) = (model.frame(), model.storeys());
+    let dampers = match &frame.damping {
+        Damping::Dampers(dampers) => Some(dampers),
+        Damping::Ratio(_) => None,
+    };
+    let q = model.initial().storey_displacement_m.as_ref();
+    let v = model.initial().storey_velocity_m_per_s.as_ref();
+    let columns = [
+        ("Mass", Quantity::Mass, Some(&frame.masses_kg)),
+        ("Stiffness", Quantity::Stiffness, Some(&frame.stiffnesses_n_per_m)),
+        ("Damper", Quantity::Damping, dampers),
+        ("Height", Quantity::Length, frame.heights_m.as_ref()),
+        ("Displacement at start", Quantity::Length, q),
+        ("Velocity at start", Quantity::Velocity, v),
+    ];
+    let mut header = vec!["Storey".to_owned()];
+    let mut rows: Vec<Vec<String>> = (1..=n).map(|storey| vec![storey.to_string()]).collect();
+    for (name, quantity, values) in columns {
+        let Some(values) = values else { continue };
+        let unit = display.unit(quantity, values.iter().fold(0.0, |m: f64, v| m.max(v.abs())));
+        header.push(unit.label(name));
+        for (row, si) in rows.iter_mut().zip(values) {
+            row.push(compact(unit.of(*si)));
+        }
+    }
+    rows.reverse();
+    (n > 0).then_some((header, rows))
+}
+
+/// The name that files and tables give a kind of event.
+#[must_use]
+pub fn event_kind(kind: EventKind) -> &'static str {
+    match kind {
+        EventKind::Slip => "slip",
+        EventKind::Stick => "stick",
+        EventKind::Reversal => "reversal",
+    }
+}
+
+/// Which way the block slides after an event.
+#[must_use]
+pub fn event_direction(event: &Event) -> &'static str {
+    match event.mode {
+        Mode::Stick => "stuck",
+        Mode::Slip(direction) if direction.sign() > 0.0 => "towards +x",
+        Mode::Slip(_) => "towards −x",
+    }
+}

@@ -1,0 +1,198 @@
+//! The units in which results are shown; inside, everything is SI.
+
+use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
+
+/// A system of units to show results in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DisplayUnits {
+    /// SI, in the multiple that reads well: mm or m, N, kN or MN, m/s².
+    #[default]
+    Si,
+    /// mm, kN, t, and g for accelerations.
+    KnMm,
+    /// in, kip, lb, and g for accelerations.
+    Us,
+}
+
+/// A kind of quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// SI: m.
+    Length,
+    /// SI: m/s.
+    Velocity,
+    /// SI: m/s².
+    Acceleration,
+    /// SI: N.
+    Force,
+    /// SI: kg.
+    Mass,
+    /// SI: N/m.
+    Stiffness,
+    /// SI: N s/m.
+    Damping,
+    /// SI: J.
+    Energy,
+    /// s in every system.
+    Time,
+    /// A ratio: no unit.
+    Ratio,
+}
+
+/// A unit: what one of it is in SI, and its symbol (empty for a ratio).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    /// The SI value of one unit.
+    pub in_si: f64,
+    /// Its symbol, as in print.
+    pub symbol: &'static str,
+}
+
+impl Unit {
+    /// A value given in SI in this unit.
+    #[must_use]
+    pub fn of(&self, si: f64) -> f64 {
+        si / self.in_si
+    }
+
+    /// `quantity, unit`, or the quantity alone where there is no unit.
+    #[must_use]
+    pub fn label(&self, quantity: &str) -> String {
+        if self.symbol.is_empty() {
+            quantity.to_owned()
+        } else {
+            format!("{quantity} ({})", self.symbol)
+        }
+    }
+}
+
+/// An inch in m, exact.
+pub const INCH_M: f64 = 0.0254;
+/// A pound of mass in kg, exact.
+pub const POUND_KG: f64 = 0.453_592_37;
+/// A kip (1000 lbf) in N, exact.
+pub const KIP_N: f64 = 1000.0 * POUND_KG * STANDARD_GRAVITY_M_PER_S2;
+
+impl DisplayUnits {
+    /// The system that an option names: `si`, `kN-mm` or `us`.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        match name {
+            "si" => Some(Self::Si),
+            "kN-mm" => Some(Self::KnMm),
+            "us" => Some(Self::Us),
+            _ => None,
+        }
+    }
+
+    /// The unit for values of a quantity up to `largest_si` in size.
+    ///
+    /// Only SI chooses by size; the other systems have one unit a quantity.
+    #[must_use]
+    pub fn unit(self, quantity: Quantity, largest_si: f64) -> Unit {
+        let (in_si, symbol) = match self {
+            Self::Si => si(quantity, largest_si.abs()),
+            Self::KnMm => kn_mm(quantity),
+            Self::Us => us(quantity),
+        };
+        Unit { in_si, symbol }
+    }
+}
+
+fn si(quantity: Quantity, largest: f64) -> (f64, &'static str) {
+    // 0 has no size: it is shown in the smallest unit, as the values near it would be.
+    match quantity {
+        Quantity::Length => pick(largest, [(1e-3, "mm"), (1.0, "m"), (1e3, "km")], 1.0),
+        Quantity::Velocity => pick(largest, [(1e-3, "mm/s"), (1.0, "m/s"), (1e3, "km/s")], 0.1),
+        Quantity::Acceleration => (1.0, "m/s²"),
+        Quantity::Force => pick(largest, [(1.0, "N"), (1e3, "kN"), (1e6, "MN")], 1.0),
+        Quantity::Mass => pick(largest, [(1.0, "kg"), (1e3, "t"), (1e6, "kt")], 10.0),
+        Quantity::Stiffness => pick(largest, [(1.0, "N/m"), (1e3, "kN/m"), (1e6, "MN/m")], 1.0),
+        Quantity::Damping => pick(largest, [(1.0, "N s/m"), (1e3, "kN s/m"), (1e6, "MN s/m")], 1.0),
+        Quantity::Energy => pick(largest, [(1.0, "J"), (1e3, "kJ"), (1e6, "MJ")], 1.0),
+        Quantity::Time => (1.0, "s"),
+        Quantity::Ratio => (1.0, ""),
+    }
+}
+
+/// The largest of three units of which the value makes at least `least`.
+fn pick(value: f64, units: [(f64, &'static str); 3], least: f64) -> (f64, &'static str) {
+    let [small, middle, large] = units;
+    if value >= 10.0 * least * large.0 {
+        large
+    } else if value >= least * middle.0 {
+        middle
+    } else {
+        small
+    }
+}
+
+fn kn_mm(quantity: Quantity) -> (f64, &'static str) {
+    match quantity {
+        Quantity::Length => (1e-3, "mm"),
+        Quantity::Velocity => (1e-3, "mm/s"),
+        Quantity::Acceleration => (STANDARD_GRAVITY_M_PER_S2, "g"),
+        Quantity::Force => (1e3, "kN"),
+        Quantity::Mass => (1e3, "t"),
+        Quantity::Stiffness => (1e6, "kN/mm"),
+        Quantity::Damping => (1e6, "kN s/mm"),
+        Quantity::Energy => (1.0, "kN mm"),
+        Quantity::Time => (1.0, "s"),
+        Quantity::Ratio => (1.0, ""),
+    }
+}
+
+fn us(quantity: Quantity) -> (f64, &'static str) {
+    match quantity {
+        Quantity::Length => (INCH_M, "in"),
+        Quantity::Velocity => (INCH_M, "in/s"),
+        Quantity::Acceleration => (STANDARD_GRAVITY_M_PER_S2, "g"),
+        Quantity::Force => (KIP_N, "kip"),
+        Quantity::Mass => (POUND_KG, "lb"),
+        Quantity::Stiffness => (KIP_N / INCH_M, "kip/in"),
+        Quantity::Damping => (KIP_N / INCH_M, "kip s/in"),
+        Quantity::Energy => (KIP_N * INCH_M, "kip in"),
+        Quantity::Time => (1.0, "s"),
+        Quantity::Ratio => (1.0, ""),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_units_of_the_three_systems() {
+        let kip = DisplayUnits::Us.unit(Quantity::Force, 0.0);
+        assert_eq!(kip.symbol, "kip");
+        assert!((kip.in_si - 4_448.221_615_260_5).abs() < 1e-9);
+        let per_inch = DisplayUnits::Us.unit(Quantity::Stiffness, 0.0);
+        assert!((per_inch.of(175_126.835_246_476) - 1.0).abs() < 1e-12);
+        let g = DisplayUnits::KnMm.unit(Quantity::Acceleration, 3.0);
+        assert_eq!((g.of(9.80665), g.symbol), (1.0, "g"));
+        assert_eq!(DisplayUnits::KnMm.unit(Quantity::Stiffness, 0.0).of(143e3), 0.143);
+    }
+
+    #[test]
+    fn exact_si_multiples_follow_the_size() {
+        let symbol = |quantity, size| DisplayUnits::Si.unit(quantity, size).symbol;
+        assert_eq!(symbol(Quantity::Length, 0.15), "mm");
+        assert_eq!(symbol(Quantity::Length, -1.5), "m");
+        assert_eq!(symbol(Quantity::Length, 0.0), "mm");
+        assert_eq!(symbol(Quantity::Velocity, 0.02), "mm/s");
+        assert_eq!(symbol(Quantity::Velocity, 0.2), "m/s");
+        assert_eq!(symbol(Quantity::Force, 63.0), "N");
+        assert_eq!(symbol(Quantity::Force, 6.3e4), "kN");
+        assert_eq!(symbol(Quantity::Force, 6.3e6), "kN");
+        assert_eq!(symbol(Quantity::Mass, 325.0), "kg");
+        assert_eq!(symbol(Quantity::Mass, 325e3), "t");
+        assert_eq!(symbol(Quantity::Stiffness, 143e3), "kN/m");
+    }
+
+    #[test]
+    fn exact_names_of_the_option() {
+        assert_eq!(DisplayUnits::from_name("kN-mm"), Some(DisplayUnits::KnMm));
+        assert_eq!(DisplayUnits::from_name("us"), Some(DisplayUnits::Us));
+        assert_eq!(DisplayUnits::from_name("SI"), None);
+    }
+}

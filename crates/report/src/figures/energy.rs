@@ -1,0 +1,71 @@
+//! Where the energy goes.
+
+use super::{Drawn, Scene, drawn};
+use crate::display::Quantity;
+use crate::number::printed;
+use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
+
+/// Energy by kind, stacked up to the input; none where the certificate has no energies.
+pub fn by_kind(scene: &Scene) -> Option<Drawn> {
+    let energy = &scene.report.certificate.energy;
+    let kinds = [&energy.friction_j, &energy.damping_j, &energy.strain_j, &energy.kinetic_j];
+    let knots = scene.history.len();
+    if kinds.iter().any(|kind| kind.len() != knots) || energy.input_j.len() != knots {
+        return None;
+    }
+    let largest = energy.input_j.iter().copied().fold(0.0, f64::max);
+    let unit = scene.report.display.unit(Quantity::Energy, largest);
+    let edge = Style { colour: "#1a1a1a", width: 0.5, dashes: "" };
+    let names = [
+        ("friction", "#74879c"),
+        ("dampers", "#aab8c6"),
+        ("strain", "#dcd2bb"),
+        ("kinetic", "#faf6ec"),
+    ];
+    // The highest edge first, so that each area covers the foot of the one before it.
+    let mut series: Vec<Series> = (0..kinds.len())
+        .rev()
+        .map(|last| {
+            let points = scene.over_time(unit, |knot| kinds[..=last].iter().map(|k| k[knot]).sum());
+            let (label, fill) = names[last];
+            Series { label: label.to_owned(), style: edge, shape: Shape::Area(fill), points }
+        })
+        .collect();
+    let input = scene.over_time(unit, |knot| energy.input_j[knot]);
+    let values: Vec<f64> =
+        input.iter().chain(series.iter().flat_map(|s| &s.points)).map(|point| point[1]).collect();
+    let style = Style { width: 1.4, ..Style::DASHED };
+    series.push(Series { label: "input".to_owned(), style, shape: Shape::History, points: input });
+    let panel = Panel {
+        x: scene.time_axis(),
+        y: Axis::from_zero(unit.label("Energy"), values),
+        height: 190.0,
+        series,
+        limits: Vec::new(),
+        peak: None,
+        note: String::new(),
+    };
+    let last = |values: &[f64]| values.last().copied().unwrap_or(0.0);
+    let input_end = last(&energy.input_j);
+    let mut caption = String::from(
+        "Energy in the frame of the table, stacked: what friction and dampers have taken so far, \
+         and what springs and motion hold. The stack must fill the input (initial energy and work \
+         of the table, dashed): a gap between them would be an error.",
+    );
+    if input_end > 0.0 {
+        caption.push_str(&format!(
+            " At the end friction has taken {} % of the input and the dampers {} %.",
+            printed(100.0 * last(&energy.friction_j) / input_end, 3),
+            printed(100.0 * last(&energy.damping_j) / input_end, 3),
+        ));
+    }
+    let figure = Figure {
+        id: "energy",
+        title: "Energy by kind over time".to_owned(),
+        description: caption.clone(),
+        layout: Layout::Stacked,
+        panels: vec![panel],
+        shaded: Vec::new(),
+    };
+    Some(drawn(&figure, caption))
+}

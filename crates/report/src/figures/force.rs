@@ -1,0 +1,192 @@
+//! Friction force against sliding displacement, and the demand against its bound.
+
+use slipstick::motion::GroundMotion;
+
+use super::{Drawn, Scene, drawn};
+use crate::display::Quantity;
+use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
+
+/// `T` over `s`; with a spring or damper beside it the force of the whole slider.
+pub fn loops(scene: &Scene) -> Drawn {
+    let (report, history) = (scene.report, scene.history);
+    let slider = report.model.slider();
+    let demands = &report.summary.demands;
+    let restrained = slider.stiffness_n_per_m > 0.0 || slider.damper_n_s_per_m > 0.0;
+    let length = report.display.unit(Quantity::Length, demands.peak_sliding_displacement_m);
+    let slider_force = |knot: usize| {
+        history.friction_force_n[knot]
+            - slider.stiffness_n_per_m * history.sliding_displacement_m[knot]
+            - slider.damper_n_s_per_m * history.sliding_velocity_m_per_s[knot]
+    };
+    let panel = |label: &str, peak_n: f64, force: &dyn Fn(usize) -> f64| {
+        let unit = report.display.unit(Quantity::Force, peak_n);
+        let points: Vec<[f64; 2]> = (0..history.len())
+            .map(|knot| [length.of(history.sliding_displacement_m[knot]), unit.of(force(knot))])
+            .collect();
+        Panel {
+            x: Axis::covering(
+                length.label("Sliding displacement s"),
+                points.iter().map(|p| p[0]).chain([0.0]),
+            ),
+            y: Axis::symmetric(unit.label(label), points.iter().map(|p| p[1])),
+            height: 230.0,
+            series: vec![Series {
+                label: String::new(),
+                style: Style::MAIN,
+                shape: Shape::Curve,
+                points,
+            }],
+            limits: Vec::new(),
+            peak: None,
+            note: String::new(),
+        }
+    };
+    let friction = &|knot: usize| history.friction_force_n[knot];
+    let mut panels = vec![panel("Friction force T", demands.peak_friction_force_n, friction)];
+    let mut caption = String::from(
+        "Friction force T of the table on the block against sliding displacement s. Upright lines \
+         are sticks, in which T follows the demand; level lines are slips, in which T opposes the \
+         sliding. The area inside is the energy that friction takes.",
+    );
+    if restrained {
+        panels.push(panel(
+            "Slider force T − K₁s − C₁ṡ",
+            demands.peak_slider_force_n,
+            &slider_force,
+        ));
+        caption.push_str(
+            " Right: the force of the whole slider, friction, spring and damper together.",
+        );
+    }
+    let figure = Figure {
+        id: "friction-loop",
+        title: "Friction force against sliding displacement".to_owned(),
+        description: caption.clone(),
+        layout: Layout::Beside,
+        panels,
+        shaded: Vec::new(),
+    };
+    drawn(&figure, caption)
+}
+
+/// `T` over time between the static bounds −μ_s⁺N and μ_s⁻N, with the kinetic ones dotted.
+pub fn demand(scene: &Scene) -> Drawn {
+    let (report, history, model) = (scene.report, scene.history, scene.report.model);
+    let [static_positive, static_negative] = model.static_friction();
+    let [kinetic_positive, kinetic_negative] = model.kinetic_friction();
+    let weight_n = model.total_mass_kg() * model.normal_gravity_m_per_s2();
+    let largest = static_positive.max(static_negative) * weight_n;
+    let unit = report
+        .display
+        .unit(Quantity::Force, largest.max(report.summary.demands.peak_friction_force_n));
+    let bounds = [
+        (static_negative, "static bound", Style::DASHED),
+        (-static_positive, "", Style::DASHED),
+        (kinetic_negative, "kinetic friction", Style::DOTTED),
+        (-kinetic_positive, "", Style::DOTTED),
+    ];
+    let force = Series {
+        label: "T".to_owned(),
+        style: Style::MAIN,
+        shape: Shape::History,
+        points: scene.over_time(unit, |knot| history.friction_force_n[knot]),
+    };
+    let mut series = vec![force];
+    let mut limits = Vec::new();
+    let mut values: Vec<f64> = series[0].points.iter().map(|point| point[1]).collect();
+    if let Some(vertical) = report.motion.vertical_m_per_s2() {
+        let lift = vertical_at_knots(report.motion, vertical, &history.time_s);
+        let normal_n = |knot: usize| {
+            model.total_mass_kg() * (model.normal_gravity_m_per_s2() + lift[knot]).max(0.0)
+        };
+        for (coefficient, label, style) in bounds {
+            let points = scene.over_time(unit, |knot| coefficient * normal_n(knot));
+            values.extend(points.iter().map(|point| point[1]));
+            let (label, shape) = (label.to_owned(), Shape::History);
+            series.push(Series { label, style, shape, points });
+        }
+    } else {
+        for (coefficient, label, style) in bounds {
+            let value = unit.of(coefficient * weight_n);
+            values.push(value);
+            // A legend entry without points: the line itself is drawn from edge to edge.
+            if !label.is_empty() {
+                let (label, shape) = (label.to_owned(), Shape::History);
+                series.push(Series { label, style, shape, points: Vec::new() });
+            }
+            limits.push(Limit { value, label: String::new(), style });
+        }
+    }
+    let panel = Panel {
+        x: scene.time_axis(),
+        y: Axis::symmetric(unit.label("Friction force T"), values),
+        height: 190.0,
+        series,
+        limits,
+        peak: None,
+        note: String::new(),
+    };
+    let varies = if report.motion.vertical_m_per_s2().is_some() {
+        " The bounds follow the normal force N(t) of the vertical motion."
+    } else {
+        ""
+    };
+    let caption = format!(
+        "Friction force T against its bounds. On white the block sticks and T is the demand: it may \
+         reach the static bounds −μₛ⁺N and μₛ⁻N (dashed) but never pass them; there the block lets \
+         go. On grey it slides and T is the kinetic friction ±μₖN (dotted).{varies}"
+    );
+    let figure = Figure {
+        id: "demand",
+        title: "Friction force against its bounds over time".to_owned(),
+        description: caption.clone(),
+        layout: Layout::Stacked,
+        panels: vec![panel],
+        shaded: scene.sliding.clone(),
+    };
+    drawn(&figure, caption)
+}
+
+/// Vertical acceleration at the knots, linear between samples; of two knots at one time the first
+/// takes the left limit of a jump and the second the right one; 0 after the end.
+fn vertical_at_knots(motion: &GroundMotion, vertical: &[f64], knots_s: &[f64]) -> Vec<f64> {
+    let times = motion.times_s();
+    let mut upper = 0;
+    let mut previous_s = f64::NAN;
+    let mut values = Vec::with_capacity(knots_s.len());
+    for &time_s in knots_s {
+        let second = time_s == previous_s;
+        previous_s = time_s;
+        let passed = |t: f64| if second { t <= time_s } else { t < time_s };
+        while upper < times.len() && passed(times[upper]) {
+            upper += 1;
+        }
+        values.push(if upper == times.len() {
+            0.0
+        } else if upper == 0 || times[upper] == time_s {
+            vertical[upper]
+        } else {
+            let part = (time_s - times[upper - 1]) / (times[upper] - times[upper - 1]);
+            vertical[upper - 1] + part * (vertical[upper] - vertical[upper - 1])
+        });
+    }
+    values
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_vertical_motion_at_knots_takes_both_sides_of_a_jump() {
+        let vertical = vec![1.0, 3.0, -1.0, 0.0];
+        let motion =
+            GroundMotion::new(vec![0.0, 1.0, 1.0, 2.0], vec![0.0; 4], Some(vertical.clone()))
+                .expect("a motion");
+        let knots = [0.0, 0.5, 1.0, 1.0, 1.5, 2.0, 2.0, 3.0];
+        assert_eq!(
+            vertical_at_knots(&motion, &vertical, &knots),
+            [1.0, 2.0, 3.0, -1.0, -0.5, 0.0, 0.0, 0.0]
+        );
+    }
+}

@@ -1,0 +1,216 @@
+//! Sliding displacement, accelerations and drifts over time.
+
+use super::trace::Trace;
+use super::{Drawn, Scene, drawn, shown_note, shown_storeys};
+use crate::display::{Quantity, Unit};
+use crate::number::{compact, printed};
+use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
+
+const SHADING: &str = "Grey: the block slides.";
+
+/// `s(t)` with its gap and, where they were run, the answers with lower and upper friction.
+pub fn sliding_displacement(scene: &Scene) -> Drawn {
+    let report = scene.report;
+    let runs = report.summary.runs();
+    let largest = runs.iter().map(|(_, run)| run.demands.peak_sliding_displacement_m);
+    let peak_m = largest.fold(0.0, f64::max);
+    let gap_m = report.model.slider().gap_m;
+    let gap_shown = gap_m.filter(|gap| *gap <= 4.0 * peak_m);
+    let unit = report.display.unit(Quantity::Length, gap_shown.map_or(peak_m, |g| g.max(peak_m)));
+
+    let nominal = sliding_trace(scene, unit);
+    let mut series = bound_series(scene, unit);
+    let label = if series.is_empty() { String::new() } else { "nominal".to_owned() };
+    let gap = gap_shown.map(|gap| unit.of(gap));
+    let extremes = series.iter().flat_map(|s| s.points.iter().map(|point| point[1]));
+    let values: Vec<f64> = nominal
+        .values()
+        .chain(extremes)
+        .chain([0.0])
+        .chain(gap.iter().flat_map(|g| [-g, *g]))
+        .collect();
+    let (peak, note) = marked(&nominal, unit, "peak");
+    series.push(Series {
+        label,
+        style: Style::MAIN,
+        shape: Shape::History,
+        points: nominal.points,
+    });
+    let limits = gap.map_or_else(Vec::new, |gap| {
+        let line = |value: f64, label| Limit { value, label, style: Style::LIMIT };
+        let label = format!("gap ±{} {}", compact(gap), unit.symbol);
+        vec![line(gap, label), line(-gap, String::new())]
+    });
+    let panel = Panel {
+        x: scene.time_axis(),
+        y: Axis::covering(unit.label("Sliding displacement s"), values),
+        height: 190.0,
+        series,
+        limits,
+        peak,
+        note,
+    };
+    let demands = &report.summary.demands;
+    let mut caption = format!(
+        "Sliding displacement s of the block relative to the table (positive towards +x). {SHADING} \
+         Level stretches on white are sticks. The block ends {} {} from where its spring is \
+         unstressed.",
+        printed(unit.of(demands.residual_sliding_displacement_m), 4),
+        unit.symbol,
+    );
+    if let Some(ratio) = demands.gap_ratio {
+        caption.push_str(&format!(
+            " The peak uses {} % of the gap{}.",
+            printed(100.0 * ratio, 3),
+            if gap_shown.is_some() { "" } else { ", whose lines lie outside the drawing" }
+        ));
+    }
+    if report.bounds.is_some() {
+        caption.push_str(" Shading and ringed peak belong to the nominal friction.");
+    }
+    let figure = Figure {
+        id: "sliding-displacement",
+        title: "Sliding displacement over time".to_owned(),
+        description: format!("{caption} {}", panel.note),
+        layout: Layout::Stacked,
+        panels: vec![panel],
+        shaded: scene.sliding.clone(),
+    };
+    drawn(&figure, caption)
+}
+
+fn sliding_trace(scene: &Scene, unit: Unit) -> Trace {
+    let demands = &scene.report.summary.demands;
+    let points = scene.over_time(unit, |knot| scene.history.sliding_displacement_m[knot]);
+    let extremes = [demands.min_sliding_displacement_m, demands.max_sliding_displacement_m];
+    Trace::new(points, extremes.map(|value| unit.of(value)))
+}
+
+fn bound_series(scene: &Scene, unit: Unit) -> Vec<Series> {
+    let Some(responses) = scene.report.bounds else { return Vec::new() };
+    let named = [("lower friction", Style::WIDE), ("upper friction", Style::DASHED)];
+    named
+        .into_iter()
+        .zip(responses)
+        .filter_map(|((label, style), response)| {
+            let history = response.history.as_ref()?;
+            let points = history.time_s.iter().zip(&history.sliding_displacement_m);
+            let points = points.map(|(&time_s, &s)| [time_s, unit.of(s)]).collect();
+            let demands = &response.demands;
+            let extremes = [demands.min_sliding_displacement_m, demands.max_sliding_displacement_m];
+            let points = Trace::new(points, extremes.map(|value| unit.of(value))).points;
+            Some(Series { label: label.to_owned(), style, shape: Shape::History, points })
+        })
+        .collect()
+}
+
+/// Table, block and floors, each on its own scale.
+pub fn accelerations(scene: &Scene) -> Drawn {
+    let (report, history) = (scene.report, scene.history);
+    let demands = &report.summary.demands;
+    let unit = report.display.unit(Quantity::Acceleration, report.summary.record.pga_m_per_s2);
+    let table = scene.over_time(unit, |knot| history.table_acceleration_m_per_s2[knot]);
+    let block = scene.over_time(unit, |knot| history.block_acceleration_m_per_s2[knot]);
+    let block_peak = unit.of(demands.peak_block_acceleration_m_per_s2);
+    let mut panels = vec![
+        history_panel(scene, "Table acceleration", Trace::of(table), unit),
+        history_panel(scene, "Block acceleration", Trace::with_peak(block, block_peak), unit),
+    ];
+    let peaks: Vec<f64> =
+        demands.storeys.iter().map(|storey| storey.peak_acceleration_m_per_s2).collect();
+    let shown = shown_storeys(&peaks);
+    for &i in &shown {
+        let floor = scene.over_time(unit, |knot| history.storey_accelerations(knot)[i]);
+        let trace = Trace::with_peak(floor, unit.of(peaks[i]));
+        panels.push(history_panel(scene, &format!("Storey {} acceleration", i + 1), trace, unit));
+    }
+    let caption = format!(
+        "Total accelerations, each on its own scale. {SHADING} While the block sticks it moves with \
+         the table; while it slides only friction, spring and structure drive it, which caps its \
+         acceleration.{}",
+        shown_note(&shown, history.storeys)
+    );
+    let figure = Figure {
+        id: "accelerations",
+        title: "Accelerations of table, block and storeys over time".to_owned(),
+        description: describe(&caption, &panels),
+        layout: Layout::Stacked,
+        panels,
+        shaded: scene.sliding.clone(),
+    };
+    drawn(&figure, caption)
+}
+
+/// Displacement of each floor relative to the one below; none without storeys.
+pub fn drifts(scene: &Scene) -> Option<Drawn> {
+    let (report, history) = (scene.report, scene.history);
+    let storeys = &report.summary.demands.storeys;
+    let peaks: Vec<f64> = storeys.iter().map(|storey| storey.peak_drift_m).collect();
+    let largest = peaks.iter().copied().fold(0.0, f64::max);
+    let unit = report.display.unit(Quantity::Length, largest);
+    let shown = shown_storeys(&peaks);
+    if shown.is_empty() {
+        return None;
+    }
+    let panels: Vec<Panel> = shown
+        .iter()
+        .map(|&i| {
+            let drift = scene.over_time(unit, |knot| {
+                let q = history.storey_displacements(knot);
+                if i == 0 { q[0] } else { q[i] - q[i - 1] }
+            });
+            let trace = Trace::with_peak(drift, unit.of(peaks[i]));
+            history_panel(scene, &format!("Storey {} drift", i + 1), trace, unit)
+        })
+        .collect();
+    let caption = format!(
+        "Drift of each storey: displacement of its floor relative to the floor below (storey 1: \
+         relative to the block). {SHADING}{}",
+        shown_note(&shown, history.storeys)
+    );
+    let figure = Figure {
+        id: "drifts",
+        title: "Storey drifts over time".to_owned(),
+        description: describe(&caption, &panels),
+        layout: Layout::Stacked,
+        panels,
+        shaded: scene.sliding.clone(),
+    };
+    Some(drawn(&figure, caption))
+}
+
+fn history_panel(scene: &Scene, quantity: &str, trace: Trace, unit: Unit) -> Panel {
+    let (peak, note) = marked(&trace, unit, "peak");
+    Panel {
+        x: scene.time_axis(),
+        y: Axis::symmetric(unit.label(quantity), trace.values()),
+        height: 92.0,
+        series: vec![Series {
+            label: String::new(),
+            style: Style::MAIN,
+            shape: Shape::History,
+            points: trace.points,
+        }],
+        limits: Vec::new(),
+        peak,
+        note,
+    }
+}
+
+/// The point to ring and what to write of it; nothing where all is 0.
+fn marked(trace: &Trace, unit: Unit, word: &str) -> (Option<[f64; 2]>, String) {
+    match trace.peak {
+        Some([time_s, value]) if value != 0.0 => {
+            let value_text = printed(value.abs(), 4);
+            let time_text = printed(time_s, 4);
+            (Some([time_s, value]), format!("{word} {value_text} {} at {time_text} s", unit.symbol))
+        }
+        _ => (None, "0 throughout".to_owned()),
+    }
+}
+
+/// The caption and every panel's note, for those who cannot see the figure.
+fn describe(caption: &str, panels: &[Panel]) -> String {
+    let notes = panels.iter().map(|panel| format!(" {}: {}.", panel.y.label, panel.note));
+    std::iter::once(caption.to_owned()).chain(notes).collect()
+}

@@ -1,0 +1,70 @@
+//! Floor response spectra.
+
+use super::{Drawn, drawn, shown_note, shown_storeys};
+use crate::display::Quantity;
+use crate::number::printed;
+use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
+use crate::report::{FloorSpectra, Report};
+
+/// Spectra of table, block and floors over a logarithmic period; none without two periods.
+pub fn floors(report: &Report, spectra: &FloorSpectra) -> Option<Drawn> {
+    let periods = &spectra.periods_s;
+    let (&first, &last) = (periods.first()?, periods.last()?);
+    if first >= last {
+        return None;
+    }
+    let peaks: Vec<f64> = spectra.storeys_m_per_s2.iter().map(|values| largest(values)).collect();
+    let all = peaks.iter().copied().chain([largest(&spectra.block_m_per_s2)]).fold(0.0, f64::max);
+    let unit = report.display.unit(Quantity::Acceleration, all);
+    let shown = shown_storeys(&peaks);
+    let storey_styles = [
+        Style { width: 1.8, ..Style::DASHED },
+        Style::WIDE,
+        Style { colour: "#1a1a1a", ..Style::LIMIT },
+    ];
+    let line = |label: String, style: Style, values: &[f64]| Series {
+        label,
+        style,
+        shape: Shape::History,
+        points: periods.iter().zip(values).map(|(&t, &a)| [t, unit.of(a)]).collect(),
+    };
+    let storeys = shown
+        .iter()
+        .zip(storey_styles)
+        .map(|(&i, style)| line(format!("storey {}", i + 1), style, &spectra.storeys_m_per_s2[i]));
+    let mut series: Vec<Series> = storeys.collect();
+    if !spectra.table_m_per_s2.is_empty() {
+        series.push(line("table".to_owned(), Style::DOTTED, &spectra.table_m_per_s2));
+    }
+    let block = Style { width: 1.3, ..Style::MAIN };
+    series.push(line("block".to_owned(), block, &spectra.block_m_per_s2));
+    let values: Vec<f64> = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect();
+    let panel = Panel {
+        x: Axis::logarithmic("Period (s)", first, last),
+        y: Axis::from_zero(unit.label("Spectral acceleration"), values),
+        height: 230.0,
+        series,
+        limits: Vec::new(),
+        peak: None,
+        note: String::new(),
+    };
+    let caption = format!(
+        "Floor response spectra: largest total acceleration of a light oscillator with {} % damping \
+         fixed to the block or a floor, over its period. For equipment, read its own period.{}",
+        printed(100.0 * spectra.damping_ratio, 2),
+        shown_note(&shown, peaks.len())
+    );
+    let figure = Figure {
+        id: "floor-spectra",
+        title: "Floor response spectra".to_owned(),
+        description: caption.clone(),
+        layout: Layout::Stacked,
+        panels: vec![panel],
+        shaded: Vec::new(),
+    };
+    Some(drawn(&figure, caption))
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
+}

@@ -1,0 +1,138 @@
+//! What went in: model, record, files, command; and what the model leaves out.
+
+use slipstick::response::Method;
+
+use super::{name_table, table_head};
+use crate::describe::{model_rows, storey_rows};
+use crate::display::Quantity;
+use crate::markup::Markup;
+use crate::number::{compact, count, printed, significant};
+use crate::report::Report;
+
+/// Model and record, with hashes, version and command line.
+pub fn section(out: &mut Markup, report: &Report) {
+    out.raw("<section>\n<h2>Model and record</h2>\n<div class=\"pair\">\n<div>\n");
+    name_table(out, "Model", &model_rows(report.model, report.display));
+    out.raw("</div>\n<div>\n");
+    name_table(out, "Ground motion", &record_rows(report));
+    out.raw("</div>\n</div>\n");
+    if let Some((header, rows)) = storey_rows(report.model, report.display) {
+        out.raw("<h3>Storeys, from the roof down</h3>\n");
+        table_head(out, &header.into_iter().map(|head| (head, true)).collect::<Vec<_>>());
+        for row in rows {
+            out.raw("<tr>");
+            for cell in row {
+                out.raw("<td class=\"number\">").text(cell.replace('-', "−")).raw("</td>");
+            }
+            out.raw("</tr>\n");
+        }
+        out.raw("</tbody>\n</table>\n");
+    }
+    files(out, report);
+    out.raw("<h3>Command</h3>\n<p class=\"command\">").text(report.command_line).raw("</p>\n");
+    for input in report.inputs {
+        out.raw("<h3>").text(input.path).raw("</h3>\n<pre>").text(input.text).raw("</pre>\n");
+    }
+    out.raw("</section>\n");
+}
+
+fn record_rows(report: &Report) -> Vec<(&'static str, String)> {
+    let (summary, motion) = (report.summary, report.motion);
+    let show = |quantity, si: f64| {
+        let unit = report.display.unit(quantity, si);
+        format!("{} {}", significant(unit.of(si), 4), unit.symbol)
+    };
+    let dt = motion.dt_s().map_or("uneven".to_owned(), |dt_s| format!("{} s", compact(dt_s)));
+    let mut rows = vec![
+        ("Record", report.record.to_owned()),
+        ("Samples", count(motion.len() as u64)),
+        ("Time step", dt),
+        ("Duration", format!("{} s", compact(motion.duration_s()))),
+        ("PGA (as used)", show(Quantity::Acceleration, summary.record.pga_m_per_s2)),
+        ("PGV", show(Quantity::Velocity, summary.record.pgv_m_per_s)),
+        ("PGD", show(Quantity::Length, summary.record.pgd_m)),
+        ("Velocity at the end", show(Quantity::Velocity, summary.record.end_velocity_m_per_s)),
+        (
+            "Vertical motion",
+            if motion.vertical_m_per_s2().is_some() { "yes" } else { "none" }.to_owned(),
+        ),
+    ];
+    if summary.duration_s != motion.duration_s() {
+        rows.insert(4, ("  analysed, with the tail", format!("{} s", compact(summary.duration_s))));
+    }
+    rows
+}
+
+fn files(out: &mut Markup, report: &Report) {
+    if report.files.is_empty() {
+        return;
+    }
+    out.raw("<h3>Files read</h3>\n");
+    let heads = ["File", "What", "SHA-256"].map(|head| (head.to_owned(), false));
+    table_head(out, &heads);
+    for file in report.files {
+        out.raw("<tr><td>")
+            .text(file.path)
+            .raw("</td><td>")
+            .text(file.description)
+            .raw("</td><td class=\"hash\">")
+            .text(file.sha256)
+            .raw("</td></tr>\n");
+    }
+    out.raw("</tbody>\n</table>\n");
+}
+
+/// What the model takes for granted, with the ratios that say how far it can be trusted.
+pub fn assumptions(out: &mut Markup, report: &Report) {
+    let (model, demands) = (report.model, &report.summary.demands);
+    let mut list = vec![
+        "Motion is in one vertical plane; there is no torsion and no second horizontal direction."
+            .to_owned(),
+        "Vertically everything is rigid: the normal force is the total mass times g cos θ plus the \
+         vertical acceleration of the table, never below 0, spread evenly over the surface."
+            .to_owned(),
+        match demands.overturning_ratio {
+            Some(ratio) => format!(
+                "No rocking and no uplift of an edge. The largest overturning moment is {} of what \
+                 the weight resists{}.",
+                printed(ratio, 3),
+                if ratio > 1.0 { ": an edge would lift, which this analysis does not follow" } else { "" }
+            ),
+            None => "No rocking and no uplift of an edge; the overturning ratio needs the width of \
+                     the block and storey heights, which are not given."
+                .to_owned(),
+        },
+        "Displacements and angles are small: geometry does not change, and the structure is linear \
+         (no yielding, no second-order effects)."
+            .to_owned(),
+        "Friction is Coulomb's: it depends on whether and which way the block slides, not on \
+         velocity, pressure, temperature, wear or time at rest."
+            .to_owned(),
+        "The surface has one constant tilt; the spring is linear and unstressed at s = 0.".to_owned(),
+        "The table acceleration is linear between samples and was not filtered or corrected; \
+         accelerations are total (absolute)."
+            .to_owned(),
+    ];
+    if model.slider().gap_m.is_some() {
+        list.push("Nothing is struck: where the gap is passed, the block slides on.".to_owned());
+    }
+    if report.motion.vertical_m_per_s2().is_some() && model.slider().stiffness_n_per_m > 0.0 {
+        list.push(
+            "The spring keeps its stiffness under vertical motion; that of a real pendulum slider \
+             follows N(t)."
+                .to_owned(),
+        );
+    }
+    if report.response.method == Method::Stepwise {
+        list.push(
+            "The stepwise method finds events only at samples; it is there to reproduce earlier \
+             work, not for design."
+                .to_owned(),
+        );
+    }
+    out.raw("<section>\n<h2>Assumptions</h2>\n<ul>\n");
+    for line in list {
+        out.element("li", line).raw("\n");
+    }
+    out.raw("</ul>\n</section>\n");
+}

@@ -1,0 +1,83 @@
+//! What a report is made from.
+
+use slipstick::check::Certificate;
+use slipstick::model::Model;
+use slipstick::motion::GroundMotion;
+use slipstick::response::Response;
+
+use crate::display::DisplayUnits;
+use crate::html;
+use crate::summary::Summary;
+
+/// Everything that `report.html` shows. Nothing in it is trusted: all of it is escaped.
+#[derive(Clone, Copy, Debug)]
+pub struct Report<'a> {
+    /// The figures, with those of the bounds and all warnings.
+    pub summary: &'a Summary,
+    /// The model that ran (nominal friction).
+    pub model: &'a Model,
+    /// The motion that it ran on, factors applied.
+    pub motion: &'a GroundMotion,
+    /// What was understood of the record: `PEER AT2, 2800 values, 0.005 s, g`.
+    pub record: &'a str,
+    /// The nominal answer; figures over time need its history.
+    pub response: &'a Response,
+    /// Its certificate, with the energy at the knots of that history.
+    pub certificate: &'a Certificate,
+    /// Answers with lower- and upper-bound friction, where they were asked for.
+    pub bounds: Option<[&'a Response; 2]>,
+    /// Floor spectra, where they were asked for.
+    pub floor_spectra: Option<&'a FloorSpectra>,
+    /// Texts that people wrote, shown in full: the model file.
+    pub inputs: &'a [InputText<'a>],
+    /// Files read, with their hashes.
+    pub files: &'a [FileNote<'a>],
+    /// The command as it was typed.
+    pub command_line: &'a str,
+    /// Units to show results in.
+    pub display: DisplayUnits,
+}
+
+/// A text that a person wrote.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InputText<'a> {
+    /// Its path as it was given.
+    pub path: &'a str,
+    /// All of it.
+    pub text: &'a str,
+}
+
+/// A file that was read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FileNote<'a> {
+    /// Its path as it was given.
+    pub path: &'a str,
+    /// SHA-256 of its bytes in hexadecimal digits.
+    pub sha256: &'a str,
+    /// What it is: `model`, `record, PEER AT2, 2800 values`.
+    pub description: &'a str,
+}
+
+/// Absolute-acceleration response spectra of table, block and floors.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FloorSpectra {
+    /// Damping ratio ξ of the oscillators, such as 0.05.
+    pub damping_ratio: f64,
+    /// Periods in s, increasing, > 0.
+    pub periods_s: Vec<f64>,
+    /// Of the table, one value a period, in m/s²; may be empty.
+    pub table_m_per_s2: Vec<f64>,
+    /// Of the block, one value a period, in m/s².
+    pub block_m_per_s2: Vec<f64>,
+    /// Of each floor from the block up, one value a period, in m/s².
+    pub storeys_m_per_s2: Vec<Vec<f64>>,
+}
+
+impl Report<'_> {
+    /// The report as one self-contained HTML page: no scripts, no other files, no network, no
+    /// times of day. Prints on A4.
+    #[must_use]
+    pub fn to_html(&self) -> String {
+        html::page(self)
+    }
+}

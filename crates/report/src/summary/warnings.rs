@@ -1,0 +1,105 @@
+//! Warnings from all sources in one list, the gravest first.
+
+use slipstick::check::Certificate;
+use slipstick::response::{Method, Response, Warning};
+
+use super::{SummaryInputs, exceeds};
+use crate::number::{compact, significant};
+
+/// Below this margin a slightly different record would tell another story.
+const CLOSE_CALL_MARGIN: f64 = 1e-6;
+
+/// Those that follow from the figures, then the solver's, then those given; each once.
+pub fn assemble(inputs: &SummaryInputs) -> Vec<Warning> {
+    let derived = [
+        check_failed(inputs.response, inputs.certificate),
+        gap_exceeded(inputs),
+        close_call(inputs.response, inputs.certificate),
+    ];
+    let mut all: Vec<Warning> = derived.into_iter().flatten().collect();
+    for warning in inputs.response.warnings.iter().chain(inputs.warnings) {
+        // What the solver says of a kind that is derived here would only say it twice.
+        let told = all.iter().any(|seen| {
+            seen.kind == warning.kind
+                && (matches!(seen.kind, "check_failed" | "gap_exceeded" | "close_call")
+                    || seen == warning)
+        });
+        if !told {
+            all.push(warning.clone());
+        }
+    }
+    all
+}
+
+fn check_failed(response: &Response, certificate: &Certificate) -> Option<Warning> {
+    if response.method != Method::Exact || certificate.holds() {
+        return None;
+    }
+    let failed: Vec<String> = [
+        ("equilibrium residual", certificate.equilibrium_residual),
+        ("friction excess", certificate.friction_excess),
+        ("energy balance error", certificate.energy_balance_error),
+    ]
+    .into_iter()
+    .filter(|(_, figure)| exceeds(*figure, certificate.bound))
+    .map(|(name, figure)| format!("{name} {}", significant(figure, 2)))
+    .collect();
+    Some(Warning {
+        kind: "check_failed",
+        time_s: None,
+        message: format!(
+            "the independent check does not confirm this response: {} above the bound {}",
+            failed.join(", "),
+            compact(certificate.bound)
+        ),
+    })
+}
+
+/// Passing the gap, at the first instant known to be beyond it.
+fn gap_exceeded(inputs: &SummaryInputs) -> Option<Warning> {
+    let gap_m = inputs.model.slider().gap_m?;
+    let demands = &inputs.response.demands;
+    let peak_m = demands.peak_sliding_displacement_m;
+    if peak_m.is_nan() || peak_m <= gap_m {
+        return None;
+    }
+    let knot_s = inputs.response.history.as_ref().and_then(|history| {
+        let beyond = history.sliding_displacement_m.iter().position(|s| s.abs() > gap_m)?;
+        Some(history.time_s[beyond])
+    });
+    let event_s = inputs
+        .response
+        .events
+        .iter()
+        .find(|event| event.sliding_displacement_m.abs() > gap_m)
+        .map(|event| event.time_s);
+    let time_s = [knot_s, event_s]
+        .into_iter()
+        .flatten()
+        .fold(demands.peak_sliding_displacement_time_s, f64::min);
+    Some(Warning {
+        kind: "gap_exceeded",
+        time_s: Some(time_s),
+        message: format!(
+            "the block slides past its gap of {} mm: peak {} mm, {} of the gap; what it strikes \
+             there is not modelled",
+            compact(1e3 * gap_m),
+            significant(1e3 * peak_m, 4),
+            significant(peak_m / gap_m, 4),
+        ),
+    })
+}
+
+fn close_call(response: &Response, certificate: &Certificate) -> Option<Warning> {
+    let call = certificate.closest_call.filter(|_| response.method == Method::Exact)?;
+    (call.margin < CLOSE_CALL_MARGIN).then(|| Warning {
+        kind: "close_call",
+        time_s: Some(call.time_s),
+        message: format!(
+            "a decision between sticking and sliding ({}) had a margin of only {}: a slightly \
+             different record would tell another story",
+            call.kind,
+            significant(call.margin, 2)
+        ),
+    })
+}

@@ -1,0 +1,138 @@
+//! The steps that are one call of cargo or little more.
+
+use super::{Problem, Tally};
+use crate::shell;
+use serde_json::Value;
+use std::path::PathBuf;
+
+const WASM: &str = "wasm32-unknown-unknown";
+
+/// Every file is formatted.
+pub fn formatting(_: &mut Tally) -> Result<(), Problem> {
+    ensure_component("rustfmt", "fmt --version")?;
+    Ok(shell::run(&mut shell::cargo("fmt --all --check"))?)
+}
+
+/// No lint is left, in tests, examples and benches neither.
+pub fn lints(_: &mut Tally) -> Result<(), Problem> {
+    ensure_component("clippy", "clippy --version")?;
+    Ok(shell::run(&mut shell::cargo("clippy --workspace --all-targets -- -D warnings"))?)
+}
+
+/// Every public item is documented, and every link in it leads somewhere.
+pub fn documentation(_: &mut Tally) -> Result<(), Problem> {
+    let mut doc = shell::cargo("doc --workspace --no-deps");
+    Ok(shell::run(doc.env("RUSTDOCFLAGS", "-D warnings"))?)
+}
+
+/// Every model in `examples/` runs as it stands and gives JSON.
+pub fn examples(tally: &mut Tally) -> Result<(), Problem> {
+    let models = toml_files("examples")?;
+    if models.is_empty() {
+        return Err(Problem::NotRun("no models in examples/".to_owned()));
+    }
+    // The profile of the tests, so that nothing is compiled once more.
+    shell::run(&mut shell::cargo("build --workspace --profile test --bin slipstick"))?;
+    let slipstick = shell::target_folder()?
+        .join("debug")
+        .join(format!("slipstick{}", std::env::consts::EXE_SUFFIX));
+    let mut failed = Vec::new();
+    for model in &models {
+        let mut run = shell::command(&slipstick);
+        run.arg("run").arg(model).args(["--json", "-q"]);
+        let printed = shell::output(&mut run)
+            .and_then(|text| serde_json::from_str(&text).map_err(|error| error.to_string()));
+        match printed {
+            Ok(Value::Object(_)) => tally.passed += 1,
+            Ok(_) => failed.push(format!("{model}: expected one JSON object")),
+            Err(reason) => failed.push(format!("{model}: {reason}")),
+        }
+    }
+    println!("  {} of {} models ran", models.len() - failed.len(), models.len());
+    tally.failed += failed.len() as u64;
+    if failed.is_empty() { Ok(()) } else { Err(Problem::Failed(failed.join("; "))) }
+}
+
+/// `core` and `report` build for the browser.
+pub fn wasm_build(_: &mut Tally) -> Result<(), Problem> {
+    ensure_wasm()?;
+    let build = format!("build -p slipstick -p slipstick-report --target {WASM}");
+    Ok(shell::run(&mut shell::cargo(&build))?)
+}
+
+/// The example `golden` gives the same bits here and in WebAssembly.
+pub fn wasm_golden(_: &mut Tally) -> Result<(), Problem> {
+    ensure_wasm()?;
+    let host = wasm_host().ok_or_else(|| {
+        Problem::NotRun("found neither node nor wasmtime to run WebAssembly".to_owned())
+    })?;
+    let native = "run --quiet --profile test -p slipstick --example golden";
+    let golden = shell::output(&mut shell::cargo(native))?;
+    println!("  here:  {}", golden.trim());
+    let build = format!("build --quiet -p slipstick --example golden --target {WASM}");
+    // The program compares its own bits with these, and returns the first that differs.
+    shell::run(shell::cargo(&build).env("SLIPSTICK_GOLDEN", golden.trim()))?;
+    let module = shell::target_folder()?.join(WASM).join("debug/examples/golden.wasm");
+    let code = shell::output(&mut host(&module))?;
+    match code.trim() {
+        "0" => Ok(()),
+        code => Err(Problem::Failed(format!("analysis {code} differs in bits under wasm"))),
+    }
+}
+
+/// A program that calls `main` of a WebAssembly module and prints what it returns.
+fn wasm_host() -> Option<fn(&PathBuf) -> std::process::Command> {
+    const SCRIPT: &str = "WebAssembly.instantiate(require('fs').readFileSync(process.argv[1]))\
+        .then(({instance}) => console.log(instance.exports.main(0, 0)))";
+    if shell::answers("node", "--version") {
+        return Some(|module| {
+            let mut node = shell::command("node");
+            node.args(["-e", SCRIPT]).arg(module);
+            node
+        });
+    }
+    shell::answers("wasmtime", "--version").then_some(|module| {
+        let mut wasmtime = shell::command("wasmtime");
+        wasmtime.args(["run", "--invoke", "main"]).arg(module).args(["0", "0"]);
+        wasmtime
+    })
+}
+
+/// Adds a component of the toolchain where it is missing.
+fn ensure_component(component: &str, probe: &str) -> Result<(), Problem> {
+    let cargo = shell::cargo("").get_program().to_string_lossy().into_owned();
+    if shell::answers(&cargo, probe) {
+        return Ok(());
+    }
+    shell::run(shell::command("rustup").args(["component", "add", component]))
+        .map_err(|reason| Problem::NotRun(format!("{component} is missing; {reason}")))
+}
+
+/// Adds the target where it is missing.
+fn ensure_wasm() -> Result<(), Problem> {
+    let installed =
+        shell::output(shell::command("rustc").args(["--print", "target-libdir", "--target", WASM]))
+            .is_ok_and(|folder| PathBuf::from(folder.trim()).is_dir());
+    if installed {
+        return Ok(());
+    }
+    shell::run(shell::command("rustup").args(["target", "add", WASM]))
+        .map_err(|reason| Problem::NotRun(format!("the target {WASM} is missing; {reason}")))
+}
+
+/// The TOML files of a folder, sorted, as paths from the root of the workspace.
+fn toml_files(folder: &str) -> Result<Vec<String>, String> {
+    let Ok(entries) = std::fs::read_dir(shell::root().join(folder)) else {
+        return Ok(Vec::new());
+    };
+    let mut files = Vec::new();
+    for entry in entries {
+        let name = entry.map_err(|error| format!("{folder}: {error}"))?.file_name();
+        let name = name.to_string_lossy();
+        if name.ends_with(".toml") {
+            files.push(format!("{folder}/{name}"));
+        }
+    }
+    files.sort();
+    Ok(files)
+}

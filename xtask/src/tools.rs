@@ -1,0 +1,71 @@
+//! Tasks that need a tool beyond cargo and rustup; each installs its own.
+
+use crate::shell::{self, Outcome};
+
+/// Licences, advisories, sources and doubles, by `deny.toml`.
+pub fn deny() -> Outcome {
+    shell::ensure_installed("cargo-deny", "--version", "cargo-deny")?;
+    shell::run(&mut shell::cargo("deny --workspace check"))
+}
+
+/// The manual, into `book/build`.
+pub fn book() -> Outcome {
+    shell::ensure_installed("mdbook", "--version", "mdbook")?;
+    shell::run(shell::command("mdbook").args(["build", "book"]))
+}
+
+/// Every reference case with the error reached, as a table of the book.
+pub fn reference(options: &[&str]) -> Outcome {
+    let table = shell::output(&mut shell::cargo(
+        "run --quiet --release -p slipstick --example verification",
+    ))?;
+    match options {
+        [] => {
+            print!("{table}");
+            Ok(())
+        }
+        ["--write"] => {
+            shell::write(&shell::root().join("book/src/generated/verification.md"), &table)
+        }
+        _ => Err(format!("reference: expected --write or nothing, found {}", options.join(" "))),
+    }
+}
+
+/// Runs fuzz targets, all or the one named, each for a while.
+pub fn fuzz(options: &[&str]) -> Outcome {
+    let (chosen, seconds) = match options {
+        [] => (None, "60"),
+        ["--seconds", seconds] => (None, *seconds),
+        [target] => (Some(*target), "60"),
+        [target, "--seconds", seconds] => (Some(*target), *seconds),
+        _ => return Err("fuzz: expected [TARGET] [--seconds N]".to_owned()),
+    };
+    let seconds: u32 = seconds
+        .parse()
+        .map_err(|_| format!("fuzz --seconds: expected a whole number, found {seconds}"))?;
+    let targets = fuzz_targets()?;
+    if let Some(target) = chosen.filter(|target| !targets.iter().any(|t| t == target)) {
+        return Err(format!("fuzz: expected one of {}, found {target}", targets.join(", ")));
+    }
+    shell::ensure_installed("cargo-fuzz", "--version", "cargo-fuzz")?;
+    let mut failed = Vec::new();
+    for target in targets.iter().filter(|target| chosen.is_none_or(|c| c == *target)) {
+        let run = format!("fuzz run {target} -- -max_total_time={seconds}");
+        // Sanitizers are still behind a flag of the nightly compiler; this opens it on stable.
+        if shell::run(shell::cargo(&run).env("RUSTC_BOOTSTRAP", "1")).is_err() {
+            failed.push(target.as_str());
+        }
+    }
+    if failed.is_empty() { Ok(()) } else { Err(format!("fuzz: failed: {}", failed.join(", "))) }
+}
+
+fn fuzz_targets() -> Result<Vec<String>, String> {
+    let list = shell::root().join("fuzz/fuzz_targets");
+    let entries = std::fs::read_dir(&list).map_err(|e| format!("{}: {e}", list.display()))?;
+    let mut targets: Vec<String> = entries
+        .filter_map(Result::ok)
+        .filter_map(|entry| Some(entry.file_name().to_str()?.strip_suffix(".rs")?.to_owned()))
+        .collect();
+    targets.sort();
+    Ok(targets)
+}
