@@ -141,3 +141,101 @@ pub struct RecordError {
     /// The offending word, cut to 40 characters.
     pub found: String,
 }
+
+/// Text that is not a quantity: what a unit's reader expected and what it found.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("expected {expected}, found {found}{}", nearest_suffix(nearest.as_deref()))]
+pub struct UnitError {
+    /// What to write.
+    pub expected: String,
+    /// What was written, cut to 40 characters.
+    pub found: String,
+    /// The unit that was probably meant, where one is near.
+    pub nearest: Option<String>,
+}
+
+/// A place in a text, which an editor can jump to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The caller's name for the text: a path, or the option that set a key.
+    pub source_name: String,
+    /// Line of its first character, counted from 1.
+    pub line: usize,
+    /// Its column in characters, counted from 1.
+    pub column: usize,
+    /// Its bytes in the text; empty where something is missing.
+    pub span: std::ops::Range<usize>,
+}
+
+/// Text that is not a model, in the `file:line:column` form an editor can jump to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InputError {
+    /// The offending key or value.
+    pub place: Box<Place>,
+    /// The key's path, joined by dots, storeys counted from 1; empty where the text is not TOML.
+    pub path: String,
+    /// What was expected.
+    pub expected: String,
+    /// What was found, cut to 40 characters.
+    pub found: String,
+    /// The key, unit or word that was probably meant.
+    pub nearest: Option<String>,
+}
+
+impl std::error::Error for InputError {}
+
+impl std::fmt::Display for InputError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Place { source_name, line, column, .. } = &*self.place;
+        write!(f, "{source_name}:{line}:{column}: ")?;
+        if !self.path.is_empty() {
+            write!(f, "{}: ", self.path)?;
+        }
+        let nearest = nearest_suffix(self.nearest.as_deref());
+        write!(f, "expected {}, found {}{nearest}", self.expected, self.found)
+    }
+}
+
+fn nearest_suffix(nearest: Option<&str>) -> String {
+    nearest.map_or_else(String::new, |nearest| format!("; nearest is \"{nearest}\""))
+}
+
+/// A found text as messages show it: control characters escaped, cut to 40 characters.
+pub(crate) fn cut(text: &str) -> String {
+    const LONGEST: usize = 40;
+    let mut shown = String::new();
+    for (count, character) in text.chars().enumerate() {
+        if count == LONGEST {
+            shown.push('…');
+            break;
+        }
+        if character.is_control() {
+            shown.extend(character.escape_default());
+        } else {
+            shown.push(character);
+        }
+    }
+    shown
+}
+
+/// The word that takes the fewest single-character edits to become `word`; the first of equals.
+pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
+    known.min_by_key(|candidate| edit_distance(word, candidate)).map(str::to_owned)
+}
+
+/// Levenshtein's distance between two words, the first 64 characters of each.
+pub(crate) fn edit_distance(a: &str, b: &str) -> usize {
+    const LONGEST: usize = 64;
+    let b: Vec<char> = b.chars().take(LONGEST).collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, a_i) in a.chars().take(LONGEST).enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, b_j) in b.iter().enumerate() {
+            let substituted = diagonal + usize::from(a_i != *b_j);
+            diagonal = row[j + 1];
+            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}

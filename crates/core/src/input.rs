@@ -1,1 +1,175 @@
 //! Model text to checked values.
+//!
+//! A model file is TOML; every dimensional value is a number with its unit. [`parse`] checks
+//! everything and repairs nothing: an [`InputError`] names the file, line, column and key, what was
+//! expected and what was found. [`json_schema`] and [`Override`] speak of the same keys by the same
+//! paths, because all three read one description.
+
+use crate::error::{InputError, Place};
+use crate::model::Model;
+use crate::response::Method;
+
+mod build;
+mod frame;
+mod json;
+mod json_schema;
+mod keys;
+mod motion;
+mod overrides;
+mod reader;
+mod schema;
+#[cfg(test)]
+mod tests;
+mod tree;
+
+pub use json_schema::json_schema;
+pub use keys::MAX_STOREYS;
+pub use motion::{
+    Channel, MotionSource, Pulse, PulseShape, RecordSource, Scale, Sine, Sweep, SweepKind,
+};
+pub use overrides::Override;
+
+/// All that a model file says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Analysis {
+    /// The model's name, where it has one.
+    pub name: Option<String>,
+    /// The checked model.
+    pub model: Model,
+    /// Factors on both coefficients of friction for which it is run besides.
+    pub friction_bounds: Option<FrictionBounds>,
+    /// How the table moves; `None` where the file does not say.
+    pub motion: Option<MotionSource>,
+    /// How the response is computed.
+    pub method: Method,
+    /// Free vibration after the motion ends, in s.
+    pub tail_s: f64,
+    values: reader::Values,
+}
+
+/// Factors on both coefficients of friction, `0 ≤ lower ≤ upper`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrictionBounds {
+    /// Factor of the lower bound.
+    pub lower: f64,
+    /// Factor of the upper bound.
+    pub upper: f64,
+}
+
+/// A value in use, as it was written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Input<'a> {
+    /// The key's path, storeys counted from 1.
+    pub path: &'a str,
+    /// The text of the value, with its unit.
+    pub text: &'a str,
+    /// Its number, in SI where it has a unit; `None` for text.
+    pub value: Option<f64>,
+    /// The SI unit of `value` (Hz for frequencies); empty where it has none.
+    pub unit: &'static str,
+}
+
+/// Reads a model file's text, with keys set from outside the file, in their order.
+///
+/// `source_name` is what errors call the text. A byte order mark and CRLF are read.
+///
+/// # Errors
+/// [`InputError`] for the first fault found.
+///
+/// # Examples
+/// ```
+/// use slipstick::input::{Override, parse};
+///
+/// let text = "[block]\nmass = \"325 kg\"\n[slider]\nstatic_friction = 0.02\nkinetic_friction = 0.012\n";
+/// let set = [Override::parse("slider.spring=143 kN/m")?];
+/// let analysis = parse("mock-up.toml", text, &set)?;
+/// assert_eq!(analysis.model.slider().stiffness_n_per_m, 143e3);
+///
+/// let error = parse("mock-up.toml", &text.replace("kg", "mm"), &[]).unwrap_err();
+/// assert_eq!(
+///     error.to_string(),
+///     "mock-up.toml:2:8: block.mass: expected a mass, such as \"325 kg\", found a length, \"325 mm\""
+/// );
+/// # Ok::<(), slipstick::error::InputError>(())
+/// ```
+pub fn parse(
+    source_name: &str,
+    text: &str,
+    overrides: &[Override],
+) -> Result<Analysis, InputError> {
+    let mut sources = tree::Sources::default();
+    let file = sources.add(source_name, text);
+    let mut root = tree::parse_document(&sources, file)?;
+    for set in overrides {
+        set.apply(&mut sources, &mut root)?;
+    }
+    let values = reader::Values::read(sources, &root, &keys::MODEL)?;
+    build::analysis(values)
+}
+
+/// As [`parse`], for the bytes of a file.
+///
+/// # Errors
+/// As [`parse`], and for bytes that are not UTF-8.
+pub fn from_bytes(
+    source_name: &str,
+    bytes: &[u8],
+    overrides: &[Override],
+) -> Result<Analysis, InputError> {
+    let error = match std::str::from_utf8(bytes) {
+        Ok(text) => return parse(source_name, text, overrides),
+        Err(error) => error,
+    };
+    let at = error.valid_up_to();
+    let before = bytes.get(..at).and_then(|valid| std::str::from_utf8(valid).ok()).unwrap_or("");
+    let (line, column) = tree::line_and_column(before, at);
+    let found = bytes.get(at).map_or("nothing".to_owned(), |byte| format!("the byte 0x{byte:02x}"));
+    let span = at..(at + 1).min(bytes.len());
+    Err(InputError {
+        place: Box::new(Place { source_name: source_name.to_owned(), line, column, span }),
+        path: String::new(),
+        expected: "text in UTF-8".to_owned(),
+        found,
+        nearest: None,
+    })
+}
+
+impl Analysis {
+    /// Every value in use as it was written, in the order of the manual; defaults are not among them.
+    pub fn inputs(&self) -> impl Iterator<Item = Input<'_>> {
+        self.values.leaves.iter().map(|leaf| Input {
+            path: &leaf.path,
+            text: &leaf.written,
+            value: self.values.number(&leaf.path),
+            unit: leaf.unit,
+        })
+    }
+
+    /// The number written at a path, in SI where it has a unit; `None` where none is written.
+    #[must_use]
+    pub fn value(&self, path: &str) -> Option<f64> {
+        self.values.number(path)
+    }
+
+    /// The error for a value that only its user can judge (a file that is not there, a ramp longer
+    /// than the motion), at that value; where it is not written, at the table that lacks it.
+    pub fn error_at(
+        &self,
+        path: &str,
+        expected: impl Into<String>,
+        found: impl Into<String>,
+    ) -> InputError {
+        self.values.error(path, expected, found)
+    }
+
+    /// How the table moves.
+    ///
+    /// # Errors
+    /// [`InputError`] where neither the file nor the caller says it.
+    pub fn required_motion(&self) -> Result<&MotionSource, InputError> {
+        self.motion.as_ref().ok_or_else(|| {
+            let expected = "a table [motion] with one of the keys record, sine, sweep, pulse";
+            self.error_at("motion", expected, "nothing")
+        })
+    }
+}

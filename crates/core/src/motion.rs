@@ -1,5 +1,15 @@
 //! Ground motion: piecewise-linear table acceleration along and normal to the sliding surface.
 
+mod combine;
+mod figures;
+mod made;
+mod oscillator;
+mod spectrum;
+
+pub use figures::Figures;
+pub use made::{Pulse, PulseShape, Sine, Sweep, SweepKind};
+pub use spectrum::{Ordinates, Spectrum, spectrum};
+
 use crate::error::MotionError;
 
 /// Most samples that a motion may have.
@@ -151,8 +161,8 @@ fn check_values(n: usize, horizontal: &[f64], vertical: Option<&[f64]>) -> Resul
     Ok(())
 }
 
-/// The step of `times_s` (which start at 0) if every time is a multiple of it to within rounding.
-fn constant_step(times_s: &[f64]) -> Option<f64> {
+/// The step of `times_s` (two or more, which start at 0) if every time is a multiple of it to within rounding.
+pub(crate) fn constant_step(times_s: &[f64]) -> Option<f64> {
     let n = times_s.len();
     let end_s = times_s[n - 1];
     let dt_s = end_s / (n - 1) as f64;

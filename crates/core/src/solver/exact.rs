@@ -172,10 +172,7 @@ struct Run<'a, V: PerStorey, R> {
     events: Vec<Event>,
     sliding: Sliding,
     events_in_interval: u32,
-    /// Bound on the norm of `ẍ` over the coming sample, and how many samples it may still serve.
-    bend: f64,
-    bend_life: u32,
-    /// What a kink of acceleration and of friction between samples adds to it.
+    /// What a kink of acceleration and of normal force between samples adds to the norm of `ẍ`.
     per_kink: [f64; 2],
 }
 
@@ -231,8 +228,6 @@ impl<'a, V: PerStorey, R: Recorder<V>> Run<'a, V, R> {
             start: None,
             events: Vec::new(),
             events_in_interval: 0,
-            bend: 0.0,
-            bend_life: 0,
             per_kink,
         }
     }

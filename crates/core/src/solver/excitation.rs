@@ -68,6 +68,15 @@ impl<'a> Excitation<'a> {
         }
     }
 
+    /// Normal forces at the samples, unclamped, where they vary.
+    #[inline(always)]
+    pub(super) fn varying_normal(&self) -> Option<&[f64]> {
+        match &self.normal {
+            Normal::Constant(_) => None,
+            Normal::Varying(normal) => Some(normal),
+        }
+    }
+
     /// Normal forces at both ends of an interval, unclamped.
     #[inline(always)]
     pub(super) fn normal_n(&self, interval: usize) -> [f64; 2] {

@@ -152,6 +152,7 @@ impl<V: PerStorey> Extremes<V> {
         w: f64,
         eta: &[f64],
         f: &[f64],
+        shear: f64,
         u: f64,
         friction: f64,
     ) -> V::Tracked {
@@ -162,7 +163,7 @@ impl<V: PerStorey> Extremes<V> {
         y[tracked::BLOCK] = u;
         y[tracked::SLIDER] = friction - system.stiffness_n_per_m * s - system.damper_n_s_per_m * w;
         y[tracked::FRICTION] = friction;
-        y[tracked::BASE_SHEAR] = system.base_shear_n(f);
+        y[tracked::BASE_SHEAR] = shear;
         let (q, rest) = y[tracked::STOREYS..].split_at_mut(n);
         let (drift, acceleration) = rest.split_at_mut(n);
         system.floors(eta, q);
@@ -196,14 +197,17 @@ impl<V: PerStorey> Extremes<V> {
         };
         let (start, end, norm) = (start.as_ref(), end.as_ref(), norm.as_ref());
         let (up, down) = (self.largest.as_ref(), self.smallest.as_ref());
-        let mut open = false;
+        // Left at the first: in one go the compiler would gather into vectors what has just been
+        // stored one by one, and wait for the stores.
         for j in 0..start.len() {
             let (low, high) =
                 if start[j] < end[j] { (start[j], end[j]) } else { (end[j], start[j]) };
             let slack = reach * norm[j];
-            open |= high + slack > up[j] || low - slack < down[j];
+            if high + slack > up[j] || low - slack < down[j] {
+                return true;
+            }
         }
-        open
+        false
     }
 
     /// Takes the values at an instant.
@@ -316,7 +320,9 @@ impl<V: PerStorey> Extremes<V> {
             }
             let coefficients: [V::Tracked; DEGREE + 1] = core::array::from_fn(|k| {
                 let (eta, f) = (series.eta[k].as_ref(), series.f[k].as_ref());
-                self.values(system, series.s[k], series.w[k], eta, f, series.u[k], friction[k])
+                let shear = system.base_shear_n(f);
+                let (s, w, u) = (series.s[k], series.w[k], series.u[k]);
+                self.values(system, s, w, eta, f, shear, u, friction[k])
             });
             for j in 0..tracked {
                 if in_question(&self.largest, &self.smallest, j) {

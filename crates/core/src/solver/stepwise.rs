@@ -48,8 +48,16 @@ pub(super) fn solve(model: &Model, motion: &GroundMotion) -> Result<Response, So
     let mut note = |sample: usize, step: &Step, mode: Mode, row: bool| {
         let friction_n = program.friction_n(step, sample);
         let state = step.state();
-        let values =
-            extremes.values(&system, step.s, step.w, &step.eta, &step.f, step.u, friction_n);
+        let values = extremes.values(
+            &system,
+            step.s,
+            step.w,
+            &step.eta,
+            &step.f,
+            system.base_shear_n(&step.f),
+            step.u,
+            friction_n,
+        );
         extremes.attain(&values);
         let time_s = excitation.times_s[sample];
         let (u, f, table) = (step.u, step.f.as_slice(), table[sample]);

@@ -4,7 +4,7 @@ use super::{EVENTS_PER_INTERVAL_LIMIT, Run, Start};
 use crate::error::SolveError;
 use crate::friction::Direction;
 use crate::linear::polynomial::{DEGREE, Polynomial, deflated, first_root};
-use crate::linear::{Load, MAX_RATE_STEP, PerStorey, State};
+use crate::linear::{Load, MAX_RATE_STEP, PerStorey, State, System};
 use crate::response::{Event, EventKind, Mode};
 use crate::solver::excitation::Stretch;
 use crate::solver::extremes::Place;
@@ -13,7 +13,6 @@ use crate::solver::recorder::{Knot, Recorder};
 impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
     /// Walks through one sample interval.
     pub(super) fn long_way(&mut self, sample: usize) -> Result<(), SolveError> {
-        self.bend_life = 0;
         let times_s = self.excitation.times_s;
         let length_s = times_s[sample + 1] - times_s[sample];
         let kink_s = self.excitation.kink(sample).map(|part| part * length_s);
@@ -265,7 +264,6 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
     }
 
     fn push_event(&mut self, stretch: &Stretch, at_s: f64, kind: EventKind) {
-        self.bend_life = 0;
         self.events_in_interval += 1;
         self.events.push(Event {
             time_s: self.excitation.times_s[stretch.interval] + at_s,
@@ -292,9 +290,14 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
     /// `u` in slip under the friction force `friction_n`.
     #[inline(always)]
     pub(super) fn u_in_slip(&self, x: &State<V>, f: &[f64], friction_n: f64) -> f64 {
-        let system = self.system;
+        Self::u_of(self.system, x, self.system.base_shear_n(f), friction_n)
+    }
+
+    /// `u` in slip under the friction force `friction_n` and the base shear `shear_n`.
+    #[inline(always)]
+    pub(super) fn u_of(system: &System<V>, x: &State<V>, shear_n: f64, friction_n: f64) -> f64 {
         ((friction_n - system.damper_n_s_per_m * x.w())
-            + (system.base_shear_n(f) - system.stiffness_n_per_m * x.s()))
+            + (shear_n - system.stiffness_n_per_m * x.s()))
             / system.block_mass_kg
     }
 
@@ -319,10 +322,13 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
             Mode::Stick => a,
             Mode::Slip(_) => self.u_in_slip(x, f.as_ref(), friction_n),
         };
-        self.extremes.values(self.system, x.s(), x.w(), x.eta(), f.as_ref(), u, friction_n)
+        let shear = self.system.base_shear_n(f.as_ref());
+        let f = f.as_ref();
+        self.extremes.values(self.system, x.s(), x.w(), x.eta(), f, shear, u, friction_n)
     }
 
     /// Shows the whole of the last series to the extremes.
+    #[inline(always)]
     fn look(&mut self, stretch: &Stretch, from_s: f64, length_s: f64, before: &State<V>) {
         self.look_to(stretch, from_s, 1.0, length_s, before);
     }

@@ -10,6 +10,19 @@ use crate::solver::recorder::Recorder;
 /// Samples after which the bound on `ẍ` is made anew from the state.
 const BOUND_LIFE: u32 = 16;
 
+/// Bound on the norm of `ẍ` over the coming sample, and how many samples it may still serve.
+struct Bend {
+    norm: f64,
+    life: u32,
+}
+
+impl Bend {
+    /// To be made from the state before it is used.
+    fn due() -> Self {
+        Self { norm: 0.0, life: 0 }
+    }
+}
+
 impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
     /// Takes whole samples while the bounds show that nothing happens in them; the first sample
     /// that they do not vouch for.
@@ -37,43 +50,49 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let coefficient = excitation.kinetic(direction);
         let norm = self.extremes.velocity_norm();
         let mode = Mode::Slip(direction);
-        let last = excitation.acceleration.len() - 1;
-        let [n0, _] = if sample < last { excitation.normal_n(sample) } else { [0.0; 2] };
-        if !(n0 >= 0.0) {
+        let acceleration = excitation.acceleration.as_slice();
+        let mut normal = excitation.normal_at_sample(sample);
+        if !(normal >= 0.0) {
             return sample;
         }
-        let mut values = self.values(excitation.acceleration[sample], coefficient * n0);
-        while sample < last {
-            let [n0, n1] = excitation.normal_n(sample);
-            let a = [excitation.acceleration[sample], excitation.acceleration[sample + 1]];
-            let friction = [coefficient * n0, coefficient * n1];
-            let next = propagator.slip(&self.state, a, friction);
-            let reach = eighth * self.bend(sample, friction);
-            let least = (sign * self.state.w()).min(sign * next.w());
-            if !(least > reach * norm && n1 >= 0.0) {
+        // The state stays in registers; it is written back at the end.
+        let mut state = self.state.clone();
+        let mut values = self.values(acceleration[sample], coefficient * normal);
+        let mut bend = Bend::due();
+        while let Some(&a1) = acceleration.get(sample + 1) {
+            let a = [acceleration[sample], a1];
+            let next_normal = excitation.normal_at_sample(sample + 1);
+            let friction = [coefficient * normal, coefficient * next_normal];
+            let next = propagator.slip(&state, a, friction);
+            if bend.life == 0 {
+                self.state.clone_from(&state);
+                bend = Bend { norm: self.bend_at(sample, friction), life: BOUND_LIFE };
+            } else {
+                self.add_kink(&mut bend, sample);
+            }
+            let reach = eighth * bend.norm;
+            let least = (sign * state.w()).min(sign * next.w());
+            if !(least > reach * norm && next_normal >= 0.0) {
                 break;
             }
             let f = system.restoring(next.eta(), next.eta_dot());
-            let u = self.u_in_slip(&next, f.as_ref(), friction[1]);
+            let shear = system.base_shear_n(f.as_ref());
+            let u = Self::u_of(system, &next, shear, friction[1]);
             let (eta, w, s) = (next.eta(), next.w(), next.s());
-            let end = self.extremes.values(system, s, w, eta, f.as_ref(), u, friction[1]);
+            let end = self.extremes.values(system, s, w, eta, f.as_ref(), shear, u, friction[1]);
             if self.extremes.may_exceed(&values, &end, reach, mode) {
-                let place = Place {
-                    interval: sample,
-                    from_s: 0.0,
-                    length_s: dt_s,
-                    mode,
-                    state: &self.state,
-                };
+                let state = &state;
+                let place = Place { interval: sample, from_s: 0.0, length_s: dt_s, mode, state };
                 self.extremes.keep(system, excitation, &values, &end, reach, &place);
             }
             if R::WANTED {
+                self.state.clone_from(&state);
                 self.record_sample(sample, mode, true);
             }
-            values = end;
-            self.state = next;
+            (values, normal, state) = (end, next_normal, next);
             sample += 1;
         }
+        self.state = state;
         sample
     }
 
@@ -83,69 +102,68 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let eighth = 0.125 * dt_s * dt_s;
         let norm = self.extremes.demand_norm();
         let [low, high] = self.bounds;
-        let last = excitation.acceleration.len() - 1;
+        let acceleration = excitation.acceleration.as_slice();
         let spring_n = system.stiffness_n_per_m * self.state.s();
-        let demand =
-            |a: f64, f: &[f64]| system.block_mass_kg * a + spring_n - system.base_shear_n(f);
-        let a0 = excitation.acceleration[sample];
-        let f0 = system.restoring(self.state.eta(), self.state.eta_dot());
-        let mut held_n = demand(a0, f0.as_ref());
-        let mut values = self.values(a0, held_n);
-        while sample < last {
-            let [n0, n1] = excitation.normal_n(sample);
-            let a = [excitation.acceleration[sample], excitation.acceleration[sample + 1]];
-            let next = propagator.stick(&self.state, a);
-            let reach = eighth * self.bend(sample, [0.0; 2]);
+        let demand = |a: f64, shear_n: f64| (system.block_mass_kg * a + spring_n) - shear_n;
+        let mut held_n = {
+            let f = system.restoring(self.state.eta(), self.state.eta_dot());
+            demand(acceleration[sample], system.base_shear_n(f.as_ref()))
+        };
+        let mut normal = excitation.normal_at_sample(sample);
+        let mut state = self.state.clone();
+        let mut values = self.values(acceleration[sample], held_n);
+        let mut bend = Bend::due();
+        while let Some(&a1) = acceleration.get(sample + 1) {
+            let next = propagator.stick(&state, [acceleration[sample], a1]);
+            let next_normal = excitation.normal_at_sample(sample + 1);
+            if bend.life == 0 {
+                self.state.clone_from(&state);
+                bend = Bend { norm: self.bend_at(sample, [0.0; 2]), life: BOUND_LIFE };
+            } else {
+                self.add_kink(&mut bend, sample);
+            }
+            let reach = eighth * bend.norm;
             let f = system.restoring(next.eta(), next.eta_dot());
-            let holds_n = demand(a[1], f.as_ref());
+            let shear = system.base_shear_n(f.as_ref());
+            let holds_n = demand(a1, shear);
             let slack = reach * norm;
             let held = |demand: f64, normal: f64| {
                 low * normal < demand - slack && demand + slack < high * normal
             };
-            if !(held(held_n, n0) && held(holds_n, n1)) {
+            if !(held(held_n, normal) && held(holds_n, next_normal)) {
                 break;
             }
             let (eta, s) = (next.eta(), next.s());
-            let end = self.extremes.values(system, s, 0.0, eta, f.as_ref(), a[1], holds_n);
+            let end = self.extremes.values(system, s, 0.0, eta, f.as_ref(), shear, a1, holds_n);
             if self.extremes.may_exceed(&values, &end, reach, Mode::Stick) {
-                let place = Place {
-                    interval: sample,
-                    from_s: 0.0,
-                    length_s: dt_s,
-                    mode: Mode::Stick,
-                    state: &self.state,
-                };
+                let (mode, state) = (Mode::Stick, &state);
+                let place = Place { interval: sample, from_s: 0.0, length_s: dt_s, mode, state };
                 self.extremes.keep(system, excitation, &values, &end, reach, &place);
             }
             if R::WANTED {
+                self.state.clone_from(&state);
                 self.record_sample(sample, Mode::Stick, true);
             }
-            (values, held_n) = (end, holds_n);
-            self.state = next;
+            (values, normal, held_n, state) = (end, next_normal, holds_n, next);
             sample += 1;
         }
+        self.state = state;
         sample
     }
 
-    /// Bound on the norm of `ẍ` over a whole sample. Within a sample it does not grow; from one to
-    /// the next it grows by the kink of the load.
+    /// Within a sample the norm of `ẍ` does not grow; from one to the next it grows by the kink of
+    /// the load.
     #[inline(always)]
-    fn bend(&mut self, sample: usize, friction: [f64; 2]) -> f64 {
-        if self.bend_life == 0 {
-            self.bend = self.bend_at(sample, friction);
-            self.bend_life = BOUND_LIFE;
-        } else {
-            let a = &self.excitation.acceleration;
-            let kink = (a[sample + 1] - a[sample]) - (a[sample] - a[sample - 1]);
-            let [n_before, n_here] = self.excitation.normal_n(sample - 1);
-            let [_, n_after] = self.excitation.normal_n(sample);
-            let turn = (n_after - n_here) - (n_here - n_before);
-            self.bend += self.per_kink[0] * kink.abs() + self.per_kink[1] * turn.abs();
+    fn add_kink(&self, bend: &mut Bend, sample: usize) {
+        let a = &self.excitation.acceleration[sample - 1..sample + 2];
+        let kink = (a[2] - a[1]) - (a[1] - a[0]);
+        bend.norm += self.per_kink[0] * kink.abs();
+        if let Some(n) = self.excitation.varying_normal() {
+            let turn = (n[sample + 1] - n[sample]) - (n[sample] - n[sample - 1]);
+            bend.norm += self.per_kink[1] * turn.abs();
         }
-        self.bend_life -= 1;
-        self.bend
+        bend.life -= 1;
     }
-
     /// Norm of `ẍ` at the start of a sample.
     fn bend_at(&self, sample: usize, friction: [f64; 2]) -> f64 {
         let system = self.system;

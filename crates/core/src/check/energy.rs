@@ -1,0 +1,74 @@
+//! The balance of energy in the frame of the table.
+
+use super::EnergyHistory;
+use super::structure::larger;
+
+/// A sum that keeps what rounding drops (Neumaier's), so that a long record costs no digits.
+#[derive(Clone, Copy, Default)]
+struct Sum {
+    total: f64,
+    dropped: f64,
+}
+
+impl Sum {
+    fn add(&mut self, value: f64) {
+        let total = self.total + value;
+        self.dropped += if self.total.abs() >= value.abs() {
+            (self.total - total) + value
+        } else {
+            (value - total) + self.total
+        };
+        self.total = total;
+    }
+
+    fn value(self) -> f64 {
+        self.total + self.dropped
+    }
+}
+
+/// Work and losses up to now, and the balance at every knot.
+#[derive(Default)]
+pub(super) struct Energy {
+    input: Sum,
+    size: Sum,
+    damping: Sum,
+    friction: Sum,
+    difference: f64,
+    scale: f64,
+    pub(super) history: EnergyHistory,
+}
+
+impl Energy {
+    /// Begins with the initial energy `E₀` in J.
+    pub(super) fn start(&mut self, initial_j: f64) {
+        self.input.add(initial_j);
+        self.size.add(initial_j);
+    }
+
+    /// Adds work of the table, the integral of its size, and what dampers and friction took, in J.
+    pub(super) fn spend(&mut self, work: f64, size: f64, damping: f64, friction: f64) {
+        self.input.add(work);
+        self.size.add(size);
+        self.damping.add(damping);
+        self.friction.add(friction);
+    }
+
+    /// Balances the books at a knot with this kinetic and strain energy in J.
+    pub(super) fn knot(&mut self, kinetic: f64, strain: f64) {
+        let [input, damping, friction] = [self.input, self.damping, self.friction].map(Sum::value);
+        let difference = input - kinetic - strain - damping - friction;
+        self.difference = larger(self.difference, difference);
+        self.scale =
+            larger(self.scale, self.size.value() + kinetic + strain + damping + friction.abs());
+        self.history.input_j.push(input);
+        self.history.kinetic_j.push(kinetic);
+        self.history.strain_j.push(strain);
+        self.history.damping_j.push(damping);
+        self.history.friction_j.push(friction);
+    }
+
+    /// The largest difference over the largest sum of everything.
+    pub(super) fn error(&self) -> f64 {
+        if self.difference == 0.0 { 0.0 } else { self.difference / self.scale }
+    }
+}

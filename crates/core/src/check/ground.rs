@@ -1,0 +1,129 @@
+//! The motion as the check reads it: straight pieces and one-sided limits.
+
+use crate::model::Model;
+use crate::motion::GroundMotion;
+
+/// What the table does at one instant, on one side of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Load {
+    /// `Ü` in m/s².
+    pub(super) table: f64,
+    /// `a = Ü + g sin θ` in m/s².
+    pub(super) a: f64,
+    /// `N` in N.
+    pub(super) normal: f64,
+    /// `dÜ/dt` on that side in m/s³.
+    pub(super) slope: f64,
+}
+
+/// A stretch in which `a` and `N` are linear.
+pub(super) struct Piece {
+    pub(super) to_s: f64,
+    pub(super) loads: [Load; 2],
+}
+
+/// A motion under a model: its accelerations with the slope, and the normal force.
+pub(super) struct Ground<'a> {
+    times_s: &'a [f64],
+    horizontal: &'a [f64],
+    vertical: Option<&'a [f64]>,
+    slope: f64,
+    gravity: f64,
+    total_kg: f64,
+    /// Index of the sample at or before the last piece asked for.
+    cursor: usize,
+}
+
+impl<'a> Ground<'a> {
+    pub(super) fn new(model: &Model, motion: &'a GroundMotion) -> Self {
+        Self {
+            times_s: motion.times_s(),
+            horizontal: motion.horizontal_m_per_s2(),
+            vertical: motion.vertical_m_per_s2(),
+            slope: model.slope_m_per_s2(),
+            gravity: model.normal_gravity_m_per_s2(),
+            total_kg: model.total_mass_kg(),
+            cursor: 0,
+        }
+    }
+
+    /// The piece from `from_s` on, no longer than to `end_s`; ends where contact is lost or found.
+    /// The times asked for do not decrease.
+    pub(super) fn piece(&mut self, from_s: f64, end_s: f64) -> Piece {
+        let times = self.times_s;
+        while self.cursor + 1 < times.len() && times[self.cursor + 1] <= from_s {
+            self.cursor += 1;
+        }
+        let i = self.cursor;
+        if i + 1 == times.len() {
+            return Piece { to_s: end_s, loads: [self.at_rest(); 2] };
+        }
+        let mut to_s = end_s.min(times[i + 1]);
+        let [from, to] = [from_s, to_s].map(|t| self.between(i, t));
+        let (mut to, from) = (to, from);
+        if from.1 * to.1 < 0.0 {
+            let crossing_s = from_s + (to_s - from_s) * (from.1 / (from.1 - to.1));
+            if from_s < crossing_s && crossing_s < to_s {
+                to_s = crossing_s;
+                to = (self.between(i, to_s).0, 0.0);
+            }
+        }
+        let slope = (self.horizontal[i + 1] - self.horizontal[i]) / (times[i + 1] - times[i]);
+        Piece { to_s, loads: [from, to].map(|(table, press)| self.load(table, press, slope)) }
+    }
+
+    /// Limits from the left and from the right.
+    pub(super) fn limits(&self, t: f64) -> [Load; 2] {
+        let times = self.times_s;
+        let n = times.len();
+        let inside = |i: usize| {
+            let (table, press) = self.between(i, t);
+            let slope = (self.horizontal[i + 1] - self.horizontal[i]) / (times[i + 1] - times[i]);
+            self.load(table, press, slope)
+        };
+        let first = times.partition_point(|&s| s < t);
+        let left = if first == 0 || first == n { self.at_rest() } else { inside(first - 1) };
+        let after = times.partition_point(|&s| s <= t);
+        let right = if after == 0 || after == n { self.at_rest() } else { inside(after - 1) };
+        [left, right]
+    }
+
+    /// Largest `N` and largest `|Ü|` up to a time.
+    pub(super) fn largest(&self, end_s: f64) -> (f64, f64) {
+        let rest = self.at_rest();
+        let samples = self.times_s.iter().take_while(|&&t| t <= end_s).count();
+        (0..samples).fold((rest.normal, 0.0), |(normal, table), i| {
+            let load = self.load(self.horizontal[i], self.press(i), 0.0);
+            (load.normal.max(normal), load.table.abs().max(table))
+        })
+    }
+
+    fn at_rest(&self) -> Load {
+        self.load(0.0, self.gravity, 0.0)
+    }
+
+    fn load(&self, table: f64, press: f64, slope: f64) -> Load {
+        let normal = self.total_kg * press.max(0.0);
+        Load { table, a: table + self.slope, normal, slope }
+    }
+
+    /// `g cos θ + Üv` at a sample.
+    fn press(&self, i: usize) -> f64 {
+        self.gravity + self.vertical.map_or(0.0, |v| v[i])
+    }
+
+    /// `Ü` and `g cos θ + Üv` at a time between the samples `i` and `i + 1`.
+    fn between(&self, i: usize, t: f64) -> (f64, f64) {
+        let (t0, t1) = (self.times_s[i], self.times_s[i + 1]);
+        if t <= t0 {
+            return (self.horizontal[i], self.press(i));
+        }
+        if t >= t1 {
+            return (self.horizontal[i + 1], self.press(i + 1));
+        }
+        let part = (t - t0) / (t1 - t0);
+        let linear = |from: f64, to: f64| from + (to - from) * part;
+        let table = linear(self.horizontal[i], self.horizontal[i + 1]);
+        (table, linear(self.press(i), self.press(i + 1)))
+    }
+}

@@ -1,0 +1,148 @@
+//! The friction law as a judge reads it, and the decisions that came close.
+
+use super::ClosestCall;
+use super::structure::excess;
+use crate::friction::Direction;
+use crate::model::Model;
+use crate::response::Mode;
+
+/// Bounds and kinetic forces from the coefficients, for each direction.
+pub(super) struct Law {
+    fixed: [f64; 2],
+    kinetic: [f64; 2],
+}
+
+impl Law {
+    pub(super) fn new(model: &Model) -> Self {
+        Self { fixed: model.static_friction(), kinetic: model.kinetic_friction() }
+    }
+
+    /// Largest `μ_s N`, or the weight where that is 0: the scale of [`super::Certificate::friction_excess`].
+    pub(super) fn scale(&self, normal: f64, weight: f64) -> f64 {
+        let bound = self.fixed[0].max(self.fixed[1]) * normal;
+        if bound > 0.0 { bound } else { weight }
+    }
+
+    /// `T = −μ_k N sgn ṡ`.
+    pub(super) fn sliding_force(&self, direction: Direction, normal: f64) -> f64 {
+        -direction.sign() * self.kinetic[index(direction)] * normal
+    }
+
+    /// Whether a slip in this direction could turn into a stick without slowing down to it smoothly.
+    pub(super) fn drops(&self, direction: Direction) -> bool {
+        self.kinetic[index(direction)] < self.fixed[index(direction)]
+    }
+
+    /// The bound that a demand of this sign meets: too large a `T` slides the block towards −x.
+    pub(super) fn bound(&self, demand: f64, normal: f64) -> f64 {
+        self.fixed[if demand > 0.0 { 1 } else { 0 }] * normal
+    }
+
+    /// How far a demand lies beyond its bound, in N; negative within.
+    pub(super) fn beyond(&self, demand: f64, normal: f64) -> f64 {
+        demand.abs() - self.bound(demand, normal)
+    }
+
+    /// `1 − |demand|/bound`; `None` without a bound.
+    pub(super) fn margin(&self, demand: f64, normal: f64) -> Option<f64> {
+        let bound = self.bound(demand, normal);
+        (bound > 0.0).then(|| 1.0 - demand.abs() / bound)
+    }
+
+    /// `|T + μ_k N sgn ṡ|` for the direction in which the block really moves.
+    pub(super) fn sliding_excess(&self, force: f64, direction: Direction, normal: f64) -> f64 {
+        (force - self.sliding_force(direction, normal)).abs()
+    }
+
+    /// The same for a slip whose velocity has the wrong sign. Where no kinetic friction tells the
+    /// directions apart the static one stands for it: eq. (4) was not asked at ṡ = 0.
+    pub(super) fn wrong_way(&self, claimed: Direction, normal: f64) -> f64 {
+        let force = self.sliding_force(claimed, normal);
+        let excess = self.sliding_excess(force, opposite(claimed), normal);
+        if excess > 0.0 { excess } else { self.fixed[0].max(self.fixed[1]) * normal }
+    }
+
+    /// By how much a demand forbids a change to a mode at ṡ = 0, in N, or 0: eqs (1), (3), (4).
+    pub(super) fn forbids(&self, to: Mode, demand: f64, normal: f64) -> f64 {
+        let beyond = match to {
+            Mode::Stick => self.beyond(demand, normal),
+            Mode::Slip(Direction::Positive) => demand + self.fixed[0] * normal,
+            Mode::Slip(Direction::Negative) => self.fixed[1] * normal - demand,
+        };
+        excess(beyond)
+    }
+}
+
+fn index(direction: Direction) -> usize {
+    match direction {
+        Direction::Positive => 0,
+        Direction::Negative => 1,
+    }
+}
+
+fn opposite(direction: Direction) -> Direction {
+    match direction {
+        Direction::Positive => Direction::Negative,
+        Direction::Negative => Direction::Positive,
+    }
+}
+
+/// Local minima of a quantity within one phase, fed in order of time.
+///
+/// A minimum counts once the quantity has fallen to it and risen from it by more than `slack`, the
+/// rounding of the values.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Dips {
+    slack: f64,
+    falling: bool,
+    turn: f64,
+    turn_s: f64,
+    /// Largest value.
+    peak: f64,
+    least: Option<(f64, f64)>,
+}
+
+impl Dips {
+    pub(super) fn new(slack: f64) -> Self {
+        Self { slack, falling: false, turn: f64::NAN, turn_s: 0.0, peak: 0.0, least: None }
+    }
+
+    /// Takes the next value.
+    pub(super) fn feed(&mut self, time_s: f64, value: f64) {
+        self.peak = self.peak.max(value);
+        let onward = if self.falling { value <= self.turn } else { value >= self.turn };
+        if onward || self.turn.is_nan() {
+            (self.turn, self.turn_s) = (value, time_s);
+        } else if (value - self.turn).abs() > self.slack {
+            if self.falling {
+                self.take(self.turn_s, self.turn);
+            }
+            self.falling = !self.falling;
+            (self.turn, self.turn_s) = (value, time_s);
+        }
+    }
+
+    /// Takes a value as a minimum.
+    pub(super) fn take(&mut self, time_s: f64, value: f64) {
+        if self.least.is_none_or(|(least, _)| value < least) {
+            self.least = Some((value, time_s));
+        }
+    }
+
+    /// Starts anew after a stretch without values.
+    pub(super) fn interrupt(&mut self) {
+        (self.falling, self.turn) = (false, f64::NAN);
+    }
+
+    /// The least minimum of a margin in stick.
+    pub(super) fn least(&self) -> Option<ClosestCall> {
+        let (margin, time_s) = self.least?;
+        Some(ClosestCall { margin, time_s, kind: "stick" })
+    }
+
+    /// The least minimum of a speed in slip over its largest value.
+    pub(super) fn least_of_peak(&self) -> Option<ClosestCall> {
+        let (least, time_s) = self.least?;
+        (self.peak > 0.0).then(|| ClosestCall { margin: least / self.peak, time_s, kind: "slip" })
+    }
+}

@@ -1,0 +1,126 @@
+//! Judges a response without the solver.
+//!
+//! From the model, the motion, and the states and modes stored at knots, [`check`] integrates the
+//! equations of motion (9)–(12) from every knot to the next by Gauss collocation, and compares:
+//! states, forces, the friction law at every instant, and energy. It shares nothing with the solver:
+//! neither matrices nor modes nor propagators.
+
+mod collocation;
+mod damping;
+mod energy;
+mod ground;
+mod judge;
+mod law;
+mod structure;
+
+use self::judge::Judge;
+use self::structure::{Phase, Structure};
+use crate::model::Model;
+use crate::motion::GroundMotion;
+use crate::response::History;
+
+/// Radians beyond which the phase of the fastest mode says nothing: every interval is divided into
+/// steps of half a radian, so this also bounds the work.
+const MAX_RADIANS: f64 = 1e9;
+
+/// The decision that came closest to going the other way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClosestCall {
+    /// Distance from the other decision, relative to the bound or peak.
+    pub margin: f64,
+    /// When, in s.
+    pub time_s: f64,
+    /// `stop`, `stick` or `slip`.
+    pub kind: &'static str,
+}
+
+/// Figures that certify a response.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Certificate {
+    /// Largest defect of the equations of motion.
+    pub equilibrium_residual: f64,
+    /// Largest excess over the friction law.
+    pub friction_excess: f64,
+    /// Largest imbalance of energy.
+    pub energy_balance_error: f64,
+    /// The nearest decision; `None` where nothing was decided.
+    pub closest_call: Option<ClosestCall>,
+    /// What the first three must stay below: max(1e-10, 100 ε ω_max t_end).
+    pub bound: f64,
+    /// Energy by kind at every knot.
+    pub energy: EnergyHistory,
+}
+
+impl Certificate {
+    /// Whether the first three figures stay within the bound.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.equilibrium_residual <= self.bound
+            && self.friction_excess <= self.bound
+            && self.energy_balance_error <= self.bound
+    }
+}
+
+/// Energy in the frame of the table at every knot, in J.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EnergyHistory {
+    /// Initial energy plus the work of the table, `E₀ + W`.
+    pub input_j: Vec<f64>,
+    /// Kinetic.
+    pub kinetic_j: Vec<f64>,
+    /// Strain of spring and storeys.
+    pub strain_j: Vec<f64>,
+    /// Spent in dampers so far.
+    pub damping_j: Vec<f64>,
+    /// Spent in friction so far.
+    pub friction_j: Vec<f64>,
+}
+
+/// Judges the states at knots of a response to a motion.
+///
+/// A history that cannot be judged (lists of different lengths, times that run backwards, do not
+/// start at 0 or end before the motion, values that are not finite where steps depend on them)
+/// gets infinite figures.
+#[must_use]
+pub fn check(model: &Model, motion: &GroundMotion, history: &History) -> Certificate {
+    let structure = Structure::new(model);
+    let end_s = history.time_s.last().copied().unwrap_or(0.0);
+    let radians = structure.rate(Phase::Slip) * end_s;
+    let bound = (100.0 * f64::EPSILON * radians).max(1e-10);
+    if !(radians <= MAX_RADIANS && well_formed(model, motion, history)) {
+        return Certificate {
+            equilibrium_residual: f64::INFINITY,
+            friction_excess: f64::INFINITY,
+            energy_balance_error: f64::INFINITY,
+            closest_call: None,
+            bound,
+            energy: EnergyHistory::default(),
+        };
+    }
+    Judge::new(model, motion, history, &structure).run(bound)
+}
+
+/// Whether a history has the shape that its documentation promises.
+fn well_formed(model: &Model, motion: &GroundMotion, history: &History) -> bool {
+    let (n, knots) = (model.storeys(), history.len());
+    let ends_s = motion.duration_s() * (1.0 - 8.0 * f64::EPSILON);
+    let knot_lists = [
+        &history.table_acceleration_m_per_s2,
+        &history.sliding_displacement_m,
+        &history.sliding_velocity_m_per_s,
+        &history.block_acceleration_m_per_s2,
+        &history.friction_force_n,
+    ];
+    let storey_lists = [
+        &history.storey_displacement_m,
+        &history.storey_velocity_m_per_s,
+        &history.storey_acceleration_m_per_s2,
+    ];
+    history.storeys == n
+        && history.mode.len() == knots
+        && knot_lists.iter().all(|list| list.len() == knots)
+        && storey_lists.iter().all(|list| list.len() == knots * n)
+        && history.time_s.first() == Some(&0.0)
+        && history.time_s.windows(2).all(|pair| pair[0] <= pair[1])
+        && history.time_s.last().is_some_and(|t| t.is_finite() && *t >= ends_s)
+}

@@ -1,0 +1,361 @@
+//! Every key of a model file.
+
+use super::schema::{Exclusive, Key, Kind, Range, Section};
+use crate::units::Dimension::{
+    Acceleration, Angle, Damper, Frequency, Length, Mass, Stiffness, Time, Velocity,
+};
+
+/// The most storeys a model may have: far above any building, far below what exhausts a machine.
+pub const MAX_STOREYS: usize = 1000;
+
+/// The whole file.
+pub static MODEL: Section = Section {
+    keys: &[
+        Key::optional("name", Kind::Text("Tank on sliders"), "Name of the model in results."),
+        Key::required("block", Kind::Section(&BLOCK), "The rigid block that slides on the table."),
+        Key::required("slider", Kind::Section(&SLIDER), "The bearing between table and block."),
+        Key::optional(
+            "storey",
+            Kind::Sections(&STOREY),
+            "Storeys of the structure on the block: none, one or many, from the block up.",
+        ),
+        Key::optional("frame", Kind::Section(&FRAME), "What the storeys have in common."),
+        Key::optional("motion", Kind::Section(&MOTION), "How the table moves."),
+        Key::optional(
+            "initial",
+            Kind::Section(&INITIAL),
+            "State at the start; each key replaces its own default.",
+        ),
+        Key::optional("analysis", Kind::Section(&ANALYSIS), "How the response is computed."),
+    ],
+    choices: &[],
+};
+
+static BLOCK: Section = Section {
+    keys: &[
+        Key::required(
+            "mass",
+            Kind::Quantity(Mass, Range::Positive),
+            "Mass of the block, without the storeys.",
+        ),
+        Key::optional(
+            "width",
+            Kind::Quantity(Length, Range::Positive),
+            "Width along the direction of sliding; with the storeys' heights the ratio of overturning \
+             is reported.",
+        ),
+        Key::optional(
+            "height",
+            Kind::Quantity(Length, Range::Positive),
+            "Height of the block: its own inertia then counts for overturning. Without it the block \
+             is taken as thin.",
+        ),
+    ],
+    choices: &[],
+};
+
+static SLIDER: Section = Section {
+    keys: &[
+        Key::required(
+            "static_friction",
+            Kind::NumberOr(Range::NotNegative, &BY_DIRECTION),
+            "Coefficient of friction that must be overcome before the block slides.",
+        ),
+        Key::required(
+            "kinetic_friction",
+            Kind::NumberOr(Range::NotNegative, &BY_DIRECTION),
+            "Coefficient of friction while the block slides, at most the static one.",
+        ),
+        Key::optional(
+            "spring",
+            Kind::Quantity(Stiffness, Range::NotNegative),
+            "Stiffness K1 of the spring between table and block.",
+        ),
+        Key::optional(
+            "radius",
+            Kind::Quantity(Length, Range::Positive),
+            "Radius R of a pendulum slider: the spring K1 = M_tot g / R.",
+        ),
+        Key::optional(
+            "damper",
+            Kind::Quantity(Damper, Range::NotNegative),
+            "Damper C1 between table and block.",
+        ),
+        Key::optional(
+            "damping_ratio",
+            Kind::Number(Range::NotNegative),
+            "Damper as a ratio ξ of critical damping: C1 = 2 ξ √(K1 M_tot). Needs spring or radius.",
+        ),
+        Key::optional(
+            "tilt",
+            Kind::Quantity(Angle, Range::Tilt),
+            "Tilt of the sliding surface, positive uphill towards +x.",
+        ),
+        Key::optional(
+            "asymmetry",
+            Kind::Number(Range::Fraction),
+            "Both coefficients of friction times 1 + asymmetry for sliding towards +x, times \
+             1 - asymmetry towards -x.",
+        ),
+        Key::optional(
+            "gap",
+            Kind::Quantity(Length, Range::Positive),
+            "Sliding displacement that the detailing allows: its use is reported, passing it is a \
+             warning.",
+        ),
+        Key::optional(
+            "bounds",
+            Kind::Section(&BOUNDS),
+            "Run also with both coefficients of friction times these factors.",
+        ),
+    ],
+    choices: &[
+        Exclusive::at_most(&["spring", "radius"]),
+        Exclusive::at_most(&["damper", "damping_ratio"]),
+        Exclusive::at_most(&["asymmetry", "static_friction.*"]),
+        Exclusive::at_most(&["asymmetry", "kinetic_friction.*"]),
+    ],
+};
+
+static BY_DIRECTION: Section = Section {
+    keys: &[
+        Key::required("positive", Kind::Number(Range::NotNegative), "For sliding towards +x."),
+        Key::required("negative", Kind::Number(Range::NotNegative), "For sliding towards -x."),
+    ],
+    choices: &[],
+};
+
+static BOUNDS: Section = Section {
+    keys: &[
+        Key::required("lower", Kind::Number(Range::NotNegative), "Factor of the lower bound."),
+        Key::required(
+            "upper",
+            Kind::Number(Range::NotNegative),
+            "Factor of the upper bound, not below the lower one.",
+        ),
+    ],
+    choices: &[],
+};
+
+static STOREY: Section = Section {
+    keys: &[
+        Key::required("mass", Kind::Quantity(Mass, Range::Positive), "Mass of the floor."),
+        Key::optional(
+            "frequency",
+            Kind::Quantity(Frequency, Range::Positive),
+            "Fixed-base frequency of a structure of one storey.",
+        ),
+        Key::optional(
+            "period",
+            Kind::Quantity(Time, Range::Positive),
+            "Fixed-base period of a structure of one storey.",
+        ),
+        Key::optional(
+            "stiffness",
+            Kind::QuantityOrRatio(Stiffness, Range::Positive),
+            "Stiffness between this floor and the one below; where [frame] gives a period only the \
+             ratios between the storeys count.",
+        ),
+        Key::optional(
+            "damping_ratio",
+            Kind::Number(Range::NotNegative),
+            "Ratio of critical damping in every fixed-base mode; the same for all storeys.",
+        ),
+        Key::optional(
+            "damper",
+            Kind::Quantity(Damper, Range::NotNegative),
+            "Damper between this floor and the one below.",
+        ),
+        Key::optional(
+            "height",
+            Kind::Quantity(Length, Range::Positive),
+            "Height of the storey: drift ratio and overturning are reported.",
+        ),
+    ],
+    choices: &[
+        Exclusive::one_of(&["frequency", "period", "stiffness"]),
+        Exclusive::one_of(&["damping_ratio", "damper"]),
+    ],
+};
+
+static FRAME: Section = Section {
+    keys: &[Key::optional(
+        "period",
+        Kind::Quantity(Time, Range::Positive),
+        "First fixed-base period to which the storeys' stiffnesses are scaled.",
+    )],
+    choices: &[],
+};
+
+static MOTION: Section = Section {
+    keys: &[
+        Key::optional(
+            "record",
+            Kind::Text("records/taft.txt"),
+            "File of a recorded ground motion, relative to the model file.",
+        ),
+        Key::optional(
+            "units",
+            Kind::UnitOf(Acceleration),
+            "Unit of the record, where its file does not state it.",
+        )
+        .beside("record"),
+        Key::optional(
+            "dt",
+            Kind::Quantity(Time, Range::Positive),
+            "Time step of the record, where its file does not state it.",
+        )
+        .beside("record"),
+        Key::optional(
+            "channel",
+            Kind::NameOrIndex,
+            "Which of the record's channels, by name or counted from 1.",
+        )
+        .beside("record"),
+        Key::optional("scale", Kind::Number(Range::Any), "Factor on the record; may be negative.")
+            .beside("record"),
+        Key::optional(
+            "scale_to",
+            Kind::Quantity(Acceleration, Range::Positive),
+            "Peak acceleration to which the record is scaled.",
+        )
+        .beside("record"),
+        Key::optional(
+            "vertical",
+            Kind::Text("records/taft-up.txt"),
+            "File of the vertical motion, which takes the factor of the horizontal one.",
+        )
+        .beside("record"),
+        Key::optional(
+            "vertical_scale",
+            Kind::Number(Range::Any),
+            "Factor on the vertical motion besides that of the horizontal one; default 1.",
+        )
+        .beside("record"),
+        Key::optional("sine", Kind::Section(&SINE), "A sine of constant frequency."),
+        Key::optional("sweep", Kind::Section(&SWEEP), "A sine whose frequency changes."),
+        Key::optional("pulse", Kind::Section(&PULSE), "A single pulse."),
+    ],
+    choices: &[
+        Exclusive::one_of(&["record", "sine", "sweep", "pulse"]),
+        Exclusive::at_most(&["scale", "scale_to"]),
+    ],
+};
+
+const AMPLITUDE: Key =
+    Key::required("amplitude", Kind::Quantity(Acceleration, Range::Any), "Peak acceleration.");
+const DURATION: Key =
+    Key::required("duration", Kind::Quantity(Time, Range::Positive), "How long it lasts.");
+const STEP: Key =
+    Key::required("dt", Kind::Quantity(Time, Range::Positive), "Time step at which it is sampled.");
+const RAMP: Key = Key::optional(
+    "ramp",
+    Kind::Quantity(Time, Range::NotNegative),
+    "Time in which the amplitude grows from zero; default 0 s.",
+);
+const DECAY: Key = Key::optional(
+    "decay",
+    Kind::Quantity(Time, Range::NotNegative),
+    "Time at the end in which the amplitude falls to zero; default 0 s.",
+);
+
+static SINE: Section = Section {
+    keys: &[
+        Key::required("frequency", Kind::Quantity(Frequency, Range::Positive), "Its frequency."),
+        AMPLITUDE,
+        DURATION,
+        STEP,
+        Key::optional(
+            "phase",
+            Kind::Quantity(Angle, Range::Any),
+            "Its phase at the start; default 0 deg.",
+        ),
+        RAMP,
+        DECAY,
+    ],
+    choices: &[],
+};
+
+static SWEEP: Section = Section {
+    keys: &[
+        Key::required(
+            "from",
+            Kind::Quantity(Frequency, Range::Positive),
+            "Frequency at the start.",
+        ),
+        Key::required("to", Kind::Quantity(Frequency, Range::Positive), "Frequency at the end."),
+        Key::required("kind", Kind::Word(&["linear", "logarithmic"]), "How the frequency changes."),
+        AMPLITUDE,
+        DURATION,
+        STEP,
+        RAMP,
+        DECAY,
+    ],
+    choices: &[],
+};
+
+static PULSE: Section = Section {
+    keys: &[
+        Key::required(
+            "shape",
+            Kind::Word(&["half-sine", "rectangular", "triangular"]),
+            "Its shape; the edges of a rectangle are jumps.",
+        ),
+        AMPLITUDE,
+        DURATION,
+        Key::optional(
+            "start",
+            Kind::Quantity(Time, Range::NotNegative),
+            "When it starts; default 0 s.",
+        ),
+        STEP,
+    ],
+    choices: &[],
+};
+
+static INITIAL: Section = Section {
+    keys: &[
+        Key::optional(
+            "sliding_displacement",
+            Kind::Quantity(Length, Range::Any),
+            "Displacement of the block relative to the table; the spring is unstressed at 0.",
+        ),
+        Key::optional(
+            "sliding_velocity",
+            Kind::Quantity(Velocity, Range::Any),
+            "Velocity of the block relative to the table.",
+        ),
+        Key::optional(
+            "storey_displacement",
+            Kind::Quantities(Length, Range::Any),
+            "Displacements of the floors relative to the block, one a storey.",
+        ),
+        Key::optional(
+            "storey_velocity",
+            Kind::Quantities(Velocity, Range::Any),
+            "Velocities of the floors relative to the block, one a storey.",
+        ),
+    ],
+    choices: &[],
+};
+
+static ANALYSIS: Section = Section {
+    keys: &[
+        Key::optional(
+            "method",
+            Kind::Word(&["exact", "stepwise"]),
+            "Events located and linear phases solved exactly (default), or the paper's own program.",
+        ),
+        Key::optional(
+            "gravity",
+            Kind::Quantity(Acceleration, Range::Positive),
+            "Acceleration of gravity; default 9.80665 m/s².",
+        ),
+        Key::optional(
+            "tail",
+            Kind::Quantity(Time, Range::NotNegative),
+            "Free vibration after the motion ends; default none.",
+        ),
+    ],
+    choices: &[],
+};

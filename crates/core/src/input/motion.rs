@@ -1,0 +1,233 @@
+//! Where the table's motion comes from.
+
+use super::reader::{Given, Values};
+use crate::error::InputError;
+use crate::motion::MAX_SAMPLES;
+use crate::units::Unit;
+
+/// How the table moves, before any record is opened.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MotionSource {
+    /// A recorded motion.
+    Record(RecordSource),
+    /// A sine of constant frequency.
+    Sine(Sine),
+    /// A sine whose frequency changes.
+    Sweep(Sweep),
+    /// A single pulse.
+    Pulse(Pulse),
+}
+
+/// A file of a recorded motion and what the file does not say of itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordSource {
+    /// Its path as written, relative to the model file.
+    pub path: String,
+    /// Unit of its values.
+    pub units: Option<&'static Unit>,
+    /// Its time step in s.
+    pub dt_s: Option<f64>,
+    /// Which of its channels.
+    pub channel: Option<Channel>,
+    /// How it is scaled.
+    pub scale: Scale,
+    /// Path of the vertical motion; it takes the factor of the horizontal one.
+    pub vertical: Option<String>,
+    /// Factor on the vertical motion besides that of the horizontal one; 1 where `None`.
+    pub vertical_scale: Option<f64>,
+}
+
+/// A channel of a record.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Channel {
+    /// By name.
+    Name(String),
+    /// By number, from 1.
+    Number(usize),
+}
+
+/// How a record is scaled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scale {
+    /// Times a factor, perhaps negative; 1 by default.
+    Factor(f64),
+    /// To this peak acceleration in m/s².
+    Peak(f64),
+}
+
+/// A sine `A sin(2πft + φ)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sine {
+    /// Frequency f in Hz.
+    pub frequency_hz: f64,
+    /// Amplitude A in m/s².
+    pub amplitude_m_per_s2: f64,
+    /// Duration in s.
+    pub duration_s: f64,
+    /// Time step in s.
+    pub dt_s: f64,
+    /// Phase φ at the start in rad.
+    pub phase_rad: f64,
+    /// Time in which the amplitude grows from zero, in s.
+    pub ramp_s: f64,
+    /// Time at the end in which the amplitude falls to zero, in s.
+    pub decay_s: f64,
+}
+
+/// How the frequency of a sweep changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SweepKind {
+    /// By the same amount in equal times.
+    Linear,
+    /// By the same factor in equal times.
+    Logarithmic,
+}
+
+/// A sine whose frequency changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sweep {
+    /// Frequency at the start in Hz.
+    pub from_hz: f64,
+    /// Frequency at the end in Hz.
+    pub to_hz: f64,
+    /// How it changes.
+    pub kind: SweepKind,
+    /// Amplitude in m/s².
+    pub amplitude_m_per_s2: f64,
+    /// Duration in s.
+    pub duration_s: f64,
+    /// Time step in s.
+    pub dt_s: f64,
+    /// Time in which the amplitude grows from zero, in s.
+    pub ramp_s: f64,
+    /// Time at the end in which the amplitude falls to zero, in s.
+    pub decay_s: f64,
+}
+
+/// Shape of a pulse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PulseShape {
+    /// Half a sine.
+    HalfSine,
+    /// Constant; its edges are jumps.
+    Rectangular,
+    /// An isosceles triangle.
+    Triangular,
+}
+
+/// A single pulse.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pulse {
+    /// Its shape.
+    pub shape: PulseShape,
+    /// Peak acceleration in m/s².
+    pub amplitude_m_per_s2: f64,
+    /// Duration in s.
+    pub duration_s: f64,
+    /// When it starts, in s.
+    pub start_s: f64,
+    /// Time step in s.
+    pub dt_s: f64,
+}
+
+/// The motion that the checked values describe, if any.
+pub(super) fn motion(values: &Values) -> Result<Option<MotionSource>, InputError> {
+    let source = if values.has("motion.record") {
+        MotionSource::Record(record(values))
+    } else if values.has("motion.sine") {
+        MotionSource::Sine(sine(values)?)
+    } else if values.has("motion.sweep") {
+        MotionSource::Sweep(sweep(values)?)
+    } else if values.has("motion.pulse") {
+        MotionSource::Pulse(pulse(values)?)
+    } else {
+        return Ok(None);
+    };
+    Ok(Some(source))
+}
+
+fn record(values: &Values) -> RecordSource {
+    let text = |path| values.text(path).map(str::to_owned);
+    let channel = values.leaf("motion.channel").and_then(|leaf| match &leaf.given {
+        Given::Text(name) => Some(Channel::Name(name.clone())),
+        Given::Number(number) => Some(Channel::Number(*number as usize)),
+        _ => None,
+    });
+    let units = values.leaf("motion.units").and_then(|leaf| match leaf.given {
+        Given::Unit(unit) => Some(unit),
+        _ => None,
+    });
+    let scale = match values.number("motion.scale_to") {
+        Some(peak) => Scale::Peak(peak),
+        None => Scale::Factor(values.number("motion.scale").unwrap_or(1.0)),
+    };
+    RecordSource {
+        path: text("motion.record").unwrap_or_default(),
+        units,
+        dt_s: values.number("motion.dt"),
+        channel,
+        scale,
+        vertical: text("motion.vertical"),
+        vertical_scale: values.number("motion.vertical_scale"),
+    }
+}
+
+fn sine(values: &Values) -> Result<Sine, InputError> {
+    check_samples(values, "motion.sine")?;
+    Ok(Sine {
+        frequency_hz: values.required("motion.sine.frequency")?,
+        amplitude_m_per_s2: values.required("motion.sine.amplitude")?,
+        duration_s: values.required("motion.sine.duration")?,
+        dt_s: values.required("motion.sine.dt")?,
+        phase_rad: values.number("motion.sine.phase").unwrap_or(0.0),
+        ramp_s: values.number("motion.sine.ramp").unwrap_or(0.0),
+        decay_s: values.number("motion.sine.decay").unwrap_or(0.0),
+    })
+}
+
+fn sweep(values: &Values) -> Result<Sweep, InputError> {
+    check_samples(values, "motion.sweep")?;
+    let kind = match values.text("motion.sweep.kind") {
+        Some("logarithmic") => SweepKind::Logarithmic,
+        _ => SweepKind::Linear,
+    };
+    Ok(Sweep {
+        from_hz: values.required("motion.sweep.from")?,
+        to_hz: values.required("motion.sweep.to")?,
+        kind,
+        amplitude_m_per_s2: values.required("motion.sweep.amplitude")?,
+        duration_s: values.required("motion.sweep.duration")?,
+        dt_s: values.required("motion.sweep.dt")?,
+        ramp_s: values.number("motion.sweep.ramp").unwrap_or(0.0),
+        decay_s: values.number("motion.sweep.decay").unwrap_or(0.0),
+    })
+}
+
+fn pulse(values: &Values) -> Result<Pulse, InputError> {
+    check_samples(values, "motion.pulse")?;
+    let shape = match values.text("motion.pulse.shape") {
+        Some("rectangular") => PulseShape::Rectangular,
+        Some("triangular") => PulseShape::Triangular,
+        _ => PulseShape::HalfSine,
+    };
+    Ok(Pulse {
+        shape,
+        amplitude_m_per_s2: values.required("motion.pulse.amplitude")?,
+        duration_s: values.required("motion.pulse.duration")?,
+        start_s: values.number("motion.pulse.start").unwrap_or(0.0),
+        dt_s: values.required("motion.pulse.dt")?,
+    })
+}
+
+/// Refuses a made motion of more samples than memory has room for, before any is made.
+fn check_samples(values: &Values, path: &str) -> Result<(), InputError> {
+    let dt = format!("{path}.dt");
+    let start_s = values.number(&format!("{path}.start")).unwrap_or(0.0);
+    let end_s = start_s + values.required(&format!("{path}.duration"))?;
+    let samples = end_s / values.required(&dt)?;
+    if samples < MAX_SAMPLES as f64 {
+        return Ok(());
+    }
+    let expected = format!("a time step that gives at most {MAX_SAMPLES} samples");
+    Err(values.error(&dt, expected, format!("{samples:e} samples")))
+}

@@ -1,0 +1,239 @@
+//! Keys set from outside the file: `--set PATH=VALUE`, and the paths that a study varies.
+
+use super::keys::MODEL;
+use super::reader::{NearestKey, join, matching, nearest_key};
+use super::schema::{Kind, Section};
+use super::tree::{self, Entry, Node, Sources, Spot, Table, Value};
+use crate::error::{InputError, cut};
+
+/// A key set to a value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Override {
+    /// `PATH=VALUE` as it was given.
+    text: String,
+    /// Where the value starts in it.
+    value_at: usize,
+}
+
+impl Override {
+    /// Reads `PATH=VALUE`, where the path is keys joined by dots, storeys counted from 1, and the
+    /// value is TOML if it reads as TOML, else text: `slider.gap=150 mm` needs no quotes.
+    ///
+    /// # Errors
+    /// [`InputError`] for text without `=`, and for a path that no model has.
+    pub fn parse(text: &str) -> Result<Self, InputError> {
+        let Some(equals) = text.find('=') else {
+            let mut sources = Sources::default();
+            let source = sources.add(&format!("--set {}", cut(text)), text);
+            let spot = Spot { source, span: text.len()..text.len() };
+            return Err(sources.error(&spot, "", "PATH=VALUE", "no \"=\""));
+        };
+        let this = Self { text: text.to_owned(), value_at: equals + 1 };
+        this.check_path()?;
+        Ok(this)
+    }
+
+    /// Sets the key at a path to a number, in SI where the key has a unit.
+    ///
+    /// # Errors
+    /// [`InputError`] for a path that no model has.
+    pub fn number(path: &str, si_value: f64) -> Result<Self, InputError> {
+        let unit = match kind_of(path) {
+            Some(Kind::Quantity(dimension, _) | Kind::QuantityOrRatio(dimension, _)) => {
+                dimension.si_unit()
+            }
+            Some(Kind::Quantities(dimension, _)) => dimension.si_unit(),
+            _ => "",
+        };
+        // `{:?}` is the shortest text that reads back as the same number.
+        Self::parse(&format!("{path}={si_value:?} {unit}"))
+    }
+
+    /// The path that it sets.
+    #[must_use]
+    pub fn path(&self) -> &str {
+        self.text.get(..self.value_at.saturating_sub(1)).unwrap_or("").trim()
+    }
+
+    fn sources(&self) -> Sources {
+        let mut sources = Sources::default();
+        sources.add(&self.source_name(), &self.text);
+        sources
+    }
+
+    fn source_name(&self) -> String {
+        format!("--set {}=…", cut(self.path()))
+    }
+
+    fn path_spot(&self, source: usize) -> Spot {
+        let start = self.text.len() - self.text.trim_start().len();
+        Spot { source, span: start..start + self.path().len() }
+    }
+
+    fn check_path(&self) -> Result<(), InputError> {
+        let Err((expected, nearest)) = find_kind(self.path()) else { return Ok(()) };
+        let found = format!("\"{}\"", cut(self.path()));
+        let error = self.sources().error(&self.path_spot(0), "", expected, found);
+        Err(InputError { nearest, ..error })
+    }
+
+    /// Sets the key in a tree; what excludes it is removed.
+    pub(super) fn apply(&self, sources: &mut Sources, root: &mut Table) -> Result<(), InputError> {
+        self.check_path()?;
+        let source = sources.add(&self.source_name(), &self.text);
+        let value = self.text.get(self.value_at..).unwrap_or("");
+        let value_at = self.value_at + (value.len() - value.trim_start().len());
+        let node = tree::parse_value(value.trim(), source, value_at);
+        let spot = self.path_spot(source);
+        let keys: Vec<&str> = self.path().split('.').collect();
+        set(root, &MODEL, &keys, &spot, node)
+            .map_err(|(expected, found)| sources.error(&spot, self.path(), expected, found))
+    }
+}
+
+/// What was expected and what was found.
+type Mismatch = (String, String);
+
+/// Sets the key at the end of a path of keys in a table.
+fn set(
+    table: &mut Table,
+    section: &'static Section,
+    path: &[&str],
+    spot: &Spot,
+    value: Node,
+) -> Result<(), Mismatch> {
+    let [name, rest @ ..] = path else { return Ok(()) };
+    let Some(key) = section.key(name) else { return Ok(()) };
+    let as_table = !rest.is_empty() || matches!(value.value, Value::Table(_));
+    remove_excluded(table, section, name, as_table);
+    let index = table.0.iter().position(|entry| entry.name == *name);
+    if rest.is_empty() {
+        let entry = Entry { name: (*name).to_owned(), key: spot.clone(), node: value };
+        match index.and_then(|index| table.0.get_mut(index)) {
+            Some(existing) => *existing = entry,
+            None => table.0.push(entry),
+        }
+        return Ok(());
+    }
+    let index = index.unwrap_or_else(|| {
+        let empty = match key.kind {
+            Kind::Sections(_) | Kind::Quantities(..) => Value::List(Vec::new()),
+            _ => Value::Table(Table(Vec::new())),
+        };
+        let node = Node { spot: spot.clone(), value: empty };
+        table.0.push(Entry { name: (*name).to_owned(), key: spot.clone(), node });
+        table.0.len() - 1
+    });
+    let Some(entry) = table.0.get_mut(index) else { return Ok(()) };
+    // A number for both directions becomes a table of two before one of them is set.
+    if let (Kind::NumberOr(_, both), Value::Number(..)) = (&key.kind, &entry.node.value) {
+        let same = entry.node.clone();
+        let each = both.keys.iter().map(|key| Entry {
+            name: key.name.to_owned(),
+            key: entry.key.clone(),
+            node: same.clone(),
+        });
+        entry.node.value = Value::Table(Table(each.collect()));
+    }
+    match (&mut entry.node.value, key.kind.section()) {
+        (Value::Table(inner), Some(section)) => set(inner, section, rest, spot, value),
+        (Value::List(items), inner) => {
+            let [number, rest @ ..] = rest else { return Ok(()) };
+            let count = items.len();
+            let item = number.parse::<usize>().ok().and_then(|n| items.get_mut(n.wrapping_sub(1)));
+            match (item, inner) {
+                (None, _) => Err((format!("a number from 1 to {count}"), format!("\"{number}\""))),
+                (Some(item), _) if rest.is_empty() => {
+                    *item = value;
+                    Ok(())
+                }
+                (Some(Node { value: Value::Table(inner), .. }), Some(section)) => {
+                    set(inner, section, rest, spot, value)
+                }
+                (Some(item), _) => Err(("a table".to_owned(), item.found())),
+            }
+        }
+        _ => Err((key.kind.expected(), entry.node.found())),
+    }
+}
+
+/// Removes the keys that exclude the one about to be set, and those that mean nothing without them.
+fn remove_excluded(table: &mut Table, section: &'static Section, name: &str, as_table: bool) {
+    for exclusive in section.choices {
+        let is_set = |member: &&&str| match member.strip_suffix(".*") {
+            Some(member) => as_table && member == name,
+            None => **member == name,
+        };
+        if !exclusive.names.iter().any(|member| is_set(&member)) {
+            continue;
+        }
+        for other in exclusive.names.iter().filter(|member| !is_set(member)) {
+            let Some(removed) = matching(table, other).map(|entry| entry.name.clone()) else {
+                continue;
+            };
+            let depends = |entry: &Entry| {
+                section.key(&entry.name).is_some_and(|key| key.beside == Some(removed.as_str()))
+            };
+            table.0.retain(|entry| entry.name != removed && !depends(entry));
+        }
+    }
+}
+
+/// What the key at a path takes, if a model has it.
+pub(super) fn kind_of(path: &str) -> Option<&'static Kind> {
+    find_kind(path).ok()
+}
+
+/// As [`kind_of`]; else what was expected and the nearest path.
+fn find_kind(path: &str) -> Result<&'static Kind, (String, Option<String>)> {
+    let mut section = &MODEL;
+    let mut known = String::new();
+    let mut keys = path.split('.').peekable();
+    loop {
+        let name = keys.next().unwrap_or("");
+        let Some(key) = section.key(name) else {
+            let nearest = nearest_key(name, section).map(|nearest| match nearest {
+                NearestKey::Elsewhere(path) => path,
+                NearestKey::Here(name) => valid_or_start(join(&known, name), keys),
+            });
+            return Err(("a path of the model".to_owned(), nearest));
+        };
+        known = join(&known, name);
+        if keys.peek().is_none() {
+            return Ok(&key.kind);
+        }
+        if matches!(key.kind, Kind::Sections(_) | Kind::Quantities(..)) {
+            let number = keys.next().unwrap_or("");
+            if number.parse::<usize>().is_ok_and(|number| number > 0) {
+                known = join(&known, number);
+            } else {
+                // The number was left out, or something else stands in its place.
+                let first = join(&known, "1");
+                let left_out = valid_or_start(join(&first, number), keys.clone());
+                let nearest = match find_kind(&left_out) {
+                    Ok(_) => left_out,
+                    Err(_) => valid_or_start(first, keys),
+                };
+                return Err((format!("a number from 1 after {known}"), Some(nearest)));
+            }
+            if keys.peek().is_none() {
+                return Ok(&key.kind);
+            }
+        }
+        let Some(inner) = key.kind.section() else {
+            return Err((format!("no key inside {known}"), Some(known)));
+        };
+        section = inner;
+    }
+}
+
+/// The corrected start of a path with the rest of it, where that is a path of the model; else the
+/// start alone.
+fn valid_or_start<'a>(start: String, rest: impl Iterator<Item = &'a str>) -> String {
+    let mut whole = start.clone();
+    for key in rest {
+        whole.push('.');
+        whole.push_str(key);
+    }
+    if find_kind(&whole).is_ok() { whole } else { start }
+}

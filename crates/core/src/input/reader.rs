@@ -1,0 +1,387 @@
+//! Checks a tree against its description and gives its values by path.
+
+use std::collections::BTreeMap;
+
+use super::schema::{self, Key, Kind, Range, Section};
+use super::tree::{Entry, Node, Sources, Spot, Table, Value};
+use crate::error::{InputError, UnitError, cut, edit_distance, nearest};
+use crate::units::{self, Unit};
+
+/// What a key was given.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Given {
+    /// A number, in SI where it has a unit.
+    Number(f64),
+    Text(String),
+    Word(&'static str),
+    Unit(&'static Unit),
+}
+
+/// A value, how it was written and where.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Leaf {
+    pub path: String,
+    pub given: Given,
+    pub written: String,
+    /// The SI unit of the value, empty where it has none.
+    pub unit: &'static str,
+    pub spot: Spot,
+}
+
+/// The checked values of a text by path, in the order of its description.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Values {
+    pub leaves: Vec<Leaf>,
+    sources: Sources,
+    leaf_of_path: BTreeMap<String, usize>,
+    /// Tables and lists: where they stand and how many items a list has.
+    tables: BTreeMap<String, (Spot, usize)>,
+}
+
+impl Values {
+    /// Checks every key of a tree: known, not excluded, complete, of its type, unit and range.
+    pub fn read(
+        sources: Sources,
+        root: &Table,
+        section: &'static Section,
+    ) -> Result<Self, InputError> {
+        let mut values = Self { sources, ..Self::default() };
+        values.read_table("", &Spot { source: 0, span: 0..0 }, root, section)?;
+        Ok(values)
+    }
+
+    /// The number at a path, in SI.
+    pub fn number(&self, path: &str) -> Option<f64> {
+        match self.leaf(path)?.given {
+            Given::Number(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// The number at a path that must be there.
+    pub fn required(&self, path: &str) -> Result<f64, InputError> {
+        self.number(path).ok_or_else(|| self.error(path, "a number", "nothing"))
+    }
+
+    /// The text or word at a path.
+    pub fn text(&self, path: &str) -> Option<&str> {
+        match &self.leaf(path)?.given {
+            Given::Text(text) => Some(text),
+            Given::Word(word) => Some(word),
+            _ => None,
+        }
+    }
+
+    /// The value at a path.
+    pub fn leaf(&self, path: &str) -> Option<&Leaf> {
+        self.leaf_of_path.get(path).and_then(|index| self.leaves.get(*index))
+    }
+
+    /// Whether a key was given at a path.
+    pub fn has(&self, path: &str) -> bool {
+        self.leaf_of_path.contains_key(path) || self.tables.contains_key(path)
+    }
+
+    /// The number of items of the list at a path, 0 where there is none.
+    pub fn count(&self, path: &str) -> usize {
+        self.tables.get(path).map_or(0, |(_, count)| *count)
+    }
+
+    /// The numbers of a list in SI.
+    pub fn numbers(&self, path: &str) -> Option<Vec<f64>> {
+        let (_, count) = self.tables.get(path)?;
+        Some((1..=*count).filter_map(|item| self.number(&format!("{path}.{item}"))).collect())
+    }
+
+    /// An error at the value of a path or, where there is none, at the table that lacks it.
+    pub fn error(
+        &self,
+        path: &str,
+        expected: impl Into<String>,
+        found: impl Into<String>,
+    ) -> InputError {
+        let nowhere = Spot { source: 0, span: 0..0 };
+        let mut at = path;
+        loop {
+            let here = self.leaf(at).map(|leaf| &leaf.spot);
+            if let Some(spot) = here.or_else(|| self.tables.get(at).map(|(spot, _)| spot)) {
+                return self.sources.error(spot, path, expected, found);
+            }
+            let Some((parent, _)) = at.rsplit_once('.') else { break };
+            at = parent;
+        }
+        self.sources.error(&nowhere, path, expected, found)
+    }
+
+    /// An error at the value of a path that says what was written there.
+    pub fn wrong(&self, path: &str, expected: impl Into<String>) -> InputError {
+        let found = self.leaf(path).map_or("nothing".to_owned(), |leaf| match leaf.given {
+            // A number with a unit is text.
+            Given::Number(_) if leaf.unit.is_empty() => cut(&leaf.written),
+            _ => format!("\"{}\"", cut(&leaf.written)),
+        });
+        self.error(path, expected, found)
+    }
+
+    fn read_table(
+        &mut self,
+        path: &str,
+        spot: &Spot,
+        table: &Table,
+        section: &'static Section,
+    ) -> Result<(), InputError> {
+        self.tables.insert(path.to_owned(), (spot.clone(), 0));
+        for entry in &table.0 {
+            if section.key(&entry.name).is_none() {
+                return Err(self.unknown_key(path, entry, section));
+            }
+        }
+        self.check_exclusive(path, spot, table, section)?;
+        for key in section.keys {
+            let path = join(path, key.name);
+            match table.get(key.name) {
+                Some(entry) => {
+                    self.check_beside(&path, entry, key, table, section)?;
+                    self.read_node(&path, &entry.node, &key.kind)?;
+                }
+                None if key.required => {
+                    return Err(self.sources.error(spot, &path, key.kind.expected(), "nothing"));
+                }
+                None => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn read_node(
+        &mut self,
+        path: &str,
+        node: &Node,
+        kind: &'static Kind,
+    ) -> Result<(), InputError> {
+        match (kind, &node.value) {
+            (Kind::Section(section) | Kind::NumberOr(_, section), Value::Table(table)) => {
+                self.read_table(path, &node.spot, table, section)
+            }
+            (Kind::Sections(section), Value::List(nodes)) => {
+                self.tables.insert(path.to_owned(), (node.spot.clone(), nodes.len()));
+                for (index, item) in nodes.iter().enumerate() {
+                    let path = join(path, &(index + 1).to_string());
+                    let Value::Table(table) = &item.value else {
+                        return Err(self.mistyped(&path, item, "a table of keys"));
+                    };
+                    self.read_table(&path, &item.spot, table, section)?;
+                }
+                Ok(())
+            }
+            (Kind::Quantities(dimension, range), Value::List(nodes)) => {
+                self.tables.insert(path.to_owned(), (node.spot.clone(), nodes.len()));
+                for (index, item) in nodes.iter().enumerate() {
+                    let path = join(path, &(index + 1).to_string());
+                    let given = self.quantity(&path, item, *dimension, *range)?;
+                    self.insert(path, item, given, dimension.si_unit());
+                }
+                Ok(())
+            }
+            _ => self.read_leaf(path, node, kind),
+        }
+    }
+
+    fn read_leaf(&mut self, path: &str, node: &Node, kind: &Kind) -> Result<(), InputError> {
+        let mut unit = "";
+        let given = match (kind, &node.value) {
+            (Kind::Text(_) | Kind::NameOrIndex, Value::Text(text)) if !text.is_empty() => {
+                Given::Text(text.clone())
+            }
+            (Kind::NameOrIndex, Value::Number(value, _))
+                if *value >= 1.0 && *value <= f64::from(u32::MAX) && value.fract() == 0.0 =>
+            {
+                Given::Number(*value)
+            }
+            (Kind::Word(words), Value::Text(text)) => {
+                let Some(word) = words.iter().find(|word| *word == text) else {
+                    let mut error = self.mistyped(path, node, kind.expected());
+                    error.nearest = nearest(text, words.iter().copied());
+                    return Err(error);
+                };
+                Given::Word(word)
+            }
+            (Kind::UnitOf(dimension), Value::Text(text)) => {
+                let unit = units::parse_unit(text, *dimension);
+                Given::Unit(unit.map_err(|error| self.bad_unit(path, node, error))?)
+            }
+            (
+                Kind::Number(range) | Kind::NumberOr(range, _) | Kind::QuantityOrRatio(_, range),
+                Value::Number(value, _),
+            ) => self.number_in_range(path, node, *value, *range)?,
+            (Kind::Quantity(dimension, range) | Kind::QuantityOrRatio(dimension, range), _) => {
+                unit = dimension.si_unit();
+                self.quantity(path, node, *dimension, *range)?
+            }
+            _ => return Err(self.mistyped(path, node, kind.expected())),
+        };
+        self.insert(path.to_owned(), node, given, unit);
+        Ok(())
+    }
+
+    fn insert(&mut self, path: String, node: &Node, given: Given, unit: &'static str) {
+        let written = match &node.value {
+            Value::Text(text) => text.clone(),
+            Value::Number(_, written) => written.clone(),
+            _ => String::new(),
+        };
+        self.leaf_of_path.insert(path.clone(), self.leaves.len());
+        self.leaves.push(Leaf { path, given, written, unit, spot: node.spot.clone() });
+    }
+
+    fn quantity(
+        &self,
+        path: &str,
+        node: &Node,
+        dimension: units::Dimension,
+        range: Range,
+    ) -> Result<Given, InputError> {
+        let Value::Text(text) = &node.value else {
+            return Err(self.mistyped(path, node, Kind::Quantity(dimension, range).expected()));
+        };
+        let value = units::parse_quantity(text, dimension)
+            .map_err(|error| self.bad_unit(path, node, error))?;
+        if range.contains(value) {
+            return Ok(Given::Number(value));
+        }
+        Err(self.mistyped(path, node, range.expected(dimension.name())))
+    }
+
+    fn number_in_range(
+        &self,
+        path: &str,
+        node: &Node,
+        value: f64,
+        range: Range,
+    ) -> Result<Given, InputError> {
+        if range.contains(value) {
+            return Ok(Given::Number(value));
+        }
+        Err(self.mistyped(path, node, range.expected("number")))
+    }
+
+    fn mistyped(&self, path: &str, node: &Node, expected: impl Into<String>) -> InputError {
+        self.sources.error(&node.spot, path, expected, node.found())
+    }
+
+    fn bad_unit(&self, path: &str, node: &Node, error: UnitError) -> InputError {
+        let UnitError { expected, found, nearest } = error;
+        InputError { nearest, ..self.sources.error(&node.spot, path, expected, found) }
+    }
+
+    fn unknown_key(&self, path: &str, entry: &Entry, section: &'static Section) -> InputError {
+        let names: Vec<_> = section.keys.iter().map(|key| key.name).collect();
+        let path = join(path, &cut(&entry.name));
+        let expected = format!("one of the keys {}", names.join(", "));
+        let found = format!("\"{}\"", cut(&entry.name));
+        let error = self.sources.error(&entry.key, &path, expected, found);
+        let nearest = nearest_key(&entry.name, section).map(|nearest| match nearest {
+            NearestKey::Here(name) => name.to_owned(),
+            NearestKey::Elsewhere(path) => path,
+        });
+        InputError { nearest, ..error }
+    }
+
+    fn check_exclusive(
+        &self,
+        path: &str,
+        spot: &Spot,
+        table: &Table,
+        section: &'static Section,
+    ) -> Result<(), InputError> {
+        for exclusive in section.choices {
+            let mut given: Vec<_> =
+                exclusive.names.iter().filter_map(|name| matching(table, name)).collect();
+            // The one that stands later is the one too many.
+            given.sort_by_key(|entry| (entry.key.source, entry.key.span.start));
+            let plain: Vec<_> =
+                exclusive.names.iter().map(|name| name.trim_end_matches(".*")).collect();
+            match given.as_slice() {
+                [first, second, ..] => {
+                    let expected = format!("only one of {}", plain.join(", "));
+                    let found = format!("\"{}\" besides \"{}\"", second.name, first.name);
+                    let path = join(path, &second.name);
+                    return Err(self.sources.error(&second.key, &path, expected, found));
+                }
+                [] if exclusive.required => {
+                    let expected = format!("one of the keys {}", plain.join(", "));
+                    return Err(self.sources.error(spot, path, expected, "none"));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn check_beside(
+        &self,
+        path: &str,
+        entry: &Entry,
+        key: &Key,
+        table: &Table,
+        section: &'static Section,
+    ) -> Result<(), InputError> {
+        let Some(other) = key.beside.filter(|other| table.get(other).is_none()) else {
+            return Ok(());
+        };
+        let instead = section.choices.iter().flat_map(|choice| choice.names).find_map(|name| {
+            table.get(name).filter(|_| *name != key.name).map(|entry| entry.name.as_str())
+        });
+        let found = match instead {
+            Some(instead) => format!("\"{}\" beside \"{instead}\"", key.name),
+            None => format!("\"{}\" alone", key.name),
+        };
+        let expected = format!("this key only beside \"{other}\"");
+        Err(self.sources.error(&entry.key, path, expected, found))
+    }
+}
+
+/// The entry of a name in a group of excluding keys: `key.*` is that key given as a table.
+pub(super) fn matching<'a>(table: &'a Table, name: &str) -> Option<&'a Entry> {
+    match name.strip_suffix(".*") {
+        None => table.get(name),
+        Some(name) => table.get(name).filter(|entry| matches!(entry.node.value, Value::Table(_))),
+    }
+}
+
+/// A path one key deeper.
+pub(super) fn join(path: &str, key: &str) -> String {
+    if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
+}
+
+/// The key that was probably meant.
+pub(super) enum NearestKey {
+    /// A key of the same section.
+    Here(&'static str),
+    /// The path of a key of the same name elsewhere in the model.
+    Elsewhere(String),
+}
+
+/// A similar key of the section, else the same name elsewhere in the model, else whichever key of
+/// the section is nearest.
+pub(super) fn nearest_key(name: &str, section: &'static Section) -> Option<NearestKey> {
+    let names = section.keys.iter().map(|key| key.name);
+    let here = names.min_by_key(|known| edit_distance(name, known))?;
+    if 2 * edit_distance(name, here) > here.len().max(2)
+        && let Some(path) = path_of(name, "", &super::keys::MODEL)
+    {
+        return Some(NearestKey::Elsewhere(path));
+    }
+    Some(NearestKey::Here(here))
+}
+
+fn path_of(name: &str, path: &str, section: &'static Section) -> Option<String> {
+    section.keys.iter().find_map(|key| {
+        let path = join(path, key.name);
+        if key.name == name {
+            return Some(path);
+        }
+        let path = if matches!(key.kind, schema::Kind::Sections(_)) { path + ".1" } else { path };
+        key.kind.section().and_then(|section| path_of(name, &path, section))
+    })
+}

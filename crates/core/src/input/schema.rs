@@ -1,0 +1,192 @@
+//! How a text's keys are described: one static table says what may be written.
+//!
+//! Known keys, types, ranges, excluding keys, the paths that `--set` takes and the JSON schema all
+//! come from the same [`Section`]s, so none can disagree with another.
+
+use crate::units::Dimension;
+
+/// A table of keys.
+#[derive(Debug)]
+pub struct Section {
+    /// The keys, in the order in which a person would write them.
+    pub keys: &'static [Key],
+    /// Keys that exclude each other.
+    pub choices: &'static [Exclusive],
+}
+
+/// Keys of a section of which at most one is written. `key.*` stands for a key given as a table.
+#[derive(Debug)]
+pub struct Exclusive {
+    /// The keys' names.
+    pub names: &'static [&'static str],
+    /// Whether one must be there.
+    pub required: bool,
+}
+
+/// A key, what it takes and what it means.
+#[derive(Debug)]
+pub struct Key {
+    /// Its name.
+    pub name: &'static str,
+    /// What it takes.
+    pub kind: Kind,
+    /// Whether its section must have it.
+    pub required: bool,
+    /// The key without which it means nothing.
+    pub beside: Option<&'static str>,
+    /// What it means, in a sentence.
+    pub doc: &'static str,
+}
+
+/// What a key takes.
+#[derive(Debug)]
+pub enum Kind {
+    /// Any text; here an example.
+    Text(&'static str),
+    /// One of these words.
+    Word(&'static [&'static str]),
+    /// The name of a unit.
+    UnitOf(Dimension),
+    /// A name, or a number from 1.
+    NameOrIndex,
+    /// A dimensionless number.
+    Number(Range),
+    /// A dimensionless number for both directions of sliding, or a section with one for each.
+    NumberOr(Range, &'static Section),
+    /// A number with its unit.
+    Quantity(Dimension, Range),
+    /// A number with its unit, or a bare number where only ratios count.
+    QuantityOrRatio(Dimension, Range),
+    /// A list of numbers with their units.
+    Quantities(Dimension, Range),
+    /// A section of its own.
+    Section(&'static Section),
+    /// Any number of sections of the same form.
+    Sections(&'static Section),
+}
+
+/// The numbers that a key takes; always finite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Range {
+    /// All.
+    Any,
+    /// > 0.
+    Positive,
+    /// ≥ 0.
+    NotNegative,
+    /// Between −1 and 1, without the ends.
+    Fraction,
+    /// An angle between −π/2 and π/2, without the ends.
+    Tilt,
+}
+
+impl Section {
+    /// The key of that name.
+    #[must_use]
+    pub fn key(&self, name: &str) -> Option<&'static Key> {
+        self.keys.iter().find(|key| key.name == name)
+    }
+}
+
+impl Exclusive {
+    pub(super) const fn at_most(names: &'static [&'static str]) -> Self {
+        Self { names, required: false }
+    }
+
+    pub(super) const fn one_of(names: &'static [&'static str]) -> Self {
+        Self { names, required: true }
+    }
+}
+
+impl Key {
+    pub(super) const fn required(name: &'static str, kind: Kind, doc: &'static str) -> Self {
+        Self { name, kind, required: true, beside: None, doc }
+    }
+
+    pub(super) const fn optional(name: &'static str, kind: Kind, doc: &'static str) -> Self {
+        Self { name, kind, required: false, beside: None, doc }
+    }
+
+    pub(super) const fn beside(self, other: &'static str) -> Self {
+        Self { beside: Some(other), ..self }
+    }
+}
+
+impl Kind {
+    /// The section that a table of this kind has.
+    #[must_use]
+    pub fn section(&self) -> Option<&'static Section> {
+        match self {
+            Self::NumberOr(_, section) | Self::Section(section) | Self::Sections(section) => {
+                Some(section)
+            }
+            _ => None,
+        }
+    }
+
+    /// What to write, in words.
+    #[must_use]
+    pub fn expected(&self) -> String {
+        let with_unit = |dimension: &Dimension| {
+            let (what, example) = (dimension.with_article(), dimension.example());
+            format!("{what} with its unit, such as \"{example}\"")
+        };
+        match self {
+            Self::Text(example) => format!("text in quotes, such as \"{example}\""),
+            Self::Word(words) => one_of(words),
+            Self::UnitOf(dimension) => {
+                let names: Vec<_> =
+                    dimension.units().iter().map(crate::units::Unit::name).collect();
+                format!("a unit of {} ({})", dimension.name(), names.join(", "))
+            }
+            Self::NameOrIndex => "a name in quotes or a number from 1".to_owned(),
+            Self::Number(range) => range.expected("number"),
+            Self::NumberOr(range, section) => {
+                let names: Vec<_> = section.keys.iter().map(|key| key.name).collect();
+                format!("{} or a table of {}", range.expected("number"), names.join(" and "))
+            }
+            Self::Quantity(dimension, _) => with_unit(dimension),
+            Self::QuantityOrRatio(dimension, _) => {
+                format!("{} (or a ratio, where a period is given)", with_unit(dimension))
+            }
+            Self::Quantities(dimension, _) => {
+                format!("a list with {} for each storey", with_unit(dimension))
+            }
+            Self::Section(_) => "a table of keys".to_owned(),
+            Self::Sections(_) => "a list of tables".to_owned(),
+        }
+    }
+}
+
+impl Range {
+    /// Whether a number is finite and in the range.
+    #[must_use]
+    pub fn contains(self, value: f64) -> bool {
+        value.is_finite()
+            && match self {
+                Self::Any => true,
+                Self::Positive => value > 0.0,
+                Self::NotNegative => value >= 0.0,
+                Self::Fraction => value.abs() < 1.0,
+                Self::Tilt => value.abs() < core::f64::consts::FRAC_PI_2,
+            }
+    }
+
+    /// The range in words, for a number of that name.
+    #[must_use]
+    pub fn expected(self, name: &str) -> String {
+        match self {
+            Self::Any => format!("a finite {name}"),
+            Self::Positive => format!("a finite {name} > 0"),
+            Self::NotNegative => format!("a finite {name} ≥ 0"),
+            Self::Fraction => format!("a {name} between -1 and 1"),
+            Self::Tilt => format!("an {name} between -90 deg and 90 deg"),
+        }
+    }
+}
+
+/// `one of "a", "b"`.
+pub(super) fn one_of(words: &[&str]) -> String {
+    let words: Vec<_> = words.iter().map(|word| format!("\"{word}\"")).collect();
+    format!("one of {}", words.join(", "))
+}

@@ -1,0 +1,300 @@
+//! Models that are read, and the numbers that come of them.
+
+use core::f64::consts::{PI, TAU};
+
+use super::{FULL, SMALLEST, read, with};
+use crate::input::{
+    Channel, FrictionBounds, MotionSource, Pulse, PulseShape, RecordSource, Scale, Sine, Sweep,
+    SweepKind, from_bytes, json_schema, parse,
+};
+use crate::linear::shear_frame_frequencies;
+use crate::model::{Block, Damping, Frame, InitialState};
+use crate::response::Method;
+use crate::units::parse_unit;
+
+#[test]
+fn exact_full_example() {
+    let analysis = read(FULL, &[]).unwrap();
+    assert_eq!(analysis.name.as_deref(), Some("Section 6 mock-up"));
+    let model = &analysis.model;
+    let block = Block { mass_kg: 325.0, width_m: Some(0.53), height_m: None };
+    assert_eq!(model.block(), &block);
+    assert_eq!(model.static_friction(), [0.020; 2]);
+    assert_eq!(model.kinetic_friction(), [0.012; 2]);
+    let slider = model.slider();
+    assert_eq!(slider.stiffness_n_per_m, 143e3);
+    assert_eq!(slider.damper_n_s_per_m, 0.0);
+    assert_eq!(slider.tilt_rad, 0.001);
+    assert_eq!(slider.gap_m, Some(0.15));
+    let omega = TAU * 1.625;
+    let frame = Frame {
+        masses_kg: vec![45.0],
+        stiffnesses_n_per_m: vec![45.0 * omega * omega],
+        damping: Damping::Ratio(0.01),
+        heights_m: Some(vec![0.76]),
+    };
+    assert_eq!(model.frame(), &frame);
+    assert_eq!(model.gravity_m_per_s2(), 9.81);
+    let initial = InitialState {
+        sliding_displacement_m: 0.01,
+        sliding_velocity_m_per_s: 0.0,
+        storey_displacement_m: Some(vec![0.005]),
+        storey_velocity_m_per_s: Some(vec![0.0]),
+    };
+    assert_eq!(model.initial(), &initial);
+    assert_eq!(analysis.friction_bounds, Some(FrictionBounds { lower: 0.8, upper: 1.3 }));
+    let record = RecordSource {
+        path: "records/taft.txt".to_owned(),
+        units: Some(parse_unit("g", crate::units::Dimension::Acceleration).unwrap()),
+        dt_s: Some(0.01),
+        channel: None,
+        scale: Scale::Peak(0.3 * 9.80665),
+        vertical: Some("records/taft-up.txt".to_owned()),
+        vertical_scale: None,
+    };
+    assert_eq!(analysis.required_motion(), Ok(&MotionSource::Record(record)));
+    assert_eq!(analysis.method, Method::Exact);
+    assert_eq!(analysis.tail_s, 5.0);
+}
+
+#[test]
+fn exact_inputs_are_given_as_written() {
+    let analysis = read(FULL, &["slider.gap=0.2 m"]).unwrap();
+    let inputs: Vec<_> = analysis.inputs().map(|i| (i.path, i.text, i.value, i.unit)).collect();
+    for input in [
+        ("name", "Section 6 mock-up", None, ""),
+        ("block.mass", "325 kg", Some(325.0), "kg"),
+        ("slider.static_friction", "0.020", Some(0.02), ""),
+        ("slider.spring", "143 kN/m", Some(143e3), "N/m"),
+        ("slider.gap", "0.2 m", Some(0.2), "m"),
+        ("slider.bounds.upper", "1.3", Some(1.3), ""),
+        ("storey.1.frequency", "1.625 Hz", Some(1.625), "Hz"),
+        ("motion.scale_to", "0.3 g", Some(0.3 * 9.80665), "m/s2"),
+        ("initial.storey_displacement.1", "5 mm", Some(0.005), "m"),
+    ] {
+        assert!(inputs.contains(&input), "{input:?} in {inputs:#?}");
+    }
+    assert_eq!(analysis.value("slider.tilt"), Some(0.001));
+    assert_eq!(analysis.value("slider.radius"), None);
+}
+
+#[test]
+fn exact_defaults() {
+    let analysis = read(SMALLEST, &[]).unwrap();
+    assert_eq!(analysis.name, None);
+    assert_eq!(analysis.model.storeys(), 0);
+    assert_eq!(analysis.model.slider().stiffness_n_per_m, 0.0);
+    assert_eq!(analysis.model.gravity_m_per_s2(), 9.80665);
+    assert_eq!(analysis.model.initial(), &InitialState::rest());
+    assert_eq!(analysis.friction_bounds, None);
+    assert_eq!(analysis.method, Method::Exact);
+    assert_eq!(analysis.tail_s, 0.0);
+    assert_eq!(
+        analysis.required_motion().unwrap_err().to_string(),
+        "m.toml:1:1: motion: expected a table [motion] with one of the keys record, sine, sweep, \
+         pulse, found nothing"
+    );
+}
+
+#[test]
+fn exact_each_initial_key_replaces_its_own_default() {
+    let initial = with("[initial]\nsliding_velocity = \"-20 cm/s\"\n").unwrap();
+    assert_eq!(
+        initial.model.initial(),
+        &InitialState { sliding_velocity_m_per_s: -0.2, ..InitialState::rest() }
+    );
+}
+
+/// K1 = M_tot g / R and C1 = 2 ξ √(K1 M_tot), with the storeys' masses and the model's gravity.
+#[test]
+fn exact_pendulum_radius_and_damping_ratio() {
+    let text = SMALLEST.replace("[slider]", "[slider]\nradius = \"2 m\"\ndamping_ratio = 0.05");
+    let more = "[[storey]]\nmass = \"75 kg\"\nperiod = \"0.5 s\"\ndamper = \"9 N s/m\"\n\
+                [analysis]\ngravity = \"10 m/s2\"\n";
+    let model = read(&(text + more), &[]).unwrap().model;
+    assert_eq!(model.slider().stiffness_n_per_m, 400.0 * 10.0 / 2.0);
+    assert_eq!(model.slider().damper_n_s_per_m, 0.1 * (2000.0_f64 * 400.0).sqrt());
+    let omega = TAU / 0.5;
+    assert_eq!(model.frame().stiffnesses_n_per_m, [75.0 * omega * omega]);
+    assert_eq!(model.frame().damping, Damping::Dampers(vec![9.0]));
+}
+
+#[test]
+fn exact_friction_by_direction() {
+    let tables = "[block]\nmass = \"1 t\"\n[slider]\n\
+                  static_friction = { positive = 0.03, negative = 0.02 }\n\
+                  [slider.kinetic_friction]\npositive = 0.01\nnegative = 0.02\n";
+    let model = read(tables, &[]).unwrap().model;
+    assert_eq!(model.static_friction(), [0.03, 0.02]);
+    assert_eq!(model.kinetic_friction(), [0.01, 0.02]);
+
+    let model = read(&format!("{SMALLEST}asymmetry = -0.25\n"), &[]).unwrap().model;
+    assert_eq!(model.static_friction(), [0.02 * 0.75, 0.02 * 1.25]);
+    assert_eq!(model.kinetic_friction(), [0.012 * 0.75, 0.012 * 1.25]);
+}
+
+const THREE_STOREYS: &str = "\
+[[storey]]
+mass = \"2 t\"
+stiffness = \"3 MN/m\"
+damping_ratio = 0.02
+[[storey]]
+mass = \"2 t\"
+stiffness = \"2 MN/m\"
+damping_ratio = 0.02
+[[storey]]
+mass = \"1 t\"
+stiffness = \"1 MN/m\"
+damping_ratio = 0.02
+";
+
+/// The classic frame with k = 3, 2, 1 and m = 2, 2, 1: Stodola's ω₁² is a root of
+/// 4λ³ − 20λ² + 25λ − 6 = 0 in units of k/m (determinant expanded by hand); scaling to a period
+/// must give that period whatever the unit of the ratios.
+#[test]
+fn exact_frame_period_scales_stiffnesses() {
+    let free = with(THREE_STOREYS).unwrap().model;
+    assert_eq!(free.frame().stiffnesses_n_per_m, [3e6, 2e6, 1e6]);
+    assert_eq!(free.frame().damping, Damping::Ratio(0.02));
+
+    let scaled = with(&format!("{THREE_STOREYS}[frame]\nperiod = \"0.8 s\"\n")).unwrap().model;
+    let frame = scaled.frame();
+    let first = shear_frame_frequencies(&frame.masses_kg, &frame.stiffnesses_n_per_m)[0];
+    assert!((first * 0.8 / TAU - 1.0).abs() < 1e-14, "{first}");
+    let ratio = frame.stiffnesses_n_per_m[0] / frame.stiffnesses_n_per_m[2];
+    assert!((ratio - 3.0).abs() < 1e-15);
+    // λ = ω² m/k with m = 1 t and k = 1 MN/m scaled alike.
+    let lambda = first * first * 1000.0 / frame.stiffnesses_n_per_m[2];
+    let determinant = ((-4.0 * lambda + 20.0) * lambda - 25.0) * lambda + 6.0;
+    assert!(determinant.abs() < 1e-12, "{lambda} {determinant}");
+
+    let ratios = THREE_STOREYS.replace("\"3 MN/m\"", "3").replace("\"2 MN/m\"", "2.0");
+    let ratios = ratios.replace("\"1 MN/m\"", "1");
+    let by_ratio = with(&format!("{ratios}[frame]\nperiod = \"0.8 s\"\n")).unwrap().model;
+    for (a, b) in by_ratio.frame().stiffnesses_n_per_m.iter().zip(&frame.stiffnesses_n_per_m) {
+        assert!((a / b - 1.0).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn exact_made_motions() {
+    let sine = "[motion]\nsine = { frequency = \"2 Hz\", amplitude = \"0.2 g\", duration = \"5 s\", \
+                dt = \"5 ms\", phase = \"90 deg\", decay = \"1 s\" }\n";
+    let expected = Sine {
+        frequency_hz: 2.0,
+        amplitude_m_per_s2: 0.2 * 9.80665,
+        duration_s: 5.0,
+        dt_s: 0.005,
+        phase_rad: 90.0 * (PI / 180.0),
+        ramp_s: 0.0,
+        decay_s: 1.0,
+    };
+    assert_eq!(with(sine).unwrap().motion, Some(MotionSource::Sine(expected)));
+
+    let sweep = "[motion.sweep]\nfrom = \"0.5 Hz\"\nto = \"10 Hz\"\nkind = \"logarithmic\"\n\
+                 amplitude = \"1 m/s²\"\nduration = \"1 min\"\ndt = \"0.01 s\"\nramp = \"2 s\"\n";
+    let expected = Sweep {
+        from_hz: 0.5,
+        to_hz: 10.0,
+        kind: SweepKind::Logarithmic,
+        amplitude_m_per_s2: 1.0,
+        duration_s: 60.0,
+        dt_s: 0.01,
+        ramp_s: 2.0,
+        decay_s: 0.0,
+    };
+    assert_eq!(with(sweep).unwrap().motion, Some(MotionSource::Sweep(expected)));
+
+    let pulse = "[motion.pulse]\nshape = \"triangular\"\namplitude = \"-3 m/s2\"\n\
+                 duration = \"0.4 s\"\nstart = \"1 s\"\ndt = \"10 ms\"\n";
+    let expected = Pulse {
+        shape: PulseShape::Triangular,
+        amplitude_m_per_s2: -3.0,
+        duration_s: 0.4,
+        start_s: 1.0,
+        dt_s: 0.01,
+    };
+    assert_eq!(with(pulse).unwrap().motion, Some(MotionSource::Pulse(expected)));
+}
+
+#[test]
+fn exact_record_keys() {
+    let source = |more: &str| match with(&format!("[motion]\nrecord = \"a.csv\"\n{more}")) {
+        Ok(analysis) => match analysis.motion {
+            Some(MotionSource::Record(record)) => record,
+            other => panic!("{other:?}"),
+        },
+        Err(error) => panic!("{error}"),
+    };
+    assert_eq!(source("").scale, Scale::Factor(1.0));
+    assert_eq!(source("scale = -1.5").scale, Scale::Factor(-1.5));
+    assert_eq!(source("channel = 2").channel, Some(Channel::Number(2)));
+    assert_eq!(source("channel = \"NS\"").channel, Some(Channel::Name("NS".to_owned())));
+    assert_eq!(source("units = \"cm/s^2\"").units.unwrap().to_si(100.0), 1.0);
+    assert_eq!(source("vertical_scale = 0.5").vertical_scale, Some(0.5));
+}
+
+#[test]
+fn exact_byte_order_mark_and_crlf_change_nothing() {
+    let crlf = format!("\u{feff}{}", FULL.replace('\n', "\r\n"));
+    let (plain, windows) = (read(FULL, &[]).unwrap(), read(&crlf, &[]).unwrap());
+    assert_eq!(plain.model, windows.model);
+    assert_eq!(plain.motion, windows.motion);
+    let broken = "\u{feff}blok = 1\r\n";
+    let error = from_bytes("m.toml", broken.as_bytes(), &[]).unwrap_err();
+    assert_eq!((error.place.line, error.place.column), (1, 1));
+    assert_eq!(&broken[error.place.span], "blok");
+}
+
+#[test]
+fn exact_bytes_that_are_not_utf8_are_refused() {
+    let mut bytes = SMALLEST.replace("325", "3é5").into_bytes();
+    let after = bytes.iter().position(|b| *b == 0xc3).unwrap() + 2;
+    bytes[after] = 0xff;
+    assert_eq!(
+        from_bytes("m.toml", &bytes, &[]).unwrap_err().to_string(),
+        "m.toml:2:11: expected text in UTF-8, found the byte 0xff"
+    );
+    assert!(from_bytes("m.toml", SMALLEST.as_bytes(), &[]).is_ok());
+}
+
+#[test]
+fn exact_values_can_be_refused_by_their_user() {
+    let analysis = parse("m.toml", FULL, &[]).unwrap();
+    let error = analysis.error_at("motion.record", "a file that exists", "none");
+    assert_eq!(
+        error.to_string(),
+        "m.toml:26:12: motion.record: expected a file that exists, found none"
+    );
+    let error = analysis.error_at("motion.channel", "a channel", "nothing");
+    assert_eq!((error.place.line, error.place.column), (25, 1));
+}
+
+/// The schema is JSON, and has a description for every key at every depth.
+#[test]
+fn exact_json_schema_is_json_and_describes_every_key() {
+    fn count(node: &serde_json::Value) -> usize {
+        let own = node.get("properties").and_then(|p| p.as_object()).map_or(0, |properties| {
+            let described = properties.values().filter(|key| key.get("description").is_some());
+            described.map(|key| 1 + count(key)).sum()
+        });
+        let inside = ["items", "anyOf"].iter().filter_map(|name| node.get(name));
+        own + inside
+            .map(|inner| match inner {
+                serde_json::Value::Array(list) => list.iter().map(count).sum(),
+                other => count(other),
+            })
+            .sum::<usize>()
+    }
+    let schema: serde_json::Value = serde_json::from_str(&json_schema()).unwrap();
+    let keys = |section: &'static crate::input::schema::Section| {
+        fn all(section: &'static crate::input::schema::Section) -> usize {
+            section.keys.iter().map(|key| 1 + key.kind.section().map_or(0, all)).sum()
+        }
+        all(section)
+    };
+    assert_eq!(count(&schema), keys(&crate::input::keys::MODEL));
+    assert_eq!(schema["properties"]["block"]["required"][0], "mass");
+    let pattern = schema["properties"]["analysis"]["properties"]["gravity"]["pattern"].as_str();
+    assert!(pattern.unwrap().contains(r"m/s(\^?2|²)"), "{pattern:?}");
+}

@@ -1,0 +1,347 @@
+//! Motions made from motions: scaled, with a tail, with a vertical component.
+
+use super::figures::peak;
+use super::{GroundMotion, MAX_SAMPLES};
+use crate::error::MotionError;
+
+impl GroundMotion {
+    /// The same motion with both components times `factor`, which may be negative.
+    ///
+    /// # Errors
+    /// [`MotionError::OutOfRange`] for a factor that is not finite, [`MotionError::NotFinite`]
+    /// where a product is not.
+    pub fn scaled(&self, factor: f64) -> Result<Self, MotionError> {
+        if !factor.is_finite() {
+            let expected = "a finite factor";
+            return Err(MotionError::OutOfRange { quantity: "scale", expected, found: factor });
+        }
+        let times = |values: &[f64]| values.iter().map(|a| factor * a).collect::<Vec<_>>();
+        let horizontal = times(&self.horizontal_m_per_s2);
+        let vertical = self.vertical_m_per_s2.as_deref().map(times);
+        super::check_values(horizontal.len(), &horizontal, vertical.as_deref())?;
+        Ok(Self {
+            times_s: self.times_s.clone(),
+            horizontal_m_per_s2: horizontal,
+            vertical_m_per_s2: vertical,
+            dt_s: self.dt_s,
+        })
+    }
+
+    /// The motion scaled so that its largest horizontal acceleration is `peak_m_per_s2`; the
+    /// vertical component takes the same factor.
+    ///
+    /// # Errors
+    /// [`MotionError::OutOfRange`] unless the peak is finite and > 0, [`MotionError::ZeroPeak`]
+    /// for a motion that is zero throughout, and as [`GroundMotion::scaled`].
+    pub fn scaled_to_peak(&self, peak_m_per_s2: f64) -> Result<Self, MotionError> {
+        if !(peak_m_per_s2.is_finite() && peak_m_per_s2 > 0.0) {
+            return Err(MotionError::OutOfRange {
+                quantity: "scale_to in m/s²",
+                expected: "a finite peak > 0",
+                found: peak_m_per_s2,
+            });
+        }
+        let found = peak(&self.horizontal_m_per_s2);
+        if found == 0.0 {
+            return Err(MotionError::ZeroPeak);
+        }
+        self.scaled(peak_m_per_s2 / found)
+    }
+
+    /// The motion followed by `tail_s` of rest, so that a history has rows there.
+    ///
+    /// Where the last sample is not 0 the acceleration jumps to 0 at the end. The tail is sampled
+    /// at the motion's own step (the middle one of its intervals where they differ); its last
+    /// sample is at the exact end. A tail of 0 s changes nothing.
+    ///
+    /// # Errors
+    /// [`MotionError::OutOfRange`] unless the tail is finite and ≥ 0, [`MotionError::TooLong`] for
+    /// more than [`MAX_SAMPLES`] samples, refused before they are allocated.
+    pub fn with_tail(&self, tail_s: f64) -> Result<Self, MotionError> {
+        if !(tail_s.is_finite() && tail_s >= 0.0) {
+            let expected = "a finite duration ≥ 0 s";
+            return Err(MotionError::OutOfRange { quantity: "tail", expected, found: tail_s });
+        }
+        if tail_s == 0.0 {
+            return Ok(self.clone());
+        }
+        let n = self.len();
+        let end_s = self.duration_s();
+        let dt_s = self.dt_s.unwrap_or_else(|| median_interval(&self.times_s));
+        let samples = steps(tail_s, dt_s, n + 1)?;
+
+        let mut times_s = self.times_s.clone();
+        let mut horizontal = self.horizontal_m_per_s2.clone();
+        let mut vertical = self.vertical_m_per_s2.clone();
+        let at_rest = horizontal[n - 1] == 0.0 && vertical.as_ref().is_none_or(|v| v[n - 1] == 0.0);
+        if !at_rest && times_s[n - 2] == end_s {
+            // It ends with a jump, whose right side holds for no time.
+            horizontal[n - 1] = 0.0;
+            vertical.iter_mut().for_each(|v| v[n - 1] = 0.0);
+        } else if !at_rest {
+            times_s.push(end_s);
+        }
+        // An even motion stays on the multiples of its step to the last bit.
+        let first = if self.dt_s.is_some() { n - 1 } else { 0 };
+        let from_s = if self.dt_s.is_some() { 0.0 } else { end_s };
+        times_s.extend((1..samples).map(|k| from_s + (first + k) as f64 * dt_s));
+        times_s.push(end_s + tail_s);
+        horizontal.resize(times_s.len(), 0.0);
+        vertical.iter_mut().for_each(|v| v.resize(times_s.len(), 0.0));
+        Self::new(times_s, horizontal, vertical)
+    }
+
+    /// This motion with `factor` times the horizontal component of `other` as its vertical one
+    /// (Üv, positive upwards), and whether the two differ in length.
+    ///
+    /// Both clocks start at their first sample. The times are the union of both (times closer than
+    /// rounding are one), so that both stay linear between them; the shorter is 0 after its end,
+    /// by a jump where its last value is not 0.
+    ///
+    /// # Errors
+    /// [`MotionError::OutOfRange`] for a factor that is not finite, [`MotionError::TooLong`] for
+    /// more than [`MAX_SAMPLES`] times in the union, [`MotionError::NotFinite`] where a product
+    /// is not finite.
+    pub fn with_vertical(&self, other: &Self, factor: f64) -> Result<(Self, bool), MotionError> {
+        let other = other.scaled(factor)?;
+        let (own, up) = (&self.times_s, &other.times_s);
+        if own.len() + up.len() > MAX_SAMPLES {
+            return Err(MotionError::TooLong { found: (own.len() + up.len()) as f64 });
+        }
+        let slack_s = 8.0 * f64::EPSILON * self.duration_s().max(other.duration_s());
+        let differ = (self.duration_s() - other.duration_s()).abs() > slack_s;
+        let mut horizontal = Reader::new(own, &self.horizontal_m_per_s2, slack_s);
+        let mut vertical = Reader::new(up, &other.horizontal_m_per_s2, slack_s);
+        let capacity = own.len().max(up.len());
+        let mut times_s = Vec::with_capacity(capacity);
+        let mut along = Vec::with_capacity(capacity);
+        let mut normal = Vec::with_capacity(capacity);
+        while let Some(t) = earlier(horizontal.next_s(), vertical.next_s(), slack_s) {
+            let [left, right] = [horizontal.limits(t), vertical.limits(t)];
+            let jumps = left[0] != left[1] || right[0] != right[1];
+            let last = horizontal.next_s().is_none() && vertical.next_s().is_none();
+            let first = times_s.is_empty();
+            // Before the first sample and after the last both are 0 without being told.
+            let sides = match (first, last) {
+                (true, _) => 1..2,
+                (_, true) => 0..1,
+                _ if jumps => 0..2,
+                _ => 0..1,
+            };
+            for side in sides {
+                times_s.push(t);
+                along.push(left[side]);
+                normal.push(right[side]);
+            }
+        }
+        Ok((Self::new(times_s, along, Some(normal))?, differ))
+    }
+}
+
+/// How many steps of `dt_s` reach `duration_s`, the last one perhaps shorter; refused where they
+/// and the `others` samples are more than a motion may have.
+pub(super) fn steps(duration_s: f64, dt_s: f64, others: usize) -> Result<usize, MotionError> {
+    let steps = duration_s / dt_s;
+    // A last step below a millionth of the others is rounding.
+    let whole = if (steps - libm::round(steps)).abs() <= 1e-6 {
+        libm::round(steps).max(1.0)
+    } else {
+        libm::ceil(steps)
+    };
+    let found = whole + others as f64;
+    if !(found <= MAX_SAMPLES as f64) {
+        return Err(MotionError::TooLong { found });
+    }
+    Ok(whole as usize)
+}
+
+fn median_interval(times_s: &[f64]) -> f64 {
+    let mut intervals: Vec<f64> =
+        times_s.windows(2).map(|t| t[1] - t[0]).filter(|&h| h > 0.0).collect();
+    let middle = intervals.len() / 2;
+    *intervals.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// The earlier of two times; where they are one but for rounding, the first.
+fn earlier(first_s: Option<f64>, second_s: Option<f64>, slack_s: f64) -> Option<f64> {
+    match (first_s, second_s) {
+        (Some(a), Some(b)) if (a - b).abs() <= slack_s => Some(a),
+        (Some(a), Some(b)) => Some(a.min(b)),
+        (a, b) => a.or(b),
+    }
+}
+
+/// Reads a piecewise-linear function from left to right, limits from both sides.
+struct Reader<'a> {
+    times_s: &'a [f64],
+    values: &'a [f64],
+    slack_s: f64,
+    next: usize,
+}
+
+impl<'a> Reader<'a> {
+    fn new(times_s: &'a [f64], values: &'a [f64], slack_s: f64) -> Self {
+        Self { times_s, values, slack_s, next: 0 }
+    }
+
+    /// The next sample's time.
+    fn next_s(&self) -> Option<f64> {
+        self.times_s.get(self.next).copied()
+    }
+
+    /// Limits from the left and the right at `t`, which may be no later than the next sample.
+    fn limits(&mut self, t: f64) -> [f64; 2] {
+        let i = self.next;
+        let at = |k: usize| self.times_s.get(k).is_some_and(|s| (s - t).abs() <= self.slack_s);
+        if !at(i) {
+            let value = match (i, self.next_s()) {
+                (0, _) | (_, None) => 0.0,
+                (_, Some(after_s)) => {
+                    let fraction = (t - self.times_s[i - 1]) / (after_s - self.times_s[i - 1]);
+                    self.values[i - 1] + (self.values[i] - self.values[i - 1]) * fraction
+                }
+            };
+            return [value, value];
+        }
+        let last = (i..).take_while(|&k| at(k)).last().unwrap_or(i);
+        self.next = last + 1;
+        let left = if i == 0 { 0.0 } else { self.values[i] };
+        let right = if self.next == self.values.len() { 0.0 } else { self.values[last] };
+        [left, right]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn motion(times_s: &[f64], values: &[f64]) -> GroundMotion {
+        GroundMotion::new(times_s.to_vec(), values.to_vec(), None).unwrap()
+    }
+
+    #[test]
+    fn exact_scaling() {
+        let m = motion(&[0.0, 1.0, 2.0], &[0.0, -4.0, 3.0]);
+        assert_eq!(m.scaled(-0.5).unwrap().horizontal_m_per_s2(), [0.0, 2.0, -1.5]);
+        assert_eq!(m.scaled_to_peak(2.0).unwrap().horizontal_m_per_s2(), [0.0, -2.0, 1.5]);
+        assert_eq!(m.scaled(2.0).unwrap().dt_s(), Some(1.0));
+    }
+
+    #[test]
+    fn exact_scaling_refuses_what_has_no_answer() {
+        let zero = motion(&[0.0, 1.0], &[0.0, 0.0]);
+        assert_eq!(zero.scaled_to_peak(1.0), Err(MotionError::ZeroPeak));
+        let m = motion(&[0.0, 1.0], &[0.0, 1e10]);
+        for factor in [f64::NAN, f64::INFINITY] {
+            assert!(matches!(m.scaled(factor), Err(MotionError::OutOfRange { .. })));
+        }
+        assert!(matches!(m.scaled(1e300), Err(MotionError::NotFinite { index: 1, .. })));
+        for peak in [0.0, -1.0, f64::NAN] {
+            assert!(matches!(m.scaled_to_peak(peak), Err(MotionError::OutOfRange { .. })));
+        }
+    }
+
+    #[test]
+    fn exact_vertical_takes_the_factor_of_the_horizontal() {
+        let m = GroundMotion::new(vec![0.0, 1.0], vec![1.0, 2.0], Some(vec![3.0, 0.5])).unwrap();
+        assert_eq!(m.scaled_to_peak(4.0).unwrap().vertical_m_per_s2().unwrap(), [6.0, 1.0]);
+    }
+
+    #[test]
+    fn exact_tail_after_zero_keeps_the_step() {
+        let m = GroundMotion::evenly_spaced(0.1, vec![0.0, 1.0, 0.0], None).unwrap();
+        let tailed = m.with_tail(0.3).unwrap();
+        assert_eq!(tailed.dt_s(), Some(0.1));
+        assert_eq!(tailed.len(), 6);
+        assert_eq!(tailed.duration_s(), 0.2 + 0.3);
+        assert_eq!(tailed.horizontal_m_per_s2(), [0.0, 1.0, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!(m.with_tail(0.0).unwrap(), m);
+    }
+
+    #[test]
+    fn exact_tail_after_a_value_jumps() {
+        let m = motion(&[0.0, 0.5], &[0.0, 1.0]).with_tail(0.75).unwrap();
+        assert_eq!(m.times_s(), [0.0, 0.5, 0.5, 1.0, 1.25]);
+        assert_eq!(m.horizontal_m_per_s2(), [0.0, 1.0, 0.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn exact_tail_after_a_jump_at_the_end() {
+        let m = motion(&[0.0, 1.0, 1.0], &[2.0, 2.0, 1.0]).with_tail(1.0).unwrap();
+        assert_eq!(m.times_s(), [0.0, 1.0, 1.0, 2.0]);
+        assert_eq!(m.horizontal_m_per_s2(), [2.0, 2.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn exact_tail_of_uneven_samples_uses_their_middle_interval() {
+        let m = motion(&[0.0, 0.1, 0.2, 0.200_001], &[0.0; 4]).with_tail(0.25).unwrap();
+        assert_eq!(m.len(), 4 + 3);
+        assert_eq!(m.duration_s(), 0.200_001 + 0.25);
+    }
+
+    #[test]
+    fn exact_endless_tails_are_refused_at_once() {
+        let m = motion(&[0.0, 0.01], &[0.0, 0.0]);
+        assert!(matches!(m.with_tail(1e10), Err(MotionError::TooLong { .. })));
+        assert!(matches!(m.with_tail(f64::NAN), Err(MotionError::OutOfRange { .. })));
+        assert!(matches!(m.with_tail(-1.0), Err(MotionError::OutOfRange { .. })));
+    }
+
+    #[test]
+    fn exact_vertical_on_the_same_times() {
+        let h = GroundMotion::evenly_spaced(0.1, vec![1.0, 2.0, 3.0], None).unwrap();
+        let v = GroundMotion::evenly_spaced(0.1, vec![4.0, 5.0, 6.0], None).unwrap();
+        let (both, differ) = h.with_vertical(&v, 2.0).unwrap();
+        assert!(!differ);
+        assert_eq!(both.times_s(), h.times_s());
+        assert_eq!(both.horizontal_m_per_s2(), h.horizontal_m_per_s2());
+        assert_eq!(both.vertical_m_per_s2().unwrap(), [8.0, 10.0, 12.0]);
+        assert_eq!(both.dt_s(), Some(0.1));
+    }
+
+    #[test]
+    fn exact_vertical_on_the_union_of_times() {
+        let h = motion(&[0.0, 1.0, 2.0], &[0.0, 4.0, 0.0]);
+        let v = motion(&[0.0, 0.5, 3.0], &[1.0, 0.0, 5.0]);
+        let (both, differ) = h.with_vertical(&v, 1.0).unwrap();
+        assert!(differ);
+        assert_eq!(both.times_s(), [0.0, 0.5, 1.0, 2.0, 3.0]);
+        assert_eq!(both.horizontal_m_per_s2(), [0.0, 2.0, 4.0, 0.0, 0.0]);
+        assert_eq!(both.vertical_m_per_s2().unwrap(), [1.0, 0.0, 1.0, 3.0, 5.0]);
+    }
+
+    /// The shorter stops at 4, not at 0: it jumps to 0 there, and stays.
+    #[test]
+    fn exact_shorter_component_jumps_to_zero_at_its_end() {
+        let h = motion(&[0.0, 1.0], &[0.0, 4.0]);
+        let v = motion(&[0.0, 2.0], &[0.0, 2.0]);
+        let (both, _) = h.with_vertical(&v, 1.0).unwrap();
+        assert_eq!(both.times_s(), [0.0, 1.0, 1.0, 2.0]);
+        assert_eq!(both.horizontal_m_per_s2(), [0.0, 4.0, 0.0, 0.0]);
+        assert_eq!(both.vertical_m_per_s2().unwrap(), [0.0, 1.0, 1.0, 2.0]);
+        let (both, _) = v.with_vertical(&h, 1.0).unwrap();
+        assert_eq!(both.vertical_m_per_s2().unwrap(), [0.0, 4.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn exact_jumps_of_either_component_stay_jumps() {
+        let h = motion(&[0.0, 1.0, 1.0, 2.0], &[1.0, 1.0, -1.0, -1.0]);
+        let v = motion(&[0.0, 2.0], &[0.0, 2.0]);
+        let (both, _) = h.with_vertical(&v, 1.0).unwrap();
+        assert_eq!(both.times_s(), [0.0, 1.0, 1.0, 2.0]);
+        assert_eq!(both.horizontal_m_per_s2(), [1.0, 1.0, -1.0, -1.0]);
+        assert_eq!(both.vertical_m_per_s2().unwrap(), [0.0, 1.0, 1.0, 2.0]);
+        let (both, _) = v.with_vertical(&h, 1.0).unwrap();
+        assert_eq!(both.vertical_m_per_s2().unwrap(), [1.0, 1.0, -1.0, -1.0]);
+    }
+
+    /// Times that differ by rounding alone are one time: no interval of 1e-17 s.
+    #[test]
+    fn exact_times_that_differ_by_rounding_are_one() {
+        let h = GroundMotion::evenly_spaced(0.1, vec![1.0; 50], None).unwrap();
+        let shifted: Vec<f64> = h.times_s().iter().map(|t| (t + 0.3) - 0.3).collect();
+        let v = GroundMotion::new(shifted, vec![2.0; 50], None).unwrap();
+        let (both, differ) = h.with_vertical(&v, 1.0).unwrap();
+        assert_eq!((both.len(), differ), (50, false));
+    }
+}
