@@ -24,9 +24,7 @@ mod tree;
 
 pub use json_schema::json_schema;
 pub use keys::MAX_STOREYS;
-pub use motion::{
-    Channel, MotionSource, Pulse, PulseShape, RecordSource, Scale, Sine, Sweep, SweepKind,
-};
+pub use motion::{Channel, MotionSource, RecordSource, Scale};
 pub use overrides::Override;
 
 /// All that a model file says.

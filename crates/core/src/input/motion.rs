@@ -2,7 +2,7 @@
 
 use super::reader::{Given, Values};
 use crate::error::InputError;
-use crate::motion::MAX_SAMPLES;
+use crate::motion::{MAX_SAMPLES, Pulse, PulseShape, Sine, Sweep, SweepKind};
 use crate::units::Unit;
 
 /// How the table moves, before any record is opened.
@@ -53,81 +53,6 @@ pub enum Scale {
     Factor(f64),
     /// To this peak acceleration in m/s².
     Peak(f64),
-}
-
-/// A sine `A sin(2πft + φ)`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sine {
-    /// Frequency f in Hz.
-    pub frequency_hz: f64,
-    /// Amplitude A in m/s².
-    pub amplitude_m_per_s2: f64,
-    /// Duration in s.
-    pub duration_s: f64,
-    /// Time step in s.
-    pub dt_s: f64,
-    /// Phase φ at the start in rad.
-    pub phase_rad: f64,
-    /// Time in which the amplitude grows from zero, in s.
-    pub ramp_s: f64,
-    /// Time at the end in which the amplitude falls to zero, in s.
-    pub decay_s: f64,
-}
-
-/// How the frequency of a sweep changes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SweepKind {
-    /// By the same amount in equal times.
-    Linear,
-    /// By the same factor in equal times.
-    Logarithmic,
-}
-
-/// A sine whose frequency changes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sweep {
-    /// Frequency at the start in Hz.
-    pub from_hz: f64,
-    /// Frequency at the end in Hz.
-    pub to_hz: f64,
-    /// How it changes.
-    pub kind: SweepKind,
-    /// Amplitude in m/s².
-    pub amplitude_m_per_s2: f64,
-    /// Duration in s.
-    pub duration_s: f64,
-    /// Time step in s.
-    pub dt_s: f64,
-    /// Time in which the amplitude grows from zero, in s.
-    pub ramp_s: f64,
-    /// Time at the end in which the amplitude falls to zero, in s.
-    pub decay_s: f64,
-}
-
-/// Shape of a pulse.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PulseShape {
-    /// Half a sine.
-    HalfSine,
-    /// Constant; its edges are jumps.
-    Rectangular,
-    /// An isosceles triangle.
-    Triangular,
-}
-
-/// A single pulse.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pulse {
-    /// Its shape.
-    pub shape: PulseShape,
-    /// Peak acceleration in m/s².
-    pub amplitude_m_per_s2: f64,
-    /// Duration in s.
-    pub duration_s: f64,
-    /// When it starts, in s.
-    pub start_s: f64,
-    /// Time step in s.
-    pub dt_s: f64,
 }
 
 /// The motion that the checked values describe, if any.

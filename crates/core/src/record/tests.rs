@@ -289,6 +289,15 @@ fn exact_text_faults_are_refused_with_their_place() {
     }
 }
 
+/// The end-of-file mark of old systems is white space, wherever it stands.
+#[test]
+fn exact_end_of_file_mark() {
+    for text in ["1\n2\n\x1a", "1\n2\x1a", "1\n2\n\x1a\n", "\x1a\n1\n2\n"] {
+        assert_eq!(values(&ok(text, &g_at(0.1)).channels[0]), [1.0, 2.0], "{text:?}");
+    }
+    assert!(message("\x1a", &g_at(0.1)).contains("an empty file"));
+}
+
 #[test]
 fn exact_dt_of_zero_is_refused() {
     for dt_s in [0.0, -0.01, f64::NAN, f64::INFINITY] {
