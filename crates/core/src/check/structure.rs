@@ -46,7 +46,7 @@ impl Structure {
                 base[..n.min(1)].copy_from_slice(&c[..n.min(1)]);
                 (StoreyDamping::Chain(c.clone()), base)
             }
-            Damping::Ratio(ratio) if *ratio == 0.0 => {
+            Damping::Ratio(ratio) if n == 0 || *ratio == 0.0 => {
                 (StoreyDamping::Chain(vec![0.0; n]), vec![0.0; n])
             }
             Damping::Ratio(ratio) => {
