@@ -12,8 +12,7 @@ use crate::failure::Failure;
 
 /// Prints the JSON schema of the model file, or the units.
 pub fn schema(args: &SchemaArgs) -> Result<ExitCode, Failure> {
-    let text =
-        if args.units { slipstick::units::table() } else { slipstick::input::json_schema() };
+    let text = if args.units { slipstick::units::table() } else { slipstick::input::json_schema() };
     let mut out = io::stdout().lock();
     out.write_all(text.as_bytes())?;
     if !text.ends_with('\n') {
@@ -52,8 +51,7 @@ fn page(
     output: &mut slipstick_files::OutputFolder,
 ) -> Result<(), Failure> {
     let mut text = Vec::new();
-    let command = command.clone().name(name.to_owned());
-    clap_mangen::Man::new(command).render(&mut text)?;
+    clap_mangen::Man::new(command.clone()).title(name).render(&mut text)?;
     output.write(&format!("{name}.1"), &text)?;
     Ok(())
 }

@@ -126,6 +126,22 @@ fn exact_peer_faults_are_refused_with_their_place() {
     }
 }
 
+/// A number cut in the middle is another number: any start of a file is refused.
+#[test]
+fn exact_no_start_of_a_peer_file_is_the_whole() {
+    let whole =
+        format!("{HEAD}NPTS=  6, DT= .01 SEC\n .1E-01 -.2E-01  .3E-01\n .1E-01 -.2E-01  .3E-01");
+    assert_eq!(ok(&whole, &NOTHING).channels[0].values.len(), 6);
+    for n in 0..whole.len() {
+        assert!(read("f", &whole.as_bytes()[..n], &NOTHING).is_err(), "{}", &whole[..n]);
+    }
+    assert_eq!(
+        message(&whole[..whole.len() - 1], &NOTHING),
+        "f:6:23: expected a last value written as those before it (a truncated file?), found \
+         \".3E-0\""
+    );
+}
+
 #[test]
 fn exact_what_a_peer_file_states_is_not_overruled() {
     let text = peer("NPTS=  3, DT= .0067 SEC");

@@ -49,6 +49,24 @@ impl<'a> Text<'a> {
         self.bytes.len()
     }
 
+    /// The last word, where the text ends in it and it is shorter after its point than the words
+    /// before it, which are alike: a number cut in the middle is another number. Some hundred
+    /// words after a header are looked at.
+    pub fn cut_word(&self, header: &Line) -> Option<String> {
+        let from = self.offset(header) + header.bytes.len();
+        let tail = &self.bytes[self.bytes.len().saturating_sub(1024).max(from)..];
+        let words: Vec<&[u8]> = tail.split(is_blank).filter(|word| !word.is_empty()).collect();
+        let after_point = |word: &[u8]| word.iter().rev().position(|&b| b == b'.');
+        let (last, before) = words.split_last()?;
+        // The first may be cut by the choice of the tail.
+        let before = before.get(1..)?;
+        let usual = after_point(before.first()?);
+        let alike = before.iter().all(|word| after_point(word) == usual);
+        let shorter = after_point(last) < usual;
+        (alike && shorter && tail.ends_with(last))
+            .then(|| String::from_utf8_lossy(last).into_owned())
+    }
+
     /// Lines ended by LF, CRLF, CR CR LF or CR.
     pub fn lines(&self) -> Lines<'a> {
         Lines { rest: self.bytes, number: 0 }

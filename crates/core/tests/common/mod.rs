@@ -1,0 +1,15 @@
+//! What the tests of this folder share: the plain reference, the cases, random systems.
+
+// Every test program compiles the whole of it and uses a part.
+#![allow(dead_code)]
+
+pub mod agree;
+pub mod bernstein;
+pub mod cases;
+pub mod compare;
+pub mod dd;
+pub mod plain;
+pub mod random;
+pub mod sketch;
+pub mod system;
+pub mod values;

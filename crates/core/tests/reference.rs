@@ -1,0 +1,19 @@
+//! The plain reference against the cases: it must be right before anything is compared with it.
+
+mod common;
+
+use common::cases::all;
+use common::compare::{by_reference, differences};
+
+/// Every time history of straight lines, within its stated tolerances. (Sines would only cost a
+/// million samples.)
+#[test]
+fn reference_plain_agrees_with_every_time_history() {
+    let mut failures = Vec::new();
+    for case in all().iter().filter(|c| c.is_history() && !c.is_harmonic()) {
+        for line in differences(case, by_reference) {
+            failures.push(format!("{}: {line}", case.id));
+        }
+    }
+    assert!(failures.is_empty(), "{} differences:\n{}", failures.len(), failures.join("\n"));
+}
