@@ -97,7 +97,8 @@ impl Job {
             None => match analysis.required_motion()? {
                 MotionSource::Record(record) => load_record(&request(record, folder))?,
                 MotionSource::Sine(sine) => {
-                    let text = format!("sine, {} Hz, {} m/s²", sine.frequency_hz, sine.amplitude_m_per_s2);
+                    let text =
+                        format!("sine, {} Hz, {} m/s²", sine.frequency_hz, sine.amplitude_m_per_s2);
                     LoadedMotion::made(sine.motion().map_err(in_model)?, text)
                 }
                 MotionSource::Sweep(sweep) => {
@@ -158,9 +159,8 @@ impl Job {
         friction_factor: f64,
     ) -> Result<(Response, Certificate, Summary), JobError> {
         let method = self.analysis.method;
-        let response = solver::solve(model, &self.motion, method).map_err(|source| {
-            JobError::Solve { model: self.name.clone(), source }
-        })?;
+        let response = solver::solve(model, &self.motion, method)
+            .map_err(|source| JobError::Solve { model: self.name.clone(), source })?;
         let empty = History::default();
         let history = response.history.as_ref().unwrap_or(&empty);
         let certificate = check::check(model, &self.motion, history);
