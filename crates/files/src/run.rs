@@ -4,11 +4,10 @@ use std::path::Path;
 
 use slipstick::check::{self, Certificate};
 use slipstick::error::{InputError, MotionError, SolveError};
-use slipstick::input::{Analysis, Channel, MotionSource, RecordSource, Scale as ModelScale};
+use slipstick::input::{Analysis, MotionSource, RecordSource, Scale as ModelScale};
 use slipstick::linear::shear_frame_frequencies;
 use slipstick::model::Model;
 use slipstick::motion::{GroundMotion, spectrum};
-use slipstick::record::Units;
 use slipstick::response::{History, Response, Warning};
 use slipstick::solver;
 use slipstick_report::{FloorSpectra, RecordFigures, Summary, SummaryInputs};
@@ -190,16 +189,12 @@ fn shown(path: &Path) -> String {
 
 /// A record as the model asks for it.
 fn request(record: &RecordSource, folder: &Path) -> RecordRequest {
-    let channel = record.channel.as_ref().map(|channel| match channel {
-        Channel::Name(name) => name.clone(),
-        Channel::Number(number) => number.to_string(),
-    });
     RecordRequest {
         path: resolve(folder, &record.path),
         format: None,
-        units: record.units.and_then(|unit| Units::parse(unit.name())),
+        units: record.units,
         dt_s: record.dt_s,
-        channel,
+        channel: record.channel.clone(),
         scale: match record.scale {
             ModelScale::Factor(factor) => Scale::Factor(factor),
             ModelScale::Peak(peak) => Scale::ToPeak(peak),
