@@ -267,16 +267,16 @@ fn closed_form(case: &Case, outcome: &Outcome, dense: &Outcome, name: &str) -> O
     let release = |side: usize, key: &str| outcome.release.as_ref().map(|r| r[side][key]);
     match name {
         "t_slip" => slips().next().map(t),
-        "t_release" => slips().last().map(t),
+        "t_release" => slips().next_back().map(t),
         "t_stop1" | "t_first_stop" => stops().next().map(t),
-        "t_stop" | "t_stop_final" | "t_stick" => sticks().last().map(t),
+        "t_stop" | "t_stop_final" | "t_stick" => sticks().next_back().map(t),
         "t_reversal" => events(EventKind::Reversal).next().map(t),
         "t_uplift" => outcome.numbers.get(name).copied(),
         "final_z" | "final_w" | "peak_abs_w" => outcome.numbers.get(name).copied(),
         "z(T)" => outcome.numbers.get("final_z").copied(),
         "y(T)" => outcome.numbers.get("final_y").copied(),
         "peak_z" | "z_after_first_slip" | "z_first_stop" => stops().next().map(z),
-        "z_residual" => slips().last().map(z),
+        "z_residual" => slips().next_back().map(z),
         "n_half_cycles" => Some(stops().count() as f64),
         "half_period" => Some(outcome.events[1].time_s - outcome.events[0].time_s),
         "dead band |z| = mu_s M g/K1" => {
