@@ -35,10 +35,11 @@ fn run(case: &Case) {
     assert!(failures.is_empty(), "{}:\n{}", case.id, failures.join("\n"));
     let worst = compared.iter().max_by(|a, b| a.share().total_cmp(&b.share())).expect("figures");
     println!(
-        "case {}: {} figures, worst {:.1e} of its tolerance ({})",
+        "case {}: {} figures, worst {:.1e} of its tolerance {:.1e} ({})",
         case.id,
         compared.len(),
         worst.share(),
+        worst.tolerance,
         worst.what
     );
 }
