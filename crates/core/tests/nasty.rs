@@ -4,6 +4,14 @@
 //! on the reference's response, at least 500 times in systems whose answer is well determined.
 //! `SLIPSTICK_SEED` sets another seed.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::disallowed_methods,
+    clippy::disallowed_macros,
+    reason = "a test may panic, print, read the clock and compare with the platform's functions"
+)]
+
 mod common;
 
 use common::agree::{Verdict, compare};

@@ -141,8 +141,42 @@ pub fn of_response(model: &Model, response: &Response) -> Outcome {
     }
 }
 
-/// Compares a time history with its case; every line says what differs by how much.
-pub fn differences(case: &Case, solve: Solve) -> Vec<String> {
+/// A number beside what a case expects of it.
+pub struct Comparison {
+    pub what: String,
+    pub value: f64,
+    pub expected: f64,
+    pub tolerance: f64,
+}
+
+impl Comparison {
+    pub fn error(&self) -> f64 {
+        (self.value - self.expected).abs()
+    }
+
+    /// Error over tolerance; what must be equal, and is, has none.
+    pub fn share(&self) -> f64 {
+        if self.value == self.expected { 0.0 } else { self.error() / self.tolerance }
+    }
+}
+
+/// What differs by more than its tolerance, and by how much.
+pub fn failures(comparisons: &[Comparison]) -> Vec<String> {
+    // NaN must fail.
+    let failing = comparisons.iter().filter(|c| !(c.error() <= c.tolerance));
+    failing
+        .map(|c| {
+            let Comparison { what, value, expected, tolerance } = c;
+            let error = c.error();
+            format!(
+                "{what}: expected {expected:e}, found {value:e}, off by {error:.2e} > {tolerance:.2e}"
+            )
+        })
+        .collect()
+}
+
+/// Compares a time history with its case.
+pub fn comparisons(case: &Case, solve: Solve) -> Vec<Comparison> {
     // A sine needs so many samples that its straight lines cost less than the tolerance (README M
     // of the cases: 3.3 / N² times the sensitivity).
     let per_cycle = 1_000_000;
@@ -150,13 +184,7 @@ pub fn differences(case: &Case, solve: Solve) -> Vec<String> {
     let outcome = solve(&model, &case.motion(per_cycle, false));
     let mut found = Vec::new();
     let mut compare = |what: &str, value: f64, expected: f64, tolerance: f64| {
-        // NaN must fail.
-        if !((value - expected).abs() <= tolerance) {
-            let error = (value - expected).abs();
-            found.push(format!(
-                "{what}: expected {expected:e}, found {value:e}, off by {error:.2e} > {tolerance:.2e}"
-            ));
-        }
+        found.push(Comparison { what: what.to_owned(), value, expected, tolerance });
     };
     if case.field("compare_sequence") == true {
         let expected = case.list("events");
@@ -239,16 +267,16 @@ fn closed_form(case: &Case, outcome: &Outcome, dense: &Outcome, name: &str) -> O
     let release = |side: usize, key: &str| outcome.release.as_ref().map(|r| r[side][key]);
     match name {
         "t_slip" => slips().next().map(t),
-        "t_release" => slips().last().map(t),
+        "t_release" => slips().next_back().map(t),
         "t_stop1" | "t_first_stop" => stops().next().map(t),
-        "t_stop" | "t_stop_final" | "t_stick" => sticks().last().map(t),
+        "t_stop" | "t_stop_final" | "t_stick" => sticks().next_back().map(t),
         "t_reversal" => events(EventKind::Reversal).next().map(t),
         "t_uplift" => outcome.numbers.get(name).copied(),
         "final_z" | "final_w" | "peak_abs_w" => outcome.numbers.get(name).copied(),
         "z(T)" => outcome.numbers.get("final_z").copied(),
         "y(T)" => outcome.numbers.get("final_y").copied(),
         "peak_z" | "z_after_first_slip" | "z_first_stop" => stops().next().map(z),
-        "z_residual" => slips().last().map(z),
+        "z_residual" => slips().next_back().map(z),
         "n_half_cycles" => Some(stops().count() as f64),
         "half_period" => Some(outcome.events[1].time_s - outcome.events[0].time_s),
         "dead band |z| = mu_s M g/K1" => {

@@ -9,7 +9,7 @@ use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::response::{Event, EventKind, Mode};
 
 use super::cases::{Case, cycles, number, text_of};
-use super::compare::{Numbers, Outcome, Solve};
+use super::compare::{Comparison, Numbers, Outcome, Solve};
 
 /// Values of a case by their names, from `per_cycle` samples a cycle.
 pub fn values(case: &Case, solve: Solve, per_cycle: usize) -> Numbers {
@@ -23,9 +23,9 @@ pub fn values(case: &Case, solve: Solve, per_cycle: usize) -> Numbers {
     }
 }
 
-/// Values with their errors and the tolerance of the sampled rule: 3 max(measured, 8.2e-5)
+/// Values beside those expected, with the tolerance of the sampled rule: 3 max(measured, 8.2e-5)
 /// (200/N)² of the value, or the stated one where nothing was sampled.
-pub fn judged(case: &Case, values: &Numbers, per_cycle: usize) -> Vec<(String, f64, f64)> {
+pub fn judged(case: &Case, values: &Numbers, per_cycle: usize) -> Vec<Comparison> {
     let measured = case.field("sampled").get("measured_relative_error").map(|list| {
         let list = list.as_object().expect("measured errors");
         list.values().map(number).fold(8.2e-5, f64::max)
@@ -39,7 +39,9 @@ pub fn judged(case: &Case, values: &Numbers, per_cycle: usize) -> Vec<(String, f
         // Counts, formulas, and what is found with a fineness of its own.
         let own = ["n_events", "contraction", "critical", "first-order"];
         let stands = own.iter().any(|start| name.starts_with(start));
-        (name, (value - wanted).abs(), if stands { stated } else { stated.max(rule) })
+        let tolerance = if stands { stated } else { stated.max(rule) };
+        let what = format!("{name}, {per_cycle} a cycle");
+        Comparison { what, value, expected: wanted, tolerance }
     };
     case.list("expect").iter().map(judge).collect()
 }
