@@ -76,6 +76,10 @@ fn fixed(model: &Model) -> Model {
     with(model, held, model.initial().clone())
 }
 
+fn square(x: f64) -> f64 {
+    x * x
+}
+
 /// Half of the distance between the turning points, which are events, and their middle.
 fn half_range(events: &[Event]) -> (f64, f64) {
     let z = events.iter().map(|e| e.sliding_displacement_m);
@@ -108,7 +112,7 @@ fn limit_cycle(case: &Case, solve: Solve, n: usize) -> Numbers {
     put("slide_fraction", sliding_s * omega / (TAU * KEPT as f64));
     put("peak_w", window.outcome.numbers["peak_abs_w"]);
     let [eta_s, eta_d] = ["mu_s", "mu_d"].map(|mu| p(mu) * p("g") / a);
-    put("critical LHS eta_s^2+(pi eta_d/2)^2", eta_s * eta_s + (0.5 * PI * eta_d).powi(2));
+    put("critical LHS eta_s^2+(pi eta_d/2)^2", eta_s * eta_s + square(0.5 * PI * eta_d));
     let to = |kind, sign: f64| {
         let fits = move |e: &&Event| e.kind == kind && (sign == 0.0 || e.mode.sign() == sign);
         events.iter().find(fits).copied()
@@ -182,15 +186,15 @@ fn drift(case: &Case, solve: Solve, n: usize) -> Numbers {
     }
     let p = |name| case.parameter(name, 0.0);
     let theta = p("tilt");
-    let eta = p("mu_d") * theta.cos() * p("g") / a;
-    let small_tilt = -PI * PI * a / (omega * omega) * theta.tan() / p("mu_d");
+    let eta = p("mu_d") * libm::cos(theta) * p("g") / a;
+    let small_tilt = -PI * PI * a / (omega * omega) * libm::tan(theta) / p("mu_d");
     Numbers::from([
         ("drift_per_cycle".to_owned(), per_cycle),
         ("drift_per_cycle/(A/omega^2)".to_owned(), per_cycle * omega * omega / a),
         ("fraction of the cycle with w>0".to_owned(), positive_s * omega / (TAU * KEPT as f64)),
         (
             "first-order (small tilt) estimate, informative".to_owned(),
-            small_tilt * (1.0 - (0.5 * PI * eta).powi(2)).sqrt(),
+            small_tilt * (1.0 - square(0.5 * PI * eta)).sqrt(),
         ),
     ])
 }
