@@ -1,4 +1,4 @@
-"""Times the same analyses in several programs, interleaved, and compares each with the exact answer.
+"""Times the same analyses in several programs, interleaved, and compares all with the exact answer.
 
 Called by `cargo xtask bench-peers`, which builds the helper and makes the Python environment.
 Times are medians over rounds in which every program has its turn; imports, compilation and the
@@ -15,6 +15,7 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -36,6 +37,10 @@ LABELS = {
     "opensees-1e-6-fine": "OpenSeesPy, yield 1e-6 m, dt/5",
     "scipy": "SciPy solve_ivp with events",
 }
+
+
+# Program, yield displacement in m, parts into which a sample is cut.
+OPENSEES = [("opensees-1e-5", 1e-5, 1), ("opensees-1e-6", 1e-6, 1), ("opensees-1e-6-fine", 1e-6, 5)]
 
 
 class Helper:
@@ -98,8 +103,7 @@ def programs(case, helpers, ops, quick, only_fast=False):
     yield "numba", timer, 1000, (history, peak, events)
     if only_fast and quick:
         return
-    settings = {"opensees-1e-5": (1e-5, 1), "opensees-1e-6": (1e-6, 1), "opensees-1e-6-fine": (1e-6, 5)}
-    for key, (yield_m, parts) in settings.items():
+    for key, yield_m, parts in OPENSEES:
         if only_fast and key != "opensees-1e-5":
             continue
         try:
@@ -111,7 +115,8 @@ def programs(case, helpers, ops, quick, only_fast=False):
         yield key, run, 2 if quick else 5, (history, np.abs(history).max(), None)
     if not only_fast:
         history, peak = scipy_events.run(case)
-        yield "scipy", by_call(lambda: scipy_events.run(case), 1), 1 if quick else 3, (history, peak, None)
+        run = by_call(lambda: scipy_events.run(case), 1)
+        yield "scipy", run, 1 if quick else 3, (history, peak, None)
 
 
 def measure(case, helpers, ops, cache, rounds, quick, only_fast=False):
@@ -230,8 +235,8 @@ def table(rows, parts, machine):
         f"Medians of one interleaved run: {machine}.",
         "",
         "Errors are against the exact answer and in per cent of the exact peak of the sliding",
-        "displacement. OpenSeesPy's material knows one coefficient of friction; its last column is its",
-        "error against the exact answer for static = kinetic friction.",
+        "displacement. OpenSeesPy's material knows one coefficient of friction: its last column is",
+        "the error against the exact answer for static = kinetic friction.",
     ]
     for case in dict.fromkeys(row["case"] for row in rows):
         mine = [row for row in rows if row["case"] == case]
@@ -240,7 +245,7 @@ def table(rows, parts, machine):
             "",
             f"**{case}**: {first['title']}; {first['samples']} samples, {first['events']} events.",
             "",
-            "| program | time | × Slipstick | peak, % | residual, % | history, % | equal friction, % |",
+            "| program | time | × Slipstick | peak, % | residual, % | history, % | same friction, % |",
             "|---|--:|--:|--:|--:|--:|--:|",
         ]
         for row in mine:
@@ -264,19 +269,13 @@ def machine():
         names = [line.split(":")[1].strip() for line in info.read_text().split("\n")
                  if line.startswith("model name")]
         model = names[0] if names else model
-    versions = ", ".join(f"{m.__name__} {m.__version__}" for m in map(__import__, ("numba", "scipy", "numpy")))
+    versions = ", ".join(f"{name} {version(name)}" for name in ("openseespy", "numba", "scipy"))
     return (f"{platform.system()}, {model}, {os.cpu_count()} cores, "
             f"Python {platform.python_version()}, {versions}")
 
 
 def note(text):
     print(text, file=sys.stderr, flush=True)
-
-
-def quieten():
-    """OpenSees writes to the process's own stderr: ours stays, that one is closed."""
-    sys.stderr = os.fdopen(os.dup(2), "w", buffering=1)
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
 
 
 def main():
@@ -290,7 +289,6 @@ def main():
     helpers = {"slipstick": Helper(options.helper, options.folder)}
     if options.native_helper:
         helpers["slipstick-native"] = Helper(options.native_helper, options.folder)
-    quieten()
     ops = opensees.load()
     rounds = 3 if options.quick else 15
     rows = []

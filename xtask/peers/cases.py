@@ -90,7 +90,8 @@ def read_record(path):
     if header:
         dt, body = float(header.group(2)), text[header.end():].split("\n", 1)[1]
         return dt, np.array(body.split()[: int(header.group(1))], float)
-    return 0.01, np.array([line for line in text.split("\n") if line and line[0] not in "#%"], float)
+    lines = (line.strip() for line in text.split("\n"))
+    return 0.01, np.array([line for line in lines if line and line[0] not in "#%"], float)
 
 
 def records_folder():
@@ -101,7 +102,7 @@ def records_folder():
 
 
 def taft():
-    """Kern County 1952, Taft, in g at 0.01 s: the copy beside the examples, else from the folder."""
+    """Kern County 1952, Taft, in g at 0.01 s: beside the examples, else in the folder."""
     places = [ROOT / "examples" / "records" / "taft.txt"]
     if records_folder():
         places.append(records_folder() / "kern_1952_taft" / "TAF-111.txt")

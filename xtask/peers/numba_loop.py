@@ -21,9 +21,8 @@ def prepare(case):
     rates = (k1, k2, c2, kr, cr, on, case.static_limit / m1, case.kinetic_force / m1)
     # State: s, w = s', y, v = y'; inputs: ground at both ends of the sample, friction.
     free_floor = [0, 0, -on * kr, -on * cr]
-    slip = np.array(
-        [[0, 1, 0, 0], [-k1, 0, k2, c2], [0, 0, 0, on], [on * k1, 0, -on * (kr + k2), -on * (cr + c2)]]
-    )
+    sliding_floor = [on * k1, 0, -on * (kr + k2), -on * (cr + c2)]
+    slip = np.array([[0, 1, 0, 0], [-k1, 0, k2, c2], [0, 0, 0, on], sliding_floor])
     stick = np.array([[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, on], free_floor])
     slip_table = propagator(slip, [0, -1, 0, 0], [0, -1, 0, on], case.dt)
     stick_table = propagator(stick, [0, 0, 0, -on], [0, 0, 0, 0], case.dt)
@@ -106,7 +105,7 @@ def lowest_between(c, low, high):
 
 @njit
 def first_below_zero(c, h):
-    """First time in (0, h] at which a polynomial that starts at or above zero falls below it; -1 if none."""
+    """First time in (0, h] at which a polynomial, not negative at 0, falls below zero; else -1."""
     low, at_low, falls = 0.0, c[0], c[1] < 0.0
     for half in range(1, 3):
         high = 0.5 * h * half

@@ -4,6 +4,7 @@ That material has one coefficient, the kinetic one.
 """
 
 import ctypes
+import os
 import sysconfig
 from pathlib import Path
 
@@ -11,13 +12,14 @@ import numpy as np
 
 
 def load():
-    """The module; its wheel's own Fortran and BLAS first, which Python 3.11 does not find alone."""
+    """The module, silenced. Its wheel's own BLAS comes first: Python 3.11 does not find it alone."""
     bundled = Path(sysconfig.get_paths()["purelib"], "openseespylinux", "lib")
     for pattern in ("libquadmath*", "libgfortran*", "libblas*", "liblapack*"):
         for library in sorted(bundled.glob(pattern)):
             ctypes.CDLL(str(library), mode=ctypes.RTLD_GLOBAL)
     import openseespy.opensees as module
 
+    module.logFile(os.devnull, "-noEcho")
     return module
 
 

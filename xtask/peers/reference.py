@@ -155,7 +155,7 @@ class Exact:
 
 
 def exact(case, cache):
-    """History of the sliding displacement at the samples, its peak, the events; kept in a folder."""
+    """Sliding displacement at the samples, its peak, the number of events; kept in a folder."""
     cache.mkdir(parents=True, exist_ok=True)
     probe = cache / "probe.bin"
     case.to_file(probe)

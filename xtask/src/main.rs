@@ -2,6 +2,7 @@
 
 mod ci;
 mod peers;
+mod reference;
 mod shell;
 mod tools;
 
@@ -31,7 +32,7 @@ fn main() -> ExitCode {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let outcome = match words.as_slice() {
         ["ci"] => return ci::ci(),
-        ["reference", options @ ..] => tools::reference(options),
+        ["reference", options @ ..] => reference::reference(options),
         ["bench-peers", options @ ..] => peers::bench_peers(options),
         ["fuzz", options @ ..] => tools::fuzz(options),
         ["deny"] => tools::deny(),

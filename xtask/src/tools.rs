@@ -14,23 +14,6 @@ pub fn book() -> Outcome {
     shell::run(shell::command("mdbook").args(["build", "book"]))
 }
 
-/// Every reference case with the error reached, as a table of the book.
-pub fn reference(options: &[&str]) -> Outcome {
-    let table = shell::output(&mut shell::cargo(
-        "run --quiet --release -p slipstick --example verification",
-    ))?;
-    match options {
-        [] => {
-            print!("{table}");
-            Ok(())
-        }
-        ["--write"] => {
-            shell::write(&shell::root().join("book/src/generated/verification.md"), &table)
-        }
-        _ => Err(format!("reference: expected --write or nothing, found {}", options.join(" "))),
-    }
-}
-
 /// Runs fuzz targets, all or the one named, each for a while.
 pub fn fuzz(options: &[&str]) -> Outcome {
     let (chosen, seconds) = match options {

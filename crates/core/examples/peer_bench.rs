@@ -4,8 +4,8 @@
 //! slider spring, storey spring, storey damper, static and kinetic friction, gravity, dt, then the
 //! acceleration of the table at 0, dt, 2 dt, …, all SI. `time WHAT COUNT` prints the nanoseconds of
 //! so many analyses, set-up of the system included; WHAT is `demands`, `history`, `checked`
-//! (history and certificate) or `setup` (two samples of a table at rest). `history FILE` writes the sliding displacement at the samples and
-//! prints its peak and the number of events.
+//! (history and certificate) or `setup` (two samples of a table at rest). `history FILE` writes the
+//! sliding displacement at the samples and prints its peak and the number of events.
 
 #![allow(
     clippy::disallowed_macros,

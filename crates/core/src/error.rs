@@ -218,9 +218,12 @@ pub(crate) fn cut(text: &str) -> String {
     shown
 }
 
-/// The word that takes the fewest single-character edits to become `word`; the first of equals.
-pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
-    known.min_by_key(|candidate| edit_distance(word, candidate)).map(str::to_owned)
+/// The known word nearest to `word`, where the two are alike: at least half of it is the same.
+pub(crate) fn similar<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
+    let (distance, nearest) =
+        known.map(|known| (edit_distance(word, known), known)).min_by_key(|(d, _)| *d)?;
+    let longer = word.chars().count().max(nearest.chars().count());
+    (2 * distance <= longer + 1).then(|| nearest.to_owned())
 }
 
 /// Levenshtein's distance between two words, the first 64 characters of each.

@@ -5,7 +5,7 @@
 //! expected and what was found. [`json_schema`] and [`Override`] speak of the same keys by the same
 //! paths, because all three read one description.
 
-use crate::error::{InputError, Place};
+use crate::error::{InputError, MotionError, Place};
 use crate::model::Model;
 use crate::response::Method;
 
@@ -24,10 +24,15 @@ mod tree;
 
 pub use json_schema::json_schema;
 pub use keys::MAX_STOREYS;
-pub use motion::{
-    Channel, MotionSource, Pulse, PulseShape, RecordSource, Scale, Sine, Sweep, SweepKind,
-};
+<<<<<<< HEAD
+pub use motion::{Channel, MotionSource, RecordSource, Scale};
+=======
+pub use motion::{MotionSource, RecordSource, Scale};
+>>>>>>> input
 pub use overrides::Override;
+
+/// The longest text that can be a model, in bytes: a storey takes a hundred.
+pub const MAX_TEXT_BYTES: usize = 1 << 20;
 
 /// All that a model file says.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,6 +104,11 @@ pub fn parse(
 ) -> Result<Analysis, InputError> {
     let mut sources = tree::Sources::default();
     let file = sources.add(source_name, text);
+    if text.len() > MAX_TEXT_BYTES {
+        let start = tree::Spot { source: file, span: 0..0 };
+        let expected = format!("a model of at most {MAX_TEXT_BYTES} bytes");
+        return Err(sources.error(&start, "", expected, text.len().to_string()));
+    }
     let mut root = tree::parse_document(&sources, file)?;
     for set in overrides {
         set.apply(&mut sources, &mut root)?;
@@ -160,6 +170,11 @@ impl Analysis {
         found: impl Into<String>,
     ) -> InputError {
         self.values.error(path, expected, found)
+    }
+
+    /// The error for a motion that cannot be made or scaled, at the key that caused it.
+    pub fn motion_error(&self, error: &MotionError) -> InputError {
+        motion::error(&self.values, self.motion.as_ref(), error)
     }
 
     /// How the table moves.

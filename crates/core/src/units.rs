@@ -8,11 +8,8 @@ use std::fmt::Write as _;
 
 use crate::error::UnitError;
 
-mod display;
 #[cfg(test)]
 mod tests;
-
-pub use display::{DisplayKind, DisplaySystem, DisplayUnit};
 
 /// Standard gravity in m/s²: what "g" means in a record or a scale, and the default of a model.
 pub const STANDARD_GRAVITY_M_PER_S2: f64 = 9.80665;
@@ -316,7 +313,7 @@ fn find_unit(name: &str, dimension: Dimension, text: &str) -> Result<&'static Un
     }
     let names: Vec<_> = units.iter().map(Unit::name).collect();
     let expected = format!("a unit of {} ({})", dimension.name(), names.join(", "));
-    let nearest = crate::error::nearest(&plain, names.iter().copied());
+    let nearest = crate::error::similar(&plain, names.iter().copied());
     Err(UnitError { expected, found: quoted(name), nearest })
 }
 

@@ -1,5 +1,7 @@
 //! True histories pass the check; every kind of tampering shows.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot be set up has failed")]
+
 use slipstick::check::{Certificate, check};
 use slipstick::friction::{Coulomb, Direction, Friction};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
@@ -307,7 +309,7 @@ fn exact_one_changed_value_shows() {
         let speed = sliding.max(peak(&history.storey_velocity_m_per_s));
         for (i, column) in columns.into_iter().enumerate() {
             let length = column(&mut history.clone()).len();
-            for j in (0..length).step_by(7).chain(length.checked_sub(1)) {
+            for j in (0..length).step_by(31).chain(length.checked_sub(1)) {
                 let mut tampered = history.clone();
                 let scale = if i < 2 { speed } else { peak(column(&mut tampered)) };
                 column(&mut tampered)[j] += 1e-7 * scale;

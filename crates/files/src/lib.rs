@@ -1,1 +1,19 @@
 //! Opens models and records and writes results, whole or not at all.
+//!
+//! Reading gives bytes with their hash, or one clear error. Writing goes to a temporary file beside
+//! the target, which is renamed when it is complete; whatever fails leaves no file behind, and a
+//! handler of Ctrl-C may call [`remove_temporaries`].
+
+mod error;
+mod load;
+mod read;
+mod run;
+mod tables;
+mod write;
+
+pub use error::FileError;
+pub use load::{LoadedMotion, RecordRequest, Scale, SourceFile, VerticalRequest, load_record};
+pub use read::{MAX_BYTES, read_bytes, resolve, sha256_hex};
+pub use run::{Job, JobError, Outcome};
+pub use tables::{events_csv, history_csv};
+pub use write::{OutputFolder, refuse_inputs, remove_temporaries, write_whole};

@@ -8,7 +8,7 @@ pub enum DisplayUnits {
     /// SI, in the multiple that reads well: mm or m, N, kN or MN, m/s².
     #[default]
     Si,
-    /// mm, kN, t, and g for accelerations.
+    /// mm, kN, t, and m/s² for accelerations.
     KnMm,
     /// in, kip, lb, and g for accelerations.
     Us,
@@ -74,6 +74,9 @@ pub const POUND_KG: f64 = 0.453_592_37;
 pub const KIP_N: f64 = 1000.0 * POUND_KG * STANDARD_GRAVITY_M_PER_S2;
 
 impl DisplayUnits {
+    /// The names of the systems, as the option takes them.
+    pub const NAMES: [&'static str; 3] = ["si", "kN-mm", "us"];
+
     /// The system that an option names: `si`, `kN-mm` or `us`.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
@@ -131,7 +134,7 @@ fn kn_mm(quantity: Quantity) -> (f64, &'static str) {
     match quantity {
         Quantity::Length => (1e-3, "mm"),
         Quantity::Velocity => (1e-3, "mm/s"),
-        Quantity::Acceleration => (STANDARD_GRAVITY_M_PER_S2, "g"),
+        Quantity::Acceleration => (1.0, "m/s²"),
         Quantity::Force => (1e3, "kN"),
         Quantity::Mass => (1e3, "t"),
         Quantity::Stiffness => (1e6, "kN/mm"),
@@ -168,7 +171,7 @@ mod tests {
         assert!((kip.in_si - 4_448.221_615_260_5).abs() < 1e-9);
         let per_inch = DisplayUnits::Us.unit(Quantity::Stiffness, 0.0);
         assert!((per_inch.of(175_126.835_246_476) - 1.0).abs() < 1e-12);
-        let g = DisplayUnits::KnMm.unit(Quantity::Acceleration, 3.0);
+        let g = DisplayUnits::Us.unit(Quantity::Acceleration, 3.0);
         assert_eq!((g.of(9.80665), g.symbol), (1.0, "g"));
         assert_eq!(DisplayUnits::KnMm.unit(Quantity::Stiffness, 0.0).of(143e3), 0.143);
     }

@@ -72,7 +72,7 @@ impl Log {
             return true;
         }
         let passed = line.starts_with("test ") && line.ends_with(" ok");
-        !(self.in_successes || passed || line.is_empty())
+        !(self.in_successes || passed || line.is_empty() || line.starts_with("running "))
     }
 
     /// A test that says `skipped:` counts as skipped, not as passed.

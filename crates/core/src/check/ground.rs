@@ -72,8 +72,10 @@ impl<'a> Ground<'a> {
         Piece { to_s, loads: [from, to].map(|(table, press)| self.load(table, press, slope)) }
     }
 
-    /// Limits from the left and from the right.
-    pub(super) fn limits(&self, t: f64) -> [Load; 2] {
+    /// All that the table does at one instant: the limit from the left, the samples at that time,
+    /// the limit from the right. They differ at a jump; at the first and last sample, before and
+    /// after which the table is at rest, there may be three.
+    pub(super) fn instant(&self, t: f64) -> [Load; 4] {
         let times = self.times_s;
         let n = times.len();
         let inside = |i: usize| {
@@ -81,11 +83,15 @@ impl<'a> Ground<'a> {
             let slope = (self.horizontal[i + 1] - self.horizontal[i]) / (times[i + 1] - times[i]);
             self.load(table, press, slope)
         };
+        let sample = |i: usize| self.load(self.horizontal[i], self.press(i), 0.0);
         let first = times.partition_point(|&s| s < t);
-        let left = if first == 0 || first == n { self.at_rest() } else { inside(first - 1) };
         let after = times.partition_point(|&s| s <= t);
+        let left = if first == 0 || first == n { self.at_rest() } else { inside(first - 1) };
         let right = if after == 0 || after == n { self.at_rest() } else { inside(after - 1) };
-        [left, right]
+        if first == after {
+            return [left, left, right, right];
+        }
+        [left, sample(first), sample(after - 1), right]
     }
 
     /// Largest `N` and largest `|Ü|` up to a time.

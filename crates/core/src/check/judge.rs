@@ -16,7 +16,7 @@ use crate::response::{History, Mode};
 const STILL: f64 = 1e-12;
 
 /// Largest defects so far, and what they are measured by.
-#[derive(Default)]
+#[derive(Default, Debug)]
 struct Figures {
     displacement: [f64; 2],
     velocity: [f64; 2],
@@ -41,6 +41,8 @@ pub(super) struct Judge<'a> {
     still: f64,
     /// Rounding of a time.
     instant_s: f64,
+    /// Within an interval: the largest velocity of the wrong sign, the largest excess by such.
+    astray: [f64; 2],
     figures: Figures,
     energy: Energy,
     /// Near decisions of the phase under way.
@@ -72,6 +74,7 @@ impl<'a> Judge<'a> {
             scheme: Scheme::new(structure, 2.0 * instant_s),
             still: 0.0,
             instant_s,
+            astray: [0.0; 2],
             figures: Figures::default(),
             energy: Energy::default(),
             dips: Dips::new(0.0),
@@ -91,14 +94,12 @@ impl<'a> Judge<'a> {
         let storey = peak(&h.storey_displacement_m);
         let sliding = peak(&h.sliding_velocity_m_per_s);
         let speed = larger(sliding, peak(&h.storey_velocity_m_per_s));
-        let pairs = h.block_acceleration_m_per_s2.iter().zip(&h.table_acceleration_m_per_s2);
-        let acceleration = pairs.fold(0.0, |p, (block, table)| larger(p, block - table));
         // A frame held at rest by its weight on a slope moves by rounding alone: its velocities
         // are measured by the static displacement, not by themselves.
         let rest = 1e-4 * self.structure.frame_frequency() * storey;
         self.figures.displacement[1] = larger(storey, peak(&h.sliding_displacement_m));
         self.figures.velocity[1] = larger(speed, rest);
-        self.still = 1e-12 * sliding + 64.0 * f64::EPSILON * speed + self.instant_s * acceleration;
+        self.still = STILL * sliding + 64.0 * f64::EPSILON * speed;
     }
 
     /// Judges everything.
@@ -217,16 +218,15 @@ impl<'a> Judge<'a> {
         }
         let h = self.history;
         let table = h.table_acceleration_m_per_s2[k];
-        let limits = self.ground.limits(h.time_s[k]);
-        let distance = limits.map(|load| (load.table - table).abs());
+        let loads = self.ground.instant(h.time_s[k]);
+        let nearest =
+            loads.iter().map(|load| (load.table - table).abs()).fold(f64::INFINITY, f64::min);
         let judged = |load: &Load| {
             let demand = self.structure.demand(self.x(), self.v(), load.a);
             (self.law.forbids(after, demand, load.normal), self.law.margin(demand, load.normal))
         };
-        let candidates =
-            limits.iter().zip(distance).filter(|(_, own)| *own <= distance[0].min(distance[1]));
-        let best =
-            candidates.map(|(load, _)| judged(load)).reduce(|a, b| if b.0 < a.0 { b } else { a });
+        let candidates = loads.iter().filter(|load| (load.table - table).abs() <= nearest);
+        let best = candidates.map(judged).reduce(|a, b| if b.0 < a.0 { b } else { a });
         // Distances that are not numbers leave no candidate.
         let (excess, margin) = best.unwrap_or((f64::INFINITY, None));
         self.figures.excess = larger(self.figures.excess, excess);
@@ -291,8 +291,9 @@ impl<'a> Judge<'a> {
             }
         };
         let (off, beyond) = if sides == [None, None] {
-            let limits = self.ground.limits(h.time_s[k]);
-            let least = |f: &dyn Fn(&Load) -> f64| f(&limits[0]).min(f(&limits[1]));
+            let loads = self.ground.instant(h.time_s[k]);
+            let least =
+                |f: &dyn Fn(&Load) -> f64| loads.iter().map(f).fold(f64::INFINITY, f64::min);
             (least(&off), least(&beyond))
         } else {
             let worst = |f: &dyn Fn(&Load) -> f64| sides.iter().flatten().map(f).fold(0.0, larger);
@@ -318,6 +319,7 @@ impl<'a> Judge<'a> {
             self.state[d] = 0.0;
         }
         let (mut from_s, end_s) = (self.history.time_s[k], self.history.time_s[k + 1]);
+        self.astray = [0.0; 2];
         let mut first = None;
         loop {
             let piece = self.ground.piece(from_s, end_s);
@@ -333,6 +335,11 @@ impl<'a> Judge<'a> {
                 self.load_state(k + 1);
                 let end = core::mem::take(&mut self.state);
                 self.compare(&end);
+                // What the knot's own defect explains is no sign of the velocity.
+                let defect = (self.stored[d] - end[d]).abs();
+                if self.astray[0] > self.still + defect {
+                    self.figures.excess = larger(self.figures.excess, self.astray[1]);
+                }
                 self.state = end;
                 return (first, piece.loads[1]);
             }
@@ -456,7 +463,7 @@ impl<'a> Judge<'a> {
             }
             if speed < -self.still || speed.is_nan() {
                 let excess = self.law.wrong_way(direction, between(loads, t).normal);
-                self.figures.excess = larger(self.figures.excess, excess);
+                self.astray = [larger(self.astray[0], speed), larger(self.astray[1], excess)];
             }
             self.dips.feed(from_s + t * step_s, speed);
         }

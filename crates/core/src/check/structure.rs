@@ -46,7 +46,7 @@ impl Structure {
                 base[..n.min(1)].copy_from_slice(&c[..n.min(1)]);
                 (StoreyDamping::Chain(c.clone()), base)
             }
-            Damping::Ratio(ratio) if *ratio == 0.0 => {
+            Damping::Ratio(ratio) if *ratio == 0.0 || n == 0 => {
                 (StoreyDamping::Chain(vec![0.0; n]), vec![0.0; n])
             }
             Damping::Ratio(ratio) => {
@@ -146,14 +146,27 @@ impl Structure {
         let inertia = self.block_kg * block;
         let mut sum = inertia + damper + spring - force;
         let mut defect = 0.0;
-        let mut term = [spring, damper, inertia, force].into_iter().fold(0.0, larger);
+        let mut term = chain_term(&self.stiffnesses, &x[1..]).max(self.viscous_term(&v[1..]));
+        term = [spring, damper, inertia, force].into_iter().fold(term, larger);
         for (i, acceleration) in storeys.enumerate() {
             let inertia = self.masses_kg[i] * acceleration;
             sum += inertia;
             defect = larger(defect, inertia + viscous[i] + elastic[i]);
-            term = [inertia, viscous[i], elastic[i]].into_iter().fold(term, larger);
+            term = larger(term, inertia);
         }
         (larger(defect, sum), term)
+    }
+
+    /// Largest single term of `C q̇`, in N.
+    fn viscous_term(&self, rates: &[f64]) -> f64 {
+        match &self.damping {
+            StoreyDamping::Chain(c) => chain_term(c, rates),
+            StoreyDamping::Full(c) => {
+                let rows = c.chunks_exact(rates.len());
+                let terms = rows.flat_map(|row| row.iter().zip(rates).map(|(c, rate)| c * rate));
+                terms.fold(0.0, larger)
+            }
+        }
     }
 
     /// `M1 ṡ + Σ m_i (ṡ + q̇_i)`.
@@ -260,6 +273,17 @@ fn add_chain(chain: &[f64], q: &[f64], out: &mut [f64]) {
         }
         below = q[i];
     }
+}
+
+/// Largest single term of such a chain's matrix times `q`.
+fn chain_term(chain: &[f64], q: &[f64]) -> f64 {
+    let mut below = 0.0;
+    let mut term = 0.0;
+    for (k, &q) in chain.iter().zip(q) {
+        term = larger(larger(term, k * q), k * below);
+        below = q;
+    }
+    term
 }
 
 /// `qᵀ K q` of such a chain.

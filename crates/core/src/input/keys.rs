@@ -5,8 +5,9 @@ use crate::units::Dimension::{
     Acceleration, Angle, Damper, Frequency, Length, Mass, Stiffness, Time, Velocity,
 };
 
-/// The most storeys a model may have: far above any building, far below what exhausts a machine.
-pub const MAX_STOREYS: usize = 1000;
+/// The most storeys a model may have: more than any building has, few enough that finding all their
+/// modes takes a second.
+pub const MAX_STOREYS: usize = 200;
 
 /// The whole file.
 pub static MODEL: Section = Section {

@@ -1,9 +1,15 @@
 //! Where the table's motion comes from.
 
 use super::reader::{Given, Values};
+<<<<<<< HEAD
 use crate::error::InputError;
-use crate::motion::MAX_SAMPLES;
+use crate::motion::{MAX_SAMPLES, Pulse, PulseShape, Sine, Sweep, SweepKind};
 use crate::units::Unit;
+=======
+use crate::error::{InputError, MotionError};
+use crate::motion::{Pulse, PulseShape, Sine, Sweep, SweepKind};
+use crate::record::Units;
+>>>>>>> input
 
 /// How the table moves, before any record is opened.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,26 +30,17 @@ pub struct RecordSource {
     /// Its path as written, relative to the model file.
     pub path: String,
     /// Unit of its values.
-    pub units: Option<&'static Unit>,
+    pub units: Option<Units>,
     /// Its time step in s.
     pub dt_s: Option<f64>,
-    /// Which of its channels.
-    pub channel: Option<Channel>,
+    /// Which of its channels, by name or by number from 1.
+    pub channel: Option<String>,
     /// How it is scaled.
     pub scale: Scale,
     /// Path of the vertical motion; it takes the factor of the horizontal one.
     pub vertical: Option<String>,
     /// Factor on the vertical motion besides that of the horizontal one; 1 where `None`.
     pub vertical_scale: Option<f64>,
-}
-
-/// A channel of a record.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Channel {
-    /// By name.
-    Name(String),
-    /// By number, from 1.
-    Number(usize),
 }
 
 /// How a record is scaled.
@@ -53,81 +50,6 @@ pub enum Scale {
     Factor(f64),
     /// To this peak acceleration in m/s².
     Peak(f64),
-}
-
-/// A sine `A sin(2πft + φ)`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sine {
-    /// Frequency f in Hz.
-    pub frequency_hz: f64,
-    /// Amplitude A in m/s².
-    pub amplitude_m_per_s2: f64,
-    /// Duration in s.
-    pub duration_s: f64,
-    /// Time step in s.
-    pub dt_s: f64,
-    /// Phase φ at the start in rad.
-    pub phase_rad: f64,
-    /// Time in which the amplitude grows from zero, in s.
-    pub ramp_s: f64,
-    /// Time at the end in which the amplitude falls to zero, in s.
-    pub decay_s: f64,
-}
-
-/// How the frequency of a sweep changes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SweepKind {
-    /// By the same amount in equal times.
-    Linear,
-    /// By the same factor in equal times.
-    Logarithmic,
-}
-
-/// A sine whose frequency changes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sweep {
-    /// Frequency at the start in Hz.
-    pub from_hz: f64,
-    /// Frequency at the end in Hz.
-    pub to_hz: f64,
-    /// How it changes.
-    pub kind: SweepKind,
-    /// Amplitude in m/s².
-    pub amplitude_m_per_s2: f64,
-    /// Duration in s.
-    pub duration_s: f64,
-    /// Time step in s.
-    pub dt_s: f64,
-    /// Time in which the amplitude grows from zero, in s.
-    pub ramp_s: f64,
-    /// Time at the end in which the amplitude falls to zero, in s.
-    pub decay_s: f64,
-}
-
-/// Shape of a pulse.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PulseShape {
-    /// Half a sine.
-    HalfSine,
-    /// Constant; its edges are jumps.
-    Rectangular,
-    /// An isosceles triangle.
-    Triangular,
-}
-
-/// A single pulse.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pulse {
-    /// Its shape.
-    pub shape: PulseShape,
-    /// Peak acceleration in m/s².
-    pub amplitude_m_per_s2: f64,
-    /// Duration in s.
-    pub duration_s: f64,
-    /// When it starts, in s.
-    pub start_s: f64,
-    /// Time step in s.
-    pub dt_s: f64,
 }
 
 /// The motion that the checked values describe, if any.
@@ -148,13 +70,9 @@ pub(super) fn motion(values: &Values) -> Result<Option<MotionSource>, InputError
 
 fn record(values: &Values) -> RecordSource {
     let text = |path| values.text(path).map(str::to_owned);
-    let channel = values.leaf("motion.channel").and_then(|leaf| match &leaf.given {
-        Given::Text(name) => Some(Channel::Name(name.clone())),
-        Given::Number(number) => Some(Channel::Number(*number as usize)),
-        _ => None,
-    });
+    let channel = values.leaf("motion.channel").map(|leaf| leaf.written.clone());
     let units = values.leaf("motion.units").and_then(|leaf| match leaf.given {
-        Given::Unit(unit) => Some(unit),
+        Given::Unit(unit) => Units::parse(unit.name()),
         _ => None,
     });
     let scale = match values.number("motion.scale_to") {
@@ -173,7 +91,6 @@ fn record(values: &Values) -> RecordSource {
 }
 
 fn sine(values: &Values) -> Result<Sine, InputError> {
-    check_samples(values, "motion.sine")?;
     Ok(Sine {
         frequency_hz: values.required("motion.sine.frequency")?,
         amplitude_m_per_s2: values.required("motion.sine.amplitude")?,
@@ -186,7 +103,6 @@ fn sine(values: &Values) -> Result<Sine, InputError> {
 }
 
 fn sweep(values: &Values) -> Result<Sweep, InputError> {
-    check_samples(values, "motion.sweep")?;
     let kind = match values.text("motion.sweep.kind") {
         Some("logarithmic") => SweepKind::Logarithmic,
         _ => SweepKind::Linear,
@@ -204,7 +120,6 @@ fn sweep(values: &Values) -> Result<Sweep, InputError> {
 }
 
 fn pulse(values: &Values) -> Result<Pulse, InputError> {
-    check_samples(values, "motion.pulse")?;
     let shape = match values.text("motion.pulse.shape") {
         Some("rectangular") => PulseShape::Rectangular,
         Some("triangular") => PulseShape::Triangular,
@@ -219,15 +134,37 @@ fn pulse(values: &Values) -> Result<Pulse, InputError> {
     })
 }
 
-/// Refuses a made motion of more samples than memory has room for, before any is made.
-fn check_samples(values: &Values, path: &str) -> Result<(), InputError> {
-    let dt = format!("{path}.dt");
-    let start_s = values.number(&format!("{path}.start")).unwrap_or(0.0);
-    let end_s = start_s + values.required(&format!("{path}.duration"))?;
-    let samples = end_s / values.required(&dt)?;
-    if samples < MAX_SAMPLES as f64 {
-        return Ok(());
+/// What a motion's maker objects to, at the key that caused it.
+pub(super) fn error(
+    values: &Values,
+    source: Option<&MotionSource>,
+    error: &MotionError,
+) -> InputError {
+    let table = match source {
+        Some(MotionSource::Sine(_)) => "motion.sine",
+        Some(MotionSource::Sweep(_)) => "motion.sweep",
+        Some(MotionSource::Pulse(_)) => "motion.pulse",
+        Some(MotionSource::Record(_)) => "motion.record",
+        None => "motion",
+    };
+    // A quantity's name starts with that of its key: "ramp + decay in s".
+    let of_key = |quantity: &str| {
+        let key = quantity.split([' ', '_']).next().unwrap_or_default();
+        let paths = [format!("{table}.{key}"), format!("motion.{key}"), format!("analysis.{key}")];
+        paths.into_iter().find(|path| values.has(path)).unwrap_or_else(|| table.to_owned())
+    };
+    match error {
+        MotionError::OutOfRange { quantity, expected, found } => {
+            values.error(&of_key(quantity), format!("{quantity} {expected}"), found.to_string())
+        }
+        MotionError::TooLong { found } => {
+            let expected = "at most 100 000 000 samples";
+            values.error(&of_key("dt"), expected, format!("{found:.1e}"))
+        }
+        MotionError::ZeroPeak => {
+            let expected = "a record that is not zero throughout";
+            values.error("motion.scale_to", expected, "a peak of 0 m/s²")
+        }
+        other => values.error(table, "a ground motion", other.to_string()),
     }
-    let expected = format!("a time step that gives at most {MAX_SAMPLES} samples");
-    Err(values.error(&dt, expected, format!("{samples:e} samples")))
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::schema::{self, Key, Kind, Range, Section};
 use super::tree::{Entry, Node, Sources, Spot, Table, Value};
-use crate::error::{InputError, UnitError, cut, edit_distance, nearest};
+use crate::error::{InputError, UnitError, cut, edit_distance, similar};
 use crate::units::{self, Unit};
 
 /// What a key was given.
@@ -145,7 +145,11 @@ impl Values {
                     self.read_node(&path, &entry.node, &key.kind)?;
                 }
                 None if key.required => {
-                    return Err(self.sources.error(spot, &path, key.kind.expected(), "nothing"));
+                    let expected = match key.kind {
+                        Kind::Section(_) => format!("a table [{path}]"),
+                        _ => key.kind.expected(),
+                    };
+                    return Err(self.sources.error(spot, &path, expected, "nothing"));
                 }
                 None => {}
             }
@@ -201,7 +205,7 @@ impl Values {
             (Kind::Word(words), Value::Text(text)) => {
                 let Some(word) = words.iter().find(|word| *word == text) else {
                     let mut error = self.mistyped(path, node, kind.expected());
-                    error.nearest = nearest(text, words.iter().copied());
+                    error.nearest = similar(text, words.iter().copied());
                     return Err(error);
                 };
                 Given::Word(word)

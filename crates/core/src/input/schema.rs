@@ -150,7 +150,8 @@ impl Kind {
                 format!("{} (or a ratio, where a period is given)", with_unit(dimension))
             }
             Self::Quantities(dimension, _) => {
-                format!("a list with {} for each storey", with_unit(dimension))
+                let (what, example) = (dimension.with_article(), dimension.example());
+                format!("a list with {what} for each storey, such as [\"{example}\"]")
             }
             Self::Section(_) => "a table of keys".to_owned(),
             Self::Sections(_) => "a list of tables".to_owned(),

@@ -214,6 +214,10 @@ fn values(text: &Text, header: &Line, count: usize) -> Result<Vec<f64>, RecordEr
         let expected = format!("{count} values, as line {} says", header.number);
         return Err(text.error_at_end(expected, &format!("the end after {}", values.len())));
     }
+    if let Some(cut) = text.cut_word(header) {
+        let expected = "a last value written as those before it (a truncated file?)";
+        return Err(text.error_at_end(expected, &cut));
+    }
     Ok(values)
 }
 

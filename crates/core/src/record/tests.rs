@@ -126,6 +126,22 @@ fn exact_peer_faults_are_refused_with_their_place() {
     }
 }
 
+/// A number cut in the middle is another number: any start of a file is refused.
+#[test]
+fn exact_no_start_of_a_peer_file_is_the_whole() {
+    let whole =
+        format!("{HEAD}NPTS=  6, DT= .01 SEC\n .1E-01 -.2E-01  .3E-01\n .1E-01 -.2E-01  .3E-01");
+    assert_eq!(ok(&whole, &NOTHING).channels[0].values.len(), 6);
+    for n in 0..whole.len() {
+        assert!(read("f", &whole.as_bytes()[..n], &NOTHING).is_err(), "{}", &whole[..n]);
+    }
+    assert_eq!(
+        message(&whole[..whole.len() - 1], &NOTHING),
+        "f:6:23: expected a last value written as those before it (a truncated file?), found \
+         \".3E-0\""
+    );
+}
+
 #[test]
 fn exact_what_a_peer_file_states_is_not_overruled() {
     let text = peer("NPTS=  3, DT= .0067 SEC");
@@ -287,6 +303,15 @@ fn exact_text_faults_are_refused_with_their_place() {
     ] {
         assert_eq!(message(text, &g_at(0.1)), expected, "{text}");
     }
+}
+
+/// The end-of-file mark of old systems is white space, wherever it stands.
+#[test]
+fn exact_end_of_file_mark() {
+    for text in ["1\n2\n\x1a", "1\n2\x1a", "1\n2\n\x1a\n", "\x1a\n1\n2\n"] {
+        assert_eq!(values(&ok(text, &g_at(0.1)).channels[0]), [1.0, 2.0], "{text:?}");
+    }
+    assert!(message("\x1a", &g_at(0.1)).contains("an empty file"));
 }
 
 #[test]

@@ -26,8 +26,6 @@ impl<'a> Text<'a> {
     /// Where they are empty, UTF-16 or binary.
     pub fn new(source_name: &'a str, bytes: &'a [u8]) -> Result<Self, RecordError> {
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-        // An end-of-file mark that old systems left.
-        let bytes = bytes.strip_suffix(b"\x1A").unwrap_or(bytes);
         let text = Self { source_name, bytes };
         if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
             return Err(text.error_at_start("text in UTF-8 or ASCII", "UTF-16"));
@@ -40,7 +38,7 @@ impl<'a> Text<'a> {
             let column = at - text.offset(&line).min(at);
             return Err(text.error(&line, column, "a text file", &found));
         }
-        if bytes.iter().all(u8::is_ascii_whitespace) {
+        if bytes.iter().all(is_blank) {
             return Err(text.error_at_start("a record", "an empty file"));
         }
         Ok(text)
@@ -49,6 +47,24 @@ impl<'a> Text<'a> {
     /// Number of bytes.
     pub fn len(&self) -> usize {
         self.bytes.len()
+    }
+
+    /// The last word, where the text ends in it and it is shorter after its point than the words
+    /// before it, which are alike: a number cut in the middle is another number. Some hundred
+    /// words after a header are looked at.
+    pub fn cut_word(&self, header: &Line) -> Option<String> {
+        let from = self.offset(header) + header.bytes.len();
+        let tail = &self.bytes[self.bytes.len().saturating_sub(1024).max(from)..];
+        let words: Vec<&[u8]> = tail.split(is_blank).filter(|word| !word.is_empty()).collect();
+        let after_point = |word: &[u8]| word.iter().rev().position(|&b| b == b'.');
+        let (last, before) = words.split_last()?;
+        // The first may be cut by the choice of the tail.
+        let before = before.get(1..)?;
+        let usual = after_point(before.first()?);
+        let alike = before.iter().all(|word| after_point(word) == usual);
+        let shorter = after_point(last) < usual;
+        (alike && shorter && tail.ends_with(last))
+            .then(|| String::from_utf8_lossy(last).into_owned())
     }
 
     /// Lines ended by LF, CRLF, CR CR LF or CR.
@@ -142,7 +158,7 @@ impl<'a> Iterator for Lines<'a> {
 impl<'a> Line<'a> {
     /// Whether there is nothing on it but blanks.
     pub fn is_blank(&self) -> bool {
-        self.bytes.iter().all(u8::is_ascii_whitespace)
+        self.bytes.iter().all(is_blank)
     }
 
     /// Words between blanks.
@@ -168,6 +184,11 @@ impl<'a> Line<'a> {
     }
 }
 
+/// White space, or the end-of-file mark that old systems left.
+fn is_blank(byte: &u8) -> bool {
+    byte.is_ascii_whitespace() || *byte == 0x1A
+}
+
 /// See [`Line::words`].
 pub(super) struct Words<'a> {
     bytes: &'a [u8],
@@ -178,7 +199,6 @@ impl Iterator for Words<'_> {
     type Item = Range<usize>;
 
     fn next(&mut self) -> Option<Range<usize>> {
-        let is_blank = |b: &u8| b.is_ascii_whitespace() || *b == 0x1A;
         let start = self.at + self.bytes[self.at..].iter().position(|b| !is_blank(b))?;
         let length = self.bytes[start..].iter().position(is_blank);
         let end = length.map_or(self.bytes.len(), |n| start + n);

@@ -6,6 +6,8 @@ use crate::display::{Quantity, Unit};
 use crate::number::{compact, printed};
 use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
 
+/// Five of them stand on a printed page together with the sliding displacement.
+const HISTORY_HEIGHT: f64 = 78.0;
 const SHADING: &str = "Grey: the block slides.";
 
 /// `s(t)` with its gap and, where they were run, the answers with lower and upper friction.
@@ -184,7 +186,7 @@ fn history_panel(scene: &Scene, quantity: &str, trace: Trace, unit: Unit) -> Pan
     Panel {
         x: scene.time_axis(),
         y: Axis::symmetric(unit.label(quantity), trace.values()),
-        height: 92.0,
+        height: HISTORY_HEIGHT,
         series: vec![Series {
             label: String::new(),
             style: Style::MAIN,

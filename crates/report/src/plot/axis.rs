@@ -170,7 +170,7 @@ mod tests {
         assert_eq!(labels(&Axis::linear("t", 0.0, 54.4), 6), ["0", "10", "20", "30", "40", "50"]);
         assert_eq!(
             labels(&Axis::linear("a", -0.31, 0.31), 5),
-            ["−0.2", "0.0", "0.2"].map(String::from)
+            ["−0.3", "−0.2", "−0.1", "0.0", "0.1", "0.2", "0.3"]
         );
         assert_eq!(
             labels(&Axis::linear("tiny", 0.0, 3e-8), 3),

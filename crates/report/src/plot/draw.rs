@@ -242,7 +242,7 @@ fn text_width(text: &str, size: f64) -> f64 {
 // Ticks, grid and shading.
 
 fn y_ticks(panel: &Panel) -> Vec<Tick> {
-    panel.y.ticks((panel.height / 24.0).round() as usize)
+    panel.y.ticks(((panel.height / 34.0).round() as usize).max(3))
 }
 
 fn left_margin(panel: &Panel) -> f64 {

@@ -1,6 +1,8 @@
 //! Every kind of fault, where it is and in which words.
 
 use super::{FULL, SMALLEST, read, with};
+use crate::error::MotionError;
+use crate::input::MotionSource;
 
 fn refused(text: &str) -> String {
     read(text, &[]).unwrap_err()
@@ -58,7 +60,7 @@ fn exact_unknown_keys_at_any_depth() {
 
 #[test]
 fn exact_missing_keys_at_their_table() {
-    assert_eq!(refused(""), "m.toml:1:1: block: expected a table of keys, found nothing");
+    assert_eq!(refused(""), "m.toml:1:1: block: expected a table [block], found nothing");
     assert_eq!(
         small("mass = \"325 kg\"\n", ""),
         "m.toml:1:1: block.mass: expected a mass with its unit, such as \"325 kg\", found nothing"
@@ -175,8 +177,8 @@ fn exact_wrong_types() {
         (
             "[\"5 mm\"]",
             "\"5 mm\"",
-            "m.toml:35:24: initial.storey_displacement: expected a list with a length with its unit, \
-             such as \"150 mm\" for each storey, found \"5 mm\"",
+            "m.toml:35:24: initial.storey_displacement: expected a list with a length for each \
+             storey, such as [\"150 mm\"], found \"5 mm\"",
         ),
         (
             "[\"5 mm\"]",
@@ -320,16 +322,9 @@ fn exact_rules_between_keys() {
         with("[frame]\nperiod = \"1 s\"\n").unwrap_err(),
         "m.toml:7:10: frame.period: expected storeys whose stiffnesses it scales, found no storey"
     );
-    let sine = "[motion]\nsine = { frequency = \"1 Hz\", amplitude = \"1 g\", duration = \"1e6 s\", \
-                dt = \"1e-6 s\" }\n";
-    assert_eq!(
-        with(sine).unwrap_err(),
-        "m.toml:7:74: motion.sine.dt: expected a time step that gives at most 100000000 samples, \
-         found 1e12 samples"
-    );
 }
 
-/// Two storeys; `{1}` and `{2}` stand for what each has besides its mass.
+/// The error for two storeys; `first` and `second` are what each has besides its mass.
 fn two_storeys(first: &str, second: &str, more: &str) -> String {
     with(&format!(
         "[[storey]]\nmass = \"2 t\"\n{first}\n[[storey]]\nmass = \"1 t\"\n{second}\n{more}\n"
@@ -407,4 +402,35 @@ fn exact_found_text_is_cut_and_escaped() {
     assert!(long.ends_with(&format!("found \"{}…\"", "k".repeat(40))), "{long}");
     let control = small("325 kg", "3\\u001b[31m kg");
     assert!(control.ends_with("found \"3\\u{1b}[31m kg\""), "{control}");
+}
+
+/// A motion whose parts are each in range, refused by its maker.
+fn unmade(keys: &str) -> String {
+    let analysis = with(&format!("[motion.sine]\nfrequency = \"1 Hz\"\n{keys}")).unwrap();
+    let Ok(MotionSource::Sine(sine)) = analysis.required_motion() else { panic!("no sine") };
+    analysis.motion_error(&sine.motion().unwrap_err()).to_string()
+}
+
+#[test]
+fn exact_motions_that_cannot_be_made() {
+    assert_eq!(
+        unmade("amplitude = \"1 g\"\nduration = \"1e6 s\"\ndt = \"1e-6 s\"\n"),
+        "m.toml:10:6: motion.sine.dt: expected at most 100 000 000 samples, found 1.0e12"
+    );
+    assert_eq!(
+        unmade("amplitude = \"1 g\"\nduration = \"5 s\"\ndt = \"10 ms\"\nramp = \"6 s\"\n",),
+        "m.toml:11:8: motion.sine.ramp: expected ramp + decay in s at most the duration, found 6"
+    );
+    let record = with("[motion]\nrecord = \"zero.csv\"\nscale_to = \"0.3 g\"\n").unwrap();
+    assert_eq!(
+        record.motion_error(&MotionError::ZeroPeak).to_string(),
+        "m.toml:8:12: motion.scale_to: expected a record that is not zero throughout, found a peak \
+         of 0 m/s²"
+    );
+    let short = MotionError::TooShort { found: 1 };
+    assert_eq!(
+        record.motion_error(&short).to_string(),
+        "m.toml:7:10: motion.record: expected a ground motion, found expected at least two samples \
+         with one value each, found 1"
+    );
 }

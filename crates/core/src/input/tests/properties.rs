@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::{FULL, SMALLEST};
-use crate::input::{Override, from_bytes, parse};
+use crate::input::{MAX_TEXT_BYTES, Override, from_bytes, parse};
 
 /// Reads and renders whatever comes of it.
 fn survives(bytes: &[u8]) {
@@ -103,11 +103,22 @@ fn exact_deep_nesting_is_refused() {
 #[test]
 fn exact_too_many_storeys_are_refused() {
     let storey = "[[storey]]\nmass = \"1 t\"\nstiffness = \"1 MN/m\"\ndamping_ratio = 0.02\n";
-    let text = format!("{SMALLEST}{}", storey.repeat(1001));
+    let text = format!("{SMALLEST}{}", storey.repeat(201));
     assert_eq!(
         parse("m.toml", &text, &[]).unwrap_err().to_string(),
-        "m.toml:4006:1: storey.1001: expected at most 1000 storeys, found 1001"
+        "m.toml:806:1: storey.201: expected at most 200 storeys, found 201"
     );
-    let most = format!("{SMALLEST}{}", storey.repeat(1000));
-    assert_eq!(parse("m.toml", &most, &[]).unwrap().model.storeys(), 1000);
+    let most = format!("{SMALLEST}{}", storey.repeat(200));
+    assert_eq!(parse("m.toml", &most, &[]).unwrap().model.storeys(), 200);
+}
+
+/// A file that cannot be a model is refused before its text is taken apart.
+#[test]
+fn exact_texts_too_long_for_a_model_are_refused() {
+    let text = "#".repeat(MAX_TEXT_BYTES - SMALLEST.len()) + "\n" + SMALLEST;
+    assert_eq!(
+        parse("m.toml", &text, &[]).unwrap_err().to_string(),
+        "m.toml:1:1: expected a model of at most 1048576 bytes, found 1048577"
+    );
+    assert!(parse("m.toml", &text[1..], &[]).is_ok());
 }

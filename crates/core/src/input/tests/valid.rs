@@ -4,13 +4,14 @@ use core::f64::consts::{PI, TAU};
 
 use super::{FULL, SMALLEST, read, with};
 use crate::input::{
-    Channel, FrictionBounds, MotionSource, Pulse, PulseShape, RecordSource, Scale, Sine, Sweep,
-    SweepKind, from_bytes, json_schema, parse,
+    FrictionBounds, MotionSource, RecordSource, Scale, from_bytes, json_schema, parse,
 };
 use crate::linear::shear_frame_frequencies;
 use crate::model::{Block, Damping, Frame, InitialState};
+use crate::motion::{Pulse, PulseShape, Sine, Sweep, SweepKind};
+use crate::record::Units;
 use crate::response::Method;
-use crate::units::parse_unit;
+use crate::units::Dimension;
 
 #[test]
 fn exact_full_example() {
@@ -45,7 +46,7 @@ fn exact_full_example() {
     assert_eq!(analysis.friction_bounds, Some(FrictionBounds { lower: 0.8, upper: 1.3 }));
     let record = RecordSource {
         path: "records/taft.txt".to_owned(),
-        units: Some(parse_unit("g", crate::units::Dimension::Acceleration).unwrap()),
+        units: Units::parse("g"),
         dt_s: Some(0.01),
         channel: None,
         scale: Scale::Peak(0.3 * 9.80665),
@@ -228,9 +229,14 @@ fn exact_record_keys() {
     };
     assert_eq!(source("").scale, Scale::Factor(1.0));
     assert_eq!(source("scale = -1.5").scale, Scale::Factor(-1.5));
-    assert_eq!(source("channel = 2").channel, Some(Channel::Number(2)));
-    assert_eq!(source("channel = \"NS\"").channel, Some(Channel::Name("NS".to_owned())));
-    assert_eq!(source("units = \"cm/s^2\"").units.unwrap().to_si(100.0), 1.0);
+    assert_eq!(source("channel = 2").channel.as_deref(), Some("2"));
+    assert_eq!(source("channel = \"NS\"").channel.as_deref(), Some("NS"));
+    assert_eq!(source("units = \"cm/s^2\"").units, Units::parse("cm/s2"));
+    // The readers of records know every unit that a model may name.
+    for unit in Dimension::Acceleration.units() {
+        let units = source(&format!("units = \"{}\"", unit.name())).units.unwrap();
+        assert!((units.si() / unit.to_si(1.0) - 1.0).abs() < 1e-15, "{unit:?}");
+    }
     assert_eq!(source("vertical_scale = 0.5").vertical_scale, Some(0.5));
 }
 

@@ -19,7 +19,7 @@ pub(super) struct Table {
     /// Count and step of a first line that states them.
     count: Option<CountLine>,
     /// Lines before the first of numbers, a count among them.
-    skipped: usize,
+    header_lines: usize,
 }
 
 /// A first line `4000 0.01`: count and step in s.
@@ -39,7 +39,7 @@ impl Table {
     pub fn read(text: &Text, header: &Header) -> Result<Self, RecordError> {
         let style = Style::of(text, header)?;
         let mut table =
-            Self { style, columns: 0, cells: vec![], count: None, skipped: header.lines };
+            Self { style, columns: 0, cells: vec![], count: None, header_lines: header.lines };
         let mut rows = text.lines().skip(header.lines).filter(|line| !is_comment(line));
         let mut pending = rows.next();
         if let Some(first) = pending {
@@ -49,7 +49,7 @@ impl Table {
                 let columns = table.row(text, &second)?;
                 if let Some(count) = table.count_line(&first, columns) {
                     table.cells.drain(..2);
-                    table.skipped = first.number;
+                    table.header_lines = first.number;
                     (table.count, table.columns) = (Some(count), columns);
                 } else if columns != table.columns {
                     return Err(table.uneven_row(text, &second, columns));
@@ -88,7 +88,7 @@ impl Table {
 
     /// Whether the last row is full.
     pub fn is_full(&self) -> bool {
-        self.cells.len() % self.columns == 0
+        self.cells.len().is_multiple_of(self.columns)
     }
 
     /// Values of a column.
@@ -164,7 +164,7 @@ impl Table {
 
     /// The line of a row.
     fn line<'a>(&self, text: &Text<'a>, row: usize) -> Line<'a> {
-        let mut rows = text.lines().skip(self.skipped).filter(|line| !is_comment(line));
+        let mut rows = text.lines().skip(self.header_lines).filter(|line| !is_comment(line));
         rows.nth(row).unwrap_or(Line { number: 1, bytes: b"" })
     }
 

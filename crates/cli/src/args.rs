@@ -1,0 +1,195 @@
+//! What is typed: commands, options and the help that teaches them.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+use slipstick_report::DisplayUnits;
+use std::path::PathBuf;
+
+const ABOUT: &str = "Exact stick-slip response of structures on sliding bearings";
+
+const EXAMPLES: &str = "\
+Start here:
+  slipstick init tank                    write tank.toml, a model that runs as it stands
+  slipstick run tank.toml --out out      print the result, write out/report.html
+  slipstick schema --units               the units that values may have
+
+Exit status: 0 done, 1 a check or comparison failed, 2 bad input.";
+
+const RUN_EXAMPLES: &str = "\
+Examples:
+  slipstick run tank.toml
+  slipstick run tank.toml --out out --floor-spectrum
+  slipstick run tank.toml --motion taft.txt --units g --dt \"0.01 s\" --scale-to \"0.3 g\"
+  slipstick run tank.toml --set slider.kinetic_friction=0.05 --set storey.1.mass=\"90 kg\"
+  slipstick run - --json < tank.toml
+
+Writes with --out, each file whole or not at all:
+  summary.json  the object that --json prints
+  history.csv   one row a sample: table, block, friction force, storeys; SI
+  events.csv    every slip, stick and reversal
+  report.html   one self-contained page to read and print";
+
+/// Everything on the command line.
+#[derive(Debug, Parser)]
+#[command(name = "slipstick", version, about = ABOUT, after_help = EXAMPLES)]
+#[command(propagate_version = true, subcommand_required = true, arg_required_else_help = true)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Compute the response of a model to its ground motion
+    #[command(after_help = RUN_EXAMPLES)]
+    Run(RunArgs),
+    /// Write an example model that runs as it stands
+    Init(InitArgs),
+    /// Print the JSON schema of the model file, or the table of units
+    Schema(SchemaArgs),
+    /// Print a completion script for a shell
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+    /// Write the manual pages into a folder
+    #[command(hide = true)]
+    Man {
+        /// The folder
+        folder: PathBuf,
+    },
+}
+
+/// `slipstick run`.
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    /// Model file (TOML), or - to read it from standard input
+    pub model: PathBuf,
+
+    /// Ground motion to use instead of the model's [motion]
+    #[arg(long, value_name = "FILE", help_heading = "Ground motion")]
+    pub motion: Option<PathBuf>,
+    /// Unit of the record's values, where its file does not state one: g, gal, m/s2, …
+    #[arg(long, value_name = "UNIT", requires = "motion", help_heading = "Ground motion")]
+    pub units: Option<String>,
+    /// Time step of the record, where its file does not state one: "0.01 s"
+    #[arg(long, value_name = "TIME", requires = "motion", help_heading = "Ground motion")]
+    pub dt: Option<String>,
+    /// Channel of the record, by name or by number from 1
+    #[arg(long, value_name = "NAME", requires = "motion", help_heading = "Ground motion")]
+    pub channel: Option<String>,
+    /// Factor on the record; may be negative
+    #[arg(
+        long,
+        value_name = "FACTOR",
+        requires = "motion",
+        allow_hyphen_values = true,
+        help_heading = "Ground motion"
+    )]
+    pub scale: Option<String>,
+    /// Peak acceleration to scale the record to: "0.3 g"
+    #[arg(
+        long,
+        value_name = "PEAK",
+        requires = "motion",
+        conflicts_with = "scale",
+        help_heading = "Ground motion"
+    )]
+    pub scale_to: Option<String>,
+
+    /// How to compute: exact, or stepwise as the paper's own program did
+    #[arg(long, value_enum)]
+    pub method: Option<MethodName>,
+    /// Set a key of the model by its path, such as slider.kinetic_friction=0.05; repeatable
+    #[arg(long, value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+    /// Add acceleration response spectra (5 %) of table, block and storeys
+    #[arg(long)]
+    pub floor_spectrum: bool,
+
+    /// Print the result as one JSON object
+    #[arg(long, help_heading = "Output")]
+    pub json: bool,
+    /// Folder to write summary.json, history.csv, events.csv and report.html into
+    #[arg(short, long, value_name = "DIR", help_heading = "Output")]
+    pub out: Option<PathBuf>,
+    /// Units of the table and the report; files and JSON are always SI
+    #[arg(
+        long,
+        value_name = "SYSTEM",
+        value_enum,
+        default_value = "si",
+        help_heading = "Output"
+    )]
+    pub display_units: UnitSystem,
+    /// No messages and no progress on standard error, errors excepted
+    #[arg(short, long, help_heading = "Output")]
+    pub quiet: bool,
+}
+
+/// `slipstick init`.
+#[derive(Debug, Args)]
+pub struct InitArgs {
+    /// Name of the model; the file is NAME.toml
+    #[arg(default_value = "model")]
+    pub name: String,
+    /// Which example
+    #[arg(long, value_enum, default_value = "mock-up")]
+    pub example: Example,
+    /// Replace a file of that name
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// `slipstick schema`.
+#[derive(Debug, Args)]
+pub struct SchemaArgs {
+    /// Print the units that values may have instead
+    #[arg(long)]
+    pub units: bool,
+}
+
+/// Methods by their names in the model file.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum MethodName {
+    /// Linear phases exactly, events located
+    Exact,
+    /// The paper's trapezoidal rule with iteration
+    Stepwise,
+}
+
+/// Systems of units for what people read.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum UnitSystem {
+    /// m, m/s, m/s², N
+    Si,
+    /// kN and mm
+    #[value(name = "kN-mm", alias = "kn-mm")]
+    KnMm,
+    /// kip and in
+    Us,
+}
+
+impl From<UnitSystem> for DisplayUnits {
+    fn from(system: UnitSystem) -> Self {
+        match system {
+            UnitSystem::Si => Self::Si,
+            UnitSystem::KnMm => Self::KnMm,
+            UnitSystem::Us => Self::Us,
+        }
+    }
+}
+
+/// Example models.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Example {
+    /// A rigid block on a spring
+    Block,
+    /// A block with one storey
+    #[value(name = "mock-up")]
+    MockUp,
+    /// Five storeys on pendulum sliders
+    Frame,
+}

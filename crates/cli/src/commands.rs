@@ -1,0 +1,5 @@
+//! One module a command.
+
+pub mod init;
+pub mod run;
+pub mod text;

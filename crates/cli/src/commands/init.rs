@@ -1,0 +1,35 @@
+//! `slipstick init`: an example model that runs as it stands.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use crate::args::{Example, InitArgs};
+use crate::failure::Failure;
+
+const BLOCK: &str = include_str!("../../models/block.toml");
+const MOCK_UP: &str = include_str!("../../models/mock-up.toml");
+const FRAME: &str = include_str!("../../models/frame.toml");
+
+/// Writes `NAME.toml` into the working folder.
+pub fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
+    let stem = args.name.strip_suffix(".toml").unwrap_or(&args.name);
+    let text = match args.example {
+        Example::Block => BLOCK,
+        Example::MockUp => MOCK_UP,
+        Example::Frame => FRAME,
+    };
+    let path = PathBuf::from(format!("{stem}.toml"));
+    if stem.is_empty() || stem == "-" {
+        let found = &args.name;
+        return Err(Failure::Message(format!("expected a name for the model, found {found:?}")));
+    }
+    if path.exists() && !args.force {
+        return Err(Failure::Message(format!(
+            "{}: stands there already; expected a new name, or --force to replace it",
+            path.display()
+        )));
+    }
+    slipstick_files::write_whole(&path, text.as_bytes())?;
+    eprintln!("wrote {}; next: slipstick run {} --out out", path.display(), path.display());
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,87 @@
+//! What ends a command early, and how it is told.
+
+use std::io::{self, IsTerminal};
+
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use slipstick::error::InputError;
+use slipstick_files::{FileError, JobError};
+
+/// Bad input, or an output that nobody reads any more.
+#[derive(Debug)]
+pub enum Failure {
+    /// The reader of standard output has left: no error.
+    ClosedPipe,
+    /// A fault in model text, with the text to point into.
+    Input {
+        /// The fault.
+        error: Box<InputError>,
+        /// The text of the model file.
+        text: String,
+    },
+    /// Anything else, in one sentence.
+    Message(String),
+}
+
+impl Failure {
+    /// A fault of an input whose text is at hand.
+    pub fn input(error: InputError, text: &str) -> Self {
+        Self::Input { error: Box::new(error), text: text.to_owned() }
+    }
+
+    /// A fault of a job whose model text is at hand.
+    pub fn job(error: JobError, text: &str) -> Self {
+        match error {
+            JobError::Input(error) => Self::input(error, text),
+            other => Self::Message(other.to_string()),
+        }
+    }
+
+    /// Writes one message to standard error; where a person reads it, with the line in question.
+    pub fn report(&self) {
+        match self {
+            Self::ClosedPipe => {}
+            Self::Message(message) => eprintln!("error: {message}"),
+            Self::Input { error, text } => {
+                eprintln!("error: {error}");
+                if io::stderr().is_terminal()
+                    && let Some(excerpt) = excerpt(error, text)
+                {
+                    eprintln!("{excerpt}");
+                }
+            }
+        }
+    }
+}
+
+/// The line that an error points to, underlined; nothing where the error lies outside the text.
+fn excerpt(error: &InputError, text: &str) -> Option<String> {
+    let place = &error.place;
+    if place.source_name.starts_with("--set") || text.get(place.span.clone()).is_none() {
+        return None;
+    }
+    let renderer = match std::env::var_os("NO_COLOR") {
+        Some(value) if !value.is_empty() => Renderer::plain(),
+        _ => Renderer::styled(),
+    };
+    let label = format!("expected {}", error.expected);
+    let snippet = Snippet::source(text)
+        .path(&place.source_name)
+        .annotation(AnnotationKind::Primary.span(place.span.clone()).label(&label));
+    Some(renderer.render(&[Level::ERROR.primary_title(&error.found).element(snippet)]))
+}
+
+impl From<FileError> for Failure {
+    fn from(error: FileError) -> Self {
+        Self::Message(error.to_string())
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            Self::ClosedPipe
+        } else {
+            Self::Message(format!("standard output: {error}"))
+        }
+    }
+}

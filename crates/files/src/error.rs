@@ -1,0 +1,89 @@
+//! What can go wrong with files.
+
+use std::io;
+use std::path::PathBuf;
+
+use slipstick::error::{MotionError, RecordError};
+
+/// A file that cannot be read, understood or written.
+#[derive(Debug, thiserror::Error)]
+pub enum FileError {
+    /// Nothing there, or nothing that may be read.
+    #[error("{}: cannot be read: {}", path.display(), reason(source))]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// A folder where a file was expected.
+    #[error("{}: expected a file, found a folder", path.display())]
+    IsFolder {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A file larger than any record.
+    #[error("{}: expected at most {limit} bytes, found more", path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// The limit.
+        limit: u64,
+    },
+    /// Content that is no record.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// Several channels, or none of the name that was asked for.
+    #[error("{}: expected {expected} (channels: {channels})", path.display())]
+    Channel {
+        /// The record.
+        path: PathBuf,
+        /// What was expected.
+        expected: String,
+        /// Names of its channels.
+        channels: String,
+    },
+    /// Samples that are no ground motion.
+    #[error("{}: {source}", path.display())]
+    Motion {
+        /// The record.
+        path: PathBuf,
+        /// Why.
+        source: MotionError,
+    },
+    /// A result that cannot be written.
+    #[error("{}: cannot be written: {}", path.display(), reason(source))]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// An output folder that is a file.
+    #[error("{}: expected a folder to write to, found a file", path.display())]
+    NotAFolder {
+        /// The file.
+        path: PathBuf,
+    },
+    /// An output that would replace an input.
+    #[error("{}: is an input of this analysis and is not overwritten", path.display())]
+    IsInput {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+/// The reason in words, without the number of the system's error.
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file or folder".to_owned(),
+        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        io::ErrorKind::StorageFull => "no space left on the device".to_owned(),
+        io::ErrorKind::ReadOnlyFilesystem => "the file system is read-only".to_owned(),
+        _ => {
+            let text = error.to_string();
+            let number = text.find(" (os error");
+            text[..number.unwrap_or(text.len())].to_owned()
+        }
+    }
+}

@@ -1,0 +1,336 @@
+//! From the path of a record to a motion that can be analysed.
+
+use std::path::{Path, PathBuf};
+
+use slipstick::error::MotionError;
+use slipstick::motion::{Figures, GroundMotion};
+use slipstick::record::{self, Channel, Format, Options, Quantity, Record, Units};
+use slipstick::response::Warning;
+
+use crate::error::FileError;
+use crate::read::{read_bytes, sha256_hex};
+
+/// The column that becomes the vertical component of its neighbour without being asked for.
+const VERTICAL_COLUMN: &str = "vertical_acceleration_m_per_s2";
+
+/// How the acceleration of a record is scaled, the vertical component with it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Scale {
+    /// As it stands.
+    #[default]
+    None,
+    /// Times a factor, which may be negative.
+    Factor(f64),
+    /// To a largest horizontal acceleration in m/s².
+    ToPeak(f64),
+}
+
+/// A record to be opened, and what it may not say itself.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RecordRequest {
+    /// The file, resolved against the model's folder.
+    pub path: PathBuf,
+    /// Its format, where that is not to be recognised.
+    pub format: Option<Format>,
+    /// Units, where the file does not state them.
+    pub units: Option<Units>,
+    /// Time step in s, where the file does not state it.
+    pub dt_s: Option<f64>,
+    /// Name or number (from 1) of the channel; not needed where one is acceleration.
+    pub channel: Option<String>,
+    /// Scale.
+    pub scale: Scale,
+    /// The file with the vertical component.
+    pub vertical: Option<VerticalRequest>,
+}
+
+/// A record whose horizontal component acts vertically; format, units and time step as beside it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VerticalRequest {
+    /// The file.
+    pub path: PathBuf,
+    /// Name or number (from 1) of its channel.
+    pub channel: Option<String>,
+    /// Factor besides that of the horizontal component.
+    pub factor: f64,
+}
+
+/// A file that was read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SourceFile {
+    /// Its path.
+    pub path: PathBuf,
+    /// SHA-256 of its bytes, in hexadecimal digits.
+    pub sha256: String,
+}
+
+/// A motion ready for analysis, and what is to be said of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadedMotion {
+    /// The motion, scaled, with its vertical component.
+    pub motion: GroundMotion,
+    /// What was understood, one line a file: `PEER AT2, 2800 values, 0.005 s, g`.
+    pub description: Vec<String>,
+    /// Figures of the horizontal component as analysed.
+    pub figures: Figures,
+    /// What the reader should know.
+    pub warnings: Vec<Warning>,
+    /// Files read; none for a made motion.
+    pub sources: Vec<SourceFile>,
+}
+
+impl LoadedMotion {
+    /// A made motion, which comes from no file.
+    #[must_use]
+    pub fn made(motion: GroundMotion, description: String) -> Self {
+        let figures = motion.figures();
+        let description = vec![description];
+        Self { motion, description, figures, warnings: vec![], sources: vec![] }
+    }
+}
+
+/// Opens a record, adds its vertical component and scales it.
+///
+/// # Errors
+/// [`FileError`] where a file cannot be read or understood, where the channel is not one that can
+/// be told, and where scaling has no answer.
+pub fn load_record(request: &RecordRequest) -> Result<LoadedMotion, FileError> {
+    let mut sources = Vec::new();
+    let mut warnings = Vec::new();
+    let mut description = Vec::new();
+
+    let path = &request.path;
+    let record = open(path, request, &mut sources)?;
+    let horizontal = choose(path, &record, request.channel.as_deref())?;
+    description.push(record.describe(horizontal));
+    warnings.extend(of_reader(&record, horizontal));
+    let mut motion = motion(path, horizontal)?;
+
+    let mut lengths_differ = false;
+    if let Some(vertical) = &request.vertical {
+        let up = open(&vertical.path, request, &mut sources)?;
+        let channel = choose(&vertical.path, &up, vertical.channel.as_deref())?;
+        description.push(format!("vertical: {}", up.describe(channel)));
+        warnings.extend(of_reader(&up, channel));
+        let up = self::motion(&vertical.path, channel)?;
+        (motion, lengths_differ) =
+            motion.with_vertical(&up, vertical.factor).map_err(at(&vertical.path))?;
+    } else if let Some(channel) = record.channels.iter().find(|c| c.name == VERTICAL_COLUMN)
+        && channel.name != horizontal.name
+    {
+        let up = self::motion(path, channel)?;
+        (motion, _) = motion.with_vertical(&up, 1.0).map_err(at(path))?;
+        description.push(format!("vertical: column {VERTICAL_COLUMN}"));
+    }
+    let motion = match request.scale {
+        Scale::None => motion,
+        Scale::Factor(factor) => motion.scaled(factor).map_err(at(path))?,
+        Scale::ToPeak(peak) => motion.scaled_to_peak(peak).map_err(at(path))?,
+    };
+    let figures = motion.figures();
+    warnings.extend(of_motion(&motion, &figures, lengths_differ));
+    Ok(LoadedMotion { motion, description, figures, warnings, sources })
+}
+
+fn open(
+    path: &Path,
+    request: &RecordRequest,
+    sources: &mut Vec<SourceFile>,
+) -> Result<Record, FileError> {
+    let bytes = read_bytes(path)?;
+    sources.push(SourceFile { path: path.to_owned(), sha256: sha256_hex(&bytes) });
+    let options = Options { format: request.format, units: request.units, dt_s: request.dt_s };
+    Ok(record::read(&path.display().to_string(), &bytes, &options)?)
+}
+
+/// The channel asked for, else the only one that is acceleration along the surface.
+fn choose<'a>(
+    path: &Path,
+    record: &'a Record,
+    name: Option<&str>,
+) -> Result<&'a Channel, FileError> {
+    let is_acceleration = |c: &&Channel| c.units.quantity() == Quantity::Acceleration;
+    let error = |expected: String| {
+        let describe = |(i, c): (usize, &Channel)| {
+            format!("{} {:?} ({})", i + 1, c.name, c.units.quantity().name())
+        };
+        let channels: Vec<_> = record.channels.iter().enumerate().map(describe).collect();
+        FileError::Channel { path: path.to_owned(), expected, channels: channels.join(", ") }
+    };
+    if let Some(name) = name {
+        let channel = record.channel(name).filter(is_acceleration);
+        return channel.ok_or_else(|| error(format!("an acceleration channel {name:?}")));
+    }
+    let mut candidates = record.channels.iter().filter(is_acceleration);
+    let mut along = candidates.clone().filter(|c| c.name != VERTICAL_COLUMN);
+    match (along.next(), along.next(), candidates.next()) {
+        (Some(channel), None, _) | (None, _, Some(channel)) => Ok(channel),
+        (None, ..) => Err(error("a channel of acceleration".to_owned())),
+        (Some(first), Some(_), _) => Err(error(format!(
+            "one channel of acceleration: add channel = {:?} to [motion] (or --channel)",
+            first.name
+        ))),
+    }
+}
+
+fn motion(path: &Path, channel: &Channel) -> Result<GroundMotion, FileError> {
+    match channel.motion() {
+        Some(motion) => motion.map_err(at(path)),
+        None => Err(FileError::Channel {
+            path: path.to_owned(),
+            expected: "a channel of acceleration".to_owned(),
+            channels: channel.name.clone(),
+        }),
+    }
+}
+
+fn at(path: &Path) -> impl Fn(MotionError) -> FileError + '_ {
+    |source| FileError::Motion { path: path.to_owned(), source }
+}
+
+fn of_reader(record: &Record, channel: &Channel) -> Vec<Warning> {
+    let all = record.warnings.iter().chain(&channel.warnings);
+    all.map(|w| Warning { kind: w.kind, time_s: None, message: w.message.clone() }).collect()
+}
+
+/// What an engineer asks first of a record: does it start from rest, and does it drift.
+fn of_motion(motion: &GroundMotion, figures: &Figures, lengths_differ: bool) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let mut warn = |kind, time_s, message| warnings.push(Warning { kind, time_s, message });
+    let first = motion.horizontal_m_per_s2()[0];
+    if first != 0.0 {
+        let message = format!(
+            "the first sample is {first:.4} m/s², not 0: taken as a jump at the start of the motion"
+        );
+        warn("first_sample_not_zero", Some(0.0), message);
+    }
+    let Figures { pgv_m_per_s, end_velocity_m_per_s, .. } = *figures;
+    if end_velocity_m_per_s.abs() > 0.05 * pgv_m_per_s {
+        let percent = 100.0 * end_velocity_m_per_s.abs() / pgv_m_per_s;
+        let message = format!(
+            "the record drifts: its velocity at the end is {end_velocity_m_per_s:.4} m/s, \
+             {percent:.0} % of its peak; nothing was corrected"
+        );
+        warn("record_drift", Some(motion.duration_s()), message);
+    }
+    if lengths_differ {
+        let message = "the vertical component and the horizontal one differ in length: the \
+                       shorter is zero after its end";
+        warn("lengths_differ", None, message.to_owned());
+    }
+    warnings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use slipstick::record::Sampling;
+
+    fn write(name: &str, text: &str) -> PathBuf {
+        let folder = std::env::temp_dir().join(format!("slipstick-load-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let path = folder.join(name);
+        std::fs::write(&path, text).unwrap();
+        path
+    }
+
+    fn g(path: PathBuf) -> RecordRequest {
+        RecordRequest { path, units: Units::parse("g"), dt_s: Some(0.5), ..Default::default() }
+    }
+
+    fn kinds(loaded: &LoadedMotion) -> Vec<&str> {
+        loaded.warnings.iter().map(|w| w.kind).collect()
+    }
+
+    #[test]
+    fn exact_record_with_scale_and_warnings() {
+        let path = write("one.txt", "0.1\n-0.4\n0.1\n");
+        let loaded = load_record(&g(path.clone())).unwrap();
+        assert_eq!(loaded.description, ["text with one column, 3 values, 0.5 s, g"]);
+        assert_eq!(kinds(&loaded), ["first_sample_not_zero", "record_drift"]);
+        let sha256 = sha256_hex(b"0.1\n-0.4\n0.1\n");
+        assert_eq!(loaded.sources, [SourceFile { path: path.clone(), sha256 }]);
+        let scaled = RecordRequest { scale: Scale::ToPeak(2.0), ..g(path.clone()) };
+        assert!((load_record(&scaled).unwrap().figures.pga_m_per_s2 - 2.0).abs() < 1e-15);
+        let scaled = RecordRequest { scale: Scale::Factor(-2.0), ..g(path) };
+        let peak = load_record(&scaled).unwrap().motion.horizontal_m_per_s2()[1];
+        assert!((peak - 0.8 * 9.80665).abs() < 1e-14);
+    }
+
+    #[test]
+    fn exact_vertical_component_takes_both_factors() {
+        let path = write("along.txt", "0\n1\n-1\n0\n");
+        let up = write("up.txt", "0\n1\n0\n");
+        let vertical = VerticalRequest { path: up, channel: None, factor: 3.0 };
+        let request =
+            RecordRequest { scale: Scale::Factor(2.0), vertical: Some(vertical), ..g(path) };
+        let loaded = load_record(&request).unwrap();
+        let up = loaded.motion.vertical_m_per_s2().unwrap();
+        assert!((up[1] - 6.0 * 9.80665).abs() < 1e-13 && up[3] == 0.0);
+        assert_eq!(kinds(&loaded), ["lengths_differ"]);
+        assert_eq!((loaded.description.len(), loaded.sources.len()), (2, 2));
+    }
+
+    #[test]
+    fn exact_columns_of_the_manual_need_no_key() {
+        let text = "time_s,acceleration_m_per_s2,vertical_acceleration_m_per_s2\n0,0,0\n1,2,3\n";
+        let path = write("columns.csv", text);
+        let loaded = load_record(&RecordRequest { path, ..Default::default() }).unwrap();
+        assert_eq!(loaded.motion.horizontal_m_per_s2(), [0.0, 2.0]);
+        assert_eq!(loaded.motion.vertical_m_per_s2().unwrap(), [0.0, 3.0]);
+    }
+
+    #[test]
+    fn exact_channel_must_be_told() {
+        let path = write("two.csv", "time_s,north_g,east_g,d_mm\n0,0,1,9\n1,2,3,9\n");
+        let request = |channel: Option<&str>| RecordRequest {
+            path: path.clone(),
+            channel: channel.map(str::to_owned),
+            ..Default::default()
+        };
+        let error = load_record(&request(None)).unwrap_err().to_string();
+        let end = "expected one channel of acceleration: add channel = \"north_g\" to [motion] (or \
+                   --channel) (channels: 1 \"north_g\" (acceleration), 2 \"east_g\" \
+                   (acceleration), 3 \"d_mm\" (displacement))";
+        assert_eq!(error, format!("{}: {end}", path.display()));
+        for name in ["east_g", "EAST_G", "2"] {
+            let loaded = load_record(&request(Some(name))).unwrap();
+            assert_eq!(loaded.motion.horizontal_m_per_s2()[0], 9.80665, "{name}");
+        }
+        assert!(load_record(&request(Some("up"))).is_err());
+        let error = load_record(&request(Some("d_mm"))).unwrap_err().to_string();
+        assert!(error.contains("an acceleration channel \"d_mm\""), "{error}");
+    }
+
+    #[test]
+    fn exact_zero_record_cannot_be_scaled_to_a_peak() {
+        let path = write("zero.txt", "0\n0\n0\n");
+        let request = RecordRequest { scale: Scale::ToPeak(1.0), ..g(path.clone()) };
+        let error = load_record(&request).unwrap_err().to_string();
+        let end = "scale_to: expected a motion that is not zero throughout, its peak is 0 m/s²";
+        assert_eq!(error, format!("{}: {end}", path.display()));
+    }
+
+    #[test]
+    fn exact_errors_of_the_reader_pass_through() {
+        let path = write("bad.txt", "0\nx\n0\n");
+        let error = load_record(&g(path.clone())).unwrap_err().to_string();
+        let end = "2:1: expected a finite number, found \"x\"";
+        assert_eq!(error, format!("{}:{end}", path.display()));
+    }
+
+    #[test]
+    fn exact_sampling_of_a_record_is_kept() {
+        let path = write("times.txt", "0 0\n1 1\n1 0\n3 0\n");
+        let record = record::read(
+            "t",
+            &read_bytes(&path).unwrap(),
+            &Options { units: Units::parse("m/s2"), ..Default::default() },
+        );
+        let sampling = record.unwrap().channels[0].sampling.clone();
+        assert_eq!(sampling, Sampling::Times(vec![0.0, 1.0, 1.0, 3.0]));
+        let units = Units::parse("m/s2");
+        let request = RecordRequest { path, units, ..Default::default() };
+        assert_eq!(load_record(&request).unwrap().motion.times_s(), [0.0, 1.0, 1.0, 3.0]);
+    }
+}

@@ -1,0 +1,87 @@
+//! Whole files in, or one clear error.
+
+use std::fs;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+use crate::error::FileError;
+
+/// Largest file that is read: 1 GiB, ten bytes for each sample that a motion may have.
+pub const MAX_BYTES: u64 = 1 << 30;
+
+/// The whole content of a file.
+///
+/// # Errors
+/// [`FileError`] where it does not exist, is a folder, cannot be read, or is larger than
+/// [`MAX_BYTES`].
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
+    let failed = |source: io::Error| match source.kind() {
+        io::ErrorKind::IsADirectory => FileError::IsFolder { path: path.to_owned() },
+        _ => FileError::Read { path: path.to_owned(), source },
+    };
+    let file = fs::File::open(path).map_err(failed)?;
+    let metadata = file.metadata().map_err(failed)?;
+    if metadata.is_dir() {
+        return Err(FileError::IsFolder { path: path.to_owned() });
+    }
+    let too_large = || FileError::TooLarge { path: path.to_owned(), limit: MAX_BYTES };
+    if metadata.len() > MAX_BYTES {
+        return Err(too_large());
+    }
+    let mut bytes = Vec::new();
+    // A pipe or a growing file has no length to go by.
+    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(too_large());
+    }
+    Ok(bytes)
+}
+
+/// SHA-256 of some bytes in hexadecimal digits.
+#[must_use]
+pub fn sha256_hex(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// A path written in a model file, relative to the model's folder; `\` divides as `/` does.
+#[must_use]
+pub fn resolve(folder: &Path, written: &str) -> PathBuf {
+    let as_written = folder.join(written);
+    if !written.contains('\\') || as_written.exists() {
+        return as_written;
+    }
+    folder.join(written.replace('\\', "/"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_sha256_of_the_standard() {
+        // FIPS 180-4, example of one block.
+        let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        assert_eq!(sha256_hex(b"abc"), expected);
+    }
+
+    #[test]
+    fn exact_what_cannot_be_read() {
+        let folder = std::env::temp_dir();
+        let message = |path: &Path| read_bytes(path).unwrap_err().to_string();
+        let end = "expected a file, found a folder";
+        assert_eq!(message(&folder), format!("{}: {end}", folder.display()));
+        let none = folder.join("slipstick-no-such-file");
+        let end = "cannot be read: there is no such file or folder";
+        assert_eq!(message(&none), format!("{}: {end}", none.display()));
+    }
+
+    #[test]
+    fn exact_backslashes_divide() {
+        let folder = Path::new("models");
+        assert_eq!(resolve(folder, "a/b.txt"), Path::new("models/a/b.txt"));
+        assert_eq!(resolve(folder, "a\\b.txt"), Path::new("models/a/b.txt"));
+        assert_eq!(resolve(folder, "/a/b.txt"), Path::new("/a/b.txt"));
+    }
+}

@@ -1,0 +1,335 @@
+//! Whole files or none.
+//!
+//! A file is written under a temporary name beside its target and renamed when it is complete. The
+//! names of temporary files and of folders made for them are kept in one list of the process, so
+//! that Ctrl-C can remove them: it must work from wherever the program is.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use crate::error::FileError;
+
+/// What must be removed if the process ends now.
+#[derive(Default)]
+struct Live {
+    files: BTreeSet<PathBuf>,
+    /// Made for output and not yet used; removed only where empty.
+    folders: BTreeSet<PathBuf>,
+    /// Set by [`remove_temporaries`]: nothing new is begun.
+    ending: bool,
+}
+
+static LIVE: Mutex<Live> =
+    Mutex::new(Live { files: BTreeSet::new(), folders: BTreeSet::new(), ending: false });
+
+fn live() -> MutexGuard<'static, Live> {
+    LIVE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes all temporary files and the empty folders made for them, and begins no new ones; for a
+/// handler of Ctrl-C, after which the process ends. It waits for a set of renames under way.
+pub fn remove_temporaries() {
+    let mut live = live();
+    live.ending = true;
+    for file in std::mem::take(&mut live.files) {
+        let _ = fs::remove_file(file);
+    }
+    for folder in std::mem::take(&mut live.folders).iter().rev() {
+        let _ = fs::remove_dir(folder);
+    }
+}
+
+/// Refuses an output path that is one of the inputs, whatever way they are written.
+///
+/// # Errors
+/// [`FileError::IsInput`].
+pub fn refuse_inputs(output: &Path, inputs: &[PathBuf]) -> Result<(), FileError> {
+    let Ok(real) = fs::canonicalize(output) else { return Ok(()) };
+    let same = |input: &PathBuf| fs::canonicalize(input).is_ok_and(|input| input == real);
+    if inputs.iter().any(same) {
+        return Err(FileError::IsInput { path: output.to_owned() });
+    }
+    Ok(())
+}
+
+/// Writes one file, whole or not at all; an existing one is replaced.
+///
+/// # Errors
+/// [`FileError::Write`], [`FileError::IsFolder`]; nothing is left behind.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    Temporary::write(path, bytes)?.rename(&mut live())
+}
+
+/// A complete file under a temporary name; removed when dropped.
+struct Temporary {
+    name: PathBuf,
+    target: PathBuf,
+}
+
+impl Temporary {
+    fn write(target: &Path, bytes: &[u8]) -> Result<Self, FileError> {
+        static COUNT: AtomicU64 = AtomicU64::new(0);
+        let failed = |source| FileError::Write { path: target.to_owned(), source };
+        if target.is_dir() {
+            return Err(FileError::IsFolder { path: target.to_owned() });
+        }
+        let Some(file_name) = target.file_name() else {
+            let reason = io::Error::new(io::ErrorKind::InvalidInput, "it has no file name");
+            return Err(failed(reason));
+        };
+        let count = COUNT.fetch_add(1, Ordering::Relaxed);
+        let mut name = std::ffi::OsString::from(".");
+        name.push(file_name);
+        name.push(format!(".{}-{count}.tmp", std::process::id()));
+        let name = target.with_file_name(name);
+        let mut file = {
+            // Created under the lock: Ctrl-C finds it in the list or finds no file.
+            let mut live = live();
+            if live.ending {
+                return Err(failed(io::ErrorKind::Interrupted.into()));
+            }
+            let file = fs::File::create_new(&name).map_err(failed)?;
+            live.files.insert(name.clone());
+            file
+        };
+        let temporary = Self { name, target: target.to_owned() };
+        file.write_all(bytes).and_then(|()| file.sync_all()).map_err(failed)?;
+        Ok(temporary)
+    }
+
+    fn rename(self, live: &mut Live) -> Result<(), FileError> {
+        let result = fs::rename(&self.name, &self.target);
+        if result.is_err() {
+            let _ = fs::remove_file(&self.name);
+        }
+        live.files.remove(&self.name);
+        let path = self.target.clone();
+        // Its file is gone either way, and the list's lock is held.
+        std::mem::forget(self);
+        result.map_err(|source| FileError::Write { path, source })
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        if live().files.remove(&self.name) {
+            let _ = fs::remove_file(&self.name);
+        }
+    }
+}
+
+/// A folder that receives a set of files, all of them or none.
+///
+/// Dropped without [`OutputFolder::commit`] it leaves nothing: no temporary file, and no folder
+/// that it made.
+pub struct OutputFolder {
+    folder: PathBuf,
+    inputs: Vec<PathBuf>,
+    files: Vec<Temporary>,
+    made: Vec<PathBuf>,
+}
+
+impl OutputFolder {
+    /// Takes a folder for output, made with those above it where it does not exist; `inputs` are
+    /// never overwritten.
+    ///
+    /// # Errors
+    /// [`FileError::NotAFolder`] for a file, [`FileError::Write`] where it cannot be made or
+    /// written to.
+    pub fn create(folder: &Path, inputs: &[PathBuf]) -> Result<Self, FileError> {
+        let mut output = Self {
+            folder: folder.to_owned(),
+            inputs: inputs.to_vec(),
+            files: vec![],
+            made: vec![],
+        };
+        output.make(folder)?;
+        // Known before an analysis is run, not after it.
+        drop(Temporary::write(&folder.join("writable"), b"")?);
+        Ok(output)
+    }
+
+    fn make(&mut self, folder: &Path) -> Result<(), FileError> {
+        // The empty path is the current folder.
+        if folder.as_os_str().is_empty() || folder.is_dir() {
+            return Ok(());
+        }
+        if fs::symlink_metadata(folder).is_ok() {
+            return Err(FileError::NotAFolder { path: folder.to_owned() });
+        }
+        if let Some(above) = folder.parent() {
+            self.make(above)?;
+        }
+        let failed = |source| FileError::Write { path: folder.to_owned(), source };
+        let mut live = live();
+        if live.ending {
+            return Err(failed(io::ErrorKind::Interrupted.into()));
+        }
+        fs::create_dir(folder).map_err(failed)?;
+        live.folders.insert(folder.to_owned());
+        self.made.push(folder.to_owned());
+        Ok(())
+    }
+
+    /// The path that a file of the set will have.
+    #[must_use]
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    /// Writes a file of the set under a temporary name.
+    ///
+    /// # Errors
+    /// [`FileError::IsInput`], [`FileError::IsFolder`], [`FileError::Write`].
+    pub fn write(&mut self, name: &str, bytes: &[u8]) -> Result<(), FileError> {
+        let target = self.path(name);
+        refuse_inputs(&target, &self.inputs)?;
+        self.files.push(Temporary::write(&target, bytes)?);
+        Ok(())
+    }
+
+    /// Gives every file its name.
+    ///
+    /// # Errors
+    /// [`FileError::Write`] where a rename fails; each file is whole or as it was before.
+    pub fn commit(mut self) -> Result<(), FileError> {
+        let mut live = live();
+        let mut files = std::mem::take(&mut self.files).into_iter();
+        let renamed = files.try_for_each(|file| file.rename(&mut live));
+        if renamed.is_ok() {
+            for folder in self.made.drain(..) {
+                live.folders.remove(&folder);
+            }
+        }
+        // What is left takes the lock to remove its files.
+        drop(live);
+        renamed
+    }
+}
+
+impl Drop for OutputFolder {
+    fn drop(&mut self) {
+        self.files.clear();
+        let mut live = live();
+        for folder in self.made.iter().rev() {
+            if live.folders.remove(folder) {
+                let _ = fs::remove_dir(folder);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A fresh folder for one test.
+    fn scratch(test: &str) -> PathBuf {
+        let name = format!("slipstick-write-{}-{test}", std::process::id());
+        let folder = std::env::temp_dir().join(name);
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).unwrap();
+        folder
+    }
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        let mut names: Vec<_> =
+            entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn exact_one_file_is_replaced_whole() {
+        let folder = scratch("whole");
+        let path = folder.join("a.txt");
+        write_whole(&path, b"one").unwrap();
+        write_whole(&path, b"two").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"two");
+        assert_eq!(names(&folder), ["a.txt"]);
+    }
+
+    #[test]
+    fn exact_set_appears_only_when_complete() {
+        let folder = scratch("set");
+        let out = folder.join("new/out");
+        let mut output = OutputFolder::create(&out, &[]).unwrap();
+        output.write("a.txt", b"a").unwrap();
+        output.write("b.txt", b"b").unwrap();
+        assert!(!out.join("a.txt").exists());
+        output.commit().unwrap();
+        assert_eq!(names(&out), ["a.txt", "b.txt"]);
+        // Other files of the folder stay.
+        let mut output = OutputFolder::create(&out, &[]).unwrap();
+        output.write("c.txt", b"c").unwrap();
+        output.commit().unwrap();
+        assert_eq!(names(&out), ["a.txt", "b.txt", "c.txt"]);
+    }
+
+    #[test]
+    fn exact_abandoned_set_leaves_nothing() {
+        let folder = scratch("abandoned");
+        let mut output = OutputFolder::create(&folder.join("new/out"), &[]).unwrap();
+        output.write("a.txt", b"a").unwrap();
+        drop(output);
+        assert!(names(&folder).is_empty());
+    }
+
+    #[test]
+    fn exact_folder_that_is_a_file_is_refused() {
+        let folder = scratch("file");
+        fs::write(folder.join("out"), b"mine").unwrap();
+        for path in [folder.join("out"), folder.join("out/deeper")] {
+            let error = OutputFolder::create(&path, &[]).err().unwrap();
+            assert!(matches!(&error, FileError::NotAFolder { .. }), "{error}");
+            let message = format!(
+                "{}: expected a folder to write to, found a file",
+                folder.join("out").display()
+            );
+            assert_eq!(error.to_string(), message);
+        }
+        assert_eq!(fs::read(folder.join("out")).unwrap(), b"mine");
+    }
+
+    #[test]
+    fn exact_inputs_are_not_overwritten() {
+        let folder = scratch("input");
+        let input = folder.join("summary.json");
+        fs::write(&input, b"mine").unwrap();
+        let roundabout = folder.join(".").join("summary.json");
+        let mut output = OutputFolder::create(&folder, &[roundabout]).unwrap();
+        let error = output.write("summary.json", b"new").unwrap_err();
+        assert!(matches!(error, FileError::IsInput { .. }));
+        output.write("other.json", b"new").unwrap();
+        drop(output);
+        assert_eq!(names(&folder), ["summary.json"]);
+        assert_eq!(fs::read(&input).unwrap(), b"mine");
+    }
+
+    #[test]
+    fn exact_target_that_is_a_folder_is_refused() {
+        let folder = scratch("target");
+        fs::create_dir(folder.join("history.csv")).unwrap();
+        let mut output = OutputFolder::create(&folder, &[]).unwrap();
+        let error = output.write("history.csv", b"x").unwrap_err();
+        assert!(matches!(error, FileError::IsFolder { .. }));
+        assert!(matches!(write_whole(&folder, b"x"), Err(FileError::IsFolder { .. })));
+        drop(output);
+        assert_eq!(names(&folder), ["history.csv"]);
+    }
+
+    /// A file system that takes no files, whoever asks.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn exact_folder_that_cannot_be_written_is_refused() {
+        let error = OutputFolder::create(Path::new("/proc/slipstick/out"), &[]).err().unwrap();
+        assert!(matches!(&error, FileError::Write { .. }), "{error}");
+        assert!(error.to_string().starts_with("/proc/slipstick: cannot be written: "), "{error}");
+        assert!(write_whole(Path::new("/proc/slipstick.txt"), b"x").is_err());
+    }
+}

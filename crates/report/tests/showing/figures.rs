@@ -1,0 +1,239 @@
+//! The drawings: the drawn peak is the tabled peak, labels stay inside, nothing grows without bound.
+
+use crate::support::{Case, floor_spectra, frame_model, report, rough_motion, run};
+use slipstick::motion::GroundMotion;
+use slipstick_report::figures::{self, Drawn};
+use slipstick_report::{DisplayUnits, FloorSpectra};
+
+/// One text element: place, size, anchor, content.
+struct Text {
+    x: f64,
+    y: f64,
+    size: f64,
+    anchor: String,
+    content: String,
+}
+
+fn attribute(tag: &str, name: &str) -> Option<String> {
+    let start = tag.find(&format!(" {name}=\""))? + name.len() + 3;
+    Some(tag[start..start + tag[start..].find('"')?].to_owned())
+}
+
+fn number(tag: &str, name: &str) -> Option<f64> {
+    attribute(tag, name)?.parse().ok()
+}
+
+fn texts(svg: &str) -> Vec<Text> {
+    svg.split("<text")
+        .skip(1)
+        .map(|piece| {
+            let (tag, rest) = piece.split_once('>').expect("a tag");
+            Text {
+                x: number(tag, "x").expect("x"),
+                y: number(tag, "y").expect("y"),
+                size: number(tag, "font-size").unwrap_or(11.0),
+                anchor: attribute(tag, "text-anchor").unwrap_or("start".into()),
+                content: rest.split('<').next().expect("a text").to_owned(),
+            }
+        })
+        .collect()
+}
+
+/// The paths drawn with a full line in the colour of main lines, as points.
+fn main_lines(svg: &str) -> Vec<Vec<[f64; 2]>> {
+    svg.split("<path")
+        .filter(|tag| tag.contains("stroke=\"#0b3c6f\""))
+        .filter_map(|tag| attribute(tag, "d"))
+        // Samples in legends are drawn by a relative command.
+        .filter(|path| !path.contains('h'))
+        .map(|path| points(&path))
+        .collect()
+}
+
+fn points(path: &str) -> Vec<[f64; 2]> {
+    let numbers: Vec<f64> = path
+        .split([' ', 'M', 'L'])
+        .filter(|text| !text.is_empty())
+        .map(|text| text.parse().expect("a coordinate"))
+        .collect();
+    numbers.chunks(2).map(|pair| [pair[0], pair[1]]).collect()
+}
+
+/// Value of a height in a panel, read off its ticks as a person would with a ruler.
+///
+/// `panel` counts frames from the top; its ticks are the texts that end at the frame's left.
+fn read_off(svg: &str, panel: usize, y: f64) -> f64 {
+    let frames: Vec<[f64; 3]> = svg
+        .split("<rect fill=\"none\"")
+        .skip(1)
+        .map(|tag| ["x", "y", "height"].map(|name| number(tag, name).expect(name)))
+        .collect();
+    let [left, top, height] = frames[panel];
+    let ticks: Vec<[f64; 2]> = texts(svg)
+        .into_iter()
+        .filter(|text| text.anchor == "end" && (text.x - (left - 4.0)).abs() < 0.11)
+        .map(|text| (text.y - 3.5, text.content))
+        .filter(|(tick_y, _)| (top - 0.1..=top + height + 0.1).contains(tick_y))
+        .map(|(tick_y, content)| [tick_y, content.replace('−', "-").parse().expect("a number")])
+        .collect();
+    let (a, b) = (ticks[0], ticks[ticks.len() - 1]);
+    a[1] + (b[1] - a[1]) * (y - a[0]) / (b[0] - a[0])
+}
+
+/// The value farthest from 0 that the only main line of a panel reaches.
+fn drawn_peak(svg: &str, panel: usize) -> f64 {
+    let line = &main_lines(svg)[panel];
+    let values = line.iter().map(|point| read_off(svg, panel, point[1]));
+    values.fold(0.0, |peak: f64, value| peak.max(value.abs()))
+}
+
+fn figure<'a>(all: &'a [Drawn], id: &str) -> &'a str {
+    all.iter().find(|drawn| drawn.id == id).unwrap_or_else(|| panic!("no {id}")).svg.as_str()
+}
+
+fn assert_close(drawn: f64, tabled: f64) {
+    // Ticks are placed to 0.1 of at least 78 units, over which the range is a bit over twice the
+    // peak: what is read off is good to 0.5 %.
+    assert!((drawn - tabled).abs() < 5e-3 * tabled, "drawn {drawn}, tabled {tabled}");
+}
+
+/// A coarse record: peaks between samples stand out from the samples.
+fn coarse() -> Case {
+    run("coarse", frame_model(2, 1.0), rough_motion(12.0, 0.05))
+}
+
+#[test]
+fn exact_drawn_peaks_are_the_tabled_peaks() {
+    for case in [coarse(), run("fine", frame_model(2, 1.0), rough_motion(60.0, 0.005))] {
+        let all = figures::all(&report(&case, &case.summary));
+        let d = &case.summary.demands;
+        assert_close(
+            drawn_peak(figure(&all, "sliding-displacement"), 0),
+            1e3 * d.peak_sliding_displacement_m,
+        );
+        let svg = figure(&all, "accelerations");
+        assert_close(drawn_peak(svg, 0), case.summary.record.pga_m_per_s2);
+        assert_close(drawn_peak(svg, 1), d.peak_block_acceleration_m_per_s2);
+        let svg_drift = figure(&all, "drifts");
+        for (i, storey) in d.storeys.iter().enumerate() {
+            assert_close(drawn_peak(svg, 2 + i), storey.peak_acceleration_m_per_s2);
+            assert_close(drawn_peak(svg_drift, i), 1e3 * storey.peak_drift_m);
+        }
+    }
+}
+
+/// Without the peaks of the continuous motion the coarse record would be drawn too low.
+#[test]
+fn exact_a_peak_between_samples_is_drawn() {
+    let mut case = coarse();
+    case.summary.demands.storeys[0].peak_drift_m *= 1.2;
+    let all = figures::all(&report(&case, &case.summary));
+    assert_close(
+        drawn_peak(figure(&all, "drifts"), 0),
+        1e3 * case.summary.demands.storeys[0].peak_drift_m,
+    );
+}
+
+#[test]
+fn prop_labels_stay_inside_and_every_drawing_is_named() {
+    for display in [DisplayUnits::Si, DisplayUnits::KnMm, DisplayUnits::Us] {
+        for storeys in [0, 1, 5] {
+            let case = run("m", frame_model(storeys, 1.0), rough_motion(12.0, 0.02));
+            let spectra = floor_spectra(storeys);
+            let mut report = report(&case, &case.summary);
+            report.floor_spectra = Some(&spectra);
+            report.display = display;
+            let all = figures::all(&report);
+            assert_eq!(all.len(), if storeys == 0 { 6 } else { 7 });
+            for drawn in &all {
+                assert_sound(drawn);
+            }
+        }
+    }
+}
+
+fn assert_sound(drawn: &Drawn) {
+    let svg = drawn.svg.as_str();
+    assert!(!drawn.caption.is_empty());
+    for needed in ["<title", "<desc", "role=\"img\"", "aria-labelledby"] {
+        assert!(svg.contains(needed), "{}: {needed}", drawn.id);
+    }
+    for wrong in ["NaN", "inf", "url(", "href", "<script", "<style"] {
+        assert!(!svg.contains(wrong), "{}: {wrong}", drawn.id);
+    }
+    let view = attribute(svg, "viewBox").expect("a view box");
+    let height: f64 = view.rsplit(' ').next().and_then(|text| text.parse().ok()).expect("height");
+    for text in texts(svg) {
+        // Letters of Helvetica are half their size wide, digits 0.56.
+        let width = 0.56 * text.size * text.content.chars().count() as f64;
+        let left = match text.anchor.as_str() {
+            "start" => text.x,
+            "middle" => text.x - 0.5 * width,
+            _ => text.x - width,
+        };
+        assert!(left >= -0.5 && left + width <= 681.0, "{}: {:?} is cut", drawn.id, text.content);
+        assert!(text.y - 0.75 * text.size >= -0.5 && text.y + 3.0 <= height, "{}", text.content);
+    }
+}
+
+#[test]
+fn exact_units_stand_on_both_axes() {
+    let case = run("m", frame_model(1, 1.0), rough_motion(12.0, 0.02));
+    let mut report = report(&case, &case.summary);
+    report.display = DisplayUnits::Us;
+    let all = figures::all(&report);
+    for (id, labels) in [
+        ("sliding-displacement", ["Sliding displacement s (in)", "Time (s)"]),
+        ("accelerations", ["Storey 1 acceleration (g)", "Time (s)"]),
+        ("friction-loop", ["Friction force T (kip)", "Sliding displacement s (in)"]),
+        ("demand", ["Friction force T (kip)", "Time (s)"]),
+        ("energy", ["Energy (kip in)", "Time (s)"]),
+    ] {
+        for label in labels {
+            let svg = figure(&all, id);
+            assert!(texts(svg).iter().any(|text| text.content == label), "{id}: {label}");
+        }
+    }
+}
+
+#[test]
+fn exact_a_drawing_does_not_grow_with_the_record() {
+    let svgs = |dt_s: f64| {
+        let case = run("m", frame_model(1, 1.0), rough_motion(60.0, dt_s));
+        figures::all(&report(&case, &case.summary))
+    };
+    for (short, long) in svgs(0.02).iter().zip(&svgs(0.0005)) {
+        let (few, many) = (short.svg.as_str().len(), long.svg.as_str().len());
+        assert!(many < 3 * few + 20_000, "{}: {few} bytes grew to {many}", short.id);
+    }
+}
+
+#[test]
+fn exact_still_ground_and_empty_histories_are_drawn_without_fault() {
+    let still = GroundMotion::evenly_spaced(0.01, vec![0.0; 20], None).expect("a motion");
+    let mut case = run("still", frame_model(1, 1.0), still);
+    for drawn in figures::all(&report(&case, &case.summary)) {
+        assert_sound(&drawn);
+    }
+    case.response.history = None;
+    assert!(figures::all(&report(&case, &case.summary)).is_empty());
+    let empty = FloorSpectra::default();
+    let mut report = report(&case, &case.summary);
+    report.floor_spectra = Some(&empty);
+    assert!(figures::all(&report).is_empty());
+}
+
+#[test]
+fn exact_bounds_of_friction_follow_the_vertical_motion() {
+    let level = rough_motion(12.0, 0.02);
+    let up = level.times_s().iter().map(|t| 3.0 * (9.0 * t).sin()).collect();
+    let horizontal = level.horizontal_m_per_s2().to_vec();
+    let motion = GroundMotion::new(level.times_s().to_vec(), horizontal, Some(up)).expect("ok");
+    let case = run("vertical", frame_model(1, 1.0), motion);
+    let all = figures::all(&report(&case, &case.summary));
+    let drawn = all.iter().find(|drawn| drawn.id == "demand").expect("demand");
+    assert!(drawn.caption.contains("follow the normal force"));
+    assert_sound(drawn);
+    let dashed = drawn.svg.as_str().split("<path").filter(|tag| tag.contains("\"6 3\""));
+    assert!(dashed.filter(|tag| tag.len() > 1000).count() == 2, "two wavy bounds");
+}

@@ -1,0 +1,142 @@
+//! The page: safe, self-contained, small, in the order in which a design office reads.
+
+use crate::support::{floor_spectra, frame_model, report, rough_motion, run, run_times};
+use slipstick::response::{Event, EventKind, Mode};
+use slipstick_report::{FileNote, InputText};
+
+/// Opening and closing tags in order, without their attributes; void ones left out.
+fn assert_balanced(html: &str) {
+    let mut open = Vec::new();
+    for piece in html.split('<').skip(1) {
+        let tag = piece.split('>').next().expect("a tag");
+        let name = tag.split([' ', '\n', '/']).next().unwrap_or("");
+        if tag.starts_with('!') || matches!(name, "meta" | "br") || tag.ends_with('/') {
+            continue;
+        }
+        match tag.strip_prefix('/') {
+            Some(closed) => assert_eq!(open.pop(), Some(closed.to_owned()), "at {piece}"),
+            None => open.push(name.to_owned()),
+        }
+    }
+    assert!(open.is_empty(), "left open: {open:?}");
+}
+
+#[test]
+fn exact_what_users_type_is_never_markup() {
+    let bad = "<script>alert(1)</script>\"'><img src=x onerror=y> </style> @import \\2f & \u{202e}";
+    let mut case = run(bad, frame_model(1, 1.0), rough_motion(5.0, 0.02));
+    case.response.warnings.clear();
+    let mut summary = case.summary.clone();
+    summary.warnings[0].message = bad.to_owned();
+    let mut report = report(&case, &summary);
+    report.record = bad;
+    report.command_line = bad;
+    report.inputs = &[InputText { path: BAD, text: BAD }];
+    report.files = &[FileNote { path: BAD, sha256: BAD, description: BAD }];
+    let html = report.to_html();
+    assert!(!html.contains("<script"), "a script got in");
+    assert!(!html.contains("<img"), "an element got in");
+    assert_eq!(html.matches("</style>").count(), 1, "the style sheet was closed early");
+    let from = html.find("<style>").expect("a style sheet");
+    let style = &html[from..html.find("</style>").expect("its end")];
+    assert!(!style.contains("@import"), "a rule got into the style sheet");
+    assert!(html.contains("&lt;script&gt;alert(1)&lt;/script&gt;&quot;&#39;&gt;"));
+    assert_balanced(&html);
+}
+
+const BAD: &str = "<script>\"</pre>";
+
+#[test]
+fn exact_the_page_needs_nothing_else() {
+    let case = run("mock-up", frame_model(2, 1.0), rough_motion(10.0, 0.01));
+    let html = report(&case, &case.summary).to_html();
+    let without_namespace = html.replace("http://www.w3.org/2000/svg", "");
+    for outside in ["http:", "https:", "<script", "<link", " src=", "url(", "@import", "file:"] {
+        assert!(!without_namespace.contains(outside), "{outside}");
+    }
+    assert!(html.starts_with("<!DOCTYPE html>"));
+    assert!(html.contains("<meta charset=\"utf-8\">") && html.contains("size: A4"));
+    assert!(html.is_ascii() || !html.contains('\u{fffd}'));
+    assert_balanced(&html);
+    assert_eq!(html, report(&case, &case.summary).to_html(), "not the same text twice");
+}
+
+#[test]
+fn exact_warnings_come_first_and_figures_last() {
+    let nominal = run("mock-up", frame_model(1, 1.0), rough_motion(10.0, 0.01));
+    let bound = |f| run_times("mock-up", frame_model(1, f), rough_motion(10.0, 0.01), f);
+    let (lower, upper) = (bound(0.8), bound(1.3));
+    let summary = nominal.summary.clone().with_bounds(lower.summary, upper.summary);
+    let mut report = report(&nominal, &summary);
+    report.bounds = Some([&lower.response, &upper.response]);
+    let html = report.to_html();
+    let mut from = 0;
+    for heading in [
+        "<h2>Warnings",
+        "gap exceeded",
+        "<h2>Model and record",
+        "9f86d081884c7d659a2feaa0c55ad015",
+        "slipstick run examples/mockup.toml",
+        "[block]",
+        "<h2>Peaks",
+        "Governing",
+        "lower (× 0.8)",
+        "<h2>Events",
+        "<h2>Certificate",
+        "<h2>Assumptions",
+        "<h2>Figures",
+        "lower friction",
+    ] {
+        let at = html[from..].find(heading);
+        from += at.unwrap_or_else(|| panic!("{heading} is missing or out of order"));
+    }
+    assert!(html.contains("number governs"));
+}
+
+#[test]
+fn exact_many_events_are_cut_and_counted() {
+    let mut case = run("mock-up", frame_model(0, 1.0), rough_motion(5.0, 0.01));
+    case.response.events = (0..1234)
+        .map(|i| Event {
+            time_s: f64::from(i),
+            kind: EventKind::Stick,
+            mode: Mode::Stick,
+            sliding_displacement_m: 0.0,
+        })
+        .collect();
+    let html = report(&case, &case.summary).to_html();
+    assert_eq!(html.matches("<td>stick</td>").count(), 200);
+    assert!(html.contains("1034 more stand in events.csv"));
+    assert!(html.contains(">159.000000<") && !html.contains(">160.000000<"));
+    assert!(html.contains(">1233.000000<") && html.contains(">1194.000000<"));
+}
+
+#[test]
+fn exact_the_largest_page_stays_below_two_megabytes() {
+    let motion = || rough_motion(60.0, 0.005);
+    let nominal = run("tower", frame_model(20, 1.0), motion());
+    let bound = |factor| run_times("tower", frame_model(20, factor), motion(), factor);
+    let (lower, upper) = (bound(0.5), bound(2.0));
+    let summary = nominal.summary.clone().with_bounds(lower.summary, upper.summary);
+    let spectra = floor_spectra(20);
+    let mut report = report(&nominal, &summary);
+    report.bounds = Some([&lower.response, &upper.response]);
+    report.floor_spectra = Some(&spectra);
+    let bytes = report.to_html().len();
+    assert!(bytes < 2_000_000, "{bytes} bytes");
+}
+
+#[test]
+fn exact_a_failed_check_is_said_loudly() {
+    let mut case = run("mock-up", frame_model(1, 1.0), rough_motion(5.0, 0.01));
+    case.certificate.friction_excess = 1e-6;
+    let (model, motion) = (&case.model, &case.motion);
+    let summary =
+        crate::support::summarise("m", model, motion, &case.response, &case.certificate, 1.0, &[]);
+    let html = report(&case, &summary).to_html();
+    assert!(html.contains("NOT CONFIRMED"));
+    assert!(html.contains("check failed"));
+    // A bound that fails spoils the whole, even beside a nominal run that holds.
+    let spoiled = case.summary.clone().with_bounds(summary, case.summary.clone());
+    assert!(report(&case, &spoiled).to_html().contains("NOT CONFIRMED"));
+}

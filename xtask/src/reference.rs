@@ -1,0 +1,102 @@
+//! `cargo xtask reference`: the reference cases as a table of the book, from the tests' own words.
+
+use crate::shell::{self, Outcome};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// What the test of one case said.
+#[derive(Debug, PartialEq, Eq)]
+struct Said<'a> {
+    /// Name of the test: its prefix is the source of truth.
+    test: &'a str,
+    /// Number of figures compared.
+    figures: &'a str,
+    /// Largest error over its tolerance.
+    worst: &'a str,
+    /// The figure that is so.
+    what: &'a str,
+}
+
+/// Runs the test of every case of `data/reference/cases.json` and tabulates the errors reached.
+pub fn reference(options: &[&str]) -> Outcome {
+    if !matches!(options, [] | ["--write"]) {
+        return Err(format!("reference: expected --write or nothing, found {}", options.join(" ")));
+    }
+    let test = "test --quiet -p slipstick --test cases -- --show-output";
+    let log = shell::output(&mut shell::cargo(test))?;
+    let path = shell::root().join("data/reference/cases.json");
+    let cases = std::fs::read_to_string(&path)
+        .map_err(|error| error.to_string())
+        .and_then(|text| serde_json::from_str::<Value>(&text).map_err(|error| error.to_string()))
+        .map_err(|error| format!("{}: {error}", path.display()))?;
+    let table = table(&cases, &said(&log))?;
+    if options.is_empty() {
+        print!("{table}");
+        return Ok(());
+    }
+    shell::write(&shell::root().join("book/src/generated/verification.md"), &table)
+}
+
+/// By case: `case ID: N figures, worst R of its tolerance (WHAT)` in the output of a test.
+fn said(log: &str) -> BTreeMap<&str, Said<'_>> {
+    let mut test = "";
+    let mut said = BTreeMap::new();
+    for line in log.lines() {
+        if let Some(name) = line.strip_prefix("---- ").and_then(|l| l.strip_suffix(" stdout ----"))
+        {
+            test = name;
+        }
+        let parts = line.strip_prefix("case ").and_then(|line| {
+            let (id, rest) = line.split_once(": ")?;
+            let (figures, rest) = rest.split_once(" figures, worst ")?;
+            let (worst, what) = rest.split_once(" of its tolerance (")?;
+            Some((id, Said { test, figures, worst, what: what.strip_suffix(')')? }))
+        });
+        said.extend(parts);
+    }
+    said
+}
+
+fn table(cases: &Value, said: &BTreeMap<&str, Said<'_>>) -> Result<String, String> {
+    let mut table = String::from(
+        "<!-- Written by `cargo xtask reference --write`. -->\n\n\
+         | case | what it is | truth | figures | largest error / tolerance |\n\
+         |---|---|---|--:|---|\n",
+    );
+    let cases = cases["cases"].as_array().ok_or("cases.json: expected a list of cases")?;
+    for case in cases {
+        let word = |key: &str| case[key].as_str().unwrap_or_default().replace('|', "\\|");
+        let id = word("id");
+        let Said { test, figures, worst, what } =
+            said.get(id.as_str()).ok_or_else(|| format!("no test has spoken for case {id}"))?;
+        let truth = if test.starts_with("exact_") { "closed form" } else { "50-digit solution" };
+        let title = word("title");
+        let what = what.replace('|', "\\|");
+        writeln!(table, "| {id} | {title} | {truth} | {figures} | {worst} ({what}) |")
+            .map_err(|error| error.to_string())?;
+    }
+    Ok(table)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_line_of_a_test_becomes_a_row() {
+        let log = "running 1 test\n---- exact_harm stdout ----\n\
+                   case HARM: 7 figures, worst 1.2e-3 of its tolerance (peak |z|)\n";
+        let cases = serde_json::json!({ "cases": [{ "id": "HARM", "title": "a=A sin" }] });
+        let table = table(&cases, &said(log)).expect("a table");
+        let row = "| HARM | a=A sin | closed form | 7 | 1.2e-3 (peak \\|z\\|) |";
+        assert_eq!(table.lines().last(), Some(row));
+    }
+
+    #[test]
+    fn exact_a_case_without_a_test_is_an_error() {
+        let cases = serde_json::json!({ "cases": [{ "id": "HARM" }] });
+        let error = table(&cases, &said("")).expect_err("no row");
+        assert_eq!(error, "no test has spoken for case HARM");
+    }
+}
