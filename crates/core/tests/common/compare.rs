@@ -141,22 +141,46 @@ pub fn of_response(model: &Model, response: &Response) -> Outcome {
     }
 }
 
-/// Compares a time history with its case; every line says what differs by how much.
-pub fn differences(case: &Case, solve: Solve) -> Vec<String> {
-    // A sine needs so many samples that its straight lines cost less than the tolerance (README M
-    // of the cases: 3.3 / N² times the sensitivity).
-    let per_cycle = 1_000_000;
-    let model = case.model();
-    let outcome = solve(&model, &case.motion(per_cycle, false));
-    let mut found = Vec::new();
-    let mut compare = |what: &str, value: f64, expected: f64, tolerance: f64| {
+/// What a comparison found.
+#[derive(Debug, Default)]
+pub struct Report {
+    /// Number of figures compared.
+    pub figures: usize,
+    /// Largest error over its tolerance (0/0 = 0), and the figure that is so.
+    pub worst: f64,
+    pub what: String,
+    /// One line for each figure outside its tolerance.
+    pub wrong: Vec<String>,
+}
+
+impl Report {
+    /// Compares a figure with what is expected.
+    pub fn compare(&mut self, what: &str, value: f64, expected: f64, tolerance: f64) {
+        let error = (value - expected).abs();
+        let ratio = if error == 0.0 { 0.0 } else { error / tolerance };
+        if self.figures == 0 || ratio > self.worst {
+            (self.worst, self.what) = (ratio, what.to_owned());
+        }
+        self.figures += 1;
         // NaN must fail.
-        if !((value - expected).abs() <= tolerance) {
-            let error = (value - expected).abs();
-            found.push(format!(
+        if !(error <= tolerance) {
+            self.wrong.push(format!(
                 "{what}: expected {expected:e}, found {value:e}, off by {error:.2e} > {tolerance:.2e}"
             ));
         }
+    }
+}
+
+/// Compares a time history with its case.
+pub fn judged(case: &Case, solve: Solve) -> Report {
+    // A sine needs so many samples that its straight lines cost less than the tolerance (3.3 / N²
+    // times the sensitivity).
+    let per_cycle = 1_000_000;
+    let model = case.model();
+    let outcome = solve(&model, &case.motion(per_cycle, false));
+    let mut report = Report::default();
+    let mut compare = |what: &str, value: f64, expected: f64, tolerance: f64| {
+        report.compare(what, value, expected, tolerance);
     };
     if case.field("compare_sequence") == true {
         let expected = case.list("events");
@@ -212,7 +236,7 @@ pub fn differences(case: &Case, solve: Solve) -> Vec<String> {
             compare(&format!("closed form: {name}"), f64::NAN, wanted, tolerance);
         }
     }
-    found
+    report
 }
 
 fn left_limit(outcome: &Outcome, time_s: f64) -> (Mode, &Numbers) {
