@@ -24,11 +24,7 @@ mod tree;
 
 pub use json_schema::json_schema;
 pub use keys::MAX_STOREYS;
-<<<<<<< HEAD
-pub use motion::{Channel, MotionSource, RecordSource, Scale};
-=======
 pub use motion::{MotionSource, RecordSource, Scale};
->>>>>>> input
 pub use overrides::Override;
 
 /// The longest text that can be a model, in bytes: a storey takes a hundred.

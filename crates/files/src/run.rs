@@ -4,11 +4,10 @@ use std::path::Path;
 
 use slipstick::check::{self, Certificate};
 use slipstick::error::{InputError, MotionError, SolveError};
-use slipstick::input::{Analysis, Channel, MotionSource, RecordSource, Scale as ModelScale};
+use slipstick::input::{Analysis, MotionSource, RecordSource, Scale as ModelScale};
 use slipstick::linear::shear_frame_frequencies;
 use slipstick::model::Model;
 use slipstick::motion::{GroundMotion, spectrum};
-use slipstick::record::Units;
 use slipstick::response::{History, Response, Warning};
 use slipstick::solver;
 use slipstick_report::{FloorSpectra, RecordFigures, Summary, SummaryInputs};
@@ -97,7 +96,8 @@ impl Job {
             None => match analysis.required_motion()? {
                 MotionSource::Record(record) => load_record(&request(record, folder))?,
                 MotionSource::Sine(sine) => {
-                    let text = format!("sine, {} Hz, {} m/s²", sine.frequency_hz, sine.amplitude_m_per_s2);
+                    let text =
+                        format!("sine, {} Hz, {} m/s²", sine.frequency_hz, sine.amplitude_m_per_s2);
                     LoadedMotion::made(sine.motion().map_err(in_model)?, text)
                 }
                 MotionSource::Sweep(sweep) => {
@@ -158,9 +158,8 @@ impl Job {
         friction_factor: f64,
     ) -> Result<(Response, Certificate, Summary), JobError> {
         let method = self.analysis.method;
-        let response = solver::solve(model, &self.motion, method).map_err(|source| {
-            JobError::Solve { model: self.name.clone(), source }
-        })?;
+        let response = solver::solve(model, &self.motion, method)
+            .map_err(|source| JobError::Solve { model: self.name.clone(), source })?;
         let empty = History::default();
         let history = response.history.as_ref().unwrap_or(&empty);
         let certificate = check::check(model, &self.motion, history);
@@ -190,16 +189,12 @@ fn shown(path: &Path) -> String {
 
 /// A record as the model asks for it.
 fn request(record: &RecordSource, folder: &Path) -> RecordRequest {
-    let channel = record.channel.as_ref().map(|channel| match channel {
-        Channel::Name(name) => name.clone(),
-        Channel::Number(number) => number.to_string(),
-    });
     RecordRequest {
         path: resolve(folder, &record.path),
         format: None,
-        units: record.units.and_then(|unit| Units::parse(unit.name())),
+        units: record.units,
         dt_s: record.dt_s,
-        channel,
+        channel: record.channel.clone(),
         scale: match record.scale {
             ModelScale::Factor(factor) => Scale::Factor(factor),
             ModelScale::Peak(peak) => Scale::ToPeak(peak),

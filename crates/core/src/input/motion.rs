@@ -1,15 +1,9 @@
 //! Where the table's motion comes from.
 
 use super::reader::{Given, Values};
-<<<<<<< HEAD
-use crate::error::InputError;
-use crate::motion::{MAX_SAMPLES, Pulse, PulseShape, Sine, Sweep, SweepKind};
-use crate::units::Unit;
-=======
 use crate::error::{InputError, MotionError};
 use crate::motion::{Pulse, PulseShape, Sine, Sweep, SweepKind};
 use crate::record::Units;
->>>>>>> input
 
 /// How the table moves, before any record is opened.
 #[derive(Clone, Debug, PartialEq)]
