@@ -1,8 +1,8 @@
 //! The order of the modules: each uses only those to its left, so that what is simple never depends
 //! on what is not, and what judges never on what it judges.
 
-// It reads the sources.
-#![allow(clippy::disallowed_methods)]
+// Helpers of tests may panic as tests do.
+#![allow(clippy::expect_used)]
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
