@@ -1,7 +1,7 @@
 //! What the tests of this folder share: the plain reference, the cases, random systems.
 
-// Every test program compiles the whole of it and uses a part.
-#![allow(dead_code)]
+// Every test program compiles the whole of it and uses a part; helpers of tests may panic as tests do.
+#![allow(dead_code, clippy::expect_used)]
 
 pub mod agree;
 pub mod bernstein;

@@ -46,7 +46,7 @@ impl Random {
 
     /// Between two positive numbers, uniform in the logarithm.
     pub fn logarithmic(&mut self, low: f64, high: f64) -> f64 {
-        low * (high / low).powf(self.unit())
+        low * libm::pow(high / low, self.unit())
     }
 
     /// An integer, both ends included.

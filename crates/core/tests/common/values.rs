@@ -9,7 +9,7 @@ use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::response::{Event, EventKind, Mode};
 
 use super::cases::{Case, cycles, number, text_of};
-use super::compare::{Numbers, Outcome, Solve};
+use super::compare::{Numbers, Outcome, Report, Solve};
 
 /// Values of a case by their names, from `per_cycle` samples a cycle.
 pub fn values(case: &Case, solve: Solve, per_cycle: usize) -> Numbers {
@@ -23,25 +23,27 @@ pub fn values(case: &Case, solve: Solve, per_cycle: usize) -> Numbers {
     }
 }
 
-/// Values with their errors and the tolerance of the sampled rule: 3 max(measured, 8.2e-5)
-/// (200/N)² of the value, or the stated one where nothing was sampled.
-pub fn judged(case: &Case, values: &Numbers, per_cycle: usize) -> Vec<(String, f64, f64)> {
+/// Compares the values from `per_cycle` samples a cycle with their case, by the rule for sampled
+/// sines: 3 max(measured, 8.2e-5) (200/N)² of the value, or the stated tolerance where nothing was
+/// sampled.
+pub fn judge(case: &Case, solve: Solve, per_cycle: usize, report: &mut Report) {
+    let found = values(case, solve, per_cycle);
     let measured = case.field("sampled").get("measured_relative_error").map(|list| {
         let list = list.as_object().expect("measured errors");
         list.values().map(number).fold(8.2e-5, f64::max)
     });
-    let judge = |expected: &serde_json::Value| {
+    for expected in case.list("expect") {
         let name = text_of(&expected["q"]);
-        let value = values.get(&name).copied().unwrap_or(f64::NAN);
+        let value = found.get(&name).copied().unwrap_or(f64::NAN);
         let (wanted, stated) = (number(&expected["value"]), number(&expected["tol_abs"]));
         let fineness = 200.0 / per_cycle as f64;
         let rule = measured.map_or(0.0, |m| 3.0 * m * fineness * fineness * wanted.abs());
         // Counts, formulas, and what is found with a fineness of its own.
         let own = ["n_events", "contraction", "critical", "first-order"];
         let stands = own.iter().any(|start| name.starts_with(start));
-        (name, (value - wanted).abs(), if stands { stated } else { stated.max(rule) })
-    };
-    case.list("expect").iter().map(judge).collect()
+        let tolerance = if stands { stated } else { stated.max(rule) };
+        report.compare(&format!("{name}, {per_cycle} a cycle"), value, wanted, tolerance);
+    }
 }
 
 /// A response to cycles `from` to `to` of the case's sine that goes on from the state after cycle
@@ -76,6 +78,10 @@ fn fixed(model: &Model) -> Model {
     with(model, held, model.initial().clone())
 }
 
+fn square(x: f64) -> f64 {
+    x * x
+}
+
 /// Half of the distance between the turning points, which are events, and their middle.
 fn half_range(events: &[Event]) -> (f64, f64) {
     let z = events.iter().map(|e| e.sliding_displacement_m);
@@ -108,7 +114,7 @@ fn limit_cycle(case: &Case, solve: Solve, n: usize) -> Numbers {
     put("slide_fraction", sliding_s * omega / (TAU * KEPT as f64));
     put("peak_w", window.outcome.numbers["peak_abs_w"]);
     let [eta_s, eta_d] = ["mu_s", "mu_d"].map(|mu| p(mu) * p("g") / a);
-    put("critical LHS eta_s^2+(pi eta_d/2)^2", eta_s * eta_s + (0.5 * PI * eta_d).powi(2));
+    put("critical LHS eta_s^2+(pi eta_d/2)^2", eta_s * eta_s + square(0.5 * PI * eta_d));
     let to = |kind, sign: f64| {
         let fits = move |e: &&Event| e.kind == kind && (sign == 0.0 || e.mode.sign() == sign);
         events.iter().find(fits).copied()
@@ -182,15 +188,15 @@ fn drift(case: &Case, solve: Solve, n: usize) -> Numbers {
     }
     let p = |name| case.parameter(name, 0.0);
     let theta = p("tilt");
-    let eta = p("mu_d") * theta.cos() * p("g") / a;
-    let small_tilt = -PI * PI * a / (omega * omega) * theta.tan() / p("mu_d");
+    let eta = p("mu_d") * libm::cos(theta) * p("g") / a;
+    let small_tilt = -PI * PI * a / (omega * omega) * libm::tan(theta) / p("mu_d");
     Numbers::from([
         ("drift_per_cycle".to_owned(), per_cycle),
         ("drift_per_cycle/(A/omega^2)".to_owned(), per_cycle * omega * omega / a),
         ("fraction of the cycle with w>0".to_owned(), positive_s * omega / (TAU * KEPT as f64)),
         (
             "first-order (small tilt) estimate, informative".to_owned(),
-            small_tilt * (1.0 - (0.5 * PI * eta).powi(2)).sqrt(),
+            small_tilt * (1.0 - square(0.5 * PI * eta)).sqrt(),
         ),
     ])
 }
