@@ -103,7 +103,7 @@ def records_folder():
 
 def taft():
     """Kern County 1952, Taft, in g at 0.01 s: beside the examples, else in the folder."""
-    places = [ROOT / "examples" / "records" / "taft.txt"]
+    places = [ROOT / "examples" / "records" / "taft-111.txt"]
     if records_folder():
         places.append(records_folder() / "kern_1952_taft" / "TAF-111.txt")
     for place in places:

@@ -14,6 +14,8 @@ struct Said<'a> {
     figures: &'a str,
     /// Largest error over its tolerance.
     worst: &'a str,
+    /// That tolerance, SI.
+    tolerance: &'a str,
     /// The figure that is so.
     what: &'a str,
 }
@@ -38,7 +40,7 @@ pub fn reference(options: &[&str]) -> Outcome {
     shell::write(&shell::root().join("book/src/generated/verification.md"), &table)
 }
 
-/// By case: `case ID: N figures, worst R of its tolerance (WHAT)` in the output of a test.
+/// By case: `case ID: N figures, worst R of its tolerance T (WHAT)` in the output of a test.
 fn said(log: &str) -> BTreeMap<&str, Said<'_>> {
     let mut test = "";
     let mut said = BTreeMap::new();
@@ -50,8 +52,9 @@ fn said(log: &str) -> BTreeMap<&str, Said<'_>> {
         let parts = line.strip_prefix("case ").and_then(|line| {
             let (id, rest) = line.split_once(": ")?;
             let (figures, rest) = rest.split_once(" figures, worst ")?;
-            let (worst, what) = rest.split_once(" of its tolerance (")?;
-            Some((id, Said { test, figures, worst, what: what.strip_suffix(')')? }))
+            let (worst, rest) = rest.split_once(" of its tolerance ")?;
+            let (tolerance, what) = rest.strip_suffix(')')?.split_once(" (")?;
+            Some((id, Said { test, figures, worst, tolerance, what }))
         });
         said.extend(parts);
     }
@@ -61,20 +64,23 @@ fn said(log: &str) -> BTreeMap<&str, Said<'_>> {
 fn table(cases: &Value, said: &BTreeMap<&str, Said<'_>>) -> Result<String, String> {
     let mut table = String::from(
         "<!-- Written by `cargo xtask reference --write`. -->\n\n\
-         | case | what it is | truth | figures | largest error / tolerance |\n\
-         |---|---|---|--:|---|\n",
+         | case | what it is | truth | figures | largest error / tolerance | that tolerance, SI | figure |\n\
+         |---|---|---|--:|--:|--:|---|\n",
     );
     let cases = cases["cases"].as_array().ok_or("cases.json: expected a list of cases")?;
     for case in cases {
         let word = |key: &str| case[key].as_str().unwrap_or_default().replace('|', "\\|");
         let id = word("id");
-        let Said { test, figures, worst, what } =
+        let Said { test, figures, worst, tolerance, what } =
             said.get(id.as_str()).ok_or_else(|| format!("no test has spoken for case {id}"))?;
         let truth = if test.starts_with("exact_") { "closed form" } else { "50-digit solution" };
         let title = word("title");
         let what = what.replace('|', "\\|");
-        writeln!(table, "| {id} | {title} | {truth} | {figures} | {worst} ({what}) |")
-            .map_err(|error| error.to_string())?;
+        writeln!(
+            table,
+            "| {id} | {title} | {truth} | {figures} | {worst} | {tolerance} | {what} |"
+        )
+        .map_err(|error| error.to_string())?;
     }
     Ok(table)
 }
@@ -86,10 +92,10 @@ mod tests {
     #[test]
     fn exact_a_line_of_a_test_becomes_a_row() {
         let log = "running 1 test\n---- exact_harm stdout ----\n\
-                   case HARM: 7 figures, worst 1.2e-3 of its tolerance (peak |z|)\n";
+                   case HARM: 7 figures, worst 1.2e-3 of its tolerance 4.9e-11 (peak |z|)\n";
         let cases = serde_json::json!({ "cases": [{ "id": "HARM", "title": "a=A sin" }] });
         let table = table(&cases, &said(log)).expect("a table");
-        let row = "| HARM | a=A sin | closed form | 7 | 1.2e-3 (peak \\|z\\|) |";
+        let row = "| HARM | a=A sin | closed form | 7 | 1.2e-3 | 4.9e-11 | peak \\|z\\| |";
         assert_eq!(table.lines().last(), Some(row));
     }
 

@@ -46,7 +46,7 @@ fn single(c: &mut Criterion) {
 
 /// The Taft record at 0.3 g.
 fn taft() -> GroundMotion {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/records/taft.txt");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/records/taft-111.txt");
     let text = std::fs::read_to_string(file).unwrap();
     let lines = text.lines().filter(|line| !line.starts_with('#'));
     let values: Vec<f64> = lines.filter_map(|line| line.trim().parse().ok()).collect();

@@ -10,7 +10,7 @@ use slipstick::model::Model;
 use slipstick::motion::{GroundMotion, spectrum};
 use slipstick::response::{History, Response, Warning};
 use slipstick::solver;
-use slipstick_report::{FloorSpectra, RecordFigures, Summary, SummaryInputs};
+use slipstick_report::{FloorSpectra, Summary, SummaryInputs};
 
 use crate::error::FileError;
 use crate::load::{LoadedMotion, RecordRequest, Scale, VerticalRequest, load_record};
@@ -168,12 +168,7 @@ impl Job {
             name: &self.name,
             model,
             motion: &self.motion,
-            record: RecordFigures {
-                pga_m_per_s2: figures.pga_m_per_s2,
-                pgv_m_per_s: figures.pgv_m_per_s,
-                pgd_m: figures.pgd_m,
-                end_velocity_m_per_s: figures.end_velocity_m_per_s,
-            },
+            record: figures,
             response: &response,
             certificate: &certificate,
             friction_factor,

@@ -4,6 +4,33 @@
 //! byte, on every machine. Whatever a user typed (names, paths, model text) is escaped on its way
 //! into HTML and SVG by the types in [`markup`]: only text of this crate can be markup.
 //!
+//! ```
+//! use slipstick::friction::{Coulomb, Friction};
+//! use slipstick::{check::check, model::Model, motion::GroundMotion, solver};
+//! use slipstick_report::{DisplayUnits, Summary, SummaryInputs, table::table};
+//!
+//! let friction = Friction::Coulomb(Coulomb::new([0.3; 2], [0.2; 2])?);
+//! let model = Model::rigid_block(124.0, friction)?;
+//! let motion = GroundMotion::evenly_spaced(0.5, vec![0.0, 4.0, -4.0, 0.0, 0.0], None)?;
+//! let response = solver::exact(&model, &motion)?;
+//! let history = response.history.as_ref().ok_or("no history")?;
+//! let certificate = check(&model, &motion, history);
+//! let summary = Summary::new(&SummaryInputs {
+//!     name: "Block",
+//!     model: &model,
+//!     motion: &motion,
+//!     record: motion.figures(),
+//!     response: &response,
+//!     certificate: &certificate,
+//!     friction_factor: 1.0,
+//!     warnings: &[],
+//! });
+//! let text = table(&summary, &model, "5 values, 0.5 s, m/s²", DisplayUnits::Si);
+//! assert!(text.contains("Peak block acceleration"));
+//! assert!(summary.to_json().contains("\"peak_sliding_displacement_m\": "));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! ```text
 //! Model, GroundMotion, Response, Certificate ──> Summary ──> to_json()
 //!                                                   │──────> table::table(…)
@@ -25,4 +52,4 @@ pub mod table;
 
 pub use display::DisplayUnits;
 pub use report::{FileNote, FloorSpectra, InputText, Report};
-pub use summary::{RecordFigures, Summary, SummaryInputs};
+pub use summary::{Summary, SummaryInputs};

@@ -46,17 +46,19 @@ pub fn table(summary: &Summary, model: &Model, record: &str, display: DisplayUni
 
 fn record_figures(summary: &Summary, display: DisplayUnits) -> String {
     let record = &summary.record;
-    let show = |quantity, si: f64| {
-        let unit = display.unit(quantity, si);
+    // The end velocity is read against the peak, so it has the unit of the peak.
+    let show_as = |quantity, largest: f64, si: f64| {
+        let unit = display.unit(quantity, largest);
         format!("{} {}", significant(unit.of(si), 4), unit.symbol)
     };
+    let show = |quantity, si: f64| show_as(quantity, si, si);
     let dt = summary.dt_s.map_or("uneven samples".to_owned(), |dt| format!("step {dt} s"));
     format!(
         "PGA {}, PGV {}, PGD {}, end velocity {}, {dt}, {} in all",
         show(Quantity::Acceleration, record.pga_m_per_s2),
         show(Quantity::Velocity, record.pgv_m_per_s),
         show(Quantity::Length, record.pgd_m),
-        show(Quantity::Velocity, record.end_velocity_m_per_s),
+        show_as(Quantity::Velocity, record.pgv_m_per_s, record.end_velocity_m_per_s),
         value(display, Quantity::Time, summary.duration_s),
     )
 }

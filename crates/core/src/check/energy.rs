@@ -39,10 +39,12 @@ pub(super) struct Energy {
 }
 
 impl Energy {
-    /// Begins with the initial energy `E₀` in J.
-    pub(super) fn start(&mut self, initial_j: f64) {
+    /// Begins with the initial energy `E₀`; `rounding_j` is what the rounding of times makes of a
+    /// system at rest. Both in J.
+    pub(super) fn start(&mut self, initial_j: f64, rounding_j: f64) {
         self.input.add(initial_j);
         self.size.add(initial_j);
+        self.scale = rounding_j;
     }
 
     /// Adds work of the table, the integral of its size, and what dampers and friction took, in J.

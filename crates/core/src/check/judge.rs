@@ -1,6 +1,6 @@
 //! Goes through the knots of a history and keeps the worst of everything.
 
-use super::collocation::{NODES, POINTS, Path, Rule, Scheme};
+use super::collocation::Scheme;
 use super::energy::Energy;
 use super::ground::{Ground, Load};
 use super::law::{Dips, Law};
@@ -13,16 +13,16 @@ use crate::response::{History, Mode};
 
 /// A sliding velocity below this part of its peak has no sign: the depth of a dip through zero that
 /// the exact method may miss.
-const STILL: f64 = 1e-12;
+pub(super) const STILL: f64 = 1e-12;
 
-/// Largest defects so far, and what they are measured by.
-#[derive(Default, Debug)]
-struct Figures {
-    displacement: [f64; 2],
-    velocity: [f64; 2],
+/// Largest defects so far, each with the scale it is measured by.
+#[derive(Default)]
+pub(super) struct Figures {
+    pub(super) displacement: [f64; 2],
+    pub(super) velocity: [f64; 2],
     force: [f64; 2],
     table: [f64; 2],
-    excess: f64,
+    pub(super) excess: f64,
 }
 
 /// The largest defect over its scale, where `pair` is `[defect, scale]`.
@@ -33,23 +33,27 @@ fn relative(pair: [f64; 2]) -> f64 {
 pub(super) struct Judge<'a> {
     model: &'a Model,
     history: &'a History,
-    structure: &'a Structure,
+    pub(super) structure: &'a Structure,
     ground: Ground<'a>,
-    law: Law,
-    scheme: Scheme<'a>,
+    pub(super) law: Law,
+    pub(super) scheme: Scheme<'a>,
     /// Velocities below this are zero to within rounding.
-    still: f64,
+    pub(super) still: f64,
     /// Rounding of a time.
-    instant_s: f64,
+    pub(super) instant_s: f64,
+    /// Velocity that the largest acceleration gives in that time.
+    jolt: f64,
     /// Within an interval: the largest velocity of the wrong sign, the largest excess by such.
-    astray: [f64; 2],
-    figures: Figures,
-    energy: Energy,
+    pub(super) astray: [f64; 2],
+    /// Within an interval: the largest size of each velocity.
+    pub(super) fastest: Vec<f64>,
+    pub(super) figures: Figures,
+    pub(super) energy: Energy,
     /// Near decisions of the phase under way.
-    dips: Dips,
+    pub(super) dips: Dips,
     closest: Option<ClosestCall>,
     /// `(x, v)` along an interval.
-    state: Vec<f64>,
+    pub(super) state: Vec<f64>,
     /// `(x, v)` of the knot last looked at.
     stored: Vec<f64>,
     scratch: Vec<f64>,
@@ -74,7 +78,9 @@ impl<'a> Judge<'a> {
             scheme: Scheme::new(structure, 2.0 * instant_s),
             still: 0.0,
             instant_s,
+            jolt: 0.0,
             astray: [0.0; 2],
+            fastest: vec![0.0; d],
             figures: Figures::default(),
             energy: Energy::default(),
             dips: Dips::new(0.0),
@@ -97,8 +103,13 @@ impl<'a> Judge<'a> {
         // A frame held at rest by its weight on a slope moves by rounding alone: its velocities
         // are measured by the static displacement, not by themselves.
         let rest = 1e-4 * self.structure.frame_frequency() * storey;
-        self.figures.displacement[1] = larger(storey, peak(&h.sliding_displacement_m));
-        self.figures.velocity[1] = larger(speed, rest);
+        // What the rounding of a time makes of the largest acceleration is no motion either.
+        let acceleration =
+            larger(peak(&h.block_acceleration_m_per_s2), peak(&h.table_acceleration_m_per_s2));
+        self.jolt = self.instant_s * acceleration;
+        let distance = larger(storey, peak(&h.sliding_displacement_m));
+        self.figures.displacement[1] = larger(distance, self.instant_s * self.jolt);
+        self.figures.velocity[1] = larger(larger(speed, rest), self.jolt);
         self.still = STILL * sliding + 64.0 * f64::EPSILON * speed;
     }
 
@@ -108,7 +119,8 @@ impl<'a> Judge<'a> {
         let knots = times.len();
         self.load_state(0);
         self.start();
-        self.energy.start(self.structure.kinetic(self.v()) + self.structure.strain(self.x()));
+        let initial_j = self.structure.kinetic(self.v()) + self.structure.strain(self.x());
+        self.energy.start(initial_j, self.model.total_mass_kg() * self.jolt * self.jolt);
         self.dips = self.fresh_dips(0);
         let mut arriving = None;
         for k in 0..knots {
@@ -174,6 +186,31 @@ impl<'a> Judge<'a> {
             let figure =
                 if i < d { &mut self.figures.displacement } else { &mut self.figures.velocity };
             figure[0] = larger(figure[0], stored - other);
+        }
+    }
+
+    /// Compares the state integrated from the knot `k` with the stored one at the next, less what
+    /// the motion changes within the rounding of their times.
+    fn arrive(&mut self, k: usize, end: &[f64]) {
+        let d = self.structure.degrees();
+        for i in 0..d {
+            let [from, to] = [k, k + 1].map(|k| self.stored_acceleration(k, i).abs());
+            for (at, rate, figure) in [
+                (i, self.fastest[i], &mut self.figures.displacement),
+                (d + i, from.max(to), &mut self.figures.velocity),
+            ] {
+                let defect = (self.stored[at] - end[at]).abs() - self.instant_s * rate;
+                figure[0] = larger(figure[0], excess(defect));
+            }
+        }
+    }
+
+    /// `s̈` or `q̈_i` from the accelerations stored at a knot.
+    fn stored_acceleration(&self, k: usize, degree: usize) -> f64 {
+        let block = self.history.block_acceleration_m_per_s2[k];
+        match degree.checked_sub(1) {
+            None => block - self.history.table_acceleration_m_per_s2[k],
+            Some(storey) => self.history.storey_accelerations(k)[storey] - block,
         }
     }
 
@@ -320,6 +357,7 @@ impl<'a> Judge<'a> {
         }
         let (mut from_s, end_s) = (self.history.time_s[k], self.history.time_s[k + 1]);
         self.astray = [0.0; 2];
+        self.fastest.fill(0.0);
         let mut first = None;
         loop {
             let piece = self.ground.piece(from_s, end_s);
@@ -334,10 +372,12 @@ impl<'a> Judge<'a> {
             if from_s >= end_s {
                 self.load_state(k + 1);
                 let end = core::mem::take(&mut self.state);
-                self.compare(&end);
-                // What the knot's own defect explains is no sign of the velocity.
+                self.arrive(k, &end);
+                // What the knot's own defect and the rounding of times explain is no sign.
                 let defect = (self.stored[d] - end[d]).abs();
-                if self.astray[0] > self.still + defect {
+                let jerked = [k, k + 1].map(|k| self.stored_acceleration(k, 0).abs());
+                let blur = defect + self.instant_s * jerked[0].max(jerked[1]);
+                if self.astray[0] > self.still + blur {
                     self.figures.excess = larger(self.figures.excess, self.astray[1]);
                 }
                 self.state = end;
@@ -345,139 +385,10 @@ impl<'a> Judge<'a> {
             }
         }
     }
-
-    /// One collocation step: advances the state, its energies, and judges friction on the way.
-    fn step(&mut self, mode: Mode, from_s: f64, step_s: f64, loads: [Load; 2]) {
-        let d = self.structure.degrees();
-        let forces = match mode {
-            Mode::Stick => [0.0; 2],
-            Mode::Slip(direction) => {
-                loads.map(|load| self.law.sliding_force(direction, load.normal))
-            }
-        };
-        let demand = |state: &[f64], a: f64| self.structure.demand(&state[..d], &state[d..], a);
-        let first = if mode == Mode::Stick { demand(&self.state, loads[0].a) } else { 0.0 };
-        let path = self.scheme.step(&self.state, [loads.map(|load| load.a), forces]);
-        let mut values = [0.0; POINTS];
-        match mode {
-            Mode::Stick => {
-                values[0] = first;
-                values[1..=NODES].copy_from_slice(path.demands());
-                values[NODES + 1] = demand(path.end(), loads[1].a);
-            }
-            Mode::Slip(direction) => {
-                let sign = direction.sign();
-                values[0] = sign * self.state[d];
-                for (value, node) in values[1..].iter_mut().zip(0..NODES) {
-                    *value = sign * path.velocity(node)[0];
-                }
-                values[NODES + 1] = sign * path.end()[d];
-            }
-        }
-        self.state.copy_from_slice(path.end());
-        self.spend(step_s, loads, forces);
-        match mode {
-            Mode::Stick => self.held(from_s, step_s, loads, &values),
-            Mode::Slip(direction) => self.sliding(direction, from_s, step_s, loads, &values),
-        }
-    }
-
-    /// Adds up work and losses of the step just made.
-    fn spend(&mut self, step_s: f64, loads: [Load; 2], forces: [f64; 2]) {
-        let path: &Path = self.scheme.path();
-        let rule: &Rule = &self.scheme.rule;
-        let (mut work, mut size, mut damping, mut friction) = (0.0, 0.0, 0.0, 0.0);
-        let (mut sliding, mut speed) = (0.0_f64, self.figures.velocity[1]);
-        for node in 0..NODES {
-            let (v, c) = (path.velocity(node), rule.points[node + 1]);
-            sliding = v[0].abs().max(sliding);
-            speed = v.iter().fold(speed, |speed, v| v.abs().max(speed));
-            let weight = step_s * rule.weights[node];
-            let a = loads[0].a + (loads[1].a - loads[0].a) * c;
-            let force = forces[0] + (forces[1] - forces[0]) * c;
-            let power = -self.structure.momentum(v) * a;
-            work += weight * power;
-            size += weight * power.abs();
-            damping += weight * self.structure.dissipation(v);
-            friction -= weight * force * v[0];
-        }
-        self.energy.spend(work, size, damping, friction);
-        // Between two knots the motion may be faster and go farther than at any.
-        self.figures.velocity[1] = speed;
-        self.still = (STILL * sliding).max(self.still);
-        let x = path.end()[..self.structure.degrees()].iter();
-        self.figures.displacement[1] = x.fold(self.figures.displacement[1], |p, x| x.abs().max(p));
-    }
-
-    /// Judges a step of a stick from the demand at its points.
-    fn held(&mut self, from_s: f64, step_s: f64, loads: [Load; 2], demands: &[f64; POINTS]) {
-        let rule = &self.scheme.rule;
-        let normal = |t: f64| between(loads, t).normal;
-        let mut margins = [f64::NAN; POINTS];
-        for i in 0..POINTS {
-            let n = normal(rule.points[i]);
-            let beyond = self.law.beyond(demands[i], n);
-            self.figures.excess = larger(self.figures.excess, excess(beyond));
-            margins[i] = self.law.margin(demands[i], n).unwrap_or(f64::NAN);
-        }
-        if margins.iter().any(|m| m.is_nan()) {
-            self.dips.interrupt();
-            return;
-        }
-        let inner = dip(&margins);
-        let flat = margins.iter().all(|m| (m - margins[0]).abs() <= 1e-12);
-        for i in 0..POINTS {
-            let (mut t, mut margin) = (rule.points[i], margins[i]);
-            if inner == Some(i) {
-                let law = &self.law;
-                let cost =
-                    |t: f64, demand: f64| law.margin(demand, normal(t)).unwrap_or(f64::INFINITY);
-                (t, margin) = rule.least(demands, i, cost);
-                let beyond = -margin * self.law.bound(demands[i], normal(t));
-                self.figures.excess = larger(self.figures.excess, excess(beyond));
-            }
-            self.dips.feed(from_s + t * step_s, margin);
-        }
-        // A plateau near the bound is as close a call as a maximum, if it is no sliver of one.
-        let long = step_s > 1e-9 * self.instant_s / (8.0 * f64::EPSILON);
-        if flat && long && margins[0] < 1.0 {
-            self.dips.take(from_s, margins[0]);
-        }
-    }
-
-    /// Judges a step of a slip from the velocity, in the direction claimed, at its points.
-    fn sliding(
-        &mut self,
-        direction: Direction,
-        from_s: f64,
-        step_s: f64,
-        loads: [Load; 2],
-        speeds: &[f64; POINTS],
-    ) {
-        let rule = &self.scheme.rule;
-        let inner = dip(speeds);
-        for i in 0..POINTS {
-            let (mut t, mut speed) = (rule.points[i], speeds[i]);
-            if inner == Some(i) {
-                (t, speed) = rule.least(speeds, i, |_, speed| speed);
-            }
-            if speed < -self.still || speed.is_nan() {
-                let excess = self.law.wrong_way(direction, between(loads, t).normal);
-                self.astray = [larger(self.astray[0], speed), larger(self.astray[1], excess)];
-            }
-            self.dips.feed(from_s + t * step_s, speed);
-        }
-    }
-}
-
-/// The least of the inner values, if it is below both ends.
-fn dip(values: &[f64; POINTS]) -> Option<usize> {
-    let least = (0..POINTS).fold(0, |best, i| if values[i] < values[best] { i } else { best });
-    (least > 0 && least + 1 < POINTS).then_some(least)
 }
 
 /// The load at a fraction of a stretch.
-fn between([from, to]: [Load; 2], t: f64) -> Load {
+pub(super) fn between([from, to]: [Load; 2], t: f64) -> Load {
     let linear = |from: f64, to: f64| from + (to - from) * t;
     Load {
         table: linear(from.table, to.table),

@@ -11,6 +11,7 @@ mod energy;
 mod ground;
 mod judge;
 mod law;
+mod step;
 mod structure;
 
 use self::judge::Judge;
@@ -30,22 +31,32 @@ pub struct ClosestCall {
     pub margin: f64,
     /// When, in s.
     pub time_s: f64,
-    /// `stop`, `stick` or `slip`.
+    /// `stop`: the demand where the block came to rest, `||demand| − bound|/bound`; `stick`: a maximum
+    /// of the demand while it held, `1 − |demand|/bound`; `slip`: a minimum of `|ṡ|` over its peak in
+    /// that slip, where `μ_k < μ_s`.
     pub kind: &'static str,
 }
 
 /// Figures that certify a response.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Certificate {
-    /// Largest defect of the equations of motion.
+    /// Largest defect of the equations of motion, 0/0 = 0: at a knot, of `s` and `q` integrated from
+    /// the knot before over the run's largest displacement, of `ṡ` and `q̇` over its largest velocity;
+    /// of the stored accelerations and `T` in eqs (9), (10) over the largest single term; and of
+    /// the stored table acceleration from the motion's over its peak. What a state changes within
+    /// the rounding of its time (8 ε of the end) is no defect.
     pub equilibrium_residual: f64,
-    /// Largest excess over the friction law.
+    /// Largest excess over the friction law, over the largest `μ_s N` (`M_tot g` if that is 0): in
+    /// stick the demand beyond its bound, at any instant; in slip `|T + μ_k N sgn ṡ|` with the sign
+    /// that `ṡ` really has; at a change of mode, by how much the demand forbids it.
     pub friction_excess: f64,
-    /// Largest imbalance of energy.
+    /// Largest imbalance of energy at a knot, over the largest sum of `E₀`, the integral of the size
+    /// of the table's power, and the four kinds of energy.
     pub energy_balance_error: f64,
     /// The nearest decision; `None` where nothing was decided.
     pub closest_call: Option<ClosestCall>,
-    /// What the first three must stay below: max(1e-10, 100 ε ω_max t_end).
+    /// What the first three must stay below: max(1e-10, 100 ε ω_max t_end), with Gershgorin's upper
+    /// bound on the fastest rate, sliding or not, as `ω_max`.
     pub bound: f64,
     /// Energy by kind at every knot.
     pub energy: EnergyHistory,

@@ -232,7 +232,7 @@ static MOTION: Section = Section {
             Kind::Number(Range::Any),
             "Factor on the vertical motion besides that of the horizontal one; default 1.",
         )
-        .beside("record"),
+        .beside("vertical"),
         Key::optional("sine", Kind::Section(&SINE), "A sine of constant frequency."),
         Key::optional("sweep", Kind::Section(&SWEEP), "A sine whose frequency changes."),
         Key::optional("pulse", Kind::Section(&PULSE), "A single pulse."),

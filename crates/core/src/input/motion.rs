@@ -33,7 +33,7 @@ pub struct RecordSource {
     pub scale: Scale,
     /// Path of the vertical motion; it takes the factor of the horizontal one.
     pub vertical: Option<String>,
-    /// Factor on the vertical motion besides that of the horizontal one; 1 where `None`.
+    /// Factor on `vertical` besides that of the horizontal motion; 1 where `None`.
     pub vertical_scale: Option<f64>,
 }
 

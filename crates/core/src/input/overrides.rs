@@ -168,14 +168,18 @@ fn remove_excluded(table: &mut Table, section: &'static Section, name: &str, as_
             continue;
         }
         for other in exclusive.names.iter().filter(|member| !is_set(member)) {
-            let Some(removed) = matching(table, other).map(|entry| entry.name.clone()) else {
-                continue;
-            };
-            let depends = |entry: &Entry| {
-                section.key(&entry.name).is_some_and(|key| key.beside == Some(removed.as_str()))
-            };
-            table.0.retain(|entry| entry.name != removed && !depends(entry));
+            if let Some(removed) = matching(table, other).map(|entry| entry.name.clone()) {
+                remove(table, section, &removed);
+            }
         }
+    }
+}
+
+/// Removes a key and those that mean nothing without it.
+fn remove(table: &mut Table, section: &'static Section, name: &str) {
+    table.0.retain(|entry| entry.name != name);
+    for key in section.keys.iter().filter(|key| key.beside == Some(name)) {
+        remove(table, section, key.name);
     }
 }
 

@@ -333,11 +333,11 @@ impl Values {
         let Some(other) = key.beside.filter(|other| table.get(other).is_none()) else {
             return Ok(());
         };
-        let instead = section.choices.iter().flat_map(|choice| choice.names).find_map(|name| {
-            table.get(name).filter(|_| *name != key.name).map(|entry| entry.name.as_str())
-        });
+        // What stands in its place, if that key is one of several to choose from.
+        let choices = section.choices.iter().filter(|choice| choice.names.contains(&other));
+        let instead = choices.flat_map(|choice| choice.names).find_map(|name| table.get(name));
         let found = match instead {
-            Some(instead) => format!("\"{}\" beside \"{instead}\"", key.name),
+            Some(instead) => format!("\"{}\" beside \"{}\"", key.name, instead.name),
             None => format!("\"{}\" alone", key.name),
         };
         let expected = format!("this key only beside \"{other}\"");

@@ -58,6 +58,9 @@ pub fn loops(scene: &Scene) -> Drawn {
             " Right: the force of the whole slider, friction, spring and damper together.",
         );
     }
+    if report.motion.vertical_m_per_s2().is_some() {
+        caption.push_str(" Slips bend where the vertical motion changes the normal force.");
+    }
     let figure = Figure {
         id: "friction-loop",
         title: "Friction force against sliding displacement".to_owned(),

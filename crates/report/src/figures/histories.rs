@@ -46,7 +46,7 @@ pub fn sliding_displacement(scene: &Scene) -> Drawn {
     let panel = Panel {
         x: scene.time_axis(),
         y: Axis::covering(unit.label("Sliding displacement s"), values),
-        height: 190.0,
+        height: 170.0,
         series,
         limits,
         peak,

@@ -102,15 +102,12 @@ fn shown_storeys(values: &[f64]) -> Vec<usize> {
     vec![0, middle, n - 1]
 }
 
-/// `Storeys 1, 4 and 8 of 8 are drawn.`, or nothing where all are.
+/// ` Storeys 1, 4 and 8 of 8 are drawn.`, or nothing where all are.
 fn shown_note(shown: &[usize], n: usize) -> String {
     match shown {
-        [a, b, c] if n > 3 => format!(
-            " Storeys {}, {} and {} of {n} are drawn; the table of peaks has all.",
-            a + 1,
-            b + 1,
-            c + 1
-        ),
+        [a, b, c] if n > 3 => {
+            format!(" Storeys {}, {} and {} of {n} are drawn.", a + 1, b + 1, c + 1)
+        }
         _ => String::new(),
     }
 }

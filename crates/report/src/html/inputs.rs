@@ -38,20 +38,26 @@ pub fn section(out: &mut Markup, report: &Report) {
 
 fn record_rows(report: &Report) -> Vec<(&'static str, String)> {
     let (summary, motion) = (report.summary, report.motion);
-    let show = |quantity, si: f64| {
-        let unit = report.display.unit(quantity, si);
+    let record = &summary.record;
+    // The end velocity is read against the peak, so it has the unit of the peak.
+    let show_as = |quantity, largest: f64, si: f64| {
+        let unit = report.display.unit(quantity, largest);
         format!("{} {}", significant(unit.of(si), 4), unit.symbol)
     };
+    let show = |quantity, si: f64| show_as(quantity, si, si);
     let dt = motion.dt_s().map_or("uneven".to_owned(), |dt_s| format!("{} s", compact(dt_s)));
     let mut rows = vec![
         ("Record", report.record.to_owned()),
         ("Samples", count(motion.len() as u64)),
         ("Time step", dt),
         ("Duration", format!("{} s", compact(motion.duration_s()))),
-        ("PGA (as used)", show(Quantity::Acceleration, summary.record.pga_m_per_s2)),
-        ("PGV", show(Quantity::Velocity, summary.record.pgv_m_per_s)),
-        ("PGD", show(Quantity::Length, summary.record.pgd_m)),
-        ("Velocity at the end", show(Quantity::Velocity, summary.record.end_velocity_m_per_s)),
+        ("PGA (as used)", show(Quantity::Acceleration, record.pga_m_per_s2)),
+        ("PGV", show(Quantity::Velocity, record.pgv_m_per_s)),
+        ("PGD", show(Quantity::Length, record.pgd_m)),
+        (
+            "Velocity at the end",
+            show_as(Quantity::Velocity, record.pgv_m_per_s, record.end_velocity_m_per_s),
+        ),
         (
             "Vertical motion",
             if motion.vertical_m_per_s2().is_some() { "yes" } else { "none" }.to_owned(),

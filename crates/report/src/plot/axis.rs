@@ -81,13 +81,21 @@ impl Axis {
     }
 
     fn linear_ticks(&self, target: usize) -> Vec<Tick> {
-        let step = round_step((self.max - self.min) / target.max(1) as f64);
+        let slack = 1e-9;
+        let inside = |target: usize| {
+            let step = round_step((self.max - self.min) / target as f64);
+            let first = libm::ceil(self.min / step - slack);
+            (step, first, libm::floor(self.max / step + slack))
+        };
+        // A single tick gives no scale: ask for more until there are three.
+        let target = target.max(1);
+        let (step, first, last) = (target..target + 4)
+            .map(inside)
+            .find(|(_, first, last)| last - first >= 2.0)
+            .unwrap_or_else(|| inside(target));
         if !(step > 0.0 && step.is_finite()) {
             return Vec::new();
         }
-        let slack = 1e-9;
-        let first = libm::ceil(self.min / step - slack);
-        let last = libm::floor(self.max / step + slack);
         let decimals = (-libm::floor(libm::log10(step) + slack)).max(0.0) as usize;
         let fixed = decimals <= 5 && self.min.abs().max(self.max.abs()) < 1e6;
         let count = (last - first).clamp(0.0, 100.0) as usize;
@@ -172,6 +180,7 @@ mod tests {
             labels(&Axis::linear("a", -0.31, 0.31), 5),
             ["−0.3", "−0.2", "−0.1", "0.0", "0.1", "0.2", "0.3"]
         );
+        assert_eq!(labels(&Axis::linear("a", -4.81, 4.81), 3), ["−4", "−2", "0", "2", "4"]);
         assert_eq!(
             labels(&Axis::linear("tiny", 0.0, 3e-8), 3),
             [

@@ -254,7 +254,7 @@ fn left_margin(panel: &Panel) -> f64 {
 }
 
 fn grid(out: &mut Markup, panel: &Panel, frame: Frame, x_labels: bool) {
-    let x_ticks = panel.x.ticks((frame.width / 70.0) as usize);
+    let x_ticks = panel.x.ticks((frame.width / 60.0) as usize);
     let y_ticks = y_ticks(panel);
     let mut lines = String::new();
     for tick in &x_ticks {

@@ -1,8 +1,9 @@
 //! The keys of the `--json` object, which are a promise to other programs.
 
+use slipstick::motion::Figures;
 use slipstick::response::{StoreyDemands, Warning};
 
-use super::{Checks, RecordFigures, Summary, method_name};
+use super::{Checks, Summary, method_name};
 use crate::json::Json;
 
 /// The object; `iterations` and `bounds` only where there are any.
@@ -74,7 +75,7 @@ pub fn object(summary: &Summary) -> Json {
     Json::Object(keys)
 }
 
-fn record(figures: &RecordFigures) -> Json {
+fn record(figures: &Figures) -> Json {
     Json::Object(vec![
         ("pga_m_per_s2", figures.pga_m_per_s2.into()),
         ("pgv_m_per_s", figures.pgv_m_per_s.into()),

@@ -5,21 +5,8 @@ mod warnings;
 
 use slipstick::check::{Certificate, ClosestCall};
 use slipstick::model::Model;
-use slipstick::motion::GroundMotion;
+use slipstick::motion::{Figures, GroundMotion};
 use slipstick::response::{Demands, Iterations, Method, Response, Warning};
-
-/// Figures of the ground motion as it was used, factors applied.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct RecordFigures {
-    /// Largest |Ü| in m/s².
-    pub pga_m_per_s2: f64,
-    /// Largest |U̇| in m/s.
-    pub pgv_m_per_s: f64,
-    /// Largest |U| in m.
-    pub pgd_m: f64,
-    /// U̇ after the last sample in m/s.
-    pub end_velocity_m_per_s: f64,
-}
 
 /// What a [`Summary`] is made from.
 #[derive(Clone, Copy, Debug)]
@@ -30,8 +17,8 @@ pub struct SummaryInputs<'a> {
     pub model: &'a Model,
     /// The motion that it ran on.
     pub motion: &'a GroundMotion,
-    /// Figures of that motion.
-    pub record: RecordFigures,
+    /// Figures of that motion without its tail, in which a drift would go on.
+    pub record: Figures,
     /// The answer.
     pub response: &'a Response,
     /// Its certificate.
@@ -86,7 +73,7 @@ pub struct Summary {
     /// Factor on both coefficients of friction.
     pub friction_factor: f64,
     /// Figures of the motion.
-    pub record: RecordFigures,
+    pub record: Figures,
     /// Peaks, residuals and counts.
     pub demands: Demands,
     /// Intervals in which contact was lost, in s.

@@ -1,14 +1,13 @@
-//! Runs to draw and to tabulate, with a certificate made up beside them: what is tested here is the
-//! showing of results, not the results.
+//! Runs to draw and to tabulate, as the command makes them.
 
-use slipstick::check::{Certificate, ClosestCall, EnergyHistory};
+use slipstick::check::{Certificate, check};
 use slipstick::friction::{Coulomb, Friction};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
-use slipstick::motion::GroundMotion;
-use slipstick::response::{History, Response, Warning};
+use slipstick::motion::{GroundMotion, spectrum};
+use slipstick::response::{Response, Warning};
 use slipstick::solver;
 use slipstick_report::{
-    DisplayUnits, FileNote, FloorSpectra, InputText, RecordFigures, Report, Summary, SummaryInputs,
+    DisplayUnits, FileNote, FloorSpectra, InputText, Report, Summary, SummaryInputs,
 };
 
 /// A run with all that a report needs.
@@ -62,14 +61,7 @@ pub fn run(name: &str, model: Model, motion: GroundMotion) -> Case {
 pub fn run_times(name: &str, model: Model, motion: GroundMotion, factor: f64) -> Case {
     let response = solver::exact(&model, &motion).expect("a response");
     let history = response.history.as_ref().expect("a history");
-    let certificate = Certificate {
-        equilibrium_residual: 3.1e-14,
-        friction_excess: 0.0,
-        energy_balance_error: 1.7e-13,
-        closest_call: Some(ClosestCall { margin: 2.3e-3, time_s: 12.345, kind: "stop" }),
-        bound: 1e-10,
-        energy: energy(&model, history),
-    };
+    let certificate = check(&model, &motion, history);
     let summary = summarise(name, &model, &motion, &response, &certificate, factor, &[]);
     Case { model, motion, response, certificate, summary }
 }
@@ -83,18 +75,11 @@ pub fn summarise(
     friction_factor: f64,
     warnings: &[Warning],
 ) -> Summary {
-    let pga = motion.horizontal_m_per_s2().iter().fold(0.0, |m: f64, a| m.max(a.abs()));
-    let record = RecordFigures {
-        pga_m_per_s2: pga,
-        pgv_m_per_s: 0.31,
-        pgd_m: 0.084,
-        end_velocity_m_per_s: -0.002,
-    };
     Summary::new(&SummaryInputs {
         name,
         model,
         motion,
-        record,
+        record: motion.figures(),
         response,
         certificate,
         friction_factor,
@@ -102,50 +87,21 @@ pub fn summarise(
     })
 }
 
-/// Energies at the knots, those spent by the trapezoidal rule; the input is their sum.
-fn energy(model: &Model, history: &History) -> EnergyHistory {
-    let (m, k) = (&model.frame().masses_kg, &model.frame().stiffnesses_n_per_m);
-    let mut energy = EnergyHistory::default();
-    let mut spent = 0.0;
-    for knot in 0..history.len() {
-        let (s, w) = (history.sliding_displacement_m[knot], history.sliding_velocity_m_per_s[knot]);
-        let (q, v) = (history.storey_displacements(knot), history.storey_velocities(knot));
-        let mut kinetic = 0.5 * model.block().mass_kg * w * w;
-        let mut strain = 0.5 * model.slider().stiffness_n_per_m * s * s;
-        for i in 0..m.len() {
-            let below = if i == 0 { 0.0 } else { q[i - 1] };
-            kinetic += 0.5 * m[i] * (w + v[i]).powi(2);
-            strain += 0.5 * k[i] * (q[i] - below).powi(2);
-        }
-        if knot > 0 {
-            let h = history.time_s[knot] - history.time_s[knot - 1];
-            let power = |i: usize| {
-                (history.friction_force_n[i] * history.sliding_velocity_m_per_s[i]).abs()
-            };
-            spent += 0.5 * h * (power(knot - 1) + power(knot));
-        }
-        energy.kinetic_j.push(kinetic);
-        energy.strain_j.push(strain);
-        energy.damping_j.push(0.1 * spent);
-        energy.friction_j.push(spent);
-        energy.input_j.push(kinetic + strain + 1.1 * spent);
-    }
-    energy
-}
-
-/// Some smooth spectra.
-pub fn floor_spectra(storeys: usize) -> FloorSpectra {
+/// Spectra of table, block and floors of a run.
+pub fn floor_spectra(case: &Case) -> FloorSpectra {
     let periods_s: Vec<f64> = (0..120).map(|i| 0.02 * 250f64.powf(f64::from(i) / 119.0)).collect();
-    let spectrum = |peak_s: f64, zero: f64| -> Vec<f64> {
-        let bell = |t: f64| 1.0 + 3.0 * (-2.0 * (t / peak_s).ln().powi(2)).exp();
-        periods_s.iter().map(|&t| zero * bell(t) * (0.3 / t).min(1.0)).collect()
+    let history = case.response.history.as_ref().expect("a history");
+    let of = |acceleration: &[f64]| -> Vec<f64> {
+        let spectrum = spectrum(&history.time_s, acceleration, &periods_s, &[0.05]);
+        spectrum.expect("a spectrum").ordinates.iter().map(|o| o.sa_m_per_s2).collect()
     };
+    let floor = |i| history.storey_acceleration_m_per_s2.iter().skip(i).step_by(history.storeys);
     FloorSpectra {
         damping_ratio: 0.05,
-        table_m_per_s2: spectrum(0.4, 3.0),
-        block_m_per_s2: spectrum(0.1, 1.0),
-        storeys_m_per_s2: (0..storeys)
-            .map(|i| spectrum(0.2 + 0.05 * i as f64, 1.0 + i as f64))
+        table_m_per_s2: of(&history.table_acceleration_m_per_s2),
+        block_m_per_s2: of(&history.block_acceleration_m_per_s2),
+        storeys_m_per_s2: (0..history.storeys)
+            .map(|i| of(&floor(i).copied().collect::<Vec<f64>>()))
             .collect(),
         periods_s,
     }

@@ -148,6 +148,11 @@ fn exact_excluding_keys() {
         "m.toml:7:1: motion.scale: expected this key only beside \"record\", found \"scale\" beside \
          \"sine\""
     );
+    assert_eq!(
+        with("[motion]\nrecord = \"a.csv\"\nvertical_scale = 2\n").unwrap_err(),
+        "m.toml:8:1: motion.vertical_scale: expected this key only beside \"vertical\", found \
+         \"vertical_scale\" alone"
+    );
 }
 
 #[test]

@@ -51,6 +51,8 @@ fn exact_setting_a_key_removes_what_excludes_it() {
     let set =
         ["motion.sine={frequency=\"1 Hz\",amplitude=\"1 m/s2\",duration=\"1 s\",dt=\"1 ms\"}"];
     assert!(matches!(read(FULL, &set).unwrap().motion, Some(MotionSource::Sine(_))));
+    let scaled = ["motion.vertical_scale=2", set[0]];
+    assert!(matches!(read(FULL, &scaled).unwrap().motion, Some(MotionSource::Sine(_))));
     let both = [set[0], "motion.record=taft.txt"];
     assert!(matches!(read(FULL, &both).unwrap().motion, Some(MotionSource::Record(_))));
 }

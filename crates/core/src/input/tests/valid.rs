@@ -237,7 +237,8 @@ fn exact_record_keys() {
         let units = source(&format!("units = \"{}\"", unit.name())).units.unwrap();
         assert!((units.si() / unit.to_si(1.0) - 1.0).abs() < 1e-15, "{unit:?}");
     }
-    assert_eq!(source("vertical_scale = 0.5").vertical_scale, Some(0.5));
+    let up = source("vertical = \"up.csv\"\nvertical_scale = 0.5");
+    assert_eq!((up.vertical.as_deref(), up.vertical_scale), (Some("up.csv"), Some(0.5)));
 }
 
 #[test]

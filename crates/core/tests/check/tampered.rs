@@ -1,0 +1,189 @@
+//! Tampered histories: each must push a figure above 1e-9.
+
+use crate::systems::*;
+use slipstick::friction::Direction;
+use slipstick::model::Damping;
+use slipstick::response::{History, Mode};
+
+/// A tampered figure must stand above this.
+const SHOWS: f64 = 1e-9;
+
+/// Judges a tampered history and says what went unnoticed.
+fn must_show(system: &System, history: &History, what: &str) {
+    let c = judge(system, history);
+    assert!(worst(&c) > SHOWS, "{}: {what} went unnoticed: {}", system.name, figures(&c));
+}
+
+#[test]
+fn exact_moved_events_show() {
+    for system in systems().into_iter().chain(coarse_systems()) {
+        let history = history_of(&system);
+        for k in changes(&history, |a, b| a != b) {
+            for shift_s in [1e-6, -1e-6] {
+                let mut moved = history.clone();
+                moved.time_s[k] += shift_s;
+                moved.time_s[k + 1] += shift_s;
+                if moved.time_s.is_sorted() {
+                    must_show(&system, &moved, &format!("event at {} s", history.time_s[k]));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn exact_changed_friction_shows() {
+    for system in systems().into_iter().chain(coarse_systems()) {
+        let [fixed, kinetic] = [system.model.static_friction(), system.model.kinetic_friction()];
+        let more = |pair: [f64; 2]| pair.map(|mu| mu * (1.0 + 1e-6));
+        let less = |pair: [f64; 2]| pair.map(|mu| mu * (1.0 - 1e-6));
+        for (fixed, kinetic) in [
+            (more(fixed), more(kinetic)),
+            (less(fixed), less(kinetic)),
+            (more(fixed), kinetic),
+            (fixed, less(kinetic)),
+        ] {
+            let model = system.model.with_friction(coulomb(fixed, kinetic));
+            let other = history_of(&System { model, ..system.clone() });
+            must_show(&system, &other, "μ changed by 1e-6");
+        }
+    }
+}
+
+#[test]
+fn exact_reversal_left_out_shows() {
+    let mut reversals = 0;
+    for system in systems() {
+        let history = history_of(&system);
+        for k in changes(&history, |a, b| slips(a) && slips(b) && a != b) {
+            reversals += 1;
+            let (mut tampered, claimed) = (history.clone(), history.mode[k]);
+            let after = history.mode[k + 1];
+            let end = (k + 1..history.len()).find(|&j| history.mode[j] != after);
+            tampered.mode[k + 1..end.unwrap_or(history.len())].fill(claimed);
+            must_show(&system, &tampered, "a reversal left out");
+        }
+    }
+    assert!(reversals > 5, "{reversals} reversals are too few");
+}
+
+#[test]
+fn exact_stop_turned_into_pass_shows() {
+    for system in systems().into_iter().chain(coarse_systems()) {
+        let history = history_of(&system);
+        for k in changes(&history, |a, b| slips(a) && b == Mode::Stick) {
+            let end = (k + 1..history.len()).find(|&j| history.mode[j] != Mode::Stick);
+            let end = end.unwrap_or(history.len());
+            if history.time_s[end - 1] == history.time_s[k] {
+                continue;
+            }
+            for direction in [Direction::Positive, Direction::Negative] {
+                let mut tampered = history.clone();
+                tampered.mode[k + 1..end].fill(Mode::Slip(direction));
+                must_show(&system, &tampered, "a stop turned into a pass");
+            }
+        }
+    }
+}
+
+#[test]
+fn exact_flipped_friction_shows() {
+    for system in systems().into_iter().chain(coarse_systems()) {
+        let history = history_of(&system);
+        for k in changes(&history, |a, b| a == Mode::Stick && slips(b)) {
+            let during = history.mode[k + 1];
+            let mut tampered = history.clone();
+            for j in (k + 1..history.len()).take_while(|&j| history.mode[j] == during) {
+                tampered.friction_force_n[j] *= -1.0;
+            }
+            must_show(&system, &tampered, "friction of the wrong sign");
+        }
+    }
+}
+
+#[test]
+fn exact_one_changed_value_shows() {
+    for system in systems().into_iter().chain(coarse_systems()) {
+        let history = history_of(&system);
+        let columns: [fn(&mut History) -> &mut Vec<f64>; 8] = [
+            |h| &mut h.sliding_velocity_m_per_s,
+            |h| &mut h.storey_velocity_m_per_s,
+            |h| &mut h.sliding_displacement_m,
+            |h| &mut h.storey_displacement_m,
+            |h| &mut h.table_acceleration_m_per_s2,
+            |h| &mut h.block_acceleration_m_per_s2,
+            |h| &mut h.storey_acceleration_m_per_s2,
+            |h| &mut h.friction_force_n,
+        ];
+        let sliding = peak(&history.sliding_velocity_m_per_s);
+        let speed = sliding.max(peak(&history.storey_velocity_m_per_s));
+        for (i, column) in columns.into_iter().enumerate() {
+            let length = column(&mut history.clone()).len();
+            for j in (0..length).step_by(31).chain(length.checked_sub(1)) {
+                let mut tampered = history.clone();
+                let scale = if i < 2 { speed } else { peak(column(&mut tampered)) };
+                column(&mut tampered)[j] += 1e-7 * scale;
+                must_show(&system, &tampered, &format!("value {j} of column {i}"));
+            }
+        }
+    }
+}
+
+#[test]
+fn exact_damping_left_out_shows() {
+    for system in systems() {
+        let undamped = with(&system.model, |slider, frame| {
+            slider.damper_n_s_per_m = 0.0;
+            frame.damping = Damping::Ratio(0.0);
+        });
+        if undamped == system.model {
+            continue;
+        }
+        let other = history_of(&System { model: undamped, ..system.clone() });
+        must_show(&system, &other, "damping left out");
+    }
+}
+
+/// A demand above its bound only between two samples shows, and one just below it does not.
+#[test]
+fn exact_excess_between_samples_shows() {
+    for system in coarse_systems().into_iter().skip(1) {
+        let model = system.model.with_friction(coulomb([1e3; 2], [1e3; 2]));
+        let held = System { model, ..system.clone() };
+        let history = history_of(&held);
+        let call = judge(&held, &history).closest_call.unwrap();
+        assert_eq!(call.kind, "stick");
+        let inside = |t: &f64| (t - call.time_s).abs() > 1e-3;
+        assert!(held.motion.times_s().iter().all(inside), "between samples");
+        for (part, shows) in [(1.0 - 1e-8, true), (1.0 + 1e-8, false)] {
+            let mu = 1e3 * (1.0 - call.margin) * part;
+            let model = held.model.with_friction(coulomb([mu; 2], [mu; 2]));
+            let excess = judge(&System { model, ..held.clone() }, &history).friction_excess;
+            let expected = if shows { 1e-8 } else { 0.0 };
+            assert!((excess - expected).abs() < 1e-11, "{}: {excess:e}", system.name);
+        }
+    }
+}
+
+/// What cannot be judged is refused, without a panic.
+#[test]
+fn exact_broken_histories_are_refused() {
+    let system = &systems()[2];
+    let history = history_of(system);
+    let breaks: [fn(&mut History); 8] = [
+        |h| *h = History::default(),
+        |h| h.mode.truncate(9),
+        |h| h.storey_velocity_m_per_s.truncate(9),
+        |h| h.storeys = 2,
+        |h| h.time_s.swap(3, 4),
+        |h| h.time_s[0] = f64::NAN,
+        |h| h.sliding_velocity_m_per_s[7] = f64::NAN,
+        |h| h.table_acceleration_m_per_s2[7] = f64::NAN,
+    ];
+    for (i, damage) in breaks.into_iter().enumerate() {
+        let mut broken = history.clone();
+        damage(&mut broken);
+        let c = judge(system, &broken);
+        assert!(!c.holds() && worst(&c) == f64::INFINITY, "{i}: {}", figures(&c));
+    }
+}

@@ -1,0 +1,382 @@
+//! True histories pass, and so does what only rounding moves.
+
+use crate::systems::*;
+use slipstick::friction::Direction;
+use slipstick::model::{Damping, Frame, InitialState, Model, Slider};
+use slipstick::motion::GroundMotion;
+use slipstick::response::{History, Mode};
+use slipstick::units::STANDARD_GRAVITY_M_PER_S2 as G;
+
+#[test]
+fn exact_true_histories_pass() {
+    for system in systems().into_iter().chain(coarse_systems()) {
+        let history = history_of(&system);
+        let c = judge(&system, &history);
+        assert!(worst(&c) < 1e-11, "{}: {}", system.name, figures(&c));
+        assert!(c.holds());
+        assert_eq!(c.energy.input_j.len(), history.len());
+        let slid = changes(&history, |a, b| a == Mode::Stick && slips(b)).len();
+        assert!(slid >= 3, "{}: {slid} slips are too few to test anything", system.name);
+    }
+}
+
+/// A release too early or too late, the motion after it correct: only the law can tell.
+#[test]
+fn exact_delayed_release_shows() {
+    // a = j t: the block slips from t_r on, s̈ = μ_k g − j t.
+    let (mu, kinetic, j, m) = (0.1, 0.08, 2.0, 124.0);
+    let system = System {
+        name: "rigid block on a ramp",
+        model: Model::rigid_block(m, coulomb([mu; 2], [kinetic; 2])).unwrap(),
+        motion: GroundMotion::new(vec![0.0, 1.0], vec![0.0, j], None).unwrap(),
+    };
+    let released = |t_r: f64| {
+        let tau = 1.0 - t_r;
+        let slip = |t: f64| kinetic * G - j * t;
+        let v = kinetic * G * tau - j * (1.0 - t_r * t_r) / 2.0;
+        let s = slip(t_r) * tau * tau / 2.0 - j * tau * tau * tau / 6.0;
+        let sliding = Mode::Slip(Direction::Negative);
+        let mut h = History::default();
+        for (time_s, mode, s, v) in [
+            (0.0, Mode::Stick, 0.0, 0.0),
+            (t_r, Mode::Stick, 0.0, 0.0),
+            (t_r, sliding, 0.0, 0.0),
+            (1.0, sliding, s, v),
+        ] {
+            let a = j * time_s;
+            let force = if mode == Mode::Stick { m * a } else { kinetic * m * G };
+            knot(&mut h, time_s, mode, a, [s, v, force / m], force, [&[], &[], &[]]);
+        }
+        h
+    };
+    let true_s = mu * G / j;
+    let right = judge(&system, &released(true_s));
+    assert!(worst(&right) < 1e-14, "{}", figures(&right));
+    assert_eq!(right.closest_call, None);
+    for shift_s in [1e-6, -1e-6] {
+        let wrong = judge(&system, &released(true_s + shift_s));
+        let expected = 1e-6 * j / (mu * G);
+        assert!((wrong.friction_excess - expected).abs() < 1e-12, "{}", figures(&wrong));
+        assert!(wrong.equilibrium_residual < 1e-14, "{}", figures(&wrong));
+    }
+}
+
+/// Newmark's block under a rectangular pulse, from its closed form; energies too.
+fn newmark(pass: bool) -> (System, History) {
+    let (mu, a, t0, m) = (0.2, 0.4 * G, 0.5, 124.0);
+    let system = System {
+        name: "Newmark's block",
+        model: Model::rigid_block(m, coulomb([mu; 2], [mu; 2])).unwrap(),
+        motion: GroundMotion::new(vec![0.0, t0, t0, 1.5], vec![a, a, 0.0, 0.0], None).unwrap(),
+    };
+    let sliding = Mode::Slip(Direction::Negative);
+    let mut h = History::default();
+    let block = mu * G;
+    let v = (mu * G - a) * t0;
+    let (s, end) = (v * t0 / 2.0, v * t0);
+    let mut add = |t: f64, mode, table, s, v, block: f64| {
+        knot(&mut h, t, mode, table, [s, v, block], m * block, [&[], &[], &[]]);
+    };
+    add(0.0, sliding, a, 0.0, 0.0, block);
+    add(t0, sliding, a, s, v, block);
+    add(t0, sliding, 0.0, s, v, block);
+    add(1.0, sliding, 0.0, end, 0.0, block);
+    if pass {
+        // The friction goes on pushing: a solver that lost the stop.
+        add(1.5, sliding, 0.0, end + block * 0.125, block * 0.5, block);
+    } else {
+        add(1.0, Mode::Stick, 0.0, end, 0.0, 0.0);
+        add(1.5, Mode::Stick, 0.0, end, 0.0, 0.0);
+    }
+    (system, h)
+}
+
+#[test]
+fn exact_newmark_block_passes() {
+    let (system, history) = newmark(false);
+    let c = judge(&system, &history);
+    assert!(worst(&c) < 1e-15, "{}", figures(&c));
+    assert_eq!(c.bound, 1e-10);
+    let call = c.closest_call.unwrap();
+    assert_eq!((call.margin, call.time_s, call.kind), (1.0, 1.0, "stop"));
+    // All that the table put in went into friction: μ M g times 0.49 m.
+    let spent = 0.2 * 124.0 * G * 0.05 * G;
+    for energy in [&c.energy.friction_j, &c.energy.input_j] {
+        assert!((energy[5] - spent).abs() < 1e-12 * spent, "{energy:?}");
+    }
+}
+
+/// Consistent but for the sign of the velocity: the friction law alone tells.
+#[test]
+fn exact_lost_stop_shows() {
+    let (system, history) = newmark(true);
+    let c = judge(&system, &history);
+    assert!(c.equilibrium_residual < 1e-15, "{}", figures(&c));
+    assert!((c.friction_excess - 2.0).abs() < 1e-12, "{}", figures(&c));
+}
+
+/// Den Hartog: half cycles of a block on a spring lose 2 μ M g / K1 each, then it sticks.
+#[test]
+fn exact_free_vibration_with_friction_passes() {
+    let (mu, m, k) = (0.1, 248.0, 19_400.0);
+    let omega = libm::sqrt(k / m);
+    let (half_s, shift) = (core::f64::consts::PI / omega, mu * m * G / k);
+    let start = 5.5 * shift;
+    let slider = Slider { stiffness_n_per_m: k, ..slider(coulomb([mu; 2], [mu; 2])) };
+    let rest = InitialState { sliding_displacement_m: start, ..InitialState::rest() };
+    let system = System {
+        name: "Den Hartog's block",
+        model: Model::new(block(m), slider, Frame::none(), G, rest).unwrap(),
+        motion: GroundMotion::new(vec![0.0, 4.0 * half_s], vec![0.0; 2], None).unwrap(),
+    };
+    let mut h = History::default();
+    let mut add = |t: f64, mode: Mode, s: f64| {
+        let force = if mode == Mode::Stick { k * s } else { -mode.sign() * mu * m * G };
+        knot(&mut h, t, mode, 0.0, [s, 0.0, (force - k * s) / m], force, [&[], &[], &[]]);
+    };
+    let directions = [Direction::Negative, Direction::Positive, Direction::Negative];
+    let mut s = start;
+    for (i, direction) in directions.into_iter().enumerate() {
+        add(i as f64 * half_s, Mode::Slip(direction), s);
+        s = 2.0 * -direction.sign() * shift - s;
+        add((i + 1) as f64 * half_s, Mode::Slip(direction), s);
+    }
+    add(3.0 * half_s, Mode::Stick, s);
+    add(4.0 * half_s, Mode::Stick, s);
+    let c = judge(&system, &h);
+    assert!(worst(&c) < 1e-14, "{}", figures(&c));
+    // |s| at the turning points over the friction: 5.5, 3.5, 1.5, 0.5 bounds.
+    let call = c.closest_call.unwrap();
+    assert!((call.margin - 0.5).abs() < 1e-12 && call.kind == "stop", "{call:?}");
+}
+
+/// A block that never slides: the oscillator on a ramp, y = −(j/ω²)(t − sin ωt/ω).
+#[test]
+fn exact_oscillator_on_ramp_passes() {
+    let (j, m, omega, end_s) = (0.3, 201.0, 7.07, 3.0);
+    let k = m * omega * omega;
+    let frame = frame(&[m], &[k], Damping::Ratio(0.0));
+    let model = Model::new(
+        block(325.0),
+        slider(coulomb([0.3; 2], [0.3; 2])),
+        frame,
+        G,
+        InitialState::rest(),
+    );
+    let system = System {
+        name: "oscillator on a ramp",
+        model: model.unwrap(),
+        motion: GroundMotion::new(vec![0.0, end_s], vec![0.0, j * end_s], None).unwrap(),
+    };
+    let mut h = History::default();
+    for t in [0.0, 0.31, 0.87, 2.2, end_s] {
+        let (sin, cos) = (libm::sin(omega * t), libm::cos(omega * t));
+        let y = -(j / (omega * omega)) * (t - sin / omega);
+        let rate = -(j / (omega * omega)) * (1.0 - cos);
+        let a = j * t;
+        let storey = -omega * omega * y;
+        let values: [&[f64]; 3] = [&[y], &[rate], &[storey]];
+        knot(&mut h, t, Mode::Stick, a, [0.0, 0.0, a], 325.0 * a - k * y, values);
+    }
+    let c = judge(&system, &h);
+    assert!(worst(&c) < 1e-14, "{}", figures(&c));
+}
+
+/// Without friction the oscillator vibrates at ω √(1 + M2/M1) on the free block.
+#[test]
+fn exact_free_free_vibration_passes() {
+    let (block_kg, m, omega, y0) = (325.0, 201.0, 7.07, 0.02);
+    let free = omega * libm::sqrt(1.0 + m / block_kg);
+    let initial = InitialState { storey_displacement_m: Some(vec![y0]), ..InitialState::rest() };
+    let frame = frame(&[m], &[m * omega * omega], Damping::Ratio(0.0));
+    let frictionless = slider(coulomb([0.0; 2], [0.0; 2]));
+    let half_s = core::f64::consts::PI / free;
+    let system = System {
+        name: "oscillator on a free block",
+        model: Model::new(block(block_kg), frictionless, frame, G, initial).unwrap(),
+        motion: GroundMotion::new(vec![0.0, 2.0 * half_s], vec![0.0; 2], None).unwrap(),
+    };
+    let mut h = History::default();
+    for (turn, direction, sliding) in [
+        (0.0, Direction::Positive, 1.0),
+        (0.4, Direction::Positive, 1.0),
+        (1.0, Direction::Positive, 1.0),
+        (1.0, Direction::Negative, 1.0),
+        (2.0, Direction::Negative, 0.0),
+    ] {
+        let t: f64 = turn * half_s;
+        let still = turn == 0.0 || turn == 1.0 || (turn == 2.0 && sliding == 0.0);
+        let (sin, cos) = (if still { 0.0 } else { libm::sin(free * t) }, libm::cos(free * t));
+        let (y, rate, storey) = (y0 * cos, -y0 * free * sin, -omega * omega * y0 * cos);
+        let part = m / (m + block_kg);
+        let values: [&[f64]; 3] = [&[y], &[rate], &[storey]];
+        let sliding = [part * (y0 - y), -part * rate, -m * storey / block_kg];
+        knot(&mut h, t, Mode::Slip(direction), 0.0, sliding, 0.0, values);
+    }
+    let c = judge(&system, &h);
+    assert!(worst(&c) < 1e-14, "{}", figures(&c));
+    // A bound of zero decides nothing.
+    assert_eq!(c.closest_call, None);
+}
+
+/// A history without its samples, events alone, is integrated piece by piece of the motion.
+#[test]
+fn exact_events_alone_pass() {
+    for system in systems().into_iter().chain(coarse_systems()) {
+        let full = history_of(&system);
+        let abreast = |k: usize| {
+            let same = |j: usize| full.time_s.get(j) == Some(&full.time_s[k]);
+            k == 0 || k + 1 == full.len() || same(k - 1) || same(k + 1)
+        };
+        let mut h = History::default();
+        for k in (0..full.len()).filter(|&k| abreast(k)) {
+            let sliding = [
+                full.sliding_displacement_m[k],
+                full.sliding_velocity_m_per_s[k],
+                full.block_acceleration_m_per_s2[k],
+            ];
+            let storeys = [
+                full.storey_displacements(k),
+                full.storey_velocities(k),
+                full.storey_accelerations(k),
+            ];
+            let table = full.table_acceleration_m_per_s2[k];
+            let force = full.friction_force_n[k];
+            knot(&mut h, full.time_s[k], full.mode[k], table, sliding, force, storeys);
+        }
+        assert!(h.len() < full.len());
+        let c = judge(&system, &h);
+        assert!(worst(&c) < 1e-11, "{}: {}", system.name, figures(&c));
+    }
+}
+
+/// A damping ratio without storeys damps nothing.
+#[test]
+fn regress_damping_ratio_of_no_storeys() {
+    let System { model, motion, .. } = systems().swap_remove(0);
+    let model = with(&model, |_, frame| frame.damping = Damping::Ratio(0.05));
+    let system = System { name: "rigid with a damping ratio", model, motion };
+    let c = judge(&system, &history_of(&system));
+    assert!(worst(&c) < 1e-11, "{}", figures(&c));
+}
+
+/// A motion of zero leaves nothing to decide and nothing to divide by.
+#[test]
+fn exact_rest_has_zero_figures() {
+    let motion = GroundMotion::evenly_spaced(0.1, vec![0.0; 11], None).unwrap();
+    let System { model, .. } = systems().swap_remove(2);
+    let system = System { name: "at rest", model, motion };
+    let c = judge(&system, &history_of(&system));
+    assert_eq!(worst(&c), 0.0);
+    assert_eq!(c.closest_call, None);
+}
+
+/// A slip as short as the rounding of its time is no defect: the demand only touches its bound.
+#[test]
+fn exact_touch_by_rounding_passes() {
+    let acceleration = |i: u32| 2.0 * libm::sin(3.0 * core::f64::consts::PI * 0.005 * f64::from(i));
+    let values: Vec<f64> = (0..=8000).map(acceleration).collect();
+    let mu = peak(&values) / G;
+    for part in [1.0, 1.0 - 1e-16, 1.0 - 3e-16, 1.0 - 1e-15, 1.0 - 1e-13, 1.0 - 1e-10] {
+        let friction = coulomb([mu * part; 2], [mu * part; 2]);
+        let system = System {
+            name: "a demand that touches its bound",
+            model: Model::rigid_block(124.0, friction).unwrap(),
+            motion: GroundMotion::evenly_spaced(0.005, values.clone(), None).unwrap(),
+        };
+        let c = judge(&system, &history_of(&system));
+        assert!(c.holds(), "{part}: {}", figures(&c));
+        assert!(c.closest_call.unwrap().margin < 1e-6 || part < 1.0 - 1e-11, "{}", figures(&c));
+    }
+}
+
+/// A frame at rest on a slope is in equilibrium to rounding, and its friction is the closest call.
+#[test]
+fn exact_rest_on_slope_passes() {
+    let motion = GroundMotion::evenly_spaced(0.1, vec![0.0; 11], None).unwrap();
+    let System { model, .. } = systems().swap_remove(5);
+    let model = with(&model, |slider, _| slider.tilt_rad = 0.01);
+    let system = System { name: "at rest on a slope", model, motion };
+    let c = judge(&system, &history_of(&system));
+    assert!(worst(&c) < 1e-11, "{}", figures(&c));
+    let call = c.closest_call.unwrap();
+    assert!((call.margin - (1.0 - libm::tan(0.01) / 0.06)).abs() < 1e-12, "{call:?}");
+}
+
+/// An oscillator swings as A sin ωt on a block that holds: its demand peaks between two knots.
+#[test]
+fn exact_demand_between_knots_counts() {
+    let (block_kg, m, omega, amplitude) = (325.0, 201.0, 7.07, 0.01);
+    let k = m * omega * omega;
+    let held = |bound: f64| {
+        let mu = bound / ((block_kg + m) * G);
+        let initial = InitialState {
+            storey_velocity_m_per_s: Some(vec![amplitude * omega]),
+            ..InitialState::rest()
+        };
+        let frame = frame(&[m], &[k], Damping::Ratio(0.0));
+        let slider = slider(coulomb([mu; 2], [mu; 2]));
+        let end_s = 0.8 * core::f64::consts::PI / omega;
+        let system = System {
+            name: "swinging on a block that holds",
+            model: Model::new(block(block_kg), slider, frame, G, initial).unwrap(),
+            motion: GroundMotion::new(vec![0.0, end_s], vec![0.0; 2], None).unwrap(),
+        };
+        let mut h = History::default();
+        for t in [0.0, end_s] {
+            let (y, rate) = (libm::sin(omega * t), omega * libm::cos(omega * t));
+            let [y, rate] = [y, rate].map(|q| amplitude * q);
+            let values: [&[f64]; 3] = [&[y], &[rate], &[-omega * omega * y]];
+            knot(&mut h, t, Mode::Stick, 0.0, [0.0; 3], -k * y, values);
+        }
+        judge(&system, &h)
+    };
+    for margin in [1e-3, 1e-8] {
+        let c = held(k * amplitude / (1.0 - margin));
+        assert!(worst(&c) < 1e-14, "{}", figures(&c));
+        let call = c.closest_call.unwrap();
+        // The interpolation inside a step is good to some 1e-13; the time of a maximum to its root.
+        assert!((call.margin - margin).abs() < 1e-12, "{}", figures(&c));
+        assert!((call.time_s * omega - core::f64::consts::FRAC_PI_2).abs() < 1e-5);
+        let c = held(k * amplitude / (1.0 + margin));
+        assert!((c.friction_excess - margin).abs() < 1e-12, "{}", figures(&c));
+    }
+}
+
+/// A block slows down to almost nothing, or a little beyond, and gains speed again between two
+/// knots: s̈ = −c (1 − 2 t/T), so ṡ = v − c t + c t²/T with its least value v − c T/4.
+#[test]
+fn exact_dip_of_velocity_between_knots_counts() {
+    let (fixed, kinetic, c, end_s, m) = (0.12, 0.1, 2.0, 0.7, 124.0);
+    let friction = coulomb([fixed; 2], [kinetic; 2]);
+    let dips = |least: f64| {
+        let v = c * end_s / 4.0 + least;
+        let initial = InitialState { sliding_velocity_m_per_s: v, ..InitialState::rest() };
+        let table = [c, -c].map(|a| a - kinetic * G);
+        let system = System {
+            name: "almost stopped",
+            model: Model::new(block(m), slider(friction), Frame::none(), G, initial).unwrap(),
+            motion: GroundMotion::new(vec![0.0, end_s], table.to_vec(), None).unwrap(),
+        };
+        let s = v * end_s - c * end_s * end_s / 6.0;
+        let mut h = History::default();
+        for (t, a, s) in [(0.0, table[0], 0.0), (end_s, table[1], s)] {
+            let sliding = Mode::Slip(Direction::Positive);
+            let block = -kinetic * G;
+            knot(&mut h, t, sliding, a, [s, v, block], m * block, [&[], &[], &[]]);
+        }
+        judge(&system, &h)
+    };
+    for depth in [1e-3, 1e-9] {
+        let above = dips(depth);
+        assert!(worst(&above) < 1e-14, "{}", figures(&above));
+        let call = above.closest_call.unwrap();
+        let expected = depth / (c * end_s / 4.0 + depth);
+        assert!((call.margin - expected).abs() < 1e-14, "{}", figures(&above));
+        assert_eq!(call.kind, "slip");
+        let below = dips(-depth);
+        let expected = 2.0 * kinetic / fixed;
+        assert!((below.friction_excess - expected).abs() < 1e-14, "{}", figures(&below));
+        assert!(below.equilibrium_residual < 1e-14, "{}", figures(&below));
+    }
+}
