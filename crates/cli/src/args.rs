@@ -116,13 +116,7 @@ pub struct RunArgs {
     #[arg(short, long, value_name = "DIR", help_heading = "Output")]
     pub out: Option<PathBuf>,
     /// Units of the table and the report; files and JSON are always SI
-    #[arg(
-        long,
-        value_name = "SYSTEM",
-        value_enum,
-        default_value = "si",
-        help_heading = "Output"
-    )]
+    #[arg(long, value_name = "SYSTEM", value_enum, default_value = "si", help_heading = "Output")]
     pub display_units: UnitSystem,
     /// No messages and no progress on standard error, errors excepted
     #[arg(short, long, help_heading = "Output")]

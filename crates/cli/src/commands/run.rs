@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use slipstick::input::{self, Override};
 use slipstick::units::{Dimension, parse_quantity};
 use slipstick_files::{
-    FileError, Job, OutputFolder, Outcome, RecordRequest, Scale, events_csv, history_csv,
+    FileError, Job, Outcome, OutputFolder, RecordRequest, Scale, events_csv, history_csv,
     read_bytes, sha256_hex,
 };
 use slipstick_report::{FileNote, InputText, Report, table};
@@ -106,8 +106,9 @@ fn record_request(args: &RunArgs, path: &Path) -> Result<RecordRequest, Failure>
     let units = args.units.as_deref().map(|units| {
         slipstick::units::parse_unit(units, Dimension::Acceleration)
             .map_err(|error| refuse("--units", error.to_string()))?;
-        slipstick::record::Units::parse(units)
-            .ok_or_else(|| refuse("--units", format!("expected a unit of a record, found {units:?}")))
+        slipstick::record::Units::parse(units).ok_or_else(|| {
+            refuse("--units", format!("expected a unit of a record, found {units:?}"))
+        })
     });
     let dt_s = args.dt.as_deref().map(|dt| {
         let dt_s = quantity("--dt", dt, Dimension::Time)?;
@@ -175,11 +176,11 @@ fn write_files(
         .collect();
     let mut files =
         vec![FileNote { path: model.name, sha256: &model.sha256, description: "model" }];
-    files.extend(
-        sources
-            .iter()
-            .map(|(path, sha256, what)| FileNote { path, sha256, description: what }),
-    );
+    files.extend(sources.iter().map(|(path, sha256, what)| FileNote {
+        path,
+        sha256,
+        description: what,
+    }));
     let command_line = command_line();
     let report = Report {
         summary: &outcome.summary,

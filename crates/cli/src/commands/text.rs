@@ -12,8 +12,7 @@ use crate::failure::Failure;
 
 /// Prints the JSON schema of the model file, or the units.
 pub fn schema(args: &SchemaArgs) -> Result<ExitCode, Failure> {
-    let text =
-        if args.units { slipstick::units::table() } else { slipstick::input::json_schema() };
+    let text = if args.units { slipstick::units::table() } else { slipstick::input::json_schema() };
     let mut out = io::stdout().lock();
     out.write_all(text.as_bytes())?;
     if !text.ends_with('\n') {
