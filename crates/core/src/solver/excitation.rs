@@ -1,5 +1,7 @@
 //! The motion as the equations see it: along the slope with gravity's pull, and as normal force.
 
+use std::borrow::Cow;
+
 use crate::friction::{Direction, Friction};
 use crate::linear::Load;
 use crate::model::Model;
@@ -10,7 +12,7 @@ pub(super) struct Excitation<'a> {
     pub(super) times_s: &'a [f64],
     pub(super) dt_s: Option<f64>,
     /// `a = Ü + g sin θ` at the samples.
-    pub(super) acceleration: Vec<f64>,
+    pub(super) acceleration: Cow<'a, [f64]>,
     /// `M_tot (g cos θ + Üv)` at the samples, negative where contact is lost; or one value.
     normal: Normal,
     static_friction: [f64; 2],
@@ -47,7 +49,11 @@ impl<'a> Excitation<'a> {
         Self {
             times_s: motion.times_s(),
             dt_s: motion.dt_s(),
-            acceleration: motion.horizontal_m_per_s2().iter().map(|a| a + slope).collect(),
+            acceleration: if slope == 0.0 {
+                Cow::Borrowed(motion.horizontal_m_per_s2())
+            } else {
+                motion.horizontal_m_per_s2().iter().map(|a| a + slope).collect()
+            },
             normal: match motion.vertical_m_per_s2() {
                 None => Normal::Constant(mass * gravity),
                 Some(vertical) => {
