@@ -32,7 +32,12 @@ Writes with --out, each file whole or not at all:
 /// Everything on the command line.
 #[derive(Debug, Parser)]
 #[command(name = "slipstick", version, about = ABOUT, after_help = EXAMPLES)]
-#[command(propagate_version = true, subcommand_required = true, arg_required_else_help = true)]
+#[command(
+    max_term_width = 100,
+    propagate_version = true,
+    subcommand_required = true,
+    arg_required_else_help = true
+)]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use crate::args::{Example, InitArgs};
-use crate::failure::Failure;
+use crate::failure::{Failure, say};
 
 const BLOCK: &str = include_str!("../../models/block.toml");
 const MOCK_UP: &str = include_str!("../../models/mock-up.toml");
@@ -30,6 +30,7 @@ pub fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
         )));
     }
     slipstick_files::write_whole(&path, text.as_bytes())?;
-    eprintln!("wrote {}; next: slipstick run {} --out out", path.display(), path.display());
+    let path = path.display();
+    say(format_args!("wrote {path}; next: slipstick run {path} --out out"));
     Ok(ExitCode::SUCCESS)
 }
