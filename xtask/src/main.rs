@@ -24,6 +24,7 @@ Usage: cargo xtask TASK
   fuzz [TARGET] [--seconds N]    all fuzz targets or one, 60 s each (installs cargo-fuzz)
   deny                           licences, advisories, doubles (installs cargo-deny)
   book                           the manual, into book/build (installs mdbook)
+  figures                        the figures of the README and the manual, into book/src/figures
   help                           this text
 ";
 
@@ -37,6 +38,7 @@ fn main() -> ExitCode {
         ["fuzz", options @ ..] => tools::fuzz(options),
         ["deny"] => tools::deny(),
         ["book"] => tools::book(),
+        ["figures"] => tools::figures(),
         [] | ["help" | "--help" | "-h"] => {
             print!("{HELP}");
             Ok(())

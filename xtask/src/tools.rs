@@ -14,6 +14,11 @@ pub fn book() -> Outcome {
     shell::run(shell::command("mdbook").args(["build", "book"]))
 }
 
+/// The figures of the README and the manual, drawn from an example.
+pub fn figures() -> Outcome {
+    shell::run(&mut shell::cargo("run --quiet -p slipstick-files --example figures"))
+}
+
 /// Runs fuzz targets, all or the one named, each for a while.
 pub fn fuzz(options: &[&str]) -> Outcome {
     let (chosen, seconds) = match options {
