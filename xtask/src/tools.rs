@@ -1,4 +1,4 @@
-//! Tasks that need a tool beyond cargo and rustup; each installs its own.
+//! Small tasks. Those that need a tool beyond cargo and rustup install it.
 
 use crate::shell::{self, Outcome};
 
@@ -17,6 +17,13 @@ pub fn book() -> Outcome {
 /// The figures of the README and the manual, drawn from an example.
 pub fn figures() -> Outcome {
     shell::run(&mut shell::cargo("run --quiet -p slipstick-files --example figures"))
+/// The manual pages of the command, into `man` in the target folder.
+pub fn man() -> Outcome {
+    let folder = shell::target_folder()?.join("man");
+    std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    shell::run(shell::cargo("run --quiet --package slipstick-cli -- man").arg(&folder))?;
+    eprintln!("wrote {}", folder.display());
+    Ok(())
 }
 
 /// Runs fuzz targets, all or the one named, each for a while.
