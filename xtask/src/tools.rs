@@ -17,6 +17,8 @@ pub fn book() -> Outcome {
 /// The figures of the README and the manual, drawn from an example.
 pub fn figures() -> Outcome {
     shell::run(&mut shell::cargo("run --quiet -p slipstick-files --example figures"))
+}
+
 /// The manual pages of the command, into `man` in the target folder.
 pub fn man() -> Outcome {
     let folder = shell::target_folder()?.join("man");
