@@ -52,7 +52,7 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let Some(dt_s) = excitation.dt_s else { return sample };
         let mode = if SLIP { Mode::Slip(direction) } else { Mode::Stick };
         let acceleration: &[f64] = &excitation.acceleration;
-        let last = acceleration.len() - 1;
+        let last = excitation.regular_end(sample);
         let coefficient = excitation.kinetic(direction);
         let [low, high] = self.bounds;
         let sign = direction.sign();
