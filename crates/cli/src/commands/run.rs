@@ -25,7 +25,7 @@ pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let analysis = input::from_bytes(&model.name, &model.bytes, &overrides)
         .map_err(|error| Failure::input(error, &model.text()))?;
     let record = args.motion.as_deref().map(|path| record_request(args, path)).transpose()?;
-    let in_model = |error| Failure::job(error, &model.text());
+    let in_model = |error| Failure::job(error, &model.name, &model.text());
     let job = watched("reading", args.quiet, || Job::new(&model.path, analysis, record.as_ref()))
         .map_err(in_model)?;
     // An output folder that cannot be written is told before the work, not after it.
