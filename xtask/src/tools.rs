@@ -1,4 +1,4 @@
-//! Tasks that need a tool beyond cargo and rustup; each installs its own.
+//! Small tasks. Those that need a tool beyond cargo and rustup install it.
 
 use crate::shell::{self, Outcome};
 use std::fs;
@@ -20,6 +20,20 @@ pub fn deny() -> Outcome {
 pub fn book() -> Outcome {
     shell::ensure_installed("mdbook", "--version", "mdbook")?;
     shell::run(shell::command("mdbook").args(["build", "book"]))
+}
+
+/// The figures of the README and the manual, drawn from an example.
+pub fn figures() -> Outcome {
+    shell::run(&mut shell::cargo("run --quiet -p slipstick-files --example figures"))
+}
+
+/// The manual pages of the command, into `man` in the target folder.
+pub fn man() -> Outcome {
+    let folder = shell::target_folder()?.join("man");
+    std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    shell::run(shell::cargo("run --quiet --package slipstick-cli -- man").arg(&folder))?;
+    eprintln!("wrote {}", folder.display());
+    Ok(())
 }
 
 /// Runs fuzz targets, all or the one named, each for a while.

@@ -46,7 +46,13 @@ pub fn decimals(value: f64, digits: usize) -> usize {
 /// A number that a person gave, to 6 significant digits, without trailing zeros.
 #[must_use]
 pub fn compact(value: f64) -> String {
-    let text = significant(value, 6);
+    rounded(value, 6)
+}
+
+/// [`significant`] without trailing zeros after the point.
+#[must_use]
+pub fn rounded(value: f64, digits: usize) -> String {
+    let text = significant(value, digits);
     let (mantissa, exponent) = match text.find('e') {
         Some(at) => text.split_at(at),
         None => (text.as_str(), ""),

@@ -6,7 +6,7 @@ use slipstick::response::Method;
 use crate::describe::{model_line, value};
 use crate::display::{DisplayUnits, Quantity};
 use crate::markup::shortened;
-use crate::number::{compact, significant};
+use crate::number::{compact, rounded, significant};
 use crate::peaks::{self, Row};
 use crate::summary::{Summary, method_name};
 
@@ -135,7 +135,7 @@ fn plain_row(summary: &Summary, label: &str, value: impl Fn(&Summary) -> String)
 
 fn verdict(out: &mut Lines, summary: &Summary) {
     let checks = &summary.checks;
-    let bound = compact(checks.bound);
+    let bound = rounded(checks.bound, 2);
     out.field(
         "Check",
         &match checks.holds {

@@ -6,7 +6,7 @@ use super::table_head;
 use crate::describe::{event_direction, event_kind};
 use crate::display::{Quantity, Unit};
 use crate::markup::Markup;
-use crate::number::{compact, count, decimals, printed, significant, typeset};
+use crate::number::{compact, count, decimals, printed, rounded, significant, typeset};
 use crate::peaks;
 use crate::report::Report;
 use crate::summary::{Summary, exceeds};
@@ -203,7 +203,7 @@ pub fn certificate(out: &mut Markup, report: &Report) {
                 .raw("</td>");
         }
         let bound = if checks.holds.is_some() {
-            typeset(&compact(checks.bound))
+            typeset(&rounded(checks.bound, 2))
         } else {
             "none".to_owned()
         };

@@ -4,7 +4,7 @@ use slipstick::check::Certificate;
 use slipstick::response::{Method, Response, Warning};
 
 use super::{SummaryInputs, exceeds};
-use crate::number::{compact, significant};
+use crate::number::{compact, rounded, significant};
 
 /// Below this margin a slightly different record would tell another story.
 const CLOSE_CALL_MARGIN: f64 = 1e-6;
@@ -50,7 +50,7 @@ fn check_failed(response: &Response, certificate: &Certificate) -> Option<Warnin
         message: format!(
             "the independent check does not confirm this response: {} above the bound {}",
             failed.join(", "),
-            compact(certificate.bound)
+            rounded(certificate.bound, 2)
         ),
     })
 }
