@@ -59,13 +59,8 @@ pub enum JobError {
     #[error(transparent)]
     File(#[from] FileError),
     /// The analysis itself.
-    #[error("{model}: {source}")]
-    Solve {
-        /// The model's name.
-        model: String,
-        /// What is wrong.
-        source: SolveError,
-    },
+    #[error(transparent)]
+    Solve(#[from] SolveError),
 }
 
 impl Job {
@@ -156,8 +151,7 @@ impl Job {
         friction_factor: f64,
     ) -> Result<(Response, Certificate, Summary), JobError> {
         let method = self.analysis.method;
-        let response = solver::solve(model, &self.motion, method)
-            .map_err(|source| JobError::Solve { model: self.name.clone(), source })?;
+        let response = solver::solve(model, &self.motion, method)?;
         let empty = History::default();
         let history = response.history.as_ref().unwrap_or(&empty);
         let certificate = check::check(model, &self.motion, history);
