@@ -23,7 +23,9 @@ Usage: cargo xtask TASK
                                  (--write: into book/src/generated/peers.md)
   fuzz [TARGET] [--seconds N]    all fuzz targets or one, 60 s each (installs cargo-fuzz)
   deny                           licences, advisories, doubles (installs cargo-deny)
+  man                            the manual pages, into the target folder
   book                           the manual, into book/build (installs mdbook)
+  figures                        the figures of the README and the manual, into book/src/figures
   help                           this text
 ";
 
@@ -36,7 +38,9 @@ fn main() -> ExitCode {
         ["bench-peers", options @ ..] => peers::bench_peers(options),
         ["fuzz", options @ ..] => tools::fuzz(options),
         ["deny"] => tools::deny(),
+        ["man"] => tools::man(),
         ["book"] => tools::book(),
+        ["figures"] => tools::figures(),
         [] | ["help" | "--help" | "-h"] => {
             print!("{HELP}");
             Ok(())

@@ -1,6 +1,8 @@
 //! What ends a command early, and how it is told.
 
-use std::io::{self, IsTerminal};
+use std::fmt;
+use std::io::{self, IsTerminal, Write};
+use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use slipstick::error::InputError;
@@ -28,11 +30,12 @@ impl Failure {
         Self::Input { error: Box::new(error), text: text.to_owned() }
     }
 
-    /// A fault of a job whose model text is at hand.
-    pub fn job(error: JobError, text: &str) -> Self {
+    /// A fault of a job; `name` and `text` are those of its model file.
+    pub fn job(error: JobError, name: &str, text: &str) -> Self {
         match error {
             JobError::Input(error) => Self::input(error, text),
-            other => Self::Message(other.to_string()),
+            JobError::Solve(error) => Self::Message(format!("{name}: {error}")),
+            JobError::File(error) => error.into(),
         }
     }
 
@@ -40,17 +43,22 @@ impl Failure {
     pub fn report(&self) {
         match self {
             Self::ClosedPipe => {}
-            Self::Message(message) => eprintln!("error: {message}"),
+            Self::Message(message) => say(format_args!("error: {message}")),
             Self::Input { error, text } => {
-                eprintln!("error: {error}");
+                say(format_args!("error: {error}"));
                 if io::stderr().is_terminal()
                     && let Some(excerpt) = excerpt(error, text)
                 {
-                    eprintln!("{excerpt}");
+                    say(format_args!("{excerpt}"));
                 }
             }
         }
     }
+}
+
+/// One line to standard error. Where nobody can be told, nobody is: that is no reason to stop.
+pub fn say(line: fmt::Arguments<'_>) {
+    let _ = writeln!(io::stderr(), "{line}");
 }
 
 /// The line that an error points to, underlined; nothing where the error lies outside the text.
@@ -76,12 +84,23 @@ impl From<FileError> for Failure {
     }
 }
 
-impl From<io::Error> for Failure {
-    fn from(error: io::Error) -> Self {
-        if error.kind() == io::ErrorKind::BrokenPipe {
+impl Failure {
+    /// What became of writing to standard output.
+    pub fn stdout(source: io::Error) -> Self {
+        if source.kind() == io::ErrorKind::BrokenPipe {
             Self::ClosedPipe
         } else {
-            Self::Message(format!("standard output: {error}"))
+            FileError::Write { path: PathBuf::from("standard output"), source }.into()
         }
     }
+}
+
+/// Text to standard output, ended by a line feed.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    let end = if text.ends_with('\n') { "" } else { "\n" };
+    out.write_all(text.as_bytes())
+        .and_then(|()| out.write_all(end.as_bytes()))
+        .and_then(|()| out.flush())
+        .map_err(Failure::stdout)
 }

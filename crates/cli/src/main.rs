@@ -5,35 +5,61 @@ mod commands;
 mod failure;
 mod progress;
 
+use std::io::{self, IsTerminal};
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use args::{Cli, Command};
 use clap::Parser;
-use failure::Failure;
+use failure::{Failure, print};
 
 /// Exit status after Ctrl-C, as shells have it.
 const INTERRUPTED: i32 = 130;
 
+/// Set by Ctrl-C before anything else: what fails afterwards fails because of it.
+static ENDING: AtomicBool = AtomicBool::new(false);
+
 fn main() -> ExitCode {
-    let cli = Cli::parse();
     // Without a handler Ctrl-C still ends the program, only temporary files would stay.
     let _ = ctrlc::set_handler(|| {
+        ENDING.store(true, Ordering::SeqCst);
         slipstick_files::remove_temporaries();
+        progress::clear();
         std::process::exit(INTERRUPTED);
     });
-    let done = match &cli.command {
+    let failure = match run() {
+        Ok(status) => return status,
+        Err(failure) => failure,
+    };
+    while ENDING.load(Ordering::SeqCst) {
+        // The handler took the files away and ends the process with its own status.
+        std::thread::park();
+    }
+    failure.report();
+    match failure {
+        Failure::ClosedPipe => ExitCode::SUCCESS,
+        _ => ExitCode::from(2),
+    }
+}
+
+fn run() -> Result<ExitCode, Failure> {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        // Help and version are data: where they cannot be written, that is told.
+        Err(error) if !error.use_stderr() && !io::stdout().is_terminal() => {
+            print(&error.render().to_string())?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        Err(error) => {
+            let _ = error.print();
+            return Ok(if error.use_stderr() { ExitCode::from(2) } else { ExitCode::SUCCESS });
+        }
+    };
+    match &cli.command {
         Command::Run(args) => commands::run::run(args),
         Command::Init(args) => commands::init::init(args),
         Command::Schema(args) => commands::text::schema(args),
         Command::Completions { shell } => commands::text::completions(*shell),
         Command::Man { folder } => commands::text::man(folder),
-    };
-    match done {
-        Ok(status) => status,
-        Err(Failure::ClosedPipe) => ExitCode::SUCCESS,
-        Err(failure) => {
-            failure.report();
-            ExitCode::from(2)
-        }
     }
 }

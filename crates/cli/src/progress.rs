@@ -1,25 +1,40 @@
 //! A sign of life where a person waits for more than a second.
 
-use std::io::{self, IsTerminal};
+use std::io::{self, IsTerminal, Write};
 use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
 
-use indicatif::ProgressBar;
+use indicatif::{ProgressBar, ProgressStyle};
 
 /// How long a person waits before the sign appears.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Runs `work` and, where standard error is a terminal and it takes long, shows what is going on.
+/// Whether a sign may appear: a person watches, and has not asked for plain output.
+fn wanted() -> bool {
+    io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty())
+}
+
+/// Takes a sign that may stand on the terminal's line off it.
+pub fn clear() {
+    if wanted() {
+        let _ = write!(io::stderr(), "\r\u{1b}[2K");
+    }
+}
+
+/// Runs `work` and, where a person watches and it takes long, shows what is going on.
 pub fn watched<T: Send>(what: &'static str, quiet: bool, work: impl FnOnce() -> T + Send) -> T {
-    if quiet || !io::stderr().is_terminal() {
+    if quiet || !wanted() {
         return work();
     }
     thread::scope(|scope| {
         let (done, wait) = mpsc::channel::<()>();
         scope.spawn(move || {
             if wait.recv_timeout(PATIENCE) == Err(mpsc::RecvTimeoutError::Timeout) {
-                let bar = ProgressBar::new_spinner().with_message(what);
+                let style = ProgressStyle::with_template("{spinner} {msg}, {elapsed}");
+                let style = style.unwrap_or_else(|_| ProgressStyle::default_spinner());
+                let bar = ProgressBar::new_spinner().with_style(style).with_message(what);
+                bar.set_elapsed(PATIENCE);
                 bar.enable_steady_tick(Duration::from_millis(100));
                 let _ = wait.recv();
                 bar.finish_and_clear();

@@ -13,7 +13,7 @@ mod write;
 
 pub use error::FileError;
 pub use load::{LoadedMotion, RecordRequest, Scale, SourceFile, VerticalRequest, load_record};
-pub use read::{MAX_BYTES, read_bytes, resolve, sha256_hex};
+pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve, sha256_hex};
 pub use run::{Job, JobError, Outcome};
 pub use tables::{events_csv, history_csv};
 pub use write::{OutputFolder, refuse_inputs, remove_temporaries, write_whole};

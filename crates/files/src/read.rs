@@ -14,9 +14,16 @@ pub const MAX_BYTES: u64 = 1 << 30;
 /// The whole content of a file.
 ///
 /// # Errors
-/// [`FileError`] where it does not exist, is a folder, cannot be read, or is larger than
-/// [`MAX_BYTES`].
+/// As [`read_at_most`], with [`MAX_BYTES`].
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
+    read_at_most(path, MAX_BYTES)
+}
+
+/// The whole content of a file of at most `limit` bytes.
+///
+/// # Errors
+/// [`FileError`] where it does not exist, is a folder, cannot be read, or is larger.
+pub fn read_at_most(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     let failed = |source: io::Error| match source.kind() {
         io::ErrorKind::IsADirectory => FileError::IsFolder { path: path.to_owned() },
         _ => FileError::Read { path: path.to_owned(), source },
@@ -26,14 +33,14 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
     if metadata.is_dir() {
         return Err(FileError::IsFolder { path: path.to_owned() });
     }
-    let too_large = || FileError::TooLarge { path: path.to_owned(), limit: MAX_BYTES };
-    if metadata.len() > MAX_BYTES {
+    let too_large = || FileError::TooLarge { path: path.to_owned(), limit };
+    if metadata.len() > limit {
         return Err(too_large());
     }
     let mut bytes = Vec::new();
     // A pipe or a growing file has no length to go by.
-    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
-    if bytes.len() as u64 > MAX_BYTES {
+    file.take(limit + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > limit {
         return Err(too_large());
     }
     Ok(bytes)

@@ -12,7 +12,7 @@ use slipstick::response::{History, Response, Warning};
 use slipstick::solver;
 use slipstick_report::{FloorSpectra, Summary, SummaryInputs};
 
-use crate::error::FileError;
+use crate::error::{FileError, reason};
 use crate::load::{LoadedMotion, RecordRequest, Scale, VerticalRequest, load_record};
 use crate::read::resolve;
 
@@ -58,22 +58,9 @@ pub enum JobError {
     /// A file.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A made motion, or the tail.
-    #[error("{model}: {source}")]
-    Motion {
-        /// The model's file.
-        model: String,
-        /// What is wrong.
-        source: MotionError,
-    },
     /// The analysis itself.
-    #[error("{model}: {source}")]
-    Solve {
-        /// The model's file.
-        model: String,
-        /// What is wrong.
-        source: SolveError,
-    },
+    #[error(transparent)]
+    Solve(#[from] SolveError),
 }
 
 impl Job {
@@ -90,11 +77,14 @@ impl Job {
         record: Option<&RecordRequest>,
     ) -> Result<Self, JobError> {
         let folder = model_path.parent().unwrap_or(Path::new(""));
-        let in_model = |source| JobError::Motion { model: shown(model_path), source };
+        let in_model = |error: MotionError| analysis.motion_error(&error);
         let loaded = match record {
             Some(record) => load_record(record)?,
             None => match analysis.required_motion()? {
-                MotionSource::Record(record) => load_record(&request(record, folder))?,
+                MotionSource::Record(source) => {
+                    let record = request(source, folder);
+                    load_record(&record).map_err(|error| of_model(&analysis, &record, error))?
+                }
                 MotionSource::Sine(sine) => {
                     let text =
                         format!("sine, {} Hz, {} m/s²", sine.frequency_hz, sine.amplitude_m_per_s2);
@@ -115,7 +105,10 @@ impl Job {
         };
         let motion = match analysis.tail_s {
             0.0 => loaded.motion.clone(),
-            tail_s => loaded.motion.with_tail(tail_s).map_err(in_model)?,
+            tail_s => {
+                let motion = loaded.motion.with_tail(tail_s);
+                motion.map_err(|error| of_tail(&analysis, &error))?
+            }
         };
         let mut warnings = loaded.warnings.clone();
         warnings.extend(coarse_sampling(&analysis.model, &loaded.motion));
@@ -158,8 +151,7 @@ impl Job {
         friction_factor: f64,
     ) -> Result<(Response, Certificate, Summary), JobError> {
         let method = self.analysis.method;
-        let response = solver::solve(model, &self.motion, method)
-            .map_err(|source| JobError::Solve { model: self.name.clone(), source })?;
+        let response = solver::solve(model, &self.motion, method)?;
         let empty = History::default();
         let history = response.history.as_ref().unwrap_or(&empty);
         let certificate = check::check(model, &self.motion, history);
@@ -174,12 +166,45 @@ impl Job {
             friction_factor,
             warnings: &self.warnings,
         });
+        // The step is that of the record: a tail may start with a jump or end between two steps.
+        let summary = Summary { dt_s: self.loaded.motion.dt_s(), ..summary };
         Ok((response, certificate, summary))
     }
 }
 
-fn shown(path: &Path) -> String {
-    path.display().to_string()
+/// What is wrong with the record of a model, at the key that asks for it where the model can be
+/// blamed: a path that leads nowhere, a scale that has no answer.
+fn of_model(analysis: &Analysis, record: &RecordRequest, error: FileError) -> JobError {
+    let key = |path: &Path| {
+        let vertical = record.vertical.as_ref().is_some_and(|vertical| vertical.path == path);
+        if vertical { "motion.vertical" } else { "motion.record" }
+    };
+    match &error {
+        FileError::Read { path, source } => {
+            let found = format!("{}: {}", path.display(), reason(source));
+            analysis.error_at(key(path), "a file that can be read", found).into()
+        }
+        FileError::IsFolder { path } => {
+            let found = format!("the folder {}", path.display());
+            analysis.error_at(key(path), "a file", found).into()
+        }
+        FileError::Motion {
+            source: source @ (MotionError::ZeroPeak | MotionError::OutOfRange { .. }),
+            ..
+        } => analysis.motion_error(source).into(),
+        _ => error.into(),
+    }
+}
+
+/// What is wrong with a tail, at its key.
+fn of_tail(analysis: &Analysis, error: &MotionError) -> InputError {
+    match error {
+        MotionError::TooLong { found } => {
+            let expected = "at most 100 000 000 samples, those of the motion among them";
+            analysis.error_at("analysis.tail", expected, format!("{found:.1e}"))
+        }
+        other => analysis.motion_error(other),
+    }
 }
 
 /// A record as the model asks for it.

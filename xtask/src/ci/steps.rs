@@ -120,17 +120,19 @@ fn ensure_wasm() -> Result<(), Problem> {
         .map_err(|reason| Problem::NotRun(format!("the target {WASM} is missing; {reason}")))
 }
 
-/// The TOML files of a folder, sorted, as paths from the root of the workspace.
+/// The TOML files of a folder and those in it, sorted, as paths from the root of the workspace.
 fn toml_files(folder: &str) -> Result<Vec<String>, String> {
     let Ok(entries) = std::fs::read_dir(shell::root().join(folder)) else {
         return Ok(Vec::new());
     };
     let mut files = Vec::new();
     for entry in entries {
-        let name = entry.map_err(|error| format!("{folder}: {error}"))?.file_name();
-        let name = name.to_string_lossy();
-        if name.ends_with(".toml") {
-            files.push(format!("{folder}/{name}"));
+        let entry = entry.map_err(|error| format!("{folder}: {error}"))?;
+        let path = format!("{folder}/{}", entry.file_name().to_string_lossy());
+        if entry.path().is_dir() {
+            files.extend(toml_files(&path)?);
+        } else if path.ends_with(".toml") {
+            files.push(path);
         }
     }
     files.sort();

@@ -1,10 +1,10 @@
 //! `slipstick init`: an example model that runs as it stands.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use crate::args::{Example, InitArgs};
-use crate::failure::Failure;
+use crate::failure::{Failure, say};
 
 const BLOCK: &str = include_str!("../../models/block.toml");
 const MOCK_UP: &str = include_str!("../../models/mock-up.toml");
@@ -19,7 +19,8 @@ pub fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
         Example::Frame => FRAME,
     };
     let path = PathBuf::from(format!("{stem}.toml"));
-    if stem.is_empty() || stem == "-" {
+    let nameless = Path::new(stem).file_name().is_none() || stem.ends_with(['/', '\\']);
+    if nameless || stem == "-" {
         let found = &args.name;
         return Err(Failure::Message(format!("expected a name for the model, found {found:?}")));
     }
@@ -30,6 +31,7 @@ pub fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
         )));
     }
     slipstick_files::write_whole(&path, text.as_bytes())?;
-    eprintln!("wrote {}; next: slipstick run {} --out out", path.display(), path.display());
+    let path = path.display();
+    say(format_args!("wrote {path}; next: slipstick run {path} --out out"));
     Ok(ExitCode::SUCCESS)
 }

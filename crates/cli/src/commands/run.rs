@@ -1,75 +1,88 @@
 //! `slipstick run`: the main job.
 
-use std::io::{self, Read, Write};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use slipstick::input::{self, Override};
+use slipstick::record::{self, Quantity};
+use slipstick::response::History;
 use slipstick::units::{Dimension, parse_quantity};
 use slipstick_files::{
     FileError, Job, Outcome, OutputFolder, RecordRequest, Scale, events_csv, history_csv,
-    read_bytes, sha256_hex,
+    read_at_most, sha256_hex,
 };
-use slipstick_report::{FileNote, InputText, Report, table};
+use slipstick_report::{FileNote, InputText, Report, Summary, table};
 
 use crate::args::{MethodName, RunArgs};
-use crate::failure::Failure;
+use crate::failure::{Failure, print, say};
 use crate::progress::watched;
-
-/// Largest model file that is read.
-const MODEL_BYTES_LIMIT: usize = 16 << 20;
 
 /// Runs one analysis, prints it and writes its files.
 pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
-    let (name, bytes) = read_model(&args.model)?;
-    let text = String::from_utf8_lossy(&bytes).into_owned();
+    let model = read_model(&args.model)?;
     let overrides = overrides(args)?;
-    let analysis = input::from_bytes(&name, &bytes, &overrides)
-        .map_err(|error| Failure::input(error, &text))?;
+    let analysis = input::from_bytes(&model.name, &model.bytes, &overrides)
+        .map_err(|error| Failure::input(error, &model.text()))?;
     let record = args.motion.as_deref().map(|path| record_request(args, path)).transpose()?;
-    let model_path = Path::new(&name);
-    let inputs = [args.model.clone(), args.motion.clone().unwrap_or_default()];
+    let in_model = |error| Failure::job(error, &model.name, &model.text());
+    let job = watched("reading", args.quiet, || Job::new(&model.path, analysis, record.as_ref()))
+        .map_err(in_model)?;
     // An output folder that cannot be written is told before the work, not after it.
-    let folder = args.out.as_deref().map(|out| OutputFolder::create(out, &inputs)).transpose()?;
-    let (job, outcome) = watched("computing", args.quiet, || {
-        let job = Job::new(model_path, analysis, record.as_ref())?;
-        let outcome = job.run(args.floor_spectrum)?;
-        Ok((job, outcome))
-    })
-    .map_err(|error| Failure::job(error, &text))?;
+    let folder = args
+        .out
+        .as_deref()
+        .map(|out| {
+            let records = job.loaded.sources.iter().map(|source| source.path.clone());
+            let inputs: Vec<PathBuf> = records.chain([model.path.clone()]).collect();
+            OutputFolder::create(out, &inputs)
+        })
+        .transpose()?;
+    let outcome =
+        watched("computing", args.quiet, || job.run(args.floor_spectrum)).map_err(in_model)?;
     if let Some(folder) = folder {
-        let model = ModelFile { name: &name, text: &text, sha256: sha256_hex(&bytes) };
         watched("writing", args.quiet, || write_files(folder, args, &model, &job, &outcome))?;
     }
-    print(args, &job, &outcome)?;
-    Ok(if outcome.summary.check_failed() { ExitCode::from(1) } else { ExitCode::SUCCESS })
+    show(args, &job, &outcome)?;
+    Ok(ExitCode::from(status(&outcome.summary)))
+}
+
+/// 1 where the check of a run, or of one of its bounds, failed.
+fn status(summary: &Summary) -> u8 {
+    u8::from(summary.check_failed())
 }
 
 /// The model file as it was read.
-struct ModelFile<'a> {
-    name: &'a str,
-    text: &'a str,
-    sha256: String,
+struct ModelFile {
+    /// What messages call it.
+    name: String,
+    /// Where it is; empty for standard input.
+    path: PathBuf,
+    bytes: Vec<u8>,
 }
 
-fn read_model(path: &Path) -> Result<(String, Vec<u8>), Failure> {
-    let (name, bytes) = if path == Path::new("-") {
-        let mut bytes = Vec::new();
-        io::stdin()
-            .lock()
-            .take(MODEL_BYTES_LIMIT as u64 + 1)
-            .read_to_end(&mut bytes)
-            .map_err(|error| Failure::Message(format!("standard input: {error}")))?;
-        ("model.toml".to_owned(), bytes)
-    } else {
-        (path.display().to_string(), read_bytes(path)?)
-    };
-    if bytes.len() > MODEL_BYTES_LIMIT {
-        return Err(Failure::Message(format!(
-            "{name}: expected a model of at most {MODEL_BYTES_LIMIT} bytes, found more"
-        )));
+impl ModelFile {
+    fn text(&self) -> String {
+        String::from_utf8_lossy(&self.bytes).into_owned()
     }
-    Ok((name, bytes))
+}
+
+fn read_model(path: &Path) -> Result<ModelFile, Failure> {
+    let limit = input::MAX_TEXT_BYTES as u64;
+    if path != Path::new("-") {
+        let name = path.display().to_string();
+        return Ok(ModelFile { name, path: path.to_owned(), bytes: read_at_most(path, limit)? });
+    }
+    let path = PathBuf::from("standard input");
+    let mut bytes = Vec::new();
+    let read = io::stdin().lock().take(limit + 1).read_to_end(&mut bytes);
+    if let Err(source) = read {
+        return Err(FileError::Read { path, source }.into());
+    }
+    if bytes.len() as u64 > limit {
+        return Err(FileError::TooLarge { path, limit }.into());
+    }
+    Ok(ModelFile { name: path.display().to_string(), path: PathBuf::new(), bytes })
 }
 
 fn overrides(args: &RunArgs) -> Result<Vec<Override>, Failure> {
@@ -104,10 +117,11 @@ fn record_request(args: &RunArgs, path: &Path) -> Result<RecordRequest, Failure>
         (None, None) => Scale::None,
     };
     let units = args.units.as_deref().map(|units| {
-        slipstick::units::parse_unit(units, Dimension::Acceleration)
-            .map_err(|error| refuse("--units", error.to_string()))?;
-        slipstick::record::Units::parse(units).ok_or_else(|| {
-            refuse("--units", format!("expected a unit of a record, found {units:?}"))
+        let of_record = record::Units::parse(units);
+        of_record.filter(|units| units.quantity() == Quantity::Acceleration).ok_or_else(|| {
+            let known = Dimension::Acceleration.units().iter().map(|unit| unit.name());
+            let known = known.collect::<Vec<_>>().join(", ");
+            refuse("--units", format!("expected a unit of acceleration ({known}), found {units:?}"))
         })
     });
     let dt_s = args.dt.as_deref().map(|dt| {
@@ -131,29 +145,25 @@ fn record_request(args: &RunArgs, path: &Path) -> Result<RecordRequest, Failure>
 
 /// The result on standard output; what was noticed, on standard error, where the table has not
 /// said it already.
-fn print(args: &RunArgs, job: &Job, outcome: &Outcome) -> Result<(), Failure> {
-    let text = if args.json {
-        outcome.summary.to_json()
+fn show(args: &RunArgs, job: &Job, outcome: &Outcome) -> Result<(), Failure> {
+    if args.json {
+        print(&outcome.summary.to_json())?;
     } else {
         let record = job.loaded.description.join("; ");
-        table::table(&outcome.summary, &job.analysis.model, &record, args.display_units.into())
-    };
-    let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())?;
-    if !text.ends_with('\n') {
-        out.write_all(b"\n")?;
+        let display = args.display_units.into();
+        print(&table::table(&outcome.summary, &job.analysis.model, &record, display))?;
     }
-    out.flush()?;
-    if !args.quiet {
-        if args.json {
-            for (run, warning) in outcome.summary.all_warnings() {
-                let run = run.map_or(String::new(), |run| format!(" ({run} friction)"));
-                eprintln!("warning: {}{run}: {}", warning.kind, warning.message);
-            }
+    if args.quiet {
+        return Ok(());
+    }
+    if args.json {
+        for (run, warning) in outcome.summary.all_warnings() {
+            let run = run.map_or(String::new(), |run| format!(" ({run} friction)"));
+            say(format_args!("warning: {}{run}: {}", warning.kind, warning.message));
         }
-        if let Some(out) = &args.out {
-            eprintln!("wrote {}", out.join("report.html").display());
-        }
+    }
+    if let Some(out) = &args.out {
+        say(format_args!("wrote {}", out.join("report.html").display()));
     }
     Ok(())
 }
@@ -161,12 +171,13 @@ fn print(args: &RunArgs, job: &Job, outcome: &Outcome) -> Result<(), Failure> {
 fn write_files(
     mut folder: OutputFolder,
     args: &RunArgs,
-    model: &ModelFile<'_>,
+    model: &ModelFile,
     job: &Job,
     outcome: &Outcome,
 ) -> Result<(), FileError> {
     let record = job.loaded.description.join("; ");
-    let inputs = [InputText { path: model.name, text: model.text }];
+    let (text, sha256) = (model.text(), sha256_hex(&model.bytes));
+    let inputs = [InputText { path: &model.name, text: &text }];
     let sources: Vec<(String, &str, &str)> = job
         .loaded
         .sources
@@ -174,8 +185,7 @@ fn write_files(
         .zip(&job.loaded.description)
         .map(|(file, what)| (file.path.display().to_string(), file.sha256.as_str(), what.as_str()))
         .collect();
-    let mut files =
-        vec![FileNote { path: model.name, sha256: &model.sha256, description: "model" }];
+    let mut files = vec![FileNote { path: &model.name, sha256: &sha256, description: "model" }];
     files.extend(sources.iter().map(|(path, sha256, what)| FileNote {
         path,
         sha256,
@@ -196,20 +206,11 @@ fn write_files(
         command_line: &command_line,
         display: args.display_units.into(),
     };
-    let in_memory = |source| FileError::Write { path: PathBuf::from("history.csv"), source };
-    let mut summary = outcome.summary.to_json();
-    if !summary.ends_with('\n') {
-        summary.push('\n');
-    }
-    folder.write("summary.json", summary.as_bytes())?;
-    let mut csv = Vec::new();
-    if let Some(history) = &outcome.response.history {
-        history_csv(history, &mut csv).map_err(in_memory)?;
-    }
-    folder.write("history.csv", &csv)?;
-    csv.clear();
-    events_csv(&outcome.response.events, &mut csv).map_err(in_memory)?;
-    folder.write("events.csv", &csv)?;
+    folder.write("summary.json", outcome.summary.to_json().as_bytes())?;
+    let empty = History::default();
+    let history = outcome.response.history.as_ref().unwrap_or(&empty);
+    folder.write_with("history.csv", |to| history_csv(history, to))?;
+    folder.write_with("events.csv", |to| events_csv(&outcome.response.events, to))?;
     folder.write("report.html", report.to_html().as_bytes())?;
     folder.commit()
 }
@@ -226,4 +227,36 @@ fn command_line() -> String {
     };
     let arguments = std::env::args_os().skip(1).map(|a| quoted(a.to_string_lossy().into_owned()));
     std::iter::once("slipstick".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Not to be seen from outside: an exact response that fails its check is a fault of ours.
+    #[test]
+    fn exact_failed_check_is_status_1() {
+        let text = "[block]\nmass = \"1 kg\"\n[slider]\nstatic_friction = 0.2\n\
+                    kinetic_friction = 0.1\nbounds = { lower = 0.5, upper = 2 }\n[motion]\n\
+                    sine = { frequency = \"1 Hz\", amplitude = \"3 m/s2\", duration = \"2 s\", \
+                    dt = \"0.1 s\" }\n";
+        let analysis = input::parse("model.toml", text, &[]).unwrap();
+        let job = Job::new(Path::new("model.toml"), analysis, None).unwrap();
+        let summary = job.run(false).unwrap().summary;
+        assert_eq!(status(&summary), 0);
+        let failed = |run: &Summary| {
+            let mut run = run.clone();
+            run.checks.holds = Some(false);
+            run
+        };
+        assert_eq!(status(&failed(&summary)), 1);
+        let bounds = summary.bounds.clone().unwrap();
+        let beside = |lower, upper| summary.clone().with_bounds(lower, upper);
+        assert_eq!(status(&beside(failed(&bounds.lower), bounds.upper.clone())), 1);
+        assert_eq!(status(&beside(bounds.lower.clone(), failed(&bounds.upper))), 1);
+        // The stepwise method is reported, never judged.
+        let mut stepwise = summary.clone();
+        stepwise.checks.holds = None;
+        assert_eq!(status(&stepwise), 0);
+    }
 }

@@ -1,24 +1,18 @@
 //! Commands that print text: schema, units, completions, manual pages.
 
-use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Command, CommandFactory};
 use clap_complete::Shell;
+use slipstick_files::{FileError, OutputFolder};
 
 use crate::args::{Cli, SchemaArgs};
-use crate::failure::Failure;
+use crate::failure::{Failure, print};
 
 /// Prints the JSON schema of the model file, or the units.
 pub fn schema(args: &SchemaArgs) -> Result<ExitCode, Failure> {
-    let text = if args.units { slipstick::units::table() } else { slipstick::input::json_schema() };
-    let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())?;
-    if !text.ends_with('\n') {
-        out.write_all(b"\n")?;
-    }
-    out.flush()?;
+    print(&if args.units { slipstick::units::table() } else { slipstick::input::json_schema() })?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -26,15 +20,13 @@ pub fn schema(args: &SchemaArgs) -> Result<ExitCode, Failure> {
 pub fn completions(shell: Shell) -> Result<ExitCode, Failure> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Cli::command(), "slipstick", &mut script);
-    let mut out = io::stdout().lock();
-    out.write_all(&script)?;
-    out.flush()?;
+    print(&String::from_utf8_lossy(&script))?;
     Ok(ExitCode::SUCCESS)
 }
 
 /// Writes one manual page a command.
 pub fn man(folder: &Path) -> Result<ExitCode, Failure> {
-    let mut output = slipstick_files::OutputFolder::create(folder, &[])?;
+    let mut output = OutputFolder::create(folder, &[])?;
     let mut command = Cli::command().disable_help_subcommand(true);
     command.build();
     page(&command, "slipstick", &mut output)?;
@@ -45,13 +37,11 @@ pub fn man(folder: &Path) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn page(
-    command: &Command,
-    name: &str,
-    output: &mut slipstick_files::OutputFolder,
-) -> Result<(), Failure> {
+fn page(command: &Command, name: &str, output: &mut OutputFolder) -> Result<(), Failure> {
     let mut text = Vec::new();
-    clap_mangen::Man::new(command.clone()).title(name).render(&mut text)?;
+    let man = clap_mangen::Man::new(command.clone()).title(name);
+    let failed = |source| FileError::Write { path: output.path(&format!("{name}.1")), source };
+    man.render(&mut text).map_err(failed)?;
     output.write(&format!("{name}.1"), &text)?;
     Ok(())
 }

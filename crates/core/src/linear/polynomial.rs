@@ -40,11 +40,12 @@ pub fn derivative(c: &Polynomial) -> Polynomial {
 #[inline(always)]
 #[must_use]
 pub fn curvature_bound(c: &Polynomial) -> f64 {
-    let mut bound = 0.0;
+    // Two sums, that neither has to wait for the other.
+    let mut bound = [0.0; 2];
     for k in 2..=DEGREE {
-        bound += (k * (k - 1)) as f64 * c[k].abs();
+        bound[k % 2] += (k * (k - 1)) as f64 * c[k].abs();
     }
-    bound
+    bound[0] + bound[1]
 }
 
 /// The polynomial over `x^order`: what is left of one whose first `order` coefficients are 0.
@@ -103,7 +104,10 @@ impl Search<'_> {
         if ga <= 0.0 {
             return a;
         }
-        let mut x = a + (b - a) * (ga / (ga - gb));
+        let mut x = self.guess();
+        if !(a < x && x < b) {
+            x = a + (b - a) * (ga / (ga - gb));
+        }
         for _ in 0..100 {
             if !(a < x && x < b) {
                 x = a + 0.5 * (b - a);
@@ -111,20 +115,34 @@ impl Search<'_> {
                     break;
                 }
             }
-            let g = value(self.c, x);
+            let (g, slope) = (value(self.c, x), value(self.slope, x));
             if g < 0.0 {
                 b = x;
             } else {
                 a = x;
             }
-            let step = g / value(self.slope, x);
+            let step = g / slope;
             let next = x - step;
-            if g == 0.0 || next == x || step.abs() <= 2.0 * f64::EPSILON * x {
+            // What Newton's step leaves is at most its square times half the curvature over the
+            // slope.
+            let negligible = 2.0 * f64::EPSILON * x;
+            if g == 0.0
+                || step.abs() <= negligible
+                || self.curvature * (step * step) <= negligible * slope.abs()
+            {
                 return next.clamp(a, b);
             }
             x = next;
         }
         b
+    }
+
+    /// First falling root by the terms up to the third power, or anything.
+    #[inline(always)]
+    fn guess(&self) -> f64 {
+        let [c0, c1, c2, c3] = [self.c[0], self.c[1], self.c[2], self.c[3]];
+        let x = 2.0 * c0 / ((c1 * c1 - 4.0 * c0 * c2).sqrt() - c1);
+        x - c3 * (x * x * x) / (c1 + 2.0 * c2 * x)
     }
 }
 

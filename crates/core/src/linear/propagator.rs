@@ -10,7 +10,7 @@ use super::system::{PerStorey, System};
 /// and end. In stick the block's own components do not change and friction has no effect.
 #[derive(Clone, Debug)]
 pub struct Propagator<V: PerStorey> {
-    state: Vec<V::Flat>,
+    state: V::Columns,
     acceleration: [V::Flat; 2],
     friction: [V::Flat; 2],
 }
@@ -24,16 +24,19 @@ impl<V: PerStorey> Propagator<V> {
         let mut end_of = |state, ends| end(system, slip, length_s, state, ends, &mut series);
         let zeros = || State::<V>::zeros(n);
         let still = [[0.0; 2]; 2];
+        let mut state = V::columns_zeros(n);
+        for (j, column) in state.as_mut().iter_mut().enumerate().skip(if slip { 0 } else { 2 }) {
+            let mut unit = zeros();
+            unit.0.as_mut()[j] = 1.0;
+            *column = end_of(unit, still);
+        }
         Self {
-            state: (0..2 * n + 2)
-                .map(|j| {
-                    let mut unit = zeros();
-                    unit.0.as_mut()[j] = 1.0;
-                    end_of(unit, still)
-                })
-                .collect(),
+            state,
             acceleration: [[1.0, 0.0], [0.0, 1.0]].map(|a| end_of(zeros(), [a, [0.0; 2]])),
-            friction: [[1.0, 0.0], [0.0, 1.0]].map(|t| end_of(zeros(), [[0.0; 2], t])),
+            friction: [[1.0, 0.0], [0.0, 1.0]].map(|t| match slip {
+                true => end_of(zeros(), [[0.0; 2], t]),
+                false => zeros().0,
+            }),
         }
     }
 
@@ -42,15 +45,9 @@ impl<V: PerStorey> Propagator<V> {
     #[must_use]
     pub fn slip(&self, x: &State<V>, acceleration: [f64; 2], friction: [f64; 2]) -> State<V> {
         let mut out = x.clone();
-        let dimension = out.0.as_ref().len();
-        let (x, columns) = (x.0.as_ref(), &self.state[..dimension]);
-        let [a, b] = self.acceleration.each_ref().map(|column| &column.as_ref()[..dimension]);
-        let [c, d] = self.friction.each_ref().map(|column| &column.as_ref()[..dimension]);
-        for (i, out) in out.0.as_mut().iter_mut().enumerate() {
-            let load = (a[i] * acceleration[0] + b[i] * acceleration[1])
-                + (c[i] * friction[0] + d[i] * friction[1]);
-            *out = load + combination(columns, x, i, 0);
-        }
+        combine(out.0.as_mut(), self.friction.each_ref().map(AsRef::as_ref), friction);
+        add(out.0.as_mut(), self.acceleration.each_ref().map(AsRef::as_ref), acceleration);
+        self.add_state(&mut out, x, 0);
         out
     }
 
@@ -59,27 +56,37 @@ impl<V: PerStorey> Propagator<V> {
     #[must_use]
     pub fn stick(&self, x: &State<V>, acceleration: [f64; 2]) -> State<V> {
         let mut out = x.clone();
-        let dimension = out.0.as_ref().len();
-        let (x, columns) = (x.0.as_ref(), &self.state[..dimension]);
-        let [a, b] = self.acceleration.each_ref().map(|column| &column.as_ref()[..dimension]);
-        for (i, out) in out.0.as_mut().iter_mut().enumerate().skip(2) {
-            let load = a[i] * acceleration[0] + b[i] * acceleration[1];
-            *out = load + combination(columns, x, i, 2);
-        }
+        let columns = self.acceleration.each_ref().map(|column| &column.as_ref()[2..]);
+        combine(&mut out.0.as_mut()[2..], columns, acceleration);
+        self.add_state(&mut out, x, 2);
         out
+    }
+
+    /// Adds what the components of `x` from `first` leave behind in themselves, in pairs.
+    #[inline(always)]
+    fn add_state(&self, out: &mut State<V>, x: &State<V>, first: usize) {
+        let (out, x, columns) = (out.0.as_mut(), x.0.as_ref(), self.state.as_ref());
+        let mut j = first;
+        while j + 1 < x.len() {
+            let pair = [&columns[j].as_ref()[first..], &columns[j + 1].as_ref()[first..]];
+            add(&mut out[first..], pair, [x[j], x[j + 1]]);
+            j += 2;
+        }
     }
 }
 
-/// Row `i` of the columns from `first` on times `x`, in pairs.
 #[inline(always)]
-fn combination<F: AsRef<[f64]>>(columns: &[F], x: &[f64], i: usize, first: usize) -> f64 {
-    let mut sum = 0.0;
-    let mut j = first;
-    while j + 1 < x.len() {
-        sum += columns[j].as_ref()[i] * x[j] + columns[j + 1].as_ref()[i] * x[j + 1];
-        j += 2;
+fn combine(out: &mut [f64], [a, b]: [&[f64]; 2], [x, y]: [f64; 2]) {
+    for (out, (a, b)) in out.iter_mut().zip(a.iter().zip(b)) {
+        *out = a * x + b * y;
     }
-    sum
+}
+
+#[inline(always)]
+fn add(out: &mut [f64], [a, b]: [&[f64]; 2], [x, y]: [f64; 2]) {
+    for (out, (a, b)) in out.iter_mut().zip(a.iter().zip(b)) {
+        *out += a * x + b * y;
+    }
 }
 
 /// State at the end of a sample, by as many series as its length needs.

@@ -66,17 +66,13 @@ pub struct Load {
 
 /// Taylor coefficients over an interval, in time over the interval's length.
 ///
-/// Beside the state they hold `f` and `u` (see [`System`]), of which accelerations and demand are
-/// made. With `rate × length ≤ MAX_RATE_STEP` the first term left out is below 3e-17 of the
-/// largest.
+/// With `rate × length ≤ MAX_RATE_STEP` the first term left out is below 3e-17 of the largest.
 #[derive(Clone, Debug)]
 pub struct Series<V: PerStorey> {
     /// `s`.
     pub s: Polynomial,
     /// `ṡ`.
     pub w: Polynomial,
-    /// `u = s̈ + a`.
-    pub u: Polynomial,
     /// `η`, one entry a coefficient.
     pub eta: [V; DEGREE + 1],
     /// `η̇`.
@@ -94,85 +90,90 @@ impl<V: PerStorey> Series<V> {
     pub fn zeros(n: usize) -> Self {
         let room = || core::array::from_fn(|_| V::zeros(n));
         let zero = [0.0; DEGREE + 1];
-        Self { s: zero, w: zero, u: zero, eta: room(), eta_dot: room(), f: room() }
+        Self { s: zero, w: zero, eta: room(), eta_dot: room(), f: room() }
     }
 
     /// Motion in slip from `state` over `length_s`.
-    #[inline(always)]
     pub fn slip(&mut self, system: &System<V>, state: &State<V>, load: &Load, length_s: f64) {
-        let over_mass = 1.0 / system.block_mass_kg;
-        let (k1, c1) = (system.stiffness_n_per_m * over_mass, system.damper_n_s_per_m * over_mass);
-        self.start(state);
-        for k in 0..=DEGREE {
-            let (friction, acceleration) = match k {
-                0 => (load.friction * over_mass, load.acceleration),
-                1 => (load.friction_change * over_mass, load.acceleration_change),
-                _ => (0.0, 0.0),
-            };
-            let (eta, eta_dot) = (self.eta[k].as_ref(), self.eta_dot[k].as_ref());
-            system.restoring_into(eta, eta_dot, self.f[k].as_mut());
-            let shear = system.base_shear_n(self.f[k].as_ref()) * over_mass;
-            self.u[k] = (friction - c1 * self.w[k]) + (shear - k1 * self.s[k]);
-            if k < DEGREE {
-                let step = length_s * RECIPROCAL[k + 1];
-                self.s[k + 1] = step * self.w[k];
-                self.w[k + 1] = step * (self.u[k] - acceleration);
-                self.step_structure(system, k, step, self.u[k]);
-            }
+        self.start(state, state.w());
+        let per_mass = system.per_block_mass;
+        self.step::<true>(system, 0, length_s, load.acceleration, load.friction * per_mass);
+        let (a, friction) = (load.acceleration_change, load.friction_change);
+        self.step::<true>(system, 1, length_s, a, friction * per_mass);
+        for k in 2..DEGREE {
+            self.step::<true>(system, k, length_s, 0.0, 0.0);
         }
+        self.restore(system, DEGREE);
     }
 
     /// Motion in stick from `state` (whose `ṡ` is taken as 0) over `length_s`.
-    #[inline(always)]
     pub fn stick(&mut self, system: &System<V>, state: &State<V>, load: &Load, length_s: f64) {
-        self.start(state);
-        self.s = [0.0; DEGREE + 1];
-        self.w = [0.0; DEGREE + 1];
-        self.u = [0.0; DEGREE + 1];
-        self.s[0] = state.s();
-        (self.u[0], self.u[1]) = (load.acceleration, load.acceleration_change);
-        for k in 0..=DEGREE {
-            let (eta, eta_dot) = (self.eta[k].as_ref(), self.eta_dot[k].as_ref());
-            system.restoring_into(eta, eta_dot, self.f[k].as_mut());
-            if k < DEGREE {
-                self.step_structure(system, k, length_s * RECIPROCAL[k + 1], self.u[k]);
-            }
+        (self.s, self.w) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
+        self.start(state, 0.0);
+        self.step::<false>(system, 0, length_s, load.acceleration, 0.0);
+        self.step::<false>(system, 1, length_s, load.acceleration_change, 0.0);
+        for k in 2..DEGREE {
+            self.step::<false>(system, k, length_s, 0.0, 0.0);
         }
+        self.restore(system, DEGREE);
     }
 
     #[inline(always)]
-    fn start(&mut self, state: &State<V>) {
-        (self.s[0], self.w[0]) = (state.s(), state.w());
+    fn start(&mut self, state: &State<V>, w: f64) {
+        (self.s[0], self.w[0]) = (state.s(), w);
         self.eta[0].as_mut().copy_from_slice(state.eta());
         self.eta_dot[0].as_mut().copy_from_slice(state.eta_dot());
     }
 
-    /// `η` and `η̇` of order `k + 1`: `η̈ = −f − L u`.
+    /// Coefficients of order `k + 1` from those of order `k` under a table acceleration and, in
+    /// slip, a friction force over `M1`. Products that can go ahead of the block's acceleration
+    /// do, as each order has to wait for it.
     #[inline(always)]
-    fn step_structure(&mut self, system: &System<V>, k: usize, step: f64, u: f64) {
-        let l = system.participation.as_ref();
-        let f = self.f[k].as_ref();
-        let (eta, eta_dot) = (&mut self.eta, &mut self.eta_dot);
-        let (now, next) = eta_dot.split_at_mut(k + 1);
-        let now = now[k].as_ref();
-        for (j, next) in next[0].as_mut().iter_mut().enumerate() {
-            *next = -step * (f[j] + l[j] * u);
+    fn step<const SLIP: bool>(
+        &mut self,
+        system: &System<V>,
+        k: usize,
+        length_s: f64,
+        a: f64,
+        friction: f64,
+    ) {
+        let step = length_s * RECIPROCAL[k + 1];
+        self.restore(system, k);
+        let mut u = a;
+        if SLIP {
+            let (eta, eta_dot) = (self.eta[k].as_ref(), self.eta_dot[k].as_ref());
+            u = system.block_response(self.s[k], self.w[k], eta, eta_dot, friction);
+            self.w[k + 1] = step * (u - a);
+            self.s[k + 1] = step * self.w[k];
         }
-        for (j, next) in eta[k + 1].as_mut().iter_mut().enumerate() {
-            *next = step * now[j];
+        let (l, f) = (system.participation.as_ref(), self.f[k].as_ref());
+        let (now, next) = self.eta_dot.split_at_mut(k + 1);
+        for (j, next) in next[0].as_mut().iter_mut().enumerate() {
+            *next = -step * f[j] - (step * l[j]) * u;
+        }
+        for (next, now) in self.eta[k + 1].as_mut().iter_mut().zip(now[k].as_ref()) {
+            *next = step * now;
         }
     }
 
-    /// The demand `T = M1 a + K1 s − L·f` of stick.
+    /// `f` of order `k`.
+    #[inline(always)]
+    fn restore(&mut self, system: &System<V>, k: usize) {
+        let (eta, eta_dot) = (self.eta[k].as_ref(), self.eta_dot[k].as_ref());
+        system.restoring_into(eta, eta_dot, self.f[k].as_mut());
+    }
+
+    /// The demand `T = M1 a + K1 s − L·f` of stick under a load.
     #[inline(always)]
     #[must_use]
-    pub fn demand(&self, system: &System<V>) -> Polynomial {
+    pub fn demand(&self, system: &System<V>, load: &Load) -> Polynomial {
         let mut demand = [0.0; DEGREE + 1];
         for (k, demand) in demand.iter_mut().enumerate() {
             *demand = -system.base_shear_n(self.f[k].as_ref());
         }
-        demand[0] += system.block_mass_kg * self.u[0] + system.stiffness_n_per_m * self.s[0];
-        demand[1] += system.block_mass_kg * self.u[1];
+        demand[0] +=
+            system.block_mass_kg * load.acceleration + system.stiffness_n_per_m * self.s[0];
+        demand[1] += system.block_mass_kg * load.acceleration_change;
         demand
     }
 

@@ -12,6 +12,12 @@ pub trait PerStorey: Clone + core::fmt::Debug + AsRef<[f64]> + AsMut<[f64]> {
     /// Storage of a [`State`](super::State): two values of the block and two a storey.
     type Flat: Clone + core::fmt::Debug + PartialEq + AsRef<[f64]> + AsMut<[f64]>;
 
+    /// Storage of a matrix over the storeys.
+    type Square: Clone + core::fmt::Debug + AsRef<[f64]> + AsMut<[f64]>;
+
+    /// Storage of a matrix over states, column by column.
+    type Columns: Clone + core::fmt::Debug + AsRef<[Self::Flat]> + AsMut<[Self::Flat]>;
+
     /// Zeros for `n` storeys.
     fn zeros(n: usize) -> Self;
 
@@ -20,11 +26,19 @@ pub trait PerStorey: Clone + core::fmt::Debug + AsRef<[f64]> + AsMut<[f64]> {
 
     /// The same value for all tracked quantities of `n` storeys.
     fn tracked(n: usize, value: f64) -> Self::Tracked;
+
+    /// A matrix of zeros over `n` storeys.
+    fn square_zeros(n: usize) -> Self::Square;
+
+    /// A matrix of zeros over the states of `n` storeys.
+    fn columns_zeros(n: usize) -> Self::Columns;
 }
 
 impl PerStorey for [f64; 0] {
     type Tracked = [f64; 6];
     type Flat = [f64; 2];
+    type Square = [f64; 0];
+    type Columns = [[f64; 2]; 2];
 
     fn zeros(_: usize) -> Self {
         []
@@ -37,11 +51,21 @@ impl PerStorey for [f64; 0] {
     fn tracked(_: usize, value: f64) -> Self::Tracked {
         [value; 6]
     }
+
+    fn square_zeros(_: usize) -> Self::Square {
+        []
+    }
+
+    fn columns_zeros(_: usize) -> Self::Columns {
+        [[0.0; 2]; 2]
+    }
 }
 
 impl PerStorey for [f64; 1] {
     type Tracked = [f64; 9];
     type Flat = [f64; 4];
+    type Square = [f64; 1];
+    type Columns = [[f64; 4]; 4];
 
     fn zeros(_: usize) -> Self {
         [0.0]
@@ -54,11 +78,21 @@ impl PerStorey for [f64; 1] {
     fn tracked(_: usize, value: f64) -> Self::Tracked {
         [value; 9]
     }
+
+    fn square_zeros(_: usize) -> Self::Square {
+        [0.0]
+    }
+
+    fn columns_zeros(_: usize) -> Self::Columns {
+        [[0.0; 4]; 4]
+    }
 }
 
 impl PerStorey for Vec<f64> {
     type Tracked = Self;
     type Flat = Self;
+    type Square = Self;
+    type Columns = Vec<Self>;
 
     fn zeros(n: usize) -> Self {
         vec![0.0; n]
@@ -70,6 +104,14 @@ impl PerStorey for Vec<f64> {
 
     fn tracked(n: usize, value: f64) -> Self::Tracked {
         vec![value; 6 + 3 * n]
+    }
+
+    fn square_zeros(n: usize) -> Self::Square {
+        vec![0.0; n * n]
+    }
+
+    fn columns_zeros(n: usize) -> Self::Columns {
+        vec![vec![0.0; 2 + 2 * n]; 2 + 2 * n]
     }
 }
 
@@ -86,17 +128,23 @@ impl PerStorey for Vec<f64> {
 /// `η` are the fixed-base modes where damping is a ratio (Ω and D diagonal), else the floors
 /// themselves (Ω and D tridiagonal): either way neighbours couple at most.
 #[derive(Clone, Debug)]
-pub struct System<V> {
+pub struct System<V: PerStorey> {
     /// Mass of the block `M1` in kg.
     pub block_mass_kg: f64,
+    /// `1 / M1`: a product is cheaper than a division.
+    pub per_block_mass: f64,
     /// Stiffness `K1` in N/m.
     pub stiffness_n_per_m: f64,
     /// Damper `C1` in N s/m.
     pub damper_n_s_per_m: f64,
     /// `L` in kg^(1/2).
     pub participation: V,
-    /// `Φ` in kg^(−1/2), row by row: floor `i`, coordinate `j` at `i * n + j`.
-    pub shapes: Vec<f64>,
+    /// `Ω L / M1` and `D L / M1`: what `η` and `η̇` do to the block's acceleration.
+    block_rows: [V; 2],
+    /// `K1 / M1` and `C1 / M1`: what `s` and `ṡ` take from it.
+    block_own: [f64; 2],
+    /// `Φ` in kg^(−1/2), column by column: floor `i`, coordinate `j` at `i + j * n`.
+    pub shapes: V::Square,
     /// Bound on the rates of stick in rad/s: of `‖A x‖` over `‖x‖` in the energy norm.
     pub stick_rate_rad_per_s: f64,
     /// Bound on the rates of slip in rad/s, not below that of stick.
@@ -132,10 +180,13 @@ impl<V: PerStorey> System<V> {
         let n = masses_kg.len();
         let mut system = Self {
             block_mass_kg,
+            per_block_mass: 1.0 / block_mass_kg,
             stiffness_n_per_m,
             damper_n_s_per_m,
             participation: V::zeros(n),
-            shapes: vec![0.0; n * n],
+            block_rows: [V::zeros(n), V::zeros(n)],
+            block_own: [0.0; 2],
+            shapes: V::square_zeros(n),
             stick_rate_rad_per_s: 0.0,
             slip_rate_rad_per_s: 0.0,
             stiffness: V::zeros(n),
@@ -152,9 +203,17 @@ impl<V: PerStorey> System<V> {
                 system.in_floors(masses_kg, stiffnesses_n_per_m, dampers);
             }
         }
-        let (participation, shapes) = (system.participation.as_mut(), &system.shapes);
+        let (participation, shapes) = (system.participation.as_mut(), system.shapes.as_ref());
         for (j, l) in participation.iter_mut().enumerate() {
-            *l = (0..n).fold(0.0, |sum, i| sum + shapes[i * n + j] * masses_kg[i]);
+            *l = dot(&shapes[j * n..(j + 1) * n], masses_kg);
+        }
+        let (l, zero) = (system.participation.clone(), V::zeros(n));
+        let pull = system.restoring(l.as_ref(), zero.as_ref());
+        let drag = system.restoring(zero.as_ref(), l.as_ref());
+        for (row, force) in system.block_rows.iter_mut().zip([&pull, &drag]) {
+            for (row, force) in row.as_mut().iter_mut().zip(force.as_ref()) {
+                *row = force * system.per_block_mass;
+            }
         }
         system.set_rates();
         system
@@ -167,7 +226,7 @@ impl<V: PerStorey> System<V> {
             // Without the detour through the frequency, which costs two roundings.
             self.stiffness.as_mut()[0] = stiffnesses_n_per_m[0] / masses_kg[0];
             self.damping.as_mut()[0] = 2.0 * ratio * (stiffnesses_n_per_m[0] / masses_kg[0]).sqrt();
-            self.shapes[0] = 1.0 / masses_kg[0].sqrt();
+            self.shapes.as_mut()[0] = 1.0 / masses_kg[0].sqrt();
             return;
         }
         let modes = shear_frame_modes(masses_kg, stiffnesses_n_per_m);
@@ -175,7 +234,12 @@ impl<V: PerStorey> System<V> {
             self.stiffness.as_mut()[j] = omega * omega;
             self.damping.as_mut()[j] = 2.0 * ratio * omega;
         }
-        self.shapes = modes.shapes;
+        let shapes = self.shapes.as_mut();
+        for i in 0..n {
+            for j in 0..n {
+                shapes[i + j * n] = modes.shapes[i * n + j];
+            }
+        }
     }
 
     /// Mass-weighted floors as coordinates: Ω and D tridiagonal.
@@ -195,7 +259,7 @@ impl<V: PerStorey> System<V> {
             }
         }
         for i in 0..n {
-            self.shapes[i * n + i] = 1.0 / masses_kg[i].sqrt();
+            self.shapes.as_mut()[i * n + i] = 1.0 / masses_kg[i].sqrt();
         }
     }
 
@@ -213,15 +277,13 @@ impl<V: PerStorey> System<V> {
         };
         let omega2 = row_sum(&self.stiffness, &self.stiffness_next);
         let decay = row_sum(&self.damping, &self.damping_next);
-        let (l, zero) = (self.participation.clone(), V::zeros(n));
-        let (l, zero) = (l.as_ref(), zero.as_ref());
-        let pull = dot(l, self.restoring(l, zero).as_ref());
-        let drag = dot(l, self.restoring(zero, l).as_ref());
+        let l = self.participation.as_ref();
+        let [pull, drag] = self.block_rows.each_ref().map(|row| dot(l, row.as_ref()));
+        let [spring, damper] =
+            [self.stiffness_n_per_m, self.damper_n_s_per_m].map(|c| c * self.per_block_mass);
+        self.block_own = [spring, damper];
         self.stick_rate_rad_per_s = omega2.sqrt() + decay;
-        self.slip_rate_rad_per_s = (omega2 + (self.stiffness_n_per_m + pull) / self.block_mass_kg)
-            .sqrt()
-            + decay
-            + (self.damper_n_s_per_m + drag) / self.block_mass_kg;
+        self.slip_rate_rad_per_s = (omega2 + (spring + pull)).sqrt() + decay + (damper + drag);
     }
 
     /// Number of storeys.
@@ -260,6 +322,37 @@ impl<V: PerStorey> System<V> {
     #[must_use]
     pub fn base_shear_n(&self, f: &[f64]) -> f64 {
         dot(self.participation.as_ref(), f)
+    }
+
+    /// Acceleration `u` of the block in slip under a friction force and a base shear.
+    #[inline(always)]
+    #[must_use]
+    pub fn block_acceleration(&self, s: f64, w: f64, shear_n: f64, friction_n: f64) -> f64 {
+        ((friction_n - self.damper_n_s_per_m * w) + (shear_n - self.stiffness_n_per_m * s))
+            * self.per_block_mass
+    }
+
+    /// The force `M1 a + K1 s − L·f` that keeps the block stuck, eqs (8), (14).
+    #[inline(always)]
+    #[must_use]
+    pub fn demand_n(&self, s: f64, shear_n: f64, a: f64) -> f64 {
+        (self.block_mass_kg * a + self.stiffness_n_per_m * s) - shear_n
+    }
+
+    /// The same, coefficient by coefficient in a series, under a friction force over `M1`.
+    #[inline(always)]
+    #[must_use]
+    pub fn block_response(
+        &self,
+        s: f64,
+        w: f64,
+        eta: &[f64],
+        eta_dot: &[f64],
+        friction: f64,
+    ) -> f64 {
+        let [of_eta, of_eta_dot] = self.block_rows.each_ref().map(AsRef::as_ref);
+        let [of_s, of_w] = self.block_own;
+        ((friction - of_s * s) + dot(of_eta, eta)) + (dot(of_eta_dot, eta_dot) - of_w * w)
     }
 
     /// `ẍ`'s size: the energy norm of the second derivative of the state, in N^(1/2) m^(1/2) s⁻².
@@ -319,10 +412,25 @@ impl<V: PerStorey> System<V> {
     }
 
     /// Floor values `Φ η` of coordinates `η`.
+    #[inline(always)]
     pub fn floors(&self, eta: &[f64], out: &mut [f64]) {
-        for (row, out) in self.shapes.chunks_exact(eta.len().max(1)).zip(out) {
-            *out = dot(row, eta);
+        let (n, shapes) = (eta.len(), self.shapes.as_ref());
+        for (j, eta) in eta.iter().enumerate() {
+            for (out, shape) in out.iter_mut().zip(&shapes[j * n..(j + 1) * n]) {
+                *out = if j == 0 { shape * eta } else { *out + shape * eta };
+            }
         }
+    }
+
+    /// Row of `Φ`: what the coordinates do to one floor.
+    #[must_use]
+    pub fn floor(&self, floor: usize) -> V {
+        let n = self.storeys();
+        let mut row = V::zeros(n);
+        for (j, row) in row.as_mut().iter_mut().enumerate() {
+            *row = self.shapes.as_ref()[floor + j * n];
+        }
+        row
     }
 
     /// Coordinates `η = Φᵀ M q` of floor values `q`.
@@ -331,8 +439,8 @@ impl<V: PerStorey> System<V> {
         let n = self.storeys();
         let mut eta = V::zeros(n);
         for (j, eta) in eta.as_mut().iter_mut().enumerate() {
-            *eta =
-                (0..n).fold(0.0, |sum, i| sum + self.shapes[i * n + j] * masses_kg[i] * floors[i]);
+            let shape = &self.shapes.as_ref()[j * n..(j + 1) * n];
+            *eta = (0..n).fold(0.0, |sum, i| sum + shape[i] * masses_kg[i] * floors[i]);
         }
         eta
     }
@@ -341,9 +449,7 @@ impl<V: PerStorey> System<V> {
 /// Sum of products in order, from the first.
 #[inline(always)]
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sum = 0.0;
-    for (x, y) in a.iter().zip(b) {
-        sum += x * y;
-    }
-    sum
+    let mut products = a.iter().zip(b).map(|(x, y)| x * y);
+    let Some(first) = products.next() else { return 0.0 };
+    products.fold(first, |sum, product| sum + product)
 }

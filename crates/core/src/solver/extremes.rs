@@ -7,6 +7,8 @@
 //! are kept; what is still in question at the end, or when too many have gathered, is looked at
 //! by its Taylor polynomial.
 
+use core::ops::Range;
+
 use super::excitation::{Excitation, Stretch};
 use crate::linear::polynomial::{DEGREE, largest};
 use crate::linear::{MAX_RATE_STEP, PerStorey, Series, State, System};
@@ -54,6 +56,65 @@ struct Piece<V: PerStorey> {
     state: State<V>,
     above: V::Tracked,
     below: V::Tracked,
+}
+
+/// Between which values the ends of a piece must lie for it to be dismissed.
+pub(super) struct Limits<V: PerStorey> {
+    above: V::Tracked,
+    below: V::Tracked,
+}
+
+impl<V: PerStorey> Limits<V> {
+    /// Limits for friction force and acceleration of the block in stick, where the slider takes
+    /// the friction force less `spring_n`.
+    #[inline(always)]
+    pub(super) fn stick(&self, spring_n: f64) -> StickLimits {
+        let of = |j: usize| [self.below.as_ref()[j], self.above.as_ref()[j]];
+        let (friction, slider) = (of(tracked::FRICTION), of(tracked::SLIDER));
+        StickLimits {
+            friction_n: [
+                friction[0].max(slider[0] + spring_n),
+                friction[1].min(slider[1] + spring_n),
+            ],
+            acceleration: of(tracked::BLOCK),
+        }
+    }
+
+    /// Whether all values keep the limits, or all but a few.
+    #[inline(always)]
+    pub(super) fn hold(&self, values: &V::Tracked, but: Range<usize>) -> bool {
+        let (above, below, y) = (self.above.as_ref(), self.below.as_ref(), values.as_ref());
+        // One storey's drift is its displacement, and its acceleration goes with the base shear.
+        let one_storey = y.len() == tracked::STOREYS + 3;
+        // Left at the first: in one go the compiler would gather into vectors what has just been
+        // stored one by one, and wait for the stores.
+        for j in 0..y.len() {
+            let redundant = j == tracked::BASE_SHEAR || j == tracked::STOREYS + 1;
+            if but.contains(&j) || (one_storey && redundant) {
+                continue;
+            }
+            if !(below[j] <= y[j] && y[j] <= above[j]) {
+                return false;
+            }
+        }
+        true
+    }
+}
+
+/// [`Limits`] of the values that in stick have kinks where the load has.
+#[derive(Clone, Copy)]
+pub(super) struct StickLimits {
+    friction_n: [f64; 2],
+    acceleration: [f64; 2],
+}
+
+impl StickLimits {
+    /// Whether the values at an instant keep the limits.
+    #[inline(always)]
+    pub(super) fn hold(&self, friction_n: f64, acceleration: f64) -> bool {
+        let inside = |x: f64, [below, above]: [f64; 2]| below <= x && x <= above;
+        inside(friction_n, self.friction_n) && inside(acceleration, self.acceleration)
+    }
 }
 
 /// Where a piece of motion lies, for a second look.
@@ -122,8 +183,9 @@ impl<V: PerStorey> Extremes<V> {
         for i in 0..n {
             let storey = 1.0 / model.frame().stiffnesses_n_per_m[i];
             flexibility += storey;
-            let row = &system.shapes[i * n..(i + 1) * n];
-            let acceleration = system.dual_norm(0.0, 0.0, row, system.drag(row).as_ref());
+            let row = system.floor(i);
+            let drag = system.drag(row.as_ref());
+            let acceleration = system.dual_norm(0.0, 0.0, row.as_ref(), drag.as_ref());
             for norm in [&mut *slip, &mut *stick] {
                 norm[tracked::STOREYS + i] = flexibility.sqrt();
                 norm[tracked::STOREYS + n + i] = storey.sqrt();
@@ -132,14 +194,12 @@ impl<V: PerStorey> Extremes<V> {
         }
     }
 
-    /// Dual norm of the sliding velocity.
-    pub(super) fn velocity_norm(&self) -> f64 {
-        self.slip_norm.as_ref()[tracked::VELOCITY]
-    }
-
-    /// Dual norm of the demand of stick.
-    pub(super) fn demand_norm(&self) -> f64 {
-        self.stick_norm.as_ref()[tracked::FRICTION]
+    /// Dual norm of what ends a mode: the demand in stick, the sliding velocity in slip.
+    pub(super) fn event_norm(&self, mode: Mode) -> f64 {
+        match mode {
+            Mode::Stick => self.stick_norm.as_ref()[tracked::FRICTION],
+            Mode::Slip(_) => self.slip_norm.as_ref()[tracked::VELOCITY],
+        }
     }
 
     /// Values of the tracked quantities in a state, or coefficient by coefficient in a series.
@@ -181,33 +241,23 @@ impl<V: PerStorey> Extremes<V> {
         out
     }
 
-    /// Whether a piece may hold more than what has been attained, by the values at both ends;
-    /// `reach` is `length²/8` times the norm of `ẍ`.
+    /// Limits for the values at both ends of a piece, `reach` being `length²/8` times the norm of
+    /// `ẍ`: where they hold, the piece holds no more than has been attained.
     #[inline(always)]
-    pub(super) fn may_exceed(
-        &self,
-        start: &V::Tracked,
-        end: &V::Tracked,
-        reach: f64,
-        mode: Mode,
-    ) -> bool {
+    pub(super) fn limits(&self, reach: f64, mode: Mode) -> Limits<V> {
         let norm = match mode {
             Mode::Stick => &self.stick_norm,
             Mode::Slip(_) => &self.slip_norm,
         };
-        let (start, end, norm) = (start.as_ref(), end.as_ref(), norm.as_ref());
-        let (up, down) = (self.largest.as_ref(), self.smallest.as_ref());
-        // Left at the first: in one go the compiler would gather into vectors what has just been
-        // stored one by one, and wait for the stores.
-        for j in 0..start.len() {
-            let (low, high) =
-                if start[j] < end[j] { (start[j], end[j]) } else { (end[j], start[j]) };
-            let slack = reach * norm[j];
-            if high + slack > up[j] || low - slack < down[j] {
-                return true;
-            }
+        let mut limits: Limits<V> =
+            Limits { above: self.largest.clone(), below: self.smallest.clone() };
+        let (above, below) = (limits.above.as_mut(), limits.below.as_mut());
+        for (j, norm) in norm.as_ref().iter().enumerate() {
+            let slack = reach * norm;
+            above[j] -= slack;
+            below[j] += slack;
         }
-        false
+        limits
     }
 
     /// Takes the values at an instant.
@@ -316,12 +366,18 @@ impl<V: PerStorey> Extremes<V> {
                 (friction[0], friction[1]) = (load.friction, load.friction_change);
             } else {
                 series.stick(system, &state, &load, length_s);
-                friction = series.demand(system);
+                friction = series.demand(system, &load);
             }
             let coefficients: [V::Tracked; DEGREE + 1] = core::array::from_fn(|k| {
                 let (eta, f) = (series.eta[k].as_ref(), series.f[k].as_ref());
                 let shear = system.base_shear_n(f);
-                let (s, w, u) = (series.s[k], series.w[k], series.u[k]);
+                let (s, w) = (series.s[k], series.w[k]);
+                let u = match (direction, k) {
+                    (Some(_), _) => system.block_acceleration(s, w, shear, friction[k]),
+                    (None, 0) => load.acceleration,
+                    (None, 1) => load.acceleration_change,
+                    (None, _) => 0.0,
+                };
                 self.values(system, s, w, eta, f, shear, u, friction[k])
             });
             for j in 0..tracked {
@@ -354,7 +410,7 @@ fn overturning_arm<V: PerStorey>(model: &Model, system: &System<V>) -> Option<(V
     for (i, height_m) in heights_m.iter().enumerate() {
         above_m += height_m;
         for (j, arm) in arm.as_mut().iter_mut().enumerate() {
-            *arm += frame.masses_kg[i] * above_m * system.shapes[i * n + j];
+            *arm += frame.masses_kg[i] * above_m * system.shapes.as_ref()[i + j * n];
         }
     }
     Some((arm, 0.5 * block_height_m * block.mass_kg))

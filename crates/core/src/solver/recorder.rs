@@ -87,21 +87,17 @@ impl<V: PerStorey> Recorder<V> for Everything {
             Mode::Slip(_) => knot.u - slope,
         });
         h.friction_force_n.push(knot.friction_n);
-        let n = system.storeys();
-        let start = h.storey_displacement_m.len();
-        for column in [
-            &mut h.storey_displacement_m,
-            &mut h.storey_velocity_m_per_s,
-            &mut h.storey_acceleration_m_per_s2,
-        ] {
-            column.resize(start + n, 0.0);
-        }
-        system.floors(knot.state.eta(), &mut h.storey_displacement_m[start..]);
-        system.floors(knot.state.eta_dot(), &mut h.storey_velocity_m_per_s[start..]);
-        let accelerations = &mut h.storey_acceleration_m_per_s2[start..];
-        system.floors(knot.f, accelerations);
-        for a in accelerations {
+        let floors = |coordinates: &[f64]| {
+            let mut values = V::zeros(coordinates.len());
+            system.floors(coordinates, values.as_mut());
+            values
+        };
+        let mut accelerations = floors(knot.f);
+        for a in accelerations.as_mut() {
             *a = -*a - slope;
         }
+        h.storey_displacement_m.extend_from_slice(floors(knot.state.eta()).as_ref());
+        h.storey_velocity_m_per_s.extend_from_slice(floors(knot.state.eta_dot()).as_ref());
+        h.storey_acceleration_m_per_s2.extend_from_slice(accelerations.as_ref());
     }
 }

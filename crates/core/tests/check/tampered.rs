@@ -129,6 +129,16 @@ fn exact_one_changed_value_shows() {
     }
 }
 
+/// Without a spring the equations do not know where the block stands; its start does.
+#[test]
+fn exact_other_start_shows() {
+    let system = systems().swap_remove(0);
+    let mut shifted = history_of(&system);
+    let shift_m = 1e-7 * peak(&shifted.sliding_displacement_m);
+    shifted.sliding_displacement_m.iter_mut().for_each(|s| *s += shift_m);
+    must_show(&system, &shifted, "another start");
+}
+
 #[test]
 fn exact_damping_left_out_shows() {
     for system in systems() {

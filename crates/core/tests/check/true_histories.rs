@@ -316,7 +316,7 @@ fn exact_demand_between_knots_counts() {
         };
         let frame = frame(&[m], &[k], Damping::Ratio(0.0));
         let slider = slider(coulomb([mu; 2], [mu; 2]));
-        let end_s = 0.8 * core::f64::consts::PI / omega;
+        let end_s = 0.83 * core::f64::consts::PI / omega;
         let system = System {
             name: "swinging on a block that holds",
             model: Model::new(block(block_kg), slider, frame, G, initial).unwrap(),

@@ -252,12 +252,13 @@ impl Run {
         }
         self.fresh = false;
         let mut series = self.system.series(&self.state, load, h, self.sign);
+        let noise = self.velocity_noise(&series, load, h);
         let root = if self.sign == 0 {
             let bounds = self.bounds(&series, load);
             let roots = bounds.iter().filter_map(|(bound, noise)| first_root(bound, *noise));
             roots.reduce(|a, b| if a < b { a } else { b })
         } else {
-            first_root(&series.w, self.velocity_noise(&series))
+            first_root(&series.w, noise)
         };
         if let Some(to) = root {
             series.cut(to);
@@ -270,24 +271,28 @@ impl Run {
             q: series.q.iter().map(at).collect(),
             v: series.v.iter().map(at).collect(),
         };
-        let touches = self.state.w.value().abs() <= self.velocity_noise(&series);
+        let touches = self.state.w.value().abs() <= noise;
         if self.sign != 0 && (root.is_some() || touches) {
             self.state.w = ZERO;
         }
         (root.map_or(end, |to| x + part * to), series)
     }
 
-    fn velocity_noise(&self, series: &Series) -> f64 {
-        NOISE * size(&series.w).max(self.out.peaks.w)
+    /// The forces that may cancel, at the start of a step.
+    fn terms(&self, series: &Series) -> f64 {
+        let link = self.system.spring * series.s[0];
+        size(&series.friction) + size(&series.shear) + link.value().abs()
+    }
+
+    fn velocity_noise(&self, series: &Series, load: Load, h: Dd) -> f64 {
+        let forces = self.terms(series) / self.system.block_kg.value();
+        let gain = h.value() * (forces + load.b[0].value().abs());
+        NOISE * size(&series.w).max(self.out.peaks.w).max(gain)
     }
 
     /// What is left of the bound for pushes towards −x and +x in stick, and the noise of it.
     fn bounds(&self, stick: &Series, load: Load) -> [(Poly<Dd>, f64); 2] {
-        let b = self.system.block_kg * load.b[0];
-        let terms = b.value().abs()
-            + size(&stick.friction)
-            + size(&stick.shear)
-            + (self.system.spring * self.state.s).value().abs();
+        let terms = self.terms(stick) + (self.system.block_kg * load.b[0]).value().abs();
         [(1, -1.0), (0, 1.0)].map(|(direction, push)| {
             let factor = self.system.static_friction[direction] * self.system.total_kg;
             let mut left = stick.friction.map(|t| t * push);

@@ -181,8 +181,15 @@ impl Sketch {
 
     /// Model and ground motion.
     pub fn build(&self) -> (Model, GroundMotion) {
+        let (times, vertical) = (self.times.clone(), self.vertical.clone());
+        let motion = GroundMotion::new(times, self.horizontal.clone(), vertical);
+        (self.model(), motion.expect("a motion"))
+    }
+
+    /// The model alone.
+    pub fn model(&self) -> Model {
         let friction = Coulomb::new(self.static_friction, self.kinetic_friction).expect("friction");
-        let model = Model::new(
+        Model::new(
             Block { mass_kg: self.block, width_m: None, height_m: None },
             Slider {
                 friction: Friction::Coulomb(friction),
@@ -205,10 +212,7 @@ impl Sketch {
                 storey_velocity_m_per_s: Some(self.v.clone()),
             },
         )
-        .expect("a model");
-        let (times, vertical) = (self.times.clone(), self.vertical.clone());
-        let motion = GroundMotion::new(times, self.horizontal.clone(), vertical);
-        (model, motion.expect("a motion"))
+        .expect("a model")
     }
 
     /// The same with record, friction and initial state changed by ±`relative`; `side` swaps the

@@ -4,7 +4,7 @@ use super::{EVENTS_PER_INTERVAL_LIMIT, Run, Start};
 use crate::error::SolveError;
 use crate::friction::Direction;
 use crate::linear::polynomial::{DEGREE, Polynomial, deflated, first_root};
-use crate::linear::{Load, MAX_RATE_STEP, PerStorey, State, System};
+use crate::linear::{MAX_RATE_STEP, PerStorey, State};
 use crate::response::{Event, EventKind, Mode};
 use crate::solver::excitation::Stretch;
 use crate::solver::extremes::Place;
@@ -82,7 +82,7 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let length_s = to_s - from_s;
         let load = self.excitation.load(stretch, from_s, length_s, None);
         self.series.stick(self.system, &self.state, &load, length_s);
-        let demand = self.series.demand(self.system);
+        let demand = self.series.demand(self.system, &load);
         let [low, high] = self.bounds.map(|bound| {
             [bound * stretch.normal_at(from_s), bound * (stretch.normal_rate() * length_s)]
         });
@@ -217,7 +217,7 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let length_s = (stretch.to_s - at_s).min(MAX_RATE_STEP / self.system.stick_rate_rad_per_s);
         let load = self.excitation.load(stretch, at_s, length_s, None);
         self.series.stick(self.system, &self.state, &load, length_s);
-        let demand = self.series.demand(self.system);
+        let demand = self.series.demand(self.system, &load);
         let [low, high] = self.bounds.map(|b| b * (stretch.normal_rate() * length_s));
         let sign = -direction.sign();
         let bound = if sign > 0.0 { high } else { low };
@@ -275,30 +275,18 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
 
     /// The force that keeps the block stuck, eqs (8), (14).
     fn demand(&self, stretch: &Stretch, at_s: f64) -> f64 {
-        let load = self.excitation.load(stretch, at_s, 0.0, None);
+        let a = self.excitation.load(stretch, at_s, 0.0, None).acceleration;
         let f = self.system.restoring(self.state.eta(), self.state.eta_dot());
-        self.demand_of(load.acceleration, f.as_ref())
+        self.system.demand_n(self.state.s(), self.system.base_shear_n(f.as_ref()), a)
     }
 
-    /// `M1 a + K1 s − L·f`.
+    /// Friction force of slip under a normal force, 0 in stick.
     #[inline(always)]
-    pub(super) fn demand_of(&self, a: f64, f: &[f64]) -> f64 {
-        self.system.block_mass_kg * a + self.system.stiffness_n_per_m * self.state.s()
-            - self.system.base_shear_n(f)
-    }
-
-    /// `u` in slip under the friction force `friction_n`.
-    #[inline(always)]
-    pub(super) fn u_in_slip(&self, x: &State<V>, f: &[f64], friction_n: f64) -> f64 {
-        Self::u_of(self.system, x, self.system.base_shear_n(f), friction_n)
-    }
-
-    /// `u` in slip under the friction force `friction_n` and the base shear `shear_n`.
-    #[inline(always)]
-    pub(super) fn u_of(system: &System<V>, x: &State<V>, shear_n: f64, friction_n: f64) -> f64 {
-        ((friction_n - system.damper_n_s_per_m * x.w())
-            + (shear_n - system.stiffness_n_per_m * x.s()))
-            / system.block_mass_kg
+    pub(super) fn kinetic_n(&self, mode: Mode, normal: f64) -> f64 {
+        match mode {
+            Mode::Stick => 0.0,
+            Mode::Slip(direction) => self.excitation.kinetic(direction) * normal,
+        }
     }
 
     /// Moves the state along the series; the state before.
@@ -314,17 +302,20 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
 
     // ---- what is kept of the walk --------------------------------------------------------------
 
-    /// Tracked values of the present state under a load.
-    pub(super) fn values(&self, a: f64, friction_n: f64) -> V::Tracked {
-        let x = &self.state;
-        let f = self.system.restoring(x.eta(), x.eta_dot());
-        let u = match self.mode {
-            Mode::Stick => a,
-            Mode::Slip(_) => self.u_in_slip(x, f.as_ref(), friction_n),
+    /// Tracked values of a state under the acceleration `a` and, in slip, a friction force.
+    #[inline(always)]
+    pub(super) fn values(&self, x: &State<V>, mode: Mode, a: f64, kinetic_n: f64) -> V::Tracked {
+        let system = self.system;
+        let f = system.restoring(x.eta(), x.eta_dot());
+        let shear_n = system.base_shear_n(f.as_ref());
+        let (u, friction_n) = match mode {
+            Mode::Stick => (a, system.demand_n(x.s(), shear_n, a)),
+            Mode::Slip(_) => {
+                (system.block_acceleration(x.s(), x.w(), shear_n, kinetic_n), kinetic_n)
+            }
         };
-        let shear = self.system.base_shear_n(f.as_ref());
-        let f = f.as_ref();
-        self.extremes.values(self.system, x.s(), x.w(), x.eta(), f, shear, u, friction_n)
+        let (f, eta) = (f.as_ref(), x.eta());
+        self.extremes.values(system, x.s(), x.w(), eta, f, shear_n, u, friction_n)
     }
 
     /// Shows the whole of the last series to the extremes.
@@ -346,28 +337,18 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
             Mode::Stick => None,
             Mode::Slip(direction) => Some(direction),
         };
-        let at = |part: f64| -> Load {
-            self.excitation.load(stretch, from_s + part * length_s, 0.0, direction)
+        let at = |part: f64, state: &State<V>| {
+            let load = self.excitation.load(stretch, from_s + part * length_s, 0.0, direction);
+            self.values(state, self.mode, load.acceleration, load.friction)
         };
-        let (start_load, end_load) = (at(0.0), at(part));
-        let friction = |load: &Load, state: &State<V>| match direction {
-            Some(_) => load.friction,
-            None => {
-                let f = self.system.restoring(state.eta(), state.eta_dot());
-                self.demand_of(load.acceleration, f.as_ref())
-            }
-        };
-        let (start_n, end_n) = (friction(&start_load, before), friction(&end_load, &self.state));
-        let end = self.values(end_load.acceleration, end_n);
-        let after = core::mem::replace(&mut self.state, before.clone());
-        let start = self.values(start_load.acceleration, start_n);
-        self.state = after;
+        let (start, end) = (at(0.0, before), at(part, &self.state));
         // Twice the second coefficient is ẍ times the length squared.
         let s = &self.series;
         let bend =
             2.0 * self.system.energy_norm(s.s[2], s.w[2], s.eta[2].as_ref(), s.eta_dot[2].as_ref());
         let reach = 0.125 * bend * part * part;
-        if self.extremes.may_exceed(&start, &end, reach, self.mode) {
+        let limits = self.extremes.limits(reach, self.mode);
+        if !(limits.hold(&start, 0..0) && limits.hold(&end, 0..0)) {
             let place = Place {
                 interval: stretch.interval,
                 from_s,
@@ -419,13 +400,14 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
     }
 
     fn record_knot(&mut self, time_s: f64, mode: Mode, table: f64, a: f64, normal: f64, row: bool) {
-        let x = &self.state;
-        let f = self.system.restoring(x.eta(), x.eta_dot());
+        let (system, x) = (self.system, &self.state);
+        let f = system.restoring(x.eta(), x.eta_dot());
+        let shear_n = system.base_shear_n(f.as_ref());
         let (u, friction_n) = match mode {
-            Mode::Stick => (a, self.demand_of(a, f.as_ref())),
-            Mode::Slip(direction) => {
-                let friction_n = self.excitation.kinetic(direction) * normal;
-                (self.u_in_slip(x, f.as_ref(), friction_n), friction_n)
+            Mode::Stick => (a, system.demand_n(x.s(), shear_n, a)),
+            Mode::Slip(_) => {
+                let friction_n = self.kinetic_n(mode, normal);
+                (system.block_acceleration(x.s(), x.w(), shear_n, friction_n), friction_n)
             }
         };
         let knot = Knot { time_s, mode, table, state: x, u, f: f.as_ref(), friction_n };

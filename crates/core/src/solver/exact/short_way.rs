@@ -2,198 +2,237 @@
 
 use super::Run;
 use crate::friction::Direction;
-use crate::linear::{PerStorey, Propagator};
+use crate::linear::{PerStorey, Propagator, State};
 use crate::response::Mode;
-use crate::solver::extremes::Place;
+use crate::solver::extremes::{Limits, Place, tracked};
 use crate::solver::recorder::Recorder;
 
-/// Samples after which the bound on `ẍ` is made anew from the state.
-const BOUND_LIFE: u32 = 16;
+/// Samples for which a bound on `ẍ` serves.
+const BOUND_LIFE: usize = 16;
 
-/// Bound on the norm of `ẍ` over the coming sample, and how many samples it may still serve.
-struct Bend {
-    norm: f64,
-    life: u32,
-}
-
-impl Bend {
-    /// To be made from the state before it is used.
-    fn due() -> Self {
-        Self { norm: 0.0, life: 0 }
-    }
-}
+/// Samples that are shown to the extremes as one piece.
+pub(super) const LEAP: usize = 4;
 
 impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
     /// Takes whole samples while the bounds show that nothing happens in them; the first sample
     /// that they do not vouch for.
     pub(super) fn short_way(&mut self, mut sample: usize) -> usize {
-        let Some([stick, slip]) = self.propagators.take() else { return sample };
+        let Some(propagators) = self.propagators.take() else { return sample };
         if self.start.is_none() {
-            sample = match self.mode {
-                Mode::Stick => self.short_stick(&stick, sample),
-                Mode::Slip(direction) => self.short_slip(&slip, direction, sample),
+            let excitation = self.excitation;
+            sample = match excitation.varying_normal() {
+                Some(normal) => self.short(&propagators, sample, |i| normal[i]),
+                None => {
+                    let normal = excitation.normal_at_sample(0);
+                    self.short(&propagators, sample, |_| normal)
+                }
             };
         }
-        self.propagators = Some([stick, slip]);
+        self.propagators = Some(propagators);
         sample
     }
 
-    fn short_slip(
+    fn short(
+        &mut self,
+        [stick, slip]: &[Propagator<V>; 2],
+        sample: usize,
+        normal: impl Fn(usize) -> f64,
+    ) -> usize {
+        match self.mode {
+            Mode::Stick => self.walk_short::<false>(stick, Direction::Positive, sample, normal),
+            Mode::Slip(direction) => self.walk_short::<true>(slip, direction, sample, normal),
+        }
+    }
+
+    fn walk_short<const SLIP: bool>(
         &mut self,
         propagator: &Propagator<V>,
         direction: Direction,
         mut sample: usize,
+        normal: impl Fn(usize) -> f64,
     ) -> usize {
         let (system, excitation) = (self.system, self.excitation);
         let Some(dt_s) = excitation.dt_s else { return sample };
-        let (eighth, sign) = (0.125 * dt_s * dt_s, direction.sign());
-        let coefficient = excitation.kinetic(direction);
-        let norm = self.extremes.velocity_norm();
-        let mode = Mode::Slip(direction);
-        let acceleration = excitation.acceleration.as_slice();
-        let mut normal = excitation.normal_at_sample(sample);
-        if !(normal >= 0.0) {
-            return sample;
-        }
-        // The state stays in registers; it is written back at the end.
-        let mut state = self.state.clone();
-        let mut values = self.values(acceleration[sample], coefficient * normal);
-        let mut bend = Bend::due();
-        while let Some(&a1) = acceleration.get(sample + 1) {
-            let a = [acceleration[sample], a1];
-            let next_normal = excitation.normal_at_sample(sample + 1);
-            let friction = [coefficient * normal, coefficient * next_normal];
-            let next = propagator.slip(&state, a, friction);
-            if bend.life == 0 {
-                self.state.clone_from(&state);
-                bend = Bend { norm: self.bend_at(sample, friction), life: BOUND_LIFE };
-            } else {
-                self.add_kink(&mut bend, sample);
-            }
-            let reach = eighth * bend.norm;
-            let least = (sign * state.w()).min(sign * next.w());
-            if !(least > reach * norm && next_normal >= 0.0) {
-                break;
-            }
-            let f = system.restoring(next.eta(), next.eta_dot());
-            let shear = system.base_shear_n(f.as_ref());
-            let u = Self::u_of(system, &next, shear, friction[1]);
-            let (eta, w, s) = (next.eta(), next.w(), next.s());
-            let end = self.extremes.values(system, s, w, eta, f.as_ref(), shear, u, friction[1]);
-            if self.extremes.may_exceed(&values, &end, reach, mode) {
-                let state = &state;
-                let place = Place { interval: sample, from_s: 0.0, length_s: dt_s, mode, state };
-                self.extremes.keep(system, excitation, &values, &end, reach, &place);
-            }
-            if R::WANTED {
-                self.state.clone_from(&state);
-                self.record_sample(sample, mode, true);
-            }
-            (values, normal, state) = (end, next_normal, next);
-            sample += 1;
-        }
-        self.state = state;
-        sample
-    }
-
-    fn short_stick(&mut self, propagator: &Propagator<V>, mut sample: usize) -> usize {
-        let (system, excitation) = (self.system, self.excitation);
-        let Some(dt_s) = excitation.dt_s else { return sample };
-        let eighth = 0.125 * dt_s * dt_s;
-        let norm = self.extremes.demand_norm();
+        let mode = if SLIP { Mode::Slip(direction) } else { Mode::Stick };
+        let acceleration: &[f64] = &excitation.acceleration;
+        let last = excitation.regular_end(sample);
+        let (sign, coefficient) = (direction.sign(), excitation.kinetic(direction));
         let [low, high] = self.bounds;
-        let acceleration = excitation.acceleration.as_slice();
-        let spring_n = system.stiffness_n_per_m * self.state.s();
-        let demand = |a: f64, shear_n: f64| (system.block_mass_kg * a + spring_n) - shear_n;
-        let mut held_n = {
-            let f = system.restoring(self.state.eta(), self.state.eta_dot());
-            demand(acceleration[sample], system.base_shear_n(f.as_ref()))
+        let event_norm = self.extremes.event_norm(mode);
+        let (s, spring_n) = (self.state.s(), system.stiffness_n_per_m * self.state.s());
+        let demand_n = |x: &State<V>, a: f64| {
+            let f = system.restoring(x.eta(), x.eta_dot());
+            system.demand_n(s, system.base_shear_n(f.as_ref()), a)
         };
-        let mut normal = excitation.normal_at_sample(sample);
-        let mut state = self.state.clone();
-        let mut values = self.values(acceleration[sample], held_n);
-        let mut bend = Bend::due();
-        while let Some(&a1) = acceleration.get(sample + 1) {
-            let next = propagator.stick(&state, [acceleration[sample], a1]);
-            let next_normal = excitation.normal_at_sample(sample + 1);
-            if bend.life == 0 {
-                self.state.clone_from(&state);
-                bend = Bend { norm: self.bend_at(sample, [0.0; 2]), life: BOUND_LIFE };
-            } else {
-                self.add_kink(&mut bend, sample);
-            }
-            let reach = eighth * bend.norm;
-            let f = system.restoring(next.eta(), next.eta_dot());
-            let shear = system.base_shear_n(f.as_ref());
-            let holds_n = demand(a1, shear);
-            let slack = reach * norm;
-            let held = |demand: f64, normal: f64| {
-                low * normal < demand - slack && demand + slack < high * normal
+        // The chord bound asks for a continuous derivative: where a load enters a tracked value
+        // itself, its kinks at samples part the pieces. In stick such values are looked at sample
+        // by sample.
+        let loads_kink =
+            if SLIP { excitation.varying_normal().is_some() } else { self.extremes.overturns() };
+        let leap = if loads_kink { 1 } else { LEAP };
+        let by_sample = if SLIP { 0..0 } else { tracked::BLOCK..tracked::FRICTION + 1 };
+        let mut life = BOUND_LIFE;
+        while sample < last {
+            let end = last.min(sample + life);
+            let reach = 0.125 * dt_s * dt_s * self.bend(&self.state, sample, end);
+            let slack = reach * event_norm;
+            // Whether the block slides, or friction holds, by more than a slack.
+            let by = |slack: f64, x: &State<V>, demand_n: f64, normal: f64| {
+                if SLIP {
+                    sign * x.w() > slack && normal >= 0.0
+                } else {
+                    low * normal < demand_n - slack && demand_n + slack < high * normal
+                }
             };
-            if !(held(held_n, normal) && held(holds_n, next_normal)) {
-                break;
-            }
-            let (eta, s) = (next.eta(), next.s());
-            let end = self.extremes.values(system, s, 0.0, eta, f.as_ref(), shear, a1, holds_n);
-            if self.extremes.may_exceed(&values, &end, reach, Mode::Stick) {
-                let (mode, state) = (Mode::Stick, &state);
-                let place = Place { interval: sample, from_s: 0.0, length_s: dt_s, mode, state };
-                self.extremes.keep(system, excitation, &values, &end, reach, &place);
-            }
-            if R::WANTED {
+            let limits = |run: &Self| {
+                let whole = run.extremes.limits(reach * (leap * leap) as f64, mode);
+                (whole, run.extremes.limits(reach, mode).stick(spring_n))
+            };
+            let (mut whole, mut stick) = limits(self);
+            let quiet = |run: &Self, x: &State<V>, sample: usize, whole: &Limits<V>| {
+                let kinetic_n = coefficient * normal(sample);
+                let values = run.values(x, mode, acceleration[sample], kinetic_n);
+                whole.hold(&values, by_sample.clone())
+            };
+            let mut state = self.state.clone();
+            let mut demand = if SLIP { 0.0 } else { demand_n(&state, acceleration[sample]) };
+            let mut going = by(slack, &state, demand, normal(sample));
+            let mut passed = false;
+            let mut open = !quiet(self, &state, sample, &whole)
+                || (!SLIP && !stick.hold(demand, acceleration[sample]));
+            while going && sample < end {
+                let from = sample;
+                let leap_end = end.min(sample + leap);
+                while sample < leap_end {
+                    let a = [acceleration[sample], acceleration[sample + 1]];
+                    let normal = [normal(sample), normal(sample + 1)];
+                    let next = if SLIP {
+                        propagator.slip(&state, a, normal.map(|n| coefficient * n))
+                    } else {
+                        propagator.stick(&state, a)
+                    };
+                    let next_demand = if SLIP { 0.0 } else { demand_n(&next, a[1]) };
+                    if !by(slack, &next, next_demand, normal[1]) {
+                        (going, passed) = (false, !by(0.0, &next, next_demand, normal[1]));
+                        break;
+                    }
+                    demand = next_demand;
+                    if !SLIP {
+                        open |= !stick.hold(demand, a[1]);
+                    }
+                    self.leap[sample - from].clone_from(&next);
+                    state = next;
+                    sample += 1;
+                }
+                if sample == from {
+                    break;
+                }
+                if open || !quiet(self, &state, sample, &whole) {
+                    self.show(from, sample, mode, reach);
+                    (whole, stick) = limits(self);
+                    open = !quiet(self, &state, sample, &whole)
+                        || (!SLIP && !stick.hold(demand, acceleration[sample]));
+                }
+                if R::WANTED {
+                    for i in from..sample {
+                        self.record_sample(i, mode, true);
+                        self.state.clone_from(&self.leap[i - from]);
+                    }
+                }
                 self.state.clone_from(&state);
-                self.record_sample(sample, Mode::Stick, true);
             }
-            (values, normal, held_n, state) = (end, next_normal, holds_n, next);
-            sample += 1;
+            // A failure without an event is tried again with a bound for this sample alone.
+            if sample == end {
+                life = BOUND_LIFE;
+            } else if passed || life == 1 {
+                break;
+            } else {
+                life = 1;
+            }
         }
-        self.state = state;
         sample
     }
 
-    /// Within a sample the norm of `ẍ` does not grow; from one to the next it grows by the kink of
-    /// the load.
-    #[inline(always)]
-    fn add_kink(&self, bend: &mut Bend, sample: usize) {
-        let a = &self.excitation.acceleration[sample - 1..sample + 2];
-        let kink = (a[2] - a[1]) - (a[1] - a[0]);
-        bend.norm += self.per_kink[0] * kink.abs();
-        if let Some(n) = self.excitation.varying_normal() {
-            let turn = (n[sample + 1] - n[sample]) - (n[sample] - n[sample - 1]);
-            bend.norm += self.per_kink[1] * turn.abs();
+    /// Shows the samples of a leap to the extremes one by one.
+    #[inline(never)]
+    fn show(&mut self, from: usize, end: usize, mode: Mode, reach: f64) {
+        let (system, excitation) = (self.system, self.excitation);
+        let Some(dt_s) = excitation.dt_s else { return };
+        let values = |run: &Self, state: &State<V>, sample: usize| {
+            let friction_n = run.kinetic_n(mode, excitation.normal_at_sample(sample));
+            run.values(state, mode, excitation.acceleration[sample], friction_n)
+        };
+        let mut start = values(self, &self.state, from);
+        let mut limits = self.extremes.limits(reach, mode);
+        for sample in from..end {
+            let state = if sample == from { &self.state } else { &self.leap[sample - from - 1] };
+            let end = values(self, &self.leap[sample - from], sample + 1);
+            if !(limits.hold(&start, 0..0) && limits.hold(&end, 0..0)) {
+                // Once more by the bound for this sample alone.
+                let reach = 0.125 * dt_s * dt_s * self.bend(state, sample, sample + 1);
+                let place = Place { interval: sample, from_s: 0.0, length_s: dt_s, mode, state };
+                self.extremes.keep(system, excitation, &start, &end, reach, &place);
+                limits = self.extremes.limits(reach, mode);
+            }
+            start = end;
         }
-        bend.life -= 1;
     }
+
+    /// Bound on the norm of `ẍ` over whole samples from a state: within a sample the norm does not
+    /// grow; from one to the next it grows by the kink of the load.
+    #[inline(always)]
+    fn bend(&self, state: &State<V>, from: usize, end: usize) -> f64 {
+        let kinks = |x: &[f64]| {
+            let mut sum = 0.0;
+            for x in x[from..=end].windows(3) {
+                sum += ((x[2] - x[1]) - (x[1] - x[0])).abs();
+            }
+            sum
+        };
+        let mut bend = self.bend_at(state, from);
+        bend += self.per_kink[0] * kinks(&self.excitation.acceleration);
+        if let Some(normal) = self.excitation.varying_normal() {
+            bend += self.per_kink[1] * kinks(normal);
+        }
+        bend
+    }
+
     /// Norm of `ẍ` at the start of a sample.
-    fn bend_at(&self, sample: usize, friction: [f64; 2]) -> f64 {
-        let system = self.system;
+    #[inline(always)]
+    fn bend_at(&self, x: &State<V>, sample: usize) -> f64 {
+        let (system, excitation) = (self.system, self.excitation);
         let n = system.storeys();
         let l = system.participation.as_ref();
-        let over_dt = self.excitation.dt_s.map_or(0.0, |dt_s| 1.0 / dt_s);
-        let a = &self.excitation.acceleration;
-        let (a0, jerk) = (a[sample], (a[sample + 1] - a[sample]) * over_dt);
-        let rate = (friction[1] - friction[0]) * over_dt;
-        let x = &self.state;
+        let over_dt = excitation.dt_s.map_or(0.0, |dt_s| 1.0 / dt_s);
+        let change = |x: [f64; 2]| (x[1] - x[0]) * over_dt;
+        let a = [excitation.acceleration[sample], excitation.acceleration[sample + 1]];
+        let friction = excitation.normal_n(sample).map(|normal| self.kinetic_n(self.mode, normal));
+        let (jerk, rate) = (change(a), change(friction));
+        // The derivative of the state, then the derivative of that.
         let f = system.restoring(x.eta(), x.eta_dot());
-        let slips = matches!(self.mode, Mode::Slip(_));
-        let (u, w) =
-            if slips { (self.u_in_slip(x, f.as_ref(), friction[0]), x.w()) } else { (a0, 0.0) };
-        let s2 = u - a0;
+        let u = match self.mode {
+            Mode::Stick => a[0],
+            Mode::Slip(_) => {
+                let shear_n = system.base_shear_n(f.as_ref());
+                system.block_acceleration(x.s(), x.w(), shear_n, friction[0])
+            }
+        };
         let mut eta2 = V::zeros(n);
         for (j, eta2) in eta2.as_mut().iter_mut().enumerate() {
             *eta2 = -(f.as_ref()[j] + l[j] * u);
         }
-        let f1 = system.restoring(x.eta_dot(), eta2.as_ref());
-        let u1 = if slips {
-            let spring = system.stiffness_n_per_m * w + system.damper_n_s_per_m * s2;
-            (rate - spring + system.base_shear_n(f1.as_ref())) / system.block_mass_kg
-        } else {
-            jerk
+        let f = system.restoring(x.eta_dot(), eta2.as_ref());
+        let u_dot = match self.mode {
+            Mode::Stick => jerk,
+            Mode::Slip(_) => {
+                let shear_n = system.base_shear_n(f.as_ref());
+                system.block_acceleration(x.w(), u - a[0], shear_n, rate)
+            }
         };
         let mut eta3 = V::zeros(n);
         for (j, eta3) in eta3.as_mut().iter_mut().enumerate() {
-            *eta3 = -(f1.as_ref()[j] + l[j] * u1);
+            *eta3 = -(f.as_ref()[j] + l[j] * u_dot);
         }
-        system.energy_norm(s2, u1 - jerk, eta2.as_ref(), eta3.as_ref())
+        system.energy_norm(u - a[0], u_dot - jerk, eta2.as_ref(), eta3.as_ref())
     }
 }

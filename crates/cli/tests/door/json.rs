@@ -1,0 +1,159 @@
+//! The keys of `--json` are a promise.
+
+use serde_json::Value;
+
+use super::support::{BLOCK, Folder};
+
+#[derive(Clone, Copy)]
+enum Kind {
+    Text,
+    Count,
+    Number,
+    NumberOrNull,
+    Bool,
+    List,
+}
+use Kind::{Bool, Count, List, Number, NumberOrNull, Text};
+
+/// Every key that any run has, dots as slashes.
+const KEYS: [(&str, Kind); 37] = [
+    ("/slipstick", Text),
+    ("/model", Text),
+    ("/method", Text),
+    ("/samples", Count),
+    ("/dt_s", NumberOrNull),
+    ("/duration_s", Number),
+    ("/record/pga_m_per_s2", Number),
+    ("/record/pgv_m_per_s", Number),
+    ("/record/pgd_m", Number),
+    ("/record/end_velocity_m_per_s", Number),
+    ("/peak_sliding_displacement_m", Number),
+    ("/peak_sliding_displacement_time_s", Number),
+    ("/max_sliding_displacement_m", Number),
+    ("/min_sliding_displacement_m", Number),
+    ("/residual_sliding_displacement_m", Number),
+    ("/sliding_at_end", Bool),
+    ("/sliding_path_m", Number),
+    ("/peak_sliding_velocity_m_per_s", Number),
+    ("/sliding_time_s", Number),
+    ("/slip_count", Count),
+    ("/reversal_count", Count),
+    ("/stick_count", Count),
+    ("/block/peak_acceleration_m_per_s2", Number),
+    ("/storeys", List),
+    ("/peak_base_shear_n", Number),
+    ("/peak_friction_force_n", Number),
+    ("/peak_slider_force_n", Number),
+    ("/base_shear_coefficient", Number),
+    ("/friction_coefficient_used", Number),
+    ("/slider_force_coefficient", Number),
+    ("/gap_ratio", NumberOrNull),
+    ("/overturning_ratio", NumberOrNull),
+    ("/contact_loss_s", List),
+    ("/warnings", List),
+    ("/checks/equilibrium_residual", Number),
+    ("/checks/friction_excess", Number),
+    ("/checks/energy_balance_error", Number),
+];
+
+fn check(value: &Value, path: &str, kind: Kind) {
+    let found = value.pointer(path).unwrap_or_else(|| panic!("no {path} in {value:#}"));
+    let right = match kind {
+        Text => found.is_string(),
+        Count => found.is_u64(),
+        Number => found.is_number(),
+        NumberOrNull => found.is_number() || found.is_null(),
+        Bool => found.is_boolean(),
+        List => found.is_array(),
+    };
+    assert!(right, "{path}: {found}");
+}
+
+fn check_run(value: &Value, storeys: usize) {
+    for (path, kind) in KEYS {
+        check(value, path, kind);
+    }
+    assert_eq!(value["storeys"].as_array().unwrap().len(), storeys);
+    for storey in value["storeys"].as_array().unwrap() {
+        check(storey, "/peak_acceleration_m_per_s2", Number);
+        check(storey, "/peak_displacement_m", Number);
+        check(storey, "/peak_drift_m", Number);
+        check(storey, "/peak_drift_ratio", NumberOrNull);
+    }
+    for warning in value["warnings"].as_array().unwrap() {
+        check(warning, "/kind", Text);
+        check(warning, "/time_s", NumberOrNull);
+        check(warning, "/message", Text);
+    }
+    for interval in value["contact_loss_s"].as_array().unwrap() {
+        check(interval, "/0", Number);
+        check(interval, "/1", Number);
+    }
+    let call = value.pointer("/checks/closest_call").expect("closest_call");
+    if !call.is_null() {
+        check(call, "/margin", Number);
+        check(call, "/time_s", Number);
+        check(call, "/kind", Text);
+    }
+}
+
+#[test]
+fn exact_keys_of_a_block() {
+    let folder = Folder::with_model("json-block", BLOCK);
+    let json = folder.json(&["model.toml"]);
+    check_run(&json, 0);
+    assert_eq!((&json["model"], &json["method"]), (&"Block".into(), &"exact".into()));
+    assert_eq!((&json["samples"], &json["dt_s"]), (&501.into(), &0.01.into()));
+    assert_eq!(json["slipstick"], env!("CARGO_PKG_VERSION"));
+    assert!(json["gap_ratio"].is_null() && json["overturning_ratio"].is_null());
+    assert!(!json["checks"]["closest_call"].is_null());
+    assert_eq!(json["peak_base_shear_n"], 0.0);
+    assert!(json.get("iterations").is_none() && json.get("bounds").is_none());
+}
+
+#[test]
+fn exact_keys_with_bounds_heights_and_iterations() {
+    let storeys = "\n[[storey]]\nmass = \"40 kg\"\nstiffness = \"50 kN/m\"\ndamping_ratio = 0.02\n\
+                   height = \"0.8 m\"\n";
+    let text = BLOCK
+        .replace("\"124 kg\"", "\"124 kg\"\nwidth = \"0.5 m\"")
+        .replace("[slider]", "[slider]\ngap = \"10 mm\"\nbounds = { lower = 0.8, upper = 1.3 }")
+        .replace("\n[motion]", &format!("{storeys}{storeys}\n[motion]"));
+    let folder = Folder::with_model("json-bounds", &text);
+    let json = folder.json(&["model.toml"]);
+    for run in [&json, &json["bounds"]["lower"], &json["bounds"]["upper"]] {
+        check_run(run, 2);
+        assert!(run["gap_ratio"].is_number() && run["overturning_ratio"].is_number());
+        assert!(run["storeys"][1]["peak_drift_ratio"].is_number());
+        assert!(run["peak_base_shear_n"].as_f64().unwrap() > 0.0);
+    }
+    assert!(json["bounds"]["lower"].get("bounds").is_none());
+    let stepwise = folder.json(&["model.toml", "--method", "stepwise"]);
+    for run in [&stepwise, &stepwise["bounds"]["lower"], &stepwise["bounds"]["upper"]] {
+        check_run(run, 2);
+        check(run, "/iterations/mean", Number);
+        check(run, "/iterations/max", Count);
+        assert!(run["checks"]["closest_call"].is_null());
+    }
+    assert_eq!(stepwise["method"], "stepwise");
+}
+
+#[test]
+fn exact_keys_where_nothing_happens() {
+    let still = BLOCK.replace("3 m/s2", "0 m/s2");
+    let json = Folder::with_model("json-still", &still).json(&["model.toml"]);
+    check_run(&json, 0);
+    assert_eq!(json["slip_count"], 0);
+    assert_eq!(json["peak_sliding_displacement_m"], 0.0);
+}
+
+#[test]
+fn exact_contact_loss_is_a_list_of_intervals() {
+    let text = super::support::RECORDED;
+    let folder = Folder::with_model("json-contact", text);
+    let header = "time_s,acceleration_m_per_s2,vertical_acceleration_m_per_s2\n";
+    folder.write("record.csv", format!("{header}0,1,0\n1,1,-20\n2,1,0\n3,0,0\n"));
+    let json = folder.json(&["model.toml"]);
+    check_run(&json, 0);
+    assert_eq!(json["contact_loss_s"].as_array().unwrap().len(), 1);
+}

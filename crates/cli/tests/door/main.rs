@@ -1,0 +1,13 @@
+//! The command as a person meets it: what it accepts, writes, refuses and leaves behind.
+// Helpers of tests may panic as tests do.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod accepted;
+mod cases;
+mod endings;
+mod files;
+mod json;
+mod options;
+mod records;
+mod refused;
+mod support;

@@ -1,0 +1,106 @@
+//! Commands beside `run`, help, units of the table, what is said and what is not.
+
+use super::support::{BLOCK, Folder, text};
+
+#[test]
+fn exact_examples_of_init_run_without_surprises() {
+    for example in ["block", "mock-up", "frame"] {
+        let folder = Folder::new(&format!("init-{example}"));
+        folder.stdout(&["init", example, "--example", example]);
+        let model = format!("{example}.toml");
+        assert_eq!(folder.names("").join(" "), model);
+        let json = folder.json(&[&model]);
+        assert_eq!(json["warnings"], serde_json::json!([]), "{example}");
+        assert_eq!(json["checks"]["holds"], true, "{example}");
+        assert!(json["slip_count"].as_u64().unwrap() > 0, "{example} never slides");
+        // The table ends nearly at rest, so that its displacement means something.
+        let end = json["record"]["end_velocity_m_per_s"].as_f64().unwrap();
+        let peak = json["record"]["pgv_m_per_s"].as_f64().unwrap();
+        assert!(end.abs() < 0.1 * peak, "{example}: {end} m/s");
+        for method in ["exact", "stepwise"] {
+            folder.stdout(&["run", &model, "--method", method, "--floor-spectrum"]);
+        }
+    }
+    let folder = Folder::new("init-default");
+    folder.stdout(&["init"]);
+    folder.stdout(&["init", "tank.toml"]);
+    assert_eq!(folder.names(""), ["model.toml", "tank.toml"]);
+}
+
+#[test]
+fn exact_schema_is_json_and_units_a_table() {
+    let folder = Folder::new("schema");
+    let schema: serde_json::Value = serde_json::from_str(&folder.stdout(&["schema"])).unwrap();
+    assert_eq!(schema["type"], "object");
+    assert!(schema["properties"]["slider"].is_object());
+    let units = folder.stdout(&["schema", "--units"]);
+    for unit in ["kip", "gal", "kN/mm", "mrad", "N s/m"] {
+        assert!(units.contains(unit), "{unit} in {units}");
+    }
+}
+
+#[test]
+fn exact_completions_know_the_options() {
+    let folder = Folder::new("completions");
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let script = folder.stdout(&["completions", shell]);
+        assert!(script.contains("floor-spectrum"), "{shell}");
+    }
+    folder.stdout(&["man", "pages"]);
+    assert!(folder.names("pages").contains(&"slipstick-run.1".to_owned()));
+}
+
+#[test]
+fn exact_help_teaches_in_a_hundred_columns() {
+    let folder = Folder::new("help");
+    for arguments in [&["--help"] as &[&str], &["run", "--help"], &["help", "run"], &["init", "-h"]]
+    {
+        let help = folder.stdout(arguments);
+        let longest = help.lines().map(|line| line.chars().count()).max().unwrap();
+        assert!(longest <= 100, "{arguments:?}: {longest} columns");
+        assert!(!help.contains('\u{1b}'), "{arguments:?}");
+    }
+    let help = folder.stdout(&["help", "run"]);
+    assert_eq!(help, folder.stdout(&["run", "--help"]));
+    for word in ["Examples:", "--scale-to", "summary.json", "events.csv", "--floor-spectrum"] {
+        assert!(help.contains(word), "{word}");
+    }
+    assert!(folder.stdout(&["--version"]).starts_with("slipstick "));
+    // Without a command: the help, where messages go.
+    let output = folder.output(&[]);
+    assert_eq!((output.status.code(), text(&output.stdout).as_str()), (Some(2), ""));
+    assert!(text(&output.stderr).contains("slipstick init"));
+}
+
+#[test]
+fn exact_display_units_are_those_of_the_table_only() {
+    let folder = Folder::with_model("units", BLOCK);
+    let table = |system: &str| folder.stdout(&["run", "model.toml", "--display-units", system]);
+    let [si, kn_mm, us] = ["si", "kN-mm", "us"].map(table);
+    assert_eq!(si, folder.stdout(&["run", "model.toml"]));
+    assert!(kn_mm.contains(" kN") && kn_mm.contains(" mm"), "{kn_mm}");
+    assert!(us.contains(" kip") && us.contains(" in"), "{us}");
+    let json = folder.stdout(&["run", "model.toml", "--json"]);
+    assert_eq!(json, folder.stdout(&["run", "model.toml", "--json", "--display-units", "us"]));
+    for text in [si, kn_mm, us, json] {
+        assert!(!text.contains('\u{1b}') && !text.contains('\r') && text.ends_with('\n'));
+    }
+}
+
+#[test]
+fn exact_messages_go_to_standard_error_and_quiet_takes_them_away() {
+    // The gap is passed, which is a warning.
+    let folder =
+        Folder::with_model("quiet", &BLOCK.replace("20 kN/m\"", "20 kN/m\"\ngap = \"1 mm\""));
+    let stderr = |arguments: &[&str]| {
+        let output = folder.output(&[&["run", "model.toml"], arguments].concat());
+        assert_eq!(output.status.code(), Some(0));
+        text(&output.stderr)
+    };
+    assert!(stderr(&["--json"]).starts_with("warning: gap_exceeded: "));
+    assert_eq!(stderr(&["--json", "-q"]), "");
+    assert_eq!(stderr(&[]), "");
+    assert_eq!(stderr(&["--out", "out"]), "wrote out/report.html\n");
+    assert_eq!(stderr(&["--out", "out", "--quiet"]), "");
+    assert!(folder.stdout(&["run", "model.toml"]).contains("gap_exceeded"));
+}

@@ -1,0 +1,248 @@
+//! Bad input: one clear message, exit status 2, nothing written and nothing touched.
+
+use std::process::Stdio;
+
+use super::support::{BLOCK, Folder, RECORD, RECORDED, message};
+
+/// The message for a model, run with an output folder that must not stay.
+fn of_model(test: &str, bytes: impl AsRef<[u8]>) -> String {
+    let folder = Folder::new(test);
+    folder.write("model.toml", bytes);
+    folder.refused(&["run", "model.toml", "--out", "out/new"])
+}
+
+/// The message for a model with one line replaced.
+fn of_change(test: &str, from: &str, to: &str) -> String {
+    assert!(BLOCK.contains(from), "{from}");
+    of_model(test, BLOCK.replace(from, to))
+}
+
+/// UTF-16 with its byte order mark.
+fn utf16(text: &str) -> Vec<u8> {
+    let units = std::iter::once(0xfeff).chain(text.encode_utf16());
+    units.flat_map(u16::to_le_bytes).collect()
+}
+
+#[test]
+fn exact_model_that_is_no_text() {
+    assert_eq!(
+        of_model("model-utf16", utf16(BLOCK)),
+        "model.toml:1:1: expected text in UTF-8, found the byte 0xff"
+    );
+    assert_eq!(
+        of_model("model-latin", b"name = \"Stra\xdfe\"\n"),
+        "model.toml:1:13: expected text in UTF-8, found the byte 0xdf"
+    );
+    let bytes: Vec<u8> = (0..=255).cycle().skip(1).take(4000).collect();
+    let found = of_model("model-binary", bytes);
+    assert!(found.starts_with("model.toml:") && found.contains("expected"), "{found}");
+    let found = of_model("model-nul", "name = \"a\0b\"\n");
+    assert!(found.starts_with("model.toml:1:"), "{found}");
+}
+
+#[test]
+fn exact_model_that_ends_too_soon() {
+    assert_eq!(
+        of_model("model-empty", ""),
+        "model.toml:1:1: block: expected a table [block], found nothing"
+    );
+    // Wherever the text is cut, it is a model still or one message; never anything else.
+    let folder = Folder::new("model-truncated");
+    for end in (0..BLOCK.len()).step_by(19) {
+        folder.write("model.toml", &BLOCK[..end]);
+        let found = folder.refused(&["run", "model.toml", "--out", "out"]);
+        assert!(found.starts_with("model.toml:"), "{end}: {found}");
+    }
+}
+
+#[test]
+fn exact_model_too_long() {
+    let comment = format!("{BLOCK}#{}\n", "x".repeat(1 << 20));
+    let found = of_model("model-long", &comment);
+    assert_eq!(found, "model.toml: expected at most 1048576 bytes, found more");
+    let folder = Folder::new("model-long-stdin");
+    folder.write("long.toml", &comment);
+    let stdin = std::fs::File::open(folder.path().join("long.toml")).unwrap();
+    let output = folder.command(&["run", "-"]).stdin(Stdio::from(stdin)).output().unwrap();
+    let found = message(&["run", "-"], &output);
+    assert_eq!(found, "standard input: expected at most 1048576 bytes, found more");
+}
+
+#[test]
+fn exact_values_that_no_model_has() {
+    for (test, from, to, expected) in [
+        ("nan", "0.153", "nan", "model.toml:8:20: slider.kinetic_friction: expected "),
+        ("infinity", "0.165", "inf", "model.toml:7:19: slider.static_friction: expected "),
+        ("infinite-mass", "124 kg", "1e400 kg", "model.toml:4:8: block.mass: expected "),
+        ("nan-mass", "124 kg", "NaN kg", "model.toml:4:8: block.mass: expected "),
+        ("kinetic", "0.153", "0.17", "model.toml:8:20: slider.kinetic_friction: expected "),
+        ("negative", "124 kg", "-1 kg", "model.toml:4:8: block.mass: expected "),
+        ("no-unit", "\"124 kg\"", "124", "model.toml:4:8: block.mass: expected "),
+        ("wrong-unit", "20 kN/m", "20 kN", "model.toml:9:10: slider.spring: expected "),
+        ("dt", "0.01 s", "0 s", "model.toml:12:75: motion.sine.dt: expected "),
+        ("steps", "0.01 s", "5e-12 s", "model.toml:12:75: motion.sine.dt: expected "),
+        ("duration", "5 s", "1e10 s", "model.toml:12:78: motion.sine.dt: expected "),
+    ] {
+        let found = of_change(test, from, to);
+        assert!(found.starts_with(expected), "{test}: {found}");
+    }
+}
+
+#[test]
+fn exact_messages_of_made_motions_and_tails() {
+    assert_eq!(
+        of_change("asked", "0.01 s", "5e-12 s"),
+        "model.toml:12:75: motion.sine.dt: expected at most 100 000 000 samples, found 1.0e12"
+    );
+    let ramp = of_change("ramp", "dt =", "ramp = \"6 s\", dt =");
+    assert_eq!(
+        ramp,
+        "model.toml:12:77: motion.sine.ramp: expected ramp + decay in s at most the duration, \
+         found 6"
+    );
+    assert_eq!(
+        of_model("tail", format!("{BLOCK}[analysis]\ntail = \"1e10 s\"\n")),
+        "model.toml:14:8: analysis.tail: expected at most 100 000 000 samples, those of the motion \
+         among them, found 1.0e12"
+    );
+}
+
+#[test]
+fn exact_unknown_names_offer_the_nearest() {
+    let found = of_change("key", "spring =", "sprng =");
+    assert!(found.contains("sprng") && found.ends_with("nearest is \"spring\""), "{found}");
+    let folder = Folder::with_model("names", BLOCK);
+    for (arguments, nearest) in [
+        (&["rum", "model.toml"] as &[&str], "'run'"),
+        (&["shema"], "'schema'"),
+        (&["run", "model.toml", "--jsn"], "'--json'"),
+        (&["run", "model.toml", "--method", "exct"], "'exact'"),
+        (&["run", "model.toml", "--display-units", "kN-m"], "'kN-mm'"),
+        (&["init", "--example", "bloc"], "'block'"),
+    ] {
+        let found = folder.refused(arguments);
+        assert!(found.contains(nearest), "{arguments:?}: {found}");
+    }
+    let found = folder.refused(&["run", "model.toml", "--set", "slider.sprng=1 kN/m"]);
+    assert!(found.starts_with("--set ") && found.contains("slider.spring"), "{found}");
+    let found = folder.refused(&["run", "model.toml", "--set", "slider.spring"]);
+    assert!(found.contains("PATH=VALUE"), "{found}");
+    let found = folder.refused(&["run", "model.toml", "--set", "slider.spring=1 kN"]);
+    assert!(found.contains("slider.spring: expected"), "{found}");
+    assert!(folder.refused(&["run"]).contains("<MODEL>"));
+}
+
+#[test]
+fn exact_paths_that_lead_nowhere() {
+    let folder = Folder::with_model("paths", RECORDED);
+    assert_eq!(
+        folder.refused(&["run", "none.toml"]),
+        "none.toml: cannot be read: there is no such file or folder"
+    );
+    assert_eq!(folder.refused(&["run", "."]), ".: expected a file, found a folder");
+    assert_eq!(
+        folder.refused(&["run", "model.toml"]),
+        "model.toml:9:10: motion.record: expected a file that can be read, found record.csv: there \
+         is no such file or folder"
+    );
+    assert_eq!(
+        folder.refused(&["run", "model.toml", "--motion", "none.AT2"]),
+        "none.AT2: cannot be read: there is no such file or folder"
+    );
+    let folder_there = ["run", "model.toml", "--motion", "."];
+    assert_eq!(folder.refused(&folder_there), ".: expected a file, found a folder");
+    folder.write("record.csv/inside", "");
+    assert_eq!(
+        folder.refused(&["run", "model.toml"]),
+        "model.toml:9:10: motion.record: expected a file, found the folder record.csv"
+    );
+}
+
+#[test]
+fn exact_outputs_that_cannot_be() {
+    let folder = Folder::with_model("outputs", BLOCK);
+    folder.write("taken", "mine");
+    for out in ["taken", "taken/deeper", "model.toml"] {
+        let file = out.split('/').next().unwrap();
+        assert_eq!(
+            folder.refused(&["run", "model.toml", "--out", out]),
+            format!("{file}: expected a folder to write to, found a file")
+        );
+    }
+    assert!(folder.refused(&["run", "model.toml", "--out", ""]).contains("--out"));
+    if cfg!(target_os = "linux") {
+        let found = folder.refused(&["run", "model.toml", "--out", "/proc/slipstick"]);
+        assert!(found.starts_with("/proc/slipstick: cannot be written: "), "{found}");
+    }
+    folder.write("out/history.csv/inside", "");
+    folder.write("out/summary.json", "older");
+    assert_eq!(
+        folder.refused(&["run", "model.toml", "--out", "out"]),
+        "out/history.csv: expected a file, found a folder"
+    );
+}
+
+#[test]
+fn exact_inputs_are_never_replaced() {
+    let folder = Folder::new("inputs");
+    folder.write("summary.json", BLOCK);
+    let expected = "summary.json: is an input of this analysis and is not overwritten";
+    assert_eq!(folder.refused(&["run", "summary.json", "--out", "."]), format!("./{expected}"));
+    folder.write("model.toml", RECORDED.replace("record.csv", "history.csv"));
+    folder.write("history.csv", RECORD);
+    let expected = "history.csv: is an input of this analysis and is not overwritten";
+    assert_eq!(folder.refused(&["run", "model.toml", "--out", "."]), format!("./{expected}"));
+    let motion = ["run", "summary.json", "--motion", "history.csv", "--out", "."];
+    folder.refused(&motion);
+}
+
+#[test]
+fn exact_analysis_that_fails_leaves_no_folder() {
+    let folder = Folder::with_model("unsolved", &BLOCK.replace("20 kN/m", "2000 MN/m"));
+    let found = folder.refused(&["run", "model.toml", "--method", "stepwise", "--out", "a/b"]);
+    assert!(found.starts_with("model.toml: stepwise method:") && found.contains(" s; "), "{found}");
+}
+
+#[test]
+fn exact_options_that_make_no_sense() {
+    let folder = Folder::with_model("nonsense", BLOCK);
+    folder.write("one.txt", "0\n1\n-1\n0\n");
+    let beside = |options: &[&str]| {
+        let all = [&["run", "model.toml", "--motion", "one.txt"], options].concat();
+        folder.refused(&all)
+    };
+    for (options, expected) in [
+        (&[] as &[&str], "one.txt:1:1: expected units and time step,"),
+        (&["--units", "g"], "one.txt:1:1: expected a time step,"),
+        (&["--units", "furlong", "--dt", "1 s"], "--units: expected a unit of acceleration (m/s2,"),
+        (&["--units", "mm", "--dt", "1 s"], "--units: expected a unit of acceleration (m/s2,"),
+        (&["--units", "g", "--dt", "0 s"], "--dt: expected a time step > 0, found \"0 s\""),
+        (&["--units", "g", "--dt", "nan s"], "--dt: expected a time"),
+        (&["--units", "g", "--dt", "1"], "--dt: expected a time"),
+        (&["--units", "g", "--dt", "1 s", "--scale", "two"], "--scale: expected a factor"),
+        (&["--units", "g", "--dt", "1 s", "--scale", "inf"], "--scale: expected a factor"),
+        (&["--units", "g", "--dt", "1 s", "--scale-to", "0 g"], "--scale-to: expected a peak"),
+        (&["--units", "g", "--dt", "1 s", "--channel", "2"], "one.txt: expected an acceleration"),
+    ] {
+        let found = beside(options);
+        assert!(found.starts_with(expected), "{options:?}: {found}");
+    }
+    let both = beside(&["--scale", "2", "--scale-to", "1 g"]);
+    assert!(both.contains("cannot be used with"), "{both}");
+    let alone = folder.refused(&["run", "model.toml", "--units", "g"]);
+    assert!(alone.contains("--motion <FILE>"), "{alone}");
+}
+
+#[test]
+fn exact_init_replaces_nothing_unasked() {
+    let folder = Folder::with_model("init-taken", "mine");
+    let found = folder.refused(&["init"]);
+    assert!(found.starts_with("model.toml: ") && found.contains("--force"), "{found}");
+    assert!(folder.refused(&["init", "nowhere/model"]).starts_with("nowhere/model.toml: "));
+    for name in ["", "-", ".toml", "..", "/", "a/"] {
+        let found = folder.refused(&["init", "--", name]);
+        assert!(found.starts_with("expected a name"), "{name:?}: {found}");
+    }
+    folder.stdout(&["init", "--force"]);
+    assert!(folder.read("model.toml").contains("[block]"));
+}

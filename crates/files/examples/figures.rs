@@ -1,0 +1,41 @@
+//! Draws the figures of the README and the manual from `examples/taft.toml`.
+//!
+//! Run from the root of the repository: `cargo xtask figures`.
+
+use std::error::Error;
+use std::path::Path;
+
+use slipstick::input;
+use slipstick_files::{Job, read_bytes, write_whole};
+use slipstick_report::{DisplayUnits, Report, figures};
+
+/// Figures that the README and the manual show.
+const SHOWN: [&str; 4] =
+    ["sliding-displacement", "accelerations", "friction-loop", "floor-spectra"];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let path = Path::new("examples/taft.toml");
+    let analysis = input::from_bytes(&path.display().to_string(), &read_bytes(path)?, &[])?;
+    let job = Job::new(path, analysis, None)?;
+    let outcome = job.run(true)?;
+    let report = Report {
+        summary: &outcome.summary,
+        model: &job.analysis.model,
+        motion: &job.motion,
+        record: "",
+        response: &outcome.response,
+        certificate: &outcome.certificate,
+        bounds: None,
+        floor_spectra: outcome.floor_spectra.as_ref(),
+        inputs: &[],
+        files: &[],
+        command_line: "",
+        display: DisplayUnits::Si,
+    };
+    for figure in figures::all(&report).into_iter().filter(|f| SHOWN.contains(&f.id)) {
+        let name = format!("book/src/figures/taft-{}.svg", figure.id);
+        write_whole(Path::new(&name), figure.svg.as_str().as_bytes())?;
+        println!("{name}");
+    }
+    Ok(())
+}
