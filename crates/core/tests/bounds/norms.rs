@@ -196,9 +196,10 @@ fn prop_samples_stay_within_reach_of_their_chords() {
         for slip in [false, true] {
             let length_s = MAX_RATE_STEP / rate(system, slip).max(1.0);
             let (x, rates) = (state(&mut random, &made, slip), Rates::random(&mut random));
-            let run = series(system, slip, &x, &rates.load(0.0, length_s), length_s);
-            let (c, dual) =
-                if slip { (run.w, velocity_norm) } else { (run.demand(system), demand_norm) };
+            let load = rates.load(0.0, length_s);
+            let run = series(system, slip, &x, &load, length_s);
+            let demand = run.demand(system, &load);
+            let (c, dual) = if slip { (run.w, velocity_norm) } else { (demand, demand_norm) };
             let reach = 0.125 * length_s * length_s * dual * bend(system, slip, &x, &rates, 0.0);
             let size = c.iter().fold(0.0_f64, |size, c| size.max(c.abs()));
             for i in 0..=20 {
