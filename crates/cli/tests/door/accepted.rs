@@ -1,10 +1,8 @@
 //! What people write: line ends, byte order marks, separators, standard input, options.
 
-use std::process::Stdio;
-
 use serde_json::Value;
 
-use super::support::{BLOCK, Folder, RECORD, RECORDED, text};
+use super::support::{BLOCK, Folder, RECORD, RECORDED, output, text};
 
 fn number(value: &Value, path: &str) -> f64 {
     value.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("{path} in {value}"))
@@ -16,7 +14,7 @@ fn exact_standard_input_is_a_model() {
     folder.write("record.csv", RECORD);
     let from_stdin = |arguments: &[&str]| {
         let stdin = std::fs::File::open(folder.path().join("model.toml")).unwrap();
-        let output = folder.command(arguments).stdin(Stdio::from(stdin)).output().unwrap();
+        let output = output(folder.command(arguments).stdin(stdin));
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
         text(&output.stdout)
     };

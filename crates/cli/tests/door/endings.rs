@@ -2,10 +2,10 @@
 #![cfg(unix)]
 
 use std::fs::File;
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::time::{Duration, Instant};
 
-use super::support::{BLOCK, Folder, message, text};
+use super::support::{BLOCK, Folder, message, output, script, start, starting, text};
 
 /// Every command that prints much.
 const PRINTING: [&[&str]; 6] = [
@@ -23,14 +23,15 @@ fn exact_closed_pipe_is_silent() {
     let folder = Folder::with_model("pipe", &BLOCK.replace("[slider]", "[slider]\ngap = \"1 mm\""));
     for arguments in PRINTING {
         let mut command = folder.command(arguments);
-        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-        drop(child.stdout.take());
+        let one = starting();
+        let mut child = command.spawn().unwrap();
+        drop((child.stdout.take(), one));
         let output = child.wait_with_output().unwrap();
         let stderr = text(&output.stderr);
         assert_eq!((output.status.code(), stderr.as_str()), (Some(0), ""), "{arguments:?}");
     }
-    let script = format!("{} schema | head -1", env!("CARGO_BIN_EXE_slipstick"));
-    let output = Command::new("sh").args(["-c", &script]).output().unwrap();
+    let schema = format!("{} schema | head -1", env!("CARGO_BIN_EXE_slipstick"));
+    let output = script(&folder, &["sh"], &schema);
     assert_eq!(text(&output.stdout).lines().count(), 1);
     assert_eq!(text(&output.stderr), "");
 }
@@ -41,7 +42,7 @@ fn exact_standard_output_that_is_full() {
     let folder = Folder::with_model("stdout-full", BLOCK);
     for arguments in PRINTING {
         let full = File::options().write(true).open("/dev/full").unwrap();
-        let output = folder.command(arguments).stdout(full).output().unwrap();
+        let output = output(folder.command(arguments).stdout(full));
         let found = message(arguments, &output);
         assert_eq!(found, "standard output: cannot be written: no space left on the device");
     }
@@ -50,7 +51,7 @@ fn exact_standard_output_that_is_full() {
         [(&["run", "model.toml", "--out", "out"], 0), (&["run", "x", "-o", "y"], 2)]
     {
         let full = File::options().write(true).open("/dev/full").unwrap();
-        let output = folder.command(arguments).stderr(full).output().unwrap();
+        let output = output(folder.command(arguments).stderr(full));
         assert_eq!(output.status.code(), Some(status));
     }
 }
@@ -63,9 +64,8 @@ fn exact_write_that_stops_in_the_middle_leaves_nothing() {
     for out in ["new/out", "old"] {
         let before = folder.contents();
         let run = format!("exec {} run model.toml --out {out}", env!("CARGO_BIN_EXE_slipstick"));
-        let script = format!("trap '' XFSZ; ulimit -f 16; {run}");
-        let output =
-            Command::new("sh").args(["-c", &script]).current_dir(folder.path()).output().unwrap();
+        let limited = format!("trap '' XFSZ; ulimit -f 16; {run}");
+        let output = script(&folder, &["sh"], &limited);
         let found = message(&["run"], &output);
         assert!(found.starts_with(&format!("{out}/history.csv: cannot be written: ")), "{found}");
         assert_eq!(folder.contents(), before);
@@ -78,18 +78,16 @@ fn exact_full_disk_leaves_nothing() {
     let folder = Folder::with_model("disk", BLOCK);
     folder.write("disk/.keep", "");
     // A file system of its own, seen by this shell only.
-    let in_disk = |script: &str| {
-        let script = format!("mount -t tmpfs -o size=48k tmpfs disk && {script}");
-        let mut unshare = Command::new("unshare");
-        unshare.args(["--user", "--map-root-user", "--mount", "sh", "-c", &script]);
-        unshare.current_dir(folder.path()).output()
+    let in_disk = |run: &str| {
+        let run = format!("mount -t tmpfs -o size=48k tmpfs disk && {run}");
+        script(&folder, &["unshare", "--user", "--map-root-user", "--mount", "sh"], &run)
     };
-    if !in_disk("true").is_ok_and(|output| output.status.success()) {
+    if missing("unshare") || !in_disk("true").status.success() {
         println!("skipped: full disk (no file system of its own can be mounted here)");
         return;
     }
     let run = format!("{} run model.toml --out disk/out", env!("CARGO_BIN_EXE_slipstick"));
-    let output = in_disk(&format!("{{ {run}; echo $?; ls -A disk; }}")).unwrap();
+    let output = in_disk(&format!("{{ {run}; echo $?; ls -A disk; }}"));
     assert_eq!(text(&output.stdout), "2\n");
     assert_eq!(
         text(&output.stderr),
@@ -97,18 +95,24 @@ fn exact_full_disk_leaves_nothing() {
     );
 }
 
+/// Whether a program is not to be had.
+#[cfg(target_os = "linux")]
+fn missing(program: &str) -> bool {
+    let _one = starting();
+    Command::new(program).arg("--version").output().is_err()
+}
+
 /// Runs until `when`, sends Ctrl-C, and expects a folder as it was.
 fn interrupted(folder: &Folder, arguments: &[&str], when: impl Fn(&Folder) -> bool) {
     let before = folder.contents();
-    let mut command = folder.command(arguments);
-    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let child = start(&mut folder.command(arguments));
     let started = Instant::now();
     while !when(folder) {
         assert!(started.elapsed() < Duration::from_secs(300), "nothing to interrupt");
         std::thread::sleep(Duration::from_millis(2));
     }
-    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-    assert!(kill.success());
+    let mut kill = start(Command::new("kill").args(["-INT", &child.id().to_string()]));
+    assert!(kill.wait().unwrap().success());
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
     assert_eq!((text(&output.stdout), text(&output.stderr)), (String::new(), String::new()));

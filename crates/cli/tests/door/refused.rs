@@ -1,8 +1,6 @@
 //! Bad input: one clear message, exit status 2, nothing written and nothing touched.
 
-use std::process::Stdio;
-
-use super::support::{BLOCK, Folder, RECORD, RECORDED, message};
+use super::support::{BLOCK, Folder, RECORD, RECORDED, message, output};
 
 /// The message for a model, run with an output folder that must not stay.
 fn of_model(test: &str, bytes: impl AsRef<[u8]>) -> String {
@@ -63,7 +61,7 @@ fn exact_model_too_long() {
     let folder = Folder::new("model-long-stdin");
     folder.write("long.toml", &comment);
     let stdin = std::fs::File::open(folder.path().join("long.toml")).unwrap();
-    let output = folder.command(&["run", "-"]).stdin(Stdio::from(stdin)).output().unwrap();
+    let output = output(folder.command(&["run", "-"]).stdin(stdin));
     let found = message(&["run", "-"], &output);
     assert_eq!(found, "standard input: expected at most 1048576 bytes, found more");
 }

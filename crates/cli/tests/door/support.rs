@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use serde_json::Value;
 
@@ -100,11 +101,12 @@ impl Folder {
     pub fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_slipstick"));
         command.args(arguments).current_dir(&self.0).stdin(Stdio::null());
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
         command
     }
 
     pub fn output(&self, arguments: &[&str]) -> Output {
-        self.command(arguments).output().unwrap()
+        output(&mut self.command(arguments))
     }
 
     /// What it prints; it must end well.
@@ -135,6 +137,32 @@ impl Drop for Folder {
     fn drop(&mut self) {
         let _ = fs::remove_dir_all(&self.0);
     }
+}
+
+/// Held while a process is started: until it runs its own program it has a copy of every pipe of
+/// this one, and a pipe of which there is a copy is not closed.
+pub fn starting() -> MutexGuard<'static, ()> {
+    static STARTING: Mutex<()> = Mutex::new(());
+    STARTING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Starts a process, one at a time.
+pub fn start(command: &mut Command) -> Child {
+    let _one = starting();
+    command.spawn().unwrap()
+}
+
+/// What a process prints, where its streams are pipes.
+pub fn output(command: &mut Command) -> Output {
+    start(command).wait_with_output().unwrap()
+}
+
+/// What a script of the shell prints.
+#[cfg(unix)]
+pub fn script(folder: &Folder, program: &[&str], script: &str) -> Output {
+    let mut command = Command::new(program[0]);
+    command.args(&program[1..]).args(["-c", script]).current_dir(folder.path());
+    output(command.stdout(Stdio::piped()).stderr(Stdio::piped()))
 }
 
 /// The one message of a refusal.
