@@ -115,7 +115,7 @@ pub struct RunArgs {
     /// Set a key of the model by its path, such as slider.gap="150 mm"; repeatable, the last holds
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// Add acceleration response spectra (5 %) of table, block and storeys
+    /// Add acceleration response spectra (5 %) of table, block and storeys to report and JSON
     #[arg(long)]
     pub floor_spectrum: bool,
 

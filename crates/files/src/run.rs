@@ -41,12 +41,10 @@ pub struct Outcome {
     pub response: Response,
     /// Its certificate.
     pub certificate: Certificate,
-    /// All figures, those of the bounds included.
+    /// All figures, those of the bounds included, and floor spectra where they were asked for.
     pub summary: Summary,
     /// Responses with lower- and upper-bound friction, where the model gives bounds.
     pub bounds: Option<[Response; 2]>,
-    /// Floor spectra, where they were asked for.
-    pub floor_spectra: Option<FloorSpectra>,
 }
 
 /// Why a job could not be made ready or solved.
@@ -138,11 +136,13 @@ impl Job {
                 (summary.with_bounds(of_lower, of_upper), Some([lower, upper]))
             }
         };
-        let floor_spectra = match (&response.history, floor_spectrum) {
-            (Some(history), true) => Some(floor_spectra(&self.loaded.motion, history)),
-            _ => None,
+        let summary = match (&response.history, floor_spectrum) {
+            (Some(history), true) => {
+                summary.with_floor_spectra(floor_spectra(&self.loaded.motion, history))
+            }
+            _ => summary,
         };
-        Ok(Outcome { response, certificate, summary, bounds, floor_spectra })
+        Ok(Outcome { response, certificate, summary, bounds })
     }
 
     fn solve(

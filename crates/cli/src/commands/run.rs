@@ -200,7 +200,7 @@ fn write_files(
         response: &outcome.response,
         certificate: &outcome.certificate,
         bounds: outcome.bounds.as_ref().map(|[lower, upper]| [lower, upper]),
-        floor_spectra: outcome.floor_spectra.as_ref(),
+        floor_spectra: outcome.summary.floor_spectra.as_ref(),
         inputs: &inputs,
         files: &files,
         command_line: &command_line,
