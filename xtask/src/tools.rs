@@ -1,6 +1,14 @@
 //! Small tasks. Those that need a tool beyond cargo and rustup install it.
 
 use crate::shell::{self, Outcome};
+use std::fs;
+use std::path::Path;
+
+/// Keys set from outside a model, one a line: a seed of the fuzz target for them.
+const OVERRIDES: &str = "slider.kinetic_friction=0.04\nslider.static_friction.positive = 0.1\n\
+    slider.spring=1 MN/m\nstorey.2.mass=\"70 t\"\nframe.period=0.8 s\nmotion.scale_to=0.3 g\n\
+    motion.sine.frequency=2 Hz\ninitial.storey_velocity=[\"1 m/s\"]\nanalysis.method=stepwise\n\
+    slider.bounds={ lower = 0.9, upper = 1.1 }\n";
 
 /// Licences, advisories, sources and doubles, by `deny.toml`.
 pub fn deny() -> Outcome {
@@ -48,6 +56,7 @@ pub fn fuzz(options: &[&str]) -> Outcome {
     let mut failed = Vec::new();
     for target in targets.iter().filter(|target| chosen.is_none_or(|c| c == *target)) {
         let run = format!("fuzz run {target} -- -max_total_time={seconds}");
+        seed(target)?;
         // Sanitizers are still behind a flag of the nightly compiler; this opens it on stable.
         if shell::run(shell::cargo(&run).env("RUSTC_BOOTSTRAP", "1")).is_err() {
             failed.push(target.as_str());
@@ -56,9 +65,35 @@ pub fn fuzz(options: &[&str]) -> Outcome {
     if failed.is_empty() { Ok(()) } else { Err(format!("fuzz: failed: {}", failed.join(", "))) }
 }
 
+/// Puts what is known to be read into the corpus of a target, so that it starts from there.
+fn seed(target: &str) -> Outcome {
+    let corpus = shell::root().join("fuzz/corpus").join(target);
+    let failed = |path: &Path, error| format!("{}: {error}", path.display());
+    fs::create_dir_all(&corpus).map_err(|error| failed(&corpus, error))?;
+    if target == "overrides" {
+        let path = corpus.join("seed");
+        return fs::write(&path, OVERRIDES).map_err(|error| failed(&path, error));
+    }
+    let sources: &[&str] = match target {
+        "model" => &["crates/cli/models", "examples"],
+        _ => &["data/records"],
+    };
+    for source in sources {
+        let folder = shell::root().join(source);
+        let entries = fs::read_dir(&folder).map_err(|error| failed(&folder, error))?;
+        for path in entries.filter_map(Result::ok).map(|entry| entry.path()) {
+            let other = target == "model" && path.extension().is_none_or(|e| e != "toml");
+            if let Some(name) = path.file_name().filter(|_| path.is_file() && !other) {
+                fs::copy(&path, corpus.join(name)).map_err(|error| failed(&path, error))?;
+            }
+        }
+    }
+    Ok(())
+}
+
 fn fuzz_targets() -> Result<Vec<String>, String> {
     let list = shell::root().join("fuzz/fuzz_targets");
-    let entries = std::fs::read_dir(&list).map_err(|e| format!("{}: {e}", list.display()))?;
+    let entries = fs::read_dir(&list).map_err(|e| format!("{}: {e}", list.display()))?;
     let mut targets: Vec<String> = entries
         .filter_map(Result::ok)
         .filter_map(|entry| Some(entry.file_name().to_str()?.strip_suffix(".rs")?.to_owned()))

@@ -13,7 +13,7 @@ Start here:
   slipstick run tank.toml --out out      print the result, write out/report.html
   slipstick schema --units               the units that values may have
 
-Exit status: 0 done, 1 a check or comparison failed, 2 bad input.";
+Exit status: 0 done, 1 a check or comparison failed, 2 bad input, 130 after Ctrl-C.";
 
 const RUN_EXAMPLES: &str = "\
 Examples:
@@ -21,7 +21,12 @@ Examples:
   slipstick run tank.toml --out out --floor-spectrum
   slipstick run tank.toml --motion taft.txt --units g --dt \"0.01 s\" --scale-to \"0.3 g\"
   slipstick run tank.toml --set slider.kinetic_friction=0.05 --set storey.1.mass=\"90 kg\"
+  slipstick run tank.toml --set analysis.tail=\"5 s\" --display-units kN-mm
   slipstick run - --json < tank.toml
+
+Values are numbers with a unit, \"0.3 g\"; slipstick schema --units lists the units. Paths of keys are
+joined by dots, storeys counted from 1. The model's record lies relative to the model file, that of
+--motion relative to the working folder.
 
 Writes with --out, each file whole or not at all:
   summary.json  the object that --json prints
@@ -73,13 +78,13 @@ pub struct RunArgs {
     /// Model file (TOML), or - to read it from standard input
     pub model: PathBuf,
 
-    /// Ground motion to use instead of the model's [motion]
+    /// Record to use instead of the model's [motion]; its format is recognised
     #[arg(long, value_name = "FILE", help_heading = "Ground motion")]
     pub motion: Option<PathBuf>,
-    /// Unit of the record's values, where its file does not state one: g, gal, m/s2, …
+    /// Unit of the record's values, where its file does not state it: g, gal, m/s2, …
     #[arg(long, value_name = "UNIT", requires = "motion", help_heading = "Ground motion")]
     pub units: Option<String>,
-    /// Time step of the record, where its file does not state one: "0.01 s"
+    /// Time step of the record, where its file does not state it: "0.01 s"
     #[arg(long, value_name = "TIME", requires = "motion", help_heading = "Ground motion")]
     pub dt: Option<String>,
     /// Channel of the record, by name or by number from 1
@@ -107,10 +112,10 @@ pub struct RunArgs {
     /// How to compute: exact, or stepwise as the paper's own program did
     #[arg(long, value_enum)]
     pub method: Option<MethodName>,
-    /// Set a key of the model by its path, such as slider.kinetic_friction=0.05; repeatable
+    /// Set a key of the model by its path, such as slider.gap="150 mm"; repeatable, the last holds
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// Add acceleration response spectra (5 %) of table, block and storeys
+    /// Add acceleration response spectra (5 %) of table, block and storeys to report and JSON
     #[arg(long)]
     pub floor_spectrum: bool,
 
@@ -145,7 +150,7 @@ pub struct InitArgs {
 /// `slipstick schema`.
 #[derive(Debug, Args)]
 pub struct SchemaArgs {
-    /// Print the units that values may have instead
+    /// Print the units that values may have, instead of the schema
     #[arg(long)]
     pub units: bool,
 }

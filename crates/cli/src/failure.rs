@@ -30,11 +30,12 @@ impl Failure {
         Self::Input { error: Box::new(error), text: text.to_owned() }
     }
 
-    /// A fault of a job whose model text is at hand.
-    pub fn job(error: JobError, text: &str) -> Self {
+    /// A fault of a job; `name` and `text` are those of its model file.
+    pub fn job(error: JobError, name: &str, text: &str) -> Self {
         match error {
             JobError::Input(error) => Self::input(error, text),
-            other => Self::Message(other.to_string()),
+            JobError::Solve(error) => Self::Message(format!("{name}: {error}")),
+            JobError::File(error) => error.into(),
         }
     }
 

@@ -14,6 +14,7 @@ use common::agree::{Verdict, compare};
 use common::plain::{Reference, reference};
 use common::random::Random;
 use common::sketch::Sketch;
+use slipstick::model::Damping;
 use slipstick::response::EventKind;
 use slipstick::solver::exact;
 
@@ -105,6 +106,17 @@ fn grazing(random: &mut Random) -> Sketch {
     let after = level * random.between(-1.0, 1.0);
     x.horizontal = vec![brake, brake * random.between(0.5, 1.5), push, 0.3 * push, after];
     x.w = (brake + level) * dt * random.between(1.2, 1.8);
+    if random.chance(0.3) {
+        // The worst for a bound made of both ends of a sample: a parabola with its dip midway.
+        let friction = random.between(0.02, 0.2);
+        let (gravity, dt) = (x.gravity, dt);
+        x = Sketch { gravity, ..Sketch::block(friction, friction) };
+        let level = friction * gravity;
+        let turn = level * random.between(1.2, 4.0);
+        x.times = (0..=4).map(|i| f64::from(i) * dt).collect();
+        x.horizontal = vec![brake, turn - level, -turn - level, -turn, 0.0];
+        x.w = (0.5 * (brake + turn + level) + 0.25 * turn) * dt;
+    }
     let target = random.sign() * random.logarithmic(1e-10, 1e-4);
     // Over the initial velocity, which is the peak.
     tune(&mut x, target, |r| {
@@ -176,11 +188,22 @@ fn excess(random: &mut Random) -> Sketch {
         x = Sketch::system(random);
     }
     // With equal friction the slip is as small as the excess, and only its events can be compared.
-    let kinetic = if random.chance(0.2) { 1.0 } else { random.between(0.5, 0.95) };
+    let kinetic = if random.chance(0.1) { 1.0 } else { random.between(0.5, 0.95) };
     x.tilt = 0.0;
     let count = random.integer(20, 60) as usize;
     let dt = random.logarithmic(0.05, 1.0) / rate(&x);
     x.shake(random, count, dt, 1.0);
+    if random.chance(0.3) {
+        // The worst for a bound made of both ends of a sample: free vibration with its peak midway.
+        x.masses.truncate(1);
+        x.damping = Damping::Ratio(0.0);
+        x.horizontal.iter_mut().for_each(|a| *a *= 1e-9);
+        x.stiffnesses.truncate(1);
+        let rate = (x.stiffnesses[0] / x.masses[0]).sqrt();
+        let phase = rate * dt * (random.integer(0, 9) as f64 + 0.5);
+        x.q = Some(vec![0.01 * libm::cos(phase)]);
+        x.v = vec![0.01 * rate * libm::sin(phase)];
+    }
     (x.static_friction, x.kinetic_friction) = ([1e3; 2], [1e3; 2]);
     let (model, motion) = x.build();
     let largest = reference(&model, &motion).peaks.friction / model.weight_n();

@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         response: &outcome.response,
         certificate: &outcome.certificate,
         bounds: None,
-        floor_spectra: outcome.floor_spectra.as_ref(),
+        floor_spectra: outcome.summary.floor_spectra.as_ref(),
         inputs: &[],
         files: &[],
         command_line: "",

@@ -41,12 +41,10 @@ pub struct Outcome {
     pub response: Response,
     /// Its certificate.
     pub certificate: Certificate,
-    /// All figures, those of the bounds included.
+    /// All figures, those of the bounds included, and floor spectra where they were asked for.
     pub summary: Summary,
     /// Responses with lower- and upper-bound friction, where the model gives bounds.
     pub bounds: Option<[Response; 2]>,
-    /// Floor spectra, where they were asked for.
-    pub floor_spectra: Option<FloorSpectra>,
 }
 
 /// Why a job could not be made ready or solved.
@@ -59,13 +57,8 @@ pub enum JobError {
     #[error(transparent)]
     File(#[from] FileError),
     /// The analysis itself.
-    #[error("{model}: {source}")]
-    Solve {
-        /// The model's name.
-        model: String,
-        /// What is wrong.
-        source: SolveError,
-    },
+    #[error(transparent)]
+    Solve(#[from] SolveError),
 }
 
 impl Job {
@@ -143,11 +136,13 @@ impl Job {
                 (summary.with_bounds(of_lower, of_upper), Some([lower, upper]))
             }
         };
-        let floor_spectra = match (&response.history, floor_spectrum) {
-            (Some(history), true) => Some(floor_spectra(&self.loaded.motion, history)),
-            _ => None,
+        let summary = match (&response.history, floor_spectrum) {
+            (Some(history), true) => {
+                summary.with_floor_spectra(floor_spectra(&self.loaded.motion, history))
+            }
+            _ => summary,
         };
-        Ok(Outcome { response, certificate, summary, bounds, floor_spectra })
+        Ok(Outcome { response, certificate, summary, bounds })
     }
 
     fn solve(
@@ -156,8 +151,7 @@ impl Job {
         friction_factor: f64,
     ) -> Result<(Response, Certificate, Summary), JobError> {
         let method = self.analysis.method;
-        let response = solver::solve(model, &self.motion, method)
-            .map_err(|source| JobError::Solve { model: self.name.clone(), source })?;
+        let response = solver::solve(model, &self.motion, method)?;
         let empty = History::default();
         let history = response.history.as_ref().unwrap_or(&empty);
         let certificate = check::check(model, &self.motion, history);

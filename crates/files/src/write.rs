@@ -6,7 +6,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -61,7 +61,7 @@ pub fn refuse_inputs(output: &Path, inputs: &[PathBuf]) -> Result<(), FileError>
 /// # Errors
 /// [`FileError::Write`], [`FileError::IsFolder`]; nothing is left behind.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    Temporary::write(path, bytes)?.rename(&mut live())
+    Temporary::write(path, |to| to.write_all(bytes))?.rename(&mut live())
 }
 
 /// A complete file under a temporary name; removed when dropped.
@@ -71,7 +71,10 @@ struct Temporary {
 }
 
 impl Temporary {
-    fn write(target: &Path, bytes: &[u8]) -> Result<Self, FileError> {
+    fn write(
+        target: &Path,
+        fill: impl FnOnce(&mut BufWriter<fs::File>) -> io::Result<()>,
+    ) -> Result<Self, FileError> {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         let failed = |source| FileError::Write { path: target.to_owned(), source };
         if target.is_dir() {
@@ -86,7 +89,7 @@ impl Temporary {
         name.push(file_name);
         name.push(format!(".{}-{count}.tmp", std::process::id()));
         let name = target.with_file_name(name);
-        let mut file = {
+        let file = {
             // Created under the lock: Ctrl-C finds it in the list or finds no file.
             let mut live = live();
             if live.ending {
@@ -97,7 +100,10 @@ impl Temporary {
             file
         };
         let temporary = Self { name, target: target.to_owned() };
-        file.write_all(bytes).and_then(|()| file.sync_all()).map_err(failed)?;
+        let mut file = BufWriter::new(file);
+        fill(&mut file).map_err(failed)?;
+        let file = file.into_inner().map_err(|error| failed(error.into_error()))?;
+        file.sync_all().map_err(failed)?;
         Ok(temporary)
     }
 
@@ -149,7 +155,7 @@ impl OutputFolder {
         };
         output.make(folder)?;
         // Known before an analysis is run, not after it.
-        drop(Temporary::write(&folder.join("writable"), b"")?);
+        drop(Temporary::write(&folder.join("writable"), |_| Ok(()))?);
         Ok(output)
     }
 
@@ -186,9 +192,21 @@ impl OutputFolder {
     /// # Errors
     /// [`FileError::IsInput`], [`FileError::IsFolder`], [`FileError::Write`].
     pub fn write(&mut self, name: &str, bytes: &[u8]) -> Result<(), FileError> {
+        self.write_with(name, |to| to.write_all(bytes))
+    }
+
+    /// As [`OutputFolder::write`], for text that is made while it is written.
+    ///
+    /// # Errors
+    /// As [`OutputFolder::write`].
+    pub fn write_with(
+        &mut self,
+        name: &str,
+        fill: impl FnOnce(&mut BufWriter<fs::File>) -> io::Result<()>,
+    ) -> Result<(), FileError> {
         let target = self.path(name);
         refuse_inputs(&target, &self.inputs)?;
-        self.files.push(Temporary::write(&target, bytes)?);
+        self.files.push(Temporary::write(&target, fill)?);
         Ok(())
     }
 

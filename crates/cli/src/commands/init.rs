@@ -1,6 +1,6 @@
 //! `slipstick init`: an example model that runs as it stands.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use crate::args::{Example, InitArgs};
@@ -19,7 +19,8 @@ pub fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
         Example::Frame => FRAME,
     };
     let path = PathBuf::from(format!("{stem}.toml"));
-    if stem.is_empty() || stem == "-" {
+    let nameless = Path::new(stem).file_name().is_none() || stem.ends_with(['/', '\\']);
+    if nameless || stem == "-" {
         let found = &args.name;
         return Err(Failure::Message(format!("expected a name for the model, found {found:?}")));
     }

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use slipstick::input::{self, Override};
 use slipstick::record::{self, Quantity};
+use slipstick::response::History;
 use slipstick::units::{Dimension, parse_quantity};
 use slipstick_files::{
     FileError, Job, Outcome, OutputFolder, RecordRequest, Scale, events_csv, history_csv,
@@ -24,7 +25,7 @@ pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let analysis = input::from_bytes(&model.name, &model.bytes, &overrides)
         .map_err(|error| Failure::input(error, &model.text()))?;
     let record = args.motion.as_deref().map(|path| record_request(args, path)).transpose()?;
-    let in_model = |error| Failure::job(error, &model.text());
+    let in_model = |error| Failure::job(error, &model.name, &model.text());
     let job = watched("reading", args.quiet, || Job::new(&model.path, analysis, record.as_ref()))
         .map_err(in_model)?;
     // An output folder that cannot be written is told before the work, not after it.
@@ -199,22 +200,17 @@ fn write_files(
         response: &outcome.response,
         certificate: &outcome.certificate,
         bounds: outcome.bounds.as_ref().map(|[lower, upper]| [lower, upper]),
-        floor_spectra: outcome.floor_spectra.as_ref(),
+        floor_spectra: outcome.summary.floor_spectra.as_ref(),
         inputs: &inputs,
         files: &files,
         command_line: &command_line,
         display: args.display_units.into(),
     };
-    let in_memory = |source| FileError::Write { path: PathBuf::from("history.csv"), source };
     folder.write("summary.json", outcome.summary.to_json().as_bytes())?;
-    let mut csv = Vec::new();
-    if let Some(history) = &outcome.response.history {
-        history_csv(history, &mut csv).map_err(in_memory)?;
-    }
-    folder.write("history.csv", &csv)?;
-    csv.clear();
-    events_csv(&outcome.response.events, &mut csv).map_err(in_memory)?;
-    folder.write("events.csv", &csv)?;
+    let empty = History::default();
+    let history = outcome.response.history.as_ref().unwrap_or(&empty);
+    folder.write_with("history.csv", |to| history_csv(history, to))?;
+    folder.write_with("events.csv", |to| events_csv(&outcome.response.events, to))?;
     folder.write("report.html", report.to_html().as_bytes())?;
     folder.commit()
 }
@@ -231,4 +227,36 @@ fn command_line() -> String {
     };
     let arguments = std::env::args_os().skip(1).map(|a| quoted(a.to_string_lossy().into_owned()));
     std::iter::once("slipstick".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Not to be seen from outside: an exact response that fails its check is a fault of ours.
+    #[test]
+    fn exact_failed_check_is_status_1() {
+        let text = "[block]\nmass = \"1 kg\"\n[slider]\nstatic_friction = 0.2\n\
+                    kinetic_friction = 0.1\nbounds = { lower = 0.5, upper = 2 }\n[motion]\n\
+                    sine = { frequency = \"1 Hz\", amplitude = \"3 m/s2\", duration = \"2 s\", \
+                    dt = \"0.1 s\" }\n";
+        let analysis = input::parse("model.toml", text, &[]).unwrap();
+        let job = Job::new(Path::new("model.toml"), analysis, None).unwrap();
+        let summary = job.run(false).unwrap().summary;
+        assert_eq!(status(&summary), 0);
+        let failed = |run: &Summary| {
+            let mut run = run.clone();
+            run.checks.holds = Some(false);
+            run
+        };
+        assert_eq!(status(&failed(&summary)), 1);
+        let bounds = summary.bounds.clone().unwrap();
+        let beside = |lower, upper| summary.clone().with_bounds(lower, upper);
+        assert_eq!(status(&beside(failed(&bounds.lower), bounds.upper.clone())), 1);
+        assert_eq!(status(&beside(bounds.lower.clone(), failed(&bounds.upper))), 1);
+        // The stepwise method is reported, never judged.
+        let mut stepwise = summary.clone();
+        stepwise.checks.holds = None;
+        assert_eq!(status(&stepwise), 0);
+    }
 }

@@ -139,6 +139,23 @@ fn exact_keys_with_bounds_heights_and_iterations() {
 }
 
 #[test]
+fn exact_floor_spectra_stand_beside() {
+    let folder = Folder::with_model("json-spectra", BLOCK);
+    assert!(folder.json(&["model.toml"]).get("floor_spectrum").is_none());
+    let json = folder.json(&["model.toml", "--floor-spectrum"]);
+    check_run(&json, 0);
+    let spectrum = &json["floor_spectrum"];
+    assert_eq!(spectrum["damping_ratio"], 0.05);
+    let lists = ["period_s", "table_acceleration_m_per_s2", "block_acceleration_m_per_s2"];
+    let lists = lists.map(|key| spectrum[key].as_array().unwrap());
+    assert!(lists.iter().all(|list| list.len() == lists[0].len() && list[0].is_number()));
+    // A stiff oscillator moves with what it stands on.
+    let block = json["block"]["peak_acceleration_m_per_s2"].as_f64().unwrap();
+    assert!((lists[2][0].as_f64().unwrap() / block - 1.0).abs() < 0.1, "{} {block}", lists[2][0]);
+    assert_eq!(spectrum["storeys_acceleration_m_per_s2"], serde_json::json!([]));
+}
+
+#[test]
 fn exact_keys_where_nothing_happens() {
     let still = BLOCK.replace("3 m/s2", "0 m/s2");
     let json = Folder::with_model("json-still", &still).json(&["model.toml"]);

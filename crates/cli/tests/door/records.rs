@@ -20,7 +20,7 @@ fn exact_record_that_is_no_text() {
         ("blank", b" \r\n\n", "record.csv:1:1: expected a record, found \"an empty file\""),
         (
             "utf16",
-            b"\xff\xfe0\0,\01\0\n\0",
+            b"\xff\xfet\0i\0m\0e\0\n\0",
             "record.csv:1:1: expected text in UTF-8 or ASCII, found \"UTF-16\"",
         ),
         (

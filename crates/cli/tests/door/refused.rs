@@ -200,7 +200,7 @@ fn exact_inputs_are_never_replaced() {
 fn exact_analysis_that_fails_leaves_no_folder() {
     let folder = Folder::with_model("unsolved", &BLOCK.replace("20 kN/m", "2000 MN/m"));
     let found = folder.refused(&["run", "model.toml", "--method", "stepwise", "--out", "a/b"]);
-    assert!(found.starts_with("Block: stepwise method:") && found.contains(" s; "), "{found}");
+    assert!(found.starts_with("model.toml: stepwise method:") && found.contains(" s; "), "{found}");
 }
 
 #[test]
@@ -239,7 +239,7 @@ fn exact_init_replaces_nothing_unasked() {
     let found = folder.refused(&["init"]);
     assert!(found.starts_with("model.toml: ") && found.contains("--force"), "{found}");
     assert!(folder.refused(&["init", "nowhere/model"]).starts_with("nowhere/model.toml: "));
-    for name in ["", "-", ".toml"] {
+    for name in ["", "-", ".toml", "..", "/", "a/"] {
         let found = folder.refused(&["init", "--", name]);
         assert!(found.starts_with("expected a name"), "{name:?}: {found}");
     }

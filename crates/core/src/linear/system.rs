@@ -415,10 +415,9 @@ impl<V: PerStorey> System<V> {
     #[inline(always)]
     pub fn floors(&self, eta: &[f64], out: &mut [f64]) {
         let (n, shapes) = (eta.len(), self.shapes.as_ref());
-        out.fill(0.0);
         for (j, eta) in eta.iter().enumerate() {
             for (out, shape) in out.iter_mut().zip(&shapes[j * n..(j + 1) * n]) {
-                *out += shape * eta;
+                *out = if j == 0 { shape * eta } else { *out + shape * eta };
             }
         }
     }
@@ -450,9 +449,7 @@ impl<V: PerStorey> System<V> {
 /// Sum of products in order, from the first.
 #[inline(always)]
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sum = 0.0;
-    for (x, y) in a.iter().zip(b) {
-        sum += x * y;
-    }
-    sum
+    let mut products = a.iter().zip(b).map(|(x, y)| x * y);
+    let Some(first) = products.next() else { return 0.0 };
+    products.fold(first, |sum, product| sum + product)
 }

@@ -10,7 +10,10 @@ use crate::motion::GroundMotion;
 /// Loads of a model under a motion, and the bounds of its friction.
 pub(super) struct Excitation<'a> {
     pub(super) times_s: &'a [f64],
+    /// The step that all but a few intervals have; none where the sampling is uneven.
     pub(super) dt_s: Option<f64>,
+    /// The other intervals, in order: jumps, an odd end, a gap.
+    irregular: Vec<usize>,
     /// `a = Ü + g sin θ` at the samples.
     pub(super) acceleration: Cow<'a, [f64]>,
     /// `M_tot (g cos θ + Üv)` at the samples, negative where contact is lost; or one value.
@@ -45,10 +48,15 @@ impl<'a> Excitation<'a> {
         let slope = model.slope_m_per_s2();
         let (mass, gravity) = (model.total_mass_kg(), model.normal_gravity_m_per_s2());
         let friction: &Friction = &model.slider().friction;
+        let (dt_s, irregular) = match motion.dt_s() {
+            Some(dt_s) => (Some(dt_s), Vec::new()),
+            None => regular_step(motion.times_s()),
+        };
         let directions = [Direction::Positive, Direction::Negative];
         Self {
             times_s: motion.times_s(),
-            dt_s: motion.dt_s(),
+            dt_s,
+            irregular,
             acceleration: if slope == 0.0 {
                 Cow::Borrowed(motion.horizontal_m_per_s2())
             } else {
@@ -63,6 +71,13 @@ impl<'a> Excitation<'a> {
             static_friction: directions.map(|d| friction.static_coefficient(d)),
             kinetic_friction: directions.map(|d| friction.kinetic_coefficient(d)),
         }
+    }
+
+    /// End of the regular intervals that begin at a sample: the first sample whose interval has
+    /// another length, or the last.
+    pub(super) fn regular_end(&self, sample: usize) -> usize {
+        let next = self.irregular.partition_point(|&interval| interval < sample);
+        self.irregular.get(next).copied().unwrap_or(self.times_s.len() - 1)
     }
 
     /// Normal force at a sample, unclamped.
@@ -178,6 +193,22 @@ impl<'a> Excitation<'a> {
             }
         }
         lost
+    }
+}
+
+/// The step that most intervals have to within rounding, and the intervals that have another.
+fn regular_step(times_s: &[f64]) -> (Option<f64>, Vec<usize>) {
+    let last = times_s.len() - 1;
+    let slack_s = 8.0 * f64::EPSILON * times_s[last];
+    let mut lengths_s: Vec<f64> = times_s.windows(2).map(|t| t[1] - t[0]).collect();
+    let middle = lengths_s.len() / 2;
+    let dt_s = *lengths_s.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let is_odd = |&i: &usize| (times_s[i + 1] - times_s[i] - dt_s).abs() > slack_s;
+    let irregular: Vec<usize> = (0..last).filter(is_odd).collect();
+    if dt_s > 0.0 && irregular.len() <= last / 4 {
+        (Some(dt_s), irregular)
+    } else {
+        (None, Vec::new())
     }
 }
 

@@ -7,6 +7,8 @@
 //! are kept; what is still in question at the end, or when too many have gathered, is looked at
 //! by its Taylor polynomial.
 
+use core::ops::Range;
+
 use super::excitation::{Excitation, Stretch};
 use crate::linear::polynomial::{DEGREE, largest};
 use crate::linear::{MAX_RATE_STEP, PerStorey, Series, State, System};
@@ -63,16 +65,32 @@ pub(super) struct Limits<V: PerStorey> {
 }
 
 impl<V: PerStorey> Limits<V> {
-    /// Whether values keep the limits.
+    /// Limits for friction force and acceleration of the block in stick, where the slider takes
+    /// the friction force less `spring_n`.
     #[inline(always)]
-    pub(super) fn hold(&self, values: &V::Tracked) -> bool {
+    pub(super) fn stick(&self, spring_n: f64) -> StickLimits {
+        let of = |j: usize| [self.below.as_ref()[j], self.above.as_ref()[j]];
+        let (friction, slider) = (of(tracked::FRICTION), of(tracked::SLIDER));
+        StickLimits {
+            friction_n: [
+                friction[0].max(slider[0] + spring_n),
+                friction[1].min(slider[1] + spring_n),
+            ],
+            acceleration: of(tracked::BLOCK),
+        }
+    }
+
+    /// Whether all values keep the limits, or all but a few.
+    #[inline(always)]
+    pub(super) fn hold(&self, values: &V::Tracked, but: Range<usize>) -> bool {
         let (above, below, y) = (self.above.as_ref(), self.below.as_ref(), values.as_ref());
         // One storey's drift is its displacement, and its acceleration goes with the base shear.
         let one_storey = y.len() == tracked::STOREYS + 3;
         // Left at the first: in one go the compiler would gather into vectors what has just been
         // stored one by one, and wait for the stores.
         for j in 0..y.len() {
-            if one_storey && (j == tracked::BASE_SHEAR || j == tracked::STOREYS + 1) {
+            let redundant = j == tracked::BASE_SHEAR || j == tracked::STOREYS + 1;
+            if but.contains(&j) || (one_storey && redundant) {
                 continue;
             }
             if !(below[j] <= y[j] && y[j] <= above[j]) {
@@ -80,6 +98,22 @@ impl<V: PerStorey> Limits<V> {
             }
         }
         true
+    }
+}
+
+/// [`Limits`] of the values that in stick have kinks where the load has.
+#[derive(Clone, Copy)]
+pub(super) struct StickLimits {
+    friction_n: [f64; 2],
+    acceleration: [f64; 2],
+}
+
+impl StickLimits {
+    /// Whether the values at an instant keep the limits.
+    #[inline(always)]
+    pub(super) fn hold(&self, friction_n: f64, acceleration: f64) -> bool {
+        let inside = |x: f64, [below, above]: [f64; 2]| below <= x && x <= above;
+        inside(friction_n, self.friction_n) && inside(acceleration, self.acceleration)
     }
 }
 

@@ -215,22 +215,22 @@ impl Sketch {
         .expect("a model")
     }
 
-    /// The same with record, friction and initial state changed by ±`relative`; `side` swaps the
-    /// signs.
-    pub fn perturbed(&self, random: &mut Random, relative: f64, side: f64) -> Self {
-        let mut factor = || 1.0 + side * random.sign() * relative;
-        let mut x = self.clone();
-        // The same factor for all coefficients: static and kinetic friction that are equal stay so.
-        let friction = factor();
-        for mu in x.static_friction.iter_mut().chain(&mut x.kinetic_friction) {
-            *mu *= friction;
+    /// The same with friction larger by a part of it, and with record and start changed by as much
+    /// either way: one after the other, lest they make up for each other.
+    pub fn perturbed(&self, relative: f64) -> [Self; 2] {
+        let mut rougher = self.clone();
+        // The same factor for all: static and kinetic friction that are equal stay so.
+        for mu in rougher.static_friction.iter_mut().chain(&mut rougher.kinetic_friction) {
+            *mu *= 1.0 + relative;
         }
-        x.s *= factor();
-        x.w *= factor();
+        let mut random = Random::new(1);
+        let mut shaken = self.clone();
+        let x = &mut shaken;
         let lists = [Some(&mut x.horizontal), x.vertical.as_mut(), x.q.as_mut(), Some(&mut x.v)];
-        for value in lists.into_iter().flatten().flatten() {
-            *value *= factor();
+        let all = lists.into_iter().flatten().flatten();
+        for value in all.chain([&mut x.s, &mut x.w]) {
+            *value *= 1.0 + random.sign() * relative;
         }
-        x
+        [rougher, shaken]
     }
 }

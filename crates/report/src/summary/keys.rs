@@ -5,8 +5,9 @@ use slipstick::response::{StoreyDemands, Warning};
 
 use super::{Checks, Summary, method_name};
 use crate::json::Json;
+use crate::report::FloorSpectra;
 
-/// The object; `iterations` and `bounds` only where there are any.
+/// The object; `iterations`, `floor_spectrum` and `bounds` only where there are any.
 pub fn object(summary: &Summary) -> Json {
     let d = &summary.demands;
     let mut keys = vec![
@@ -66,6 +67,9 @@ pub fn object(summary: &Summary) -> Json {
             Json::Object(vec![("mean", iterations.mean.into()), ("max", max.into())]),
         ));
     }
+    if let Some(spectra) = &summary.floor_spectra {
+        keys.push(("floor_spectrum", floor_spectrum(spectra)));
+    }
     if let Some(bounds) = &summary.bounds {
         keys.push((
             "bounds",
@@ -81,6 +85,20 @@ fn record(figures: &Figures) -> Json {
         ("pgv_m_per_s", figures.pgv_m_per_s.into()),
         ("pgd_m", figures.pgd_m.into()),
         ("end_velocity_m_per_s", figures.end_velocity_m_per_s.into()),
+    ])
+}
+
+fn floor_spectrum(spectra: &FloorSpectra) -> Json {
+    let list = |values: &[f64]| Json::List(values.iter().map(|&value| value.into()).collect());
+    Json::Object(vec![
+        ("damping_ratio", spectra.damping_ratio.into()),
+        ("period_s", list(&spectra.periods_s)),
+        ("table_acceleration_m_per_s2", list(&spectra.table_m_per_s2)),
+        ("block_acceleration_m_per_s2", list(&spectra.block_m_per_s2)),
+        (
+            "storeys_acceleration_m_per_s2",
+            Json::List(spectra.storeys_m_per_s2.iter().map(|floor| list(floor)).collect()),
+        ),
     ])
 }
 

@@ -8,6 +8,8 @@ use slipstick::model::Model;
 use slipstick::motion::{Figures, GroundMotion};
 use slipstick::response::{Demands, Iterations, Method, Response, Warning};
 
+use crate::report::FloorSpectra;
+
 /// What a [`Summary`] is made from.
 #[derive(Clone, Copy, Debug)]
 pub struct SummaryInputs<'a> {
@@ -86,6 +88,8 @@ pub struct Summary {
     pub warnings: Vec<Warning>,
     /// The runs with lower- and upper-bound friction, where they were asked for.
     pub bounds: Option<Box<Bounds>>,
+    /// Response spectra of table, block and floors, where they were asked for.
+    pub floor_spectra: Option<FloorSpectra>,
 }
 
 impl Summary {
@@ -120,6 +124,7 @@ impl Summary {
             },
             warnings: warnings::assemble(inputs),
             bounds: None,
+            floor_spectra: None,
         }
     }
 
@@ -127,6 +132,13 @@ impl Summary {
     #[must_use]
     pub fn with_bounds(mut self, lower: Self, upper: Self) -> Self {
         self.bounds = Some(Box::new(Bounds { lower, upper }));
+        self
+    }
+
+    /// The same with the response spectra of table, block and floors.
+    #[must_use]
+    pub fn with_floor_spectra(mut self, spectra: FloorSpectra) -> Self {
+        self.floor_spectra = Some(spectra);
         self
     }
 

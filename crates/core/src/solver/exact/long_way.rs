@@ -348,7 +348,7 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
             2.0 * self.system.energy_norm(s.s[2], s.w[2], s.eta[2].as_ref(), s.eta_dot[2].as_ref());
         let reach = 0.125 * bend * part * part;
         let limits = self.extremes.limits(reach, self.mode);
-        if !(limits.hold(&start) && limits.hold(&end)) {
+        if !(limits.hold(&start, 0..0) && limits.hold(&end, 0..0)) {
             let place = Place {
                 interval: stretch.interval,
                 from_s,

@@ -4,11 +4,14 @@ use super::Run;
 use crate::friction::Direction;
 use crate::linear::{PerStorey, Propagator, State};
 use crate::response::Mode;
-use crate::solver::extremes::{Place, tracked};
+use crate::solver::extremes::{Limits, Place, tracked};
 use crate::solver::recorder::Recorder;
 
 /// Samples for which a bound on `ẍ` serves.
-const BOUND_LIFE: usize = 8;
+const BOUND_LIFE: usize = 16;
+
+/// Samples that are shown to the extremes as one piece.
+pub(super) const LEAP: usize = 4;
 
 impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
     /// Takes whole samples while the bounds show that nothing happens in them; the first sample
@@ -48,38 +51,59 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         mut sample: usize,
         normal: impl Fn(usize) -> f64,
     ) -> usize {
-        let excitation = self.excitation;
+        let (system, excitation) = (self.system, self.excitation);
         let Some(dt_s) = excitation.dt_s else { return sample };
         let mode = if SLIP { Mode::Slip(direction) } else { Mode::Stick };
         let acceleration: &[f64] = &excitation.acceleration;
-        let last = acceleration.len() - 1;
-        let coefficient = excitation.kinetic(direction);
+        let last = excitation.regular_end(sample);
+        let (sign, coefficient) = (direction.sign(), excitation.kinetic(direction));
         let [low, high] = self.bounds;
-        let sign = direction.sign();
         let event_norm = self.extremes.event_norm(mode);
-        // The state stays in registers; it is written back at the end.
-        let mut state = self.state.clone();
+        let (s, spring_n) = (self.state.s(), system.stiffness_n_per_m * self.state.s());
+        let demand_n = |x: &State<V>, a: f64| {
+            let f = system.restoring(x.eta(), x.eta_dot());
+            system.demand_n(s, system.base_shear_n(f.as_ref()), a)
+        };
+        // The chord bound asks for a continuous derivative: where a load enters a tracked value
+        // itself, its kinks at samples part the pieces. In stick such values are looked at sample
+        // by sample.
+        let loads_kink =
+            if SLIP { excitation.varying_normal().is_some() } else { self.extremes.overturns() };
+        let leap = if loads_kink { 1 } else { LEAP };
+        let by_sample = if SLIP { 0..0 } else { tracked::BLOCK..tracked::FRICTION + 1 };
         let mut life = BOUND_LIFE;
         while sample < last {
-            let (from, end) = (sample, last.min(sample + life));
-            let reach = 0.125 * dt_s * dt_s * self.bend(&state, from, end);
+            let end = last.min(sample + life);
+            let reach = 0.125 * dt_s * dt_s * self.bend(&self.state, sample, end);
             let slack = reach * event_norm;
-            // Friction holds, or the block slides, by more than a chord can hide.
-            let clear = |values: &V::Tracked, normal: f64| {
-                let values = values.as_ref();
+            // Whether the block slides, or friction holds, by more than a slack.
+            let by = |slack: f64, x: &State<V>, demand_n: f64, normal: f64| {
                 if SLIP {
-                    sign * values[tracked::VELOCITY] > slack && normal >= 0.0
+                    sign * x.w() > slack && normal >= 0.0
                 } else {
-                    let demand = values[tracked::FRICTION];
-                    low * normal < demand - slack && demand + slack < high * normal
+                    low * normal < demand_n - slack && demand_n + slack < high * normal
                 }
             };
-            let mut limits = self.extremes.limits(reach, mode);
-            let start_n = normal(sample);
-            let values = self.values(&state, mode, acceleration[sample], coefficient * start_n);
-            let mut quiet = limits.hold(&values);
-            if clear(&values, start_n) {
-                while sample < end {
+            let limits = |run: &Self| {
+                let whole = run.extremes.limits(reach * (leap * leap) as f64, mode);
+                (whole, run.extremes.limits(reach, mode).stick(spring_n))
+            };
+            let (mut whole, mut stick) = limits(self);
+            let quiet = |run: &Self, x: &State<V>, sample: usize, whole: &Limits<V>| {
+                let kinetic_n = coefficient * normal(sample);
+                let values = run.values(x, mode, acceleration[sample], kinetic_n);
+                whole.hold(&values, by_sample.clone())
+            };
+            let mut state = self.state.clone();
+            let mut demand = if SLIP { 0.0 } else { demand_n(&state, acceleration[sample]) };
+            let mut going = by(slack, &state, demand, normal(sample));
+            let mut passed = false;
+            let mut open = !quiet(self, &state, sample, &whole)
+                || (!SLIP && !stick.hold(demand, acceleration[sample]));
+            while going && sample < end {
+                let from = sample;
+                let leap_end = end.min(sample + leap);
+                while sample < leap_end {
                     let a = [acceleration[sample], acceleration[sample + 1]];
                     let normal = [normal(sample), normal(sample + 1)];
                     let next = if SLIP {
@@ -87,47 +111,71 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
                     } else {
                         propagator.stick(&state, a)
                     };
-                    let values = self.values(&next, mode, a[1], coefficient * normal[1]);
-                    if !clear(&values, normal[1]) {
+                    let next_demand = if SLIP { 0.0 } else { demand_n(&next, a[1]) };
+                    if !by(slack, &next, next_demand, normal[1]) {
+                        (going, passed) = (false, !by(0.0, &next, next_demand, normal[1]));
                         break;
                     }
-                    let next_quiet = limits.hold(&values);
-                    if !(quiet && next_quiet) {
-                        self.keep_sample(sample, mode, state.clone(), values.clone());
-                        limits = self.extremes.limits(reach, mode);
-                        quiet = limits.hold(&values);
+                    demand = next_demand;
+                    if !SLIP {
+                        open |= !stick.hold(demand, a[1]);
                     }
-                    if R::WANTED {
-                        self.state.clone_from(&state);
-                        self.record_sample(sample, mode, true);
-                    }
+                    self.leap[sample - from].clone_from(&next);
                     state = next;
                     sample += 1;
                 }
+                if sample == from {
+                    break;
+                }
+                if open || !quiet(self, &state, sample, &whole) {
+                    self.show(from, sample, mode, reach);
+                    (whole, stick) = limits(self);
+                    open = !quiet(self, &state, sample, &whole)
+                        || (!SLIP && !stick.hold(demand, acceleration[sample]));
+                }
+                if R::WANTED {
+                    for i in from..sample {
+                        self.record_sample(i, mode, true);
+                        self.state.clone_from(&self.leap[i - from]);
+                    }
+                }
+                self.state.clone_from(&state);
             }
-            // A failure is tried again with a bound for this sample alone.
+            // A failure without an event is tried again with a bound for this sample alone.
             if sample == end {
                 life = BOUND_LIFE;
-            } else if life == 1 {
+            } else if passed || life == 1 {
                 break;
             } else {
                 life = 1;
             }
         }
-        self.state = state;
         sample
     }
 
-    /// Shows a sample to the extremes, by the bound for it alone.
+    /// Shows the samples of a leap to the extremes one by one.
     #[inline(never)]
-    fn keep_sample(&mut self, sample: usize, mode: Mode, state: State<V>, end: V::Tracked) {
-        let excitation = self.excitation;
+    fn show(&mut self, from: usize, end: usize, mode: Mode, reach: f64) {
+        let (system, excitation) = (self.system, self.excitation);
         let Some(dt_s) = excitation.dt_s else { return };
-        let reach = 0.125 * dt_s * dt_s * self.bend(&state, sample, sample + 1);
-        let friction_n = self.kinetic_n(mode, excitation.normal_at_sample(sample));
-        let start = self.values(&state, mode, excitation.acceleration[sample], friction_n);
-        let place = Place { interval: sample, from_s: 0.0, length_s: dt_s, mode, state: &state };
-        self.extremes.keep(self.system, excitation, &start, &end, reach, &place);
+        let values = |run: &Self, state: &State<V>, sample: usize| {
+            let friction_n = run.kinetic_n(mode, excitation.normal_at_sample(sample));
+            run.values(state, mode, excitation.acceleration[sample], friction_n)
+        };
+        let mut start = values(self, &self.state, from);
+        let mut limits = self.extremes.limits(reach, mode);
+        for sample in from..end {
+            let state = if sample == from { &self.state } else { &self.leap[sample - from - 1] };
+            let end = values(self, &self.leap[sample - from], sample + 1);
+            if !(limits.hold(&start, 0..0) && limits.hold(&end, 0..0)) {
+                // Once more by the bound for this sample alone.
+                let reach = 0.125 * dt_s * dt_s * self.bend(state, sample, sample + 1);
+                let place = Place { interval: sample, from_s: 0.0, length_s: dt_s, mode, state };
+                self.extremes.keep(system, excitation, &start, &end, reach, &place);
+                limits = self.extremes.limits(reach, mode);
+            }
+            start = end;
+        }
     }
 
     /// Bound on the norm of `ẍ` over whole samples from a state: within a sample the norm does not

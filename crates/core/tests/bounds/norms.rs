@@ -1,0 +1,218 @@
+//! (b) the norm of the second derivative, (c) kinks and (d) dual norms.
+
+use crate::systems::{
+    Rates, SYSTEMS, System, assert_near, bend, dot, norm, rate, series, state, streams, system,
+};
+use slipstick::linear::polynomial::value;
+use slipstick::linear::{MAX_RATE_STEP, State};
+
+/// (b) Under loads that are linear in time the norm of `ẍ` does not grow, and without dampers it
+/// stays; past a zero of the sliding velocity too, the friction force going on as it was.
+#[test]
+fn prop_norm_of_the_second_derivative_does_not_grow() {
+    let mut passed_zero = 0;
+    for (mut random, damped) in streams() {
+        let made = system(&mut random, damped);
+        let system = &made.system;
+        for slip in [false, true] {
+            let rates = Rates::random(&mut random);
+            let mut x = state(&mut random, &made, slip);
+            let start_w = x.w();
+            let first = bend(system, slip, &x, &rates, 0.0);
+            let length_s = MAX_RATE_STEP / rate(system, slip).max(1.0);
+            let (mut last, mut turned) = (first, false);
+            for piece in 0..40 {
+                let at_s = f64::from(piece) * length_s;
+                let run = series(system, slip, &x, &rates.load(at_s, length_s), length_s);
+                run.state_at(1.0, &mut x);
+                turned |= x.w() * start_w < 0.0;
+                let now = bend(system, slip, &x, &rates, at_s + length_s);
+                // The rounding of a state, seen through two derivatives.
+                let rate = rate(system, slip);
+                let rounding = 1e-13 * (first + rate * rate * norm(system, &x));
+                assert!(now <= last + rounding, "grew from {last:e} to {now:e}");
+                if !made.damped {
+                    assert!((now - first).abs() <= 40.0 * rounding, "{first:e} became {now:e}");
+                }
+                last = now;
+            }
+            passed_zero += u32::from(slip && turned);
+        }
+    }
+    assert!(
+        passed_zero > SYSTEMS as u32 / 10,
+        "the velocity changed sign only {passed_zero} times"
+    );
+}
+
+/// (c) A kink of the loads adds at most √M_tot |Δȧ| + |ΔṪ|/√M1 to that norm; from rest just that.
+#[test]
+fn prop_kink_adds_at_most_its_bound_and_from_rest_the_whole() {
+    for (mut random, damped) in streams() {
+        let made = system(&mut random, damped);
+        let system = &made.system;
+        let floors_kg: f64 = made.masses_kg.iter().sum();
+        let root_total = (system.block_mass_kg + floors_kg).sqrt();
+        let of_acceleration = |kink: f64| root_total * kink.abs();
+        let of_friction = |kink: f64| kink.abs() / system.block_mass_kg.sqrt();
+        let (before, kink) = (Rates::random(&mut random), Rates::random(&mut random));
+        let mut after = before;
+        after.acceleration[1] += kink.acceleration[1];
+        after.friction[1] += kink.friction[1];
+        for slip in [false, true] {
+            let x = state(&mut random, &made, slip);
+            let [from, to] = [before, after].map(|r| bend(system, slip, &x, &r, 0.0));
+            let friction = if slip { of_friction(kink.friction[1]) } else { 0.0 };
+            let allowed = from + of_acceleration(kink.acceleration[1]) + friction;
+            assert!(to <= allowed * (1.0 + 1e-12), "{from:e} to {to:e}, {allowed:e} allowed");
+        }
+        let rest = State(vec![0.0; 2 * made.masses_kg.len() + 2]);
+        let jerk = kink.acceleration[1];
+        let only_jerk = Rates { acceleration: [0.0, jerk], ..Rates::NONE };
+        let reached = bend(system, true, &rest, &only_jerk, 0.0);
+        assert_near(reached, of_acceleration(jerk), 1e-13, "acceleration in slip");
+        let reached = bend(system, false, &rest, &only_jerk, 0.0);
+        assert!((reached - floors_kg.sqrt() * jerk.abs()).abs() <= 1e-12 * jerk.abs() * root_total);
+        let only_force = Rates { friction: [0.0, kink.friction[1]], ..Rates::NONE };
+        let reached = bend(system, true, &rest, &only_force, 0.0);
+        assert_near(reached, of_friction(kink.friction[1]), 1e-12, "friction");
+    }
+}
+
+/// A row `s · s + w · ṡ + yᵀ Ω η + e · η̇` of what is linear in the state.
+struct Row {
+    s: f64,
+    w: f64,
+    y: Vec<f64>,
+    e: Vec<f64>,
+}
+
+impl Row {
+    fn dual_norm(&self, system: &System) -> f64 {
+        system.dual_norm(self.s, self.w, &self.y, &self.e)
+    }
+
+    fn of(&self, system: &System, x: &State<Vec<f64>>) -> f64 {
+        let elastic = system.restoring(x.eta(), &vec![0.0; x.eta().len()]);
+        self.s * x.s() + self.w * x.w() + dot(&self.y, &elastic) + dot(&self.e, x.eta_dot())
+    }
+
+    /// The state in which Cauchy and Schwarz hold with equality.
+    fn largest(&self, system: &System) -> State<Vec<f64>> {
+        let l = &system.participation;
+        let s = if self.s == 0.0 { 0.0 } else { self.s / system.stiffness_n_per_m };
+        let w = (self.w - dot(&self.e, l)) / system.block_mass_kg;
+        let mut x = vec![s, w];
+        x.extend_from_slice(&self.y);
+        x.extend(self.e.iter().zip(l).map(|(e, l)| e - l * w));
+        State(x)
+    }
+}
+
+/// (d) No state of norm 1 gives more than the dual norm, and one gives just that: of the sliding
+/// velocity, the demand, the block's and the floors' accelerations, and any other row.
+#[test]
+fn prop_dual_norms_hold_and_are_reached() {
+    for (mut random, damped) in streams() {
+        let made = system(&mut random, damped);
+        let system = &made.system;
+        let n = made.masses_kg.len();
+        let l = system.participation.clone();
+        let over_mass =
+            |x: &[f64]| -> Vec<f64> { x.iter().map(|x| x / system.block_mass_kg).collect() };
+        let (none, drag) = (vec![0.0; n], system.drag(&l));
+        let mut rows = vec![
+            Row { s: 0.0, w: 1.0, y: none.clone(), e: none.clone() },
+            Row { s: 0.0, w: 0.0, y: l.clone(), e: drag.clone() },
+            Row {
+                s: -system.stiffness_n_per_m / system.block_mass_kg,
+                w: -system.damper_n_s_per_m / system.block_mass_kg,
+                y: over_mass(&l),
+                e: over_mass(&drag),
+            },
+        ];
+        for floor in system.shapes.chunks_exact(n.max(1)) {
+            rows.push(Row { s: 0.0, w: 0.0, y: floor.to_vec(), e: system.drag(floor) });
+        }
+        let mut any = || -> Vec<f64> { (0..n).map(|_| random.between(-1.0, 1.0)).collect() };
+        rows.push(Row { s: 0.0, w: 0.5, y: any(), e: any() });
+        assert_near(
+            rows[0].dual_norm(system),
+            1.0 / system.block_mass_kg.sqrt(),
+            1e-15,
+            "velocity",
+        );
+        for row in &rows {
+            let dual = row.dual_norm(system);
+            if dual == 0.0 {
+                continue; // no storeys, no base shear
+            }
+            for _ in 0..20 {
+                let x = state(&mut random, &made, true);
+                let (found, allowed) = (row.of(system, &x).abs(), dual * norm(system, &x));
+                assert!(found <= allowed * (1.0 + 1e-12), "{found:e}, {allowed:e} allowed");
+            }
+            let best = row.largest(system);
+            assert_near(norm(system, &best), dual, 1e-12, "norm of the largest state");
+            assert_near(row.of(system, &best), dual * dual, 1e-12, "its value");
+        }
+    }
+}
+
+/// (d) Drift of a storey: 1/√k; displacement of a floor: the root of the flexibility below it.
+#[test]
+fn exact_dual_norms_of_drift_and_displacement_are_reached() {
+    for (mut random, damped) in streams() {
+        let made = system(&mut random, damped);
+        let (k, n) = (&made.stiffnesses_n_per_m, made.masses_kg.len());
+        let size = |q: &[f64]| {
+            let x = made.system.coordinates(&made.masses_kg, q);
+            made.system.energy_norm(0.0, 0.0, &x, &vec![0.0; n])
+        };
+        for i in 0..n {
+            // One storey drifts by 1 m, and all above it move along.
+            let drifting: Vec<f64> = (0..n).map(|j| f64::from(u8::from(j >= i))).collect();
+            assert_near(size(&drifting), k[i].sqrt(), 1e-11, "drift");
+            // A force of 1 N pushes the floor i.
+            let below = |j: usize| k[..=j.min(i)].iter().map(|k| 1.0 / k).sum::<f64>();
+            let pushed: Vec<f64> = (0..n).map(below).collect();
+            assert_near(size(&pushed), below(i).sqrt(), 1e-11, "displacement");
+        }
+    }
+}
+
+/// (a) to (d) together: over a whole sample the demand and the sliding velocity stay as near to
+/// their chords as the short way through the samples takes them to be.
+#[test]
+fn prop_samples_stay_within_reach_of_their_chords() {
+    let mut nearest: f64 = 0.0;
+    for (mut random, damped) in streams() {
+        let made = system(&mut random, damped);
+        let system = &made.system;
+        let n = made.masses_kg.len();
+        let demand_norm =
+            system.dual_norm(0.0, 0.0, &system.participation, &system.drag(&system.participation));
+        let velocity_norm = system.dual_norm(0.0, 1.0, &vec![0.0; n], &vec![0.0; n]);
+        for slip in [false, true] {
+            let length_s = MAX_RATE_STEP / rate(system, slip).max(1.0);
+            let (x, rates) = (state(&mut random, &made, slip), Rates::random(&mut random));
+            let load = rates.load(0.0, length_s);
+            let run = series(system, slip, &x, &load, length_s);
+            let demand = run.demand(system, &load);
+            let (c, dual) = if slip { (run.w, velocity_norm) } else { (demand, demand_norm) };
+            let reach = 0.125 * length_s * length_s * dual * bend(system, slip, &x, &rates, 0.0);
+            let size = c.iter().fold(0.0_f64, |size, c| size.max(c.abs()));
+            for i in 0..=20 {
+                let part = f64::from(i) / 20.0;
+                let chord = c[0] + (value(&c, 1.0) - c[0]) * part;
+                let departs = (value(&c, part) - chord).abs();
+                assert!(departs <= reach + 4e-15 * size, "{departs:e} of {reach:e}");
+                if reach > 1e-9 * size {
+                    nearest = nearest.max(departs / reach);
+                }
+            }
+        }
+    }
+    // Somewhere the bound is nearly used up, or it would bound something else.
+    assert!(nearest > 0.9, "at most {nearest} of the bound was used");
+}

@@ -1,0 +1,128 @@
+//! Random systems, states and loads, and what is asked of them.
+
+use crate::random::Random;
+use slipstick::linear::{Load, Series, State, StoreyDamping};
+
+pub type System = slipstick::linear::System<Vec<f64>>;
+
+/// Random systems a test looks at.
+pub const SYSTEMS: u64 = 300;
+
+/// A system and what it was made from.
+pub struct Made {
+    pub system: System,
+    pub masses_kg: Vec<f64>,
+    pub stiffnesses_n_per_m: Vec<f64>,
+    pub damped: bool,
+}
+
+/// None, one or three storeys; with and without spring, damper, dampers or ratio.
+pub fn system(random: &mut Random, damped: bool) -> Made {
+    let n = [0, 1, 3][random.integer(0, 2) as usize];
+    let mut list =
+        |low, high| -> Vec<f64> { (0..n).map(|_| random.logarithmic(low, high)).collect() };
+    let (masses_kg, stiffnesses_n_per_m) = (list(10.0, 1e3), list(1e2, 1e6));
+    let dampers = list(1.0, 1e3);
+    let block_kg = random.logarithmic(10.0, 1e3);
+    let spring = if random.chance(0.7) { random.logarithmic(1e2, 1e6) } else { 0.0 };
+    let damper = if damped && random.chance(0.7) { random.logarithmic(1.0, 1e3) } else { 0.0 };
+    let damping = match (damped, random.chance(0.5)) {
+        (false, _) => StoreyDamping::Ratio(0.0),
+        (true, true) => StoreyDamping::Ratio(random.between(0.0, 0.2)),
+        (true, false) => StoreyDamping::Dampers(&dampers),
+    };
+    let system = System::new(block_kg, spring, damper, &masses_kg, &stiffnesses_n_per_m, damping);
+    Made { system, masses_kg, stiffnesses_n_per_m, damped }
+}
+
+/// Seeds, each with its stream, and whether the system is damped.
+pub fn streams() -> impl Iterator<Item = (Random, bool)> {
+    (0..SYSTEMS).map(|seed| (Random::new(seed), seed % 3 != 0))
+}
+
+/// Displacements about 10 mm, velocities about 100 mm/s, in the coordinates of the system.
+pub fn state(random: &mut Random, made: &Made, slip: bool) -> State<Vec<f64>> {
+    let n = made.masses_kg.len();
+    let mut draw = |size: f64| size * random.between(-1.0, 1.0);
+    let q: Vec<f64> = (0..n).map(|_| draw(0.01)).collect();
+    let v: Vec<f64> = (0..n).map(|_| draw(0.1)).collect();
+    let mut x = vec![draw(0.01), if slip { draw(0.1) } else { 0.0 }];
+    x.extend(made.system.coordinates(&made.masses_kg, &q));
+    x.extend(made.system.coordinates(&made.masses_kg, &v));
+    State(x)
+}
+
+/// Loads and their rates: acceleration in m/s², friction force in N.
+#[derive(Clone, Copy)]
+pub struct Rates {
+    pub acceleration: [f64; 2],
+    pub friction: [f64; 2],
+}
+
+impl Rates {
+    pub const NONE: Self = Self { acceleration: [0.0; 2], friction: [0.0; 2] };
+
+    pub fn random(random: &mut Random) -> Self {
+        let mut draw = |size: f64| size * random.between(-1.0, 1.0);
+        Self { acceleration: [draw(3.0), draw(100.0)], friction: [draw(100.0), draw(1e3)] }
+    }
+
+    pub fn load(&self, from_s: f64, length_s: f64) -> Load {
+        let at = |[value, rate]: [f64; 2]| (value + rate * from_s, rate * length_s);
+        let ((acceleration, acceleration_change), (friction, friction_change)) =
+            (at(self.acceleration), at(self.friction));
+        Load { acceleration, acceleration_change, friction, friction_change }
+    }
+}
+
+pub fn series(
+    system: &System,
+    slip: bool,
+    state: &State<Vec<f64>>,
+    load: &Load,
+    length_s: f64,
+) -> Series<Vec<f64>> {
+    let mut series = Series::zeros(system.storeys());
+    if slip {
+        series.slip(system, state, load, length_s);
+    } else {
+        series.stick(system, state, load, length_s);
+    }
+    series
+}
+
+/// A coefficient of a series as a state.
+pub fn coefficient(series: &Series<Vec<f64>>, k: usize) -> State<Vec<f64>> {
+    let mut x = vec![series.s[k], series.w[k]];
+    x.extend_from_slice(&series.eta[k]);
+    x.extend_from_slice(&series.eta_dot[k]);
+    State(x)
+}
+
+pub fn norm(system: &System, x: &State<Vec<f64>>) -> f64 {
+    system.energy_norm(x.s(), x.w(), x.eta(), x.eta_dot())
+}
+
+/// Norm of `ẍ` in a state under loads.
+pub fn bend(system: &System, slip: bool, state: &State<Vec<f64>>, rates: &Rates, at_s: f64) -> f64 {
+    // Over one second the second coefficient is half the second derivative.
+    2.0 * norm(system, &coefficient(&series(system, slip, state, &rates.load(at_s, 1.0), 1.0), 2))
+}
+
+/// `ẋ` of the unloaded system: the row of equations that the rates bound.
+pub fn derivative(system: &System, slip: bool, x: &State<Vec<f64>>) -> State<Vec<f64>> {
+    coefficient(&series(system, slip, x, &Rates::NONE.load(0.0, 1.0), 1.0), 1)
+}
+
+pub fn rate(system: &System, slip: bool) -> f64 {
+    if slip { system.slip_rate_rad_per_s } else { system.stick_rate_rad_per_s }
+}
+
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+pub fn assert_near(found: f64, expected: f64, tolerance: f64, what: &str) {
+    let error = (found - expected).abs() / expected.abs().max(f64::MIN_POSITIVE);
+    assert!(error <= tolerance, "{what}: found {found:e}, expected {expected:e}, off by {error:e}");
+}

@@ -1,0 +1,125 @@
+//! (f) truncation and (g) the rates.
+
+use crate::systems::{
+    Rates, System, assert_near, bend, coefficient, derivative, norm, rate, series, state, streams,
+    system,
+};
+use slipstick::linear::polynomial::DEGREE;
+use slipstick::linear::{MAX_RATE_STEP, State, StoreyDamping};
+
+/// (g) `‖A x‖ ≤ rate · ‖x‖` in stick and slip.
+#[test]
+fn prop_rates_bound_the_system() {
+    for (mut random, damped) in streams() {
+        let made = system(&mut random, damped);
+        let system = &made.system;
+        for slip in [false, true] {
+            for _ in 0..20 {
+                let mut x = state(&mut random, &made, slip);
+                if !slip {
+                    x.0[0] = 0.0; // the block's spring does not move in stick
+                }
+                let (rate, size) = (rate(system, slip), norm(system, &x));
+                let found = norm(system, &derivative(system, slip, &x));
+                assert!(found <= rate * size * (1.0 + 1e-12), "{found:e}, rate {rate:e}");
+            }
+        }
+    }
+}
+
+/// (g) One storey without damping, and a rigid block on a spring, turn at just their rate.
+#[test]
+fn exact_rates_are_reached() {
+    let none = StoreyDamping::Ratio(0.0);
+    let storey = System::new(325.0, 0.0, 0.0, &[201.0], &[36_700.0], none);
+    let stretched = State(vec![0.0, 0.0, 1.0, 0.0]);
+    for slip in [false, true] {
+        let found = norm(&storey, &derivative(&storey, slip, &stretched));
+        assert_near(found, rate(&storey, slip) * norm(&storey, &stretched), 1e-15, "storey");
+    }
+    let omega = (36_700.0_f64 / 201.0).sqrt();
+    assert_near(storey.stick_rate_rad_per_s, omega, 1e-15, "fixed base");
+    let free = omega * (1.0_f64 + 201.0 / 325.0).sqrt();
+    assert_near(storey.slip_rate_rad_per_s, free, 1e-15, "free in slip");
+    let block = System::new(124.0, 143e3, 0.0, &[], &[], none);
+    let stretched = State(vec![0.01, 0.0]);
+    let found = norm(&block, &derivative(&block, true, &stretched));
+    assert_near(found, block.slip_rate_rad_per_s * norm(&block, &stretched), 1e-15, "block");
+    assert_near(
+        block.slip_rate_rad_per_s,
+        (143e3_f64 / 124.0).sqrt(),
+        1e-15,
+        "block on its spring",
+    );
+}
+
+/// 0.3^13 / 13!.
+fn first_term_left_out() -> f64 {
+    (1..=DEGREE + 1).map(|k| MAX_RATE_STEP / k as f64).product()
+}
+
+/// (f) The first term that a series leaves out, which doubles cannot show in a sum: from the last
+/// one kept, by the equations. Under loads it is measured by `ẍ`.
+#[test]
+fn prop_truncation_is_below_rounding() {
+    let bound = first_term_left_out();
+    assert!(bound < 3e-17);
+    for (mut random, damped) in streams() {
+        let made = system(&mut random, damped);
+        let system = &made.system;
+        for slip in [false, true] {
+            let rate = rate(system, slip);
+            if rate == 0.0 {
+                continue; // a rigid block without a spring moves by a polynomial of degree 3
+            }
+            let length_s = MAX_RATE_STEP / rate;
+            let (x, rates) = (state(&mut random, &made, slip), Rates::random(&mut random));
+            let run = series(system, slip, &x, &rates.load(0.0, length_s), length_s);
+            let mut last = coefficient(&run, DEGREE);
+            if !slip {
+                last.0[0] = 0.0;
+            }
+            let next = norm(system, &derivative(system, slip, &last)) * length_s / 13.0;
+            let scale = bend(system, slip, &x, &rates, 0.0) / (rate * rate);
+            assert!(next <= bound * scale * (1.0 + 1e-9), "{next:e} of {:e}", bound * scale);
+        }
+    }
+}
+
+/// (f) One storey without damping leaves out just that much.
+#[test]
+fn exact_truncation_is_reached() {
+    let system = System::new(325.0, 0.0, 0.0, &[201.0], &[36_700.0], StoreyDamping::Ratio(0.0));
+    let length_s = MAX_RATE_STEP / system.stick_rate_rad_per_s;
+    let x = State(vec![0.0, 0.0, 0.3, -2.0]);
+    let run = series(&system, false, &x, &Rates::NONE.load(0.0, length_s), length_s);
+    let last = coefficient(&run, DEGREE);
+    let next = norm(&system, &derivative(&system, false, &last)) * length_s / 13.0;
+    assert_near(next, first_term_left_out() * norm(&system, &x), 1e-13, "term left out");
+}
+
+/// (f) One series and two over half the length agree to rounding.
+#[test]
+fn prop_one_series_and_two_halves_agree() {
+    for (mut random, damped) in streams() {
+        let made = system(&mut random, damped);
+        let system = &made.system;
+        for slip in [false, true] {
+            let length_s = MAX_RATE_STEP / rate(system, slip).max(1.0);
+            let (x, rates) = (state(&mut random, &made, slip), Rates::random(&mut random));
+            let (mut whole, mut halves) = (x.clone(), x.clone());
+            let run = series(system, slip, &x, &rates.load(0.0, length_s), length_s);
+            run.state_at(1.0, &mut whole);
+            for half in [0.0, 0.5] {
+                let (at_s, half_s) = (half * length_s, 0.5 * length_s);
+                let run = series(system, slip, &halves, &rates.load(at_s, half_s), half_s);
+                run.state_at(1.0, &mut halves);
+            }
+            let apart: Vec<f64> = whole.0.iter().zip(&halves.0).map(|(a, b)| a - b).collect();
+            let (apart, size) = (norm(system, &State(apart)), norm(system, &whole));
+            let start = norm(system, &x);
+            // Sums of some ten terms, each rounded.
+            assert!(apart <= 4e-15 * size.max(start), "{apart:e} of {size:e}");
+        }
+    }
+}
