@@ -131,8 +131,9 @@ fn prop_dual_norms_hold_and_are_reached() {
                 e: over_mass(&drag),
             },
         ];
-        for floor in system.shapes.chunks_exact(n.max(1)) {
-            rows.push(Row { s: 0.0, w: 0.0, y: floor.to_vec(), e: system.drag(floor) });
+        for i in 0..n {
+            let floor = system.floor(i);
+            rows.push(Row { s: 0.0, w: 0.0, e: system.drag(&floor), y: floor });
         }
         let mut any = || -> Vec<f64> { (0..n).map(|_| random.between(-1.0, 1.0)).collect() };
         rows.push(Row { s: 0.0, w: 0.5, y: any(), e: any() });
@@ -215,4 +216,48 @@ fn prop_samples_stay_within_reach_of_their_chords() {
     }
     // Somewhere the bound is nearly used up, or it would bound something else.
     assert!(nearest > 0.9, "at most {nearest} of the bound was used");
+}
+
+/// (a) to (d) together over several samples in a row: the sliding velocity has a continuous
+/// derivative, so one chord serves them all, with the kinks between them added to the norm of `ẍ`.
+#[test]
+fn prop_several_samples_stay_within_reach_of_one_chord() {
+    const SAMPLES: usize = 4;
+    let mut nearest: f64 = 0.0;
+    for (mut random, damped) in streams() {
+        let made = system(&mut random, damped);
+        let system = &made.system;
+        let mut x = state(&mut random, &made, true);
+        let root_total = (system.block_mass_kg + made.masses_kg.iter().sum::<f64>()).sqrt();
+        // Soft enough for the bound to be near: kinks and loads do most of the bending.
+        let length_s = 0.1 * MAX_RATE_STEP / rate(system, true).max(1.0);
+        let mut rates = Rates::random(&mut random);
+        rates.friction[1] = 0.0;
+        let mut norm_of_bend = bend(system, true, &x, &rates, 0.0);
+        let (mut points, mut last_jerk) = (vec![(0.0, x.w())], rates.acceleration[1]);
+        for sample in 0..SAMPLES {
+            norm_of_bend += root_total * (rates.acceleration[1] - last_jerk).abs();
+            last_jerk = rates.acceleration[1];
+            let run = series(system, true, &x, &rates.load(0.0, length_s), length_s);
+            for i in 1..=10 {
+                let part = f64::from(i) / 10.0;
+                points.push((sample as f64 + part, value(&run.w, part)));
+            }
+            run.state_at(1.0, &mut x);
+            let [a, jerk] = rates.acceleration;
+            rates.acceleration = [a + jerk * length_s, 100.0 * random.between(-1.0, 1.0)];
+        }
+        let whole_s = SAMPLES as f64 * length_s;
+        let reach = 0.125 * whole_s * whole_s * norm_of_bend / system.block_mass_kg.sqrt();
+        let (from, to) = (points[0].1, points[points.len() - 1].1);
+        let size = points.iter().fold(0.0_f64, |size, p| size.max(p.1.abs()));
+        for (at, w) in points {
+            let departs = (w - (from + (to - from) * at / SAMPLES as f64)).abs();
+            assert!(departs <= reach + 4e-15 * size, "{departs:e} of {reach:e}");
+            if reach > 1e-9 * size {
+                nearest = nearest.max(departs / reach);
+            }
+        }
+    }
+    assert!(nearest > 0.5, "at most {nearest} of the bound was used");
 }

@@ -169,9 +169,9 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
             let end = values(self, &self.leap[sample - from], sample + 1);
             if !(limits.hold(&start, 0..0) && limits.hold(&end, 0..0)) {
                 // Once more by the bound for this sample alone.
-                let reach = 0.125 * dt_s * dt_s * self.bend(state, sample, sample + 1);
+                let own_reach = 0.125 * dt_s * dt_s * self.bend(state, sample, sample + 1);
                 let place = Place { interval: sample, from_s: 0.0, length_s: dt_s, mode, state };
-                self.extremes.keep(system, excitation, &start, &end, reach, &place);
+                self.extremes.keep(system, excitation, &start, &end, own_reach, &place);
                 limits = self.extremes.limits(reach, mode);
             }
             start = end;
