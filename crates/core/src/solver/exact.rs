@@ -7,7 +7,6 @@
 mod long_way;
 mod short_way;
 
-use self::short_way::LEAP;
 use super::excitation::Excitation;
 use super::extremes::Extremes;
 use super::recorder::{Everything, Nothing, Recorder};
@@ -167,8 +166,6 @@ struct Run<'a, V: PerStorey, R> {
     extremes: Extremes<V>,
     series: Series<V>,
     state: State<V>,
-    /// States at the ends of the samples that are taken in one leap.
-    leap: [State<V>; LEAP],
     mode: Mode,
     /// Set while a slip has just started.
     start: Option<Start>,
@@ -226,7 +223,6 @@ impl<'a, V: PerStorey, R: Recorder<V>> Run<'a, V, R> {
             extremes: Extremes::new(model, system),
             series: Series::zeros(n),
             sliding: Sliding::new(state.s()),
-            leap: core::array::from_fn(|_| State::zeros(n)),
             state,
             mode,
             start: None,

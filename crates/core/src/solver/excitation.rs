@@ -6,6 +6,7 @@ use crate::friction::{Direction, Friction};
 use crate::linear::Load;
 use crate::model::Model;
 use crate::motion::GroundMotion;
+use crate::response::Mode;
 
 /// Loads of a model under a motion, and the bounds of its friction.
 pub(super) struct Excitation<'a> {
@@ -141,6 +142,15 @@ impl<'a> Excitation<'a> {
         match direction {
             Direction::Positive => -self.kinetic_friction[0],
             Direction::Negative => self.kinetic_friction[1],
+        }
+    }
+
+    /// Friction force of slip under a normal force, 0 in stick.
+    #[inline(always)]
+    pub(super) fn kinetic_n(&self, mode: Mode, normal: f64) -> f64 {
+        match mode {
+            Mode::Stick => 0.0,
+            Mode::Slip(direction) => self.kinetic(direction) * normal,
         }
     }
 

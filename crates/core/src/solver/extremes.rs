@@ -269,7 +269,31 @@ impl<V: PerStorey> Extremes<V> {
         }
     }
 
-    /// Takes the values at both ends for certain, and keeps the piece if it may hold more.
+    /// Whether a piece may hold more than what has been attained, its ends included.
+    pub(super) fn in_question(
+        &self,
+        start: &V::Tracked,
+        end: &V::Tracked,
+        reach: f64,
+        mode: Mode,
+    ) -> bool {
+        let norm = match mode {
+            Mode::Stick => &self.stick_norm,
+            Mode::Slip(_) => &self.slip_norm,
+        };
+        let (start, end, norm) = (start.as_ref(), end.as_ref(), norm.as_ref());
+        let (up, down) = (self.largest.as_ref(), self.smallest.as_ref());
+        (0..start.len()).any(|j| {
+            let (ends, slack) = ([start[j], end[j]], reach * norm[j]);
+            let near = ends.iter().any(|y| y + slack > up[j] || y - slack < down[j]);
+            near && {
+                let [below, above] = bounds(ends, slack);
+                above > up[j] || below < down[j]
+            }
+        })
+    }
+
+    /// Keeps a piece if it is in question.
     #[inline(never)]
     pub(super) fn keep(
         &mut self,
@@ -280,30 +304,19 @@ impl<V: PerStorey> Extremes<V> {
         reach: f64,
         place: &Place<'_, V>,
     ) {
+        self.attain(start);
+        self.attain(end);
+        if !self.in_question(start, end, reach, place.mode) {
+            return;
+        }
         let norm = match place.mode {
             Mode::Stick => &self.stick_norm,
             Mode::Slip(_) => &self.slip_norm,
         };
-        let norm = norm.clone();
-        self.attain(start);
-        self.attain(end);
         let (mut above, mut below) = (start.clone(), end.clone());
-        let mut open = false;
-        {
-            let (above, below) = (above.as_mut(), below.as_mut());
-            let (up, down) = (self.largest.as_ref(), self.smallest.as_ref());
-            for (j, norm) in norm.as_ref().iter().enumerate() {
-                let (a, b) = (start.as_ref()[j], end.as_ref()[j]);
-                let (low, high) = if a < b { (a, b) } else { (b, a) };
-                // A slack of a few ulp is no more than the rounding of the ends.
-                let slack = reach * norm;
-                above[j] = if slack > 1e-15 * high.abs() { high + slack } else { high };
-                below[j] = if slack > 1e-15 * low.abs() { low - slack } else { low };
-                open |= above[j] > up[j] || below[j] < down[j];
-            }
-        }
-        if !open {
-            return;
+        for (j, norm) in norm.as_ref().iter().enumerate() {
+            let ends = [start.as_ref()[j], end.as_ref()[j]];
+            [below.as_mut()[j], above.as_mut()[j]] = bounds(ends, reach * norm);
         }
         if self.pieces.len() == ROOM {
             self.drop_overtaken();
@@ -392,6 +405,18 @@ impl<V: PerStorey> Extremes<V> {
             series.state_at(1.0, &mut state);
         }
     }
+}
+
+/// Bounds on a value over a piece from those at its ends: with `slack` the error of the chord, an
+/// extreme lies inside only where the ends are less than four times that apart.
+#[inline(always)]
+fn bounds([a, b]: [f64; 2], slack: f64) -> [f64; 2] {
+    let (low, high) = if a < b { (a, b) } else { (b, a) };
+    let inside = slack - 0.25 * (high - low);
+    let bulge = if inside > 0.0 { inside * (inside / slack) } else { 0.0 };
+    // A few ulp are no more than the rounding of the ends.
+    let beyond = |x: f64| if bulge > 1e-15 * x.abs() { bulge } else { 0.0 };
+    [low - beyond(low), high + beyond(high)]
 }
 
 /// Moment arms of the floors' and the block's inertia, where width and heights are given.

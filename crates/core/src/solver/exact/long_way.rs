@@ -53,8 +53,8 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
                 Mode::Stick => self.system.stick_rate_rad_per_s,
                 Mode::Slip(_) => self.system.slip_rate_rad_per_s,
             };
-            let segments = (left_s * rate / MAX_RATE_STEP).ceil();
-            let to_s = if segments > 1.0 { at_s + left_s / segments } else { stretch.to_s };
+            let segments = left_s * rate / MAX_RATE_STEP;
+            let to_s = if segments > 1.0 { at_s + left_s / segments.ceil() } else { stretch.to_s };
             at_s = match self.mode {
                 Mode::Stick => self.stick_segment(stretch, at_s, to_s),
                 Mode::Slip(direction) => self.slip_segment(stretch, direction, at_s, to_s),
@@ -280,15 +280,6 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         self.system.demand_n(self.state.s(), self.system.base_shear_n(f.as_ref()), a)
     }
 
-    /// Friction force of slip under a normal force, 0 in stick.
-    #[inline(always)]
-    pub(super) fn kinetic_n(&self, mode: Mode, normal: f64) -> f64 {
-        match mode {
-            Mode::Stick => 0.0,
-            Mode::Slip(direction) => self.excitation.kinetic(direction) * normal,
-        }
-    }
-
     /// Moves the state along the series; the state before.
     fn advance(&mut self, part: f64) -> State<V> {
         let before = self.state.clone();
@@ -406,7 +397,7 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let (u, friction_n) = match mode {
             Mode::Stick => (a, system.demand_n(x.s(), shear_n, a)),
             Mode::Slip(_) => {
-                let friction_n = self.kinetic_n(mode, normal);
+                let friction_n = self.excitation.kinetic_n(mode, normal);
                 (system.block_acceleration(x.s(), x.w(), shear_n, friction_n), friction_n)
             }
         };

@@ -1,5 +1,7 @@
 //! The short way through ordinary samples: one propagator, and a bound that vouches for the rest.
 
+use core::ops::Range;
+
 use super::Run;
 use crate::friction::Direction;
 use crate::linear::{PerStorey, Propagator, State};
@@ -11,7 +13,7 @@ use crate::solver::recorder::Recorder;
 const BOUND_LIFE: usize = 16;
 
 /// Samples that are shown to the extremes as one piece.
-pub(super) const LEAP: usize = 4;
+const LEAP: usize = 4;
 
 impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
     /// Takes whole samples while the bounds show that nothing happens in them; the first sample
@@ -71,17 +73,18 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
             if SLIP { excitation.varying_normal().is_some() } else { self.extremes.overturns() };
         let leap = if loads_kink { 1 } else { LEAP };
         let by_sample = if SLIP { 0..0 } else { tracked::BLOCK..tracked::FRICTION + 1 };
-        let mut life = BOUND_LIFE;
-        while sample < last {
-            let end = last.min(sample + life);
-            let reach = 0.125 * dt_s * dt_s * self.bend(&self.state, sample, end);
+        // The state stays in registers; it is written back at the end.
+        let (mut state, mut going) = (self.state.clone(), true);
+        while going && sample < last {
+            let end = last.min(sample + BOUND_LIFE);
+            let reach = 0.125 * dt_s * dt_s * self.bend(&state, sample, end);
             let slack = reach * event_norm;
             // Whether the block slides, or friction holds, by more than a slack.
             let by = |slack: f64, x: &State<V>, demand_n: f64, normal: f64| {
                 if SLIP {
                     sign * x.w() > slack && normal >= 0.0
                 } else {
-                    low * normal < demand_n - slack && demand_n + slack < high * normal
+                    low * normal + slack < demand_n && demand_n < high * normal - slack
                 }
             };
             let limits = |run: &Self| {
@@ -94,17 +97,14 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
                 let values = run.values(x, mode, acceleration[sample], kinetic_n);
                 whole.hold(&values, by_sample.clone())
             };
-            let mut state = self.state.clone();
             let mut demand = if SLIP { 0.0 } else { demand_n(&state, acceleration[sample]) };
-            let mut going = by(slack, &state, demand, normal(sample));
-            let mut passed = false;
+            let mut clear = by(slack, &state, demand, normal(sample));
             let mut open = !quiet(self, &state, sample, &whole)
                 || (!SLIP && !stick.hold(demand, acceleration[sample]));
             while going && sample < end {
-                let from = sample;
-                let leap_end = end.min(sample + leap);
-                while sample < leap_end {
-                    let a = [acceleration[sample], acceleration[sample + 1]];
+                let (from, start) = (sample, state.clone());
+                for a in acceleration[sample..=end.min(sample + leap)].windows(2) {
+                    let a = [a[0], a[1]];
                     let normal = [normal(sample), normal(sample + 1)];
                     let next = if SLIP {
                         propagator.slip(&state, a, normal.map(|n| coefficient * n))
@@ -112,70 +112,86 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
                         propagator.stick(&state, a)
                     };
                     let next_demand = if SLIP { 0.0 } else { demand_n(&next, a[1]) };
-                    if !by(slack, &next, next_demand, normal[1]) {
-                        (going, passed) = (false, !by(0.0, &next, next_demand, normal[1]));
-                        break;
+                    let next_clear = by(slack, &next, next_demand, normal[1]);
+                    if !(clear && next_clear) {
+                        // Once more by the bound for this sample alone, unless there is an event.
+                        going = by(0.0, &next, next_demand, normal[1]) && {
+                            let slack = event_norm * self.reach_alone(state.clone(), sample);
+                            by(slack, &state, demand, normal[0])
+                                && by(slack, &next, next_demand, normal[1])
+                        };
+                        if !going {
+                            break;
+                        }
                     }
-                    demand = next_demand;
                     if !SLIP {
-                        open |= !stick.hold(demand, a[1]);
+                        open |= !stick.hold(next_demand, a[1]);
                     }
-                    self.leap[sample - from].clone_from(&next);
-                    state = next;
+                    if R::WANTED {
+                        self.state.clone_from(&state);
+                        self.record_sample(sample, mode, true);
+                    }
+                    (clear, demand, state) = (next_clear, next_demand, next);
                     sample += 1;
                 }
-                if sample == from {
-                    break;
-                }
-                if open || !quiet(self, &state, sample, &whole) {
-                    self.show(from, sample, mode, reach);
+                if sample > from && (open || !quiet(self, &state, sample, &whole)) {
+                    self.show(propagator, start, from..sample, mode, reach);
                     (whole, stick) = limits(self);
                     open = !quiet(self, &state, sample, &whole)
                         || (!SLIP && !stick.hold(demand, acceleration[sample]));
                 }
-                if R::WANTED {
-                    for i in from..sample {
-                        self.record_sample(i, mode, true);
-                        self.state.clone_from(&self.leap[i - from]);
-                    }
-                }
-                self.state.clone_from(&state);
-            }
-            // A failure without an event is tried again with a bound for this sample alone.
-            if sample == end {
-                life = BOUND_LIFE;
-            } else if passed || life == 1 {
-                break;
-            } else {
-                life = 1;
             }
         }
+        self.state = state;
         sample
     }
 
-    /// Shows the samples of a leap to the extremes one by one.
+    /// Shows samples of ordinary motion from a state to the extremes one by one.
     #[inline(never)]
-    fn show(&mut self, from: usize, end: usize, mode: Mode, reach: f64) {
+    fn show(
+        &mut self,
+        propagator: &Propagator<V>,
+        mut state: State<V>,
+        samples: Range<usize>,
+        mode: Mode,
+        reach: f64,
+    ) {
         let (system, excitation) = (self.system, self.excitation);
         let Some(dt_s) = excitation.dt_s else { return };
-        let values = |run: &Self, state: &State<V>, sample: usize| {
-            let friction_n = run.kinetic_n(mode, excitation.normal_at_sample(sample));
-            run.values(state, mode, excitation.acceleration[sample], friction_n)
+        let load = |sample: usize| {
+            let friction_n = excitation.kinetic_n(mode, excitation.normal_at_sample(sample));
+            (excitation.acceleration[sample], friction_n)
         };
-        let mut start = values(self, &self.state, from);
+        let (mut a, mut friction_n) = load(samples.start);
+        let mut start = self.values(&state, mode, a, friction_n);
         let mut limits = self.extremes.limits(reach, mode);
-        for sample in from..end {
-            let state = if sample == from { &self.state } else { &self.leap[sample - from - 1] };
-            let end = values(self, &self.leap[sample - from], sample + 1);
-            if !(limits.hold(&start, 0..0) && limits.hold(&end, 0..0)) {
+        let mut quiet = limits.hold(&start, 0..0);
+        for sample in samples {
+            let (next_a, next_n) = load(sample + 1);
+            let next = match mode {
+                Mode::Stick => propagator.stick(&state, [a, next_a]),
+                Mode::Slip(_) => propagator.slip(&state, [a, next_a], [friction_n, next_n]),
+            };
+            let end = self.values(&next, mode, next_a, next_n);
+            let mut end_quiet = limits.hold(&end, 0..0);
+            if !(quiet && end_quiet) {
                 // Once more by the bound for this sample alone.
-                let own_reach = 0.125 * dt_s * dt_s * self.bend(state, sample, sample + 1);
-                let place = Place { interval: sample, from_s: 0.0, length_s: dt_s, mode, state };
-                self.extremes.keep(system, excitation, &start, &end, own_reach, &place);
+                let reach_alone = self.reach_alone(state.clone(), sample);
+                let place =
+                    Place { interval: sample, from_s: 0.0, length_s: dt_s, mode, state: &state };
+                self.extremes.keep(system, excitation, &start, &end, reach_alone, &place);
                 limits = self.extremes.limits(reach, mode);
+                end_quiet = limits.hold(&end, 0..0);
             }
-            start = end;
+            (a, friction_n, state, start, quiet) = (next_a, next_n, next, end, end_quiet);
         }
+    }
+
+    /// What a chord over one sample can hide of a quantity of dual norm 1.
+    #[inline(never)]
+    fn reach_alone(&self, state: State<V>, sample: usize) -> f64 {
+        let dt_s = self.excitation.dt_s.unwrap_or(0.0);
+        0.125 * dt_s * dt_s * self.bend(&state, sample, sample + 1)
     }
 
     /// Bound on the norm of `ẍ` over whole samples from a state: within a sample the norm does not
@@ -206,7 +222,8 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let over_dt = excitation.dt_s.map_or(0.0, |dt_s| 1.0 / dt_s);
         let change = |x: [f64; 2]| (x[1] - x[0]) * over_dt;
         let a = [excitation.acceleration[sample], excitation.acceleration[sample + 1]];
-        let friction = excitation.normal_n(sample).map(|normal| self.kinetic_n(self.mode, normal));
+        let friction =
+            excitation.normal_n(sample).map(|normal| excitation.kinetic_n(self.mode, normal));
         let (jerk, rate) = (change(a), change(friction));
         // The derivative of the state, then the derivative of that.
         let f = system.restoring(x.eta(), x.eta_dot());
