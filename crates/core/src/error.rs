@@ -113,8 +113,9 @@ pub enum SolveError {
     },
     /// The iteration of the stepwise method did not converge.
     #[error(
-        "stepwise method: {iterations} iterations did not converge at {time_s} s; it converges \
-         only where the fastest mode times the step is below 2, here {omega_dt:.3}"
+        "stepwise method: {iterations} iterations did not converge at {time_s} s: it converges only \
+         where the fastest mode times the step is below 2 (here {omega_dt:.3}) and where stick and \
+         slip do not take turns within the step; a shorter step or the exact method helps"
     )]
     NoConvergence {
         /// Time of the step's end, in s.

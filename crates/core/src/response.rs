@@ -168,7 +168,8 @@ pub struct Demands {
     pub peak_block_acceleration_m_per_s2: f64,
     /// One entry a storey, from the block up.
     pub storeys: Vec<StoreyDemands>,
-    /// Largest force of spring and damper of storey 1 in N, 0 without storeys.
+    /// Largest force of spring and damper of storey 1 in N, 0 without storeys; with a damping ratio,
+    /// whose dampers join all floors, the whole force of the structure on the block.
     pub peak_base_shear_n: f64,
     /// Largest |T| in N, stuck or sliding.
     pub peak_friction_force_n: f64,

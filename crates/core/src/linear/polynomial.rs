@@ -10,7 +10,7 @@ pub const DEGREE: usize = 12;
 /// Coefficients, constant first.
 pub type Polynomial = [f64; DEGREE + 1];
 
-/// Narrowest interval that is searched: a dip that a chord over it can hide is below 1e-17 of `D`.
+/// Narrowest interval that is searched: a dip that a chord over it can hide is below 3e-17 of `D`.
 const NARROWEST: f64 = 1.0 / (1_u64 << 26) as f64;
 
 /// Value at `x` in [0, 1], by Estrin's scheme in a fixed order.
@@ -60,7 +60,7 @@ pub fn deflated(c: &Polynomial, order: usize) -> Polynomial {
 /// First point of [0, 1] after which the polynomial is negative, `None` if there is none.
 ///
 /// The polynomial is taken to be ≥ 0 at 0. A dip below zero is missed only if it is shallower than
-/// 1e-17 of the bound on the second derivative; a root is located to the last few bits.
+/// 3e-17 of the bound on the second derivative; a root is located to the last few bits.
 #[inline]
 #[must_use]
 pub fn first_root(c: &Polynomial) -> Option<f64> {
