@@ -7,8 +7,6 @@
 //! are kept; what is still in question at the end, or when too many have gathered, is looked at
 //! by its Taylor polynomial.
 
-use core::ops::Range;
-
 use super::excitation::{Excitation, Stretch};
 use crate::linear::polynomial::{DEGREE, largest};
 use crate::linear::{MAX_RATE_STEP, PerStorey, Series, State, System};
@@ -80,9 +78,15 @@ impl<V: PerStorey> Limits<V> {
         }
     }
 
-    /// Whether all values keep the limits, or all but a few.
+    /// Whether all values keep the limits.
     #[inline(always)]
-    pub(super) fn hold(&self, values: &V::Tracked, but: Range<usize>) -> bool {
+    pub(super) fn hold(&self, values: &V::Tracked) -> bool {
+        self.hold_but::<false>(values)
+    }
+
+    /// Whether all values, or all but those of [`StickLimits`], keep the limits.
+    #[inline(always)]
+    pub(super) fn hold_but<const STICK: bool>(&self, values: &V::Tracked) -> bool {
         let (above, below, y) = (self.above.as_ref(), self.below.as_ref(), values.as_ref());
         // One storey's drift is its displacement, and its acceleration goes with the base shear.
         let one_storey = y.len() == tracked::STOREYS + 3;
@@ -90,7 +94,8 @@ impl<V: PerStorey> Limits<V> {
         // stored one by one, and wait for the stores.
         for j in 0..y.len() {
             let redundant = j == tracked::BASE_SHEAR || j == tracked::STOREYS + 1;
-            if but.contains(&j) || (one_storey && redundant) {
+            let elsewhere = STICK && (tracked::BLOCK..=tracked::FRICTION).contains(&j);
+            if elsewhere || (one_storey && redundant) {
                 continue;
             }
             if !(below[j] <= y[j] && y[j] <= above[j]) {

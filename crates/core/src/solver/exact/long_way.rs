@@ -339,7 +339,7 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
             2.0 * self.system.energy_norm(s.s[2], s.w[2], s.eta[2].as_ref(), s.eta_dot[2].as_ref());
         let reach = 0.125 * bend * part * part;
         let limits = self.extremes.limits(reach, self.mode);
-        if !(limits.hold(&start, 0..0) && limits.hold(&end, 0..0)) {
+        if !(limits.hold(&start) && limits.hold(&end)) {
             let place = Place {
                 interval: stretch.interval,
                 from_s,
@@ -376,22 +376,35 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let [from, to] = [self.table[interval], self.table[interval + 1]];
         let table = from + (to - from) * (at_s / length_s);
         let a = self.excitation.load(stretch, at_s, 0.0, None).acceleration;
-        self.record_knot(times_s[interval] + at_s, mode, table, a, stretch.normal_at(at_s), row);
+        let (time_s, load) = (times_s[interval] + at_s, [a, stretch.normal_at(at_s)]);
+        self.record_knot(&self.state.clone(), time_s, mode, table, load, row);
     }
 
     /// Records the present state as a knot at a sample.
     pub(super) fn record_sample(&mut self, sample: usize, mode: Mode, row: bool) {
-        if !R::WANTED {
-            return;
+        if R::WANTED {
+            self.record_at(&self.state.clone(), sample, mode, row);
         }
+    }
+
+    /// Records a state as a knot at a sample.
+    pub(super) fn record_at(&mut self, x: &State<V>, sample: usize, mode: Mode, row: bool) {
         let a = self.excitation.acceleration[sample];
         let normal = self.excitation.normal_at_sample(sample).max(0.0);
         let (time_s, table) = (self.excitation.times_s[sample], self.table[sample]);
-        self.record_knot(time_s, mode, table, a, normal, row);
+        self.record_knot(x, time_s, mode, table, [a, normal], row);
     }
 
-    fn record_knot(&mut self, time_s: f64, mode: Mode, table: f64, a: f64, normal: f64, row: bool) {
-        let (system, x) = (self.system, &self.state);
+    fn record_knot(
+        &mut self,
+        x: &State<V>,
+        time_s: f64,
+        mode: Mode,
+        table: f64,
+        [a, normal]: [f64; 2],
+        row: bool,
+    ) {
+        let system = self.system;
         let f = system.restoring(x.eta(), x.eta_dot());
         let shear_n = system.base_shear_n(f.as_ref());
         let (u, friction_n) = match mode {
@@ -402,7 +415,7 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
             }
         };
         let knot = Knot { time_s, mode, table, state: x, u, f: f.as_ref(), friction_n };
-        self.recorder.knot(self.system, &knot, row);
+        self.recorder.knot(system, &knot, row);
     }
 }
 
