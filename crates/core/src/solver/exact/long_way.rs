@@ -3,7 +3,7 @@
 use super::{EVENTS_PER_INTERVAL_LIMIT, Run, Start};
 use crate::error::SolveError;
 use crate::friction::Direction;
-use crate::linear::polynomial::{DEGREE, Polynomial, deflated, first_root};
+use crate::linear::polynomial::{DEGREE, Polynomial, curvature_bound, deflated, first_root, value};
 use crate::linear::{MAX_RATE_STEP, PerStorey, State};
 use crate::response::{Event, EventKind, Mode};
 use crate::solver::excitation::Stretch;
@@ -83,19 +83,23 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let load = self.excitation.load(stretch, from_s, length_s, None);
         self.series.stick(self.system, &self.state, &load, length_s);
         let demand = self.series.demand(self.system, &load);
-        let [low, high] = self.bounds.map(|bound| {
-            [bound * stretch.normal_at(from_s), bound * (stretch.normal_rate() * length_s)]
-        });
-        // Distances from both bounds, positive where friction holds.
-        let (mut over, mut under) = (demand.map(|c| -c), demand);
-        over[0] += high[0];
-        over[1] += high[1];
-        under[0] -= low[0];
-        under[1] -= low[1];
-        let ways = [(over, Direction::Negative), (under, Direction::Positive)];
+        let curvature = curvature_bound(&demand);
+        let demand_end = value(&demand, 1.0);
+        let (normal, rise) = (stretch.normal_at(from_s), stretch.normal_rate() * length_s);
+        let [low, high] = self.bounds;
+        let ways = [(1.0, high, Direction::Negative), (-1.0, low, Direction::Positive)];
         let release = ways
             .into_iter()
-            .filter_map(|(distance, direction)| {
+            .filter_map(|(sign, bound, direction)| {
+                // Distance from the bound, positive where friction holds.
+                let start = sign * (bound * normal - demand[0]);
+                let end = sign * (bound * (normal + rise) - demand_end);
+                if start.min(end) > 0.125 * curvature {
+                    return None;
+                }
+                let mut distance = demand.map(|c| -sign * c);
+                distance[0] += sign * (bound * normal);
+                distance[1] += sign * (bound * rise);
                 first_crossing(&distance).map(|part| (part, direction))
             })
             .reduce(|a, b| if b.0 < a.0 { b } else { a });
@@ -338,8 +342,7 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let bend =
             2.0 * self.system.energy_norm(s.s[2], s.w[2], s.eta[2].as_ref(), s.eta_dot[2].as_ref());
         let reach = 0.125 * bend * part * part;
-        let limits = self.extremes.limits(reach, self.mode);
-        if !(limits.hold(&start) && limits.hold(&end)) {
+        if self.extremes.take(&start, &end, reach, self.mode) {
             let place = Place {
                 interval: stretch.interval,
                 from_s,

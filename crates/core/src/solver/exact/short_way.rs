@@ -181,8 +181,6 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let mut state = self.state.clone();
         let (mut a, mut friction_n) = load(samples.start);
         let mut start = self.values(&state, mode, a, friction_n);
-        let mut limits = self.extremes.limits(reach, mode);
-        let mut quiet = limits.hold(&start);
         for sample in samples {
             let (next_a, next_n) = load(sample + 1);
             let next = match mode {
@@ -190,17 +188,17 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
                 Mode::Slip(_) => propagator.slip(&state, [a, next_a], [friction_n, next_n]),
             };
             let end = self.values(&next, mode, next_a, next_n);
-            let mut end_quiet = limits.hold(&end);
-            if !(quiet && end_quiet) {
+            if self.extremes.take(&start, &end, reach, mode) {
                 // Once more by the bound for this sample alone.
-                let reach_alone = self.reach_alone(&state, sample);
-                let place =
-                    Place { interval: sample, from_s: 0.0, length_s: dt_s, mode, state: &state };
-                self.extremes.keep(system, excitation, &start, &end, reach_alone, &place);
-                limits = self.extremes.limits(reach, mode);
-                end_quiet = limits.hold(&end);
+                let reach = self.reach_alone(&state, sample);
+                if self.extremes.take(&start, &end, reach, mode) {
+                    let state = &state;
+                    let (interval, from_s, length_s) = (sample, 0.0, dt_s);
+                    let place = Place { interval, from_s, length_s, mode, state };
+                    self.extremes.keep(system, excitation, &start, &end, reach, &place);
+                }
             }
-            (a, friction_n, state, start, quiet) = (next_a, next_n, next, end, end_quiet);
+            (a, friction_n, state, start) = (next_a, next_n, next, end);
         }
     }
 
