@@ -51,15 +51,19 @@ fn solve_for<V: PerStorey>(
         let duration_s = motion.duration_s();
         return Err(SolveError::TooStiff { radians, duration_s, limit: RADIANS_LIMIT });
     }
+    let short_way =
+        motion.dt_s().filter(|dt_s| dt_s * system.slip_rate_rad_per_s <= SHORT_WAY_RATE_STEP);
+    let propagators =
+        short_way.map(|dt_s| [false, true].map(|slip| Propagator::new(&system, slip, dt_s)));
     let table = motion.horizontal_m_per_s2();
     let (run, history) = if with_history {
         let recorder = Everything::new(model.storeys(), motion.len(), model.slope_m_per_s2());
-        let mut run = Run::new(model, &system, &excitation, table, recorder);
+        let mut run = Run::new(model, &system, propagators.as_ref(), &excitation, table, recorder);
         run.walk()?;
         let history = core::mem::take(&mut run.recorder.history);
         (run.outcome(), Some(history))
     } else {
-        let mut run = Run::new(model, &system, &excitation, table, Nothing);
+        let mut run = Run::new(model, &system, propagators.as_ref(), &excitation, table, Nothing);
         run.walk()?;
         (run.outcome(), None)
     };
@@ -161,7 +165,7 @@ struct Run<'a, V: PerStorey, R> {
     table: &'a [f64],
     /// Coefficients of the static bounds: `[−μ_s⁺, μ_s⁻]`.
     bounds: [f64; 2],
-    propagators: Option<[Propagator<V>; 2]>,
+    propagators: Option<&'a [Propagator<V>; 2]>,
     recorder: R,
     extremes: Extremes<V>,
     series: Series<V>,
@@ -180,6 +184,7 @@ impl<'a, V: PerStorey, R: Recorder<V>> Run<'a, V, R> {
     fn new(
         model: &Model,
         system: &'a System<V>,
+        propagators: Option<&'a [Propagator<V>; 2]>,
         excitation: &'a Excitation<'a>,
         table: &'a [f64],
         recorder: R,
@@ -210,15 +215,12 @@ impl<'a, V: PerStorey, R: Recorder<V>> Run<'a, V, R> {
             over_dt * model.total_mass_kg().sqrt(),
             over_dt * largest_kinetic / system.block_mass_kg.sqrt(),
         ];
-        let short_way =
-            excitation.dt_s.filter(|dt_s| dt_s * system.slip_rate_rad_per_s <= SHORT_WAY_RATE_STEP);
         Self {
             system,
             excitation,
             table,
             bounds: excitation.bounds(),
-            propagators: short_way
-                .map(|dt_s| [false, true].map(|slip| Propagator::new(system, slip, dt_s))),
+            propagators,
             recorder,
             extremes: Extremes::new(model, system),
             series: Series::zeros(n),

@@ -7,8 +7,6 @@
 //! are kept; what is still in question at the end, or when too many have gathered, is looked at
 //! by its Taylor polynomial.
 
-use core::ops::Range;
-
 use super::excitation::{Excitation, Stretch};
 use crate::linear::polynomial::{DEGREE, largest};
 use crate::linear::{MAX_RATE_STEP, PerStorey, Series, State, System};
@@ -80,9 +78,15 @@ impl<V: PerStorey> Limits<V> {
         }
     }
 
-    /// Whether all values keep the limits, or all but a few.
+    /// Whether all values keep the limits.
     #[inline(always)]
-    pub(super) fn hold(&self, values: &V::Tracked, but: Range<usize>) -> bool {
+    pub(super) fn hold(&self, values: &V::Tracked) -> bool {
+        self.hold_but::<false>(values)
+    }
+
+    /// Whether all values, or all but those of [`StickLimits`], keep the limits.
+    #[inline(always)]
+    pub(super) fn hold_but<const STICK: bool>(&self, values: &V::Tracked) -> bool {
         let (above, below, y) = (self.above.as_ref(), self.below.as_ref(), values.as_ref());
         // One storey's drift is its displacement, and its acceleration goes with the base shear.
         let one_storey = y.len() == tracked::STOREYS + 3;
@@ -90,7 +94,8 @@ impl<V: PerStorey> Limits<V> {
         // stored one by one, and wait for the stores.
         for j in 0..y.len() {
             let redundant = j == tracked::BASE_SHEAR || j == tracked::STOREYS + 1;
-            if but.contains(&j) || (one_storey && redundant) {
+            let elsewhere = STICK && (tracked::BLOCK..=tracked::FRICTION).contains(&j);
+            if elsewhere || (one_storey && redundant) {
                 continue;
             }
             if !(below[j] <= y[j] && y[j] <= above[j]) {
@@ -269,9 +274,11 @@ impl<V: PerStorey> Extremes<V> {
         }
     }
 
-    /// Whether a piece may hold more than what has been attained, its ends included.
-    pub(super) fn in_question(
-        &self,
+    /// Takes the values at both ends of a piece for certain; whether it may hold more, `reach`
+    /// being `length²/8` times the norm of `ẍ`.
+    #[inline(always)]
+    pub(super) fn take(
+        &mut self,
         start: &V::Tracked,
         end: &V::Tracked,
         reach: f64,
@@ -282,18 +289,23 @@ impl<V: PerStorey> Extremes<V> {
             Mode::Slip(_) => &self.slip_norm,
         };
         let (start, end, norm) = (start.as_ref(), end.as_ref(), norm.as_ref());
-        let (up, down) = (self.largest.as_ref(), self.smallest.as_ref());
-        (0..start.len()).any(|j| {
-            let (ends, slack) = ([start[j], end[j]], reach * norm[j]);
-            let near = ends.iter().any(|y| y + slack > up[j] || y - slack < down[j]);
-            near && {
-                let [below, above] = bounds(ends, slack);
-                above > up[j] || below < down[j]
+        let (up, down) = (self.largest.as_mut(), self.smallest.as_mut());
+        let mut open = false;
+        for j in 0..start.len() {
+            let (low, high) =
+                if start[j] < end[j] { (start[j], end[j]) } else { (end[j], start[j]) };
+            let slack = reach * norm[j];
+            if high + slack > up[j] || low - slack < down[j] {
+                up[j] = up[j].max(high);
+                down[j] = down[j].min(low);
+                let [below, above] = bounds([low, high], slack);
+                open |= above > up[j] || below < down[j];
             }
-        })
+        }
+        open
     }
 
-    /// Keeps a piece if it is in question.
+    /// Keeps a piece that may hold more than its ends.
     #[inline(never)]
     pub(super) fn keep(
         &mut self,
@@ -304,18 +316,14 @@ impl<V: PerStorey> Extremes<V> {
         reach: f64,
         place: &Place<'_, V>,
     ) {
-        self.attain(start);
-        self.attain(end);
-        if !self.in_question(start, end, reach, place.mode) {
-            return;
-        }
         let norm = match place.mode {
             Mode::Stick => &self.stick_norm,
             Mode::Slip(_) => &self.slip_norm,
         };
         let (mut above, mut below) = (start.clone(), end.clone());
         for (j, norm) in norm.as_ref().iter().enumerate() {
-            let ends = [start.as_ref()[j], end.as_ref()[j]];
+            let (a, b) = (start.as_ref()[j], end.as_ref()[j]);
+            let ends = if a < b { [a, b] } else { [b, a] };
             [below.as_mut()[j], above.as_mut()[j]] = bounds(ends, reach * norm);
         }
         if self.pieces.len() == ROOM {
@@ -407,11 +415,10 @@ impl<V: PerStorey> Extremes<V> {
     }
 }
 
-/// Bounds on a value over a piece from those at its ends: with `slack` the error of the chord, an
-/// extreme lies inside only where the ends are less than four times that apart.
+/// Bounds on a value over a piece from the lower and the higher one at its ends: with `slack` the
+/// error of the chord, an extreme lies inside only where they are less than four times that apart.
 #[inline(always)]
-fn bounds([a, b]: [f64; 2], slack: f64) -> [f64; 2] {
-    let (low, high) = if a < b { (a, b) } else { (b, a) };
+fn bounds([low, high]: [f64; 2], slack: f64) -> [f64; 2] {
     let inside = slack - 0.25 * (high - low);
     let bulge = if inside > 0.0 { inside * (inside / slack) } else { 0.0 };
     // A few ulp are no more than the rounding of the ends.

@@ -3,7 +3,7 @@
 use super::{EVENTS_PER_INTERVAL_LIMIT, Run, Start};
 use crate::error::SolveError;
 use crate::friction::Direction;
-use crate::linear::polynomial::{DEGREE, Polynomial, deflated, first_root};
+use crate::linear::polynomial::{DEGREE, Polynomial, curvature_bound, deflated, first_root, value};
 use crate::linear::{MAX_RATE_STEP, PerStorey, State};
 use crate::response::{Event, EventKind, Mode};
 use crate::solver::excitation::Stretch;
@@ -83,19 +83,23 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let load = self.excitation.load(stretch, from_s, length_s, None);
         self.series.stick(self.system, &self.state, &load, length_s);
         let demand = self.series.demand(self.system, &load);
-        let [low, high] = self.bounds.map(|bound| {
-            [bound * stretch.normal_at(from_s), bound * (stretch.normal_rate() * length_s)]
-        });
-        // Distances from both bounds, positive where friction holds.
-        let (mut over, mut under) = (demand.map(|c| -c), demand);
-        over[0] += high[0];
-        over[1] += high[1];
-        under[0] -= low[0];
-        under[1] -= low[1];
-        let ways = [(over, Direction::Negative), (under, Direction::Positive)];
+        let curvature = curvature_bound(&demand);
+        let demand_end = value(&demand, 1.0);
+        let (normal, rise) = (stretch.normal_at(from_s), stretch.normal_rate() * length_s);
+        let [low, high] = self.bounds;
+        let ways = [(1.0, high, Direction::Negative), (-1.0, low, Direction::Positive)];
         let release = ways
             .into_iter()
-            .filter_map(|(distance, direction)| {
+            .filter_map(|(sign, bound, direction)| {
+                // Distance from the bound, positive where friction holds.
+                let start = sign * (bound * normal - demand[0]);
+                let end = sign * (bound * (normal + rise) - demand_end);
+                if start.min(end) > 0.125 * curvature {
+                    return None;
+                }
+                let mut distance = demand.map(|c| -sign * c);
+                distance[0] += sign * (bound * normal);
+                distance[1] += sign * (bound * rise);
                 first_crossing(&distance).map(|part| (part, direction))
             })
             .reduce(|a, b| if b.0 < a.0 { b } else { a });
@@ -338,8 +342,7 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let bend =
             2.0 * self.system.energy_norm(s.s[2], s.w[2], s.eta[2].as_ref(), s.eta_dot[2].as_ref());
         let reach = 0.125 * bend * part * part;
-        let limits = self.extremes.limits(reach, self.mode);
-        if !(limits.hold(&start, 0..0) && limits.hold(&end, 0..0)) {
+        if self.extremes.take(&start, &end, reach, self.mode) {
             let place = Place {
                 interval: stretch.interval,
                 from_s,
@@ -376,22 +379,35 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let [from, to] = [self.table[interval], self.table[interval + 1]];
         let table = from + (to - from) * (at_s / length_s);
         let a = self.excitation.load(stretch, at_s, 0.0, None).acceleration;
-        self.record_knot(times_s[interval] + at_s, mode, table, a, stretch.normal_at(at_s), row);
+        let (time_s, load) = (times_s[interval] + at_s, [a, stretch.normal_at(at_s)]);
+        self.record_knot(&self.state.clone(), time_s, mode, table, load, row);
     }
 
     /// Records the present state as a knot at a sample.
     pub(super) fn record_sample(&mut self, sample: usize, mode: Mode, row: bool) {
-        if !R::WANTED {
-            return;
+        if R::WANTED {
+            self.record_at(&self.state.clone(), sample, mode, row);
         }
+    }
+
+    /// Records a state as a knot at a sample.
+    pub(super) fn record_at(&mut self, x: &State<V>, sample: usize, mode: Mode, row: bool) {
         let a = self.excitation.acceleration[sample];
         let normal = self.excitation.normal_at_sample(sample).max(0.0);
         let (time_s, table) = (self.excitation.times_s[sample], self.table[sample]);
-        self.record_knot(time_s, mode, table, a, normal, row);
+        self.record_knot(x, time_s, mode, table, [a, normal], row);
     }
 
-    fn record_knot(&mut self, time_s: f64, mode: Mode, table: f64, a: f64, normal: f64, row: bool) {
-        let (system, x) = (self.system, &self.state);
+    fn record_knot(
+        &mut self,
+        x: &State<V>,
+        time_s: f64,
+        mode: Mode,
+        table: f64,
+        [a, normal]: [f64; 2],
+        row: bool,
+    ) {
+        let system = self.system;
         let f = system.restoring(x.eta(), x.eta_dot());
         let shear_n = system.base_shear_n(f.as_ref());
         let (u, friction_n) = match mode {
@@ -402,7 +418,7 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
             }
         };
         let knot = Knot { time_s, mode, table, state: x, u, f: f.as_ref(), friction_n };
-        self.recorder.knot(self.system, &knot, row);
+        self.recorder.knot(system, &knot, row);
     }
 }
 

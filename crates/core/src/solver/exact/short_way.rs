@@ -6,7 +6,7 @@ use super::Run;
 use crate::friction::Direction;
 use crate::linear::{PerStorey, Propagator, State};
 use crate::response::Mode;
-use crate::solver::extremes::{Limits, Place, tracked};
+use crate::solver::extremes::{Limits, Place, StickLimits, tracked};
 use crate::solver::recorder::Recorder;
 
 /// Samples for which a bound on `ẍ` serves.
@@ -15,30 +15,33 @@ const BOUND_LIFE: usize = 16;
 /// Samples that are shown to the extremes as one piece.
 const LEAP: usize = 4;
 
+/// Limits within which ordinary motion shows nothing new.
+struct Watch<V: PerStorey> {
+    /// At the ends of a leap.
+    leap: Limits<V>,
+    /// At every sample of stick.
+    stick: StickLimits,
+}
+
 impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
     /// Takes whole samples while the bounds show that nothing happens in them; the first sample
     /// that they do not vouch for.
-    pub(super) fn short_way(&mut self, mut sample: usize) -> usize {
-        let Some(propagators) = self.propagators.take() else { return sample };
-        if self.start.is_none() {
-            let excitation = self.excitation;
-            sample = match excitation.varying_normal() {
-                Some(normal) => self.short(&propagators, sample, |i| normal[i]),
-                None => {
-                    let normal = excitation.normal_at_sample(0);
-                    self.short(&propagators, sample, |_| normal)
-                }
-            };
+    pub(super) fn short_way(&mut self, sample: usize) -> usize {
+        let (excitation, normal) = (self.excitation, self.excitation.normal_at_sample(sample));
+        match (self.propagators, self.start, excitation.varying_normal()) {
+            (Some(propagators), None, Some(normal)) => {
+                self.short(propagators, sample, |i| normal[i])
+            }
+            (Some(propagators), None, None) => self.short(propagators, sample, move |_| normal),
+            _ => sample,
         }
-        self.propagators = Some(propagators);
-        sample
     }
 
     fn short(
         &mut self,
         [stick, slip]: &[Propagator<V>; 2],
         sample: usize,
-        normal: impl Fn(usize) -> f64,
+        normal: impl Fn(usize) -> f64 + Copy,
     ) -> usize {
         match self.mode {
             Mode::Stick => self.walk_short::<false>(stick, Direction::Positive, sample, normal),
@@ -51,7 +54,7 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         propagator: &Propagator<V>,
         direction: Direction,
         mut sample: usize,
-        normal: impl Fn(usize) -> f64,
+        normal: impl Fn(usize) -> f64 + Copy,
     ) -> usize {
         let (system, excitation) = (self.system, self.excitation);
         let Some(dt_s) = excitation.dt_s else { return sample };
@@ -61,10 +64,18 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let (sign, coefficient) = (direction.sign(), excitation.kinetic(direction));
         let [low, high] = self.bounds;
         let event_norm = self.extremes.event_norm(mode);
-        let (s, spring_n) = (self.state.s(), system.stiffness_n_per_m * self.state.s());
+        let s = self.state.s();
         let demand_n = |x: &State<V>, a: f64| {
             let f = system.restoring(x.eta(), x.eta_dot());
-            system.demand_n(s, system.base_shear_n(f.as_ref()), a)
+            if SLIP { 0.0 } else { system.demand_n(s, system.base_shear_n(f.as_ref()), a) }
+        };
+        // Whether the block slides, or friction holds, by more than a slack.
+        let by = move |slack: f64, x: &State<V>, demand_n: f64, normal: f64| {
+            if SLIP {
+                sign * x.w() > slack && normal >= 0.0
+            } else {
+                low * normal + slack < demand_n && demand_n < high * normal - slack
+            }
         };
         // The chord bound asks for a continuous derivative: where a load enters a tracked value
         // itself, its kinks at samples part the pieces. In stick such values are looked at sample
@@ -72,37 +83,21 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let loads_kink =
             if SLIP { excitation.varying_normal().is_some() } else { self.extremes.overturns() };
         let leap = if loads_kink { 1 } else { LEAP };
-        let by_sample = if SLIP { 0..0 } else { tracked::BLOCK..tracked::FRICTION + 1 };
-        // The state stays in registers; it is written back at the end.
-        let (mut state, mut going) = (self.state.clone(), true);
+        let mut going = true;
         while going && sample < last {
+            // The state stays in registers; it is written back after each leap.
+            let mut state = self.state.clone();
             let end = last.min(sample + BOUND_LIFE);
             let reach = 0.125 * dt_s * dt_s * self.bend(&state, sample, end);
             let slack = reach * event_norm;
-            // Whether the block slides, or friction holds, by more than a slack.
-            let by = |slack: f64, x: &State<V>, demand_n: f64, normal: f64| {
-                if SLIP {
-                    sign * x.w() > slack && normal >= 0.0
-                } else {
-                    low * normal + slack < demand_n && demand_n < high * normal - slack
-                }
-            };
-            let limits = |run: &Self| {
-                let whole = run.extremes.limits(reach * (leap * leap) as f64, mode);
-                (whole, run.extremes.limits(reach, mode).stick(spring_n))
-            };
-            let (mut whole, mut stick) = limits(self);
-            let quiet = |run: &Self, x: &State<V>, sample: usize, whole: &Limits<V>| {
-                let kinetic_n = coefficient * normal(sample);
-                let values = run.values(x, mode, acceleration[sample], kinetic_n);
-                whole.hold(&values, by_sample.clone())
-            };
-            let mut demand = if SLIP { 0.0 } else { demand_n(&state, acceleration[sample]) };
+            let mut watch = self.watch::<SLIP>(reach, leap, mode);
+            let a = acceleration[sample];
+            let mut demand = demand_n(&state, a);
             let mut clear = by(slack, &state, demand, normal(sample));
-            let mut open = !quiet(self, &state, sample, &whole)
-                || (!SLIP && !stick.hold(demand, acceleration[sample]));
+            let kinetic_n = coefficient * normal(sample);
+            let mut open = !self.quiet::<SLIP>(&watch, &state, mode, a, kinetic_n);
             while going && sample < end {
-                let (from, start) = (sample, state.clone());
+                let from = sample;
                 for a in acceleration[sample..=end.min(sample + leap)].windows(2) {
                     let a = [a[0], a[1]];
                     let normal = [normal(sample), normal(sample + 1)];
@@ -111,12 +106,12 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
                     } else {
                         propagator.stick(&state, a)
                     };
-                    let next_demand = if SLIP { 0.0 } else { demand_n(&next, a[1]) };
+                    let next_demand = demand_n(&next, a[1]);
                     let next_clear = by(slack, &next, next_demand, normal[1]);
                     if !(clear && next_clear) {
                         // Once more by the bound for this sample alone, unless there is an event.
                         going = by(0.0, &next, next_demand, normal[1]) && {
-                            let slack = event_norm * self.reach_alone(state.clone(), sample);
+                            let slack = event_norm * self.reach_alone(&state.clone(), sample);
                             by(slack, &state, demand, normal[0])
                                 && by(slack, &next, next_demand, normal[1])
                         };
@@ -125,47 +120,67 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
                         }
                     }
                     if !SLIP {
-                        open |= !stick.hold(next_demand, a[1]);
+                        open |= !watch.stick.hold(next_demand, a[1]);
                     }
                     if R::WANTED {
-                        self.state.clone_from(&state);
-                        self.record_sample(sample, mode, true);
+                        self.record_at(&state.clone(), sample, mode, true);
                     }
                     (clear, demand, state) = (next_clear, next_demand, next);
                     sample += 1;
                 }
-                if sample > from && (open || !quiet(self, &state, sample, &whole)) {
-                    self.show(propagator, start, from..sample, mode, reach);
-                    (whole, stick) = limits(self);
-                    open = !quiet(self, &state, sample, &whole)
-                        || (!SLIP && !stick.hold(demand, acceleration[sample]));
+                let (a, kinetic_n) = (acceleration[sample], coefficient * normal(sample));
+                if open || !self.quiet::<SLIP>(&watch, &state, mode, a, kinetic_n) {
+                    self.show(propagator, from..sample, mode, reach);
+                    watch = self.watch::<SLIP>(reach, leap, mode);
+                    open = !self.quiet::<SLIP>(&watch, &state, mode, a, kinetic_n);
                 }
+                self.state.clone_from(&state);
             }
         }
-        self.state = state;
         sample
     }
 
-    /// Shows samples of ordinary motion from a state to the extremes one by one.
-    #[inline(never)]
-    fn show(
-        &mut self,
-        propagator: &Propagator<V>,
-        mut state: State<V>,
-        samples: Range<usize>,
+    /// Limits for a leap of samples by a bound for one, `length²/8` times the norm of `ẍ`.
+    #[inline(always)]
+    fn watch<const SLIP: bool>(&self, reach: f64, leap: usize, mode: Mode) -> Watch<V> {
+        let spring_n = self.system.stiffness_n_per_m * self.state.s();
+        Watch {
+            leap: self.extremes.limits(reach * (leap * leap) as f64, mode),
+            stick: self.extremes.limits(reach, mode).stick(spring_n),
+        }
+    }
+
+    /// Whether all values at an instant keep the limits.
+    #[inline(always)]
+    fn quiet<const SLIP: bool>(
+        &self,
+        watch: &Watch<V>,
+        x: &State<V>,
         mode: Mode,
-        reach: f64,
-    ) {
+        a: f64,
+        kinetic_n: f64,
+    ) -> bool {
+        let values = self.values(x, mode, a, kinetic_n);
+        if SLIP {
+            watch.leap.hold(&values)
+        } else {
+            watch.stick.hold(values.as_ref()[tracked::FRICTION], a)
+                && watch.leap.hold_but::<true>(&values)
+        }
+    }
+
+    /// Shows samples of ordinary motion from the present state to the extremes one by one.
+    #[inline(never)]
+    fn show(&mut self, propagator: &Propagator<V>, samples: Range<usize>, mode: Mode, reach: f64) {
         let (system, excitation) = (self.system, self.excitation);
         let Some(dt_s) = excitation.dt_s else { return };
         let load = |sample: usize| {
             let friction_n = excitation.kinetic_n(mode, excitation.normal_at_sample(sample));
             (excitation.acceleration[sample], friction_n)
         };
+        let mut state = self.state.clone();
         let (mut a, mut friction_n) = load(samples.start);
         let mut start = self.values(&state, mode, a, friction_n);
-        let mut limits = self.extremes.limits(reach, mode);
-        let mut quiet = limits.hold(&start, 0..0);
         for sample in samples {
             let (next_a, next_n) = load(sample + 1);
             let next = match mode {
@@ -173,25 +188,25 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
                 Mode::Slip(_) => propagator.slip(&state, [a, next_a], [friction_n, next_n]),
             };
             let end = self.values(&next, mode, next_a, next_n);
-            let mut end_quiet = limits.hold(&end, 0..0);
-            if !(quiet && end_quiet) {
+            if self.extremes.take(&start, &end, reach, mode) {
                 // Once more by the bound for this sample alone.
-                let reach_alone = self.reach_alone(state.clone(), sample);
-                let place =
-                    Place { interval: sample, from_s: 0.0, length_s: dt_s, mode, state: &state };
-                self.extremes.keep(system, excitation, &start, &end, reach_alone, &place);
-                limits = self.extremes.limits(reach, mode);
-                end_quiet = limits.hold(&end, 0..0);
+                let reach = self.reach_alone(&state, sample);
+                if self.extremes.take(&start, &end, reach, mode) {
+                    let state = &state;
+                    let (interval, from_s, length_s) = (sample, 0.0, dt_s);
+                    let place = Place { interval, from_s, length_s, mode, state };
+                    self.extremes.keep(system, excitation, &start, &end, reach, &place);
+                }
             }
-            (a, friction_n, state, start, quiet) = (next_a, next_n, next, end, end_quiet);
+            (a, friction_n, state, start) = (next_a, next_n, next, end);
         }
     }
 
     /// What a chord over one sample can hide of a quantity of dual norm 1.
     #[inline(never)]
-    fn reach_alone(&self, state: State<V>, sample: usize) -> f64 {
+    fn reach_alone(&self, state: &State<V>, sample: usize) -> f64 {
         let dt_s = self.excitation.dt_s.unwrap_or(0.0);
-        0.125 * dt_s * dt_s * self.bend(&state, sample, sample + 1)
+        0.125 * dt_s * dt_s * self.bend(state, sample, sample + 1)
     }
 
     /// Bound on the norm of `ẍ` over whole samples from a state: within a sample the norm does not
