@@ -8,6 +8,8 @@
 //! A format is a file here with two functions: `recognises(text)` and `read(text, options)`.
 
 mod delimited;
+#[allow(dead_code, reason = "the readers that follow use it")]
+mod fixed;
 mod peer;
 mod sampling;
 mod text;

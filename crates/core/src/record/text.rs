@@ -130,6 +130,7 @@ impl<'a> Text<'a> {
 }
 
 /// See [`Text::lines`].
+#[derive(Clone)]
 pub(super) struct Lines<'a> {
     rest: &'a [u8],
     number: usize,
