@@ -7,17 +7,23 @@
 //!
 //! A format is a file here with two functions: `recognises(text)` and `read(text, options)`.
 
+mod component;
+mod decimal;
 mod delimited;
 #[allow(dead_code, reason = "the readers that follow use it")]
 mod fixed;
 mod peer;
+mod quality;
 mod sampling;
 mod text;
 mod unit;
 
+use std::collections::BTreeMap;
+
 use crate::error::{MotionError, RecordError};
 use crate::motion::GroundMotion;
 
+pub use quality::{REST_KINDS, rest};
 use text::Text;
 pub use unit::{Quantity, Units};
 
@@ -180,9 +186,27 @@ pub fn read(source_name: &str, bytes: &[u8], options: &Options) -> Result<Record
         return Err(text.error_at_start("a time step > 0 s given as dt", &format!("{dt_s} s")));
     }
     let format = options.format.unwrap_or_else(|| recognise(&text));
-    match format {
+    let mut record = match format {
         Format::Peer => peer::read(&text, options),
         Format::Delimited => delimited::read(&text, options),
+    }?;
+    distinct(&mut record.channels);
+    record.channels.iter_mut().for_each(quality::inspect);
+    Ok(record)
+}
+
+/// Numbers the channels that share a name, so that a name picks one channel or none.
+fn distinct(channels: &mut [Channel]) {
+    let mut seen: BTreeMap<String, (usize, usize)> = BTreeMap::new();
+    for channel in channels.iter() {
+        seen.entry(channel.name.to_ascii_lowercase()).or_default().0 += 1;
+    }
+    for channel in channels {
+        let entry = seen.get_mut(&channel.name.to_ascii_lowercase());
+        if let Some((2.., number)) = entry {
+            *number += 1;
+            channel.name.push_str(&format!(" ({number})"));
+        }
     }
 }
 
