@@ -7,16 +7,23 @@
 //!
 //! A format is a file here with two functions: `recognises(text)` and `read(text, options)`.
 
+mod bhrc;
 mod component;
+mod cosmos;
+mod csmip;
 mod decimal;
 mod delimited;
-#[allow(dead_code, reason = "the readers that follow use it")]
 mod fixed;
 mod peer;
 mod quality;
+mod renadic;
 mod sampling;
+mod seismosignal;
+mod smc;
 mod text;
 mod unit;
+mod usc;
+mod volume;
 
 use std::collections::BTreeMap;
 
@@ -33,19 +40,50 @@ pub use unit::{Quantity, Units};
 pub enum Format {
     /// PEER NGA, `.AT2`, `.VT2`, `.DT2`.
     Peer,
+    /// CSMIP volumes, `.V1`, `.V2`.
+    Csmip,
+    /// COSMOS 1.x, `.V0c`, `.V1c`, `.V2c`.
+    Cosmos,
+    /// USGS SMC, `.smc`.
+    Smc,
+    /// USC and Caltech volumes, `.m0a`, `.s0a`.
+    Usc,
+    /// RENADIC of Chile, `.v1`.
+    Renadic,
+    /// BHRC of Iran, `.V1`.
+    Bhrc,
+    /// Text exported by SeismoSignal.
+    SeismoSignal,
     /// Columns of numbers: CSV and other text.
     Delimited,
 }
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Peer, Self::Delimited];
+    pub const ALL: [Self; 9] = [
+        Self::Peer,
+        Self::Csmip,
+        Self::Cosmos,
+        Self::Smc,
+        Self::Usc,
+        Self::Renadic,
+        Self::Bhrc,
+        Self::SeismoSignal,
+        Self::Delimited,
+    ];
 
     /// The word for it in `--format`.
     #[must_use]
     pub fn keyword(self) -> &'static str {
         match self {
             Self::Peer => "peer",
+            Self::Csmip => "csmip",
+            Self::Cosmos => "cosmos",
+            Self::Smc => "smc",
+            Self::Usc => "usc",
+            Self::Renadic => "renadic",
+            Self::Bhrc => "bhrc",
+            Self::SeismoSignal => "seismosignal",
             Self::Delimited => "text",
         }
     }
@@ -188,6 +226,13 @@ pub fn read(source_name: &str, bytes: &[u8], options: &Options) -> Result<Record
     let format = options.format.unwrap_or_else(|| recognise(&text));
     let mut record = match format {
         Format::Peer => peer::read(&text, options),
+        Format::Csmip => csmip::read(&text, options),
+        Format::Cosmos => cosmos::read(&text, options),
+        Format::Smc => smc::read(&text, options),
+        Format::Usc => usc::read(&text, options),
+        Format::Renadic => renadic::read(&text, options),
+        Format::Bhrc => bhrc::read(&text, options),
+        Format::SeismoSignal => seismosignal::read(&text, options),
         Format::Delimited => delimited::read(&text, options),
     }?;
     distinct(&mut record.channels);
@@ -212,7 +257,19 @@ fn distinct(channels: &mut [Channel]) {
 
 /// The format of a text; delimited text where no other format knows it.
 fn recognise(text: &Text) -> Format {
-    if peer::recognises(text) { Format::Peer } else { Format::Delimited }
+    // The narrow ones first: RENADIC and USC write volumes as CSMIP does.
+    let formats: &[(Format, fn(&Text) -> bool)] = &[
+        (Format::Cosmos, cosmos::recognises),
+        (Format::Smc, smc::recognises),
+        (Format::Usc, usc::recognises),
+        (Format::Renadic, renadic::recognises),
+        (Format::Bhrc, bhrc::recognises),
+        (Format::Csmip, csmip::recognises),
+        (Format::SeismoSignal, seismosignal::recognises),
+        (Format::Peer, peer::recognises),
+    ];
+    let known = formats.iter().find(|(_, recognises)| recognises(text));
+    known.map_or(Format::Delimited, |(format, _)| *format)
 }
 
 /// Values converted to SI, once.
