@@ -24,6 +24,7 @@ mod text;
 mod unit;
 mod usc;
 mod volume;
+mod write;
 
 use std::collections::BTreeMap;
 
@@ -33,6 +34,7 @@ use crate::motion::GroundMotion;
 pub use quality::{REST_KINDS, rest};
 use text::Text;
 pub use unit::{Quantity, Units};
+pub use write::{write_at2, write_csv, write_smc};
 
 /// Formats that are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -195,6 +197,19 @@ impl Record {
 }
 
 impl Channel {
+    /// The same channel with another motion along the surface in it, its labels kept: what a
+    /// processing step makes of it. Its units are m/s².
+    #[must_use]
+    pub fn with_motion(&self, motion: &GroundMotion) -> Self {
+        let sampling = match motion.dt_s() {
+            Some(dt_s) => Sampling::Dt(dt_s),
+            None => Sampling::Times(motion.times_s().to_vec()),
+        };
+        let units = Units::m_per_s2();
+        let values = motion.horizontal_m_per_s2().to_vec();
+        Self { units, values, sampling, ..self.clone() }
+    }
+
     /// The channel as horizontal ground motion, its clock started at the first sample; `None` for
     /// a channel that is not acceleration.
     ///

@@ -66,6 +66,12 @@ const TABLE: [(&str, Quantity, f64, &[&str]); 19] = {
 };
 
 impl Units {
+    /// m/s².
+    #[must_use]
+    pub fn m_per_s2() -> Self {
+        Self { symbol: "m/s²", quantity: Quantity::Acceleration, si: 1.0 }
+    }
+
     /// The units of a word such as `g`, `cm/s2`, `CM/SEC/SEC`, `gal`.
     #[must_use]
     pub fn parse(word: &str) -> Option<Self> {
