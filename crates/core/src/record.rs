@@ -7,17 +7,34 @@
 //!
 //! A format is a file here with two functions: `recognises(text)` and `read(text, options)`.
 
+mod bhrc;
+mod component;
+mod cosmos;
+mod csmip;
+mod decimal;
 mod delimited;
+mod fixed;
 mod peer;
+mod quality;
+mod renadic;
 mod sampling;
+mod seismosignal;
+mod smc;
 mod text;
 mod unit;
+mod usc;
+mod volume;
+mod write;
+
+use std::collections::BTreeMap;
 
 use crate::error::{MotionError, RecordError};
 use crate::motion::GroundMotion;
 
+pub use quality::{REST_KINDS, rest};
 use text::Text;
 pub use unit::{Quantity, Units};
+pub use write::{write_at2, write_csv, write_smc};
 
 /// Formats that are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,19 +42,50 @@ pub use unit::{Quantity, Units};
 pub enum Format {
     /// PEER NGA, `.AT2`, `.VT2`, `.DT2`.
     Peer,
+    /// CSMIP volumes, `.V1`, `.V2`.
+    Csmip,
+    /// COSMOS 1.x, `.V0c`, `.V1c`, `.V2c`.
+    Cosmos,
+    /// USGS SMC, `.smc`.
+    Smc,
+    /// USC and Caltech volumes, `.m0a`, `.s0a`.
+    Usc,
+    /// RENADIC of Chile, `.v1`.
+    Renadic,
+    /// BHRC of Iran, `.V1`.
+    Bhrc,
+    /// Text exported by SeismoSignal.
+    SeismoSignal,
     /// Columns of numbers: CSV and other text.
     Delimited,
 }
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Peer, Self::Delimited];
+    pub const ALL: [Self; 9] = [
+        Self::Peer,
+        Self::Csmip,
+        Self::Cosmos,
+        Self::Smc,
+        Self::Usc,
+        Self::Renadic,
+        Self::Bhrc,
+        Self::SeismoSignal,
+        Self::Delimited,
+    ];
 
     /// The word for it in `--format`.
     #[must_use]
     pub fn keyword(self) -> &'static str {
         match self {
             Self::Peer => "peer",
+            Self::Csmip => "csmip",
+            Self::Cosmos => "cosmos",
+            Self::Smc => "smc",
+            Self::Usc => "usc",
+            Self::Renadic => "renadic",
+            Self::Bhrc => "bhrc",
+            Self::SeismoSignal => "seismosignal",
             Self::Delimited => "text",
         }
     }
@@ -149,6 +197,19 @@ impl Record {
 }
 
 impl Channel {
+    /// The same channel with another motion along the surface in it, its labels kept: what a
+    /// processing step makes of it. Its units are m/s².
+    #[must_use]
+    pub fn with_motion(&self, motion: &GroundMotion) -> Self {
+        let sampling = match motion.dt_s() {
+            Some(dt_s) => Sampling::Dt(dt_s),
+            None => Sampling::Times(motion.times_s().to_vec()),
+        };
+        let units = Units::m_per_s2();
+        let values = motion.horizontal_m_per_s2().to_vec();
+        Self { units, values, sampling, ..self.clone() }
+    }
+
     /// The channel as horizontal ground motion, its clock started at the first sample; `None` for
     /// a channel that is not acceleration.
     ///
@@ -178,15 +239,52 @@ pub fn read(source_name: &str, bytes: &[u8], options: &Options) -> Result<Record
         return Err(text.error_at_start("a time step > 0 s given as dt", &format!("{dt_s} s")));
     }
     let format = options.format.unwrap_or_else(|| recognise(&text));
-    match format {
+    let mut record = match format {
         Format::Peer => peer::read(&text, options),
+        Format::Csmip => csmip::read(&text, options),
+        Format::Cosmos => cosmos::read(&text, options),
+        Format::Smc => smc::read(&text, options),
+        Format::Usc => usc::read(&text, options),
+        Format::Renadic => renadic::read(&text, options),
+        Format::Bhrc => bhrc::read(&text, options),
+        Format::SeismoSignal => seismosignal::read(&text, options),
         Format::Delimited => delimited::read(&text, options),
+    }?;
+    distinct(&mut record.channels);
+    record.channels.iter_mut().for_each(quality::inspect);
+    Ok(record)
+}
+
+/// Numbers the channels that share a name, so that a name picks one channel or none.
+fn distinct(channels: &mut [Channel]) {
+    let mut seen: BTreeMap<String, (usize, usize)> = BTreeMap::new();
+    for channel in channels.iter() {
+        seen.entry(channel.name.to_ascii_lowercase()).or_default().0 += 1;
+    }
+    for channel in channels {
+        let entry = seen.get_mut(&channel.name.to_ascii_lowercase());
+        if let Some((2.., number)) = entry {
+            *number += 1;
+            channel.name.push_str(&format!(" ({number})"));
+        }
     }
 }
 
 /// The format of a text; delimited text where no other format knows it.
 fn recognise(text: &Text) -> Format {
-    if peer::recognises(text) { Format::Peer } else { Format::Delimited }
+    // The narrow ones first: RENADIC and USC write volumes as CSMIP does.
+    let formats: &[(Format, fn(&Text) -> bool)] = &[
+        (Format::Cosmos, cosmos::recognises),
+        (Format::Smc, smc::recognises),
+        (Format::Usc, usc::recognises),
+        (Format::Renadic, renadic::recognises),
+        (Format::Bhrc, bhrc::recognises),
+        (Format::Csmip, csmip::recognises),
+        (Format::SeismoSignal, seismosignal::recognises),
+        (Format::Peer, peer::recognises),
+    ];
+    let known = formats.iter().find(|(_, recognises)| recognises(text));
+    known.map_or(Format::Delimited, |(format, _)| *format)
 }
 
 /// Values converted to SI, once.

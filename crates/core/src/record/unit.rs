@@ -11,6 +11,8 @@ pub enum Quantity {
     Velocity,
     /// In m.
     Displacement,
+    /// Numbers of a recorder, which its constants alone turn into motion.
+    Counts,
 }
 
 impl Quantity {
@@ -21,11 +23,12 @@ impl Quantity {
             Self::Acceleration => "acceleration",
             Self::Velocity => "velocity",
             Self::Displacement => "displacement",
+            Self::Counts => "counts of a recorder",
         }
     }
 }
 
-/// Units of acceleration, velocity or displacement.
+/// Units of acceleration, velocity or displacement; or counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Units {
     symbol: &'static str,
@@ -34,31 +37,41 @@ pub struct Units {
 }
 
 /// Symbol, quantity, factor to SI, and the spellings of it after [`plain`].
-const TABLE: [(&str, Quantity, f64, &[&str]); 15] = {
-    use Quantity::{Acceleration, Displacement, Velocity};
+const TABLE: [(&str, Quantity, f64, &[&str]); 19] = {
+    use Quantity::{Acceleration, Counts, Displacement, Velocity};
     const G: f64 = STANDARD_GRAVITY_M_PER_S2;
     const INCH: f64 = 0.0254;
     const FOOT: f64 = 0.3048;
     [
         ("g", Acceleration, G, &["g", "gs", "g's"]),
-        ("m/s²", Acceleration, 1.0, &["m/s2", "m/s/s", "ms-2"]),
-        ("cm/s²", Acceleration, 0.01, &["cm/s2", "cm/s/s", "gal", "gals", "cms-2"]),
+        ("g/10", Acceleration, G / 10.0, &["g/10"]),
+        ("mg", Acceleration, G / 1e3, &["mg", "milli-g", "millig"]),
+        ("µg", Acceleration, G / 1e6, &["µg", "μg", "ug", "microg"]),
+        ("m/s²", Acceleration, 1.0, &["m/s2", "m/s/s", "ms-2", "m/s-2"]),
+        ("cm/s²", Acceleration, 0.01, &["cm/s2", "cm/s/s", "gal", "gals", "cms-2", "cms/s/s"]),
         ("mm/s²", Acceleration, 0.001, &["mm/s2", "mm/s/s", "mms-2"]),
         ("in/s²", Acceleration, INCH, &["in/s2", "in/s/s"]),
         ("ft/s²", Acceleration, FOOT, &["ft/s2", "ft/s/s"]),
         ("m/s", Velocity, 1.0, &["m/s"]),
-        ("cm/s", Velocity, 0.01, &["cm/s"]),
+        ("cm/s", Velocity, 0.01, &["cm/s", "cms/s"]),
         ("mm/s", Velocity, 0.001, &["mm/s"]),
         ("in/s", Velocity, INCH, &["in/s"]),
         ("m", Displacement, 1.0, &["m"]),
-        ("cm", Displacement, 0.01, &["cm"]),
+        ("cm", Displacement, 0.01, &["cm", "cms"]),
         ("mm", Displacement, 0.001, &["mm"]),
         ("in", Displacement, INCH, &["in"]),
         ("ft", Displacement, FOOT, &["ft"]),
+        ("counts", Counts, 1.0, &["counts", "count", "cts"]),
     ]
 };
 
 impl Units {
+    /// m/s².
+    #[must_use]
+    pub fn m_per_s2() -> Self {
+        Self { symbol: "m/s²", quantity: Quantity::Acceleration, si: 1.0 }
+    }
+
     /// The units of a word such as `g`, `cm/s2`, `CM/SEC/SEC`, `gal`.
     #[must_use]
     pub fn parse(word: &str) -> Option<Self> {
@@ -75,7 +88,7 @@ impl Units {
         self.quantity
     }
 
-    /// One of them in SI: m/s², m/s or m.
+    /// One of them in SI: m/s², m/s or m; 1 for counts.
     #[must_use]
     pub fn si(self) -> f64 {
         self.si
