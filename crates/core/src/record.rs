@@ -5,12 +5,24 @@
 //! cannot be overruled, but for a step that its rounded times allow. Nothing is guessed in silence:
 //! a choice that a reader had to make is a warning.
 //!
-//! A format is a file here with two functions: `recognises(text)` and `read(text, options)`.
+//! A format is a file here with two functions: `recognises(text)` and `read(text, options)`; one of
+//! binary files has `recognises_bytes` and `read_bytes`, which are asked first.
 
+mod asa;
+mod bytes;
+mod csmnc;
+mod cwa;
 mod delimited;
-#[allow(dead_code, reason = "the readers that follow use it")]
+mod dyna;
 mod fixed;
+mod geonet;
+mod itaca;
+mod keys;
+mod knet;
+mod miniseed;
+mod nsmn;
 mod peer;
+mod sac;
 mod sampling;
 mod text;
 mod unit;
@@ -27,19 +39,62 @@ pub use unit::{Quantity, Units};
 pub enum Format {
     /// PEER NGA, `.AT2`, `.VT2`, `.DT2`.
     Peer,
+    /// K-NET and KiK-net, Japan: `.EW`, `.NS`, `.UD`, `.EW1`, …
+    Knet,
+    /// DYNA of ESM, ITACA and AFAD: `.ASC`, `.asc`.
+    Dyna,
+    /// Older ITACA and SISMA: `.acc`.
+    Itaca,
+    /// NSMN, the old network of Turkey: `.txt`.
+    Nsmn,
+    /// GeoNet, New Zealand: `.V1A`, `.V2A`.
+    GeoNet,
+    /// UNAM, Mexico: ASA 2.0.
+    Asa,
+    /// CSMNC, China: `.dat`.
+    Csmnc,
+    /// CWA, Taiwan: `.dat`, `.txt`.
+    Cwa,
+    /// SAC, binary and alphanumeric.
+    Sac,
+    /// MiniSEED 2 and 3.
+    MiniSeed,
     /// Columns of numbers: CSV and other text.
     Delimited,
 }
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Peer, Self::Delimited];
+    pub const ALL: [Self; 12] = [
+        Self::Peer,
+        Self::Knet,
+        Self::Dyna,
+        Self::Itaca,
+        Self::Nsmn,
+        Self::GeoNet,
+        Self::Asa,
+        Self::Csmnc,
+        Self::Cwa,
+        Self::Sac,
+        Self::MiniSeed,
+        Self::Delimited,
+    ];
 
     /// The word for it in `--format`.
     #[must_use]
     pub fn keyword(self) -> &'static str {
         match self {
             Self::Peer => "peer",
+            Self::Knet => "knet",
+            Self::Dyna => "dyna",
+            Self::Itaca => "itaca",
+            Self::Nsmn => "nsmn",
+            Self::GeoNet => "geonet",
+            Self::Asa => "asa",
+            Self::Csmnc => "csmnc",
+            Self::Cwa => "cwa",
+            Self::Sac => "sac",
+            Self::MiniSeed => "miniseed",
             Self::Delimited => "text",
         }
     }
@@ -173,6 +228,19 @@ impl Channel {
 /// [`RecordError`] with line and column where the bytes are no text, no format that is read, do
 /// not hold what they announce, or need units or a time step that [`Options`] does not give.
 pub fn read(source_name: &str, bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
+    match options.format {
+        Some(Format::MiniSeed) => return miniseed::read_bytes(source_name, bytes, options),
+        Some(Format::Sac) if sac::recognises_bytes(bytes) => {
+            return sac::read_bytes(source_name, bytes, options);
+        }
+        None if miniseed::recognises_bytes(bytes) => {
+            return miniseed::read_bytes(source_name, bytes, options);
+        }
+        None if sac::recognises_bytes(bytes) => {
+            return sac::read_bytes(source_name, bytes, options);
+        }
+        _ => (),
+    }
     let text = Text::new(source_name, bytes)?;
     if let Some(dt_s) = options.dt_s
         && !(dt_s.is_finite() && dt_s > 0.0)
@@ -182,13 +250,41 @@ pub fn read(source_name: &str, bytes: &[u8], options: &Options) -> Result<Record
     let format = options.format.unwrap_or_else(|| recognise(&text));
     match format {
         Format::Peer => peer::read(&text, options),
+        Format::Knet => knet::read(&text, options),
+        Format::Dyna => dyna::read(&text, options),
+        Format::Itaca => itaca::read(&text, options),
+        Format::Nsmn => nsmn::read(&text, options),
+        Format::GeoNet => geonet::read(&text, options),
+        Format::Asa => asa::read(&text, options),
+        Format::Csmnc => csmnc::read(&text, options),
+        Format::Cwa => cwa::read(&text, options),
+        Format::Sac => sac::read(&text, options),
+        Format::MiniSeed => miniseed::read_bytes(source_name, bytes, options),
         Format::Delimited => delimited::read(&text, options),
     }
 }
 
+/// What tells whether a text is of a format.
+type Recognises = fn(&Text) -> bool;
+
+/// The formats that a text may be, the surest signs first.
+const TEXT_FORMATS: [(Format, Recognises); 10] = [
+    (Format::Knet, knet::recognises),
+    (Format::Dyna, dyna::recognises),
+    (Format::Itaca, itaca::recognises),
+    (Format::Nsmn, nsmn::recognises),
+    (Format::GeoNet, geonet::recognises),
+    (Format::Asa, asa::recognises),
+    (Format::Csmnc, csmnc::recognises),
+    (Format::Cwa, cwa::recognises),
+    (Format::Sac, sac::recognises),
+    (Format::Peer, peer::recognises),
+];
+
 /// The format of a text; delimited text where no other format knows it.
 fn recognise(text: &Text) -> Format {
-    if peer::recognises(text) { Format::Peer } else { Format::Delimited }
+    let known = TEXT_FORMATS.iter().find(|(_, recognises)| recognises(text));
+    known.map_or(Format::Delimited, |(format, _)| *format)
 }
 
 /// Values converted to SI, once.
@@ -214,6 +310,12 @@ fn keys_to_add(units: bool, dt: bool) -> String {
         }
     };
     format!("{what}: add {keys} to [motion] (or {options})")
+}
+
+/// The same for a file of counts, or of values whose units are not known.
+fn counts_to_add() -> String {
+    let keys = keys_to_add(true, false);
+    format!("{keys}; of counts the value of one, such as \"4.67e-6 m/s2\"")
 }
 
 #[cfg(test)]
