@@ -10,8 +10,10 @@
 
 mod asa;
 mod bytes;
+mod component;
 mod csmnc;
 mod cwa;
+mod decimal;
 mod delimited;
 mod dyna;
 mod fixed;
@@ -22,14 +24,18 @@ mod knet;
 mod miniseed;
 mod nsmn;
 mod peer;
+mod quality;
 mod sac;
 mod sampling;
 mod text;
 mod unit;
 
+use std::collections::BTreeMap;
+
 use crate::error::{MotionError, RecordError};
 use crate::motion::GroundMotion;
 
+pub use quality::{REST_KINDS, rest};
 use text::Text;
 pub use unit::{Quantity, Units};
 
@@ -228,39 +234,62 @@ impl Channel {
 /// [`RecordError`] with line and column where the bytes are no text, no format that is read, do
 /// not hold what they announce, or need units or a time step that [`Options`] does not give.
 pub fn read(source_name: &str, bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
+    let mut record = match binary(bytes, options) {
+        Some(Format::Sac) => sac::read_bytes(source_name, bytes, options),
+        Some(_) => miniseed::read_bytes(source_name, bytes, options),
+        None => read_text(&Text::new(source_name, bytes)?, options),
+    }?;
+    distinct(&mut record.channels);
+    record.channels.iter_mut().for_each(quality::inspect);
+    Ok(record)
+}
+
+/// The format of binary bytes: the one asked for, else the one that knows them.
+fn binary(bytes: &[u8], options: &Options) -> Option<Format> {
     match options.format {
-        Some(Format::MiniSeed) => return miniseed::read_bytes(source_name, bytes, options),
-        Some(Format::Sac) if sac::recognises_bytes(bytes) => {
-            return sac::read_bytes(source_name, bytes, options);
-        }
-        None if miniseed::recognises_bytes(bytes) => {
-            return miniseed::read_bytes(source_name, bytes, options);
-        }
-        None if sac::recognises_bytes(bytes) => {
-            return sac::read_bytes(source_name, bytes, options);
-        }
-        _ => (),
+        Some(Format::MiniSeed) => Some(Format::MiniSeed),
+        // Its other form is text.
+        Some(Format::Sac) | None if sac::recognises_bytes(bytes) => Some(Format::Sac),
+        None if miniseed::recognises_bytes(bytes) => Some(Format::MiniSeed),
+        _ => None,
     }
-    let text = Text::new(source_name, bytes)?;
+}
+
+fn read_text(text: &Text, options: &Options) -> Result<Record, RecordError> {
     if let Some(dt_s) = options.dt_s
         && !(dt_s.is_finite() && dt_s > 0.0)
     {
         return Err(text.error_at_start("a time step > 0 s given as dt", &format!("{dt_s} s")));
     }
-    let format = options.format.unwrap_or_else(|| recognise(&text));
-    match format {
-        Format::Peer => peer::read(&text, options),
-        Format::Knet => knet::read(&text, options),
-        Format::Dyna => dyna::read(&text, options),
-        Format::Itaca => itaca::read(&text, options),
-        Format::Nsmn => nsmn::read(&text, options),
-        Format::GeoNet => geonet::read(&text, options),
-        Format::Asa => asa::read(&text, options),
-        Format::Csmnc => csmnc::read(&text, options),
-        Format::Cwa => cwa::read(&text, options),
-        Format::Sac => sac::read(&text, options),
-        Format::MiniSeed => miniseed::read_bytes(source_name, bytes, options),
-        Format::Delimited => delimited::read(&text, options),
+    match options.format.unwrap_or_else(|| recognise(text)) {
+        Format::Peer => peer::read(text, options),
+        Format::Knet => knet::read(text, options),
+        Format::Dyna => dyna::read(text, options),
+        Format::Itaca => itaca::read(text, options),
+        Format::Nsmn => nsmn::read(text, options),
+        Format::GeoNet => geonet::read(text, options),
+        Format::Asa => asa::read(text, options),
+        Format::Csmnc => csmnc::read(text, options),
+        Format::Cwa => cwa::read(text, options),
+        Format::Sac => sac::read(text, options),
+        // Read as bytes.
+        Format::MiniSeed => Err(text.error_at_start("MiniSEED", "text")),
+        Format::Delimited => delimited::read(text, options),
+    }
+}
+
+/// Numbers the channels that share a name, so that a name picks one channel or none.
+fn distinct(channels: &mut [Channel]) {
+    let mut seen: BTreeMap<String, (usize, usize)> = BTreeMap::new();
+    for channel in channels.iter() {
+        seen.entry(channel.name.to_ascii_lowercase()).or_default().0 += 1;
+    }
+    for channel in channels {
+        let entry = seen.get_mut(&channel.name.to_ascii_lowercase());
+        if let Some((2.., number)) = entry {
+            *number += 1;
+            channel.name.push_str(&format!(" ({number})"));
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 //! 109 lines of Spanish keys and values, of which those of channels are lists such as
 //! `/V/N90E/N00E`, then a row a sample with one column a channel, usually F10.3, in gal.
 
+use super::component::azimuth;
 use super::fixed::{Cursor, Fields};
 use super::keys::{self, Field, Keys};
 use super::text::{Line, Text};
@@ -107,7 +108,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
             name: name.clone(),
             event: event.clone(),
             station: station.clone(),
-            azimuth_deg: keys::azimuth(&name),
+            azimuth_deg: azimuth(&name),
             component: Some(name),
             units,
             values: to_si(values, &units),

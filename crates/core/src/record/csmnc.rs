@@ -3,6 +3,7 @@
 //! Sixteen lines of text, then eight values a line: with exponents and blanks between them, or
 //! 8F10.3.
 
+use super::component::azimuth;
 use super::fixed::{Cursor, Fields};
 use super::keys::{self, Field};
 use super::text::{Line, Text};
@@ -86,7 +87,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
         name: component.clone().unwrap_or_else(|| "1".to_owned()),
         event,
         station,
-        azimuth_deg: component.as_deref().and_then(keys::azimuth),
+        azimuth_deg: component.as_deref().and_then(azimuth),
         component,
         units,
         values: to_si(values, &units),

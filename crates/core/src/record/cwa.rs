@@ -3,6 +3,7 @@
 //! Lines `#Key: value`, then rows of time and acceleration up, north and east, 4F10.3, in gal. The
 //! header names the order of the columns, which is not that of other networks.
 
+use super::component::azimuth;
 use super::fixed::{Cursor, Fields};
 use super::keys::{self, Field, Keys};
 use super::text::Text;
@@ -66,7 +67,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
             event: event.clone(),
             station: station.clone(),
             component: Some(name.clone()),
-            azimuth_deg: keys::azimuth(name),
+            azimuth_deg: azimuth(name),
             units,
             values: to_si(values, &units),
             sampling: Sampling::Dt(dt_s),

@@ -5,6 +5,7 @@
 //! fewer keys; the header ends where the numbers begin. Source: the headers' own keys, which name
 //! their units, and the DYNA 1.2 description of ITACA.
 
+use super::component::azimuth;
 use super::fixed::Cursor;
 use super::keys::{self, Keys};
 use super::text::{Text, number};
@@ -40,6 +41,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
     let units = stated.units(text, options)?;
     let kind = header.get("DATA_TYPE").filter(|field| field.text().is_some());
     if let Some(kind) = kind
+        && units.quantity() != Quantity::Counts
         && !kind.line.str(&kind.at).eq_ignore_ascii_case(units.quantity().name())
     {
         let expected =
@@ -71,7 +73,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
         station: keys::join(&station),
         azimuth_deg: stream
             .as_deref()
-            .and_then(|s| keys::azimuth_of_code(s).or_else(|| keys::azimuth(s))),
+            .and_then(|s| keys::azimuth_of_code(s).or_else(|| azimuth(s))),
         component: stream,
         units,
         values: to_si(values, &units),
@@ -97,6 +99,7 @@ fn check_peak(
         Quantity::Acceleration => "PGA_CM/S^2",
         Quantity::Velocity => "PGV_CM/S",
         Quantity::Displacement => "PGD_CM",
+        Quantity::Counts => return Ok(None),
     };
     let Some(field) = header.get(key) else { return Ok(None) };
     let centimetres: Vec<f64> = values.iter().map(|v| v * units.si() / 0.01).collect();

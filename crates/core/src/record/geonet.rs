@@ -4,6 +4,7 @@
 //! 10F8, then acceleration in mm/s², velocity in mm/s and displacement in mm, 10F8 each, of which a
 //! V1A has the first only. Source: GNS Science, "Accelerogram data file format".
 
+use super::component::azimuth;
 use super::fixed::{Cursor, Fields};
 use super::keys::{self, Field};
 use super::text::{Line, Text, number};
@@ -102,14 +103,14 @@ fn component(
 
     let label = lines[12].trimmed();
     let name = label.split_whitespace().nth(1).unwrap_or("1").to_owned();
-    let azimuth = if keys::azimuth(&name).is_some() { integers[27] } else { None };
+    let azimuth = if azimuth(&name).is_some() { integers[27] } else { None };
     // The middle of each transition band: reals 51 to 53 and 56 to 58.
     let middle = |from: usize, to: usize| {
         let (from, to) = (reals[from - 1]?, reals[to - 1]?);
         (from >= 0.0 && to > 0.0 && corrected).then_some(0.5 * (from + to))
     };
     let filter = FilterCorners { high_pass_hz: middle(51, 53), low_pass_hz: middle(56, 58) };
-    let event = lines[7].trimmed();
+    let event = lines[7].trimmed().split_whitespace().collect::<Vec<_>>().join(" ");
     let magnitude =
         lines[8].find(" M ", 0).map(|at| Field::from(lines[8], at + 3)).and_then(|f| f.text());
     let event = format!("{event}{}", magnitude.map(|m| format!(" M{m}")).unwrap_or_default());

@@ -1,5 +1,6 @@
 //! Older `.acc` files of ITACA and SISMA, Italy: ten lines `Key : value`, then 5E14.7; one component.
 
+use super::component::azimuth;
 use super::fixed::{Cursor, Fields};
 use super::keys::{self, Field, Keys};
 use super::text::Text;
@@ -58,7 +59,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
         name: component.clone().unwrap_or_else(|| "1".to_owned()),
         event: header.text("Event Date & Time"),
         station: header.text("Station Code / Name"),
-        azimuth_deg: component.as_deref().and_then(keys::azimuth),
+        azimuth_deg: component.as_deref().and_then(azimuth),
         component,
         units,
         values: to_si(values, &units),

@@ -123,7 +123,7 @@ fn scale_factor(text: &Text, field: &Field) -> Result<f64, RecordError> {
         .ok_or_else(|| field.error(text, "a scale factor such as 3920(gal)/6182761"))
 }
 
-/// Name and azimuth of a direction: KiK-net numbers its six, 1 to 3 in the borehole and 4 to 6 at
+/// Name and azimuth of a direction, which is positive to the north and east: KiK-net numbers its six, 1 to 3 in the borehole and 4 to 6 at
 /// the surface; the names are those of its files.
 fn component(written: &str) -> (String, Option<f64>) {
     let name = match written {
@@ -133,7 +133,12 @@ fn component(written: &str) -> (String, Option<f64>) {
         "4" => "NS2",
         "5" => "EW2",
         "6" => "UD2",
-        other => return (other.to_owned(), keys::azimuth(other)),
+        other => other,
     };
-    (name.to_owned(), keys::azimuth(&name[..2]))
+    let azimuth_deg = match name.get(..2) {
+        Some("N-" | "NS") => Some(0.0),
+        Some("E-" | "EW") => Some(90.0),
+        _ => None,
+    };
+    (name.to_owned(), azimuth_deg)
 }

@@ -3,7 +3,7 @@
 //! Each record says what stream it is of, when it starts and how its samples are coded. Records that
 //! follow one another within half a step are one segment; at a gap or an overlap a new one begins,
 //! and each is a channel of its own: gaps are never bridged. Values are a digitiser's counts, of
-//! which the caller says what one is. A StationXML file beside it is not read.
+//! which the caller may say what one is. A StationXML file beside it is not read.
 //! Sources: SEED manual 2.4, chapter 8 and appendix B; FDSN, "miniSEED 3".
 
 mod decode;
@@ -14,7 +14,7 @@ mod version3;
 use super::bytes::Bytes;
 use super::keys;
 use super::{
-    Channel, FilterCorners, Format, Options, Record, RecordError, RecordWarning, Sampling,
+    Channel, FilterCorners, Format, Options, Record, RecordError, RecordWarning, Sampling, Units,
     counts_to_add, to_si,
 };
 use crate::motion::MAX_SAMPLES;
@@ -98,7 +98,7 @@ pub(super) fn read_bytes(
         return Err(bytes.error(0, expected, found));
     }
     warnings.extend(skipped);
-    let Some(units) = options.units else {
+    let Some(units) = options.units.or_else(|| Units::parse("counts")) else {
         return Err(bytes.error(0, counts_to_add(), &format!("MiniSEED of {}", segments[0].id)));
     };
     let channels: Result<Vec<Channel>, RecordError> = segments
@@ -116,7 +116,7 @@ pub(super) fn read_bytes(
     Ok(Record { format: Format::MiniSeed, layout, channels: channels?, warnings })
 }
 
-fn channel(segment: Segment, units: super::Units) -> Channel {
+fn channel(segment: Segment, units: Units) -> Channel {
     let code = segment.id.rsplit('.').next().unwrap_or_default().to_owned();
     let station: Vec<&str> = segment.id.split('.').take(2).collect();
     let station = station.join(" ").trim().to_owned();

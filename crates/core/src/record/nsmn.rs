@@ -2,6 +2,7 @@
 //!
 //! A header `KEY : value` that ends in the names of the columns, then rows of N-S, E-W and U-D in gal.
 
+use super::component::azimuth;
 use super::fixed::Cursor;
 use super::keys::{self, Keys};
 use super::text::Text;
@@ -66,7 +67,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
             event: event.clone(),
             station: station.clone(),
             component: Some(name.clone()),
-            azimuth_deg: keys::azimuth(name),
+            azimuth_deg: azimuth(name),
             units,
             values: to_si(values, &units),
             sampling: Sampling::Dt(dt_s),

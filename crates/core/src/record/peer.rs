@@ -7,6 +7,7 @@
 
 use core::ops::Range;
 
+use super::component::azimuth;
 use super::text::{Line, Text, number};
 use super::{
     Channel, FilterCorners, Format, Options, Quantity, Record, RecordError, Sampling, Units,
@@ -48,7 +49,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
     let values = values(text, &last, count)?;
     let names = Names::of(&header);
     let layout = match units.quantity() {
-        Quantity::Acceleration => "PEER AT2",
+        Quantity::Acceleration | Quantity::Counts => "PEER AT2",
         Quantity::Velocity => "PEER VT2",
         Quantity::Displacement => "PEER DT2",
     };
@@ -263,19 +264,5 @@ impl Names {
             },
             _ => Self { event: owned(names), ..Self::default() },
         }
-    }
-}
-
-/// Azimuth of a component that is a number of degrees or a point of the compass.
-fn azimuth(component: &str) -> Option<f64> {
-    match component.to_ascii_uppercase().as_str() {
-        "N" | "NORTH" => Some(0.0),
-        "E" | "EAST" => Some(90.0),
-        "S" | "SOUTH" => Some(180.0),
-        "W" | "WEST" => Some(270.0),
-        degrees if degrees.bytes().all(|b| b.is_ascii_digit() || b == b'.') => {
-            degrees.parse().ok().filter(|d| (0.0..=360.0).contains(d))
-        }
-        _ => None,
     }
 }

@@ -2,6 +2,7 @@
 
 use core::ops::Range;
 
+use super::decimal;
 use crate::error::RecordError;
 
 /// Bytes that are text, and the caller's name for them.
@@ -211,11 +212,7 @@ impl Iterator for Words<'_> {
 
 /// The finite number that a word is, correctly rounded; exponents may be written with D.
 pub(super) fn number(word: &[u8]) -> Option<f64> {
-    let parse = |bytes: &[u8]| core::str::from_utf8(bytes).ok()?.parse::<f64>().ok();
-    let value = parse(word).or_else(|| {
-        with_replaced(word, |b| if matches!(b, b'd' | b'D') { b'e' } else { b }, parse)
-    })?;
-    value.is_finite().then_some(value)
+    decimal::parse(word)
 }
 
 /// The same with a decimal comma.
