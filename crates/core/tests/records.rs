@@ -152,25 +152,6 @@ fn records_motions_read_as_their_index_says() {
     }
 }
 
-/// Folders of samples whose readers are still to come.
-const NOT_YET: [&str; 11] = [
-    "afad",
-    "afad_old_nsmn",
-    "csmnc_china",
-    "cwa_taiwan",
-    "esm_dyna",
-    "geonet",
-    "itaca_sisma_acc",
-    "knet_kiknet",
-    "miniseed",
-    "sac",
-    "unam_asa2",
-];
-
-fn is_not_yet(file: &str) -> bool {
-    NOT_YET.iter().any(|folder| file.contains(&format!("/{folder}/")))
-}
-
 /// Every channel of every sample that the index lists with its number of values.
 #[test]
 fn records_samples_read_as_their_index_says() {
@@ -181,7 +162,7 @@ fn records_samples_read_as_their_index_says() {
     for (i, row) in rows.iter().enumerate() {
         let again = i > 0 && rows[i - 1].file == row.file;
         channel = if again { channel + 1 } else { 0 };
-        if row.file.contains("truncated") || is_not_yet(&row.file) {
+        if row.file.contains("truncated") {
             continue;
         }
         let record = read(&folder, row);
