@@ -149,20 +149,31 @@ pub enum SolveError {
     },
 }
 
-/// Text that is not a record, in the `file:line:column` form an editor can jump to.
+/// Bytes that are not a record: of text in the `file:line:column` form an editor can jump to, of a
+/// binary file with the offset of the first offending byte.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{source_name}:{line}:{column}: expected {expected}, found {found:?}")]
+#[error("{source_name}{}: expected {expected}, found {found:?}", place(*line, *column, *offset))]
 pub struct RecordError {
     /// The caller's name for the text: a path, or the name of a dropped file.
     pub source_name: String,
-    /// Line of the first offending character, counted from 1.
+    /// Line of the first offending character, counted from 1; 1 in a binary file.
     pub line: usize,
-    /// Its column in characters, counted from 1.
+    /// Its column in characters, counted from 1; 1 in a binary file.
     pub column: usize,
+    /// Offset of the first offending byte of a binary file, counted from 0; none in a text.
+    pub offset: Option<usize>,
     /// What the format asks for here.
     pub expected: String,
     /// The offending word, cut to 40 characters.
     pub found: String,
+}
+
+/// Where a record is wrong, as it stands after the file's name.
+fn place(line: usize, column: usize, offset: Option<usize>) -> String {
+    match offset {
+        Some(offset) => format!(", byte {offset}"),
+        None => format!(":{line}:{column}"),
+    }
 }
 
 /// Text that is not a quantity: what a unit's reader expected and what it found.

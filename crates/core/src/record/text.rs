@@ -91,6 +91,7 @@ impl<'a> Text<'a> {
             source_name: self.source_name.to_owned(),
             line: line.number,
             column: String::from_utf8_lossy(before).chars().count() + 1,
+            offset: None,
             expected: expected.into(),
             found: found.chars().take(40).collect(),
         }
