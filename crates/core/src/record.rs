@@ -354,14 +354,21 @@ fn distinct(channels: &mut [Channel]) {
 /// What tells whether a text is of a format.
 type Recognises = fn(&Text) -> bool;
 
-/// The formats that a text may be, the surest signs first: RENADIC and USC write volumes as CSMIP
-/// does.
+/// The formats that a text may be, the surest signs first.
 const TEXT_FORMATS: [(Format, Recognises); 17] = [
+    (Format::Cosmos, cosmos::recognises),
+    (Format::Smc, smc::recognises),
+    // USC, RENADIC and GeoNet write volumes much as CSMIP does.
+    (Format::Usc, usc::recognises),
+    (Format::Renadic, renadic::recognises),
+    (Format::Bhrc, bhrc::recognises),
+    (Format::GeoNet, geonet::recognises),
+    (Format::Csmip, csmip::recognises),
+    (Format::SeismoSignal, seismosignal::recognises),
     (Format::Knet, knet::recognises),
     (Format::Dyna, dyna::recognises),
     (Format::Itaca, itaca::recognises),
     (Format::Nsmn, nsmn::recognises),
-    (Format::GeoNet, geonet::recognises),
     (Format::Asa, asa::recognises),
     (Format::Csmnc, csmnc::recognises),
     (Format::Cwa, cwa::recognises),

@@ -237,6 +237,8 @@ fn block(
     let npts = count(text, line, &first)?;
     let (units, word) = units(text, line)?;
     let units = match (units, options.units) {
+        // What one count is.
+        (Some(units), Some(given)) if units.quantity() == Quantity::Counts => given,
         (Some(units), given) => {
             agree(text, line, &word, units, given)?;
             units
@@ -259,7 +261,9 @@ fn block(
     }
     let fields = Fields::stated(line).unwrap_or(Fields::new(8, 10));
     let values = cursor.values(fields, npts, line)?;
-    let missing = |value: &f64| *value == head.null && units.quantity() != Quantity::Counts;
+    // Among whole numbers of a recorder it may be a value.
+    let whole = values.iter().all(|value| libm::trunc(*value) == *value);
+    let missing = |value: &f64| *value == head.null && !whole;
     if let Some(at) = values.iter().position(|value| missing(value)) {
         let expected = format!("a value where {} stands for a missing one", head.null);
         let line = Line { number: line.number + 1 + at / fields.per_line, bytes: b"" };
