@@ -373,13 +373,6 @@ const TEXT_FORMATS: [(Format, Recognises); 17] = [
     (Format::Csmnc, csmnc::recognises),
     (Format::Cwa, cwa::recognises),
     (Format::Sac, sac::recognises),
-    (Format::Cosmos, cosmos::recognises),
-    (Format::Smc, smc::recognises),
-    (Format::Usc, usc::recognises),
-    (Format::Renadic, renadic::recognises),
-    (Format::Bhrc, bhrc::recognises),
-    (Format::Csmip, csmip::recognises),
-    (Format::SeismoSignal, seismosignal::recognises),
     (Format::Peer, peer::recognises),
 ];
 
