@@ -6,6 +6,7 @@
 
 mod error;
 mod load;
+mod paper;
 mod read;
 mod run;
 mod tables;
@@ -13,6 +14,7 @@ mod write;
 
 pub use error::FileError;
 pub use load::{LoadedMotion, RecordRequest, Scale, SourceFile, VerticalRequest, load_record};
+pub use paper::paper_library;
 pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve, sha256_hex};
 pub use run::{Job, JobError, Outcome};
 pub use tables::{events_csv, history_csv};
