@@ -158,6 +158,9 @@ pub struct PaperArgs {
     /// Print the claims as a JSON array
     #[arg(long)]
     pub json: bool,
+    /// Folder of records to add to the table of sliding against friction
+    #[arg(long, value_name = "DIR")]
+    pub records: Option<PathBuf>,
     /// Scan the ranges more coarsely
     #[arg(long)]
     pub quick: bool,

@@ -5,6 +5,7 @@
 //! handler of Ctrl-C may call [`remove_temporaries`].
 
 mod error;
+mod folder;
 mod load;
 mod paper;
 mod read;
@@ -13,6 +14,7 @@ mod tables;
 mod write;
 
 pub use error::FileError;
+pub use folder::{FolderRecords, folder_records};
 pub use load::{LoadedMotion, RecordRequest, Scale, SourceFile, VerticalRequest, load_record};
 pub use paper::paper_library;
 pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve, sha256_hex};

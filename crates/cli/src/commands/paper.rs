@@ -4,7 +4,8 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use slipstick::laboratory::paper::{Grid, Paper, PaperError, reproduce};
-use slipstick_files::{FileError, OutputFolder, paper_library};
+use slipstick::motion::GroundMotion;
+use slipstick_files::{FileError, OutputFolder, folder_records, paper_library};
 use slipstick_report::paper;
 
 use crate::args::PaperArgs;
@@ -20,7 +21,10 @@ pub fn paper(args: &PaperArgs) -> Result<ExitCode, Failure> {
         }
     };
     let failed = |error: PaperError| Failure::Message(error.to_string());
-    let library = paper_library().map_err(failed)?;
+    let mut library = paper_library().map_err(failed)?;
+    if let Some(folder) = &args.records {
+        library = library.with_records(records(folder, args.quiet)?);
+    }
     let result = reproduce(&library, grid, &mut progress).map_err(failed)?;
     if let Some([out, figures]) = folders {
         write(&result, out, figures)?;
@@ -34,6 +38,24 @@ pub fn paper(args: &PaperArgs) -> Result<ExitCode, Failure> {
         say(format_args!("wrote {}", out.join("chapter.md").display()));
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The records of a folder; how many files are none is said, and why the first is not.
+fn records(folder: &Path, quiet: bool) -> Result<Vec<(String, GroundMotion)>, Failure> {
+    let found = folder_records(folder)?;
+    if found.records.is_empty() {
+        let folder = folder.display();
+        return Err(Failure::Message(format!(
+            "{folder}: expected records, found none that can be read"
+        )));
+    }
+    if let (Some(first), false) = (found.skipped.first(), quiet) {
+        let (read, skipped) = (found.records.len(), found.skipped.len());
+        say(format_args!(
+            "warning: {read} records read, {skipped} files skipped; the first: {first}"
+        ));
+    }
+    Ok(found.records)
 }
 
 /// The output folder and the one for figures in it, found to be writable before the work.

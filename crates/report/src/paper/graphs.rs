@@ -21,8 +21,8 @@ fn line(label: &str, number: usize, points: Vec<[f64; 2]>) -> Series {
     Series { label: label.to_owned(), style, shape: Shape::History, points }
 }
 
-fn limit(value: f64, label: &str) -> Limit {
-    Limit { value, label: label.to_owned(), style: Style::LIMIT }
+fn limit(value: f64) -> Limit {
+    Limit { value, label: String::new(), style: Style::LIMIT }
 }
 
 fn values(series: &[Series]) -> impl Iterator<Item = f64> {
@@ -44,9 +44,8 @@ pub fn displacements(curves: &[DisplacementCurve]) -> Figure {
             format!("Figure {}d (mm)", curve.figure),
             values(&series).chain([curve.paper_mm]).collect::<Vec<_>>(),
         );
-        let x = Axis::linear("Amplitude of the table (m/s²)", 0.0, 5.0);
-        let paper = format!("paper, {} mm", compact(curve.paper_mm));
-        panel(x, y, 170.0, series, vec![limit(curve.paper_mm, &paper)])
+        let x = Axis::logarithmic("Amplitude of the table (m/s²)", 0.1, 5.0);
+        panel(x, y, 170.0, series, vec![limit(curve.paper_mm)])
     });
     Figure {
         id: "paper-storey-displacement",
@@ -68,7 +67,7 @@ pub fn free_sliding(tests: &[FreeSliding]) -> Figure {
         let y =
             Axis::from_zero(format!("Figure {}", test.figure), values(&series).collect::<Vec<_>>());
         let x = Axis::logarithmic("Table (m/s²)", 0.1, 5.0);
-        panel(x, y, 150.0, series, vec![limit(1.0, "table")])
+        panel(x, y, 150.0, series, vec![limit(1.0)])
     });
     Figure {
         id: "paper-no-amplification",
@@ -108,7 +107,7 @@ pub fn window(id: &'static str, of_mock_up: &[&Window]) -> Option<Figure> {
             .collect();
         let largest = values(&series).fold(1.0, f64::max);
         let least = values(&series).filter(|v| *v > 0.0).fold(1.0, f64::min);
-        let (low, high) = (least.max(0.01) / 1.2, 1.3 * largest);
+        let (low, high) = (least / 1.2, 1.3 * largest);
         for (name, frequency_hz) in [("f2", first.frequency_hz), ("f_ff", first.free_free_hz)] {
             let style = if name == "f2" { Style::DOTTED } else { Style::DASHED };
             let label = if row == 0 { name.to_owned() } else { String::new() };
@@ -117,7 +116,7 @@ pub fn window(id: &'static str, of_mock_up: &[&Window]) -> Option<Figure> {
         }
         let [from_hz, to_hz] = SCANNED_HZ;
         let x = Axis::logarithmic("Frequency of the table (Hz)", from_hz, to_hz);
-        panel(x, Axis::logarithmic(label, low, high), 112.0, series, vec![limit(1.0, "")])
+        panel(x, Axis::logarithmic(label, low, high), 112.0, series, vec![limit(1.0)])
     });
     Some(Figure {
         id,
@@ -161,23 +160,48 @@ pub fn start_phase(phases: &[StartPhase]) -> Figure {
     }
 }
 
-/// Peak sliding displacement against friction, one line a record.
-pub fn suite(paper: &Paper) -> Figure {
+/// Names of the records of the suite, in order.
+pub fn records(paper: &Paper) -> Vec<&str> {
     let mut names: Vec<&str> = Vec::new();
     for row in &paper.suite {
         if !names.contains(&row.record.as_str()) {
             names.push(&row.record);
         }
     }
-    let series: Vec<Series> = names
+    names
+}
+
+/// A record's name without the ending of its file.
+pub fn stem(name: &str) -> &str {
+    name.rsplit_once('.').map_or(name, |(stem, _)| stem)
+}
+
+/// Peak sliding displacement against friction, one line a record; of many records grey lines and
+/// their mean.
+pub fn suite(paper: &Paper) -> Figure {
+    let names = records(paper);
+    let many = names.len() > LINES.len();
+    let of = |name: &str| {
+        let rows = paper.suite.iter().filter(|row| row.record == name);
+        rows.map(|r| [r.friction_over_pga, 1e3 * r.peak_m]).collect::<Vec<_>>()
+    };
+    let mut series: Vec<Series> = names
         .iter()
         .enumerate()
-        .map(|(i, name)| {
-            let rows = paper.suite.iter().filter(|row| row.record == *name);
-            let points = rows.map(|r| [r.friction_over_pga, 1e3 * r.peak_m]).collect();
-            line(name.trim_end_matches(".txt"), i, points)
+        .map(|(i, name)| match many {
+            true => line("", LINES.len() - 1, of(name)),
+            false => line(stem(name), i, of(name)),
         })
         .collect();
+    if many {
+        let count = names.len() as f64;
+        let mut mean = of(names[0]);
+        for point in &mut mean {
+            let same = paper.suite.iter().filter(|row| row.friction_over_pga == point[0]);
+            point[1] = same.map(|row| 1e3 * row.peak_m).sum::<f64>() / count;
+        }
+        series.push(line("mean", 0, mean));
+    }
     let [low, high] = [0.1, 1.5 * values(&series).fold(1.0, f64::max)];
     let y = Axis::logarithmic("Peak sliding displacement (mm)", low, high);
     let x = Axis::linear("Friction over PGA in g", 0.0, 1.0);

@@ -42,8 +42,8 @@ pub fn write(doc: &mut Doc, paper: &Paper) {
     );
     doc.figure(
         &graphs::displacements(&paper.displacements),
-        "Peak storey displacement in 20 s from rest. A sine that starts at its peak starts with a \
-         jump.",
+        "Peak storey displacement in 20 s from rest; red: the printed value. A sine that starts at \
+         its peak starts with a jump.",
     );
     doc.claims(paper.claims_of(&["storey-"]));
 
@@ -54,7 +54,7 @@ pub fn write(doc: &mut Doc, paper: &Paper) {
     );
     doc.figure(
         &graphs::free_sliding(&paper.free_sliding),
-        "Peak accelerations over that of the table in 20 s from rest.",
+        "Peak accelerations over that of the table (red: one) in 20 s from rest.",
     );
     doc.claims(
         paper

@@ -9,42 +9,15 @@ use crate::number::compact;
 pub fn write(doc: &mut Doc, paper: &Paper) {
     doc.heading(2, "Sliding displacement against friction");
     doc.paragraph(
-        "Choi and Tung asked, over many records, how far a block slides as its friction grows. Here \
-         are the records that ship with the examples, scaled to a peak of 0.3 g; a rigid block \
-         without a spring, one coefficient for stick and slip. Peak and residual sliding \
-         displacement in mm.",
+        "Choi and Tung asked, over many records, how far a block slides as its friction grows. Here are \
+         the records that ship with the examples, and those of `--records` where that was given, \
+         scaled to a peak of 0.3 g; a rigid block without a spring, one coefficient for stick and \
+         slip. The columns are friction over the peak in g.",
     );
-    let mut names: Vec<&str> = Vec::new();
-    for row in &paper.suite {
-        if !names.contains(&row.record.as_str()) {
-            names.push(&row.record);
-        }
-    }
-    let first: Vec<&SuiteRow> =
-        paper.suite.iter().filter(|row| Some(&row.record.as_str()) == names.first()).collect();
-    let rows = first.iter().map(|row| {
-        let mut cells = vec![compact(row.friction_over_pga), fixed(row.friction, 3)];
-        let mut sum = 0.0;
-        for name in &names {
-            let same =
-                |r: &&SuiteRow| r.record == *name && r.friction_over_pga == row.friction_over_pga;
-            if let Some(found) = paper.suite.iter().find(same) {
-                sum += found.peak_m;
-                cells.push(format!(
-                    "{}, {}",
-                    fixed(1e3 * found.peak_m, 2),
-                    fixed(1e3 * found.residual_m, 2)
-                ));
-            }
-        }
-        cells.push(fixed(1e3 * sum / names.len() as f64, 2));
-        cells
-    });
-    let mut header = vec!["μ over PGA in g".to_owned(), "μ".to_owned()];
-    header.extend(names.iter().map(|name| name.trim_end_matches(".txt").to_owned()));
-    header.push("mean peak".to_owned());
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    doc.table(&header, 0, rows.collect());
+    doc.paragraph("Peak sliding displacement, mm:");
+    table(doc, paper, |row| 1e3 * row.peak_m);
+    doc.paragraph("Residual sliding displacement, mm:");
+    table(doc, paper, |row| 1e3 * row.residual_m);
     doc.figure(&graphs::suite(paper), "Peak sliding displacement of a rigid block at 0.3 g.");
     doc.paragraph(
         "The records are trimmed at both ends and drift (see `examples/records/README.md`), which \
@@ -80,4 +53,41 @@ pub fn write(doc: &mut Doc, paper: &Paper) {
         0,
         rows.collect(),
     );
+}
+
+/// A row a record, a column a friction; mean and standard deviation below.
+fn table(doc: &mut Doc, paper: &Paper, value: fn(&SuiteRow) -> f64) {
+    let names = graphs::records(paper);
+    let of = |name: &str| -> Vec<&SuiteRow> {
+        paper.suite.iter().filter(|row| row.record == name).collect()
+    };
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    let mut columns: Vec<Vec<f64>> = Vec::new();
+    for name in &names {
+        let mut cells = vec![graphs::stem(name).to_owned()];
+        for (i, row) in of(name).into_iter().enumerate() {
+            if columns.len() <= i {
+                columns.push(Vec::new());
+            }
+            columns[i].push(value(row));
+            cells.push(fixed(value(row), 2));
+        }
+        rows.push(cells);
+    }
+    let mean = |column: &Vec<f64>| column.iter().sum::<f64>() / column.len() as f64;
+    let deviation = |column: &Vec<f64>| {
+        let squares = column.iter().map(|v| (v - mean(column)) * (v - mean(column)));
+        (squares.sum::<f64>() / (column.len() as f64 - 1.0)).sqrt()
+    };
+    for (label, figure) in
+        [("mean", &mean as &dyn Fn(&Vec<f64>) -> f64), ("standard deviation", &deviation)]
+    {
+        let cells = columns.iter().map(|column| fixed(figure(column), 2));
+        rows.push(std::iter::once(format!("**{label}**")).chain(cells).collect());
+    }
+    let first = names.first().copied().unwrap_or_default();
+    let mut header = vec!["record".to_owned()];
+    header.extend(of(first).iter().map(|row| compact(row.friction_over_pga)));
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    doc.table(&header, 1, rows);
 }

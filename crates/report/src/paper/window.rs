@@ -21,15 +21,35 @@ pub fn write(doc: &mut Doc, paper: &Paper) {
          f_ff = f2 √(1 + M2/M1).",
     );
     let points: usize = paper.windows.iter().map(|w| w.points.len()).sum();
-    let unsettled: usize = paper.windows.iter().map(Window::unsettled).sum();
+    let unsettled: Vec<(&Window, f64)> = paper
+        .windows
+        .iter()
+        .flat_map(|w| w.unsettled().map(move |p| (w, p.frequency_hz)))
+        .collect();
     let sub: usize = paper.windows.iter().map(Window::subharmonic).sum();
     let drifting = paper.windows.iter().flat_map(|w| &w.points);
     let drifting = drifting.filter(|p| p.period.is_some() && p.drift_m.abs() > 1e-9).count();
+    let ends = |values: Vec<f64>| {
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        format!("{} to {}", compact(round3(low)), compact(round3(high)))
+    };
+    let where_unsettled = if unsettled.is_empty() {
+        String::new()
+    } else {
+        format!(
+            " Those that did not settle lie at tables of {} m/s² and {} Hz; of them the peaks of the \
+             last six periods are shown.",
+            ends(unsettled.iter().map(|(w, _)| w.amplitude_m_per_s2).collect()),
+            ends(unsettled.iter().map(|(_, hz)| *hz).collect()),
+        )
+    };
     doc.paragraph(&format!(
         "A steady state is one whose periods agree to 1e-9. Of {points} motions {} settled to the \
-         period of the table, {sub} to a multiple of it, and {unsettled} did not settle; {drifting} \
-         of those that settled drift by the same amount every period.",
-        points - unsettled - sub
+         period of the table, {sub} to a multiple of it, and {} did not settle; {drifting} of those \
+         that settled drift by the same amount every period.{where_unsettled}",
+        points - unsettled.len() - sub,
+        unsettled.len(),
     ));
     over_table(doc, paper);
     over_fixed(doc, paper);
@@ -56,6 +76,10 @@ fn mock_ups(paper: &Paper) -> Vec<Vec<&Window>> {
         }
     }
     all
+}
+
+fn round3(value: f64) -> f64 {
+    (value * 1e3).round() / 1e3
 }
 
 fn frequency(hz: f64) -> String {

@@ -103,6 +103,13 @@ impl Library {
         &self.records
     }
 
+    /// The same library with more records, for the table of sliding against friction.
+    #[must_use]
+    pub fn with_records(mut self, records: Vec<(String, GroundMotion)>) -> Self {
+        self.records.extend(records);
+        self
+    }
+
     /// The record of a name.
     pub(super) fn record(&self, name: &str) -> Result<&GroundMotion, PaperError> {
         let found = self.records.iter().find(|(n, _)| n == name);

@@ -240,7 +240,7 @@ fn start_phases(library: &Library) -> Result<(Vec<StartPhase>, Claim), PaperErro
         Ok(StartPhase { phase_deg, ramp_cycles, midline_mm, half_range_mm })
     };
     let mut all = Vec::new();
-    for phase_deg in linspace(0.0, 180.0, 13) {
+    for phase_deg in linspace(0.0, 180.0, 37) {
         all.push(at(phase_deg, 0.0)?);
     }
     for ramp_cycles in [1.0, 2.0, 5.0, 10.0] {

@@ -110,17 +110,29 @@ pub(super) fn steady(model: &Model, sine: &Sine) -> Result<Steady, PaperError> {
             let drift_m = demands.iter().map(|d| d.residual_sliding_displacement_m).sum();
             return Ok(Steady { period: Some(n), demands, drift_m });
         }
-        let due = if made < LEAD { false } else { since >= 8 };
-        if due && made % 8 == 0 && made < LONGEST / 2 {
-            if let Some(limit) = extrapolated(&states[states.len() - 5..]) {
-                states = vec![limit];
-                since = 0;
-            }
+        let due = made >= LEAD && made < LONGEST / 2 && since >= 8 && made % 8 == 0;
+        if due
+            && approaching(&states, &next.scale)
+            && let Some(limit) = extrapolated(&states[states.len() - 5..])
+        {
+            states = vec![limit];
+            since = 0;
         }
     }
     let last = demands.split_off(demands.len() - SUBHARMONIC);
     let drift_m = last.iter().map(|d| d.residual_sliding_displacement_m).sum();
     Ok(Steady { period: None, demands: last, drift_m })
+}
+
+/// Whether the last step of the sequence is shorter than the one six periods before: only then is
+/// the limit one that the motion itself goes to, and not an orbit that it leaves.
+fn approaching(states: &[State], scale: &State) -> bool {
+    let step = |end: usize| {
+        let differ = |i: usize| (states[end][i] - states[end - 1][i]).abs() / scale[i];
+        (0..3).map(differ).fold(0.0, f64::max)
+    };
+    let last = states.len() - 1;
+    step(last) < step(last - 6)
 }
 
 /// The limit of five states of an affine map by reduced rank extrapolation: weights γ with sum 1
