@@ -198,7 +198,8 @@ static MOTION: Section = Section {
         Key::optional(
             "units",
             Kind::UnitOf(Acceleration),
-            "Unit of the record, where its file does not state it.",
+            "Unit of the record, where its file does not state it; of counts the value of one, \
+             \"4.67e-6 m/s2\".",
         )
         .beside("record"),
         Key::optional(

@@ -12,6 +12,8 @@ pub enum Quantity {
     Velocity,
     /// In m.
     Displacement,
+    /// Numbers of a recorder, which its constants alone turn into motion.
+    Counts,
 }
 
 impl Quantity {
@@ -22,6 +24,7 @@ impl Quantity {
             Self::Acceleration => "acceleration",
             Self::Velocity => "velocity",
             Self::Displacement => "displacement",
+            Self::Counts => "counts of a recorder",
         }
     }
 
@@ -32,6 +35,7 @@ impl Quantity {
             Self::Acceleration => "acceleration_m_per_s2",
             Self::Velocity => "velocity_m_per_s",
             Self::Displacement => "displacement_m",
+            Self::Counts => "counts",
         }
     }
 }

@@ -10,12 +10,13 @@ use crate::motion::{Quantity, Series};
 /// - Derivatives are those of the parabola through a sample and its neighbours (central
 ///   differences where they are evenly spaced; at the ends the parabola of the next sample).
 pub(super) fn to(series: &Series, quantity: Quantity) -> Result<Series, MotionError> {
-    use Quantity::{Acceleration, Displacement, Velocity};
+    use Quantity::{Acceleration, Counts, Displacement, Velocity};
     let changed = match (series.quantity(), quantity) {
         (Acceleration, Velocity) | (Velocity, Displacement) => integral(series),
         (Acceleration, Displacement) => double_integral(series),
         (Displacement, Velocity) | (Velocity, Acceleration) => derivative(series, 1)?,
         (Displacement, Acceleration) => derivative(series, 2)?,
+        (Counts, _) | (_, Counts) => return Err(MotionError::Counts),
         _ => return Ok(series.clone()),
     };
     Ok(Series { quantity, ..series.with_values(changed)? })
