@@ -95,6 +95,15 @@ pub enum MotionError {
         /// The value given.
         found: f64,
     },
+    /// A step of processing that needs a constant time step.
+    #[error("{step}: expected evenly spaced samples, found uneven ones: resample first")]
+    Uneven {
+        /// The step.
+        step: &'static str,
+    },
+    /// Counts of a recorder where motion is needed.
+    #[error("expected acceleration, velocity or displacement, found counts of a recorder")]
+    Counts,
     /// A peak was asked of a motion that is zero throughout.
     #[error("scale_to: expected a motion that is not zero throughout, its peak is 0 m/s²")]
     ZeroPeak,
