@@ -6,6 +6,9 @@ use crate::error::RecordError;
 use crate::record::RecordWarning;
 use crate::record::bytes::Bytes;
 
+/// What a record's time may be off by its rounding, in s.
+const CLOCK_S: f64 = 1e-9;
+
 /// Samples at equal steps without a gap.
 #[derive(Debug)]
 pub(super) struct Segment {
@@ -32,8 +35,10 @@ struct Block {
 
 impl Block {
     /// Time of the sample after its last, in ns since 1970.
-    fn end_ns(&self) -> f64 {
-        self.record.start_ns as f64 + self.values.len() as f64 * self.dt_s * 1e9
+    fn end_ns(&self) -> i64 {
+        let length_ns = libm::round(self.values.len() as f64 * self.dt_s * 1e9);
+        // A length past the range of times, which no record has, is cut to it.
+        self.record.start_ns.saturating_add(length_ns as i64)
     }
 }
 
@@ -96,12 +101,12 @@ fn joined(id: &str, mut blocks: Vec<Block>) -> Vec<Segment> {
     let repeated = all - blocks.len();
 
     let mut segments: Vec<Segment> = Vec::new();
-    let mut end_ns = f64::NAN;
+    let mut end_ns = 0;
     let mut drift = Drift::default();
     for block in blocks {
-        let late_s = (block.record.start_ns as f64 - end_ns) / 1e9;
+        let late_s = block.record.start_ns.saturating_sub(end_ns) as f64 / 1e9;
         let follows = segments.last().is_some_and(|segment| segment.dt_s == block.dt_s)
-            && late_s.abs() <= 0.5 * block.dt_s;
+            && late_s.abs() <= 0.5 * block.dt_s + CLOCK_S;
         end_ns = block.end_ns();
         if !follows {
             if let Some(segment) = segments.last_mut() {
@@ -159,7 +164,7 @@ fn finish(segments: &mut [Segment], sorted: bool, repeated: usize) {
 
 /// What comes between a segment and the next.
 fn interruption(count: usize, late_s: f64, dt_s: f64) -> RecordWarning {
-    if late_s.abs() <= 0.5 * dt_s {
+    if late_s.abs() <= 0.5 * dt_s + CLOCK_S {
         let message = format!("after its {count} samples the step changes");
         return RecordWarning { kind: "gap", message };
     }
