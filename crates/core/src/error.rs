@@ -25,6 +25,28 @@ pub enum ModelError {
     },
 }
 
+/// A channel that a format of records cannot hold.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RecordWriteError {
+    /// Counts of a recorder, which are no motion.
+    #[error("expected acceleration, velocity or displacement, found counts of a recorder")]
+    Counts,
+    /// Uneven times in a format that has a step only.
+    #[error(
+        "{format} has no times: expected even sampling, found uneven (resample it, or write CSV)"
+    )]
+    Uneven {
+        /// The format.
+        format: &'static str,
+    },
+    /// A value with more digits than a field of the format.
+    #[error("expected values below 1e10 in the units of the format, found {value:e}")]
+    TooLarge {
+        /// The value in the units of the format.
+        value: f64,
+    },
+}
+
 /// Samples that are no ground motion.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MotionError {

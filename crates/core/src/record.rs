@@ -9,8 +9,11 @@
 //! binary files has `recognises_bytes` and `read_bytes`, which are asked first.
 
 mod asa;
+mod bhrc;
 mod bytes;
 mod component;
+mod cosmos;
+mod csmip;
 mod csmnc;
 mod cwa;
 mod decimal;
@@ -25,10 +28,16 @@ mod miniseed;
 mod nsmn;
 mod peer;
 mod quality;
+mod renadic;
 mod sac;
 mod sampling;
+mod seismosignal;
+mod smc;
 mod text;
 mod unit;
+mod usc;
+mod volume;
+mod write;
 
 use std::collections::BTreeMap;
 
@@ -38,6 +47,7 @@ use crate::motion::GroundMotion;
 pub use quality::{REST_KINDS, rest};
 use text::Text;
 pub use unit::{Quantity, Units};
+pub use write::{write_at2, write_csv, write_smc};
 
 /// Formats that are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,6 +55,20 @@ pub use unit::{Quantity, Units};
 pub enum Format {
     /// PEER NGA, `.AT2`, `.VT2`, `.DT2`.
     Peer,
+    /// CSMIP volumes, `.V1`, `.V2`.
+    Csmip,
+    /// COSMOS 1.x, `.V0c`, `.V1c`, `.V2c`.
+    Cosmos,
+    /// USGS SMC, `.smc`.
+    Smc,
+    /// USC and Caltech volumes, `.m0a`, `.s0a`.
+    Usc,
+    /// RENADIC of Chile, `.v1`.
+    Renadic,
+    /// BHRC of Iran, `.V1`.
+    Bhrc,
+    /// Text exported by SeismoSignal.
+    SeismoSignal,
     /// K-NET and KiK-net, Japan: `.EW`, `.NS`, `.UD`, `.EW1`, …
     Knet,
     /// DYNA of ESM, ITACA and AFAD: `.ASC`, `.asc`.
@@ -71,8 +95,15 @@ pub enum Format {
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 19] = [
         Self::Peer,
+        Self::Csmip,
+        Self::Cosmos,
+        Self::Smc,
+        Self::Usc,
+        Self::Renadic,
+        Self::Bhrc,
+        Self::SeismoSignal,
         Self::Knet,
         Self::Dyna,
         Self::Itaca,
@@ -91,6 +122,13 @@ impl Format {
     pub fn keyword(self) -> &'static str {
         match self {
             Self::Peer => "peer",
+            Self::Csmip => "csmip",
+            Self::Cosmos => "cosmos",
+            Self::Smc => "smc",
+            Self::Usc => "usc",
+            Self::Renadic => "renadic",
+            Self::Bhrc => "bhrc",
+            Self::SeismoSignal => "seismosignal",
             Self::Knet => "knet",
             Self::Dyna => "dyna",
             Self::Itaca => "itaca",
@@ -212,6 +250,19 @@ impl Record {
 }
 
 impl Channel {
+    /// The same channel with another motion along the surface in it, its labels kept: what a
+    /// processing step makes of it. Its units are m/s².
+    #[must_use]
+    pub fn with_motion(&self, motion: &GroundMotion) -> Self {
+        let sampling = match motion.dt_s() {
+            Some(dt_s) => Sampling::Dt(dt_s),
+            None => Sampling::Times(motion.times_s().to_vec()),
+        };
+        let units = Units::m_per_s2();
+        let values = motion.horizontal_m_per_s2().to_vec();
+        Self { units, values, sampling, ..self.clone() }
+    }
+
     /// The channel as horizontal ground motion, its clock started at the first sample; `None` for
     /// a channel that is not acceleration.
     ///
@@ -263,6 +314,13 @@ fn read_text(text: &Text, options: &Options) -> Result<Record, RecordError> {
     }
     match options.format.unwrap_or_else(|| recognise(text)) {
         Format::Peer => peer::read(text, options),
+        Format::Csmip => csmip::read(text, options),
+        Format::Cosmos => cosmos::read(text, options),
+        Format::Smc => smc::read(text, options),
+        Format::Usc => usc::read(text, options),
+        Format::Renadic => renadic::read(text, options),
+        Format::Bhrc => bhrc::read(text, options),
+        Format::SeismoSignal => seismosignal::read(text, options),
         Format::Knet => knet::read(text, options),
         Format::Dyna => dyna::read(text, options),
         Format::Itaca => itaca::read(text, options),
@@ -297,12 +355,20 @@ fn distinct(channels: &mut [Channel]) {
 type Recognises = fn(&Text) -> bool;
 
 /// The formats that a text may be, the surest signs first.
-const TEXT_FORMATS: [(Format, Recognises); 10] = [
+const TEXT_FORMATS: [(Format, Recognises); 17] = [
+    (Format::Cosmos, cosmos::recognises),
+    (Format::Smc, smc::recognises),
+    // USC, RENADIC and GeoNet write volumes much as CSMIP does.
+    (Format::Usc, usc::recognises),
+    (Format::Renadic, renadic::recognises),
+    (Format::Bhrc, bhrc::recognises),
+    (Format::GeoNet, geonet::recognises),
+    (Format::Csmip, csmip::recognises),
+    (Format::SeismoSignal, seismosignal::recognises),
     (Format::Knet, knet::recognises),
     (Format::Dyna, dyna::recognises),
     (Format::Itaca, itaca::recognises),
     (Format::Nsmn, nsmn::recognises),
-    (Format::GeoNet, geonet::recognises),
     (Format::Asa, asa::recognises),
     (Format::Csmnc, csmnc::recognises),
     (Format::Cwa, cwa::recognises),

@@ -1,5 +1,7 @@
 //! Blocks of numbers in FORTRAN's fixed columns, where neighbours may touch: `1.5057E+0-2.2223E+0`.
 
+use core::ops::Range;
+
 use super::text::{Line, Lines, Text, number};
 use crate::error::RecordError;
 
@@ -10,16 +12,29 @@ pub(super) struct Fields {
     pub per_line: usize,
     /// Characters of each, at least one.
     pub width: usize,
+    /// Characters before the first, which are blank.
+    pub skip: usize,
 }
 
 impl Fields {
     /// Fields of a format that the file does not state; both numbers are at least 1.
     pub const fn new(per_line: usize, width: usize) -> Self {
-        Self { per_line, width }
+        Self { per_line, width, skip: 0 }
     }
 
-    /// The fields of a format such as `(8f9.6)`, `10I8`, `(1P5E15.7)`, `(1X,8F10.3)` without blanks
-    /// to skip: one descriptor only, I, F, E, D or G.
+    /// The same after some blank characters at the start of each line.
+    pub const fn after(self, skip: usize) -> Self {
+        Self { skip, ..self }
+    }
+
+    /// The columns of field `i` on a line of some length, cut to it.
+    fn columns(self, i: usize, length: usize) -> Range<usize> {
+        let start = self.skip + i * self.width;
+        start.min(length)..(start + self.width).min(length)
+    }
+
+    /// The fields of a format such as `(8f9.6)`, `10I8`, `(1P5E15.7)`: one descriptor only, I, F,
+    /// E, D or G.
     pub fn parse(format: &str) -> Option<Self> {
         let format = format.trim().trim_start_matches('(').trim_end_matches(')').trim();
         let format = format.to_ascii_uppercase();
@@ -35,7 +50,7 @@ impl Fields {
         let decimals = rest.split_once('.').map_or(Some(0), |(_, d)| d.trim().parse().ok());
         let per_line = if repeat.is_empty() { 1 } else { number(repeat)? };
         decimals.filter(|&d: &usize| d < 1000)?;
-        Some(Self { per_line, width: number(width)? })
+        Some(Self::new(per_line, number(width)?))
     }
 
     /// The format that a line states in brackets after the word `format`.
@@ -116,8 +131,7 @@ impl<'t, 'a> Cursor<'t, 'a> {
         for _ in 0..fields.lines(count) {
             let line = self.next(expected)?;
             for i in 0..fields.per_line.min(count - numbers.len()) {
-                let end = line.bytes.len();
-                let field = (i * fields.width).min(end)..((i + 1) * fields.width).min(end);
+                let field = fields.columns(i, line.bytes.len());
                 numbers.push(number(line.bytes[field].trim_ascii()));
             }
         }
@@ -175,8 +189,7 @@ impl<'t, 'a> Cursor<'t, 'a> {
         values: &mut Vec<f64>,
     ) -> Result<(), RecordError> {
         for i in 0..on_line {
-            let end = line.bytes.len();
-            let field = (i * fields.width).min(end)..((i + 1) * fields.width).min(end);
+            let field = fields.columns(i, line.bytes.len());
             let bytes = &line.bytes[field.clone()];
             let blanks = bytes.len() - bytes.trim_ascii_start().len();
             let word = field.start + blanks..field.start + bytes.trim_ascii_end().len().max(blanks);
@@ -185,17 +198,18 @@ impl<'t, 'a> Cursor<'t, 'a> {
                 return Err(self.text.error_at(line, &word, expected));
             }
             let value = self.text.number(line, &word)?;
-            let apart = (i + 1) * fields.width - word.end;
+            let full = fields.columns(i, usize::MAX).end;
+            let apart = full - word.end;
             if *right.get_or_insert(apart) != apart {
                 let expected = format!(
                     "a value that ends in column {} as those before it do (a truncated line?)",
-                    (i + 1) * fields.width - right.unwrap_or(0)
+                    full - right.unwrap_or(0)
                 );
                 return Err(self.text.error_at(line, &word, expected));
             }
             values.push(value);
         }
-        let rest = (on_line * fields.width).min(line.bytes.len())..line.bytes.len();
+        let rest = fields.columns(on_line, line.bytes.len()).start..line.bytes.len();
         if !line.bytes[rest.clone()].trim_ascii().iter().all(|&b| b == 0x1A) {
             return Err(self.text.error_at(line, &rest, format!("{on_line} values on this line")));
         }
@@ -227,7 +241,7 @@ fn keeps_columns(line: &Line, fields: Fields, count: usize) -> bool {
     if ends.len() != count {
         return true;
     }
-    let apart = |i: usize| ((i + 1) * fields.width).checked_sub(ends[i]);
+    let apart = |i: usize| fields.columns(i, usize::MAX).end.checked_sub(ends[i]);
     let first = apart(0).filter(|&right| right < fields.width);
     first.is_some() && (0..count).all(|i| apart(i) == first)
 }

@@ -1,7 +1,7 @@
 //! What is looked for in every channel, whatever its format: a start that is not at rest, drift,
 //! clipped peaks, gaps and repeated rows.
 
-use super::{Channel, Quantity, RecordWarning, Sampling};
+use super::{Channel, Quantity, RecordWarning, Sampling, Units};
 
 /// Values at a peak that follow one another unchanged: fewer happen by rounding.
 const CLIPPED_RUN: usize = 4;
@@ -53,6 +53,25 @@ pub(super) fn inspect(channel: &mut Channel) {
         warnings.extend(repeated(times_s, &channel.values));
     }
     channel.warnings.extend(warnings);
+}
+
+/// A warning where the largest value of a channel is not the peak that its file states: `stated` in
+/// `unit`, written with a last digit of `ulp`, on a line of that number. Half a percent and three
+/// units in the last digit are allowed, because programs that wrote both rounded in between.
+pub(super) fn peak_differs(
+    channel: &Channel,
+    stated: f64,
+    ulp: f64,
+    unit: Units,
+    line: usize,
+) -> Option<RecordWarning> {
+    let peak = channel.values.iter().fold(0.0_f64, |peak, value| peak.max(value.abs()));
+    let peak = peak / unit.si();
+    let differs = (peak - stated.abs()).abs() > 3.0 * ulp + 0.005 * stated.abs();
+    differs.then(|| RecordWarning {
+        kind: "peak_differs",
+        message: format!("line {line} states a peak of {stated} {unit}, the values have {peak:.6}"),
+    })
 }
 
 /// Velocity at the end and its largest size at a sample in m/s, from rest, by the trapezium rule,
@@ -115,12 +134,19 @@ fn gap(times_s: &[f64]) -> Option<RecordWarning> {
     let (at, step) = steps().enumerate().find(|(_, step)| long(step))?;
     (usual > 0.0 && alike + gaps >= sorted.len() && gaps * 10 <= sorted.len()).then(|| {
         let message = format!(
-            "{gaps} gap(s) in the times, the first after {} s: a step of {step} s where {usual} s \
-             is usual; the motion is taken as linear across it",
-            times_s[at]
+            "{gaps} gap(s) in the times, the first after {} s: a step of {} s where {} s is usual; \
+             the motion is taken as linear across it",
+            round(times_s[at]),
+            round(step),
+            round(usual)
         );
         RecordWarning { kind: "gap", message }
     })
+}
+
+/// A time in s without the noise of a subtraction.
+fn round(t: f64) -> f64 {
+    libm::round(t * 1e9) / 1e9
 }
 
 /// Rows that stand twice, time and value alike.
@@ -135,7 +161,7 @@ fn repeated(times_s: &[f64], values: &[f64]) -> Option<RecordWarning> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{FilterCorners, Units};
+    use super::super::FilterCorners;
     use super::*;
 
     fn kinds(values: &[f64], sampling: Sampling) -> Vec<&'static str> {

@@ -220,7 +220,16 @@ pub(super) fn number(word: &[u8]) -> Option<f64> {
     decimal::parse(word)
 }
 
-/// The same with a decimal comma.
+/// One unit in the last digit of a number as it is written: 0.001 of `.079`, 1e-5 of `1.04E-03`.
+pub(super) fn last_digit(word: &[u8]) -> f64 {
+    let exponent = word.iter().position(|b| b.is_ascii_alphabetic());
+    let (digits, exponent) = word.split_at(exponent.unwrap_or(word.len()));
+    let decimals = digits.iter().rev().position(|&b| b == b'.').unwrap_or(0);
+    let one = [b"1", exponent].concat();
+    (0..decimals).fold(number(&one).unwrap_or(1.0), |unit, _| unit / 10.0)
+}
+
+/// The number that a word with a decimal comma is.
 pub(super) fn number_with_comma(word: &[u8]) -> Option<f64> {
     if word.contains(&b'.') {
         return None;

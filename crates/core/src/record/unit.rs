@@ -71,6 +71,12 @@ const TABLE: [(&str, Quantity, f64, &[&str]); 22] = {
 };
 
 impl Units {
+    /// m/s².
+    #[must_use]
+    pub fn m_per_s2() -> Self {
+        Self { symbol: "m/s²", quantity: Quantity::Acceleration, si: 1.0, times: 1.0 }
+    }
+
     /// The units of a word such as `g`, `cm/s2`, `CM/SEC/SEC`, `gal`; or of a number > 0 and a word,
     /// `4.674e-6 m/s2`: the value of one count.
     #[must_use]
