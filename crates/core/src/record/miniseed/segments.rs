@@ -78,14 +78,21 @@ impl Streams {
     /// The segments, and a warning for each stream that was left out.
     pub fn finish(self) -> (Vec<Segment>, Vec<RecordWarning>) {
         let mut segments = Vec::new();
-        for (id, blocks) in self.streams {
-            segments.extend(joined(&id, blocks));
-        }
-        let skipped = self.skipped.into_iter().map(|(id, coding)| RecordWarning {
+        let skip = |what: &str, id: &str| RecordWarning {
             kind: "channel_skipped",
-            message: format!("{coding} in {id}, left out"),
-        });
-        (segments, skipped.collect())
+            message: format!("{what} in {id}, left out"),
+        };
+        let mut skipped: Vec<_> = self.skipped.iter().map(|(id, what)| skip(what, id)).collect();
+        for (id, blocks) in self.streams {
+            for segment in joined(&id, blocks) {
+                if segment.values.len() >= 2 {
+                    segments.push(segment);
+                } else {
+                    skipped.push(skip("one sample only", &segment.name));
+                }
+            }
+        }
+        (segments, skipped)
     }
 }
 
