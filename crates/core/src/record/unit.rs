@@ -64,7 +64,7 @@ impl Units {
         let times = super::text::number(number.as_bytes()).filter(|times| *times > 0.0)?;
         let units = Self::named(word).filter(|units| units.quantity != Quantity::Counts)?;
         let si = times * units.si;
-        (si.is_finite() && si > 0.0).then_some(Self { times, si, ..units })
+        si.is_normal().then_some(Self { times, si, ..units })
     }
 
     fn named(word: &str) -> Option<Self> {
