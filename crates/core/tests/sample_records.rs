@@ -267,7 +267,9 @@ fn exact_changed_headers_are_never_overlooked() {
         let promised = whole.replacen("24", "1000000000000", 30);
         let result = record::read(name, promised.as_bytes(), &Options::default());
         assert!(result.is_err(), "{name}");
-        for end in 0..whole.trim_end_matches(['\r', '\n', '\x1a']).len() {
+        // Columns of text do not say how many rows they have.
+        let last = if name == "seismosignal.txt" { "" } else { whole.as_str() };
+        for end in 0..last.trim_end_matches(['\r', '\n', '\x1a']).len() {
             if let Ok(start) = record::read(name, &whole.as_bytes()[..end], &Options::default()) {
                 let channels = &start.channels;
                 let said =
