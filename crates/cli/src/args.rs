@@ -34,6 +34,19 @@ Writes with --out, each file whole or not at all:
   events.csv    every slip, stick and reversal
   report.html   one self-contained page to read and print";
 
+const PAPER_EXAMPLES: &str = "\
+Examples:
+  slipstick paper                        the verdicts, one line a claim
+  slipstick paper --out out              the chapter with its figures, and claims.json
+  slipstick paper --quick --json         coarser ranges, the same verdicts, as JSON
+
+Takes a minute or two, --quick some seconds. Two runs write the same bytes.
+
+Writes with --out, each file whole or not at all:
+  chapter.md    the chapter of the manual, with tables
+  figures/      its figures (SVG)
+  claims.json   the array that --json prints";
+
 /// Everything on the command line.
 #[derive(Debug, Parser)]
 #[command(name = "slipstick", version, about = ABOUT, after_help = EXAMPLES)]
@@ -57,6 +70,9 @@ pub enum Command {
     Run(RunArgs),
     /// Write an example model that runs as it stands
     Init(InitArgs),
+    /// Reproduce the paper that the model comes from: every experiment, every claim, its verdict
+    #[command(after_help = PAPER_EXAMPLES)]
+    Paper(PaperArgs),
     /// Print the JSON schema of the model file, or the table of units
     Schema(SchemaArgs),
     /// Print a completion script for a shell
@@ -131,6 +147,26 @@ pub struct RunArgs {
     pub display_units: UnitSystem,
     /// No messages and no progress on standard error, errors excepted
     #[arg(short, long, help_heading = "Output")]
+    pub quiet: bool,
+}
+
+/// `slipstick paper`.
+#[derive(Debug, Args)]
+pub struct PaperArgs {
+    /// Folder to write chapter.md, figures and claims.json into
+    #[arg(short, long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Print the claims as a JSON array
+    #[arg(long)]
+    pub json: bool,
+    /// Folder of records to add to the table of sliding against friction
+    #[arg(long, value_name = "DIR")]
+    pub records: Option<PathBuf>,
+    /// Scan the ranges more coarsely
+    #[arg(long)]
+    pub quick: bool,
+    /// No progress on standard error
+    #[arg(short, long)]
     pub quiet: bool,
 }
 

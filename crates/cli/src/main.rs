@@ -58,6 +58,7 @@ fn run() -> Result<ExitCode, Failure> {
     match &cli.command {
         Command::Run(args) => commands::run::run(args),
         Command::Init(args) => commands::init::init(args),
+        Command::Paper(args) => commands::paper::paper(args),
         Command::Schema(args) => commands::text::schema(args),
         Command::Completions { shell } => commands::text::completions(*shell),
         Command::Man { folder } => commands::text::man(folder),

@@ -95,6 +95,15 @@ pub enum MotionError {
         /// The value given.
         found: f64,
     },
+    /// A step of processing that needs a constant time step.
+    #[error("{step}: expected evenly spaced samples, found uneven ones: resample first")]
+    Uneven {
+        /// The step.
+        step: &'static str,
+    },
+    /// Counts of a recorder where motion is needed.
+    #[error("expected acceleration, velocity or displacement, found counts of a recorder")]
+    Counts,
     /// A peak was asked of a motion that is zero throughout.
     #[error("scale_to: expected a motion that is not zero throughout, its peak is 0 m/s²")]
     ZeroPeak,
@@ -185,6 +194,18 @@ pub struct UnitError {
     /// What was written, cut to 40 characters.
     pub found: String,
     /// The unit that was probably meant, where one is near.
+    pub nearest: Option<String>,
+}
+
+/// Text that is not an intensity measure: what was expected and what was found.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("expected {expected}, found {found:?}{}", nearest_suffix(nearest.as_deref()))]
+pub struct MeasureError {
+    /// What to write.
+    pub expected: String,
+    /// What was written, cut to 40 characters.
+    pub found: String,
+    /// The measure that was probably meant, where one is near.
     pub nearest: Option<String>,
 }
 

@@ -2,31 +2,7 @@
 
 use crate::units::STANDARD_GRAVITY_M_PER_S2;
 
-/// What the values of a channel are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// In m/s².
-    Acceleration,
-    /// In m/s.
-    Velocity,
-    /// In m.
-    Displacement,
-    /// Numbers of a recorder, which its constants alone turn into motion.
-    Counts,
-}
-
-impl Quantity {
-    /// Its name in a sentence.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Acceleration => "acceleration",
-            Self::Velocity => "velocity",
-            Self::Displacement => "displacement",
-            Self::Counts => "counts of a recorder",
-        }
-    }
-}
+pub use crate::motion::Quantity;
 
 /// Units of acceleration, velocity or displacement, perhaps times a number, what one count of a
 /// digitiser is; or counts.
