@@ -316,7 +316,7 @@ pub(super) fn check_duration(
 }
 
 /// How much a stated peak may differ before a record is refused.
-pub(super) const PEAK_FACTOR: f64 = 2.0;
+pub(super) const PEAK_FACTOR: f64 = 1.5;
 
 /// Azimuth of a channel code of SEED such as `HNE`: its last letter N or E means within 5 degrees.
 pub(super) fn azimuth_of_code(code: &str) -> Option<f64> {
