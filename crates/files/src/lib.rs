@@ -8,6 +8,7 @@ mod error;
 mod globs;
 mod load;
 mod read;
+mod records;
 mod run;
 mod tables;
 mod write;
@@ -16,6 +17,9 @@ pub use error::FileError;
 pub use globs::{expand, expand_all};
 pub use load::{LoadedMotion, RecordRequest, Scale, SourceFile, VerticalRequest, load_record};
 pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve, sha256_hex};
+pub use records::{
+    FileNames, RecordOptions, Wanted, WrittenFormat, channels, one_channel, open_record,
+};
 pub use run::{Job, JobError, Outcome};
 pub use tables::{events_csv, history_csv};
 pub use write::{OutputFolder, refuse_inputs, remove_temporaries, write_whole};

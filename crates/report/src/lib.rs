@@ -46,6 +46,7 @@ pub mod markup;
 pub mod number;
 pub mod peaks;
 pub mod plot;
+pub mod records;
 pub mod report;
 pub mod summary;
 pub mod table;
