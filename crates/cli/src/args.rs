@@ -68,6 +68,9 @@ pub enum Command {
     /// Compute the response of a model to its ground motion
     #[command(after_help = RUN_EXAMPLES)]
     Run(RunArgs),
+    /// Look into records, convert, process and plot them
+    #[command(subcommand, after_help = crate::record_args::EXAMPLES)]
+    Record(crate::record_args::RecordCommand),
     /// Write an example model that runs as it stands
     Init(InitArgs),
     /// Reproduce the paper that the model comes from: every experiment, every claim, its verdict

@@ -2,5 +2,6 @@
 
 pub mod init;
 pub mod paper;
+pub mod record;
 pub mod run;
 pub mod text;

@@ -4,6 +4,7 @@ mod args;
 mod commands;
 mod failure;
 mod progress;
+mod record_args;
 
 use std::io::{self, IsTerminal};
 use std::process::ExitCode;
@@ -57,6 +58,7 @@ fn run() -> Result<ExitCode, Failure> {
     };
     match &cli.command {
         Command::Run(args) => commands::run::run(args),
+        Command::Record(command) => commands::record::record(command),
         Command::Init(args) => commands::init::init(args),
         Command::Paper(args) => commands::paper::paper(args),
         Command::Schema(args) => commands::text::schema(args),

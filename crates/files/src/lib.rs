@@ -10,6 +10,7 @@ mod globs;
 mod load;
 mod paper;
 mod read;
+mod records;
 mod run;
 mod tables;
 mod write;
@@ -20,6 +21,9 @@ pub use globs::{expand, expand_all};
 pub use load::{LoadedMotion, RecordRequest, Scale, SourceFile, VerticalRequest, load_record};
 pub use paper::paper_library;
 pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve, sha256_hex};
+pub use records::{
+    FileNames, RecordOptions, Wanted, WrittenFormat, channels, one_channel, open_record,
+};
 pub use run::{Job, JobError, Outcome};
 pub use tables::{events_csv, history_csv};
 pub use write::{OutputFolder, refuse_inputs, remove_temporaries, write_whole};

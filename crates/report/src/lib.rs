@@ -47,6 +47,7 @@ pub mod number;
 pub mod paper;
 pub mod peaks;
 pub mod plot;
+pub mod records;
 pub mod report;
 pub mod summary;
 pub mod table;
