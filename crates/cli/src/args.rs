@@ -97,7 +97,8 @@ pub struct RunArgs {
     /// Record to use instead of the model's [motion]; its format is recognised
     #[arg(long, value_name = "FILE", help_heading = "Ground motion")]
     pub motion: Option<PathBuf>,
-    /// Unit of the record's values, where its file does not state it: g, gal, m/s2, …
+    /// Unit of the record's values, where its file does not state it: g, gal, m/s2, …; of counts the
+    /// value of one: "4.67e-6 m/s2"
     #[arg(long, value_name = "UNIT", requires = "motion", help_heading = "Ground motion")]
     pub units: Option<String>,
     /// Time step of the record, where its file does not state it: "0.01 s"

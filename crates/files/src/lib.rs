@@ -6,6 +6,7 @@
 
 mod error;
 mod folder;
+mod globs;
 mod load;
 mod paper;
 mod read;
@@ -15,6 +16,7 @@ mod write;
 
 pub use error::FileError;
 pub use folder::{FolderRecords, folder_records};
+pub use globs::{expand, expand_all};
 pub use load::{LoadedMotion, RecordRequest, Scale, SourceFile, VerticalRequest, load_record};
 pub use paper::paper_library;
 pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve, sha256_hex};
