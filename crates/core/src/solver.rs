@@ -1,8 +1,10 @@
 //! Solves the equations of motion: exactly, or by the paper's stepwise program.
 
+mod ensemble;
 mod exact;
 mod excitation;
 mod extremes;
+mod prepared;
 mod recorder;
 mod stepwise;
 mod summary;
@@ -12,7 +14,9 @@ use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::response::{Method, Response};
 
+pub use ensemble::ensemble;
 pub use exact::EVENTS_PER_INTERVAL_LIMIT;
+pub use prepared::{PreparedModel, PreparedMotion, demands};
 
 /// Exact response with its history.
 ///
