@@ -100,9 +100,8 @@ pub(super) fn system_of<V: PerStorey>(model: &Model) -> System<V> {
 /// What a walk through the motion leaves behind.
 pub(super) struct Outcome {
     pub(super) events: Vec<Event>,
-    /// Largest and smallest values in the order of [`super::extremes::tracked`].
-    pub(super) largest: Vec<f64>,
-    pub(super) smallest: Vec<f64>,
+    /// Peaks in the order of [`super::extremes::tracked`].
+    pub(super) peaks: Vec<f64>,
     pub(super) overturns: bool,
     pub(super) sliding: Sliding,
     pub(super) residual_m: f64,
@@ -283,8 +282,7 @@ impl<'a, V: PerStorey, R: Recorder<V>> Run<'a, V, R> {
     fn outcome(self) -> Outcome {
         Outcome {
             events: self.events,
-            largest: self.extremes.largest.as_ref().to_vec(),
-            smallest: self.extremes.smallest.as_ref().to_vec(),
+            peaks: self.extremes.peak.as_ref().to_vec(),
             overturns: self.extremes.overturns(),
             sliding: self.sliding,
             residual_m: self.state.s(),
