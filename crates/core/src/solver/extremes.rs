@@ -146,6 +146,19 @@ impl<V: PerStorey> Extremes<V> {
         extremes
     }
 
+    /// `g sin θ` in m/s².
+    pub(super) fn slope(&self) -> f64 {
+        self.slope
+    }
+
+    /// What `f` of one storey and the block's acceleration add to the overturning moment; zeros
+    /// where it is not tracked.
+    pub(super) fn one_storey_arm(&self) -> [f64; 2] {
+        self.arm
+            .as_ref()
+            .map_or([0.0; 2], |(arm, half)| [arm.as_ref().first().copied().unwrap_or(0.0), *half])
+    }
+
     /// Whether the overturning moment is tracked.
     pub(super) fn overturns(&self) -> bool {
         self.arm.is_some()

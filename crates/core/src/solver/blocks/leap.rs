@@ -8,9 +8,7 @@ use super::peaks::Block;
 use super::tables::QUIET;
 use super::walk::Walk;
 use crate::friction::Direction;
-use crate::linear::PerStorey;
 use crate::solver::extremes::tracked;
-use crate::solver::recorder::Recorder;
 
 /// All samples of a block.
 const ALL: u64 = (1 << BLOCK) - 1;
@@ -18,7 +16,7 @@ const ALL: u64 = (1 << BLOCK) - 1;
 /// A chord over a sample is off by this part of what one over a block is.
 const PER_SAMPLE: f64 = 1.0 / (BLOCK * BLOCK) as f64;
 
-impl<V: PerStorey, R: Recorder<V>, S: Simd> Walk<'_, '_, V, R, S> {
+impl<S: Simd> Walk<'_, S> {
     /// Takes samples of sliding; the first that the bounds do not vouch for.
     #[inline(always)]
     pub(super) fn slide(&mut self, mut sample: usize, end: usize, direction: Direction) -> usize {
@@ -28,13 +26,13 @@ impl<V: PerStorey, R: Recorder<V>, S: Simd> Walk<'_, '_, V, R, S> {
         let splat = |x: f64| f64x8::splat(simd, x);
         let by_force = bend.of_force.load(simd) * splat(force.abs());
         let mut x = self.state();
-        let mut view = self.view::<true>(self.x, 0.0, force);
+        let mut view = self.view::<true>(self.carry.x, 0.0, force);
         while sample + BLOCK <= end {
             let a = self.block_at(sample);
             let window = self.windows.at(sample);
             let start = x.to_array();
             let norm = tables.plant.norm(&start);
-            let size = window.block + self.slope_size;
+            let size = window.block + self.ground.slope_size;
             let slack = (bend.of_norm.load(simd) * splat(norm)
                 + bend.of_acceleration.load(simd) * splat(size))
                 + (bend.of_rate.load(simd) * splat(window.rate) + by_force);
@@ -46,7 +44,7 @@ impl<V: PerStorey, R: Recorder<V>, S: Simd> Walk<'_, '_, V, R, S> {
             let hidden = slack.as_array()[tracked::VELOCITY];
             let slides = sign * start[1] > hidden && sign * ahead[1] > hidden;
             if slides && quiet.all_true() {
-                self.record_block::<true>(sample, BLOCK, x, force);
+                self.record::<true>(sample, BLOCK, x, force);
                 (x, view) = (next, next_view);
                 sample += BLOCK;
                 continue;
@@ -66,7 +64,7 @@ impl<V: PerStorey, R: Recorder<V>, S: Simd> Walk<'_, '_, V, R, S> {
             if open != 0 {
                 self.watch::<true>(&block, open, view, slack * splat(PER_SAMPLE));
             }
-            self.record_block::<true>(sample, steps, x, force);
+            self.record::<true>(sample, steps, x, force);
             sample += steps;
             if steps < BLOCK {
                 x = self.end::<true>(steps, x, a, force);
@@ -74,7 +72,7 @@ impl<V: PerStorey, R: Recorder<V>, S: Simd> Walk<'_, '_, V, R, S> {
             }
             (x, view) = (next, next_view);
         }
-        self.x = x.to_array();
+        self.carry.x = x.to_array();
         sample
     }
 
@@ -84,32 +82,38 @@ impl<V: PerStorey, R: Recorder<V>, S: Simd> Walk<'_, '_, V, R, S> {
         let (simd, tables) = (self.simd, self.tables);
         let (bend, quiet, plant) = (&tables.stick.bend, &tables.quiet, &tables.plant);
         let splat = |x: f64| f64x8::splat(simd, x);
-        let [low, high] = self.bounds;
+        let [low, high] = self.ground.bounds;
         let mut holds = Eight([f64::INFINITY; 8]);
         holds.0[tracked::FRICTION] = high.min(-low);
         let holds = holds.load(simd);
         let of_norm = quiet.of_norm.load(simd);
-        let constant = quiet.of_s.load(simd) * splat(self.x[0].abs()) + quiet.of_slope.load(simd);
+        let constant =
+            quiet.of_s.load(simd) * splat(self.carry.x[0].abs()) + quiet.of_slope.load(simd);
         let mut x = self.state();
-        let spring_n = plant.stiffness_n_per_m * self.x[0];
+        let spring_n = plant.stiffness_n_per_m * self.carry.x[0];
         while sample + BLOCK <= end {
             let window = self.windows.at(sample);
             let start = x.to_array();
             let norm = plant.norm(&start);
-            let size = window.block + self.slope_size;
+            let size = window.block + self.ground.slope_size;
             let base = of_norm * splat(norm) + constant;
             let reach = base + quiet.of_acceleration[0].load(simd) * splat(size);
             let within = reach.simd_le(self.peak);
             if (within & reach.simd_lt(holds)).all_true() {
                 let long = base
-                    + quiet.of_acceleration[1].load(simd) * splat(window.quiet + self.slope_size);
+                    + quiet.of_acceleration[1].load(simd)
+                        * splat(window.quiet + self.ground.slope_size);
                 let all = long.simd_le(self.peak) & long.simd_lt(holds);
-                if !R::WANTED && sample + QUIET <= end && all.all_true() {
-                    x = self.after_quiet(sample, x);
+                if sample + QUIET <= end && all.all_true() {
+                    let next = self.after_quiet(sample, x);
+                    if self.records {
+                        self.record_quiet(sample, x);
+                    }
+                    x = next;
                     sample += QUIET;
                     continue;
                 }
-                self.record_block::<false>(sample, BLOCK, x, 0.0);
+                self.record::<false>(sample, BLOCK, x, 0.0);
                 x = self.end::<false>(BLOCK, x, self.block_at(sample), 0.0);
                 sample += BLOCK;
                 continue;
@@ -136,15 +140,23 @@ impl<V: PerStorey, R: Recorder<V>, S: Simd> Walk<'_, '_, V, R, S> {
                 let view = self.view::<false>(start, a[0], 0.0);
                 self.watch::<false>(&block, open, view, slack);
             }
-            self.record_block::<false>(sample, steps, x, 0.0);
+            self.record::<false>(sample, steps, x, 0.0);
             sample += steps;
             x = self.end::<false>(steps, x, a, 0.0);
             if steps < BLOCK {
                 break;
             }
         }
-        self.x = x.to_array();
+        self.carry.x = x.to_array();
         sample
+    }
+
+    /// Records a stretch of quiet stick.
+    fn record_quiet(&mut self, sample: usize, mut x: f64x4<S>) {
+        for from in (sample..sample + QUIET).step_by(BLOCK) {
+            self.record::<false>(from, BLOCK, x, 0.0);
+            x = self.end::<false>(BLOCK, x, self.block_at(from), 0.0);
+        }
     }
 
     /// State after a stretch of quiet stick.
@@ -152,7 +164,9 @@ impl<V: PerStorey, R: Recorder<V>, S: Simd> Walk<'_, '_, V, R, S> {
     fn after_quiet(&self, sample: usize, x: f64x4<S>) -> f64x4<S> {
         let (simd, quiet) = (self.simd, &self.tables.quiet);
         let splat = |x: f64| f64x4::splat(simd, x);
-        let Some(a) = self.acceleration[sample..].first_chunk::<{ QUIET + 1 }>() else { return x };
+        let Some(a) = self.ground.acceleration[sample..].first_chunk::<{ QUIET + 1 }>() else {
+            return x;
+        };
         let mut sums = [splat(0.0); 4];
         for m in (0..QUIET).step_by(4) {
             for (i, sum) in sums.iter_mut().enumerate() {

@@ -35,8 +35,7 @@ pub(super) struct Plant {
 
 /// Tables of a system and a step.
 #[derive(Debug)]
-pub(super) struct Tables {
-    pub(super) dt_s: f64,
+pub(in crate::solver) struct Tables {
     pub(super) plant: Plant,
     /// Equal pieces into which a sample is cut for its Taylor series.
     pub(super) pieces: usize,
@@ -162,8 +161,7 @@ impl Plant {
     #[inline(always)]
     pub(super) fn norm(&self, x: &[f64; 4]) -> f64 {
         let momentum = x[3] + self.participation * x[1];
-        let of_block =
-            self.stiffness_n_per_m * (x[0] * x[0]) + self.block_mass_kg * (x[1] * x[1]);
+        let of_block = self.stiffness_n_per_m * (x[0] * x[0]) + self.block_mass_kg * (x[1] * x[1]);
         (of_block + (self.omega2 * (x[2] * x[2]) + momentum * momentum)).sqrt()
     }
 
@@ -194,7 +192,7 @@ impl Plant {
 
 impl Tables {
     /// Tables of a system with at most one storey, unless the step is too long for its rates.
-    pub(super) fn new<V: PerStorey>(
+    pub(in crate::solver) fn new<V: PerStorey>(
         system: &System<V>,
         extremes: &Extremes<V>,
         dt_s: f64,
@@ -210,7 +208,7 @@ impl Tables {
         let (stick, quiet_taps) = Phase::new(&plant, &tracked, false, [dt_s, piece_s], pieces);
         let (slip, _) = Phase::new(&plant, &tracked, true, [dt_s, piece_s], pieces);
         let quiet = Quiet::new(&plant, &tracked, &stick, quiet_taps, dt_s);
-        Some(Self { dt_s, plant, pieces: pieces as usize, piece_s, stick, slip, quiet })
+        Some(Self { plant, pieces: pieces as usize, piece_s, stick, slip, quiet })
     }
 }
 
@@ -274,9 +272,9 @@ impl TrackedRows {
 }
 
 /// Place of the storey's displacement, and drift, among the tracked quantities of a block.
-pub(super) const DISPLACEMENT: usize = 6;
+pub(in crate::solver) const DISPLACEMENT: usize = 6;
 /// Place of the floor's acceleration.
-pub(super) const ACCELERATION: usize = 7;
+pub(in crate::solver) const ACCELERATION: usize = 7;
 
 type Matrix = [[f64; 4]; 4];
 
@@ -334,9 +332,8 @@ impl Phase {
         let column = |j: usize| Eight(columns[j]);
         let rows_of_state: [[f64; 4]; 8] =
             core::array::from_fn(|j| tracked.over_state(plant, slip, j));
-        let sizes = core::array::from_fn(|i| {
-            Eight(core::array::from_fn(|j| rows_of_state[j][i].abs()))
-        });
+        let sizes =
+            core::array::from_fn(|i| Eight(core::array::from_fn(|j| rows_of_state[j][i].abs())));
         let view = View {
             columns: core::array::from_fn(column),
             of_acceleration: column(OF_A),
@@ -513,6 +510,7 @@ fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
 
 fn times(columns: &Matrix, x: [f64; 4]) -> [f64; 4] {
     core::array::from_fn(|i| {
-        (columns[0][i] * x[0] + columns[1][i] * x[1]) + (columns[2][i] * x[2] + columns[3][i] * x[3])
+        (columns[0][i] * x[0] + columns[1][i] * x[1])
+            + (columns[2][i] * x[2] + columns[3][i] * x[3])
     })
 }

@@ -5,71 +5,95 @@ use fearless_simd::{f64x4, f64x8};
 
 use super::lanes::{BLOCK, Eight, Four, combine4, combine8};
 use super::peaks::Candidates;
-use super::tables::{ACCELERATION, DISPLACEMENT, Phase, Row, Tables};
+use super::tables::{Phase, Row, Tables};
 use super::windows::Windows;
 use crate::error::SolveError;
 use crate::friction::Direction;
-use crate::linear::PerStorey;
-use crate::response::Mode;
-use crate::solver::exact::Run;
-use crate::solver::extremes::tracked;
-use crate::solver::recorder::Recorder;
+use crate::response::{Event, Mode};
+use crate::solver::exact::{Sliding, Start};
 
-/// A walk through evenly spaced samples under a constant normal force.
-pub(super) struct Walk<'w, 'a, V: PerStorey, R, S: Simd> {
+/// What a walk by blocks and the run it serves hand to each other.
+pub(in crate::solver) struct Carry {
+    /// `s, ṡ, η, η̇`, with zeros for the structure of a rigid block.
+    pub(in crate::solver) x: [f64; 4],
+    /// Peaks attained so far, in the order of [`View`](super::tables::View).
+    pub(in crate::solver) peak: [f64; 8],
+    pub(in crate::solver) mode: Mode,
+    pub(in crate::solver) start: Option<Start>,
+    pub(in crate::solver) events: Vec<Event>,
+    pub(in crate::solver) sliding: Sliding,
+}
+
+/// The run that a walk by blocks serves.
+pub(in crate::solver) trait Host {
+    /// Takes the long way through the rest of a sample after a time in it.
+    fn long_way(&mut self, carry: &mut Carry, sample: usize, from_s: f64)
+    -> Result<(), SolveError>;
+
+    /// Whether a history is wanted.
+    fn records(&self) -> bool;
+
+    /// Records a state at a sample as a row of the history.
+    fn record_row(&mut self, x: &[f64; 4], mode: Mode, sample: usize);
+
+    /// Records one side of an event at a time after a sample.
+    fn record_event(&mut self, carry: &Carry, sample: usize, at_s: f64);
+}
+
+/// Evenly spaced samples under a constant normal force.
+pub(in crate::solver) struct Ground<'a> {
+    pub(in crate::solver) times_s: &'a [f64],
+    /// `a = Ü + g sin θ` at the samples.
+    pub(in crate::solver) acceleration: &'a [f64],
+    /// `|g sin θ|`.
+    pub(in crate::solver) slope_size: f64,
+    /// Static bounds in N, and friction force of sliding towards +x and −x.
+    pub(in crate::solver) bounds: [f64; 2],
+    pub(in crate::solver) kinetic: [f64; 2],
+}
+
+/// A walk by blocks.
+pub(super) struct Walk<'w, S: Simd> {
     pub(super) simd: S,
     pub(super) tables: &'w Tables,
     pub(super) windows: &'w Windows,
-    pub(super) run: &'w mut Run<'a, V, R>,
-    pub(super) acceleration: &'a [f64],
-    /// The state; that of the run is behind.
-    pub(super) x: [f64; 4],
-    /// Peaks attained so far; those of the run are behind.
+    pub(super) ground: &'w Ground<'w>,
+    pub(super) host: &'w mut dyn Host,
+    pub(super) carry: &'w mut Carry,
+    pub(super) candidates: Candidates,
+    /// Peaks attained so far; those of `carry` are behind.
     pub(super) peak: f64x8<S>,
-    pub(super) candidates: &'w mut Candidates,
-    /// `|g sin θ|`.
-    pub(super) slope_size: f64,
-    /// Static bounds in N, and kinetic friction for sliding towards +x and −x.
-    pub(super) bounds: [f64; 2],
-    pub(super) kinetic: [f64; 2],
+    pub(super) records: bool,
 }
 
-impl<'w, 'a, V: PerStorey, R: Recorder<V>, S: Simd> Walk<'w, 'a, V, R, S> {
+impl<'w, S: Simd> Walk<'w, S> {
     #[inline(always)]
     pub(super) fn new(
         simd: S,
-        tables: &'w Tables,
-        windows: &'w Windows,
-        candidates: &'w mut Candidates,
-        run: &'w mut Run<'a, V, R>,
+        (tables, windows): (&'w Tables, &'w Windows),
+        ground: &'w Ground<'w>,
+        host: &'w mut dyn Host,
+        carry: &'w mut Carry,
     ) -> Self {
-        let excitation = run.excitation;
-        let normal = excitation.normal_at_sample(0).max(0.0);
-        let mut walk = Self {
+        Self {
             simd,
             tables,
             windows,
-            acceleration: &excitation.acceleration,
-            x: [0.0; 4],
-            peak: f64x8::splat(simd, 0.0),
-            candidates,
-            slope_size: run.extremes.slope().abs(),
-            bounds: excitation.bounds().map(|bound| bound * normal),
-            kinetic: [Direction::Positive, Direction::Negative]
-                .map(|d| excitation.kinetic(d) * normal),
-            run,
-        };
-        walk.take_over();
-        walk
+            ground,
+            records: host.records(),
+            host,
+            candidates: Candidates::default(),
+            peak: f64x8::load_array(simd, carry.peak),
+            carry,
+        }
     }
 
     /// Walks from a sample to the end of the evenly spaced samples.
     #[inline(always)]
     pub(super) fn go(&mut self, mut sample: usize, end: usize) -> Result<(), SolveError> {
         while sample < end {
-            let pending = self.run.start.is_some();
-            sample = match self.run.mode {
-                Mode::Slip(_) if pending || self.x[1] == 0.0 => sample,
+            sample = match self.carry.mode {
+                Mode::Slip(_) if self.is_due() => sample,
                 Mode::Slip(direction) => self.slide(sample, end, direction),
                 Mode::Stick => self.hold(sample, end),
             };
@@ -78,50 +102,30 @@ impl<'w, 'a, V: PerStorey, R: Recorder<V>, S: Simd> Walk<'w, 'a, V, R, S> {
                 sample += 1;
             }
         }
-        self.hand_back();
+        self.settle();
+        self.carry.peak = self.peak.to_array();
         Ok(())
     }
 
-    /// Reads state and peaks of the run, and takes the values at this instant for attained.
-    pub(super) fn take_over(&mut self) {
-        let state = self.run.state.0.as_ref();
-        self.x = match *state {
-            [s, w, eta, eta_dot] => [s, w, eta, eta_dot],
-            _ => [state[0], state[1], 0.0, 0.0],
-        };
-        let of_run = self.run.extremes.peak.as_ref();
-        let mut peak = [0.0; 8];
-        peak[..tracked::STOREYS].copy_from_slice(&of_run[..tracked::STOREYS]);
-        if let [displacement, _, acceleration] = of_run[tracked::STOREYS..] {
-            (peak[DISPLACEMENT], peak[ACCELERATION]) = (displacement, acceleration);
-        }
-        self.peak = f64x8::load_array(self.simd, peak);
-    }
-
-    /// Gives state and peaks back to the run.
-    pub(super) fn hand_back(&mut self) {
-        self.write_state();
-        let peak = self.peak.to_array();
-        let of_run = self.run.extremes.peak.as_mut();
-        of_run[..tracked::STOREYS].copy_from_slice(&peak[..tracked::STOREYS]);
-        if let [displacement, drift, acceleration] = &mut of_run[tracked::STOREYS..] {
-            (*displacement, *drift) = (peak[DISPLACEMENT], peak[DISPLACEMENT]);
-            *acceleration = peak[ACCELERATION];
-        }
-    }
-
-    /// Gives the state back to the run.
+    /// Whether a slip has just started, or a stop is still to be decided.
     #[inline(always)]
-    pub(super) fn write_state(&mut self) {
-        let state = self.run.state.0.as_mut();
-        let storeys = state.len();
-        state.copy_from_slice(&self.x[..storeys]);
+    pub(super) fn is_due(&self) -> bool {
+        self.carry.start.is_some() || (self.carry.mode != Mode::Stick && self.carry.x[1] == 0.0)
+    }
+
+    /// The long way through the rest of a sample.
+    #[inline(never)]
+    pub(super) fn long_way(&mut self, sample: usize, from_s: f64) -> Result<(), SolveError> {
+        self.carry.peak = self.peak.to_array();
+        let result = self.host.long_way(self.carry, sample, from_s);
+        self.peak = f64x8::load_array(self.simd, self.carry.peak);
+        result
     }
 
     /// Friction force of sliding in a direction, in N.
     #[inline(always)]
     pub(super) fn force(&self, direction: Direction) -> f64 {
-        self.kinetic[if direction == Direction::Positive { 0 } else { 1 }]
+        self.ground.kinetic[if direction == Direction::Positive { 0 } else { 1 }]
     }
 
     /// State after `k` samples from a state at the first of `a`.
@@ -192,35 +196,34 @@ impl<'w, 'a, V: PerStorey, R: Recorder<V>, S: Simd> Walk<'w, 'a, V, R, S> {
         if SLIP { &self.tables.slip } else { &self.tables.stick }
     }
 
-    /// Records samples of a block as rows of the history.
+    /// Records samples of a block as rows of the history, if one is wanted.
     #[inline(always)]
-    pub(super) fn record_block<const SLIP: bool>(
+    pub(super) fn record<const SLIP: bool>(
         &mut self,
         sample: usize,
         steps: usize,
         x: f64x4<S>,
         force: f64,
     ) {
-        if !R::WANTED {
+        if !self.records {
             return;
         }
         let a = self.block_at(sample);
         for k in 0..steps {
-            self.x = self.end::<SLIP>(k, x, a, force).to_array();
-            self.write_state();
-            self.run.record_sample(sample + k, self.run.mode, true);
+            let x = self.end::<SLIP>(k, x, a, force).to_array();
+            self.host.record_row(&x, self.carry.mode, sample + k);
         }
     }
 
     /// The accelerations that a block from a sample touches; zeros where the motion has ended.
     #[inline(always)]
-    pub(super) fn block_at(&self, sample: usize) -> &'a [f64; BLOCK + 1] {
-        self.acceleration[sample..].first_chunk().unwrap_or(&[0.0; BLOCK + 1])
+    pub(super) fn block_at(&self, sample: usize) -> &'w [f64; BLOCK + 1] {
+        self.ground.acceleration[sample..].first_chunk().unwrap_or(&[0.0; BLOCK + 1])
     }
 
     /// The state as a vector.
     #[inline(always)]
     pub(super) fn state(&self) -> f64x4<S> {
-        Four(self.x).load(self.simd)
+        Four(self.carry.x).load(self.simd)
     }
 }

@@ -10,8 +10,6 @@ use crate::solver::excitation::regular_step;
 pub(in crate::solver) struct Windows {
     /// The step that all but a few intervals have; none where the sampling is uneven.
     pub(in crate::solver) dt_s: Option<f64>,
-    /// The other intervals, in order.
-    pub(in crate::solver) irregular: Vec<usize>,
     /// For each eighth sample the largest |Ü| at the samples that a block, and a stretch of quiet
     /// stick, from there or from one of the next seven samples touches; and the largest |ΔÜ|/dt
     /// over the intervals of a block.
@@ -31,10 +29,7 @@ pub(super) struct Window {
 
 impl Windows {
     pub(in crate::solver) fn new(motion: &GroundMotion) -> Self {
-        let (dt_s, irregular) = match motion.dt_s() {
-            Some(dt_s) => (Some(dt_s), Vec::new()),
-            None => regular_step(motion.times_s()),
-        };
+        let dt_s = motion.dt_s().or_else(|| regular_step(motion.times_s()).0);
         let a = motion.horizontal_m_per_s2();
         let over_dt = dt_s.map_or(0.0, |dt_s| 1.0 / dt_s);
         let chunks = a.len().div_ceil(BLOCK);
@@ -64,7 +59,7 @@ impl Windows {
                 rate: over(c, 2, 1),
             })
             .collect();
-        Self { dt_s, irregular, largest }
+        Self { dt_s, largest }
     }
 
     /// The window of the blocks that begin at a sample.
