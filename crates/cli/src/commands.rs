@@ -2,4 +2,5 @@
 
 pub mod init;
 pub mod run;
+pub mod study;
 pub mod text;
