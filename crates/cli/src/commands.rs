@@ -4,4 +4,5 @@ pub mod init;
 pub mod paper;
 pub mod record;
 pub mod run;
+pub mod study;
 pub mod text;

@@ -59,6 +59,7 @@ fn run() -> Result<ExitCode, Failure> {
     match &cli.command {
         Command::Run(args) => commands::run::run(args),
         Command::Record(command) => commands::record::record(command),
+        Command::Study(args) => commands::study::study(args),
         Command::Init(args) => commands::init::init(args),
         Command::Paper(args) => commands::paper::paper(args),
         Command::Schema(args) => commands::text::schema(args),

@@ -9,9 +9,11 @@ mod folder;
 mod globs;
 mod load;
 mod paper;
+mod parquet;
 mod read;
 mod records;
 mod run;
+mod study;
 mod tables;
 mod write;
 
@@ -20,10 +22,15 @@ pub use folder::{FolderRecords, folder_records};
 pub use globs::{expand, expand_all};
 pub use load::{LoadedMotion, RecordRequest, Scale, SourceFile, VerticalRequest, load_record};
 pub use paper::paper_library;
+pub use parquet::{NumberColumn, UNIT_KEY, columns_to_bytes, read_columns, write_columns};
 pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve, sha256_hex};
 pub use records::{
     FileNames, RecordOptions, Wanted, WrittenFormat, channels, one_channel, open_record,
 };
 pub use run::{Job, JobError, Outcome};
+pub use study::{
+    Checks, Merged, OpenStudy, Shard, ShardOptions, ShardOutcome, StudyError, clear, conclude,
+    estimate, has_parts, merge, part_rows, run_shard,
+};
 pub use tables::{events_csv, history_csv};
 pub use write::{OutputFolder, refuse_inputs, remove_temporaries, write_whole};
