@@ -127,6 +127,83 @@ pub enum SolveError {
     },
 }
 
+/// Data from which a statistic cannot be told.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FitError {
+    /// Fewer observations than the statistic needs.
+    #[error("expected at least {expected} {what}, found {found}")]
+    TooFew {
+        /// What is counted.
+        what: &'static str,
+        /// How many are needed.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// A number outside its range.
+    #[error("{quantity}: expected {expected}, found {found}")]
+    OutOfRange {
+        /// Its name.
+        quantity: &'static str,
+        /// The range, in words.
+        expected: &'static str,
+        /// The number.
+        found: f64,
+    },
+    /// No observation exceeds the limit.
+    #[error(
+        "none of {runs} runs exceeds the limit, up to an intensity of {highest}: a fragility cannot \
+         be told; go to higher intensities or take a smaller limit"
+    )]
+    NoneExceeds {
+        /// Number of runs.
+        runs: u64,
+        /// Highest intensity among them.
+        highest: f64,
+    },
+    /// Every observation exceeds the limit.
+    #[error(
+        "all of {runs} runs exceed the limit, down to an intensity of {lowest}: a fragility cannot \
+         be told; go to lower intensities or take a larger limit"
+    )]
+    AllExceed {
+        /// Number of runs.
+        runs: u64,
+        /// Lowest intensity among them.
+        lowest: f64,
+    },
+    /// Exceedances and the rest do not overlap in intensity: the most likely curve is a step.
+    #[error(
+        "the runs that exceed the limit and those that do not are separated: none exceeds it below \
+         {below}, all do above {above}; the most likely fragility is a step without dispersion: add \
+         intensities between, or records"
+    )]
+    Separated {
+        /// Highest intensity of a run that does not exceed.
+        below: f64,
+        /// Lowest intensity of a run that exceeds.
+        above: f64,
+    },
+    /// A single intensity, or a single value of a covariate.
+    #[error("all runs have the one intensity {level}: expected at least two")]
+    OneLevel {
+        /// The intensity.
+        level: f64,
+    },
+    /// Exceedances that become rarer as intensity grows.
+    #[error(
+        "the share of runs that exceed the limit does not grow with intensity: no fragility curve \
+         describes that; check the measure and the limit"
+    )]
+    Falls,
+    /// A likelihood that grows without end.
+    #[error(
+        "the likelihood has no maximum: the values do not scatter, or too few of them are known \
+         exactly to tell all parameters"
+    )]
+    NoMaximum,
+}
+
 /// Text that is not a record, in the `file:line:column` form an editor can jump to.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{source_name}:{line}:{column}: expected {expected}, found {found:?}")]
