@@ -34,6 +34,25 @@ Writes with --out, each file whole or not at all:
   events.csv    every slip, stick and reversal
   report.html   one self-contained page to read and print";
 
+const COMPARE_EXAMPLES: &str = "\
+Examples:
+  slipstick compare test12.csv mock-up.toml --out out
+  slipstick compare test12.csv mock-up.toml --mapping sensors.toml
+  slipstick compare test12.csv mock-up.toml --map \"block_acceleration = A1 [g] * -1\" \\
+      --map \"sliding_displacement = X1 - U [mm]\" --map \"time = 0.005 s\"
+  slipstick compare test12.csv mock-up.toml --within peak_ratio.sliding_displacement=0.9..1.1
+
+The prediction is driven by the measured table acceleration; the model's [motion] plays no part.
+Columns that are named as in history.csv, perhaps in another unit (block_acceleration_g), need no
+mapping. Others are named by QUANTITY = COLUMN [- COLUMN] [UNIT] * FACTOR @ SHIFT, as an option or in
+a mapping file (TOML, QUANTITY = \"COLUMN …\"); all parts but the first column are optional, and #3 is the
+third column. Quantities: time, table_acceleration, block_acceleration, sliding_displacement,
+sliding_velocity, friction_force, storey1_displacement, storey1_velocity, storey1_acceleration, …
+
+Figures for --within: peak_ratio, residual_error, rms_error, normalised_rms_error, correlation,
+russell_magnitude, russell_phase, russell_comprehensive, anderson, arrival_lag; SI, either end may be
+left out. A bound that is missed makes the exit status 1.";
+
 /// Everything on the command line.
 #[derive(Debug, Parser)]
 #[command(name = "slipstick", version, about = ABOUT, after_help = EXAMPLES)]
@@ -55,6 +74,9 @@ pub enum Command {
     /// Compute the response of a model to its ground motion
     #[command(after_help = RUN_EXAMPLES)]
     Run(RunArgs),
+    /// Compare a prediction with what was measured on a shaking table
+    #[command(after_help = COMPARE_EXAMPLES)]
+    Compare(CompareArgs),
     /// Write an example model that runs as it stands
     Init(InitArgs),
     /// Print the JSON schema of the model file, or the table of units
@@ -131,6 +153,58 @@ pub struct RunArgs {
     /// No messages and no progress on standard error, errors excepted
     #[arg(short, long, help_heading = "Output")]
     pub quiet: bool,
+}
+
+/// What the columns of a measured file are.
+#[derive(Debug, Args)]
+pub struct MappingArgs {
+    /// File (TOML) that says which column is which quantity
+    #[arg(long, value_name = "FILE", help_heading = "Measured file")]
+    pub mapping: Option<PathBuf>,
+    /// Say which column is a quantity: "block_acceleration = A1 [g] * -1"; repeatable
+    #[arg(long, value_name = "QUANTITY=COLUMN", help_heading = "Measured file")]
+    pub map: Vec<String>,
+}
+
+/// What becomes of a result of the laboratory.
+#[derive(Debug, Args)]
+pub struct ResultArgs {
+    /// Print the result as one JSON object
+    #[arg(long, help_heading = "Output")]
+    pub json: bool,
+    /// Folder to write the results into
+    #[arg(short, long, value_name = "DIR", help_heading = "Output")]
+    pub out: Option<PathBuf>,
+    /// Units of the table and the report; files and JSON are always SI
+    #[arg(long, value_name = "SYSTEM", value_enum, default_value = "si", help_heading = "Output")]
+    pub display_units: UnitSystem,
+    /// No messages and no progress on standard error, errors excepted
+    #[arg(short, long, help_heading = "Output")]
+    pub quiet: bool,
+}
+
+/// `slipstick compare`.
+#[derive(Debug, Args)]
+pub struct CompareArgs {
+    /// Measured histories: text in columns with a header
+    pub measured: PathBuf,
+    /// Model file (TOML), or - to read it from standard input
+    pub model: PathBuf,
+    /// The columns
+    #[command(flatten)]
+    pub mapping: MappingArgs,
+    /// How to compute: exact, or stepwise as the paper's own program did
+    #[arg(long, value_enum)]
+    pub method: Option<MethodName>,
+    /// Set a key of the model by its path, such as slider.tilt="1 mrad"; repeatable, the last holds
+    #[arg(long, value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+    /// A bound to keep: "peak_ratio.sliding_displacement=0.9..1.1"; repeatable
+    #[arg(long, value_name = "METRIC.QUANTITY=LEAST..MOST", allow_hyphen_values = true)]
+    pub within: Vec<String>,
+    /// The result
+    #[command(flatten)]
+    pub result: ResultArgs,
 }
 
 /// `slipstick init`.

@@ -1,5 +1,6 @@
 //! One module a command.
 
+pub mod compare;
 pub mod init;
 pub mod run;
 pub mod text;

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use slipstick::error::InputError;
-use slipstick_files::{FileError, JobError};
+use slipstick_files::{FileError, JobError, LaboratoryError};
 
 /// Bad input, or an output that nobody reads any more.
 #[derive(Debug)]
@@ -76,6 +76,12 @@ fn excerpt(error: &InputError, text: &str) -> Option<String> {
         .path(&place.source_name)
         .annotation(AnnotationKind::Primary.span(place.span.clone()).label(&label));
     Some(renderer.render(&[Level::ERROR.primary_title(&error.found).element(snippet)]))
+}
+
+impl From<LaboratoryError> for Failure {
+    fn from(error: LaboratoryError) -> Self {
+        Self::Message(error.to_string())
+    }
 }
 
 impl From<FileError> for Failure {

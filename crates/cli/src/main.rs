@@ -57,6 +57,7 @@ fn run() -> Result<ExitCode, Failure> {
     };
     match &cli.command {
         Command::Run(args) => commands::run::run(args),
+        Command::Compare(args) => commands::compare::compare(args),
         Command::Init(args) => commands::init::init(args),
         Command::Schema(args) => commands::text::schema(args),
         Command::Completions { shell } => commands::text::completions(*shell),

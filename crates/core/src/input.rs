@@ -14,6 +14,7 @@ mod frame;
 mod json;
 mod json_schema;
 mod keys;
+mod mapping;
 mod motion;
 mod overrides;
 mod reader;
@@ -24,6 +25,7 @@ mod tree;
 
 pub use json_schema::json_schema;
 pub use keys::MAX_STOREYS;
+pub use mapping::{Channel, ColumnRef, MappedColumn, Mapping};
 pub use motion::{MotionSource, RecordSource, Scale};
 pub use overrides::Override;
 

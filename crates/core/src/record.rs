@@ -16,6 +16,8 @@ mod unit;
 use crate::error::{MotionError, RecordError};
 use crate::motion::GroundMotion;
 
+pub use delimited::{Column, Columns};
+pub(crate) use sampling::of_times;
 use text::Text;
 pub use unit::{Quantity, Units};
 
@@ -182,6 +184,17 @@ pub fn read(source_name: &str, bytes: &[u8], options: &Options) -> Result<Record
         Format::Peer => peer::read(&text, options),
         Format::Delimited => delimited::read(&text, options),
     }
+}
+
+/// Reads a table of numbers as it stands: every column with its name, nothing converted.
+///
+/// The text may be separated and headed as any record of delimited text may be.
+///
+/// # Errors
+/// [`RecordError`] with line and column for what is no table of finite numbers: an empty cell, a
+/// word, a row of another length, fewer than two rows.
+pub fn columns(source_name: &str, bytes: &[u8]) -> Result<Columns, RecordError> {
+    delimited::read_columns(&Text::new(source_name, bytes)?)
 }
 
 /// The format of a text; delimited text where no other format knows it.

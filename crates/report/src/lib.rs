@@ -42,6 +42,7 @@ pub mod display;
 pub mod figures;
 pub mod html;
 pub mod json;
+pub mod laboratory;
 pub mod markup;
 pub mod number;
 pub mod peaks;
