@@ -37,6 +37,7 @@
 //!                                                   └─ Report ──> Report::to_html(), figures::all(…)
 //! ```
 
+pub mod assessment;
 pub mod describe;
 pub mod display;
 pub mod figures;

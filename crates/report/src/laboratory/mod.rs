@@ -1,6 +1,6 @@
 //! The laboratory's results: comparisons with measurements, as table, JSON and page.
 
 pub mod compare;
-mod text;
+pub(crate) mod text;
 
 pub use compare::CompareReport;
