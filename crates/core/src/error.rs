@@ -232,6 +232,18 @@ pub struct UnitError {
     pub nearest: Option<String>,
 }
 
+/// Text that is not an intensity measure: what was expected and what was found.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("expected {expected}, found {found:?}{}", nearest_suffix(nearest.as_deref()))]
+pub struct MeasureError {
+    /// What to write.
+    pub expected: String,
+    /// What was written, cut to 40 characters.
+    pub found: String,
+    /// The measure that was probably meant, where one is near.
+    pub nearest: Option<String>,
+}
+
 /// A place in a text, which an editor can jump to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {

@@ -2,11 +2,14 @@
 
 mod combine;
 mod figures;
+mod fourier;
+pub mod intensity;
 mod made;
 mod oscillator;
 mod spectrum;
 
 pub use figures::Figures;
+pub use fourier::FourierSpectrum;
 pub use made::{Pulse, PulseShape, Sine, Sweep, SweepKind};
 pub use spectrum::{Ordinates, Spectrum, spectrum};
 

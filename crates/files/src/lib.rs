@@ -5,6 +5,7 @@
 //! handler of Ctrl-C may call [`remove_temporaries`].
 
 mod error;
+mod globs;
 mod laboratory;
 mod load;
 mod read;
@@ -13,6 +14,7 @@ mod tables;
 mod write;
 
 pub use error::FileError;
+pub use globs::{expand, expand_all};
 pub use laboratory::{LaboratoryError, TextFile, read_mapping, read_measured};
 pub use load::{LoadedMotion, RecordRequest, Scale, SourceFile, VerticalRequest, load_record};
 pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve, sha256_hex};

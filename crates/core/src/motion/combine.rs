@@ -48,6 +48,27 @@ impl GroundMotion {
         self.scaled(peak_m_per_s2 / found)
     }
 
+    /// `Ü cos φ + Üv sin φ` as a horizontal motion, for a pair whose second component stands as the
+    /// vertical one (see [`GroundMotion::with_vertical`]); φ in degrees.
+    pub(super) fn in_direction(&self, degrees: f64) -> Result<Self, MotionError> {
+        // Quarters exactly: the cosine of 90° is 0.
+        let phi = degrees.to_radians();
+        let (cos, sin) = match degrees {
+            90.0 => (0.0, 1.0),
+            _ => (libm::cos(phi), libm::sin(phi)),
+        };
+        let x = &self.horizontal_m_per_s2;
+        let Some(y) = &self.vertical_m_per_s2 else { return Ok(self.clone()) };
+        let horizontal: Vec<f64> = x.iter().zip(y).map(|(x, y)| x * cos + y * sin).collect();
+        super::check_values(horizontal.len(), &horizontal, None)?;
+        Ok(Self {
+            times_s: self.times_s.clone(),
+            horizontal_m_per_s2: horizontal,
+            vertical_m_per_s2: None,
+            dt_s: self.dt_s,
+        })
+    }
+
     /// The motion followed by `tail_s` of rest, so that a history has rows there.
     ///
     /// Where the last sample is not 0 the acceleration jumps to 0 at the end. The tail is sampled

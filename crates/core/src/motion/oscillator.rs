@@ -21,7 +21,7 @@ pub(super) struct Step {
 }
 
 impl Step {
-    fn new(theta: f64, xi: f64) -> Self {
+    pub fn new(theta: f64, xi: f64) -> Self {
         // Below one radian the closed form loses digits and the series has few terms.
         if theta <= 1.0 { Self::by_series(theta, xi) } else { Self::by_closed_form(theta, xi) }
     }
@@ -150,6 +150,15 @@ impl Interval {
         self.displacement().derivative()
     }
 
+    /// Raises the peak of |w| by those inside the interval: where `w'`, a damped sinusoid, is 0.
+    pub fn velocity_peaks(&self, end: State, sv: &mut f64) {
+        let slope = |s: State, alpha: f64| -s.u - 2.0 * self.xi * s.w - alpha;
+        let dw = [slope(self.start, self.alpha0), slope(end, self.alpha1)];
+        if self.theta >= PI || dw[0] * dw[1] <= 0.0 {
+            self.velocity().turns(self.theta, |tau| *sv = sv.max(self.at(tau).w.abs()));
+        }
+    }
+
     /// Raises the peaks of |u| and |u + 2ξw| by those inside the interval.
     ///
     /// `u` is extreme where `w = 0`, and `w` is monotone between the zeros of `w'`, a damped
@@ -220,6 +229,17 @@ impl Sinusoid {
     pub fn at(&self, tau: f64) -> f64 {
         let phase = self.omega_d * tau;
         libm::exp(-self.xi * tau) * (self.p * libm::cos(phase) + self.q * libm::sin(phase))
+    }
+
+    /// Calls `found` at each phase in `(0, theta)` where the slope is 0.
+    pub fn turns(&self, theta: f64, mut found: impl FnMut(f64)) {
+        let slope = self.derivative();
+        let first = libm::atan2(-slope.p, slope.q);
+        let mut turn = first - PI * libm::floor(first / PI);
+        while turn < self.omega_d * theta {
+            found(turn / self.omega_d);
+            turn += PI;
+        }
     }
 
     /// Calls `found` at each phase in `(0, theta)` where this plus `constant` changes sign.

@@ -20,6 +20,8 @@ use crate::error::MotionError;
 pub struct Ordinates {
     /// Sd: largest relative displacement in m.
     pub sd_m: f64,
+    /// Sv: largest relative velocity in m/s.
+    pub sv_m_per_s: f64,
     /// PSv = ω Sd in m/s.
     pub psv_m_per_s: f64,
     /// PSa = ω² Sd in m/s².
@@ -110,7 +112,7 @@ fn oscillator(times_s: &[f64], acceleration: &[f64], period_s: f64, xi: f64) -> 
     let mut steps = Steps::new(xi);
     let mut state = State { u: 0.0, w: 0.0 };
     // Peaks of |u| and of |u + 2ξw|, the total acceleration over −ω².
-    let (mut sd, mut sa) = (0.0_f64, 0.0_f64);
+    let (mut sd, mut sv, mut sa) = (0.0_f64, 0.0_f64, 0.0_f64);
     for (t, a) in times_s.windows(2).zip(acceleration.windows(2)) {
         let h = t[1] - t[0];
         if h == 0.0 {
@@ -125,13 +127,16 @@ fn oscillator(times_s: &[f64], acceleration: &[f64], period_s: f64, xi: f64) -> 
         };
         let end = steps.of(interval.theta).apply(state, interval.alpha0, interval.alpha1);
         sd = sd.max(end.u.abs());
+        sv = sv.max(end.w.abs());
         sa = sa.max((end.u + 2.0 * xi * end.w).abs());
         interval.peaks(end, &mut sd, &mut sa);
+        interval.velocity_peaks(end, &mut sv);
         state = end;
     }
     let stiffness = omega * omega;
     Ordinates {
         sd_m: sd,
+        sv_m_per_s: omega * sv,
         psv_m_per_s: omega * sd,
         psa_m_per_s2: stiffness * sd,
         sa_m_per_s2: stiffness * sa,
