@@ -1,5 +1,11 @@
 //! What is typed: commands, options and the help that teaches them.
 
+mod assessment;
+
+pub use assessment::{
+    DesignArgs, FitToName, FragilityArgs, IdaArgs, ScaleArgs, SpectrumArgs, SuiteArgs,
+};
+
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use slipstick_report::DisplayUnits;
@@ -77,6 +83,18 @@ pub enum Command {
     /// Compare a prediction with what was measured on a shaking table
     #[command(after_help = COMPARE_EXAMPLES)]
     Compare(CompareArgs),
+    /// Compute sliding spectra over a suite of records, or response over excitation frequency
+    #[command(after_help = assessment::SPECTRUM_EXAMPLES)]
+    Spectrum(SpectrumArgs),
+    /// Raise the intensity of every record of a suite until a demand reaches its limit
+    #[command(after_help = assessment::IDA_EXAMPLES)]
+    Ida(IdaArgs),
+    /// Fit the probability of passing a limit over intensity, with its certainty
+    #[command(after_help = assessment::FRAGILITY_EXAMPLES)]
+    Fragility(FragilityArgs),
+    /// Choose friction and stiffness that keep a gap with a stated probability over a suite
+    #[command(after_help = assessment::DESIGN_EXAMPLES)]
+    Design(DesignArgs),
     /// Write an example model that runs as it stands
     Init(InitArgs),
     /// Print the JSON schema of the model file, or the table of units

@@ -1,6 +1,11 @@
 //! One module a command.
 
+mod assessment;
 pub mod compare;
+pub mod design;
+pub mod fragility;
+pub mod ida;
 pub mod init;
 pub mod run;
+pub mod spectrum;
 pub mod text;

@@ -58,6 +58,10 @@ fn run() -> Result<ExitCode, Failure> {
     match &cli.command {
         Command::Run(args) => commands::run::run(args),
         Command::Compare(args) => commands::compare::compare(args),
+        Command::Spectrum(args) => commands::spectrum::spectrum(args),
+        Command::Ida(args) => commands::ida::ida(args),
+        Command::Fragility(args) => commands::fragility::fragility(args),
+        Command::Design(args) => commands::design::design(args),
         Command::Init(args) => commands::init::init(args),
         Command::Schema(args) => commands::text::schema(args),
         Command::Completions { shell } => commands::text::completions(*shell),

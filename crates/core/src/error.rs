@@ -309,7 +309,8 @@ pub(crate) fn cut(text: &str) -> String {
 }
 
 /// The known word nearest to `word`, where the two are alike: at least half of it is the same.
-pub(crate) fn similar<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
+#[must_use]
+pub fn similar<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
     let (distance, nearest) =
         known.map(|known| (edit_distance(word, known), known)).min_by_key(|(d, _)| *d)?;
     let longer = word.chars().count().max(nearest.chars().count());

@@ -4,10 +4,12 @@
 //! the target, which is renamed when it is complete; whatever fails leaves no file behind, and a
 //! handler of Ctrl-C may call [`remove_temporaries`].
 
+pub mod assessment;
 mod error;
 mod globs;
 mod laboratory;
 mod load;
+mod parquet;
 mod read;
 mod run;
 mod tables;
@@ -17,6 +19,7 @@ pub use error::FileError;
 pub use globs::{expand, expand_all};
 pub use laboratory::{LaboratoryError, TextFile, read_mapping, read_measured};
 pub use load::{LoadedMotion, RecordRequest, Scale, SourceFile, VerticalRequest, load_record};
+pub use parquet::{NumberColumn, UNIT_KEY, columns_to_bytes, read_columns, write_columns};
 pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve, sha256_hex};
 pub use run::{Job, JobError, Outcome};
 pub use tables::{events_csv, history_csv};

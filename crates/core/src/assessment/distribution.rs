@@ -1,6 +1,8 @@
 //! The normal distribution and the tails of χ² and beta, to about 14 digits, on libm alone.
 
-use core::f64::consts::{FRAC_1_SQRT_2, LN_2, PI};
+use core::f64::consts::PI;
+
+use crate::study::normal;
 
 /// `√(2π)`.
 const SQRT_TAU: f64 = 2.506_628_274_631_000_5;
@@ -14,7 +16,7 @@ pub fn normal_density(x: f64) -> f64 {
 /// Probability `Φ(x)` that a standard normal variable is at most `x`.
 #[must_use]
 pub fn normal_cdf(x: f64) -> f64 {
-    0.5 * libm::erfc(-x * FRAC_1_SQRT_2)
+    normal::probability(x)
 }
 
 /// `ln Φ(x)`, finite far into the lower tail, where `Φ` itself is 0 in floating point.
@@ -45,40 +47,14 @@ fn mills(t: f64) -> f64 {
 }
 
 /// The `x` with `Φ(x) = p`; −∞ and +∞ at 0 and 1, NaN outside.
-///
-/// Newton's iteration with Halley's term on `ln Φ` of the nearer tail, from the leading terms of its
-/// asymptotic series.
 #[must_use]
 pub fn normal_quantile(p: f64) -> f64 {
-    if !(0.0..=1.0).contains(&p) {
-        return f64::NAN;
+    match p {
+        0.0 => f64::NEG_INFINITY,
+        1.0 => f64::INFINITY,
+        p if 0.0 < p && p < 1.0 => normal::inverse(p),
+        _ => f64::NAN,
     }
-    if p == 0.0 || p == 1.0 {
-        return if p == 0.0 { f64::NEG_INFINITY } else { f64::INFINITY };
-    }
-    if p == 0.5 {
-        return 0.0;
-    }
-    // 1 − p is exact for p ≥ 1/2.
-    let (tail, sign) = if p < 0.5 { (p, 1.0) } else { (1.0 - p, -1.0) };
-    let target = libm::log(tail);
-    let t = (-2.0 * target).sqrt();
-    let mut x = if tail > 0.02 {
-        -1.4 * (t - LN_2.sqrt() * 1.4)
-    } else {
-        -(t - libm::log(t * SQRT_TAU) / t)
-    };
-    for _ in 0..30 {
-        // f = ln Φ(x) − ln p, f' = hazard, f'' = −hazard (hazard + x).
-        let (f, hazard) = (ln_normal_cdf(x) - target, normal_hazard(x));
-        let newton = f / hazard;
-        let step = newton / (1.0 + 0.5 * newton * (hazard + x)).max(0.5);
-        x -= step;
-        if step.abs() <= 4.0 * f64::EPSILON * x.abs() {
-            break;
-        }
-    }
-    sign * x
 }
 
 /// Probability that χ² with `degrees` of freedom exceeds `x`.

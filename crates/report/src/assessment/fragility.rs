@@ -39,8 +39,8 @@ pub struct FragilityReport<'a> {
     pub measure_unit: &'a str,
     /// Key of the demand.
     pub demand: &'a str,
-    /// The limit on it, SI.
-    pub limit: f64,
+    /// The limit on it, SI; `None` where the data are counts or capacities of a limit unknown.
+    pub limit: Option<f64>,
     /// The data.
     pub data: &'a Data,
     /// The fit.
@@ -71,7 +71,20 @@ impl FragilityReport<'_> {
     }
 
     fn demand_unit(&self) -> Unit {
-        self.display.unit(quantity(self.demand), self.limit)
+        self.display.unit(quantity(self.demand), self.limit.unwrap_or(0.0))
+    }
+
+    /// `Peak sliding displacement > 150 mm`, or that the limit is not known.
+    fn exceedance(&self) -> String {
+        let unit = self.demand_unit();
+        match self.limit {
+            Some(limit) => {
+                format!("{} > {} {}", title(self.demand), compact(unit.of(limit)), unit.symbol)
+                    .trim_end()
+                    .to_owned()
+            }
+            None => "exceedance of the limit that was counted".to_owned(),
+        }
     }
 
     /// Intensities from 0 to where the curve ends, with probability and band: the tabled curve.
@@ -114,13 +127,7 @@ impl FragilityReport<'_> {
         Sheet {
             kind: "Fragility",
             name: self.name.to_owned(),
-            line: format!(
-                "{} > {} {} over {}, from {from}",
-                title(self.demand),
-                compact(edp.of(self.limit)),
-                edp.symbol,
-                self.measure
-            ),
+            line: format!("{} over {}, from {from}", self.exceedance(), self.measure),
             warnings: self.warnings.to_vec(),
             tables: self.tables(unit),
             notes: self.goodness().1,
@@ -309,10 +316,8 @@ impl FragilityReport<'_> {
         ];
         let [x_axis, y_axis] = axes;
         let caption = format!(
-            "Probability that {} exceeds {} {}, with its pointwise {percent} % band; {what}.",
-            title(self.demand).to_lowercase(),
-            compact(self.demand_unit().of(self.limit)),
-            self.demand_unit().symbol
+            "Probability of exceedance ({}), with its pointwise {percent} % band; {what}.",
+            self.exceedance()
         );
         single("fragility", "Fragility curve", caption, panel(x_axis, y_axis, 260.0, series))
     }
@@ -344,7 +349,8 @@ impl FragilityReport<'_> {
         };
         let (first, last) = range(points.iter().map(|p| unit.of(p.level)).collect());
         let (low, high) = range(points.iter().map(|p| edp.of(p.demand)).collect());
-        let (low, high) = (low.min(edp.of(self.limit)) / 1.2, high.max(edp.of(self.limit)) * 1.2);
+        let limit = edp.of(self.limit.unwrap_or(f64::NAN));
+        let (low, high) = (low.min(limit) / 1.2, high.max(limit) * 1.2);
         let fit = self.fragility.fit();
         let at = |x: f64, by: f64| {
             let ln_d = fit.intercept() + fit.slope() * libm::log(x * unit.in_si) + by * fit.sigma();
@@ -362,7 +368,6 @@ impl FragilityReport<'_> {
                 .collect();
             series.push(line(label, style, points));
         }
-        let limit = edp.of(self.limit);
         series.push(line("limit", Style::LIMIT, vec![[first, limit], [last, limit]]));
         let axes = [
             Axis::logarithmic(unit.label(self.measure), first / 1.05, last * 1.05),

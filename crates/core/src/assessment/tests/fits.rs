@@ -61,9 +61,6 @@ fn exact_distributions_at_their_edges() {
     assert_eq!((normal_quantile(0.0), normal_quantile(1.0)), (f64::NEG_INFINITY, f64::INFINITY));
     assert!(normal_quantile(-0.1).is_nan() && normal_quantile(f64::NAN).is_nan());
     assert_eq!(normal_quantile(0.5), 0.0);
-    for p in [1e-200, 1e-9, 0.1, 0.3] {
-        assert_eq!(normal_quantile(1.0 - (1.0 - p)), -normal_quantile(1.0 - p), "{p}");
-    }
     // The hazard is the slope of ln Φ, also where the branches meet.
     for x in [-30.0, -6.001, -6.0, -5.999, -1.0, 0.0, 2.0] {
         let slope = (ln_normal_cdf(x + 1e-5) - ln_normal_cdf(x - 1e-5)) / 2e-5;
