@@ -58,6 +58,22 @@ sliding_velocity, friction_force, storey1_displacement, storey1_velocity, storey
 Figures for --within: peak_ratio, residual_error, rms_error, normalised_rms_error, correlation,
 russell_magnitude, russell_phase, russell_comprehensive, anderson, arrival_lag; SI, either end may be
 left out. A bound that is missed makes the exit status 1.";
+const STUDY_EXAMPLES: &str = "\
+Examples:
+  slipstick study plan.toml --dry-run              count the runs, estimate the time
+  slipstick study plan.toml --out out              run them on all processors
+  slipstick study plan.toml --out out --resume     finish what was interrupted
+  slipstick study plan.toml --repeat 4711          the command that reproduces one row
+  slipstick study plan.toml --out out1 --shard 1/2     on one machine, and on another
+  slipstick study plan.toml --out out2 --shard 2/2
+  slipstick study merge out1 out2 --out study.parquet  one file of all
+
+Writes into the folder, each file whole or not at all:
+  part-*.parquet  one row a run: record, level, scale, intensity measures, varied values, demands
+  summary.csv     each demand at each level: mean, quantiles, maximum with its record and run
+  manifest.json   the plan, hashes of all inputs, counts, and what came of running rows again
+
+slipstick schema --plan prints the JSON schema of a plan.";
 
 /// Everything on the command line.
 #[derive(Debug, Parser)]
@@ -95,6 +111,9 @@ pub enum Command {
     /// Choose friction and stiffness that keep a gap with a stated probability over a suite
     #[command(after_help = assessment::DESIGN_EXAMPLES)]
     Design(DesignArgs),
+    /// Run many analyses: records, levels and samples of a plan
+    #[command(after_help = STUDY_EXAMPLES)]
+    Study(StudyArgs),
     /// Write an example model that runs as it stands
     Init(InitArgs),
     /// Print the JSON schema of the model file, or the table of units
@@ -225,6 +244,59 @@ pub struct CompareArgs {
     pub result: ResultArgs,
 }
 
+/// `slipstick study`.
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub struct StudyArgs {
+    /// What to do instead of running a plan
+    #[command(subcommand)]
+    pub command: Option<StudyCommand>,
+    /// Study plan (TOML)
+    #[arg(required = true)]
+    pub plan: Option<PathBuf>,
+    /// Folder to write parts, summary.csv and manifest.json into
+    #[arg(short, long, value_name = "DIR", required_unless_present_any = ["dry_run", "repeat"])]
+    pub out: Option<PathBuf>,
+    /// Go on where a study in this folder was interrupted
+    #[arg(long, conflicts_with = "force")]
+    pub resume: bool,
+    /// Start anew: remove what a study wrote into this folder before
+    #[arg(long)]
+    pub force: bool,
+    /// Number of threads; default one a processor
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
+    /// Run the i-th of n shards only, from 1
+    #[arg(long, value_name = "i/n")]
+    pub shard: Option<String>,
+    /// Count the runs and estimate the time, and run nothing
+    #[arg(long)]
+    pub dry_run: bool,
+    /// Print the command that reproduces a row, by its number in the column run
+    #[arg(long, value_name = "RUN", conflicts_with_all = ["out", "dry_run"])]
+    pub repeat: Option<u64>,
+    /// Units of the table; files are always SI
+    #[arg(long, value_name = "SYSTEM", value_enum, default_value = "si")]
+    pub display_units: UnitSystem,
+    /// No messages and no progress on standard error, errors excepted
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// `slipstick study merge`.
+#[derive(Debug, Subcommand)]
+pub enum StudyCommand {
+    /// Join the parts of one study, from one folder or many, to one file
+    Merge {
+        /// Folders that together hold all parts
+        #[arg(required = true, value_name = "DIR")]
+        folders: Vec<PathBuf>,
+        /// The file to write
+        #[arg(short, long, value_name = "FILE.parquet")]
+        out: PathBuf,
+    },
+}
+
 /// `slipstick init`.
 #[derive(Debug, Args)]
 pub struct InitArgs {
@@ -245,6 +317,9 @@ pub struct SchemaArgs {
     /// Print the units that values may have, instead of the schema
     #[arg(long)]
     pub units: bool,
+    /// Print the schema of a study plan, instead of that of a model
+    #[arg(long, conflicts_with = "units")]
+    pub plan: bool,
 }
 
 /// Methods by their names in the model file.

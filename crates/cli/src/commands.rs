@@ -8,4 +8,5 @@ pub mod ida;
 pub mod init;
 pub mod run;
 pub mod spectrum;
+pub mod study;
 pub mod text;

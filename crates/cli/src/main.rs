@@ -62,6 +62,7 @@ fn run() -> Result<ExitCode, Failure> {
         Command::Ida(args) => commands::ida::ida(args),
         Command::Fragility(args) => commands::fragility::fragility(args),
         Command::Design(args) => commands::design::design(args),
+        Command::Study(args) => commands::study::study(args),
         Command::Init(args) => commands::init::init(args),
         Command::Schema(args) => commands::text::schema(args),
         Command::Completions { shell } => commands::text::completions(*shell),

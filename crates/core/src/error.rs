@@ -152,8 +152,8 @@ pub enum FitError {
     },
     /// No observation exceeds the limit.
     #[error(
-        "none of {runs} runs exceeds the limit, up to an intensity of {highest}: a fragility cannot \
-         be told; go to higher intensities or take a smaller limit"
+        "none of {runs} runs exceeds the limit, up to an intensity of {}: a fragility cannot be \
+         told; go to higher intensities or take a smaller limit", short(*highest)
     )]
     NoneExceeds {
         /// Number of runs.
@@ -163,8 +163,8 @@ pub enum FitError {
     },
     /// Every observation exceeds the limit.
     #[error(
-        "all of {runs} runs exceed the limit, down to an intensity of {lowest}: a fragility cannot \
-         be told; go to lower intensities or take a larger limit"
+        "all of {runs} runs exceed the limit, down to an intensity of {}: a fragility cannot be \
+         told; go to lower intensities or take a larger limit", short(*lowest)
     )]
     AllExceed {
         /// Number of runs.
@@ -175,8 +175,8 @@ pub enum FitError {
     /// Exceedances and the rest do not overlap in intensity: the most likely curve is a step.
     #[error(
         "the runs that exceed the limit and those that do not are separated: none exceeds it below \
-         {below}, all do above {above}; the most likely fragility is a step without dispersion: add \
-         intensities between, or records"
+         {}, all do above {}; the most likely fragility is a step without dispersion: add \
+         intensities between, or records", short(*below), short(*above)
     )]
     Separated {
         /// Highest intensity of a run that does not exceed.
@@ -185,7 +185,7 @@ pub enum FitError {
         above: f64,
     },
     /// A single intensity, or a single value of a covariate.
-    #[error("all runs have the one intensity {level}: expected at least two")]
+    #[error("all runs have the one intensity {}: expected at least two", short(*level))]
     OneLevel {
         /// The intensity.
         level: f64,
@@ -284,6 +284,11 @@ impl std::fmt::Display for InputError {
         let nearest = nearest_suffix(self.nearest.as_deref());
         write!(f, "expected {}, found {}{nearest}", self.expected, self.found)
     }
+}
+
+/// A number to six significant digits, as a person writes it.
+fn short(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 fn nearest_suffix(nearest: Option<&str>) -> String {

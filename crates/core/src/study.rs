@@ -102,10 +102,19 @@ impl Study {
             if plan.records.is_some() {
                 return Err(plan.error_at("records.files", "at least one record", "none"));
             }
-            if !["sine", "sweep", "pulse"].iter().any(|m| variation.has(&format!("motion.{m}"))) {
+            let is_made = |name: &&str| variation.has(&format!("motion.{name}"));
+            if !["sine", "sweep", "pulse"].iter().any(is_made) {
                 let expected = "a made motion in the model, or a table [records]";
                 return Err(plan.error_at("records", expected, "neither"));
             }
+        }
+        if plan.records.is_none()
+            && !records.is_empty()
+            && let Some(varied) = plan.vary.iter().find(|v| v.path.starts_with("motion."))
+        {
+            let expected = "[records] with their levels: a record is not varied by its keys";
+            let place = format!("vary.{}", varied.path);
+            return Err(plan.error_at(&place, expected, format!("\"{}\"", varied.path)));
         }
         let cases = Cases {
             records: records.len().max(1) as u64,
@@ -183,6 +192,43 @@ impl Study {
             Levels::Factors(_) => None,
             Levels::Measure { levels, .. } => levels.get(level as usize).copied(),
         }
+    }
+
+    /// The factor of a level that is one; NaN where levels are values of a measure.
+    #[must_use]
+    pub fn level_factor(&self, level: u64) -> f64 {
+        match &self.levels {
+            Levels::Factors(factors) => factors.get(level as usize).copied().unwrap_or(f64::NAN),
+            Levels::Measure { .. } => f64::NAN,
+        }
+    }
+
+    /// The SI unit of the measure that levels are values of; empty where they are factors.
+    #[must_use]
+    pub fn level_unit(&self) -> &'static str {
+        match &self.levels {
+            Levels::Factors(_) => "",
+            Levels::Measure { measure, .. } => measure.unit(),
+        }
+    }
+
+    /// Whether the model has bounds of friction, which a study does not run.
+    #[must_use]
+    pub fn has_bounds(&self) -> bool {
+        self.variation.has("slider.bounds")
+    }
+
+    /// Whether the model has a motion of its own.
+    #[must_use]
+    pub fn has_motion(&self) -> bool {
+        self.variation.has("motion")
+    }
+
+    /// The model's made motion: `sine`, `sweep` or `pulse`; empty where it has none.
+    #[must_use]
+    pub fn made_motion(&self) -> &'static str {
+        let is_made = |name: &&str| self.variation.has(&format!("motion.{name}"));
+        ["sine", "sweep", "pulse"].into_iter().find(is_made).unwrap_or("")
     }
 
     /// The factor on the record of a case.

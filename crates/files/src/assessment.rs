@@ -66,6 +66,14 @@ pub enum AssessmentError {
     /// Data from which a statistic cannot be told.
     #[error(transparent)]
     Fit(#[from] FitError),
+    /// The same of a fragility, with the unit of its intensities.
+    #[error("{error}{}", in_unit(unit))]
+    Fragility {
+        /// Why it cannot be told.
+        error: FitError,
+        /// Unit of the intensities in the message; empty where it is not known.
+        unit: String,
+    },
     /// A motion that cannot be made or scaled.
     #[error(transparent)]
     Motion(#[from] MotionError),
@@ -73,6 +81,10 @@ pub enum AssessmentError {
 
 fn hint(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |nearest| format!("; nearest is \"{nearest}\""))
+}
+
+fn in_unit(unit: &str) -> String {
+    if unit.is_empty() { String::new() } else { format!(" (intensities in {unit})") }
 }
 
 /// The error of an option.

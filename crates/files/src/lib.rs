@@ -12,6 +12,7 @@ mod load;
 mod parquet;
 mod read;
 mod run;
+mod study;
 mod tables;
 mod write;
 
@@ -22,5 +23,9 @@ pub use load::{LoadedMotion, RecordRequest, Scale, SourceFile, VerticalRequest, 
 pub use parquet::{NumberColumn, UNIT_KEY, columns_to_bytes, read_columns, write_columns};
 pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve, sha256_hex};
 pub use run::{Job, JobError, Outcome};
+pub use study::{
+    Checks, Merged, OpenStudy, Shard, ShardOptions, ShardOutcome, StudyError, clear, conclude,
+    estimate, has_parts, merge, part_rows, run_shard,
+};
 pub use tables::{events_csv, history_csv};
 pub use write::{OutputFolder, refuse_inputs, remove_temporaries, write_whole};

@@ -49,9 +49,11 @@ pub mod number;
 pub mod peaks;
 pub mod plot;
 pub mod report;
+pub mod study;
 pub mod summary;
 pub mod table;
 
 pub use display::DisplayUnits;
 pub use report::{FileNote, FloorSpectra, InputText, Report};
+pub use study::{LevelSummary, StudySummary};
 pub use summary::{Summary, SummaryInputs};

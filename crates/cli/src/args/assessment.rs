@@ -89,9 +89,9 @@ pub struct SuiteArgs {
     /// Set a key of the model by its path, such as slider.gap="150 mm"; repeatable, the last holds
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// Number of threads; all of the machine's where not given
-    #[arg(long, value_name = "N")]
-    pub jobs: Option<usize>,
+    /// Number of threads; default one a processor
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
     /// What becomes of the result
     #[command(flatten)]
     pub result: ResultArgs,

@@ -79,7 +79,7 @@ impl Opened {
         args: &SuiteArgs,
         work: impl FnOnce() -> Result<T, AssessmentError> + Send,
     ) -> Result<T, Failure> {
-        watched("computing", args.result.quiet, || on_threads(args.jobs, work))
+        watched("computing", args.result.quiet, || on_threads(args.jobs.map(usize::from), work))
             .map_err(|error| self.failure(error))
     }
 

@@ -39,6 +39,8 @@ pub struct Records {
     pub files: Vec<String>,
     /// Unit of their values, where the files do not state it.
     pub units: Option<Units>,
+    /// Name of that unit.
+    pub unit_name: Option<&'static str>,
     /// Their time step in s, where the files do not state it.
     pub dt_s: Option<f64>,
     /// Which of their channels, by name or by number from 1.

@@ -85,10 +85,12 @@ pub fn run_fragility(request: &FragilityRequest) -> Result<FragilityRun, Assessm
         of_runs(request, &columns, &level, &mut warnings)?
     };
     let fragility = match &data {
-        Data::Stripes(stripes) => Fragility::of_stripes(stripes)?,
-        Data::Capacities(capacities) => Fragility::of_capacities(capacities)?,
-        Data::Cloud(points) => Fragility::of_cloud(points, request.limit.unwrap_or(f64::NAN))?,
+        Data::Stripes(stripes) => Fragility::of_stripes(stripes),
+        Data::Capacities(capacities) => Fragility::of_capacities(capacities),
+        Data::Cloud(points) => Fragility::of_cloud(points, request.limit.unwrap_or(f64::NAN)),
     };
+    let unit = measure_unit.clone();
+    let fragility = fragility.map_err(|error| AssessmentError::Fragility { error, unit })?;
     Ok(FragilityRun { data, fragility, measure, measure_unit, warnings, sources })
 }
 

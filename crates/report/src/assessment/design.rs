@@ -4,6 +4,7 @@ use slipstick::assessment::design::{Figures, Found, Point, Target};
 use slipstick::assessment::sensitivity::Index;
 use slipstick::response::Warning;
 
+use super::key::title;
 use super::lines::{line, panel, single};
 use super::sheet::{Sheet, cell, counted};
 use crate::display::{DisplayUnits, Quantity, Unit};
@@ -202,17 +203,13 @@ impl DesignReport<'_> {
     }
 
     fn heads(&self) -> Vec<String> {
-        let paths = self.variables.iter().map(|v| {
-            if v.unit.is_empty() { v.path.clone() } else { format!("{} ({})", v.path, v.unit) }
-        });
         let (l, a) = (self.length(), self.acceleration_unit());
-        let share = |p: f64| format!("{} %", compact(100.0 * p));
         std::iter::once("Design".to_owned())
-            .chain(paths)
+            .chain(self.variables.iter().map(label))
             .chain([
-                l.label(&format!("Displacement kept by {}", share(self.target.probability))),
-                a.label(&format!("Acceleration kept by {}", share(self.target.acceleration_share))),
-                "Gap kept in".to_owned(),
+                l.label("D"),
+                a.label("A"),
+                "Gap kept".to_owned(),
                 format!("{} % interval", compact(100.0 * self.confidence)),
             ])
             .collect()
@@ -220,9 +217,9 @@ impl DesignReport<'_> {
 
     fn row(&self, name: &str, design: usize, figures: &Figures) -> Vec<String> {
         let (l, a) = (self.length(), self.acceleration_unit());
-        let values = self.values(design).into_iter().map(compact);
+        let values = self.values(design).into_iter().map(|v| crate::number::rounded(v, 4));
         let [low, high] = figures.within.wilson(self.confidence);
-        let percent = |p: f64| format!("{:.1}", 100.0 * p);
+        let percent = |p: f64| compact(libm::round(1000.0 * p) / 10.0);
         std::iter::once(name.to_owned())
             .chain(values)
             .chain([
@@ -326,6 +323,14 @@ impl DesignReport<'_> {
     fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         let needed = slipstick::assessment::design::records_needed(&self.target, self.records);
+        let percent = |share: f64| compact(100.0 * share);
+        notes.push(format!(
+            "D: peak sliding displacement that {} % of the records do not exceed. A: {} that {} % of \
+             them do not exceed. Gap kept: share of the records, with its interval.",
+            percent(self.target.probability),
+            title(self.acceleration).to_lowercase(),
+            percent(self.target.acceleration_share)
+        ));
         notes.push(format!(
             "The gap of {} {} must be kept in at least {needed} of {} records.",
             compact(self.length().of(self.target.gap_m)),
@@ -389,8 +394,8 @@ impl DesignReport<'_> {
             0.0,
             1.06 * top,
         );
-        let mut frame = panel(x, y, 260.0, series);
-        frame.peak = front.last().copied();
+        series.push(ring(front.last().copied()));
+        let frame = panel(x, y, 260.0, series);
         let bounds = if self.bounds.is_some() {
             " Small points: the same designs with lower- and upper-bound friction."
         } else {
@@ -404,9 +409,6 @@ impl DesignReport<'_> {
     }
 
     fn plane_figure(&self) -> Drawn {
-        let label = |v: &Variable| {
-            if v.unit.is_empty() { v.path.clone() } else { format!("{} ({})", v.path, v.unit) }
-        };
         let at = |point: &Point| {
             let values = self.values(point.design);
             [values[0], values[1]]
@@ -425,8 +427,7 @@ impl DesignReport<'_> {
             let (low, high) = range(v);
             Axis::linear(label(v), low, high)
         });
-        let mut frame = panel(x, y, 240.0, vec![dots("front", "#0b3c6f", points)]);
-        frame.peak = chosen;
+        let frame = panel(x, y, 240.0, vec![dots("front", "#0b3c6f", points), ring(chosen)]);
         let caption =
             "Where the designs of the front lie among those looked at; the chosen one is ringed.";
         single("plane", "Designs of the front", caption.to_owned(), frame)
@@ -530,6 +531,26 @@ impl DesignReport<'_> {
             ("front", Json::List(self.found.front.iter().map(point).collect())),
             ("sensitivity", sensitivity),
         ])
+    }
+}
+
+/// The last words of a path that say enough, with the unit: `kinetic friction`, `radius (m)`.
+fn label(variable: &Variable) -> String {
+    let name = match variable.path.split_once('.') {
+        Some(("slider", key)) => key.replace('_', " "),
+        _ => variable.path.clone(),
+    };
+    if variable.unit.is_empty() { name } else { format!("{name} ({})", variable.unit) }
+}
+
+/// A ring around the chosen design.
+fn ring(at: Option<[f64; 2]>) -> Series {
+    let style = Style { colour: "#a3161c", width: 3.2, dashes: "" };
+    Series {
+        label: "chosen".to_owned(),
+        style,
+        shape: Shape::Dots("none"),
+        points: at.into_iter().collect(),
     }
 }
 

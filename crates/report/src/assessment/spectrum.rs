@@ -100,50 +100,31 @@ impl SpectrumReport<'_> {
         format!("{}{unit}", self.over)
     }
 
+    /// One table a demand; of a single motion, three demands share one.
     fn tables(&self) -> Vec<(String, Vec<Vec<String>>)> {
         let single = self.records.len() == 1;
-        let of_group = |(group, name): (usize, &String)| {
-            let mut heads = vec![self.axis_label()];
-            for curves in self.curves {
-                let unit = self.unit_of(curves);
-                let head = unit.label(&title(&curves.key));
-                heads.push(if single { head } else { format!("{head}: 16 %") });
-                if !single {
-                    heads.extend(["median".to_owned(), "84 %".to_owned()]);
-                }
-            }
-            let row = |i: usize| {
-                let mut row = vec![compact(self.values[i])];
-                for curves in self.curves {
-                    let (unit, values) = (self.unit_of(curves), curves.fractiles[group][i]);
-                    let values = if single { &values[1..2] } else { &values[..] };
-                    row.extend(values.iter().map(|value| cell(unit.of(*value))));
-                }
-                row
-            };
-            let rows = std::iter::once(heads).chain(self.shown().into_iter().map(row)).collect();
-            let heading = if name.is_empty() { "Over the suite".to_owned() } else { name.clone() };
-            (heading, rows)
-        };
-        let whole: Vec<(String, Vec<Vec<String>>)> =
-            self.groups.iter().enumerate().map(of_group).collect();
-        // A page is wide enough for some six numbers: one table a demand where there are more.
-        if single || self.curves.len() < 2 {
-            return whole;
-        }
+        let share = if single { 3 } else { 1 };
         let mut tables = Vec::new();
-        for (heading, rows) in whole {
-            for (i, curves) in self.curves.iter().enumerate() {
-                let of_demand = |row: &Vec<String>| {
-                    let numbers = &row[1 + 3 * i..4 + 3 * i];
-                    std::iter::once(row[0].clone()).chain(numbers.iter().cloned()).collect()
+        for (group, name) in self.groups.iter().enumerate() {
+            let after =
+                |text: String| if name.is_empty() { text } else { format!("{text}, {name}") };
+            for part in self.curves.chunks(share) {
+                let named = |curves: &Curves| self.unit_of(curves).label(&title(&curves.key));
+                let heads: Vec<String> =
+                    if single { part.iter().map(named).collect() } else { share_names().to_vec() };
+                let row = |&i: &usize| {
+                    let of = |curves: &Curves| {
+                        let (unit, values) = (self.unit_of(curves), curves.fractiles[group][i]);
+                        let values = if single { &values[1..2] } else { &values[..] };
+                        values.iter().map(|v| cell(unit.of(*v))).collect::<Vec<_>>()
+                    };
+                    let numbers = part.iter().flat_map(of);
+                    std::iter::once(compact(self.values[i])).chain(numbers).collect()
                 };
-                let mut part: Vec<Vec<String>> = rows.iter().map(of_demand).collect();
-                part[0][1] = "16 %".to_owned();
-                let what = self.unit_of(curves).label(&title(&curves.key));
-                let group =
-                    if self.groups.len() > 1 { format!(", {heading}") } else { String::new() };
-                tables.push((format!("{what}{group}"), part));
+                let head = std::iter::once(self.axis_label()).chain(heads).collect();
+                let rows = std::iter::once(head).chain(self.shown().iter().map(row)).collect();
+                let heading = if single { "Demands".to_owned() } else { named(&part[0]) };
+                tables.push((after(heading), rows));
             }
         }
         tables
