@@ -52,7 +52,7 @@ pub struct Curves {
     pub fractiles: Vec<Vec<[f64; 3]>>,
 }
 
-impl SpectrumReport<'_> {
+impl<'s> SpectrumReport<'s> {
     /// The result laid out.
     #[must_use]
     pub fn sheet(&self) -> Sheet {
@@ -100,41 +100,54 @@ impl SpectrumReport<'_> {
         format!("{}{unit}", self.over)
     }
 
-    /// One table a demand; of a single motion, three demands share one.
+    /// One group: a table a demand with its fractiles, or of a single motion three demands a table.
+    /// Several groups: a table a demand with their medians.
     fn tables(&self) -> Vec<(String, Vec<Vec<String>>)> {
-        let single = self.records.len() == 1;
-        let share = if single { 3 } else { 1 };
-        let mut tables = Vec::new();
-        for (group, name) in self.groups.iter().enumerate() {
-            let after =
-                |text: String| if name.is_empty() { text } else { format!("{text}, {name}") };
-            for part in self.curves.chunks(share) {
-                let named = |curves: &Curves| self.unit_of(curves).label(&title(&curves.key));
-                let heads: Vec<String> =
-                    if single { part.iter().map(named).collect() } else { share_names().to_vec() };
-                let row = |&i: &usize| {
-                    let of = |curves: &Curves| {
-                        let (unit, values) = (self.unit_of(curves), curves.fractiles[group][i]);
-                        let values = if single { &values[1..2] } else { &values[..] };
-                        values.iter().map(|v| cell(unit.of(*v))).collect::<Vec<_>>()
-                    };
-                    let numbers = part.iter().flat_map(of);
-                    std::iter::once(compact(self.values[i])).chain(numbers).collect()
+        let (single, many) = (self.records.len() == 1, self.groups.len() > 1);
+        let named = |curves: &Curves| self.unit_of(curves).label(&title(&curves.key));
+        let column = |head: String, curves, group, which| Column { head, curves, group, which };
+        let tables: Vec<(String, Vec<Column>)> = if many {
+            let of = |curves: &'s Curves| {
+                let of_group = |(g, name): (usize, &String)| column(name.clone(), curves, g, MEDIAN);
+                let after = if single { "" } else { ", median" };
+                let columns = self.groups.iter().enumerate().map(of_group).collect();
+                (format!("{}{after}", named(curves)), columns)
+            };
+            self.curves.iter().map(of).collect()
+        } else if single {
+            let of = |part: &'s [Curves]| {
+                let columns = part.iter().map(|curves| column(named(curves), curves, 0, MEDIAN));
+                ("Demands".to_owned(), columns.collect())
+            };
+            self.curves.chunks(3).map(of).collect()
+        } else {
+            let of = |curves: &'s Curves| {
+                let names = share_names().into_iter().enumerate();
+                let columns = names.map(|(which, name)| column(name, curves, 0, which)).collect();
+                (named(curves), columns)
+            };
+            self.curves.iter().map(of).collect()
+        };
+        let table = |(heading, columns): (String, Vec<Column>)| {
+            let heads = columns.iter().map(|column| column.head.clone());
+            let heads = std::iter::once(self.axis_label()).chain(heads).collect();
+            let row = |&i: &usize| {
+                let number = |c: &Column| {
+                    cell(self.unit_of(c.curves).of(c.curves.fractiles[c.group][i][c.which]))
                 };
-                let head = std::iter::once(self.axis_label()).chain(heads).collect();
-                let rows = std::iter::once(head).chain(self.shown().iter().map(row)).collect();
-                let heading = if single { "Demands".to_owned() } else { named(&part[0]) };
-                tables.push((after(heading), rows));
-            }
-        }
-        tables
+                std::iter::once(compact(self.values[i])).chain(columns.iter().map(number)).collect()
+            };
+            let rows = std::iter::once(heads).chain(self.shown().iter().map(row)).collect();
+            (heading, rows)
+        };
+        tables.into_iter().map(table).collect()
     }
 
     fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         if self.shown().len() < self.values.len() {
             notes.push(format!(
-                "{} of {} values along the axis are shown; all are in spectrum.csv.",
+                "{} of {} values along the axis are shown; all, with all fractiles, are in spectrum.csv.",
                 self.shown().len(),
                 self.values.len()
             ));
@@ -278,6 +291,17 @@ impl SpectrumReport<'_> {
         ])
     }
 }
+
+/// A column of a table: its head, and which fractile of which group it is.
+struct Column<'a> {
+    head: String,
+    curves: &'a Curves,
+    group: usize,
+    which: usize,
+}
+
+/// The median among the three fractiles.
+const MEDIAN: usize = 1;
 
 /// Identifiers of figures by what the demand's key contains.
 const FIGURES: [(&str, &str); 6] = [
