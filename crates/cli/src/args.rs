@@ -53,6 +53,18 @@ Figures for --within: peak_ratio, residual_error, rms_error, normalised_rms_erro
 russell_magnitude, russell_phase, russell_comprehensive, anderson, arrival_lag; SI, either end may be
 left out. A bound that is missed makes the exit status 1.";
 
+const IDENTIFY_EXAMPLES: &str = "\
+Examples:
+  slipstick identify cyclic cyclic-*.csv --mass \"124 kg\" --out friction
+  slipstick identify free-vibration pull-back.csv --channel storey1_acceleration --from \"2 s\"
+  slipstick identify shaking-table test12.csv mock-up.toml \\
+      --fit slider.static_friction,slider.kinetic_friction,slider.tilt --out fitted
+
+Every value comes with its 95 % interval of confidence; what the data cannot tell is refused with the
+reason, and the exit status is then 1. Columns are named as for slipstick compare; a cyclic test has
+the quantities displacement and force. With --out: identified.json, report.html and, where a model is
+known, model.toml, which run and compare read.";
+
 /// Everything on the command line.
 #[derive(Debug, Parser)]
 #[command(name = "slipstick", version, about = ABOUT, after_help = EXAMPLES)]
@@ -77,6 +89,13 @@ pub enum Command {
     /// Compare a prediction with what was measured on a shaking table
     #[command(after_help = COMPARE_EXAMPLES)]
     Compare(CompareArgs),
+    /// Find friction, stiffness, damping and the like from tests
+    #[command(after_help = IDENTIFY_EXAMPLES)]
+    Identify {
+        /// From what kind of test
+        #[command(subcommand)]
+        job: IdentifyCommand,
+    },
     /// Write an example model that runs as it stands
     Init(InitArgs),
     /// Print the JSON schema of the model file, or the table of units
@@ -202,6 +221,95 @@ pub struct CompareArgs {
     /// A bound to keep: "peak_ratio.sliding_displacement=0.9..1.1"; repeatable
     #[arg(long, value_name = "METRIC.QUANTITY=LEAST..MOST", allow_hyphen_values = true)]
     pub within: Vec<String>,
+    /// The result
+    #[command(flatten)]
+    pub result: ResultArgs,
+}
+
+/// The jobs of `slipstick identify`.
+#[derive(Debug, Subcommand)]
+pub enum IdentifyCommand {
+    /// Friction, spring and viscous part from cyclic tests: displacement and force
+    Cyclic(CyclicArgs),
+    /// Frequency and damping ratio of a storey from free vibration
+    FreeVibration(FreeVibrationArgs),
+    /// Any keys of a model from a shaking-table record
+    ShakingTable(ShakingTableArgs),
+}
+
+/// `slipstick identify cyclic`.
+#[derive(Debug, Args)]
+pub struct CyclicArgs {
+    /// Cyclic tests with the quantities displacement and force; several frequencies are compared
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// Mass of the block: friction becomes a coefficient, and with --out a model is written
+    #[arg(long, value_name = "MASS")]
+    pub mass: Option<String>,
+    /// Force that presses the block on its surface, where it is not the weight of that mass
+    #[arg(long, value_name = "FORCE")]
+    pub normal_force: Option<String>,
+    /// Model that takes the friction found; its weight is the normal force
+    #[arg(long, value_name = "FILE", conflicts_with = "mass")]
+    pub model: Option<PathBuf>,
+    /// Travel after each reversal to leave out (backlash); found from the force if not given
+    #[arg(long, value_name = "LENGTH")]
+    pub slack: Option<String>,
+    /// The columns
+    #[command(flatten)]
+    pub mapping: MappingArgs,
+    /// The result
+    #[command(flatten)]
+    pub result: ResultArgs,
+}
+
+/// `slipstick identify free-vibration`.
+#[derive(Debug, Args)]
+pub struct FreeVibrationArgs {
+    /// Measured history of free vibration
+    pub file: PathBuf,
+    /// Quantity to fit, where the file has several: storey1_acceleration, displacement, …
+    #[arg(long, value_name = "QUANTITY")]
+    pub channel: Option<String>,
+    /// Time at which free vibration starts: "12 s"
+    #[arg(long, value_name = "TIME")]
+    pub from: Option<String>,
+    /// Time at which it ends
+    #[arg(long, value_name = "TIME")]
+    pub to: Option<String>,
+    /// Model that takes the frequency and damping ratio found
+    #[arg(long, value_name = "FILE")]
+    pub model: Option<PathBuf>,
+    /// The columns
+    #[command(flatten)]
+    pub mapping: MappingArgs,
+    /// The result
+    #[command(flatten)]
+    pub result: ResultArgs,
+}
+
+/// `slipstick identify shaking-table`.
+#[derive(Debug, Args)]
+pub struct ShakingTableArgs {
+    /// Measured histories, the table acceleration among them
+    pub file: PathBuf,
+    /// Model file (TOML), or - to read it from standard input
+    pub model: PathBuf,
+    /// Keys to fit, each perhaps with its range: "slider.spring=100 kN/m..200 kN/m"
+    #[arg(long, value_name = "PATH[=LEAST..MOST]", value_delimiter = ',', required = true)]
+    pub fit: Vec<String>,
+    /// Measured quantities to fit; all if not given
+    #[arg(long, value_name = "QUANTITY", value_delimiter = ',')]
+    pub using: Vec<String>,
+    /// Set a key of the model by its path; repeatable, the last holds
+    #[arg(long, value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+    /// Seed of the random starts
+    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
+    pub seed: u64,
+    /// The columns
+    #[command(flatten)]
+    pub mapping: MappingArgs,
     /// The result
     #[command(flatten)]
     pub result: ResultArgs,

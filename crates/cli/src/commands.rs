@@ -1,6 +1,7 @@
 //! One module a command.
 
 pub mod compare;
+pub mod identify;
 pub mod init;
 pub mod run;
 pub mod text;

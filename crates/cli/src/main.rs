@@ -38,6 +38,7 @@ fn main() -> ExitCode {
     failure.report();
     match failure {
         Failure::ClosedPipe => ExitCode::SUCCESS,
+        Failure::CannotTell(_) => ExitCode::from(1),
         _ => ExitCode::from(2),
     }
 }
@@ -58,6 +59,7 @@ fn run() -> Result<ExitCode, Failure> {
     match &cli.command {
         Command::Run(args) => commands::run::run(args),
         Command::Compare(args) => commands::compare::compare(args),
+        Command::Identify { job } => commands::identify::identify(job),
         Command::Init(args) => commands::init::init(args),
         Command::Schema(args) => commands::text::schema(args),
         Command::Completions { shell } => commands::text::completions(*shell),

@@ -52,5 +52,6 @@ pub mod summary;
 pub mod table;
 
 pub use display::DisplayUnits;
+pub use laboratory::{CompareReport, IdentifyReport};
 pub use report::{FileNote, FloorSpectra, InputText, Report};
 pub use summary::{Summary, SummaryInputs};
