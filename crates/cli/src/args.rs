@@ -64,6 +64,18 @@ Every value comes with its 95 % interval of confidence; what the data cannot tel
 reason, and the exit status is then 1. Columns are named as for slipstick compare; a cyclic test has
 the quantities displacement and force. With --out: identified.json, report.html and, where a model is
 known, model.toml, which run and compare read.";
+const PAPER_EXAMPLES: &str = "\
+Examples:
+  slipstick paper                        the verdicts, one line a claim
+  slipstick paper --out out              the chapter with its figures, and claims.json
+  slipstick paper --quick --json         coarser ranges, the same verdicts, as JSON
+
+Takes a minute or two, --quick some seconds. Two runs write the same bytes.
+
+Writes with --out, each file whole or not at all:
+  chapter.md    the chapter of the manual, with tables
+  figures/      its figures (SVG)
+  claims.json   the array that --json prints";
 
 /// Everything on the command line.
 #[derive(Debug, Parser)]
@@ -98,6 +110,9 @@ pub enum Command {
     },
     /// Write an example model that runs as it stands
     Init(InitArgs),
+    /// Reproduce the paper that the model comes from: every experiment, every claim, its verdict
+    #[command(after_help = PAPER_EXAMPLES)]
+    Paper(PaperArgs),
     /// Print the JSON schema of the model file, or the table of units
     Schema(SchemaArgs),
     /// Print a completion script for a shell
@@ -122,7 +137,8 @@ pub struct RunArgs {
     /// Record to use instead of the model's [motion]; its format is recognised
     #[arg(long, value_name = "FILE", help_heading = "Ground motion")]
     pub motion: Option<PathBuf>,
-    /// Unit of the record's values, where its file does not state it: g, gal, m/s2, …
+    /// Unit of the record's values, where its file does not state it: g, gal, m/s2, …; of counts the
+    /// value of one: "4.67e-6 m/s2"
     #[arg(long, value_name = "UNIT", requires = "motion", help_heading = "Ground motion")]
     pub units: Option<String>,
     /// Time step of the record, where its file does not state it: "0.01 s"
@@ -240,9 +256,10 @@ pub enum IdentifyCommand {
 /// `slipstick identify cyclic`.
 #[derive(Debug, Args)]
 pub struct CyclicArgs {
-    /// Cyclic tests with the quantities displacement and force; several frequencies are compared
+    /// Cyclic tests with the quantities displacement and force: files, folders or patterns; several
+    /// frequencies are compared
     #[arg(required = true)]
-    pub files: Vec<PathBuf>,
+    pub files: Vec<String>,
     /// Mass of the block: friction becomes a coefficient, and with --out a model is written
     #[arg(long, value_name = "MASS")]
     pub mass: Option<String>,
@@ -252,6 +269,9 @@ pub struct CyclicArgs {
     /// Model that takes the friction found; its weight is the normal force
     #[arg(long, value_name = "FILE", conflicts_with = "mass")]
     pub model: Option<PathBuf>,
+    /// Do not fit these beside friction: spring, damper
+    #[arg(long, value_name = "PART", value_enum, value_delimiter = ',')]
+    pub without: Vec<Part>,
     /// Travel after each reversal to leave out (backlash); found from the force if not given
     #[arg(long, value_name = "LENGTH")]
     pub slack: Option<String>,
@@ -261,6 +281,15 @@ pub struct CyclicArgs {
     /// The result
     #[command(flatten)]
     pub result: ResultArgs,
+}
+
+/// What a cyclic test need not have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Part {
+    /// A force along the displacement
+    Spring,
+    /// A force along the velocity
+    Damper,
 }
 
 /// `slipstick identify free-vibration`.
@@ -313,6 +342,26 @@ pub struct ShakingTableArgs {
     /// The result
     #[command(flatten)]
     pub result: ResultArgs,
+}
+
+/// `slipstick paper`.
+#[derive(Debug, Args)]
+pub struct PaperArgs {
+    /// Folder to write chapter.md, figures and claims.json into
+    #[arg(short, long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Print the claims as a JSON array
+    #[arg(long)]
+    pub json: bool,
+    /// Folder of records to add to the table of sliding against friction
+    #[arg(long, value_name = "DIR")]
+    pub records: Option<PathBuf>,
+    /// Scan the ranges more coarsely
+    #[arg(long)]
+    pub quick: bool,
+    /// No progress on standard error
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
 /// `slipstick init`.

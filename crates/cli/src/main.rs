@@ -61,6 +61,7 @@ fn run() -> Result<ExitCode, Failure> {
         Command::Compare(args) => commands::compare::compare(args),
         Command::Identify { job } => commands::identify::identify(job),
         Command::Init(args) => commands::init::init(args),
+        Command::Paper(args) => commands::paper::paper(args),
         Command::Schema(args) => commands::text::schema(args),
         Command::Completions { shell } => commands::text::completions(*shell),
         Command::Man { folder } => commands::text::man(folder),

@@ -17,18 +17,24 @@ mod keys;
 mod mapping;
 mod motion;
 mod overrides;
+pub mod plan;
+mod plan_keys;
 mod reader;
 mod schema;
 #[cfg(test)]
 mod tests;
 mod tree;
+mod variation;
 mod write;
 
-pub use json_schema::json_schema;
+pub use build::Parts;
+pub use json_schema::{json_schema, plan_json_schema};
 pub use keys::MAX_STOREYS;
 pub use mapping::{Channel, ColumnRef, MappedColumn, Mapping};
 pub use motion::{MotionSource, RecordSource, Scale};
 pub use overrides::{Override, dimension_of};
+pub use plan_keys::MAX_RUNS;
+pub use variation::Variation;
 
 /// The longest text that can be a model, in bytes: a storey takes a hundred.
 pub const MAX_TEXT_BYTES: usize = 1 << 20;
@@ -125,8 +131,13 @@ pub fn from_bytes(
     bytes: &[u8],
     overrides: &[Override],
 ) -> Result<Analysis, InputError> {
+    parse(source_name, utf8(source_name, bytes)?, overrides)
+}
+
+/// The bytes of a file as text.
+fn utf8<'a>(source_name: &str, bytes: &'a [u8]) -> Result<&'a str, InputError> {
     let error = match std::str::from_utf8(bytes) {
-        Ok(text) => return parse(source_name, text, overrides),
+        Ok(text) => return Ok(text),
         Err(error) => error,
     };
     let at = error.valid_up_to();

@@ -13,6 +13,7 @@ pub mod fitted;
 pub mod free_vibration;
 pub mod measured;
 pub mod metrics;
+pub mod paper;
 pub mod quantile;
 pub mod random;
 pub mod shaking_table;

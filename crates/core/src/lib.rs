@@ -25,4 +25,5 @@ pub mod motion;
 pub mod record;
 pub mod response;
 pub mod solver;
+pub mod study;
 pub mod units;

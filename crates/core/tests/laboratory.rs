@@ -112,7 +112,14 @@ fn file_cyclic_tests_of_a_friction_damper() {
             rows.iter().map(|row| factor * row[k].as_f64().unwrap()).collect()
         };
         let (t, x, f) = (column(0, 1.0), column(1, inch), column(2, kip));
-        let test = CyclicTest { times_s: &t, displacement_m: &x, force_n: &f, slack_m: None };
+        let test = CyclicTest {
+            times_s: &t,
+            displacement_m: &x,
+            force_n: &f,
+            slack_m: None,
+            spring: false,
+            damper: false,
+        };
         let fit = cyclic(&test).unwrap();
         // Seven seconds at 1 Hz, which swell and die.
         assert!((3..=6).contains(&fit.cycles.len()), "{}", fit.cycles.len());

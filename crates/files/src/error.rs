@@ -22,6 +22,15 @@ pub enum FileError {
         /// The folder.
         path: PathBuf,
     },
+    /// Nothing of that name, and nothing that a pattern meets.
+    #[error(
+        "{}: expected a file, a folder or a pattern that meets files, found nothing",
+        pattern.display()
+    )]
+    NoMatch {
+        /// What was looked for.
+        pattern: PathBuf,
+    },
     /// A file larger than any record.
     #[error("{}: expected at most {limit} bytes, found more", path.display())]
     TooLarge {

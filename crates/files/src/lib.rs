@@ -5,16 +5,22 @@
 //! handler of Ctrl-C may call [`remove_temporaries`].
 
 mod error;
+mod folder;
+mod globs;
 mod laboratory;
 mod load;
+mod paper;
 mod read;
 mod run;
 mod tables;
 mod write;
 
 pub use error::FileError;
+pub use folder::{FolderRecords, folder_records};
+pub use globs::{expand, expand_all};
 pub use laboratory::{LaboratoryError, TextFile, read_mapping, read_measured};
 pub use load::{LoadedMotion, RecordRequest, Scale, SourceFile, VerticalRequest, load_record};
+pub use paper::paper_library;
 pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve, sha256_hex};
 pub use run::{Job, JobError, Outcome};
 pub use tables::{events_csv, history_csv};

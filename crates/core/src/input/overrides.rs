@@ -56,6 +56,12 @@ impl Override {
         self.text.get(..self.value_at.saturating_sub(1)).unwrap_or("").trim()
     }
 
+    /// It as it was given, `PATH=VALUE`.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
     fn sources(&self) -> Sources {
         let mut sources = Sources::default();
         sources.add(&self.source_name(), &self.text);
@@ -210,14 +216,14 @@ pub(super) fn kind_of(path: &str) -> Option<&'static Kind> {
 }
 
 /// As [`kind_of`]; else what was expected and the nearest path.
-fn find_kind(path: &str) -> Result<&'static Kind, (String, Option<String>)> {
+pub(super) fn find_kind(path: &str) -> Result<&'static Kind, (String, Option<String>)> {
     let mut section = &MODEL;
     let mut known = String::new();
     let mut keys = path.split('.').peekable();
     loop {
         let name = keys.next().unwrap_or("");
         let Some(key) = section.key(name) else {
-            let nearest = nearest_key(name, section).map(|nearest| match nearest {
+            let nearest = nearest_key(name, section, &MODEL).map(|nearest| match nearest {
                 NearestKey::Elsewhere(path) => path,
                 NearestKey::Here(name) => valid_or_start(join(&known, name), keys),
             });

@@ -27,6 +27,9 @@ const SLOWEST: f64 = 0.2;
 /// rise of the force between two samples.
 const CLEAR_DROP: f64 = 4.0;
 
+/// Friction counts where its mean is this many of its standard errors.
+const CLEAR_WIDTH: f64 = 6.0;
+
 /// What a cyclic test measured.
 #[derive(Clone, Copy, Debug)]
 pub struct CyclicTest<'a> {
@@ -39,6 +42,10 @@ pub struct CyclicTest<'a> {
     /// Travel after each reversal that is left out, in m: backlash and elastic deformation. `None`:
     /// found from the force.
     pub slack_m: Option<f64>,
+    /// Whether a spring is fitted beside friction.
+    pub spring: bool,
+    /// Whether a damper is.
+    pub damper: bool,
 }
 
 /// One cycle: a stroke towards +x and one towards −x.
@@ -56,9 +63,9 @@ pub struct Cycle {
     pub kinetic_n: [f64; 2],
     /// Static friction towards +x and −x in N, where a breakaway shows.
     pub static_n: [Option<f64>; 2],
-    /// `K` in N/m.
-    pub spring_n_per_m: f64,
-    /// `C` in N s/m; `None` where the speed hardly changes.
+    /// `K` in N/m, where it was fitted.
+    pub spring_n_per_m: Option<f64>,
+    /// `C` in N s/m, where it was fitted; it is not where the speed hardly changes.
     pub damper_n_s_per_m: Option<f64>,
     /// Root mean square of what the fit leaves of the force, in N.
     pub residual_n: f64,
@@ -75,6 +82,8 @@ pub struct CyclicFit {
     pub strokes_left_out: usize,
     /// The fitted force at every sample that was used, NaN at the others.
     pub fitted_n: Vec<f64>,
+    /// Whether a damper was to be fitted.
+    pub damper_sought: bool,
     /// How far a value of the static friction may be off for want of samples, in N (standard
     /// deviation).
     pub sampling_n: f64,
@@ -186,7 +195,8 @@ pub fn cyclic(test: &CyclicTest) -> Result<CyclicFit, CyclicError> {
     }
     sampling.sort_by(f64::total_cmp);
     let sampling_n = sampling.get(sampling.len() / 2).copied().unwrap_or(0.0);
-    Ok(CyclicFit { cycles, slack_m, strokes_left_out, fitted_n, sampling_n })
+    let damper_sought = test.damper;
+    Ok(CyclicFit { cycles, slack_m, strokes_left_out, fitted_n, damper_sought, sampling_n })
 }
 
 /// Fits the sliding samples of two strokes; `None` where they do not determine the unknowns.
@@ -210,21 +220,21 @@ fn fit_cycle(
     let mean = speeds.iter().sum::<f64>() / speeds.len().max(1) as f64;
     let spread = speeds.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / speeds.len() as f64;
     // At one speed a viscous force is a friction force.
-    let viscous = spread.sqrt() > 0.1 * mean;
-    let (coefficients, sse, unknowns) = if viscous {
-        let fit = linear_fit(&rows)?;
-        (fit.coefficients, fit.sse, 4)
-    } else {
-        let rows: Vec<([f64; 3], f64)> =
-            rows.iter().map(|(x, y)| ([x[0], x[1], x[2]], *y)).collect();
-        let fit = linear_fit(&rows)?;
-        (fit.coefficients, fit.sse, 3)
+    let damper = test.damper && spread.sqrt() > 0.1 * mean;
+    let wanted = [true, true, test.spring, damper];
+    let chosen = |x: &[f64; 4]| -> Vec<f64> {
+        x.iter().zip(wanted).filter(|(_, wanted)| *wanted).map(|(x, _)| *x).collect()
     };
+    let chosen: Vec<(Vec<f64>, f64)> = rows.iter().map(|(x, y)| (chosen(x), *y)).collect();
+    let fit = linear_fit(&chosen)?;
+    let mut found = fit.coefficients.iter().copied();
+    let coefficients = wanted.map(|wanted| if wanted { found.next() } else { None });
+    let unknowns = fit.coefficients.len();
     if rows.len() < 4 * unknowns {
         return None;
     }
-    for (i, (x, _)) in used.iter().zip(&rows) {
-        fitted_n[*i] = coefficients.iter().zip(x).map(|(c, x)| c * x).sum();
+    for (i, (x, _)) in used.iter().zip(&chosen) {
+        fitted_n[*i] = fit.coefficients.iter().zip(x).map(|(c, x)| c * x).sum();
     }
     let [first, second] = pair;
     let span_s = [test.times_s[first.first], test.times_s[second.last]];
@@ -233,18 +243,19 @@ fn fit_cycle(
         frequency_hz: 1.0 / (span_s[1] - span_s[0]),
         stroke_m: 0.5 * (first.length_m(test) + second.length_m(test)),
         peak_velocity_m_per_s: first.peak_velocity().max(second.peak_velocity()),
-        kinetic_n: [coefficients[0], coefficients[1]],
+        kinetic_n: [coefficients[0]?, coefficients[1]?],
         static_n: [None, None],
         spring_n_per_m: coefficients[2],
-        damper_n_s_per_m: viscous.then(|| coefficients[3]),
-        residual_n: (sse / (rows.len() - unknowns) as f64).sqrt(),
+        damper_n_s_per_m: coefficients[3],
+        residual_n: (fit.sse / (rows.len() - unknowns) as f64).sqrt(),
     })
 }
 
 /// What several tests say together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CyclicEstimates {
-    /// Kinetic and static friction (both ways together, towards +x, towards −x), spring, damper.
+    /// Kinetic and static friction (both ways together, towards +x, towards −x), then spring and
+    /// damper where they were fitted.
     /// Friction is a coefficient where the normal force is known, else a force in N.
     pub estimates: Vec<Estimate>,
     /// How the kinetic friction (mean of both ways) changes with frequency, per Hz; `None` for tests
@@ -272,10 +283,8 @@ pub fn estimates(
     };
     let mean = |cycle: &&Cycle| 0.5 * (cycle.kinetic_n[0] + cycle.kinetic_n[1]);
     let widths: Vec<f64> = cycles.iter().map(mean).collect();
-    let slides = mean_interval(&widths, 0.0).is_some_and(|(width, [low, _])| {
-        let t = super::quantile::student_quantile(0.95, widths.len() as f64 - 1.0);
-        width > 0.02 * largest_force_n && width > 6.0 * (width - low) / t
-    });
+    let why_not = not_sliding(&widths, largest_force_n);
+    let slides = why_not.is_none();
     let mut estimates = Vec::new();
     let ways = ["", ".positive", ".negative"];
     for way in 0..3 {
@@ -286,11 +295,7 @@ pub fn estimates(
         let path = name("kinetic", ways[way]);
         estimates.push(match mean_interval(&values, 0.0) {
             Some((value, ends)) if slides => Estimate::told(path, unit, value, ends),
-            _ => Estimate::refused(
-                path,
-                unit,
-                "the loop of force over displacement has no width: nothing slid",
-            ),
+            _ => Estimate::refused(path, unit, why_not.clone().unwrap_or_default()),
         });
     }
     for way in 0..3 {
@@ -317,23 +322,39 @@ pub fn estimates(
             }
         });
     }
-    let springs: Vec<f64> = cycles.iter().map(|cycle| cycle.spring_n_per_m).collect();
-    estimates.push(match mean_interval(&springs, 0.0) {
-        Some((value, ends)) => Estimate::told("slider.spring", "N/m", value, ends),
-        None => Estimate::refused("slider.spring", "N/m", "too few cycles"),
-    });
+    let springs: Vec<f64> = cycles.iter().filter_map(|cycle| cycle.spring_n_per_m).collect();
+    if let Some((value, ends)) = mean_interval(&springs, 0.0) {
+        estimates.push(Estimate::told("slider.spring", "N/m", value, ends));
+    }
     let dampers: Vec<f64> = cycles.iter().filter_map(|cycle| cycle.damper_n_s_per_m).collect();
-    estimates.push(match mean_interval(&dampers, 0.0) {
+    match mean_interval(&dampers, 0.0) {
         Some((value, ends)) if dampers.len() >= LEAST_CYCLES => {
-            Estimate::told("slider.damper", "N s/m", value, ends)
+            estimates.push(Estimate::told("slider.damper", "N s/m", value, ends));
         }
-        _ => {
+        _ if fits.iter().any(|fit| fit.damper_sought) => {
             let why =
                 "the speed hardly changes within a stroke: a viscous force looks like friction";
-            Estimate::refused("slider.damper", "N s/m", why)
+            estimates.push(Estimate::refused("slider.damper", "N s/m", why));
         }
-    });
+        _ => {}
+    }
     CyclicEstimates { estimates, per_hz: per_hz(&cycles, over_n, unit) }
+}
+
+/// Why friction (one value a cycle, in N) does not show, if it does not.
+fn not_sliding(widths: &[f64], largest_force_n: f64) -> Option<String> {
+    let (width, [low, _]) = mean_interval(widths, 0.0)?;
+    if !(width > 0.02 * largest_force_n) {
+        return Some("the loop of force over displacement has no width: nothing slid".to_owned());
+    }
+    let t = super::quantile::student_quantile(0.95, widths.len() as f64 - 1.0);
+    let error = (width - low) / t;
+    (!(width > CLEAR_WIDTH * error)).then(|| {
+        format!(
+            "cycles scatter too much: {width:.4e} N with a standard error of {error:.1e} N; look at \
+             the tests one by one"
+        )
+    })
 }
 
 /// The slope of the kinetic friction over frequency, where frequencies differ by a fifth or more.

@@ -54,7 +54,15 @@ pub fn overrides(estimates: &[Estimate]) -> (Vec<Override>, Vec<Warning>) {
                 _ => {}
             }
         } else if let Some(value) = static_told {
-            push(&limit, value);
+            if here(&kinetic) {
+                let message = format!(
+                    "{limit} is told and the kinetic friction is not: both are left as the model \
+                     has them"
+                );
+                warn("kinetic_not_told", message);
+            } else {
+                push(&limit, value);
+            }
         }
     }
     for estimate in estimates {

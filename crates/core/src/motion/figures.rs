@@ -60,12 +60,12 @@ pub(super) fn peak(values: &[f64]) -> f64 {
 }
 
 /// One interval of length `h` over which the acceleration runs from `a0` to `a1`.
-struct Piece {
-    u0: f64,
-    v0: f64,
-    a0: f64,
-    a1: f64,
-    h: f64,
+pub(super) struct Piece {
+    pub u0: f64,
+    pub v0: f64,
+    pub a0: f64,
+    pub a1: f64,
+    pub h: f64,
 }
 
 impl Piece {

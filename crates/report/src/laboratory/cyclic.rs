@@ -1,6 +1,6 @@
 //! Cyclic tests: loops of force over displacement with the fitted strokes.
 
-use slipstick::laboratory::cyclic::{Cycle, CyclicEstimates, CyclicFit};
+use slipstick::laboratory::cyclic::{Cycle, CyclicEstimates, CyclicFit, estimates};
 
 use super::identify::estimate_json;
 use crate::display::{DisplayUnits, Quantity};
@@ -51,6 +51,32 @@ pub fn facts(tests: &[Test], normal_force_n: Option<f64>) -> Vec<(&'static str, 
     ]
 }
 
+/// A row a test: its estimates, without their intervals.
+#[must_use]
+pub fn by_test(tests: &[Test], normal_force_n: Option<f64>) -> Vec<Vec<String>> {
+    let mut rows = vec![
+        ["Test", "f (Hz)", "cycles", "kinetic", "95 % from", "to", "static", "95 % from", "to"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    for test in tests {
+        let largest_n = test.force_n.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
+        let found = estimates(&[test.fit], largest_n, normal_force_n).estimates;
+        let cycles = &test.fit.cycles;
+        let hz = cycles.iter().map(|c| c.frequency_hz).sum::<f64>() / cycles.len().max(1) as f64;
+        let mut row = vec![test.name.to_owned(), significant(hz, 3), cycles.len().to_string()];
+        for estimate in [&found[0], &found[3]] {
+            let told = estimate.value().zip(estimate.interval());
+            row.extend(match told {
+                Some((value, [low, high])) => [value, low, high].map(|v| significant(v, 4)),
+                None => ["not told", "", ""].map(str::to_owned),
+            });
+        }
+        rows.push(row);
+    }
+    rows
+}
+
 /// A row a cycle.
 #[must_use]
 pub fn table(tests: &[Test], normal_force_n: Option<f64>) -> Vec<Vec<String>> {
@@ -92,7 +118,7 @@ fn row(label: String, cycle: &Cycle, over: f64) -> Vec<String> {
         digits(cycle.kinetic_n[1] / over),
         maybe(cycle.static_n[0].map(|f| f / over)),
         maybe(cycle.static_n[1].map(|f| f / over)),
-        digits(cycle.spring_n_per_m),
+        maybe(cycle.spring_n_per_m),
         maybe(cycle.damper_n_s_per_m),
         significant(cycle.residual_n, 3),
     ]

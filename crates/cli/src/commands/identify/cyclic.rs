@@ -1,18 +1,20 @@
 //! Friction from cyclic tests.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use slipstick::input::Channel;
 use slipstick::laboratory::cyclic::{CyclicTest, cyclic as fit_cyclic, estimates};
 use slipstick::laboratory::measured::{Measured, Series};
 use slipstick::units::{Dimension, STANDARD_GRAVITY_M_PER_S2};
-use slipstick_files::{read_mapping, read_measured};
+use slipstick_files::{expand_all, read_mapping, read_measured};
 use slipstick_report::IdentifyReport;
-use slipstick_report::laboratory::cyclic::{ASSUMPTION, Test, facts, figures, json, table};
+use slipstick_report::laboratory::cyclic::{
+    ASSUMPTION, Test, by_test, facts, figures, json, table,
+};
 
 use super::{finish, fitted_model, output, quantity};
-use crate::args::CyclicArgs;
+use crate::args::{CyclicArgs, Part};
 use crate::commands::compare::WentIn;
 use crate::commands::run::{ModelFile, command_line, read_model};
 use crate::failure::Failure;
@@ -42,11 +44,11 @@ pub fn cyclic(args: &CyclicArgs) -> Result<ExitCode, Failure> {
     let slack_m = slack_m.transpose()?;
     let (mapping, mapping_file) = read_mapping(args.mapping.mapping.as_deref(), &args.mapping.map)?;
     let mut files = Vec::new();
-    for path in &args.files {
+    let paths = expand_all(Path::new(""), &args.files)?;
+    for path in &paths {
         files.push(watched("reading", args.result.quiet, || read_measured(path, &mapping))?);
     }
-    let inputs: Vec<PathBuf> = args
-        .files
+    let inputs: Vec<PathBuf> = paths
         .iter()
         .cloned()
         .chain(model.as_ref().map(|model| model.path.clone()))
@@ -61,6 +63,8 @@ pub fn cyclic(args: &CyclicArgs) -> Result<ExitCode, Failure> {
             displacement_m: &displacement.values,
             force_n: &force.values,
             slack_m,
+            spring: !args.without.contains(&Part::Spring),
+            damper: !args.without.contains(&Part::Damper),
         };
         let fit = fit_cyclic(&test);
         let name = &measured.source_name;
@@ -91,6 +95,11 @@ pub fn cyclic(args: &CyclicArgs) -> Result<ExitCode, Failure> {
     let went_in = WentIn::of_files(None, &sources, mapping_file.as_ref());
     let names: Vec<&str> = files.iter().map(|(m, _)| m.source_name.as_str()).collect();
     let per_hz = found.per_hz.clone();
+    let mut tables = vec![("Cycle by cycle".to_owned(), table(&tests, normal_n))];
+    if tests.len() > 1 {
+        let unit = if normal_n.is_some() { "" } else { " (N)" };
+        tables.insert(0, (format!("Test by test{unit}"), by_test(&tests, normal_n)));
+    }
     let report = IdentifyReport {
         version: env!("CARGO_PKG_VERSION"),
         job: "cyclic",
@@ -98,7 +107,7 @@ pub fn cyclic(args: &CyclicArgs) -> Result<ExitCode, Failure> {
         json: json(&tests, &found),
         estimates: found.estimates.into_iter().chain(per_hz).collect(),
         facts: facts(&tests, normal_n),
-        tables: vec![("Cycle by cycle".to_owned(), table(&tests, normal_n))],
+        tables,
         assumption: ASSUMPTION.to_owned(),
         figures: figures(&tests, args.result.display_units.into()),
         warnings,

@@ -164,7 +164,8 @@ impl Stroke {
     /// The same while the block is stuck: without the spring only. Velocities are smoothed and
     /// know nothing of a breakaway.
     fn held_n(&self, test: &CyclicTest, cycle: &Cycle, sample: usize) -> f64 {
-        self.sign * (test.force_n[sample] - cycle.spring_n_per_m * test.displacement_m[sample])
+        let spring = cycle.spring_n_per_m.unwrap_or(0.0) * test.displacement_m[sample];
+        self.sign * (test.force_n[sample] - spring)
     }
 
     fn kinetic_n(&self, cycle: &Cycle) -> f64 {
@@ -178,42 +179,74 @@ impl Stroke {
         Some(self.travel_m(test, built).max(0.0))
     }
 
-    /// The steepest fall of the friction force while it builds up or in the first tenth of the
-    /// stroke.
+    /// The breakaway: the steepest fall of the friction force while it builds up or in the first
+    /// tenth of the stroke. `None` where too few samples rise towards it.
+    ///
+    /// The samples well before it follow a parabola (a straight line where they are few), those
+    /// after it a level; which is the last before it is decided by least squares, a sample in the
+    /// midst of the fall counting as fallen. It broke away half a step later on average.
     pub fn breakaway(&self, test: &CyclicTest, cycle: &Cycle, slack_m: f64) -> Option<Breakaway> {
-        let reach_m = slack_m.max(0.1 * self.length_m(test));
+        const RISING: usize = 14;
+        const LEVEL: usize = 4;
         let held = |i: usize| self.held_n(test, cycle, i);
+        let reach_m = slack_m.max(0.1 * self.length_m(test));
         let last =
             (self.first..self.last).take_while(|i| self.travel_m(test, *i) <= reach_m).last()?;
+        // While the block is stuck its displacement says little of when it turned: the force does.
+        let begin = (0..=self.first).rev().take_while(|i| held(*i) > 0.0).last();
+        let begin = begin.unwrap_or(self.first);
         let fall = |i: usize| 0.5 * (held(i) + held(i - 1)) - 0.5 * (held(i + 1) + held(i + 2));
-        let candidates =
-            (self.first + 2..last.min(self.last.saturating_sub(3))).map(|i| (i, fall(i)));
-        let (sample, drop_n) = candidates.fold(None, |best: Option<(usize, f64)>, next| {
-            if best.is_none_or(|best| next.1 > best.1) { Some(next) } else { best }
-        })?;
-        let (force_n, rate) = self.carried_on(held, sample);
-        Some(Breakaway { sample, force_n, drop_n, sampling_n: rate.abs() / 12.0_f64.sqrt() })
-    }
-
-    /// The force half a step after a sample, and its rise a step: by the parabola of the last five
-    /// samples where the force has been rising for so long, by the line of two where it has not.
-    fn carried_on(&self, held: impl Fn(usize) -> f64, sample: usize) -> (f64, f64) {
-        const CURVE: usize = 5;
-        let rising = (self.first..sample).rev().take_while(|i| held(*i) > 0.0).count();
-        let rows: Vec<([f64; 3], f64)> = (0..CURVE.min(sample))
+        let range = begin + 2..last.min(self.last.saturating_sub(LEVEL + 2));
+        let steepest =
+            range.map(|i| (i, fall(i))).fold(None, |best: Option<(usize, f64)>, next| {
+                if best.is_none_or(|best| next.1 > best.1) { Some(next) } else { best }
+            })?;
+        let at = steepest.0;
+        let count = RISING.min((at - 2).checked_sub(begin)? + 1);
+        let rows: Vec<([f64; 3], f64)> = (2..2 + count)
             .map(|back| {
                 let t = -(back as f64);
-                ([1.0, t, t * t], held(sample - back))
+                ([1.0, t, t * t], held(at - back))
             })
             .collect();
-        if rising >= CURVE
-            && let Some(curve) = super::linear_fit(&rows)
-        {
-            let c = &curve.coefficients;
-            return (c[0] + 0.5 * c[1] + 0.25 * c[2], c[1] + c[2]);
-        }
-        let rate = held(sample) - held(sample - 1);
-        (held(sample) + 0.5 * rate, rate)
+        let curve = match count {
+            0..4 => return None,
+            4..8 => {
+                let rows: Vec<([f64; 2], f64)> =
+                    rows.iter().map(|(x, y)| ([x[0], x[1]], *y)).collect();
+                let line = super::linear_fit(&rows)?.coefficients;
+                [line[0], line[1], 0.0]
+            }
+            _ => {
+                let curve = super::linear_fit(&rows)?.coefficients;
+                [curve[0], curve[1], curve[2]]
+            }
+        };
+        let rising = |t: f64| curve[0] + t * (curve[1] + t * curve[2]);
+        let level = (2..2 + LEVEL).map(|ahead| held(at + ahead)).sum::<f64>() / LEVEL as f64;
+        let drop_n = rising(0.5) - level;
+        let fallen = level + 0.3 * drop_n;
+        let misfit = |turn: i32| -> f64 {
+            (-1..4)
+                .map(|j: i32| {
+                    let expected = if j <= turn { rising(f64::from(j)) } else { fallen };
+                    let found = held(at.saturating_add_signed(j as isize));
+                    (found - expected) * (found - expected)
+                })
+                .sum()
+        };
+        let turn = (-2..3).fold((-2, f64::INFINITY), |best, turn| {
+            let value = misfit(turn);
+            if value < best.1 { (turn, value) } else { best }
+        });
+        let t = f64::from(turn.0) + 0.5;
+        let rate = curve[1] + 2.0 * t * curve[2];
+        Some(Breakaway {
+            sample: at.saturating_add_signed(turn.0 as isize),
+            force_n: rising(t),
+            drop_n,
+            sampling_n: rate.abs() / 12.0_f64.sqrt(),
+        })
     }
 }
 

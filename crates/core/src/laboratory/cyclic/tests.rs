@@ -14,19 +14,22 @@ pub struct Made {
 pub const STATIC_N: [f64; 2] = [205.0, 195.0];
 pub const KINETIC_N: [f64; 2] = [186.0, 174.0];
 pub const SPRING: f64 = 4000.0;
-pub const DAMPER: f64 = 90.0;
+pub const DAMPER: f64 = 30.0;
 
 pub fn made(frequency_hz: f64, cycles: f64, noise: [f64; 2], seed: u64) -> Made {
     let (amplitude_m, actuator) = (0.02, 2e5);
     let mut random = Random::new(seed);
     let dt_s = 0.0005 / frequency_hz * (1.0 + 0.01 * random.uniform());
     let n = (cycles / frequency_hz / dt_s) as usize;
-    const FINE: usize = 15;
+    const FINE: usize = 12;
+    // No machine keeps its frequency so well that every breakaway falls on the same part of a step.
+    let wander = TAU * random.uniform();
     let (mut x, mut sliding) = (0.0_f64, false);
     let mut out = Made { times_s: vec![], displacement_m: vec![], force_n: vec![] };
     for i in 0..n * FINE {
         let t = i as f64 * dt_s / FINE as f64;
-        let target = amplitude_m * libm::sin(TAU * frequency_hz * t);
+        let turns = TAU * frequency_hz * t;
+        let target = amplitude_m * libm::sin(turns + 0.03 * libm::sin(0.3819 * turns + wander));
         let h = dt_s / FINE as f64;
         let force = actuator * (target - x);
         let demand = force - SPRING * x;
@@ -58,6 +61,8 @@ fn test(made: &Made) -> CyclicTest<'_> {
         displacement_m: &made.displacement_m,
         force_n: &made.force_n,
         slack_m: None,
+        spring: true,
+        damper: true,
     }
 }
 
@@ -86,7 +91,7 @@ fn exact_without_noise() {
         let truth = truth(&estimate.path, 1216.0);
         let value = estimate.value().unwrap_or_else(|| panic!("{estimate:?}"));
         // The generator's own step and the slope over a twentieth of a stroke leave this much.
-        let slack = if estimate.path.ends_with("damper") { 0.02 } else { 0.004 };
+        let slack = if estimate.path.ends_with("damper") { 0.05 } else { 0.006 };
         assert!((value / truth - 1.0).abs() < slack, "{} {value} {truth}", estimate.path);
     }
     assert_eq!(found.per_hz, None);
