@@ -75,6 +75,30 @@ Writes into the folder, each file whole or not at all:
 
 slipstick schema --plan prints the JSON schema of a plan.";
 
+const IDENTIFY_EXAMPLES: &str = "\
+Examples:
+  slipstick identify cyclic cyclic-*.csv --mass \"124 kg\" --out friction
+  slipstick identify free-vibration pull-back.csv --channel storey1_acceleration --from \"2 s\"
+  slipstick identify shaking-table test12.csv mock-up.toml \\
+      --fit slider.static_friction,slider.kinetic_friction,slider.tilt --out fitted
+
+Every value comes with its 95 % interval of confidence; what the data cannot tell is refused with the
+reason, and the exit status is then 1. Columns are named as for slipstick compare; a cyclic test has
+the quantities displacement and force. With --out: identified.json, report.html and, where a model is
+known, model.toml, which run and compare read.";
+const PAPER_EXAMPLES: &str = "\
+Examples:
+  slipstick paper                        the verdicts, one line a claim
+  slipstick paper --out out              the chapter with its figures, and claims.json
+  slipstick paper --quick --json         coarser ranges, the same verdicts, as JSON
+
+Takes a minute or two, --quick some seconds. Two runs write the same bytes.
+
+Writes with --out, each file whole or not at all:
+  chapter.md    the chapter of the manual, with tables
+  figures/      its figures (SVG)
+  claims.json   the array that --json prints";
+
 /// Everything on the command line.
 #[derive(Debug, Parser)]
 #[command(name = "slipstick", version, about = ABOUT, after_help = EXAMPLES)]
@@ -114,8 +138,18 @@ pub enum Command {
     /// Run many analyses: records, levels and samples of a plan
     #[command(after_help = STUDY_EXAMPLES)]
     Study(StudyArgs),
+    /// Find friction, stiffness, damping and the like from tests
+    #[command(after_help = IDENTIFY_EXAMPLES)]
+    Identify {
+        /// From what kind of test
+        #[command(subcommand)]
+        job: IdentifyCommand,
+    },
     /// Write an example model that runs as it stands
     Init(InitArgs),
+    /// Reproduce the paper that the model comes from: every experiment, every claim, its verdict
+    #[command(after_help = PAPER_EXAMPLES)]
+    Paper(PaperArgs),
     /// Print the JSON schema of the model file, or the table of units
     Schema(SchemaArgs),
     /// Print a completion script for a shell
@@ -140,7 +174,8 @@ pub struct RunArgs {
     /// Record to use instead of the model's [motion]; its format is recognised
     #[arg(long, value_name = "FILE", help_heading = "Ground motion")]
     pub motion: Option<PathBuf>,
-    /// Unit of the record's values, where its file does not state it: g, gal, m/s2, …
+    /// Unit of the record's values, where its file does not state it: g, gal, m/s2, …; of counts the
+    /// value of one: "4.67e-6 m/s2"
     #[arg(long, value_name = "UNIT", requires = "motion", help_heading = "Ground motion")]
     pub units: Option<String>,
     /// Time step of the record, where its file does not state it: "0.01 s"
@@ -295,6 +330,128 @@ pub enum StudyCommand {
         #[arg(short, long, value_name = "FILE.parquet")]
         out: PathBuf,
     },
+}
+
+/// The jobs of `slipstick identify`.
+#[derive(Debug, Subcommand)]
+pub enum IdentifyCommand {
+    /// Friction, spring and viscous part from cyclic tests: displacement and force
+    Cyclic(CyclicArgs),
+    /// Frequency and damping ratio of a storey from free vibration
+    FreeVibration(FreeVibrationArgs),
+    /// Any keys of a model from a shaking-table record
+    ShakingTable(ShakingTableArgs),
+}
+
+/// `slipstick identify cyclic`.
+#[derive(Debug, Args)]
+pub struct CyclicArgs {
+    /// Cyclic tests with the quantities displacement and force: files, folders or patterns; several
+    /// frequencies are compared
+    #[arg(required = true)]
+    pub files: Vec<String>,
+    /// Mass of the block: friction becomes a coefficient, and with --out a model is written
+    #[arg(long, value_name = "MASS")]
+    pub mass: Option<String>,
+    /// Force that presses the block on its surface, where it is not the weight of that mass
+    #[arg(long, value_name = "FORCE")]
+    pub normal_force: Option<String>,
+    /// Model that takes the friction found; its weight is the normal force
+    #[arg(long, value_name = "FILE", conflicts_with = "mass")]
+    pub model: Option<PathBuf>,
+    /// Do not fit these beside friction: spring, damper
+    #[arg(long, value_name = "PART", value_enum, value_delimiter = ',')]
+    pub without: Vec<Part>,
+    /// Travel after each reversal to leave out (backlash); found from the force if not given
+    #[arg(long, value_name = "LENGTH")]
+    pub slack: Option<String>,
+    /// The columns
+    #[command(flatten)]
+    pub mapping: MappingArgs,
+    /// The result
+    #[command(flatten)]
+    pub result: ResultArgs,
+}
+
+/// What a cyclic test need not have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Part {
+    /// A force along the displacement
+    Spring,
+    /// A force along the velocity
+    Damper,
+}
+
+/// `slipstick identify free-vibration`.
+#[derive(Debug, Args)]
+pub struct FreeVibrationArgs {
+    /// Measured history of free vibration
+    pub file: PathBuf,
+    /// Quantity to fit, where the file has several: storey1_acceleration, displacement, …
+    #[arg(long, value_name = "QUANTITY")]
+    pub channel: Option<String>,
+    /// Time at which free vibration starts: "12 s"
+    #[arg(long, value_name = "TIME")]
+    pub from: Option<String>,
+    /// Time at which it ends
+    #[arg(long, value_name = "TIME")]
+    pub to: Option<String>,
+    /// Model that takes the frequency and damping ratio found
+    #[arg(long, value_name = "FILE")]
+    pub model: Option<PathBuf>,
+    /// The columns
+    #[command(flatten)]
+    pub mapping: MappingArgs,
+    /// The result
+    #[command(flatten)]
+    pub result: ResultArgs,
+}
+
+/// `slipstick identify shaking-table`.
+#[derive(Debug, Args)]
+pub struct ShakingTableArgs {
+    /// Measured histories, the table acceleration among them
+    pub file: PathBuf,
+    /// Model file (TOML), or - to read it from standard input
+    pub model: PathBuf,
+    /// Keys to fit, each perhaps with its range: "slider.spring=100 kN/m..200 kN/m"
+    #[arg(long, value_name = "PATH[=LEAST..MOST]", value_delimiter = ',', required = true)]
+    pub fit: Vec<String>,
+    /// Measured quantities to fit; all if not given
+    #[arg(long, value_name = "QUANTITY", value_delimiter = ',')]
+    pub using: Vec<String>,
+    /// Set a key of the model by its path; repeatable, the last holds
+    #[arg(long, value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+    /// Seed of the random starts
+    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
+    pub seed: u64,
+    /// The columns
+    #[command(flatten)]
+    pub mapping: MappingArgs,
+    /// The result
+    #[command(flatten)]
+    pub result: ResultArgs,
+}
+
+/// `slipstick paper`.
+#[derive(Debug, Args)]
+pub struct PaperArgs {
+    /// Folder to write chapter.md, figures and claims.json into
+    #[arg(short, long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Print the claims as a JSON array
+    #[arg(long)]
+    pub json: bool,
+    /// Folder of records to add to the table of sliding against friction
+    #[arg(long, value_name = "DIR")]
+    pub records: Option<PathBuf>,
+    /// Scan the ranges more coarsely
+    #[arg(long)]
+    pub quick: bool,
+    /// No progress on standard error
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
 /// `slipstick init`.

@@ -20,6 +20,9 @@ pub enum Failure {
         /// The text of the model file.
         text: String,
     },
+    /// Data that tell nothing of what was asked: the input is in order, the answer is that there is
+    /// none.
+    CannotTell(String),
     /// Anything else, in one sentence.
     Message(String),
 }
@@ -44,6 +47,7 @@ impl Failure {
         match self {
             Self::ClosedPipe => {}
             Self::Message(message) => say(format_args!("error: {message}")),
+            Self::CannotTell(message) => say(format_args!("the data cannot tell: {message}")),
             Self::Input { error, text } => {
                 say(format_args!("error: {error}"));
                 if io::stderr().is_terminal()

@@ -38,6 +38,7 @@ fn main() -> ExitCode {
     failure.report();
     match failure {
         Failure::ClosedPipe => ExitCode::SUCCESS,
+        Failure::CannotTell(_) => ExitCode::from(1),
         _ => ExitCode::from(2),
     }
 }
@@ -63,7 +64,9 @@ fn run() -> Result<ExitCode, Failure> {
         Command::Fragility(args) => commands::fragility::fragility(args),
         Command::Design(args) => commands::design::design(args),
         Command::Study(args) => commands::study::study(args),
+        Command::Identify { job } => commands::identify::identify(job),
         Command::Init(args) => commands::init::init(args),
+        Command::Paper(args) => commands::paper::paper(args),
         Command::Schema(args) => commands::text::schema(args),
         Command::Completions { shell } => commands::text::completions(*shell),
         Command::Man { folder } => commands::text::man(folder),

@@ -46,6 +46,7 @@ pub mod json;
 pub mod laboratory;
 pub mod markup;
 pub mod number;
+pub mod paper;
 pub mod peaks;
 pub mod plot;
 pub mod report;
@@ -54,6 +55,7 @@ pub mod summary;
 pub mod table;
 
 pub use display::DisplayUnits;
+pub use laboratory::{CompareReport, IdentifyReport};
 pub use report::{FileNote, FloorSpectra, InputText, Report};
 pub use study::{LevelSummary, StudySummary};
 pub use summary::{Summary, SummaryInputs};

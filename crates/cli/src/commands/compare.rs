@@ -107,12 +107,22 @@ pub(super) struct WentIn {
 impl WentIn {
     /// A model, a measured file and perhaps a mapping.
     pub fn of(model: &ModelFile, measured: &SourceFile, mapping: Option<&TextFile>) -> Self {
+        Self::of_files(Some(model), &[measured], mapping)
+    }
+
+    /// The same of several measured files, perhaps without a model.
+    pub fn of_files(
+        model: Option<&ModelFile>,
+        measured: &[&SourceFile],
+        mapping: Option<&TextFile>,
+    ) -> Self {
         let shown = |file: &SourceFile| file.path.display().to_string();
-        let mut files = vec![
-            (model.name.clone(), sha256_hex(&model.bytes), "model"),
-            (shown(measured), measured.sha256.clone(), "measured"),
-        ];
-        let mut texts = vec![(model.name.clone(), model.text())];
+        let (mut files, mut texts) = (Vec::new(), Vec::new());
+        if let Some(model) = model {
+            files.push((model.name.clone(), sha256_hex(&model.bytes), "model"));
+            texts.push((model.name.clone(), model.text()));
+        }
+        files.extend(measured.iter().map(|file| (shown(file), file.sha256.clone(), "measured")));
         if let Some(mapping) = mapping {
             files.push((shown(&mapping.source), mapping.source.sha256.clone(), "mapping"));
             texts.push((shown(&mapping.source), mapping.text.clone()));

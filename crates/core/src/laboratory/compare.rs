@@ -264,6 +264,14 @@ pub fn table_motion(measured: &Measured) -> Result<(GroundMotion, f64), CompareE
     Ok((motion?, start_s))
 }
 
+/// A motion as a record that needs no keys: `time_s,acceleration_m_per_s2` with 17 digits.
+#[must_use]
+pub fn table_csv(motion: &GroundMotion) -> String {
+    let rows = motion.times_s().iter().zip(motion.horizontal_m_per_s2());
+    let rows = rows.map(|(t, a)| format!("{t:.16e},{a:.16e}\n"));
+    core::iter::once("time_s,acceleration_m_per_s2\n".to_owned()).chain(rows).collect()
+}
+
 /// Measured and predicted values at the measured times, for every measured quantity that a history
 /// has; the table acceleration, which drives it, is not among them.
 ///

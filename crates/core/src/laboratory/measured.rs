@@ -132,6 +132,7 @@ impl Measured {
                 source_name: self.source_name.clone(),
                 line: 1,
                 column: 1,
+                offset: None,
                 expected: format!(
                     "a column of {name}: name it {} in the header, or say which it is with \
                      --map \"{name}=COLUMN [{unit}]\"",

@@ -108,7 +108,8 @@ impl<'s> SpectrumReport<'s> {
         let column = |head: String, curves, group, which| Column { head, curves, group, which };
         let tables: Vec<(String, Vec<Column>)> = if many {
             let of = |curves: &'s Curves| {
-                let of_group = |(g, name): (usize, &String)| column(name.clone(), curves, g, MEDIAN);
+                let of_group =
+                    |(g, name): (usize, &String)| column(name.clone(), curves, g, MEDIAN);
                 let after = if single { "" } else { ", median" };
                 let columns = self.groups.iter().enumerate().map(of_group).collect();
                 (format!("{}{after}", named(curves)), columns)

@@ -19,6 +19,9 @@ use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
 use crate::report::{FileNote, InputText};
 use crate::summary::method_name;
 
+/// The table's own acceleration: there to be seen, not to hide the others.
+const TABLE: Style = Style { colour: "#8a9a86", width: 0.8, dashes: "" };
+
 /// What a comparison is told from.
 #[derive(Clone, Copy, Debug)]
 pub struct CompareReport<'a> {
@@ -96,7 +99,7 @@ impl CompareReport<'_> {
     }
 
     /// Rows of names and values, a column a quantity.
-    fn rows(&self) -> Vec<Vec<String>> {
+    pub(super) fn rows(&self) -> Vec<Vec<String>> {
         let all = &self.comparison.compared;
         let digits = |value: f64| significant(value, 4);
         let ratio = |value: Option<f64>| value.map_or("n/a".to_owned(), digits);
@@ -297,7 +300,7 @@ impl CompareReport<'_> {
     }
 
     /// The overlays: accelerations with that of the table, then displacements and forces.
-    fn figures(&self) -> Vec<Drawn> {
+    pub(super) fn figures(&self) -> Vec<Drawn> {
         let c = self.comparison;
         let panels: Vec<Panel> = c.compared.iter().map(|compared| self.panel(compared)).collect();
         let shaded = sliding(c);
@@ -323,7 +326,7 @@ impl CompareReport<'_> {
         if !accelerations.is_empty() {
             let caption = format!(
                 "Total accelerations, measured (wide) and predicted (thin), with that of the table \
-                 (dotted). {grey}"
+                 (light). {grey}"
             );
             figures.push(of("accelerations", "Accelerations over time", caption, accelerations));
         }
@@ -353,7 +356,7 @@ impl CompareReport<'_> {
         let motion = &self.comparison.motion;
         if pair.channel.dimension() == Dimension::Acceleration {
             let table = points(motion.times_s(), motion.horizontal_m_per_s2());
-            series.push(line("table", Style::DOTTED, table));
+            series.push(line("table", TABLE, table));
         }
         series.push(line("measured", Style::WIDE, points(&pair.times_s, &pair.measured)));
         series.push(line("predicted", Style::MAIN, points(&pair.times_s, &pair.predicted)));

@@ -48,6 +48,7 @@ impl Columns {
             source_name: self.source_name.clone(),
             line: self.lines.get(row).map_or(1, |line| *line as usize),
             column,
+            offset: None,
             expected: expected.into(),
             found: found.into(),
         }
