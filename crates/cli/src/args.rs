@@ -135,6 +135,9 @@ pub enum Command {
     /// Choose friction and stiffness that keep a gap with a stated probability over a suite
     #[command(after_help = assessment::DESIGN_EXAMPLES)]
     Design(DesignArgs),
+    /// Look into records, convert, process and plot them
+    #[command(subcommand, after_help = crate::record_args::EXAMPLES)]
+    Record(crate::record_args::RecordCommand),
     /// Run many analyses: records, levels and samples of a plan
     #[command(after_help = STUDY_EXAMPLES)]
     Study(StudyArgs),

@@ -8,6 +8,7 @@ pub mod ida;
 pub mod identify;
 pub mod init;
 pub mod paper;
+pub mod record;
 pub mod run;
 pub mod spectrum;
 pub mod study;

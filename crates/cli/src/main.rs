@@ -4,6 +4,7 @@ mod args;
 mod commands;
 mod failure;
 mod progress;
+mod record_args;
 
 use std::io::{self, IsTerminal};
 use std::process::ExitCode;
@@ -63,6 +64,7 @@ fn run() -> Result<ExitCode, Failure> {
         Command::Ida(args) => commands::ida::ida(args),
         Command::Fragility(args) => commands::fragility::fragility(args),
         Command::Design(args) => commands::design::design(args),
+        Command::Record(command) => commands::record::record(command),
         Command::Study(args) => commands::study::study(args),
         Command::Identify { job } => commands::identify::identify(job),
         Command::Init(args) => commands::init::init(args),

@@ -13,6 +13,7 @@ mod load;
 mod paper;
 mod parquet;
 mod read;
+mod records;
 mod run;
 mod study;
 mod tables;
@@ -26,6 +27,9 @@ pub use load::{LoadedMotion, RecordRequest, Scale, SourceFile, VerticalRequest, 
 pub use paper::paper_library;
 pub use parquet::{NumberColumn, UNIT_KEY, columns_to_bytes, read_columns, write_columns};
 pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve, sha256_hex};
+pub use records::{
+    FileNames, RecordOptions, Wanted, WrittenFormat, channels, one_channel, open_record,
+};
 pub use run::{Job, JobError, Outcome};
 pub use study::{
     Checks, Merged, OpenStudy, Shard, ShardOptions, ShardOutcome, StudyError, clear, conclude,

@@ -49,6 +49,7 @@ pub mod number;
 pub mod paper;
 pub mod peaks;
 pub mod plot;
+pub mod records;
 pub mod report;
 pub mod study;
 pub mod summary;

@@ -3,7 +3,7 @@
 use slipstick::laboratory::paper::{NOISE_M_PER_S2, OffsetRow, Paper};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
-use super::doc::{Doc, fixed, signed};
+use super::doc::{Doc, fixed, short, signed};
 use super::graphs;
 use crate::number::compact;
 
@@ -63,10 +63,6 @@ pub fn write(doc: &mut Doc, paper: &Paper) {
     doc.claims(paper.claims_of(&["accelerations-agree", "preliminary-design"]));
 }
 
-fn short(name: &str) -> String {
-    name.trim_start_matches("Section ").to_owned()
-}
-
 fn tolerances(doc: &mut Doc, paper: &Paper) {
     let rows = paper.offsets.iter().map(|row| {
         let mut cells = vec![short(&row.name), fixed(row.peak_mm, 2), fixed(row.residual_mm, 2)];
@@ -81,7 +77,7 @@ fn tolerances(doc: &mut Doc, paper: &Paper) {
             of(row).iter().map(|[level, _]| format!("{} {unit}", compact(*level))).collect()
         })
     };
-    let mut header: Vec<String> = ["section and test", "peak", "level"].map(str::to_owned).to_vec();
+    let mut header: Vec<String> = ["test", "peak", "level"].map(str::to_owned).to_vec();
     header.extend(levels(|row| &row.tilt, "mrad"));
     header.extend(levels(|row| &row.asymmetry, "%"));
     header.push("a cycle".to_owned());
@@ -96,7 +92,7 @@ fn disturbances(doc: &mut Doc, paper: &Paper) {
         cells.extend(row.baseline.iter().map(|[_, mm]| signed(*mm, 2)));
         cells
     });
-    let mut header = vec!["section and test".to_owned()];
+    let mut header = vec!["test".to_owned()];
     if let Some(row) = paper.offsets.first() {
         header.extend(row.noise.iter().map(|[level, _]| format!("noise {}", compact(*level))));
         header.extend(row.baseline.iter().map(|[level, _]| format!("error {}", compact(*level))));
@@ -113,7 +109,7 @@ fn steps(doc: &mut Doc, paper: &Paper) {
         }));
         cells
     });
-    let mut header = vec!["section and test".to_owned(), "peak".to_owned()];
+    let mut header = vec!["test".to_owned(), "peak".to_owned()];
     if let Some(drift) = paper.step_drifts.first() {
         header.extend(drift.steps.iter().map(|(dt_s, ..)| format!("{} ms", compact(1e3 * dt_s))));
     }
@@ -148,7 +144,7 @@ fn sensitivities(doc: &mut Doc, paper: &Paper) {
     });
     doc.table(
         &[
-            "section and test",
+            "test",
             "block, %",
             "storey, %",
             "peak sliding, mm",

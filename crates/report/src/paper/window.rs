@@ -107,85 +107,77 @@ fn above(window: &Window, ratio: Ratio, band_hz: [f64; 2]) -> String {
     }
 }
 
+/// `1 to 3.4 Hz, WHAT`: the head of a column.
+fn column(band_hz: [f64; 2], what: &str) -> String {
+    format!("{}–{} Hz, {what}", compact(band_hz[0]), compact(band_hz[1]))
+}
+
+/// The largest ratio in a band, where, and that over f2 and f_ff.
+fn peak(window: &Window, ratio: Ratio, band_hz: [f64; 2]) -> String {
+    let [hz, value] = window.peak(ratio, band_hz);
+    format!(
+        "{} at {} ({} f2, {} f_ff)",
+        fixed(value, 2),
+        fixed(hz, 3),
+        fixed(hz / window.frequency_hz, 3),
+        fixed(hz / window.free_free_hz, 3)
+    )
+}
+
 fn over_table(doc: &mut Doc, paper: &Paper) {
     doc.paragraph(
         "Peak storey acceleration over that of the table: where it exceeds one, in Hz, and its \
-         peak above 0.75 f2.",
+         largest value above 0.75 f2 with the frequency of the table there.",
     );
+    let [rest, steady]: [Ratio; 2] = [|p| p.rest_over_table, |p| p.steady_over_table];
     let rows = paper.windows.iter().map(|window| {
-        let [peak_hz, peak] = window.peak(|p| p.steady_over_table, window.near_hz());
-        let [_, rest_peak] = window.peak(|p| p.rest_over_table, window.near_hz());
         let mut cells = name(window);
-        cells.extend([
-            above(window, |p| p.rest_over_table, TESTED_HZ),
-            above(window, |p| p.steady_over_table, TESTED_HZ),
-            above(window, |p| p.rest_over_table, SCANNED_HZ),
-            above(window, |p| p.steady_over_table, SCANNED_HZ),
-            fixed(rest_peak, 2),
-            fixed(peak, 2),
-            fixed(peak_hz, 3),
-            fixed(peak_hz / window.frequency_hz, 3),
-            fixed(peak_hz / window.free_free_hz, 3),
-        ]);
+        for band_hz in [TESTED_HZ, SCANNED_HZ] {
+            cells.extend([rest, steady].map(|ratio| above(window, ratio, band_hz)));
+        }
+        cells.extend([rest, steady].map(|ratio| peak(window, ratio, window.near_hz())));
         cells
     });
-    doc.table(
-        &[
-            "oscillator",
-            "table, m/s²",
-            "1–3.4 Hz, rest",
-            "1–3.4 Hz, steady",
-            "0.2–8 Hz, rest",
-            "0.2–8 Hz, steady",
-            "peak, rest",
-            "peak, steady",
-            "at, Hz",
-            "over f2",
-            "over f_ff",
-        ],
-        1,
-        rows.collect(),
-    );
+    let header = [
+        "oscillator".to_owned(),
+        "table, m/s²".to_owned(),
+        column(TESTED_HZ, "rest"),
+        column(TESTED_HZ, "steady"),
+        column(SCANNED_HZ, "rest"),
+        column(SCANNED_HZ, "steady"),
+        "peak, rest".to_owned(),
+        "peak, steady".to_owned(),
+    ];
+    doc.table(&header.each_ref().map(String::as_str), 1, rows.collect());
 }
 
 fn over_fixed(doc: &mut Doc, paper: &Paper) {
     doc.paragraph(
-        "Peak storey acceleration over that of the same storey on a fixed block: largest values \
-         and where the ratio exceeds one, in Hz. Peaks below 0.75 f2 are sub-harmonic: the square \
-         wave of friction carries the odd multiples of the table's frequency, and one of them meets \
-         f_ff.",
+        "Peak storey acceleration over that of the same storey on a fixed block: where it exceeds \
+         one, in Hz, and its largest values above and below 0.75 f2. Those below are sub-harmonic: \
+         the square wave of friction carries the odd multiples of the table's frequency, and one of \
+         them meets f_ff. Where the block sticks throughout the ratio is one.",
     );
+    let [rest, steady]: [Ratio; 2] = [|p| p.rest_over_fixed, |p| p.steady_over_fixed];
     let rows = paper.windows.iter().map(|window| {
-        let [near, below] = [window.near_hz(), window.below_hz()];
-        let peak = |ratio: Ratio, band_hz: [f64; 2]| {
-            let [hz, value] = window.peak(ratio, band_hz);
-            format!("{} at {}", fixed(value, 2), fixed(hz, 2))
-        };
         let mut cells = name(window);
-        cells.extend([
-            peak(|p| p.rest_over_fixed, TESTED_HZ),
-            peak(|p| p.steady_over_fixed, TESTED_HZ),
-            peak(|p| p.rest_over_fixed, near),
-            peak(|p| p.steady_over_fixed, near),
-            peak(|p| p.steady_over_fixed, below),
-            above(window, |p| p.rest_over_fixed, SCANNED_HZ),
-            above(window, |p| p.steady_over_fixed, SCANNED_HZ),
-        ]);
+        for band_hz in [TESTED_HZ, SCANNED_HZ] {
+            cells.extend([rest, steady].map(|ratio| above(window, ratio, band_hz)));
+        }
+        cells.extend([rest, steady].map(|ratio| peak(window, ratio, window.near_hz())));
+        cells.push(peak(window, steady, window.below_hz()));
         cells
     });
-    doc.table(
-        &[
-            "oscillator",
-            "table, m/s²",
-            "1–3.4 Hz, rest",
-            "1–3.4 Hz, steady",
-            "above 0.75 f2, rest",
-            "above 0.75 f2, steady",
-            "below 0.75 f2, steady",
-            "exceeds one, rest",
-            "exceeds one, steady",
-        ],
-        1,
-        rows.collect(),
-    );
+    let header = [
+        "oscillator".to_owned(),
+        "table, m/s²".to_owned(),
+        column(TESTED_HZ, "rest"),
+        column(TESTED_HZ, "steady"),
+        column(SCANNED_HZ, "rest"),
+        column(SCANNED_HZ, "steady"),
+        "largest above, rest".to_owned(),
+        "largest above, steady".to_owned(),
+        "largest below, steady".to_owned(),
+    ];
+    doc.table(&header.each_ref().map(String::as_str), 1, rows.collect());
 }

@@ -43,7 +43,8 @@ impl Frame {
     }
 }
 
-pub fn figure(figure: &Figure) -> Markup {
+/// The element and its height.
+pub fn figure(figure: &Figure) -> (Markup, f64) {
     let mut body = Markup::new();
     let height = match figure.layout {
         Layout::Stacked => stacked(&mut body, figure),
@@ -67,7 +68,7 @@ pub fn figure(figure: &Figure) -> Markup {
         .raw("</desc>\n")
         .append(&body)
         .raw("</svg>\n");
-    svg
+    (svg, height)
 }
 
 fn stacked(out: &mut Markup, figure: &Figure) -> f64 {
