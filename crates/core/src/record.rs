@@ -44,7 +44,9 @@ use std::collections::BTreeMap;
 use crate::error::{MotionError, RecordError};
 use crate::motion::{GroundMotion, Series};
 
+pub use delimited::{Column, Columns};
 pub use quality::{REST_KINDS, rest};
+pub(crate) use sampling::of_times;
 use text::Text;
 pub use unit::{Quantity, Units};
 pub use write::{write_at2, write_csv, write_smc};
@@ -357,6 +359,17 @@ fn read_text(text: &Text, options: &Options) -> Result<Record, RecordError> {
         Format::MiniSeed => Err(text.error_at_start("MiniSEED", "text")),
         Format::Delimited => delimited::read(text, options),
     }
+}
+
+/// Reads a table of numbers as it stands: every column with its name, nothing converted.
+///
+/// The text may be separated and headed as any record of delimited text may be.
+///
+/// # Errors
+/// [`RecordError`] with line and column for what is no table of finite numbers: an empty cell, a
+/// word, a row of another length, fewer than two rows.
+pub fn columns(source_name: &str, bytes: &[u8]) -> Result<Columns, RecordError> {
+    delimited::read_columns(&Text::new(source_name, bytes)?)
 }
 
 /// Numbers the channels that share a name, so that a name picks one channel or none.

@@ -4,9 +4,11 @@
 //! the target, which is renamed when it is complete; whatever fails leaves no file behind, and a
 //! handler of Ctrl-C may call [`remove_temporaries`].
 
+pub mod assessment;
 mod error;
 mod folder;
 mod globs;
+mod laboratory;
 mod load;
 mod paper;
 mod parquet;
@@ -20,6 +22,7 @@ mod write;
 pub use error::FileError;
 pub use folder::{FolderRecords, folder_records};
 pub use globs::{expand, expand_all};
+pub use laboratory::{LaboratoryError, TextFile, read_mapping, read_measured};
 pub use load::{LoadedMotion, RecordRequest, Scale, SourceFile, VerticalRequest, load_record};
 pub use paper::paper_library;
 pub use parquet::{NumberColumn, UNIT_KEY, columns_to_bytes, read_columns, write_columns};

@@ -37,11 +37,13 @@
 //!                                                   └─ Report ──> Report::to_html(), figures::all(…)
 //! ```
 
+pub mod assessment;
 pub mod describe;
 pub mod display;
 pub mod figures;
 pub mod html;
 pub mod json;
+pub mod laboratory;
 pub mod markup;
 pub mod number;
 pub mod paper;
@@ -54,6 +56,7 @@ pub mod summary;
 pub mod table;
 
 pub use display::DisplayUnits;
+pub use laboratory::{CompareReport, IdentifyReport};
 pub use report::{FileNote, FloorSpectra, InputText, Report};
 pub use study::{LevelSummary, StudySummary};
 pub use summary::{Summary, SummaryInputs};

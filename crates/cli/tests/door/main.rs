@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod accepted;
+mod assessment;
 mod cases;
 mod endings;
 mod files;

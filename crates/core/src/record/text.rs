@@ -45,6 +45,11 @@ impl<'a> Text<'a> {
         Ok(text)
     }
 
+    /// The caller's name for the text.
+    pub fn source_name(&self) -> &'a str {
+        self.source_name
+    }
+
     /// Number of bytes.
     pub fn len(&self) -> usize {
         self.bytes.len()
