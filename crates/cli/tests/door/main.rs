@@ -7,6 +7,7 @@ mod cases;
 mod endings;
 mod files;
 mod json;
+mod laboratory;
 mod options;
 mod paper;
 mod records;
