@@ -25,6 +25,8 @@ Usage: cargo xtask TASK
                                  OpenSeesPy (needs python3; makes .venv)
                                  (--write: into book/src/generated/peers.md)
   fuzz [TARGET] [--seconds N]    all fuzz targets or one, 60 s each (installs cargo-fuzz)
+  coverage                       how often intervals of identify cover the truth, 200 tests a
+                                 parameter, and that silent tests are refused
   deny                           licences, advisories, doubles (installs cargo-deny)
   man                            the manual pages, into the target folder
   book                           the manual, into book/build (installs mdbook)
@@ -41,6 +43,7 @@ fn main() -> ExitCode {
         ["paper", options @ ..] => paper::paper(options),
         ["bench-peers", options @ ..] => peers::bench_peers(options),
         ["fuzz", options @ ..] => tools::fuzz(options),
+        ["coverage"] => tools::coverage(),
         ["deny"] => tools::deny(),
         ["man"] => tools::man(),
         ["book"] => tools::book(),

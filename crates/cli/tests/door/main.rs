@@ -8,6 +8,7 @@ mod cases;
 mod endings;
 mod files;
 mod json;
+mod laboratory;
 mod options;
 mod paper;
 mod records;

@@ -7,7 +7,7 @@ use slipstick::model::Model;
 use slipstick::response::{Method, Mode};
 use slipstick::units::Dimension;
 
-use super::text::{aligned, field};
+use super::text::{aligned, field, in_groups};
 use crate::describe::{model_line, model_rows};
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::figures::Drawn;
@@ -145,7 +145,10 @@ impl CompareReport<'_> {
         text.push_str(&field("Model", &model_line(self.model, self.display)));
         text.push_str(&field("Times", &self.comparison.alignment));
         text.push('\n');
-        text.push_str(&aligned(&self.rows()));
+        for (i, group) in in_groups(&self.rows(), 4).iter().enumerate() {
+            text.push_str(if i > 0 { "\n" } else { "" });
+            text.push_str(&aligned(group));
+        }
         if !self.within.is_empty() {
             text.push('\n');
             for verdict in self.verdicts() {
@@ -236,7 +239,9 @@ impl CompareReport<'_> {
         let warnings: Vec<_> = self.comparison.warnings.iter().map(|w| (None, w)).collect();
         warning_list(&mut body, &warnings);
         body.raw("<section>\n<h2>Agreement</h2>\n");
-        number_table(&mut body, &self.rows());
+        for group in in_groups(&self.rows(), 3) {
+            number_table(&mut body, &group);
+        }
         body.raw("<p>").text(&self.comparison.alignment).raw("</p>\n");
         if !self.within.is_empty() {
             body.raw("<h3>Bounds</h3>\n<ul>\n");
@@ -296,7 +301,9 @@ impl CompareReport<'_> {
             row.extend(scored.iter().map(|(_, a)| format!("{:.1}", a.scores()[i].1)));
             rows.push(row);
         }
-        number_table(out, &rows);
+        for group in in_groups(&rows, 3) {
+            number_table(out, &group);
+        }
     }
 
     /// The overlays: accelerations with that of the table, then displacements and forces.
@@ -396,6 +403,8 @@ fn sliding(comparison: &Comparison) -> Vec<[f64; 2]> {
 /// A table whose first row are heads and whose first column are names.
 pub(crate) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
     let Some((heads, rows)) = rows.split_first() else { return };
+    let wide = heads.len() > 6;
+    out.raw(if wide { "<div class=\"small\">\n" } else { "" });
     let heads: Vec<_> = heads.iter().enumerate().map(|(i, head)| (head.clone(), i > 0)).collect();
     table_head(out, &heads);
     for row in rows {
@@ -412,7 +421,7 @@ pub(crate) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
         }
         out.raw("</tr>\n");
     }
-    out.raw("</tbody>\n</table>\n");
+    out.raw("</tbody>\n</table>\n").raw(if wide { "</div>\n" } else { "" });
 }
 
 /// Numbers are set as in print, words as they are.
