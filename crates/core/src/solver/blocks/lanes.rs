@@ -37,19 +37,43 @@ impl Eight {
     }
 }
 
-/// The sum of `columns[j] x[j]`.
+/// The same number four times.
 #[inline(always)]
-pub(super) fn combine4<S: Simd>(simd: S, columns: &[Four; 4], x: f64x4<S>) -> f64x4<S> {
-    let x = x.to_array().map(|x| f64x4::splat(simd, x));
-    let column = |j: usize| columns[j].load(simd) * x[j];
-    (column(0) + column(1)) + (column(2) + column(3))
+pub(super) fn four<S: Simd>(simd: S, x: f64) -> f64x4<S> {
+    f64x4::splat(simd, x)
+}
+
+/// The same number eight times.
+#[inline(always)]
+pub(super) fn eight<S: Simd>(simd: S, x: f64) -> f64x8<S> {
+    f64x8::splat(simd, x)
+}
+
+/// A column times a number.
+#[inline(always)]
+pub(super) fn times4<S: Simd>(simd: S, column: &Four, x: f64) -> f64x4<S> {
+    column.load(simd) * four(simd, x)
+}
+
+/// A column times a number.
+#[inline(always)]
+pub(super) fn times8<S: Simd>(simd: S, column: &Eight, x: f64) -> f64x8<S> {
+    column.load(simd) * eight(simd, x)
 }
 
 /// The sum of `columns[j] x[j]`.
 #[inline(always)]
-pub(super) fn combine8<S: Simd>(simd: S, columns: &[Eight; 4], x: [f64; 4]) -> f64x8<S> {
-    let column = |j: usize| columns[j].load(simd) * f64x8::splat(simd, x[j]);
-    (column(0) + column(1)) + (column(2) + column(3))
+pub(super) fn combine4<S: Simd>(simd: S, c: &[Four; 4], x: f64x4<S>) -> f64x4<S> {
+    let x = x.to_array();
+    (times4(simd, &c[0], x[0]) + times4(simd, &c[1], x[1]))
+        + (times4(simd, &c[2], x[2]) + times4(simd, &c[3], x[3]))
+}
+
+/// The sum of `columns[j] x[j]`.
+#[inline(always)]
+pub(super) fn combine8<S: Simd>(simd: S, c: &[Eight; 4], x: [f64; 4]) -> f64x8<S> {
+    (times8(simd, &c[0], x[0]) + times8(simd, &c[1], x[1]))
+        + (times8(simd, &c[2], x[2]) + times8(simd, &c[3], x[3]))
 }
 
 /// The larger lane by lane; the first where they cannot be compared.

@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
-use super::lanes::{BLOCK, Eight, combine4};
+use super::lanes::{BLOCK, Eight, combine4, eight, four, times4, times8};
 use super::peaks::Block;
 use super::tables::QUIET;
 use super::walk::Walk;
@@ -23,8 +23,7 @@ impl<S: Simd> Walk<'_, S> {
         let (simd, tables) = (self.simd, self.tables);
         let bend = &tables.slip.bend;
         let (sign, force) = (direction.sign(), self.force(direction));
-        let splat = |x: f64| f64x8::splat(simd, x);
-        let by_force = bend.of_force.load(simd) * splat(force.abs());
+        let by_force = times8(simd, &bend.of_force, force.abs());
         let mut x = self.state();
         let mut view = self.view::<true>(self.carry.x, 0.0, force);
         while sample + BLOCK <= end {
@@ -33,9 +32,9 @@ impl<S: Simd> Walk<'_, S> {
             let start = x.to_array();
             let norm = tables.plant.norm(&start);
             let size = window.block + self.ground.slope_size;
-            let slack = (bend.of_norm.load(simd) * splat(norm)
-                + bend.of_acceleration.load(simd) * splat(size))
-                + (bend.of_rate.load(simd) * splat(window.rate) + by_force);
+            let slack = (times8(simd, &bend.of_norm, norm)
+                + times8(simd, &bend.of_acceleration, size))
+                + (times8(simd, &bend.of_rate, window.rate) + by_force);
             let next = self.end::<true>(BLOCK, x, a, force);
             let ahead = next.to_array();
             let next_view = self.view::<true>(ahead, 0.0, force);
@@ -53,7 +52,7 @@ impl<S: Simd> Walk<'_, S> {
             if !slides {
                 let hidden = PER_SAMPLE * hidden;
                 let w = self.row::<true>(&tables.slip.rows[1], start, a, force);
-                let clear = (splat(sign) * w).simd_gt(splat(hidden)).to_bitmask();
+                let clear = (eight(simd, sign) * w).simd_gt(eight(simd, hidden)).to_bitmask();
                 steps = clear_steps(clear, sign * start[1] > hidden);
                 if steps == 0 {
                     break;
@@ -62,7 +61,7 @@ impl<S: Simd> Walk<'_, S> {
             let block = Block { sample, steps, direction: Some(direction), x: start };
             let open = !quiet.to_bitmask() & ALL;
             if open != 0 {
-                self.watch::<true>(&block, open, view, slack * splat(PER_SAMPLE));
+                self.watch::<true>(&block, open, view, slack * eight(simd, PER_SAMPLE));
             }
             self.record::<true>(sample, steps, x, force);
             sample += steps;
@@ -81,14 +80,12 @@ impl<S: Simd> Walk<'_, S> {
     pub(super) fn hold(&mut self, mut sample: usize, end: usize) -> usize {
         let (simd, tables) = (self.simd, self.tables);
         let (bend, quiet, plant) = (&tables.stick.bend, &tables.quiet, &tables.plant);
-        let splat = |x: f64| f64x8::splat(simd, x);
         let [low, high] = self.ground.bounds;
         let mut holds = Eight([f64::INFINITY; 8]);
         holds.0[tracked::FRICTION] = high.min(-low);
         let holds = holds.load(simd);
         let of_norm = quiet.of_norm.load(simd);
-        let constant =
-            quiet.of_s.load(simd) * splat(self.carry.x[0].abs()) + quiet.of_slope.load(simd);
+        let constant = times8(simd, &quiet.of_s, self.carry.x[0].abs()) + quiet.of_slope.load(simd);
         let mut x = self.state();
         let spring_n = plant.stiffness_n_per_m * self.carry.x[0];
         while sample + BLOCK <= end {
@@ -96,13 +93,13 @@ impl<S: Simd> Walk<'_, S> {
             let start = x.to_array();
             let norm = plant.norm(&start);
             let size = window.block + self.ground.slope_size;
-            let base = of_norm * splat(norm) + constant;
-            let reach = base + quiet.of_acceleration[0].load(simd) * splat(size);
+            let base = of_norm * eight(simd, norm) + constant;
+            let reach = base + times8(simd, &quiet.of_acceleration[0], size);
             let within = reach.simd_le(self.peak);
             if (within & reach.simd_lt(holds)).all_true() {
                 let long = base
                     + quiet.of_acceleration[1].load(simd)
-                        * splat(window.quiet + self.ground.slope_size);
+                        * eight(simd, window.quiet + self.ground.slope_size);
                 let all = long.simd_le(self.peak) & long.simd_lt(holds);
                 if sample + QUIET <= end && all.all_true() {
                     let next = self.after_quiet(sample, x);
@@ -119,15 +116,16 @@ impl<S: Simd> Walk<'_, S> {
                 continue;
             }
             let a = self.block_at(sample);
-            let slack = (bend.of_norm.load(simd) * splat(norm)
-                + bend.of_acceleration.load(simd) * splat(size))
-                + bend.of_rate.load(simd) * splat(window.rate);
+            let slack = (times8(simd, &bend.of_norm, norm)
+                + times8(simd, &bend.of_acceleration, size))
+                + times8(simd, &bend.of_rate, window.rate);
             let hidden = slack.as_array()[tracked::FRICTION];
             let f = self.row::<false>(&tables.stick.rows[3], start, a, 0.0);
             let table = f64x8::from_slice(simd, &a[1..]);
-            let demand = (splat(plant.block_mass_kg) * table + splat(spring_n))
-                - splat(plant.participation) * f;
-            let clear = demand.simd_gt(splat(low + hidden)) & demand.simd_lt(splat(high - hidden));
+            let demand = (eight(simd, plant.block_mass_kg) * table + eight(simd, spring_n))
+                - eight(simd, plant.participation) * f;
+            let clear = demand.simd_gt(eight(simd, low + hidden))
+                & demand.simd_lt(eight(simd, high - hidden));
             let demand = plant.demand_n(&start, a[0]);
             let first = demand > low + hidden && demand < high - hidden;
             let steps = clear_steps(clear.to_bitmask(), first);
@@ -152,6 +150,7 @@ impl<S: Simd> Walk<'_, S> {
     }
 
     /// Records a stretch of quiet stick.
+    #[inline(always)]
     fn record_quiet(&mut self, sample: usize, mut x: f64x4<S>) {
         for from in (sample..sample + QUIET).step_by(BLOCK) {
             self.record::<false>(from, BLOCK, x, 0.0);
@@ -163,19 +162,18 @@ impl<S: Simd> Walk<'_, S> {
     #[inline(always)]
     fn after_quiet(&self, sample: usize, x: f64x4<S>) -> f64x4<S> {
         let (simd, quiet) = (self.simd, &self.tables.quiet);
-        let splat = |x: f64| f64x4::splat(simd, x);
         let Some(a) = self.ground.acceleration[sample..].first_chunk::<{ QUIET + 1 }>() else {
             return x;
         };
-        let mut sums = [splat(0.0); 4];
+        let mut sums = [four(simd, 0.0); 4];
         for m in (0..QUIET).step_by(4) {
-            for (i, sum) in sums.iter_mut().enumerate() {
+            for i in 0..4 {
                 let tap = quiet.tap[QUIET - 1 - m - i].load(simd);
-                *sum = *sum + tap * splat(a[1 + m + i]);
+                sums[i] = sums[i] + tap * four(simd, a[1 + m + i]);
             }
         }
         let load = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-        combine4(simd, &quiet.power, x) + (quiet.first.load(simd) * splat(a[0]) + load)
+        combine4(simd, &quiet.power, x) + (times4(simd, &quiet.first, a[0]) + load)
     }
 }
 

@@ -6,7 +6,7 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::lanes::{BLOCK, Eight, larger};
+use super::lanes::{BLOCK, Eight, combine8, eight, larger};
 use super::step::{Segment, Series};
 use super::walk::Walk;
 use crate::friction::Direction;
@@ -70,12 +70,20 @@ impl<S: Simd> Walk<'_, S> {
                 let a = self.block_at(block.sample);
                 let phase = self.phase::<SLIP>();
                 let force = block.direction.map_or(0.0, |direction| self.force(direction));
-                let row = |i: usize| self.row::<SLIP>(&phase.rows[i], block.x, a, force);
-                let splat = |x: f64| f64x8::splat(simd, x);
                 let rows = if SLIP {
-                    [row(0), row(1), row(2), row(3)]
+                    [
+                        self.row::<SLIP>(&phase.rows[0], block.x, a, force),
+                        self.row::<SLIP>(&phase.rows[1], block.x, a, force),
+                        self.row::<SLIP>(&phase.rows[2], block.x, a, force),
+                        self.row::<SLIP>(&phase.rows[3], block.x, a, force),
+                    ]
                 } else {
-                    [splat(block.x[0]), splat(0.0), row(2), row(3)]
+                    [
+                        eight(simd, block.x[0]),
+                        eight(simd, 0.0),
+                        self.row::<SLIP>(&phase.rows[2], block.x, a, force),
+                        self.row::<SLIP>(&phase.rows[3], block.x, a, force),
+                    ]
                 };
                 let table = f64x8::from_slice(simd, &a[1..]);
                 let first = view.abs().to_array();
@@ -86,18 +94,19 @@ impl<S: Simd> Walk<'_, S> {
                 while open != 0 {
                     let j = open.trailing_zeros() as usize;
                     open &= open - 1;
-                    let c = |i: usize| splat(phase.view.columns[i].0[j]);
+                    let c = &phase.view.columns;
                     let input = if SLIP {
-                        splat(phase.view.of_force.0[j]) * splat(force)
+                        eight(simd, phase.view.of_force.0[j]) * eight(simd, force)
                     } else {
-                        splat(phase.view.of_acceleration.0[j]) * table
+                        eight(simd, phase.view.of_acceleration.0[j]) * table
                     };
-                    let values = ((c(0) * rows[0] + c(1) * rows[1])
-                        + (c(2) * rows[2] + c(3) * rows[3]))
-                        + (input - splat(phase.view.slope.0[j]));
+                    let values = ((rows[0] * eight(simd, c[0].0[j])
+                        + rows[1] * eight(simd, c[1].0[j]))
+                        + (rows[2] * eight(simd, c[2].0[j]) + rows[3] * eight(simd, c[3].0[j])))
+                        + (input - eight(simd, phase.view.slope.0[j]));
                     let sizes = values.abs();
                     let limit = peak[j] - slack[j];
-                    let hits = sizes.simd_gt(splat(limit)).to_bitmask() & steps;
+                    let hits = sizes.simd_gt(eight(simd, limit)).to_bitmask() & steps;
                     if hits == 0 && first[j] <= limit {
                         continue;
                     }
@@ -132,21 +141,19 @@ impl<S: Simd> Walk<'_, S> {
         let last = self.view::<SLIP>(end, a + part.segment.change * t, force);
         let bend = series.bend.to_array();
         let sizes = &self.phase::<SLIP>().view.sizes;
-        let size = |i: usize| sizes[i].load(simd) * f64x8::splat(simd, bend[i]);
-        let sum = (size(0) + size(1)) + (size(2) + size(3));
-        let slack = sum * f64x8::splat(simd, 0.125 * (t * t));
+        let slack = combine8(simd, sizes, bend) * eight(simd, 0.125 * (t * t));
         let attained = larger(first.abs(), last.abs());
         if (attained + slack).simd_le(self.peak).all_true() {
             return;
         }
         self.peak = larger(self.peak, attained);
         // An extreme lies inside only where the ends are less than four times the slack apart.
-        let zero = f64x8::splat(simd, 0.0);
-        let inside = slack - (last - first).abs() * f64x8::splat(simd, 0.25);
+        let zero = eight(simd, 0.0);
+        let inside = slack - (last - first).abs() * eight(simd, 0.25);
         let bulge = inside.simd_gt(zero).select(inside * (inside / slack), zero);
         // A few ulp are no more than the rounding of the ends.
         let above = attained + bulge;
-        let rounding = self.peak * f64x8::splat(simd, 1e-15);
+        let rounding = self.peak * eight(simd, 1e-15);
         if above.simd_gt(self.peak + rounding).any_true() {
             let mut part = *part;
             part.segment.rest = t;
@@ -257,9 +264,7 @@ impl<S: Simd> Walk<'_, S> {
         let last = self.view::<SLIP>(end, a + change * rest, force);
         let bend = series.bend.to_array();
         let view = &self.phase::<SLIP>().view;
-        let size = |i: usize| view.sizes[i].load(simd) * f64x8::splat(simd, bend[i]);
-        let sum = (size(0) + size(1)) + (size(2) + size(3));
-        let slack = sum * f64x8::splat(simd, 0.125 * (rest * rest));
+        let slack = combine8(simd, &view.sizes, bend) * eight(simd, 0.125 * (rest * rest));
         let attained = larger(first.abs(), last.abs());
         let mut open = (attained + slack).simd_gt(self.peak).to_bitmask();
         self.peak = larger(self.peak, attained);

@@ -6,7 +6,7 @@
 use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
 
-use super::lanes::Four;
+use super::lanes::{Four, four, times4};
 use super::peaks::Part;
 use super::walk::Walk;
 use crate::error::SolveError;
@@ -61,24 +61,23 @@ impl<S: Simd> Series<S> {
         segment: &Segment,
         force: f64,
     ) -> Self {
-        let splat = |x: f64| f64x4::splat(simd, x);
-        let [s, w, eta, eta_dot] = x.map(splat);
-        let (a, change, force) = (splat(segment.a), splat(segment.change), splat(force));
-        let mut bend = splat(0.0);
-        let c = core::array::from_fn(|k| {
-            let of = |j: usize| table[k][j].load(simd);
-            let structure = of(2) * eta + of(3) * eta_dot;
-            let load = of(4) * a + of(5) * change;
-            let c = if SLIP {
-                ((of(0) * s + of(1) * w) + structure) + (load + of(6) * force)
+        let mut bend = four(simd, 0.0);
+        // A loop: what is passed to a function of the library would not be compiled for the lanes.
+        let mut c = [bend; DEGREE];
+        for k in 0..DEGREE {
+            let of = &table[k];
+            let structure = times4(simd, &of[2], x[2]) + times4(simd, &of[3], x[3]);
+            let load = times4(simd, &of[4], segment.a) + times4(simd, &of[5], segment.change);
+            c[k] = if SLIP {
+                let block = times4(simd, &of[0], x[0]) + times4(simd, &of[1], x[1]);
+                (block + structure) + (load + times4(simd, &of[6], force))
             } else {
                 structure + load
             };
             if k > 0 {
-                bend = bend + c.abs() * splat((k * (k + 1)) as f64);
+                bend = bend + c[k].abs() * four(simd, (k * (k + 1)) as f64);
             }
-            c
-        });
+        }
         Self { x: Four(x).load(simd), c, bend }
     }
 
@@ -87,8 +86,7 @@ impl<S: Simd> Series<S> {
     pub(super) fn at(&self, simd: S, t: f64) -> f64x4<S> {
         let t2 = t * t;
         let t4 = t2 * t2;
-        let splat = |x: f64| f64x4::splat(simd, x);
-        let (t, t2, t4) = (splat(t), splat(t2), splat(t4));
+        let (t, t2, t4) = (four(simd, t), four(simd, t2), four(simd, t4));
         let c = &self.c;
         let p0 = (self.x + c[0] * t) + (c[1] + c[2] * t) * t2;
         let p1 = (c[3] + c[4] * t) + (c[5] + c[6] * t) * t2;
@@ -378,5 +376,9 @@ fn halley(g: f64, g1: f64, g2: f64) -> f64 {
 #[inline(always)]
 fn taylor(y: [f64; 4], first: [f64; 4], second: [f64; 4], d: f64) -> [f64; 4] {
     let half = 0.5 * (d * d);
-    core::array::from_fn(|i| y[i] + (d * first[i] + half * second[i]))
+    let mut x = y;
+    for i in 0..4 {
+        x[i] += d * first[i] + half * second[i];
+    }
+    x
 }

@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
-use super::lanes::{BLOCK, Eight, Four, combine4, combine8};
+use super::lanes::{BLOCK, Four, combine4, combine8, times4, times8};
 use super::peaks::Candidates;
 use super::tables::{Phase, Row, Tables};
 use super::windows::Windows;
@@ -138,20 +138,21 @@ impl<'w, S: Simd> Walk<'w, S> {
         force: f64,
     ) -> f64x4<S> {
         let (simd, phase) = (self.simd, self.phase::<SLIP>());
-        let splat = |x: f64| f64x4::splat(simd, x);
-        let tap = |m: usize| phase.tap[k - m].load(simd) * splat(a[m]);
-        let mut load = phase.first[k].load(simd) * splat(a[0]);
+        let taps = &phase.tap;
+        let mut load = times4(simd, &phase.first[k], a[0]);
         if SLIP {
-            load = load + phase.force[k].load(simd) * splat(force);
+            load = load + times4(simd, &phase.force[k], force);
         }
         if k == BLOCK {
             // Two sums, that neither has to wait for the other.
-            let odd = (tap(1) + tap(3)) + (tap(5) + tap(7));
-            let even = (tap(2) + tap(4)) + (tap(6) + tap(8));
+            let odd = (times4(simd, &taps[7], a[1]) + times4(simd, &taps[5], a[3]))
+                + (times4(simd, &taps[3], a[5]) + times4(simd, &taps[1], a[7]));
+            let even = (times4(simd, &taps[6], a[2]) + times4(simd, &taps[4], a[4]))
+                + (times4(simd, &taps[2], a[6]) + times4(simd, &taps[0], a[8]));
             load = load + (odd + even);
         } else {
             for m in 1..=k {
-                load = load + tap(m);
+                load = load + times4(simd, &taps[k - m], a[m]);
             }
         }
         combine4(simd, &phase.power[k], x) + load
@@ -167,13 +168,14 @@ impl<'w, S: Simd> Walk<'w, S> {
         force: f64,
     ) -> f64x8<S> {
         let simd = self.simd;
-        let times = |column: &Eight, x: f64| column.load(simd) * f64x8::splat(simd, x);
-        let tap = |m: usize| times(&row.tap[m - 1], a[m]);
-        let odd = (tap(1) + tap(3)) + (tap(5) + tap(7));
-        let even = (tap(2) + tap(4)) + (tap(6) + tap(8));
-        let mut load = times(&row.first, a[0]) + (odd + even);
+        let taps = &row.tap;
+        let odd = (times8(simd, &taps[0], a[1]) + times8(simd, &taps[2], a[3]))
+            + (times8(simd, &taps[4], a[5]) + times8(simd, &taps[6], a[7]));
+        let even = (times8(simd, &taps[1], a[2]) + times8(simd, &taps[3], a[4]))
+            + (times8(simd, &taps[5], a[6]) + times8(simd, &taps[7], a[8]));
+        let mut load = times8(simd, &row.first, a[0]) + (odd + even);
         if SLIP {
-            load = load + times(&row.force, force);
+            load = load + times8(simd, &row.force, force);
         }
         combine8(simd, &row.state, x) + load
     }
@@ -184,9 +186,9 @@ impl<'w, S: Simd> Walk<'w, S> {
         let (simd, view) = (self.simd, &self.phase::<SLIP>().view);
         let f = self.tables.plant.restoring(&x);
         let input = if SLIP {
-            view.of_force.load(simd) * f64x8::splat(simd, force)
+            times8(simd, &view.of_force, force)
         } else {
-            view.of_acceleration.load(simd) * f64x8::splat(simd, a)
+            times8(simd, &view.of_acceleration, a)
         };
         combine8(simd, &view.columns, [x[0], x[1], x[2], f]) + (input - view.slope.load(simd))
     }
