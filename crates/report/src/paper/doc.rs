@@ -119,9 +119,9 @@ fn unit_after(claim: &Claim) -> String {
 pub fn short(name: &str) -> String {
     let name = name.trim_start_matches("Section 3, ").trim_start_matches("Section 6, ");
     name.replace(" without a spring", ", free")
-        .replace(" on the certified spring without pre-stress", ", certified spring")
-        .replace(" on the certified spring with pre-stress", ", certified spring pre-stressed")
-        .replace(" on the non-certified spring", ", non-certified spring")
+        .replace(" on the certified spring without pre-stress", ", certified")
+        .replace(" on the certified spring with pre-stress", ", certified pre-stressed")
+        .replace(" on the non-certified spring", ", non-certified")
         .replace(" Taft 1952", " Taft")
         .replace(", a ", ", ")
         .replace(" sine", "")

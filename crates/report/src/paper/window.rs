@@ -107,77 +107,84 @@ fn above(window: &Window, ratio: Ratio, band_hz: [f64; 2]) -> String {
     }
 }
 
-/// `1 to 3.4 Hz, WHAT`: the head of a column.
-fn column(band_hz: [f64; 2], what: &str) -> String {
-    format!("{}–{} Hz, {what}", compact(band_hz[0]), compact(band_hz[1]))
-}
-
-/// The largest ratio in a band, where, and that over f2 and f_ff.
-fn peak(window: &Window, ratio: Ratio, band_hz: [f64; 2]) -> String {
-    let [hz, value] = window.peak(ratio, band_hz);
-    format!(
-        "{} at {} ({} f2, {} f_ff)",
-        fixed(value, 2),
-        fixed(hz, 3),
-        fixed(hz / window.frequency_hz, 3),
-        fixed(hz / window.free_free_hz, 3)
-    )
-}
+/// From rest and steady.
+type Pair = [Ratio; 2];
 
 fn over_table(doc: &mut Doc, paper: &Paper) {
+    let pair: Pair = [|p| p.rest_over_table, |p| p.steady_over_table];
+    doc.paragraph("Where the peak storey acceleration exceeds that of the table, in Hz:");
+    stretches(doc, paper, pair);
     doc.paragraph(
-        "Peak storey acceleration over that of the table: where it exceeds one, in Hz, and its \
-         largest value above 0.75 f2 with the frequency of the table there.",
+        "The largest ratio above 0.75 f2, and the frequency of the table there over f2 and over \
+         f_ff:",
     );
-    let [rest, steady]: [Ratio; 2] = [|p| p.rest_over_table, |p| p.steady_over_table];
-    let rows = paper.windows.iter().map(|window| {
-        let mut cells = name(window);
-        for band_hz in [TESTED_HZ, SCANNED_HZ] {
-            cells.extend([rest, steady].map(|ratio| above(window, ratio, band_hz)));
-        }
-        cells.extend([rest, steady].map(|ratio| peak(window, ratio, window.near_hz())));
-        cells
-    });
-    let header = [
-        "oscillator".to_owned(),
-        "table, m/s²".to_owned(),
-        column(TESTED_HZ, "rest"),
-        column(TESTED_HZ, "steady"),
-        column(SCANNED_HZ, "rest"),
-        column(SCANNED_HZ, "steady"),
-        "peak, rest".to_owned(),
-        "peak, steady".to_owned(),
-    ];
-    doc.table(&header.each_ref().map(String::as_str), 1, rows.collect());
+    peaks(doc, paper, pair);
 }
 
 fn over_fixed(doc: &mut Doc, paper: &Paper) {
+    let pair @ [_, steady]: Pair = [|p| p.rest_over_fixed, |p| p.steady_over_fixed];
     doc.paragraph(
-        "Peak storey acceleration over that of the same storey on a fixed block: where it exceeds \
-         one, in Hz, and its largest values above and below 0.75 f2. Those below are sub-harmonic: \
-         the square wave of friction carries the odd multiples of the table's frequency, and one of \
-         them meets f_ff. Where the block sticks throughout the ratio is one.",
+        "Where the peak storey acceleration exceeds that of the same storey on a fixed block, in \
+         Hz; where the block sticks throughout the ratio is one:",
     );
-    let [rest, steady]: [Ratio; 2] = [|p| p.rest_over_fixed, |p| p.steady_over_fixed];
+    stretches(doc, paper, pair);
+    doc.paragraph("The largest of this ratio above 0.75 f2, and where, as before:");
+    peaks(doc, paper, pair);
+    doc.paragraph(
+        "The largest in the steady state below 0.75 f2. The square wave of friction carries the odd \
+         multiples of the table's frequency, and one of them meets f_ff: the last column is f_ff \
+         over the frequency of the table.",
+    );
+    let rows = paper.windows.iter().map(|window| {
+        let [hz, value] = window.peak(steady, window.below_hz());
+        let mut cells = name(window);
+        cells.extend([fixed(value, 2), fixed(hz, 3), fixed(window.free_free_hz / hz, 2)]);
+        cells
+    });
+    doc.table(
+        &["oscillator", "table, m/s²", "largest", "at, Hz", "f_ff over it"],
+        1,
+        rows.collect(),
+    );
+}
+
+/// Where ratios exceed one, as tested and as scanned.
+fn stretches(doc: &mut Doc, paper: &Paper, pair: Pair) {
     let rows = paper.windows.iter().map(|window| {
         let mut cells = name(window);
         for band_hz in [TESTED_HZ, SCANNED_HZ] {
-            cells.extend([rest, steady].map(|ratio| above(window, ratio, band_hz)));
+            cells.extend(pair.map(|ratio| above(window, ratio, band_hz)));
         }
-        cells.extend([rest, steady].map(|ratio| peak(window, ratio, window.near_hz())));
-        cells.push(peak(window, steady, window.below_hz()));
+        cells
+    });
+    let head =
+        |[from, to]: [f64; 2], what: &str| format!("{}–{} Hz, {what}", compact(from), compact(to));
+    let heads = [TESTED_HZ, SCANNED_HZ].map(|band| [head(band, "rest"), head(band, "steady")]);
+    let mut header = vec!["oscillator", "table, m/s²"];
+    header.extend(heads.iter().flatten().map(String::as_str));
+    doc.table(&header, 1, rows.collect());
+}
+
+/// The largest ratios about the storey's own resonance, and where.
+fn peaks(doc: &mut Doc, paper: &Paper, pair: Pair) {
+    let rows = paper.windows.iter().map(|window| {
+        let mut cells = name(window);
+        for ratio in pair {
+            let [hz, value] = window.peak(ratio, window.near_hz());
+            cells.push(fixed(value, 2));
+            cells.extend([window.frequency_hz, window.free_free_hz].map(|f| fixed(hz / f, 3)));
+        }
         cells
     });
     let header = [
-        "oscillator".to_owned(),
-        "table, m/s²".to_owned(),
-        column(TESTED_HZ, "rest"),
-        column(TESTED_HZ, "steady"),
-        column(SCANNED_HZ, "rest"),
-        column(SCANNED_HZ, "steady"),
-        "largest above, rest".to_owned(),
-        "largest above, steady".to_owned(),
-        "largest below, steady".to_owned(),
+        "oscillator",
+        "table, m/s²",
+        "rest",
+        "over f2",
+        "over f_ff",
+        "steady",
+        "over f2",
+        "over f_ff",
     ];
-    doc.table(&header.each_ref().map(String::as_str), 1, rows.collect());
+    doc.table(&header, 1, rows.collect());
 }
