@@ -1,6 +1,7 @@
 //! `cargo xtask`: the project's own tasks, on cargo and rustup alone unless a task says otherwise.
 
 mod ci;
+mod paper;
 mod peers;
 mod reference;
 mod shell;
@@ -17,6 +18,8 @@ Usage: cargo xtask TASK
                                  licences; last line: N passed, N failed, N skipped
   reference [--write]            every reference case: truth, tolerance, error reached
                                  (--write: into book/src/generated/verification.md)
+  paper [--write]                reproduces the paper and compares with the book's chapter
+                                 (--write: into book/src/paper.md and book/src/figures)
   bench-peers [--json] [--quick] [--write]
                                  times the same analyses here, in a numba loop, SciPy and
                                  OpenSeesPy (needs python3; makes .venv)
@@ -35,6 +38,7 @@ fn main() -> ExitCode {
     let outcome = match words.as_slice() {
         ["ci"] => return ci::ci(),
         ["reference", options @ ..] => reference::reference(options),
+        ["paper", options @ ..] => paper::paper(options),
         ["bench-peers", options @ ..] => peers::bench_peers(options),
         ["fuzz", options @ ..] => tools::fuzz(options),
         ["deny"] => tools::deny(),

@@ -51,6 +51,19 @@ Writes into the folder, each file whole or not at all:
 
 slipstick schema --plan prints the JSON schema of a plan.";
 
+const PAPER_EXAMPLES: &str = "\
+Examples:
+  slipstick paper                        the verdicts, one line a claim
+  slipstick paper --out out              the chapter with its figures, and claims.json
+  slipstick paper --quick --json         coarser ranges, the same verdicts, as JSON
+
+Takes a minute or two, --quick some seconds. Two runs write the same bytes.
+
+Writes with --out, each file whole or not at all:
+  chapter.md    the chapter of the manual, with tables
+  figures/      its figures (SVG)
+  claims.json   the array that --json prints";
+
 /// Everything on the command line.
 #[derive(Debug, Parser)]
 #[command(name = "slipstick", version, about = ABOUT, after_help = EXAMPLES)]
@@ -77,6 +90,9 @@ pub enum Command {
     Study(StudyArgs),
     /// Write an example model that runs as it stands
     Init(InitArgs),
+    /// Reproduce the paper that the model comes from: every experiment, every claim, its verdict
+    #[command(after_help = PAPER_EXAMPLES)]
+    Paper(PaperArgs),
     /// Print the JSON schema of the model file, or the table of units
     Schema(SchemaArgs),
     /// Print a completion script for a shell
@@ -101,7 +117,8 @@ pub struct RunArgs {
     /// Record to use instead of the model's [motion]; its format is recognised
     #[arg(long, value_name = "FILE", help_heading = "Ground motion")]
     pub motion: Option<PathBuf>,
-    /// Unit of the record's values, where its file does not state it: g, gal, m/s2, …
+    /// Unit of the record's values, where its file does not state it: g, gal, m/s2, …; of counts the
+    /// value of one: "4.67e-6 m/s2"
     #[arg(long, value_name = "UNIT", requires = "motion", help_heading = "Ground motion")]
     pub units: Option<String>,
     /// Time step of the record, where its file does not state it: "0.01 s"
@@ -204,6 +221,26 @@ pub enum StudyCommand {
         #[arg(short, long, value_name = "FILE.parquet")]
         out: PathBuf,
     },
+}
+
+/// `slipstick paper`.
+#[derive(Debug, Args)]
+pub struct PaperArgs {
+    /// Folder to write chapter.md, figures and claims.json into
+    #[arg(short, long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Print the claims as a JSON array
+    #[arg(long)]
+    pub json: bool,
+    /// Folder of records to add to the table of sliding against friction
+    #[arg(long, value_name = "DIR")]
+    pub records: Option<PathBuf>,
+    /// Scan the ranges more coarsely
+    #[arg(long)]
+    pub quick: bool,
+    /// No progress on standard error
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
 /// `slipstick init`.

@@ -59,6 +59,7 @@ fn run() -> Result<ExitCode, Failure> {
         Command::Run(args) => commands::run::run(args),
         Command::Study(args) => commands::study::study(args),
         Command::Init(args) => commands::init::init(args),
+        Command::Paper(args) => commands::paper::paper(args),
         Command::Schema(args) => commands::text::schema(args),
         Command::Completions { shell } => commands::text::completions(*shell),
         Command::Man { folder } => commands::text::man(folder),

@@ -25,6 +25,28 @@ pub enum ModelError {
     },
 }
 
+/// A channel that a format of records cannot hold.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RecordWriteError {
+    /// Counts of a recorder, which are no motion.
+    #[error("expected acceleration, velocity or displacement, found counts of a recorder")]
+    Counts,
+    /// Uneven times in a format that has a step only.
+    #[error(
+        "{format} has no times: expected even sampling, found uneven (resample it, or write CSV)"
+    )]
+    Uneven {
+        /// The format.
+        format: &'static str,
+    },
+    /// A value with more digits than a field of the format.
+    #[error("expected values below 1e10 in the units of the format, found {value:e}")]
+    TooLarge {
+        /// The value in the units of the format.
+        value: f64,
+    },
+}
+
 /// Samples that are no ground motion.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MotionError {
@@ -73,6 +95,15 @@ pub enum MotionError {
         /// The value given.
         found: f64,
     },
+    /// A step of processing that needs a constant time step.
+    #[error("{step}: expected evenly spaced samples, found uneven ones: resample first")]
+    Uneven {
+        /// The step.
+        step: &'static str,
+    },
+    /// Counts of a recorder where motion is needed.
+    #[error("expected acceleration, velocity or displacement, found counts of a recorder")]
+    Counts,
     /// A peak was asked of a motion that is zero throughout.
     #[error("scale_to: expected a motion that is not zero throughout, its peak is 0 m/s²")]
     ZeroPeak,
@@ -127,20 +158,31 @@ pub enum SolveError {
     },
 }
 
-/// Text that is not a record, in the `file:line:column` form an editor can jump to.
+/// Bytes that are not a record: of text in the `file:line:column` form an editor can jump to, of a
+/// binary file with the offset of the first offending byte.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{source_name}:{line}:{column}: expected {expected}, found {found:?}")]
+#[error("{source_name}{}: expected {expected}, found {found:?}", place(*line, *column, *offset))]
 pub struct RecordError {
     /// The caller's name for the text: a path, or the name of a dropped file.
     pub source_name: String,
-    /// Line of the first offending character, counted from 1.
+    /// Line of the first offending character, counted from 1; 1 in a binary file.
     pub line: usize,
-    /// Its column in characters, counted from 1.
+    /// Its column in characters, counted from 1; 1 in a binary file.
     pub column: usize,
+    /// Offset of the first offending byte of a binary file, counted from 0; none in a text.
+    pub offset: Option<usize>,
     /// What the format asks for here.
     pub expected: String,
     /// The offending word, cut to 40 characters.
     pub found: String,
+}
+
+/// Where a record is wrong, as it stands after the file's name.
+fn place(line: usize, column: usize, offset: Option<usize>) -> String {
+    match offset {
+        Some(offset) => format!(", byte {offset}"),
+        None => format!(":{line}:{column}"),
+    }
 }
 
 /// Text that is not a quantity: what a unit's reader expected and what it found.

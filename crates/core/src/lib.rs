@@ -18,6 +18,7 @@ pub mod check;
 pub mod error;
 pub mod friction;
 pub mod input;
+pub mod laboratory;
 pub mod linear;
 pub mod model;
 pub mod motion;

@@ -6,11 +6,14 @@ mod fourier;
 pub mod intensity;
 mod made;
 mod oscillator;
+pub mod processing;
+mod series;
 mod spectrum;
 
 pub use figures::Figures;
 pub use fourier::FourierSpectrum;
 pub use made::{Pulse, PulseShape, Sine, Sweep, SweepKind};
+pub use series::{Quantity, Series};
 pub use spectrum::{Ordinates, Spectrum, spectrum};
 
 use crate::error::MotionError;

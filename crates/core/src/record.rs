@@ -5,19 +5,49 @@
 //! cannot be overruled, but for a step that its rounded times allow. Nothing is guessed in silence:
 //! a choice that a reader had to make is a warning.
 //!
-//! A format is a file here with two functions: `recognises(text)` and `read(text, options)`.
+//! A format is a file here with two functions: `recognises(text)` and `read(text, options)`; one of
+//! binary files has `recognises_bytes` and `read_bytes`, which are asked first.
 
+mod asa;
+mod bhrc;
+mod bytes;
+mod component;
+mod cosmos;
+mod csmip;
+mod csmnc;
+mod cwa;
+mod decimal;
 mod delimited;
+mod dyna;
+mod fixed;
+mod geonet;
+mod itaca;
+mod keys;
+mod knet;
+mod miniseed;
+mod nsmn;
 mod peer;
+mod quality;
+mod renadic;
+mod sac;
 mod sampling;
+mod seismosignal;
+mod smc;
 mod text;
 mod unit;
+mod usc;
+mod volume;
+mod write;
+
+use std::collections::BTreeMap;
 
 use crate::error::{MotionError, RecordError};
 use crate::motion::GroundMotion;
 
+pub use quality::{REST_KINDS, rest};
 use text::Text;
 pub use unit::{Quantity, Units};
+pub use write::{write_at2, write_csv, write_smc};
 
 /// Formats that are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,19 +55,90 @@ pub use unit::{Quantity, Units};
 pub enum Format {
     /// PEER NGA, `.AT2`, `.VT2`, `.DT2`.
     Peer,
+    /// CSMIP volumes, `.V1`, `.V2`.
+    Csmip,
+    /// COSMOS 1.x, `.V0c`, `.V1c`, `.V2c`.
+    Cosmos,
+    /// USGS SMC, `.smc`.
+    Smc,
+    /// USC and Caltech volumes, `.m0a`, `.s0a`.
+    Usc,
+    /// RENADIC of Chile, `.v1`.
+    Renadic,
+    /// BHRC of Iran, `.V1`.
+    Bhrc,
+    /// Text exported by SeismoSignal.
+    SeismoSignal,
+    /// K-NET and KiK-net, Japan: `.EW`, `.NS`, `.UD`, `.EW1`, …
+    Knet,
+    /// DYNA of ESM, ITACA and AFAD: `.ASC`, `.asc`.
+    Dyna,
+    /// Older ITACA and SISMA: `.acc`.
+    Itaca,
+    /// NSMN, the old network of Turkey: `.txt`.
+    Nsmn,
+    /// GeoNet, New Zealand: `.V1A`, `.V2A`.
+    GeoNet,
+    /// UNAM, Mexico: ASA 2.0.
+    Asa,
+    /// CSMNC, China: `.dat`.
+    Csmnc,
+    /// CWA, Taiwan: `.dat`, `.txt`.
+    Cwa,
+    /// SAC, binary and alphanumeric.
+    Sac,
+    /// MiniSEED 2 and 3.
+    MiniSeed,
     /// Columns of numbers: CSV and other text.
     Delimited,
 }
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Peer, Self::Delimited];
+    pub const ALL: [Self; 19] = [
+        Self::Peer,
+        Self::Csmip,
+        Self::Cosmos,
+        Self::Smc,
+        Self::Usc,
+        Self::Renadic,
+        Self::Bhrc,
+        Self::SeismoSignal,
+        Self::Knet,
+        Self::Dyna,
+        Self::Itaca,
+        Self::Nsmn,
+        Self::GeoNet,
+        Self::Asa,
+        Self::Csmnc,
+        Self::Cwa,
+        Self::Sac,
+        Self::MiniSeed,
+        Self::Delimited,
+    ];
 
     /// The word for it in `--format`.
     #[must_use]
     pub fn keyword(self) -> &'static str {
         match self {
             Self::Peer => "peer",
+            Self::Csmip => "csmip",
+            Self::Cosmos => "cosmos",
+            Self::Smc => "smc",
+            Self::Usc => "usc",
+            Self::Renadic => "renadic",
+            Self::Bhrc => "bhrc",
+            Self::SeismoSignal => "seismosignal",
+            Self::Knet => "knet",
+            Self::Dyna => "dyna",
+            Self::Itaca => "itaca",
+            Self::Nsmn => "nsmn",
+            Self::GeoNet => "geonet",
+            Self::Asa => "asa",
+            Self::Csmnc => "csmnc",
+            Self::Cwa => "cwa",
+            Self::Sac => "sac",
+            Self::MiniSeed => "miniseed",
             Self::Delimited => "text",
         }
     }
@@ -149,6 +250,19 @@ impl Record {
 }
 
 impl Channel {
+    /// The same channel with another motion along the surface in it, its labels kept: what a
+    /// processing step makes of it. Its units are m/s².
+    #[must_use]
+    pub fn with_motion(&self, motion: &GroundMotion) -> Self {
+        let sampling = match motion.dt_s() {
+            Some(dt_s) => Sampling::Dt(dt_s),
+            None => Sampling::Times(motion.times_s().to_vec()),
+        };
+        let units = Units::m_per_s2();
+        let values = motion.horizontal_m_per_s2().to_vec();
+        Self { units, values, sampling, ..self.clone() }
+    }
+
     /// The channel as horizontal ground motion, its clock started at the first sample; `None` for
     /// a channel that is not acceleration.
     ///
@@ -171,22 +285,101 @@ impl Channel {
 /// [`RecordError`] with line and column where the bytes are no text, no format that is read, do
 /// not hold what they announce, or need units or a time step that [`Options`] does not give.
 pub fn read(source_name: &str, bytes: &[u8], options: &Options) -> Result<Record, RecordError> {
-    let text = Text::new(source_name, bytes)?;
+    let mut record = match binary(bytes, options) {
+        Some(Format::Sac) => sac::read_bytes(source_name, bytes, options),
+        Some(_) => miniseed::read_bytes(source_name, bytes, options),
+        None => read_text(&Text::new(source_name, bytes)?, options),
+    }?;
+    distinct(&mut record.channels);
+    record.channels.iter_mut().for_each(quality::inspect);
+    Ok(record)
+}
+
+/// The format of binary bytes: the one asked for, else the one that knows them.
+fn binary(bytes: &[u8], options: &Options) -> Option<Format> {
+    match options.format {
+        Some(Format::MiniSeed) => Some(Format::MiniSeed),
+        // Its other form is text.
+        Some(Format::Sac) | None if sac::recognises_bytes(bytes) => Some(Format::Sac),
+        None if miniseed::recognises_bytes(bytes) => Some(Format::MiniSeed),
+        _ => None,
+    }
+}
+
+fn read_text(text: &Text, options: &Options) -> Result<Record, RecordError> {
     if let Some(dt_s) = options.dt_s
         && !(dt_s.is_finite() && dt_s > 0.0)
     {
         return Err(text.error_at_start("a time step > 0 s given as dt", &format!("{dt_s} s")));
     }
-    let format = options.format.unwrap_or_else(|| recognise(&text));
-    match format {
-        Format::Peer => peer::read(&text, options),
-        Format::Delimited => delimited::read(&text, options),
+    match options.format.unwrap_or_else(|| recognise(text)) {
+        Format::Peer => peer::read(text, options),
+        Format::Csmip => csmip::read(text, options),
+        Format::Cosmos => cosmos::read(text, options),
+        Format::Smc => smc::read(text, options),
+        Format::Usc => usc::read(text, options),
+        Format::Renadic => renadic::read(text, options),
+        Format::Bhrc => bhrc::read(text, options),
+        Format::SeismoSignal => seismosignal::read(text, options),
+        Format::Knet => knet::read(text, options),
+        Format::Dyna => dyna::read(text, options),
+        Format::Itaca => itaca::read(text, options),
+        Format::Nsmn => nsmn::read(text, options),
+        Format::GeoNet => geonet::read(text, options),
+        Format::Asa => asa::read(text, options),
+        Format::Csmnc => csmnc::read(text, options),
+        Format::Cwa => cwa::read(text, options),
+        Format::Sac => sac::read(text, options),
+        // Read as bytes.
+        Format::MiniSeed => Err(text.error_at_start("MiniSEED", "text")),
+        Format::Delimited => delimited::read(text, options),
     }
 }
 
+/// Numbers the channels that share a name, so that a name picks one channel or none.
+fn distinct(channels: &mut [Channel]) {
+    let mut seen: BTreeMap<String, (usize, usize)> = BTreeMap::new();
+    for channel in channels.iter() {
+        seen.entry(channel.name.to_ascii_lowercase()).or_default().0 += 1;
+    }
+    for channel in channels {
+        let entry = seen.get_mut(&channel.name.to_ascii_lowercase());
+        if let Some((2.., number)) = entry {
+            *number += 1;
+            channel.name.push_str(&format!(" ({number})"));
+        }
+    }
+}
+
+/// What tells whether a text is of a format.
+type Recognises = fn(&Text) -> bool;
+
+/// The formats that a text may be, the surest signs first.
+const TEXT_FORMATS: [(Format, Recognises); 17] = [
+    (Format::Cosmos, cosmos::recognises),
+    (Format::Smc, smc::recognises),
+    // USC, RENADIC and GeoNet write volumes much as CSMIP does.
+    (Format::Usc, usc::recognises),
+    (Format::Renadic, renadic::recognises),
+    (Format::Bhrc, bhrc::recognises),
+    (Format::GeoNet, geonet::recognises),
+    (Format::Csmip, csmip::recognises),
+    (Format::SeismoSignal, seismosignal::recognises),
+    (Format::Knet, knet::recognises),
+    (Format::Dyna, dyna::recognises),
+    (Format::Itaca, itaca::recognises),
+    (Format::Nsmn, nsmn::recognises),
+    (Format::Asa, asa::recognises),
+    (Format::Csmnc, csmnc::recognises),
+    (Format::Cwa, cwa::recognises),
+    (Format::Sac, sac::recognises),
+    (Format::Peer, peer::recognises),
+];
+
 /// The format of a text; delimited text where no other format knows it.
 fn recognise(text: &Text) -> Format {
-    if peer::recognises(text) { Format::Peer } else { Format::Delimited }
+    let known = TEXT_FORMATS.iter().find(|(_, recognises)| recognises(text));
+    known.map_or(Format::Delimited, |(format, _)| *format)
 }
 
 /// Values converted to SI, once.
@@ -212,6 +405,12 @@ fn keys_to_add(units: bool, dt: bool) -> String {
         }
     };
     format!("{what}: add {keys} to [motion] (or {options})")
+}
+
+/// The same for a file of counts, or of values whose units are not known.
+fn counts_to_add() -> String {
+    let keys = keys_to_add(true, false);
+    format!("{keys}; of counts the value of one, such as \"4.67e-6 m/s2\"")
 }
 
 #[cfg(test)]

@@ -60,7 +60,21 @@ pub fn exact_demands(model: &Model, motion: &GroundMotion) -> Result<Response, S
 /// # Errors
 /// [`SolveError::NoConvergence`] with the time where the iteration does not converge.
 pub fn stepwise(model: &Model, motion: &GroundMotion) -> Result<Response, SolveError> {
-    stepwise::solve(model, motion)
+    stepwise::solve(model, motion, stepwise::TOLERANCE_M_PER_S2)
+}
+
+/// As [`stepwise`], with another `δ` of eqs (17), (18): the largest change of an acceleration in the
+/// last iteration, in m/s², instead of the paper's 1e-5.
+///
+/// # Errors
+/// [`SolveError::NoConvergence`] with the time where the iteration does not converge; where `δ` is
+/// not positive it never does.
+pub fn stepwise_within(
+    model: &Model,
+    motion: &GroundMotion,
+    tolerance_m_per_s2: f64,
+) -> Result<Response, SolveError> {
+    stepwise::solve(model, motion, tolerance_m_per_s2)
 }
 
 /// Response by either method, with its history.

@@ -5,8 +5,10 @@
 //! handler of Ctrl-C may call [`remove_temporaries`].
 
 mod error;
+mod folder;
 mod globs;
 mod load;
+mod paper;
 mod parquet;
 mod read;
 mod run;
@@ -15,8 +17,10 @@ mod tables;
 mod write;
 
 pub use error::FileError;
+pub use folder::{FolderRecords, folder_records};
 pub use globs::{expand, expand_all};
 pub use load::{LoadedMotion, RecordRequest, Scale, SourceFile, VerticalRequest, load_record};
+pub use paper::paper_library;
 pub use parquet::{NumberColumn, UNIT_KEY, columns_to_bytes, read_columns, write_columns};
 pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve, sha256_hex};
 pub use run::{Job, JobError, Outcome};

@@ -192,9 +192,11 @@ fn at(path: &Path) -> impl Fn(MotionError) -> FileError + '_ {
     |source| FileError::Motion { path: path.to_owned(), source }
 }
 
-fn of_reader(record: &Record, channel: &Channel) -> Vec<Warning> {
-    let all = record.warnings.iter().chain(&channel.warnings);
-    all.map(|w| Warning { kind: w.kind, time_s: None, message: w.message.clone() }).collect()
+/// What the reader says; how the motion starts and ends is said of it as it is used.
+fn of_reader(file: &Record, channel: &Channel) -> Vec<Warning> {
+    let all = file.warnings.iter().chain(&channel.warnings);
+    let of_file = all.filter(|w| !record::REST_KINDS.contains(&w.kind));
+    of_file.map(|w| Warning { kind: w.kind, time_s: None, message: w.message.clone() }).collect()
 }
 
 /// What an engineer asks first of a record: does it start from rest, and does it drift.
@@ -202,20 +204,10 @@ fn of_motion(motion: &GroundMotion, figures: &Figures, lengths_differ: bool) -> 
     let mut warnings = Vec::new();
     let mut warn = |kind, time_s, message| warnings.push(Warning { kind, time_s, message });
     let first = motion.horizontal_m_per_s2()[0];
-    if first != 0.0 {
-        let message = format!(
-            "the first sample is {first:.4} m/s², not 0: taken as a jump at the start of the motion"
-        );
-        warn("first_sample_not_zero", Some(0.0), message);
-    }
     let Figures { pgv_m_per_s, end_velocity_m_per_s, .. } = *figures;
-    if end_velocity_m_per_s.abs() > 0.05 * pgv_m_per_s {
-        let percent = 100.0 * end_velocity_m_per_s.abs() / pgv_m_per_s;
-        let message = format!(
-            "the record drifts: its velocity at the end is {end_velocity_m_per_s:.4} m/s, \
-             {percent:.0} % of its peak; nothing was corrected"
-        );
-        warn("record_drift", Some(motion.duration_s()), message);
+    for w in record::rest(first, end_velocity_m_per_s, pgv_m_per_s) {
+        let at_start = w.kind == record::REST_KINDS[0];
+        warn(w.kind, Some(if at_start { 0.0 } else { motion.duration_s() }), w.message);
     }
     if lengths_differ {
         let message = "the vertical component and the horizontal one differ in length: the \

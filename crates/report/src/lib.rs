@@ -44,6 +44,7 @@ pub mod html;
 pub mod json;
 pub mod markup;
 pub mod number;
+pub mod paper;
 pub mod peaks;
 pub mod plot;
 pub mod report;

@@ -8,6 +8,7 @@ mod endings;
 mod files;
 mod json;
 mod options;
+mod paper;
 mod records;
 mod refused;
 mod support;

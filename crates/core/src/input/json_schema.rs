@@ -92,7 +92,9 @@ fn key(key: &Key) -> Json {
         Kind::Word(words) => entries.push(("enum", Json::texts(words.iter().copied()))),
         Kind::UnitOf(dimension) => {
             entries.push(("type", Json::text("string")));
-            entries.push(("pattern", Json::text(format!("^{}$", unit_pattern(*dimension)))));
+            // Perhaps after the value of one count.
+            let pattern = format!(r"^([0-9.eE+-]+\s+)?{}$", unit_pattern(*dimension));
+            entries.push(("pattern", Json::text(pattern)));
         }
         Kind::NameOrIndex => {
             let index = vec![("type", Json::text("integer")), ("minimum", Json::Number(1.0))];

@@ -191,7 +191,8 @@ static FRAME: Section = Section {
 pub(super) const UNITS: Key = Key::optional(
     "units",
     Kind::UnitOf(Acceleration),
-    "Unit of the record, where its file does not state it.",
+    "Unit of the record, where its file does not state it; of counts the value of one, \
+     \"4.67e-6 m/s2\".",
 );
 pub(super) const RECORD_STEP: Key = Key::optional(
     "dt",

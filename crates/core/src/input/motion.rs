@@ -66,7 +66,8 @@ fn record(values: &Values) -> RecordSource {
     let text = |path| values.text(path).map(str::to_owned);
     let channel = values.leaf("motion.channel").map(|leaf| leaf.written.clone());
     let units = values.leaf("motion.units").and_then(|leaf| match leaf.given {
-        Given::Unit(unit) => Units::parse(unit.name()),
+        // As written, perhaps with the value of one count before it.
+        Given::Unit(unit) => Units::parse(&leaf.written).or_else(|| Units::parse(unit.name())),
         _ => None,
     });
     let scale = match values.number("motion.scale_to") {

@@ -308,7 +308,7 @@ impl Values {
                 Given::Word(word)
             }
             (Kind::UnitOf(dimension), Value::Text(text)) => {
-                let unit = units::parse_unit(text, *dimension);
+                let unit = units::parse_unit(after_count(text), *dimension);
                 Given::Unit(unit.map_err(|error| self.bad_unit(path, node, error))?)
             }
             (
@@ -499,4 +499,11 @@ fn path_of(name: &str, path: &str, section: &'static Section) -> Option<String> 
         let path = if matches!(key.kind, schema::Kind::Sections(_)) { path + ".1" } else { path };
         key.kind.section().and_then(|section| path_of(name, &path, section))
     })
+}
+
+/// The unit of `4.67e-6 m/s2`, the value of one count, or all of the text.
+fn after_count(text: &str) -> &str {
+    let (number, unit) = text.trim().split_once(char::is_whitespace).unwrap_or(("", text));
+    let is_count = number.parse::<f64>().is_ok_and(|value| value.is_finite() && value > 0.0);
+    if is_count { unit } else { text }
 }

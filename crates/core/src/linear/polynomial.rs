@@ -48,6 +48,16 @@ pub fn curvature_bound(c: &Polynomial) -> f64 {
     bound[0] + bound[1]
 }
 
+/// [`curvature_bound`] over [0, `b`]: near 0 a polynomial without low powers is far flatter than
+/// over [0, 1], and a search by the bound for [0, 1] would halve its way through all of it.
+fn curvature_up_to(c: &Polynomial, b: f64) -> f64 {
+    let mut bound = 0.0;
+    for k in (2..=DEGREE).rev() {
+        bound = bound * b + (k * (k - 1)) as f64 * c[k].abs();
+    }
+    bound
+}
+
 /// The polynomial over `x^order`: what is left of one whose first `order` coefficients are 0.
 #[inline(always)]
 #[must_use]
@@ -82,12 +92,13 @@ struct Search<'a> {
 impl Search<'_> {
     fn first(&self, [a, ga]: [f64; 2], [b, gb]: [f64; 2]) -> Option<f64> {
         let width = b - a;
-        if ga.min(gb) > 0.125 * self.curvature * width * width {
+        let curvature = if b == 1.0 { self.curvature } else { curvature_up_to(self.c, b) };
+        if ga.min(gb) > 0.125 * curvature * width * width {
             return None;
         }
         let middle = a + 0.5 * width;
         if gb < 0.0 {
-            let steepest = value(self.slope, middle) + 0.5 * self.curvature * width;
+            let steepest = value(self.slope, middle) + 0.5 * curvature * width;
             if steepest < 0.0 || width <= NARROWEST {
                 return Some(self.bracketed([a, ga], [b, gb]));
             }
@@ -175,16 +186,19 @@ struct Peak<'a> {
 impl Peak<'_> {
     fn search(&mut self, [a, ga]: [f64; 2], [b, gb]: [f64; 2]) {
         let width = b - a;
-        if ga.max(gb) + 0.125 * self.curvature * width * width <= self.attained
-            || width <= NARROWEST
-        {
+        let [curvature, third] = if b == 1.0 {
+            [self.curvature, self.third]
+        } else {
+            [curvature_up_to(self.c, b), curvature_up_to(self.slope, b)]
+        };
+        if ga.max(gb) + 0.125 * curvature * width * width <= self.attained || width <= NARROWEST {
             return;
         }
         let middle = a + 0.5 * width;
-        if value(self.slope, middle).abs() > 0.5 * self.curvature * width {
+        if value(self.slope, middle).abs() > 0.5 * curvature * width {
             return; // monotone: the ends are the extremes
         }
-        if value(&self.bend, middle) + 0.5 * self.third * width < 0.0 {
+        if value(&self.bend, middle) + 0.5 * third * width < 0.0 {
             if value(self.slope, a) > 0.0 && value(self.slope, b) < 0.0 {
                 let search = Search { c: self.slope, slope: &self.bend, curvature: self.third };
                 let top = search.bracketed([a, value(self.slope, a)], [b, value(self.slope, b)]);
@@ -250,6 +264,17 @@ mod tests {
         c[0] += 1.0;
         assert!((largest(&c, f64::MIN) - 1.09).abs() < 1e-15);
         assert_eq!(largest(&c, 2.0), 2.0);
+    }
+
+    /// A frame at rest: its upper storeys follow the block by a high power of time.
+    #[test]
+    fn exact_high_power_alone_is_searched_in_few_steps() {
+        let mut c = [0.0; DEGREE + 1];
+        c[11] = -1.0;
+        assert_eq!(largest(&c, f64::MIN), 0.0);
+        (c[0], c[12]) = (1e-30, 1.0);
+        let x = first_root(&c).expect("falls below zero");
+        assert!((x / 1e-30_f64.powf(1.0 / 11.0) - 1.0).abs() < 1e-3, "{x}");
     }
 
     /// The worst case of the chord bound: a parabola that touches it.

@@ -51,12 +51,7 @@ impl GroundMotion {
     /// `Ü cos φ + Üv sin φ` as a horizontal motion, for a pair whose second component stands as the
     /// vertical one (see [`GroundMotion::with_vertical`]); φ in degrees.
     pub(super) fn in_direction(&self, degrees: f64) -> Result<Self, MotionError> {
-        // Quarters exactly: the cosine of 90° is 0.
-        let phi = degrees.to_radians();
-        let (cos, sin) = match degrees {
-            90.0 => (0.0, 1.0),
-            _ => (libm::cos(phi), libm::sin(phi)),
-        };
+        let [cos, sin] = direction(degrees);
         let x = &self.horizontal_m_per_s2;
         let Some(y) = &self.vertical_m_per_s2 else { return Ok(self.clone()) };
         let horizontal: Vec<f64> = x.iter().zip(y).map(|(x, y)| x * cos + y * sin).collect();
@@ -157,6 +152,18 @@ impl GroundMotion {
         }
         Ok((Self::new(times_s, along, Some(normal))?, differ))
     }
+}
+
+/// Cosine and sine of an angle in degrees, exact at whole quarters.
+pub(super) fn direction(degrees: f64) -> [f64; 2] {
+    let quarters = degrees / 90.0;
+    if quarters == libm::rint(quarters) {
+        let [x, y] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]]
+            [(quarters - 4.0 * libm::floor(quarters / 4.0)) as usize % 4];
+        return [x, y];
+    }
+    let phi = degrees.to_radians();
+    [libm::cos(phi), libm::sin(phi)]
 }
 
 /// How many steps of `dt_s` reach `duration_s`, the last one perhaps shorter; refused where they

@@ -2,7 +2,7 @@
 //!
 //! The equations, in the phase `τ = ωt`, are those of [`super::spectrum`].
 
-use core::f64::consts::PI;
+use crate::linear::polynomial::{self, DEGREE, Polynomial};
 
 /// Relative displacement `u` and its derivative by phase, `w = u̇/ω`; both in m.
 #[derive(Clone, Copy, Debug)]
@@ -14,10 +14,10 @@ pub(super) struct State {
 /// State after a phase `θ`, linear in the state before and in `α` at both ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
-    by_u: State,
-    by_w: State,
-    by_alpha0: State,
-    by_alpha1: State,
+    pub by_u: State,
+    pub by_w: State,
+    pub by_alpha0: State,
+    pub by_alpha1: State,
 }
 
 impl Step {
@@ -37,13 +37,12 @@ impl Step {
     }
 
     fn by_closed_form(theta: f64, xi: f64) -> Self {
-        let column = |u, w, alpha0, alpha1| {
-            let start = State { u, w };
-            let at = Interval { xi, theta, start, alpha0, alpha1 };
-            let sigma = at.sigma();
+        let column = |u, w, alpha0: f64, alpha1: f64| {
+            let sigma = (alpha1 - alpha0) / theta;
+            let sinusoid = Sinusoid::from_start(xi, u + alpha0 - 2.0 * xi * sigma, w + sigma);
             State {
-                u: at.displacement().at(theta) - alpha1 + 2.0 * xi * sigma,
-                w: at.velocity().at(theta) - sigma,
+                u: sinusoid.at(theta) - alpha1 + 2.0 * xi * sigma,
+                w: sinusoid.derivative().at(theta) - sigma,
             }
         };
         Self {
@@ -118,6 +117,58 @@ impl Steps {
     }
 }
 
+/// Largest |u|, |w| and |u + 2ξw| so far; times ω², ω and ω² they are PSa, Sv and Sa.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Peaks {
+    pub u: f64,
+    pub w: f64,
+    pub total: f64,
+}
+
+impl Peaks {
+    /// With those of a state.
+    pub fn raise(&mut self, state: State, xi: f64) {
+        let higher = |peak: &mut f64, value: f64| {
+            let value = value.abs();
+            *peak = if value > *peak { value } else { *peak };
+        };
+        higher(&mut self.u, state.u);
+        higher(&mut self.w, state.w);
+        higher(&mut self.total, state.u + 2.0 * xi * state.w);
+    }
+}
+
+/// How far a peak between two samples can stand above both: a bound with a proof.
+///
+/// `u`, `w` and `U = u + 2ξw` all follow `y″ = −y − 2ξ y′ − f` with `f` linear over an interval of
+/// phase θ: `f` is `α` for `u`, its slope `σ` for `w`, `α + 2ξσ` for `U`. Let `|y|` be largest, `M`,
+/// inside, so that `y′ = 0` there, and let `F` bound `|f|` and `B` the larger of `|y|` at the ends.
+/// Then `|y′| ≤ θ sup|y″|`, hence `sup|y″| ≤ (M + F)/(1 − 2ξθ)` where `2ξθ < 1`; the nearer end is
+/// at most θ/2 away, so that Taylor's theorem gives `B ≥ M − (θ²/8) sup|y″|`, and
+///
+/// ```text
+/// M ≤ (B + cF)/(1 − c)      c = θ²/(8 (1 − 2ξθ)) < 1
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Overshoot {
+    c: f64,
+}
+
+impl Overshoot {
+    pub fn new(theta: f64, xi: f64) -> Self {
+        let room = 1.0 - 2.0 * xi * theta;
+        let c = theta * theta / (8.0 * room);
+        Self { c: if room > 0.0 && c < 1.0 { c } else { 1.0 } }
+    }
+
+    /// Whether the peak inside may be above `attained`.
+    #[inline(always)]
+    pub fn may_pass(&self, attained: f64, ends: f64, forcing: f64) -> bool {
+        // Always true where the bound says nothing, `c = 1`, but for an interval of zeros.
+        ends + self.c * forcing > (1.0 - self.c) * attained
+    }
+}
+
 /// One interval of the history, seen by one oscillator.
 pub(super) struct Interval {
     /// Damping ratio.
@@ -126,6 +177,8 @@ pub(super) struct Interval {
     pub theta: f64,
     /// State at its start.
     pub start: State,
+    /// State at its end.
+    pub end: State,
     /// `α` at its start.
     pub alpha0: f64,
     /// `α` at its end.
@@ -133,76 +186,79 @@ pub(super) struct Interval {
 }
 
 impl Interval {
-    /// Slope of `α` by phase.
-    fn sigma(&self) -> f64 {
-        (self.alpha1 - self.alpha0) / self.theta
-    }
-
-    /// The damped sinusoid in `u`.
-    fn displacement(&self) -> Sinusoid {
-        let y0 = self.start.u + self.alpha0 - 2.0 * self.xi * self.sigma();
-        let z0 = self.start.w + self.sigma();
-        Sinusoid::from_start(self.xi, y0, z0)
-    }
-
-    /// The damped sinusoid in `w`.
-    fn velocity(&self) -> Sinusoid {
-        self.displacement().derivative()
-    }
-
-    /// Raises the peak of |w| by those inside the interval: where `w'`, a damped sinusoid, is 0.
-    pub fn velocity_peaks(&self, end: State, sv: &mut f64) {
-        let slope = |s: State, alpha: f64| -s.u - 2.0 * self.xi * s.w - alpha;
-        let dw = [slope(self.start, self.alpha0), slope(end, self.alpha1)];
-        if self.theta >= PI || dw[0] * dw[1] <= 0.0 {
-            self.velocity().turns(self.theta, |tau| *sv = sv.max(self.at(tau).w.abs()));
-        }
-    }
-
-    /// Raises the peaks of |u| and |u + 2ξw| by those inside the interval.
-    ///
-    /// `u` is extreme where `w = 0`, and `w` is monotone between the zeros of `w'`, a damped
-    /// sinusoid without a constant, whose zeros are known. The same holds of `u + 2ξw`, whose
-    /// derivative is `w + 2ξw'`. Below half a period at most one such zero lies inside, and signs
-    /// at the two ends say whether there can be an extreme.
-    pub fn peaks(&self, end: State, sd: &mut f64, sa: &mut f64) {
-        let (xi, sigma) = (self.xi, self.sigma());
-        let slope = |s: State, alpha: f64| -s.u - 2.0 * xi * s.w - alpha;
-        let w = [self.start.w, end.w];
-        let dw = [slope(self.start, self.alpha0), slope(end, self.alpha1)];
-        if self.theta >= PI || may_vanish(w, dw) {
-            let velocity = self.velocity();
-            velocity.zeros_with(-sigma, self.theta, |tau| *sd = sd.max(self.at(tau).u.abs()));
-        }
-        let ddw = [0, 1].map(|i| -w[i] - 2.0 * xi * dw[i] - sigma);
-        let g = [0, 1].map(|i| w[i] + 2.0 * xi * dw[i]);
-        let dg = [0, 1].map(|i| dw[i] + 2.0 * xi * ddw[i]);
-        if self.theta >= PI || may_vanish(g, dg) {
-            let velocity = self.velocity();
-            let rate = velocity.plus(2.0 * xi, velocity.derivative());
-            rate.zeros_with(-sigma, self.theta, |tau| {
-                let s = self.at(tau);
-                *sa = sa.max((s.u + 2.0 * xi * s.w).abs());
-            });
-        }
-    }
-
-    /// State at a phase inside.
-    fn at(&self, tau: f64) -> State {
-        let alpha = self.alpha0 + (self.alpha1 - self.alpha0) * (tau / self.theta);
-        Step::new(tau, self.xi).apply(self.start, self.alpha0, alpha)
+    /// Raises the peaks, which hold those of both ends already, by those inside.
+    pub fn raise(&self, overshoot: Overshoot, peaks: &mut Peaks) {
+        let Self { xi, theta, start, end, alpha0, alpha1 } = *self;
+        let sigma = (alpha1 - alpha0) / theta;
+        let total = |s: State| s.u + 2.0 * xi * s.w;
+        // w′ = −(U + α).
+        let slope_of_w = -(total(start) + alpha0);
+        let shift = 2.0 * xi * sigma;
+        let raise = |peak: &mut f64, [y0, y1]: [f64; 2], slope: f64, f: [f64; 2]| {
+            let ends = y0.abs().max(y1.abs());
+            if overshoot.may_pass(*peak, ends, f[0].abs().max(f[1].abs())) {
+                Line { xi, theta, y: y0, slope, f }.raise(peak);
+            }
+        };
+        raise(&mut peaks.u, [start.u, end.u], start.w, [alpha0, alpha1]);
+        raise(&mut peaks.w, [start.w, end.w], slope_of_w, [sigma, sigma]);
+        raise(
+            &mut peaks.total,
+            [total(start), total(end)],
+            start.w + 2.0 * xi * slope_of_w,
+            [alpha0 + shift, alpha1 + shift],
+        );
     }
 }
 
-/// Whether a function with these values and slopes at the ends of an interval can be 0 inside, if
-/// its slope changes sign at most once: its ends differ in sign, or it turns on the way to 0.
-fn may_vanish(value: [f64; 2], slope: [f64; 2]) -> bool {
-    value[0] * value[1] <= 0.0 || (slope[0] * slope[1] <= 0.0 && value[0] * slope[0] <= 0.0)
+/// A solution of `y″ = −y − 2ξ y′ − f` over one interval, `f` linear.
+struct Line {
+    xi: f64,
+    theta: f64,
+    y: f64,
+    slope: f64,
+    f: [f64; 2],
+}
+
+impl Line {
+    /// Longest phase that one Taylor polynomial spans: what it leaves out is below 1e-15.
+    const LONGEST: f64 = 0.375;
+
+    /// Raises the peak by the largest |y|.
+    fn raise(&self, peak: &mut f64) {
+        let parts = libm::ceil(self.theta / Self::LONGEST).max(1.0);
+        let theta = self.theta / parts;
+        let (mut y, mut slope) = (self.y, self.slope);
+        let [f0, f1] = self.f;
+        for part in 0..parts as u64 {
+            let at = |k: u64| f0 + (f1 - f0) * (k as f64 / parts);
+            let c = taylor(theta, self.xi, y, slope, [at(part), at(part + 1)]);
+            *peak = polynomial::largest(&c, *peak);
+            *peak = polynomial::largest(&c.map(|c| -c), *peak);
+            y = polynomial::value(&c, 1.0);
+            slope = polynomial::value(&polynomial::derivative(&c), 1.0) / theta;
+        }
+    }
+}
+
+/// Taylor polynomial of `y` in `τ/θ`.
+fn taylor(theta: f64, xi: f64, y: f64, slope: f64, [f0, f1]: [f64; 2]) -> Polynomial {
+    let mut c = [0.0; DEGREE + 1];
+    c[0] = y;
+    c[1] = slope * theta;
+    let (square, double) = (theta * theta, 2.0 * xi * theta);
+    let f = [f0, f1 - f0];
+    for k in 0..=DEGREE - 2 {
+        let forcing = if k < 2 { f[k] } else { 0.0 };
+        let (k1, k2) = ((k + 1) as f64, (k + 2) as f64);
+        c[k + 2] = -(double * k1 * c[k + 1] + square * (c[k] + forcing)) / (k1 * k2);
+    }
+    c
 }
 
 /// `e^(−ξτ) (p cos ω_d τ + q sin ω_d τ)` with `ω_d = √(1 − ξ²)`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sinusoid {
+struct Sinusoid {
     xi: f64,
     omega_d: f64,
     p: f64,
@@ -211,83 +267,20 @@ pub(super) struct Sinusoid {
 
 impl Sinusoid {
     /// The one with value `y0` and slope `z0` at 0.
-    pub fn from_start(xi: f64, y0: f64, z0: f64) -> Self {
+    fn from_start(xi: f64, y0: f64, z0: f64) -> Self {
         let omega_d = libm::sqrt((1.0 - xi) * (1.0 + xi));
         Self { xi, omega_d, p: y0, q: (z0 + xi * y0) / omega_d }
     }
 
-    pub fn derivative(self) -> Self {
+    fn derivative(self) -> Self {
         let Self { xi, omega_d, p, q } = self;
         Self { p: omega_d * q - xi * p, q: -omega_d * p - xi * q, ..self }
     }
 
-    /// This one plus `factor` times another of the same damping.
-    fn plus(self, factor: f64, other: Self) -> Self {
-        Self { p: self.p + factor * other.p, q: self.q + factor * other.q, ..self }
-    }
-
-    pub fn at(&self, tau: f64) -> f64 {
+    fn at(&self, tau: f64) -> f64 {
         let phase = self.omega_d * tau;
         libm::exp(-self.xi * tau) * (self.p * libm::cos(phase) + self.q * libm::sin(phase))
     }
-
-    /// Calls `found` at each phase in `(0, theta)` where the slope is 0.
-    pub fn turns(&self, theta: f64, mut found: impl FnMut(f64)) {
-        let slope = self.derivative();
-        let first = libm::atan2(-slope.p, slope.q);
-        let mut turn = first - PI * libm::floor(first / PI);
-        while turn < self.omega_d * theta {
-            found(turn / self.omega_d);
-            turn += PI;
-        }
-    }
-
-    /// Calls `found` at each phase in `(0, theta)` where this plus `constant` changes sign.
-    fn zeros_with(&self, constant: f64, theta: f64, mut found: impl FnMut(f64)) {
-        let slope = self.derivative();
-        // Zeros of the slope: p cos φ + q sin φ = 0 at φ = atan2(−p, q) + kπ.
-        let first = libm::atan2(-slope.p, slope.q);
-        let mut turn = first - PI * libm::floor(first / PI);
-        let value = |tau: f64| self.at(tau) + constant;
-        let (mut left, mut at_left) = (0.0, value(0.0));
-        while left < theta {
-            let right = (turn / self.omega_d).min(theta);
-            turn += PI;
-            if right <= left {
-                continue;
-            }
-            let at_right = value(right);
-            if at_left * at_right < 0.0 {
-                found(root(value, left, right, at_left));
-            } else if at_right == 0.0 && right < theta {
-                found(right);
-            }
-            (left, at_left) = (right, at_right);
-        }
-    }
-}
-
-/// Root of a function that is monotone between `left` and `right` and changes sign there.
-///
-/// Near an extreme the value is quadratic in the error of the root, which 1e-9 of the interval
-/// makes smaller than rounding. Regula falsi with the Illinois rule, at most 100 steps.
-fn root(value: impl Fn(f64) -> f64, left: f64, right: f64, at_left: f64) -> f64 {
-    let (mut a, mut b, mut fa, mut fb) = (left, right, at_left, value(right));
-    for _ in 0..100 {
-        let c = b - fb * ((b - a) / (fb - fa));
-        let c = if c > a.min(b) && c < a.max(b) { c } else { 0.5 * (a + b) };
-        let fc = value(c);
-        if fc == 0.0 || (b - a).abs() <= 1e-9 * (right - left) || (c - b).abs() <= 1e-12 * right {
-            return c;
-        }
-        if fc * fb < 0.0 {
-            (a, fa) = (b, fb);
-        } else {
-            fa *= 0.5;
-        }
-        (b, fb) = (c, fc);
-    }
-    b
 }
 
 #[cfg(test)]

@@ -9,10 +9,16 @@
 //! so that one interval is a matrix of numbers that depend on `θ` and `ξ` only. Its exact solution
 //! is `u = −α0 + 2ξ σ − σ τ` with `σ = (α1 − α0)/θ`, plus a damped sinusoid.
 
+//!
+//! Peaks are looked for at the samples first; between two samples only where a bound with a proof
+//! ([`oscillator::Overshoot`](super::oscillator)) does not exclude a higher one.
+
+mod lanes;
+
 use core::f64::consts::TAU;
 
 use super::figures::peak;
-use super::oscillator::{Interval, State, Steps};
+use super::oscillator::{Interval, Overshoot, Peaks, State, Steps};
 use crate::error::MotionError;
 
 /// Peaks of one oscillator: displacement relative to its support, and total acceleration.
@@ -87,59 +93,77 @@ pub fn spectrum(
             return Err(MotionError::OutOfRange { quantity: "damping ratio", expected, found });
         }
     }
-    let mut ordinates = Vec::with_capacity(periods_s.len() * damping_ratios.len());
-    for &damping_ratio in damping_ratios {
-        for &period_s in periods_s {
-            ordinates.push(if period_s == 0.0 {
-                let pga = peak(acceleration_m_per_s2);
-                Ordinates { psa_m_per_s2: pga, sa_m_per_s2: pga, ..Ordinates::default() }
-            } else {
-                oscillator(times_s, acceleration_m_per_s2, period_s, damping_ratio)
-            });
-        }
-    }
+    let oscillators = damping_ratios.iter().flat_map(|&xi| {
+        periods_s.iter().map(move |&period_s| Oscillator { omega: TAU / period_s, xi })
+    });
+    let oscillators: Vec<Oscillator> = oscillators.collect();
+    let elastic: Vec<Oscillator> = oscillators.iter().copied().filter(|o| o.is_elastic()).collect();
+    let peaks =
+        match super::constant_step(&times_s.iter().map(|t| t - times_s[0]).collect::<Vec<_>>()) {
+            Some(dt_s) => lanes::peaks(dt_s, acceleration_m_per_s2, &elastic),
+            None => elastic.iter().map(|o| o.peaks(times_s, acceleration_m_per_s2)).collect(),
+        };
+    let mut peaks = peaks.into_iter();
+    let pga = peak(acceleration_m_per_s2);
+    let rigid = Ordinates { psa_m_per_s2: pga, sa_m_per_s2: pga, ..Ordinates::default() };
+    let of = |o: &Oscillator| match o.is_elastic() {
+        true => peaks.next().map_or(rigid, |peaks| o.ordinates(peaks)),
+        false => rigid,
+    };
     Ok(Spectrum {
         periods_s: periods_s.to_vec(),
         damping_ratios: damping_ratios.to_vec(),
-        ordinates,
+        ordinates: oscillators.iter().map(of).collect(),
     })
 }
 
-/// Peaks of one oscillator.
-fn oscillator(times_s: &[f64], acceleration: &[f64], period_s: f64, xi: f64) -> Ordinates {
-    let omega = TAU / period_s;
-    let compliance = 1.0 / (omega * omega);
-    let mut steps = Steps::new(xi);
-    let mut state = State { u: 0.0, w: 0.0 };
-    // Peaks of |u| and of |u + 2ξw|, the total acceleration over −ω².
-    let (mut sd, mut sv, mut sa) = (0.0_f64, 0.0_f64, 0.0_f64);
-    for (t, a) in times_s.windows(2).zip(acceleration.windows(2)) {
-        let h = t[1] - t[0];
-        if h == 0.0 {
-            continue;
-        }
-        let interval = Interval {
-            xi,
-            theta: omega * h,
-            start: state,
-            alpha0: compliance * a[0],
-            alpha1: compliance * a[1],
-        };
-        let end = steps.of(interval.theta).apply(state, interval.alpha0, interval.alpha1);
-        sd = sd.max(end.u.abs());
-        sv = sv.max(end.w.abs());
-        sa = sa.max((end.u + 2.0 * xi * end.w).abs());
-        interval.peaks(end, &mut sd, &mut sa);
-        interval.velocity_peaks(end, &mut sv);
-        state = end;
+/// An oscillator: ω in rad/s, infinite for the period 0, and its damping ratio.
+#[derive(Clone, Copy, Debug)]
+struct Oscillator {
+    omega: f64,
+    xi: f64,
+}
+
+impl Oscillator {
+    fn is_elastic(&self) -> bool {
+        self.omega.is_finite()
     }
-    let stiffness = omega * omega;
-    Ordinates {
-        sd_m: sd,
-        sv_m_per_s: omega * sv,
-        psv_m_per_s: omega * sd,
-        psa_m_per_s2: stiffness * sd,
-        sa_m_per_s2: stiffness * sa,
+
+    fn compliance(&self) -> f64 {
+        1.0 / (self.omega * self.omega)
+    }
+
+    /// Peaks over samples at any times, one by one.
+    fn peaks(&self, times_s: &[f64], acceleration: &[f64]) -> Peaks {
+        let Self { omega, xi } = *self;
+        let compliance = self.compliance();
+        let mut steps = Steps::new(xi);
+        let mut state = State { u: 0.0, w: 0.0 };
+        let mut peaks = Peaks::default();
+        for (t, a) in times_s.windows(2).zip(acceleration.windows(2)) {
+            let h = t[1] - t[0];
+            if h == 0.0 {
+                continue;
+            }
+            let (theta, alpha0, alpha1) = (omega * h, compliance * a[0], compliance * a[1]);
+            let end = steps.of(theta).apply(state, alpha0, alpha1);
+            peaks.raise(end, xi);
+            let interval = Interval { xi, theta, start: state, end, alpha0, alpha1 };
+            interval.raise(Overshoot::new(theta, xi), &mut peaks);
+            state = end;
+        }
+        peaks
+    }
+
+    fn ordinates(&self, peaks: Peaks) -> Ordinates {
+        let stiffness = self.omega * self.omega;
+        Ordinates {
+            sd_m: peaks.u,
+            sv_m_per_s: self.omega * peaks.w,
+            psv_m_per_s: self.omega * peaks.u,
+            psa_m_per_s2: stiffness * peaks.u,
+            sa_m_per_s2: stiffness * peaks.total,
+        }
     }
 }
 

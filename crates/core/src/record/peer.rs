@@ -7,10 +7,11 @@
 
 use core::ops::Range;
 
+use super::component::azimuth;
 use super::text::{Line, Text, number};
 use super::{
     Channel, FilterCorners, Format, Options, Quantity, Record, RecordError, Sampling, Units,
-    keys_to_add, to_si,
+    keys_to_add, sampling, to_si,
 };
 use crate::motion::MAX_SAMPLES;
 
@@ -48,7 +49,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
     let values = values(text, &last, count)?;
     let names = Names::of(&header);
     let layout = match units.quantity() {
-        Quantity::Acceleration => "PEER AT2",
+        Quantity::Acceleration | Quantity::Counts => "PEER AT2",
         Quantity::Velocity => "PEER VT2",
         Quantity::Displacement => "PEER DT2",
     };
@@ -100,20 +101,7 @@ fn count_and_step(
     };
     let count = count(text, line, &count_word, expected)?;
     let dt_s = step(text, line, &step_word)?;
-    if let Some(given_s) = given_s
-        && given_s != dt_s
-    {
-        // The step is printed with four or five decimals: 1/150 s as .0067.
-        let written = line.str(&step_word);
-        let decimals = written.trim_end_matches(|c: char| !c.is_ascii_digit());
-        let decimals = decimals.split_once('.').map_or(0, |(_, d)| d.len());
-        let half_s = (0..decimals).fold(0.5, |half, _| half / 10.0);
-        if (given_s - dt_s).abs() > 1.01 * half_s {
-            let expected = format!("the time step given, {given_s} s (leave it out)");
-            return Err(text.error_at(line, &step_word, expected));
-        }
-        return Ok((count, given_s));
-    }
+    let dt_s = sampling::stated_step(text, line, &step_word, dt_s, given_s)?;
     Ok((count, dt_s))
 }
 
@@ -263,19 +251,5 @@ impl Names {
             },
             _ => Self { event: owned(names), ..Self::default() },
         }
-    }
-}
-
-/// Azimuth of a component that is a number of degrees or a point of the compass.
-fn azimuth(component: &str) -> Option<f64> {
-    match component.to_ascii_uppercase().as_str() {
-        "N" | "NORTH" => Some(0.0),
-        "E" | "EAST" => Some(90.0),
-        "S" | "SOUTH" => Some(180.0),
-        "W" | "WEST" => Some(270.0),
-        degrees if degrees.bytes().all(|b| b.is_ascii_digit() || b == b'.') => {
-            degrees.parse().ok().filter(|d| (0.0..=360.0).contains(d))
-        }
-        _ => None,
     }
 }

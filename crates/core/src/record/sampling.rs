@@ -1,6 +1,9 @@
 //! The time step of a column of times, and whether a given step fits it.
 
-use super::{RecordWarning, Sampling};
+use core::ops::Range;
+
+use super::text::{Line, Text, last_digit, number};
+use super::{RecordError, RecordWarning, Sampling};
 use crate::motion::constant_step;
 
 /// How the times of a column are spaced, with a warning where that had to be judged.
@@ -52,6 +55,57 @@ pub(super) fn of_times(
         ),
     });
     Ok((Sampling::Times(times_s), warning.into_iter().collect()))
+}
+
+/// The step that a header states, unless the caller's is what it rounds: steps are printed with few
+/// decimals, 1/150 s as `.0067`.
+///
+/// # Errors
+/// Where the caller gives another step.
+pub(super) fn stated_step(
+    text: &Text,
+    line: &Line,
+    word: &Range<usize>,
+    stated_s: f64,
+    given_s: Option<f64>,
+) -> Result<f64, RecordError> {
+    let Some(given_s) = given_s.filter(|given_s| *given_s != stated_s) else { return Ok(stated_s) };
+    // A step that is computed from a rate is not what the word says.
+    let written = &line.bytes[word.clone()];
+    let half_s = match number(written) {
+        Some(value) if value == stated_s => 0.505 * last_digit(written),
+        _ => 1e-9 * stated_s,
+    };
+    if (given_s - stated_s).abs() > half_s {
+        let expected = format!("the time step given, {given_s} s (leave it out)");
+        return Err(text.error_at(line, word, expected));
+    }
+    Ok(given_s)
+}
+
+/// The step of `count` values over a duration in s that is written with a last digit of `ulp_s`: the
+/// shortest decimal that makes the duration, of `count` steps or of one less.
+pub(super) fn step_of_duration(duration_s: f64, count: usize, ulp_s: f64) -> Option<f64> {
+    let mut scale = 1.0;
+    for _ in 0..9 {
+        for steps in [count, count.saturating_sub(1)] {
+            let dt_s = libm::round(duration_s / steps as f64 * scale) / scale;
+            if dt_s > 0.0 && (dt_s * steps as f64 - duration_s).abs() <= 0.51 * ulp_s {
+                return Some(dt_s);
+            }
+        }
+        scale *= 10.0;
+    }
+    let dt_s = duration_s / count as f64;
+    (dt_s > 0.0 && dt_s.is_finite()).then_some(dt_s)
+}
+
+/// The first time that is before its predecessor, or stands a third time.
+pub(super) fn disorder(times_s: &[f64]) -> Option<usize> {
+    (1..times_s.len()).find(|&i| {
+        let third = i >= 2 && times_s[i - 2] == times_s[i];
+        times_s[i] < times_s[i - 1] || third || !(times_s[i] - times_s[0]).is_finite()
+    })
 }
 
 fn replaced(given_s: f64) -> RecordWarning {

@@ -2,6 +2,7 @@
 
 use core::ops::Range;
 
+use super::decimal;
 use crate::error::RecordError;
 
 /// Bytes that are text, and the caller's name for them.
@@ -90,6 +91,7 @@ impl<'a> Text<'a> {
             source_name: self.source_name.to_owned(),
             line: line.number,
             column: String::from_utf8_lossy(before).chars().count() + 1,
+            offset: None,
             expected: expected.into(),
             found: found.chars().take(40).collect(),
         }
@@ -130,6 +132,7 @@ impl<'a> Text<'a> {
 }
 
 /// See [`Text::lines`].
+#[derive(Clone)]
 pub(super) struct Lines<'a> {
     rest: &'a [u8],
     number: usize,
@@ -209,14 +212,19 @@ impl Iterator for Words<'_> {
 
 /// The finite number that a word is, correctly rounded; exponents may be written with D.
 pub(super) fn number(word: &[u8]) -> Option<f64> {
-    let parse = |bytes: &[u8]| core::str::from_utf8(bytes).ok()?.parse::<f64>().ok();
-    let value = parse(word).or_else(|| {
-        with_replaced(word, |b| if matches!(b, b'd' | b'D') { b'e' } else { b }, parse)
-    })?;
-    value.is_finite().then_some(value)
+    decimal::parse(word)
 }
 
-/// The same with a decimal comma.
+/// One unit in the last digit of a number as it is written: 0.001 of `.079`, 1e-5 of `1.04E-03`.
+pub(super) fn last_digit(word: &[u8]) -> f64 {
+    let exponent = word.iter().position(|b| b.is_ascii_alphabetic());
+    let (digits, exponent) = word.split_at(exponent.unwrap_or(word.len()));
+    let decimals = digits.iter().rev().position(|&b| b == b'.').unwrap_or(0);
+    let one = [b"1", exponent].concat();
+    (0..decimals).fold(number(&one).unwrap_or(1.0), |unit, _| unit / 10.0)
+}
+
+/// The number that a word with a decimal comma is.
 pub(super) fn number_with_comma(word: &[u8]) -> Option<f64> {
     if word.contains(&b'.') {
         return None;

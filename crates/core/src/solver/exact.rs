@@ -25,7 +25,7 @@ pub const EVENTS_PER_INTERVAL_LIMIT: u32 = 1_000_000;
 const RADIANS_LIMIT: f64 = 1e9;
 
 /// Largest rate times step at which the short way is tried: its bounds are hopeless beyond.
-const SHORT_WAY_RATE_STEP: f64 = 2.0;
+const SHORT_WAY_RATE_STEP: f64 = 30.0;
 
 pub(super) fn solve(
     model: &Model,

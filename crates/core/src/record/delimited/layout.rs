@@ -4,6 +4,7 @@ use super::header::{Header, Name, Unit};
 use super::table::Table;
 use crate::error::RecordError;
 use crate::motion::MAX_SAMPLES;
+use crate::record::sampling;
 use crate::record::text::Text;
 
 /// What the columns are.
@@ -116,13 +117,10 @@ fn times(
         Some(_) => return Err(table.error_at(text, 0, column, "times in s, ms or min")),
     };
     let times_s: Vec<f64> = table.column(column).map(|t| t * second).collect();
-    for row in 1..times_s.len() {
-        let (before_s, t) = (times_s[row - 1], times_s[row]);
-        let third = row >= 2 && times_s[row - 2] == t;
-        if t < before_s || third || !(t - times_s[0]).is_finite() {
-            let expected = format!("a time after {before_s} s (or once the same, for a jump)");
-            return Err(table.error_at(text, row, column, expected));
-        }
+    if let Some(row) = sampling::disorder(&times_s) {
+        let before_s = times_s[row - 1];
+        let expected = format!("a time after {before_s} s (or once the same, for a jump)");
+        return Err(table.error_at(text, row, column, expected));
     }
     let last = times_s.len() - 1;
     if times_s[last] == times_s[0] {

@@ -1,0 +1,225 @@
+//! Many oscillators at once over evenly spaced samples, in lanes.
+//!
+//! Two passes over the record for [`LANES`] oscillators. The first steps from sample to sample and
+//! keeps, for every block of [`BLOCK`] samples, the states at its start and its largest values at
+//! samples. The second goes through those blocks again, one oscillator at a time, in which a peak
+//! between samples may be above what was attained: few of them. Lanes do not mix and no sum is
+//! reordered, so that the bits are the same whatever instructions do it.
+
+use super::Oscillator;
+use crate::motion::oscillator::{Interval, Overshoot, Peaks, State, Step};
+
+/// Oscillators side by side.
+const LANES: usize = 8;
+
+/// Samples between kept states.
+const BLOCK: usize = 64;
+
+/// One number for each oscillator.
+type Lanes = [f64; LANES];
+
+/// Peaks of every oscillator under an acceleration sampled every `dt_s`.
+pub(super) fn peaks(dt_s: f64, acceleration: &[f64], oscillators: &[Oscillator]) -> Vec<Peaks> {
+    let extents = extents(acceleration);
+    let mut blocks = Vec::with_capacity(extents.len());
+    let mut peaks = Vec::with_capacity(oscillators.len());
+    for group in oscillators.chunks(LANES) {
+        let matrices = Matrices::new(dt_s, group);
+        matrices.run(acceleration, &mut blocks);
+        for (lane, oscillator) in group.iter().enumerate() {
+            let one = One::new(dt_s, *oscillator, &matrices, lane);
+            peaks.push(one.peaks(acceleration, &extents, &blocks));
+        }
+    }
+    peaks
+}
+
+/// Bounds of the acceleration over a block: largest |a|, and largest |a[k+1] − a[k]|.
+#[derive(Clone, Copy)]
+struct Extent {
+    value: f64,
+    change: f64,
+}
+
+fn extents(acceleration: &[f64]) -> Vec<Extent> {
+    let firsts = (0..acceleration.len() - 1).step_by(BLOCK);
+    let extent = |first: usize| {
+        let block = &acceleration[first..(first + BLOCK + 1).min(acceleration.len())];
+        let change = block.windows(2).map(|a| (a[1] - a[0]).abs()).fold(0.0, f64::max);
+        Extent { value: block.iter().map(|a| a.abs()).fold(0.0, f64::max), change }
+    };
+    firsts.map(extent).collect()
+}
+
+/// What is kept of a block: states at its start and largest values at its samples, both ends
+/// included.
+#[derive(Clone, Copy)]
+struct Block {
+    u: Lanes,
+    w: Lanes,
+    peak_u: Lanes,
+    peak_w: Lanes,
+    peak_total: Lanes,
+}
+
+/// The matrix of one step, in lanes; the columns of the acceleration include the compliance.
+struct Matrices {
+    u_by_u: Lanes,
+    u_by_w: Lanes,
+    u_by_a0: Lanes,
+    u_by_a1: Lanes,
+    w_by_u: Lanes,
+    w_by_w: Lanes,
+    w_by_a0: Lanes,
+    w_by_a1: Lanes,
+    two_xi: Lanes,
+}
+
+impl Matrices {
+    fn new(dt_s: f64, group: &[Oscillator]) -> Self {
+        let mut m = Self {
+            u_by_u: [0.0; LANES],
+            u_by_w: [0.0; LANES],
+            u_by_a0: [0.0; LANES],
+            u_by_a1: [0.0; LANES],
+            w_by_u: [0.0; LANES],
+            w_by_w: [0.0; LANES],
+            w_by_a0: [0.0; LANES],
+            w_by_a1: [0.0; LANES],
+            two_xi: [0.0; LANES],
+        };
+        for (i, o) in group.iter().enumerate() {
+            let step = Step::new(o.omega * dt_s, o.xi);
+            let compliance = o.compliance();
+            (m.u_by_u[i], m.w_by_u[i]) = (step.by_u.u, step.by_u.w);
+            (m.u_by_w[i], m.w_by_w[i]) = (step.by_w.u, step.by_w.w);
+            m.u_by_a0[i] = compliance * step.by_alpha0.u;
+            m.w_by_a0[i] = compliance * step.by_alpha0.w;
+            m.u_by_a1[i] = compliance * step.by_alpha1.u;
+            m.w_by_a1[i] = compliance * step.by_alpha1.w;
+            m.two_xi[i] = 2.0 * o.xi;
+        }
+        m
+    }
+
+    /// One lane over one step.
+    #[inline(always)]
+    fn step(&self, i: usize, u: f64, w: f64, a0: f64, a1: f64) -> (f64, f64) {
+        let by_ground_u = self.u_by_a0[i] * a0 + self.u_by_a1[i] * a1;
+        let by_ground_w = self.w_by_a0[i] * a0 + self.w_by_a1[i] * a1;
+        (
+            (self.u_by_u[i] * u + self.u_by_w[i] * w) + by_ground_u,
+            (self.w_by_u[i] * u + self.w_by_w[i] * w) + by_ground_w,
+        )
+    }
+
+    /// All lanes over the whole record, from rest.
+    fn run(&self, acceleration: &[f64], blocks: &mut Vec<Block>) {
+        blocks.clear();
+        let (mut u, mut w) = ([0.0; LANES], [0.0; LANES]);
+        for first in (0..acceleration.len() - 1).step_by(BLOCK) {
+            let last = (first + BLOCK + 1).min(acceleration.len());
+            let mut block = Block {
+                u,
+                w,
+                peak_u: [0.0; LANES],
+                peak_w: [0.0; LANES],
+                peak_total: [0.0; LANES],
+            };
+            block.raise(&self.two_xi, &u, &w);
+            for a in acceleration[first..last].windows(2) {
+                for i in 0..LANES {
+                    (u[i], w[i]) = self.step(i, u[i], w[i], a[0], a[1]);
+                }
+                block.raise(&self.two_xi, &u, &w);
+            }
+            blocks.push(block);
+        }
+    }
+}
+
+impl Block {
+    /// Raises the largest values by those of a state.
+    #[inline(always)]
+    fn raise(&mut self, two_xi: &Lanes, u: &Lanes, w: &Lanes) {
+        let higher = |peak: f64, value: f64| if value.abs() > peak { value.abs() } else { peak };
+        for i in 0..LANES {
+            self.peak_u[i] = higher(self.peak_u[i], u[i]);
+            self.peak_w[i] = higher(self.peak_w[i], w[i]);
+            self.peak_total[i] = higher(self.peak_total[i], u[i] + two_xi[i] * w[i]);
+        }
+    }
+
+    fn peaks(&self, i: usize) -> Peaks {
+        Peaks { u: self.peak_u[i], w: self.peak_w[i], total: self.peak_total[i] }
+    }
+}
+
+/// One oscillator of the group, looked at closely.
+struct One<'a> {
+    matrices: &'a Matrices,
+    lane: usize,
+    oscillator: Oscillator,
+    theta: f64,
+    overshoot: Overshoot,
+}
+
+impl<'a> One<'a> {
+    fn new(dt_s: f64, oscillator: Oscillator, matrices: &'a Matrices, lane: usize) -> Self {
+        let theta = oscillator.omega * dt_s;
+        let overshoot = Overshoot::new(theta, oscillator.xi);
+        Self { matrices, lane, oscillator, theta, overshoot }
+    }
+
+    fn peaks(&self, acceleration: &[f64], extents: &[Extent], blocks: &[Block]) -> Peaks {
+        let mut peaks = Peaks::default();
+        let mut highest = [0; 3];
+        for (index, block) in blocks.iter().enumerate() {
+            let of = block.peaks(self.lane);
+            for (peak, value, at) in
+                [(&mut peaks.u, of.u, 0), (&mut peaks.w, of.w, 1), (&mut peaks.total, of.total, 2)]
+            {
+                if value > *peak {
+                    (*peak, highest[at]) = (value, index);
+                }
+            }
+        }
+        // The highest first: what they attain leaves fewer of the others to look at.
+        for &index in &highest {
+            self.look_closely(acceleration, index, &blocks[index], &mut peaks);
+        }
+        for (index, block) in blocks.iter().enumerate() {
+            if self.may_pass(&peaks, &block.peaks(self.lane), extents[index]) {
+                self.look_closely(acceleration, index, block, &mut peaks);
+            }
+        }
+        peaks
+    }
+
+    /// Whether a peak between samples of a block may be above those attained.
+    fn may_pass(&self, attained: &Peaks, block: &Peaks, extent: Extent) -> bool {
+        let compliance = self.oscillator.compliance();
+        let value = compliance * extent.value;
+        let slope = compliance * extent.change / self.theta;
+        let total = value + 2.0 * self.oscillator.xi * slope;
+        self.overshoot.may_pass(attained.u, block.u, value)
+            || self.overshoot.may_pass(attained.w, block.w, slope)
+            || self.overshoot.may_pass(attained.total, block.total, total)
+    }
+
+    /// Goes through a block again and raises the peaks by those between its samples.
+    fn look_closely(&self, acceleration: &[f64], index: usize, block: &Block, peaks: &mut Peaks) {
+        let first = index * BLOCK;
+        let last = (first + BLOCK + 1).min(acceleration.len());
+        let (xi, theta, compliance) =
+            (self.oscillator.xi, self.theta, self.oscillator.compliance());
+        let mut start = State { u: block.u[self.lane], w: block.w[self.lane] };
+        for a in acceleration[first..last].windows(2) {
+            let (u, w) = self.matrices.step(self.lane, start.u, start.w, a[0], a[1]);
+            let end = State { u, w };
+            let (alpha0, alpha1) = (compliance * a[0], compliance * a[1]);
+            Interval { xi, theta, start, end, alpha0, alpha1 }.raise(self.overshoot, peaks);
+            start = end;
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! What is looked for in every channel, whatever its format: a start that is not at rest, drift,
+//! clipped peaks, gaps and repeated rows.
+
+use super::{Channel, Quantity, RecordWarning, Sampling, Units};
+
+/// Values at a peak that follow one another unchanged: fewer happen by rounding.
+const CLIPPED_RUN: usize = 4;
+
+/// The warnings of [`rest`]: what is said of a motion as it is used, scaled or processed, rather
+/// than of the file.
+pub const REST_KINDS: [&str; 2] = ["first_sample_not_zero", "record_drift"];
+
+/// Warnings about a motion that does not begin or end at rest: a first acceleration other than 0,
+/// and a velocity at the end beyond 5 % of the peak velocity.
+#[must_use]
+pub fn rest(
+    first_m_per_s2: f64,
+    end_velocity_m_per_s: f64,
+    pgv_m_per_s: f64,
+) -> Vec<RecordWarning> {
+    let mut warnings = Vec::new();
+    let [not_zero, drift] = REST_KINDS;
+    if first_m_per_s2 != 0.0 {
+        let message = format!(
+            "the first sample is {first_m_per_s2:.4} m/s², not 0: taken as a jump at the start of \
+             the motion"
+        );
+        warnings.push(RecordWarning { kind: not_zero, message });
+    }
+    if end_velocity_m_per_s.abs() > 0.05 * pgv_m_per_s {
+        let percent = 100.0 * end_velocity_m_per_s.abs() / pgv_m_per_s;
+        let message = format!(
+            "the record drifts: its velocity at the end is {end_velocity_m_per_s:.4} m/s, \
+             {percent:.0} % of its peak; nothing was corrected"
+        );
+        warnings.push(RecordWarning { kind: drift, message });
+    }
+    warnings
+}
+
+/// Adds to a channel the warnings that its values and times call for.
+pub(super) fn inspect(channel: &mut Channel) {
+    let mut warnings = Vec::new();
+    if channel.units.quantity() == Quantity::Acceleration
+        && let Some(&first) = channel.values.first()
+    {
+        let (end, peak) = velocity(channel);
+        warnings.extend(rest(first, end, peak));
+    }
+    warnings.extend(clipped(&channel.values, channel.units.si()));
+    if let Sampling::Times(times_s) = &channel.sampling {
+        warnings.extend(gap(times_s));
+        warnings.extend(repeated(times_s, &channel.values));
+    }
+    channel.warnings.extend(warnings);
+}
+
+/// A warning where the largest value of a channel is not the peak that its file states: `stated` in
+/// `unit`, written with a last digit of `ulp`, on a line of that number. Half a percent and three
+/// units in the last digit are allowed, because programs that wrote both rounded in between.
+pub(super) fn peak_differs(
+    channel: &Channel,
+    stated: f64,
+    ulp: f64,
+    unit: Units,
+    line: usize,
+) -> Option<RecordWarning> {
+    let peak = channel.values.iter().fold(0.0_f64, |peak, value| peak.max(value.abs()));
+    let peak = peak / unit.si();
+    let differs = (peak - stated.abs()).abs() > 3.0 * ulp + 0.005 * stated.abs();
+    differs.then(|| RecordWarning {
+        kind: "peak_differs",
+        message: format!("line {line} states a peak of {stated} {unit}, the values have {peak:.6}"),
+    })
+}
+
+/// Velocity at the end and its largest size at a sample in m/s, from rest, by the trapezium rule,
+/// which is exact at the samples of straight lines.
+fn velocity(channel: &Channel) -> (f64, f64) {
+    let (mut v, mut peak) = (0.0_f64, 0.0_f64);
+    let mut pass = |dt_s: f64, a: &[f64]| {
+        v += dt_s * 0.5 * (a[0] + a[1]);
+        peak = peak.max(v.abs());
+    };
+    let pairs = channel.values.windows(2);
+    match &channel.sampling {
+        Sampling::Dt(dt_s) => pairs.for_each(|a| pass(*dt_s, a)),
+        Sampling::Times(times_s) => {
+            times_s.windows(2).zip(pairs).for_each(|(t, a)| pass(t[1] - t[0], a));
+        }
+    }
+    (v, peak)
+}
+
+/// A recorder at the end of its range holds its largest value. Two plateaus at the same extreme, far
+/// above the resolution, are taken for that; a made-up rectangle or one flat top is not.
+fn clipped(values: &[f64], si: f64) -> Option<RecordWarning> {
+    let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    for extreme in [largest, least] {
+        let (mut run, mut plateaus, mut held) = (0, 0, 0);
+        for &value in values {
+            run = if value == extreme { run + 1 } else { 0 };
+            plateaus += usize::from(run == CLIPPED_RUN);
+            held += usize::from(value == extreme);
+        }
+        // Levels between the extremes: few in a made-up motion or a quiet one.
+        let fine = || {
+            let steps = values.windows(2).map(|v| (v[1] - v[0]).abs()).filter(|step| *step > 0.0);
+            steps.fold(f64::INFINITY, f64::min) < 0.01 * (largest - least)
+        };
+        if extreme != 0.0 && plateaus >= 2 && fine() {
+            let message = format!(
+                "{held} values are exactly {} times the unit of the file, in {plateaus} plateaus: \
+                 the recorder was probably clipped there",
+                extreme / si
+            );
+            return Some(RecordWarning { kind: "clipped", message });
+        }
+    }
+    None
+}
+
+/// One step far longer than the others, which are alike.
+fn gap(times_s: &[f64]) -> Option<RecordWarning> {
+    let steps = || times_s.windows(2).map(|t| t[1] - t[0]);
+    let mut sorted: Vec<f64> = steps().collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let usual = *sorted.get(sorted.len() / 2)?;
+    let long = |step: &f64| *step > 1.5 * usual;
+    let alike = steps().filter(|step| (step - usual).abs() <= 0.2 * usual).count();
+    let gaps = steps().filter(long).count();
+    // Digitised film has steps of all lengths: no gaps there.
+    let (at, step) = steps().enumerate().find(|(_, step)| long(step))?;
+    (usual > 0.0 && alike + gaps >= sorted.len() && gaps * 10 <= sorted.len()).then(|| {
+        let message = format!(
+            "{gaps} gap(s) in the times, the first after {} s: a step of {} s where {} s is usual; \
+             the motion is taken as linear across it",
+            round(times_s[at]),
+            round(step),
+            round(usual)
+        );
+        RecordWarning { kind: "gap", message }
+    })
+}
+
+/// A time in s without the noise of a subtraction.
+fn round(t: f64) -> f64 {
+    libm::round(t * 1e9) / 1e9
+}
+
+/// Rows that stand twice, time and value alike.
+fn repeated(times_s: &[f64], values: &[f64]) -> Option<RecordWarning> {
+    let pairs = || times_s.windows(2).zip(values.windows(2));
+    let same = |(t, a): &(&[f64], &[f64])| t[0] == t[1] && a[0] == a[1];
+    let count = pairs().filter(same).count();
+    let (t, _) = pairs().find(same)?;
+    let message = format!("{count} row(s) repeat the row before, the first at {} s", t[1]);
+    Some(RecordWarning { kind: "duplicate_rows", message })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::FilterCorners;
+    use super::*;
+
+    fn kinds(values: &[f64], sampling: Sampling) -> Vec<&'static str> {
+        let mut channel = Channel {
+            name: "1".to_owned(),
+            event: None,
+            station: None,
+            component: None,
+            azimuth_deg: None,
+            units: Units::parse("m/s2").unwrap(),
+            values: values.to_vec(),
+            sampling,
+            filter: FilterCorners::default(),
+            warnings: vec![],
+        };
+        inspect(&mut channel);
+        channel.warnings.iter().map(|w| w.kind).collect()
+    }
+
+    #[test]
+    fn exact_rest() {
+        assert!(kinds(&[0.0, 1.0, -1.0, 0.0], Sampling::Dt(0.1)).is_empty());
+        assert_eq!(kinds(&[1.0, -1.0], Sampling::Dt(0.1)), ["first_sample_not_zero"]);
+        assert_eq!(kinds(&[0.0, 1.0, 0.0], Sampling::Dt(0.1)), ["record_drift"]);
+        let messages = rest(0.5, -0.02, 0.1).into_iter().map(|w| w.message).collect::<Vec<_>>();
+        assert!(messages[0].starts_with("the first sample is 0.5000 m/s²"), "{messages:?}");
+        assert!(messages[1].contains("-0.0200 m/s, 20 % of its peak"), "{messages:?}");
+    }
+
+    #[test]
+    fn exact_clipped_peaks() {
+        let clip = |limit: f64| -> Vec<f64> {
+            let value = |k: i32| 2.0 * libm::sin(f64::from(k) * 0.1);
+            (0..200).map(|k| value(k).clamp(-limit, limit)).collect()
+        };
+        assert!(kinds(&clip(1.9), Sampling::Dt(0.1)).contains(&"clipped"));
+        assert!(!kinds(&clip(2.1), Sampling::Dt(0.1)).contains(&"clipped"));
+        // Rectangles are meant.
+        let rectangles = [0.0, 2.0, 2.0, 2.0, 2.0, 0.0, 2.0, 2.0, 2.0, 2.0, 0.0, 0.0];
+        assert!(!kinds(&rectangles, Sampling::Dt(0.1)).contains(&"clipped"));
+    }
+
+    #[test]
+    fn exact_gaps_and_repeated_rows() {
+        let mut times_s: Vec<f64> = (0..50).map(|k| f64::from(k) * 0.01).collect();
+        let values = vec![0.0; 50];
+        times_s[30..].iter_mut().for_each(|t| *t += 0.07);
+        assert_eq!(kinds(&values, Sampling::Times(times_s.clone())), ["gap"]);
+        times_s[10] = times_s[9];
+        let found = kinds(&values, Sampling::Times(times_s));
+        assert!(found.contains(&"duplicate_rows"), "{found:?}");
+        // A film digitised where it bends.
+        let times_s: Vec<f64> = (0..50).map(|k| f64::from(k * k) * 0.001).collect();
+        assert!(kinds(&values, Sampling::Times(times_s)).is_empty());
+    }
+}
