@@ -2,9 +2,11 @@
 
 use std::fmt::Write as _;
 
+use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
+
 use crate::display::{DisplayUnits, Quantity};
 use crate::markup::shortened;
-use crate::number::{compact, count, significant};
+use crate::number::{compact, count, rounded, significant};
 
 /// Demands that the printed table shows, of those that a study has; `storeys` means that of each.
 const SHOWN: [&str; 8] = [
@@ -130,7 +132,7 @@ impl StudySummary {
                     count(row.runs - row.failures),
                     show(row.mean),
                     show(row.max),
-                    shortened(&row.max_record, 20),
+                    shortened(file_name(&row.max_record), 20),
                 );
             }
         }
@@ -151,9 +153,13 @@ impl StudySummary {
 
     fn level(&self, row: &LevelSummary, display: DisplayUnits) -> String {
         match (row.value, &self.measure) {
+            // Levels of acceleration are spoken of in g.
+            (Some(value), Some((_, "m/s2"))) => {
+                format!("{} g", rounded(value / STANDARD_GRAVITY_M_PER_S2, 4))
+            }
             (Some(value), Some((_, unit))) => {
                 let unit = display.unit(quantity(unit), value);
-                format!("{} {}", significant(unit.of(value), 4), unit.symbol)
+                format!("{} {}", rounded(unit.of(value), 4), unit.symbol)
             }
             _ => row.scale.map_or_else(String::new, compact),
         }
@@ -181,6 +187,11 @@ impl StudySummary {
         }
         names
     }
+}
+
+/// The last part of a path.
+fn file_name(path: &str) -> &str {
+    path.rsplit('/').next().unwrap_or(path)
 }
 
 /// The end of a column's name that is its unit.
@@ -252,7 +263,7 @@ mod tests {
         let table = summary.to_table(DisplayUnits::Si);
         assert!(table.contains("\nresidual sliding displacement (mm)\n"), "{table}");
         assert!(table.contains("\nstorey2 peak drift (mm)\n"), "{table}");
-        assert!(table.contains("1.000 m/s²") && table.contains("-500.0"), "{table}");
+        assert!(table.contains("0.102 g") && table.contains("-500.0"), "{table}");
         assert!(!table.contains("gap ratio"), "{table}");
         assert!(table.ends_with("\n2 runs failed: see the column status\n"), "{table}");
     }

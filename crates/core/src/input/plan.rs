@@ -96,6 +96,8 @@ pub struct Varied {
     pub distribution: Distribution,
     /// The path whose value is multiplied by what is drawn.
     pub factor_of: Option<String>,
+    /// Index of the path in whose list the value of the same place is drawn.
+    pub paired_with: Option<usize>,
 }
 
 /// What may be drawn, in SI.
