@@ -8,6 +8,7 @@ mod endings;
 mod files;
 mod json;
 mod options;
+mod record;
 mod records;
 mod refused;
 mod support;
