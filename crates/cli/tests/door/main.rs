@@ -11,6 +11,7 @@ mod json;
 mod laboratory;
 mod options;
 mod paper;
+mod record;
 mod records;
 mod refused;
 mod support;

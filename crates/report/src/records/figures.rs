@@ -6,7 +6,7 @@ use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
 use crate::display::{DisplayUnits, Quantity as Shown, Unit};
 use crate::figures::{Drawn, Trace};
-use crate::number::printed;
+use crate::number::{compact, printed};
 use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
 
 /// Heights of panels: four of them and a spectrum stand on one printed page.
@@ -181,7 +181,7 @@ fn spectra(spectrum: &Spectrum, display: DisplayUnits, id: &'static str) -> Opti
             points.filter(|(t, _)| **t > 0.0).map(|(t, o)| [*t, unit.of(ordinate(o))]).collect();
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
         Series {
-            label: format!("damping {} %", printed(100.0 * damping, 3)),
+            label: format!("damping {} %", compact(100.0 * damping)),
             style: styles[i % styles.len()],
             shape: Shape::History,
             points,

@@ -16,7 +16,9 @@ pub fn page(
 ) -> String {
     let mut out = Markup::new();
     let version = env!("CARGO_PKG_VERSION");
-    let title = channels.first().map_or("", |(info, _)| info.file.as_str());
+    let first = channels.first().map_or("", |(info, _)| info.file.as_str());
+    let one_file = channels.iter().all(|(info, _)| info.file == first);
+    let title = if one_file { first } else { "Ground motions" };
     out.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n")
         .raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>")
         .text(title)
@@ -27,7 +29,7 @@ pub fn page(
         .element("h1", title)
         .raw("\n</header>\n<main>\n");
     for (info, figures) in channels {
-        channel(&mut out, info, figures, display);
+        channel(&mut out, info, figures, one_file, display);
     }
     out.raw("</main>\n<footer>\n<p>")
         .text(format!("Slipstick {version}: "))
@@ -37,8 +39,16 @@ pub fn page(
     out.into_string()
 }
 
-fn channel(out: &mut Markup, info: &ChannelInfo, figures: &[Drawn], display: DisplayUnits) {
-    out.raw("<section class=\"figures\">\n").element("h2", format!("Channel {}", info.channel));
+fn channel(
+    out: &mut Markup,
+    info: &ChannelInfo,
+    figures: &[Drawn],
+    one_file: bool,
+    display: DisplayUnits,
+) {
+    let channel = format!("Channel {}", info.channel);
+    let head = if one_file { channel } else { format!("{}: {channel}", info.file) };
+    out.raw("<section class=\"figures\">\n").element("h2", head);
     let dt = info.dt_s.map_or("uneven samples".to_owned(), |dt_s| format!("{dt_s} s"));
     out.raw("\n<p>").text(format!("{}, {} values, {dt}, {}.", info.layout, info.npts, info.units));
     for (name, value) in
@@ -77,7 +87,7 @@ fn channel(out: &mut Markup, info: &ChannelInfo, figures: &[Drawn], display: Dis
         out.raw("</tbody>\n</table>\n");
     }
     for figure in figures {
-        out.raw("<figure").attribute("id", figure.id).raw(">\n").append(figure.svg.markup());
+        out.raw("<figure>\n").append(figure.svg.markup());
         out.raw("<figcaption>").text(&figure.caption).raw("</figcaption>\n</figure>\n");
     }
     out.raw("</section>\n");

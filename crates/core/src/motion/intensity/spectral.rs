@@ -22,8 +22,12 @@ const AVERAGE_PERIODS: usize = 50;
 
 /// Mean period `Σ C²/f / Σ C²` over the frequencies `0.25 Hz ≤ f ≤ 20 Hz`, at most 0.05 Hz apart;
 /// in s, 0 for a motion that has nothing there.
+///
+/// The sums depend on the step between frequencies by 1 % or so where that is the inverse of the
+/// duration. Here it is at most a quarter of that: within 0.3 % of what ever finer steps give.
 pub(super) fn mean_period(motion: &GroundMotion) -> f64 {
-    let spectrum = FourierSpectrum::of(motion, MEAN_PERIOD_STEP_HZ);
+    let step_hz = MEAN_PERIOD_STEP_HZ.min(0.25 / motion.duration_s());
+    let spectrum = FourierSpectrum::of(motion, step_hz);
     let (mut weighted, mut sum) = (0.0, 0.0);
     for (f, c) in spectrum.frequencies_hz().zip(&spectrum.amplitudes_m_per_s) {
         if (MEAN_PERIOD_FROM_HZ..=MEAN_PERIOD_TO_HZ).contains(&f) {
