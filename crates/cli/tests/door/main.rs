@@ -11,4 +11,5 @@ mod options;
 mod paper;
 mod records;
 mod refused;
+mod studies;
 mod support;
