@@ -29,6 +29,8 @@ Usage: cargo xtask TASK
                                  and in OpenSeesPy; opens it in DuckDB (needs its records)
                                  (--write: into book/src/generated/studies.md)
   fuzz [TARGET] [--seconds N]    all fuzz targets or one, 60 s each (installs cargo-fuzz)
+  coverage                       how often intervals of identify cover the truth, 200 tests a
+                                 parameter, and that silent tests are refused
   deny                           licences, advisories, doubles (installs cargo-deny)
   man                            the manual pages, into the target folder
   book                           the manual, into book/build (installs mdbook)
@@ -46,6 +48,7 @@ fn main() -> ExitCode {
         ["bench-peers", options @ ..] => peers::bench_peers(options),
         ["bench-study", options @ ..] => peers::bench_study(options),
         ["fuzz", options @ ..] => tools::fuzz(options),
+        ["coverage"] => tools::coverage(),
         ["deny"] => tools::deny(),
         ["man"] => tools::man(),
         ["book"] => tools::book(),

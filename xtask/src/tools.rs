@@ -92,6 +92,12 @@ fn seed(target: &str) -> Outcome {
     Ok(())
 }
 
+/// Two hundred made tests for each parameter that `identify` tells.
+pub fn coverage() -> Outcome {
+    const TESTS: &str = "test -p slipstick --lib -- --ignored --nocapture coverage_";
+    shell::run(&mut shell::cargo(TESTS))
+}
+
 fn fuzz_targets() -> Result<Vec<String>, String> {
     let list = shell::root().join("fuzz/fuzz_targets");
     let entries = fs::read_dir(&list).map_err(|e| format!("{}: {e}", list.display()))?;

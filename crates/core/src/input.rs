@@ -14,6 +14,7 @@ mod frame;
 mod json;
 mod json_schema;
 mod keys;
+mod mapping;
 mod motion;
 mod overrides;
 pub mod plan;
@@ -24,12 +25,14 @@ mod schema;
 mod tests;
 mod tree;
 mod variation;
+mod write;
 
 pub use build::Parts;
 pub use json_schema::{json_schema, plan_json_schema};
 pub use keys::MAX_STOREYS;
+pub use mapping::{Channel, ColumnRef, MappedColumn, Mapping};
 pub use motion::{MotionSource, RecordSource, Scale};
-pub use overrides::Override;
+pub use overrides::{Override, dimension_of};
 pub use plan_keys::MAX_RUNS;
 pub use variation::Variation;
 
@@ -160,6 +163,16 @@ impl Analysis {
             value: self.values.number(&leaf.path),
             unit: leaf.unit,
         })
+    }
+
+    /// The model file's text anew, without comments, in the order of the manual. The motion is that
+    /// of a record in a file beside it where `record` names one; else a made motion stays and a
+    /// record, whose path is relative to the original file, is left out.
+    ///
+    /// Reads back as an equal analysis (but for the motion).
+    #[must_use]
+    pub fn to_toml(&self, record: Option<&str>) -> String {
+        write::toml(&self.values, record)
     }
 
     /// The number written at a path, in SI where it has a unit; `None` where none is written.

@@ -42,9 +42,11 @@ mod write;
 use std::collections::BTreeMap;
 
 use crate::error::{MotionError, RecordError};
-use crate::motion::GroundMotion;
+use crate::motion::{GroundMotion, Series};
 
+pub use delimited::{Column, Columns};
 pub use quality::{REST_KINDS, rest};
+pub(crate) use sampling::of_times;
 use text::Text;
 pub use unit::{Quantity, Units};
 pub use write::{write_at2, write_csv, write_smc};
@@ -263,6 +265,29 @@ impl Channel {
         Self { units, values, sampling, ..self.clone() }
     }
 
+    /// The same channel with other samples in it, in SI: what processing makes of it.
+    #[must_use]
+    pub fn with_series(&self, series: &Series) -> Self {
+        let sampling = match series.dt_s() {
+            Some(dt_s) => Sampling::Dt(dt_s),
+            None => Sampling::Times(series.times_s().to_vec()),
+        };
+        let units = Units::si_of(series.quantity());
+        Self { units, values: series.values().to_vec(), sampling, ..self.clone() }
+    }
+
+    /// The channel, whatever it measures, as samples in SI whose clock starts at the first.
+    ///
+    /// # Errors
+    /// [`MotionError`] for samples that are too few, too many, or past the range of numbers.
+    pub fn series(&self) -> Result<Series, MotionError> {
+        let quantity = self.units.quantity();
+        match &self.sampling {
+            Sampling::Dt(dt_s) => Series::evenly_spaced(*dt_s, self.values.clone(), quantity),
+            Sampling::Times(times_s) => Series::new(times_s.clone(), self.values.clone(), quantity),
+        }
+    }
+
     /// The channel as horizontal ground motion, its clock started at the first sample; `None` for
     /// a channel that is not acceleration.
     ///
@@ -334,6 +359,17 @@ fn read_text(text: &Text, options: &Options) -> Result<Record, RecordError> {
         Format::MiniSeed => Err(text.error_at_start("MiniSEED", "text")),
         Format::Delimited => delimited::read(text, options),
     }
+}
+
+/// Reads a table of numbers as it stands: every column with its name, nothing converted.
+///
+/// The text may be separated and headed as any record of delimited text may be.
+///
+/// # Errors
+/// [`RecordError`] with line and column for what is no table of finite numbers: an empty cell, a
+/// word, a row of another length, fewer than two rows.
+pub fn columns(source_name: &str, bytes: &[u8]) -> Result<Columns, RecordError> {
+    delimited::read_columns(&Text::new(source_name, bytes)?)
 }
 
 /// Numbers the channels that share a name, so that a name picks one channel or none.

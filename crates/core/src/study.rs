@@ -11,7 +11,7 @@ mod design;
 mod directions;
 mod hash;
 mod latin;
-mod normal;
+pub(crate) mod normal;
 mod parallel;
 mod rows;
 mod sobol;
@@ -21,7 +21,7 @@ pub use cases::{Case, Cases};
 pub use columns::{Column, ColumnKind, demand_columns, demand_values};
 pub use design::Design;
 pub use rows::Row;
-pub use sobol::MAX_DIMENSIONS;
+pub use sobol::{MAX_DIMENSIONS, unit_points};
 pub use verify::Verdict;
 
 use std::sync::OnceLock;

@@ -169,6 +169,12 @@ fn choose<'a>(
     let mut along = candidates.clone().filter(|c| c.name != VERTICAL_COLUMN);
     match (along.next(), along.next(), candidates.next()) {
         (Some(channel), None, _) | (None, _, Some(channel)) => Ok(channel),
+        (None, ..) if record.channels.iter().any(|c| c.units.quantity() == Quantity::Counts) => {
+            Err(error(
+                "the value of one count: add units = \"4.67e-6 m/s2\" to [motion] (or --units)"
+                    .to_owned(),
+            ))
+        }
         (None, ..) => Err(error("a channel of acceleration".to_owned())),
         (Some(first), Some(_), _) => Err(error(format!(
             "one channel of acceleration: add channel = {:?} to [motion] (or --channel)",

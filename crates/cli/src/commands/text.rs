@@ -36,7 +36,11 @@ pub fn man(folder: &Path) -> Result<ExitCode, Failure> {
     command.build();
     page(&command, "slipstick", &mut output)?;
     for sub in command.get_subcommands().filter(|sub| !sub.is_hide_set()) {
-        page(sub, &format!("slipstick-{}", sub.get_name()), &mut output)?;
+        let name = format!("slipstick-{}", sub.get_name());
+        page(sub, &name, &mut output)?;
+        for sub in sub.get_subcommands() {
+            page(sub, &format!("{name}-{}", sub.get_name()), &mut output)?;
+        }
     }
     output.commit()?;
     Ok(ExitCode::SUCCESS)

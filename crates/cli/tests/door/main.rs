@@ -3,10 +3,12 @@
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod accepted;
+mod assessment;
 mod cases;
 mod endings;
 mod files;
 mod json;
+mod laboratory;
 mod options;
 mod paper;
 mod records;

@@ -5,6 +5,7 @@ use super::reader::{NearestKey, join, matching, nearest_key};
 use super::schema::{Kind, Section};
 use super::tree::{self, Entry, Node, Sources, Spot, Table, Value};
 use crate::error::{InputError, cut};
+use crate::units::Dimension;
 
 /// A key set to a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -94,6 +95,26 @@ impl Override {
         let keys: Vec<&str> = self.path().split('.').collect();
         set(root, &MODEL, &keys, &spot, node)
             .map_err(|(expected, found)| sources.error(&spot, self.path(), expected, found))
+    }
+}
+
+/// What the number at a path measures; `None` for a ratio.
+///
+/// # Errors
+/// [`InputError`] for a path that no model has, and for one whose value is no number.
+pub fn dimension_of(path: &str) -> Result<Option<Dimension>, InputError> {
+    match find_kind(path) {
+        Ok(Kind::Quantity(dimension, _) | Kind::QuantityOrRatio(dimension, _)) => {
+            Ok(Some(*dimension))
+        }
+        Ok(Kind::Number(_) | Kind::NumberOr(..)) => Ok(None),
+        found => {
+            let set = Override { text: format!("{path}="), value_at: path.len() + 1 };
+            set.check_path()?;
+            let expected = found.map_or(String::new(), |_| "a path to a number".to_owned());
+            let place = set.path_spot(0);
+            Err(set.sources().error(&place, "", expected, format!("\"{}\"", cut(path))))
+        }
     }
 }
 

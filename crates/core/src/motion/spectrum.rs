@@ -56,6 +56,17 @@ impl Spectrum {
     }
 }
 
+/// `count` periods in s, two or more, from one to another, both > 0, evenly spaced by their
+/// logarithm.
+#[must_use]
+pub fn logarithmic_periods(from_s: f64, to_s: f64, count: usize) -> Vec<f64> {
+    let last = count.max(2) - 1;
+    let step = libm::log(to_s / from_s) / last as f64;
+    let mut periods_s: Vec<f64> = (0..last).map(|k| from_s * libm::exp(k as f64 * step)).collect();
+    periods_s.push(to_s);
+    periods_s
+}
+
 /// Elastic response spectrum of an acceleration in m/s² that is linear between `times_s`, where a
 /// repeated time is a jump; the oscillator starts from rest at the first.
 ///

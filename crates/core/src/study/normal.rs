@@ -3,7 +3,7 @@
 use core::f64::consts::SQRT_2;
 
 /// Probability of a standard normal variable to lie below `z`.
-pub(super) fn probability(z: f64) -> f64 {
+pub(crate) fn probability(z: f64) -> f64 {
     0.5 * libm::erfc(-z / SQRT_2)
 }
 
@@ -15,7 +15,7 @@ fn polynomial(x: f64, p: &[f64; 8]) -> f64 {
 /// The value below which a standard normal variable lies with the probability `u`, 0 < u < 1.
 ///
 /// Wichura's algorithm AS 241 (1988), routine PPND16: relative accuracy about 1e-16.
-pub(super) fn inverse(u: f64) -> f64 {
+pub(crate) fn inverse(u: f64) -> f64 {
     const A: [f64; 8] = [
         3.387_132_872_796_366_5,
         1.331_416_678_917_843_8e2,

@@ -1,6 +1,6 @@
 //! Measures of spectra: mean period, spectrum intensities, spectral acceleration.
 
-use crate::motion::spectrum::{Ordinates, spectrum};
+use crate::motion::spectrum::{Ordinates, logarithmic_periods, spectrum};
 use crate::motion::{FourierSpectrum, GroundMotion};
 
 use super::DEFAULT_DAMPING_RATIO;
@@ -68,10 +68,7 @@ pub(super) fn ordinates(motion: &GroundMotion, period_s: f64, damping_ratio: f64
 
 /// Geometric mean of PSa at 50 periods, both ends included, evenly spaced by their logarithm.
 pub(super) fn average(motion: &GroundMotion, from_s: f64, to_s: f64, damping_ratio: f64) -> f64 {
-    let ratio = libm::log(to_s / from_s) / (AVERAGE_PERIODS - 1) as f64;
-    let mut periods_s: Vec<f64> =
-        (0..AVERAGE_PERIODS).map(|k| from_s * libm::exp(k as f64 * ratio)).collect();
-    periods_s[AVERAGE_PERIODS - 1] = to_s;
+    let periods_s = logarithmic_periods(from_s, to_s, AVERAGE_PERIODS);
     let ordinates = all(motion, &periods_s, damping_ratio);
     if ordinates.iter().any(|o| o.psa_m_per_s2 == 0.0) {
         return 0.0;
