@@ -218,12 +218,6 @@ impl Study {
         self.variation.has("slider.bounds")
     }
 
-    /// Whether the model has a motion of its own.
-    #[must_use]
-    pub fn has_motion(&self) -> bool {
-        self.variation.has("motion")
-    }
-
     /// The model's made motion: `sine`, `sweep` or `pulse`; empty where it has none.
     #[must_use]
     pub fn made_motion(&self) -> &'static str {

@@ -14,4 +14,5 @@ mod paper;
 mod record;
 mod records;
 mod refused;
+mod studies;
 mod support;

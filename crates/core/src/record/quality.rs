@@ -40,7 +40,7 @@ pub fn rest(
     warnings
 }
 
-/// Three significant figures, by a power of ten where the number is small.
+/// Four decimals, or by a power of ten where the number is small.
 fn figures(x: f64) -> String {
     if x.abs() < 1e-3 { format!("{x:.2e}") } else { format!("{x:.4}") }
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::{Case, Column, Sample, Study, chunks, demand_columns, demand_values, parallel};
-use crate::input::{MotionSource, Parts};
+use crate::input::MotionSource;
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{IntensityMeasures, Measure};
 use crate::response::Response;
@@ -99,17 +99,51 @@ impl Study {
         });
         let chunks: Vec<_> = chunks(0..samples.len() as u64).collect();
         let of_chunk = |chunk: &Range<u64>| -> Vec<Row> {
-            let mut kept: Option<(Made, Result<Prepared, String>)> = None;
-            let row = |index: u64| {
-                let sample = &samples[index as usize];
-                let case = Case { sample: first.sample + index, ..first };
-                self.run(case, scale, sample, scaled.as_ref(), &mut kept)
-            };
-            let rows = chunk.clone().map(row).collect();
+            let samples = &samples[chunk.start as usize..chunk.end as usize];
+            let first = Case { sample: first.sample + chunk.start, ..first };
+            let rows = self.chunk(first, scale, samples, scaled.as_ref());
             done(chunk.end - chunk.start);
             rows
         };
         parallel::map(&chunks, of_chunk).into_iter().flatten().collect()
+    }
+
+    /// Runs of neighbouring samples; those that move the table alike share one motion.
+    fn chunk(
+        &self,
+        first: Case,
+        scale: f64,
+        samples: &[Sample],
+        scaled: Option<&Result<Prepared, String>>,
+    ) -> Vec<Row> {
+        let made = |sample: &Sample| {
+            let parts = sample.parts.as_ref().ok()?;
+            let source = if scaled.is_some() { None } else { parts.motion.clone() };
+            Some(Made { source, tail_s: parts.tail_s })
+        };
+        let none = Err("the model makes no motion".to_owned());
+        let mut rows = Vec::with_capacity(samples.len());
+        let mut rest = samples;
+        while let Some(sample) = rest.first() {
+            let alike = made(sample);
+            let count = rest.iter().take_while(|other| made(other) == alike).count();
+            let own;
+            let prepared = match (scaled, &alike) {
+                (Some(scaled), None | Some(Made { tail_s: 0.0, .. })) => scaled,
+                (None, None) => &none,
+                (_, Some(made)) => {
+                    own = self.with_tail(made, scaled);
+                    &own
+                }
+            };
+            let (these, others) = rest.split_at(count);
+            for sample in these {
+                let case = Case { sample: first.sample + rows.len() as u64, ..first };
+                rows.push(self.run(case, scale, sample, prepared));
+            }
+            rest = others;
+        }
+        rows
     }
 
     fn run(
@@ -117,61 +151,29 @@ impl Study {
         case: Case,
         scale: f64,
         sample: &Sample,
-        scaled: Option<&Result<Prepared, String>>,
-        kept: &mut Option<(Made, Result<Prepared, String>)>,
+        prepared: &Result<Prepared, String>,
     ) -> Row {
-        let none: Arc<[f64]> = match scaled {
-            Some(Ok(prepared)) => prepared.measures.clone(),
-            _ => vec![f64::NAN; self.measures.len()].into(),
+        let measures = match prepared {
+            Ok(prepared) => prepared.measures.clone(),
+            Err(_) => vec![f64::NAN; self.measures.len()].into(),
         };
-        let mut row = Row {
-            run: self.cases.run(case),
-            case,
-            scale,
-            measures: none,
-            values: sample.values.clone(),
-            demands: Vec::new(),
-            warnings: Vec::new(),
-            error: None,
-        };
+        let (run, values) = (self.cases.run(case), sample.values.clone());
         let outcome = sample.parts.as_ref().map_err(Clone::clone).and_then(|parts| {
-            let prepared = self.prepare(parts, scaled, kept)?;
-            row.measures = prepared.measures.clone();
+            let prepared = prepared.as_ref().map_err(Clone::clone)?;
             let response = solver::exact_demands(&parts.model, &prepared.motion);
             response.map_err(|error| error.to_string())
         });
-        match outcome {
+        let (demands, warnings, error) = match outcome {
             Ok(response) => {
                 let record = self.records.get(case.record as usize);
                 let of_record = record.map_or(&[][..], |record| &record.warnings);
-                row.warnings = warnings(of_record, &response);
-                row.demands = demand_values(&response.demands);
+                (demand_values(&response.demands), warnings(of_record, &response), None)
             }
             Err(error) => {
-                row.demands = vec![f64::NAN; demand_columns(self.storeys).len()];
-                row.error = Some(error);
-            }
-        }
-        row
-    }
-
-    /// The motion of a sample: the scaled record or the sample's own made motion, with its tail.
-    fn prepare<'a>(
-        &self,
-        parts: &Parts,
-        scaled: Option<&Result<Prepared, String>>,
-        kept: &'a mut Option<(Made, Result<Prepared, String>)>,
-    ) -> Result<&'a Prepared, String> {
-        let source = if scaled.is_some() { None } else { parts.motion.clone() };
-        let made = Made { source, tail_s: parts.tail_s };
-        let (_, prepared) = match kept.take() {
-            Some(same) if same.0 == made => kept.insert(same),
-            _ => {
-                let prepared = self.with_tail(&made, scaled);
-                kept.insert((made, prepared))
+                (vec![f64::NAN; demand_columns(self.storeys).len()], Vec::new(), Some(error))
             }
         };
-        prepared.as_ref().map_err(Clone::clone)
+        Row { run, case, scale, measures, values, demands, warnings, error }
     }
 
     fn with_tail(

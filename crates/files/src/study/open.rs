@@ -95,9 +95,6 @@ impl OpenStudy {
         if study.has_bounds() {
             notices.push("slider.bounds of the model are not run: vary the friction".to_owned());
         }
-        if plan.records.is_some() && study.has_motion() {
-            notices.push("[motion] of the model is replaced by [records]".to_owned());
-        }
         let id = id(&inputs);
         let model_path = model_path.clone();
         let plan_path = plan_path.to_owned();
