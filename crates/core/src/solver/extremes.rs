@@ -87,12 +87,14 @@ impl<V: PerStorey> Limits<V> {
     #[inline(always)]
     pub(super) fn hold_but<const STICK: bool>(&self, values: &V::Tracked) -> bool {
         let (within, y) = (self.within.as_ref(), values.as_ref());
-        // One storey's drift is its displacement, and its acceleration goes with the base shear.
+        // One storey's drift is its displacement, and on the level its acceleration goes with the
+        // base shear.
         let one_storey = y.len() == tracked::STOREYS + 3;
+        let level = self.slope == 0.0;
         // Left at the first: in one go the compiler would gather into vectors what has just been
         // stored one by one, and wait for the stores.
         for j in 0..y.len() {
-            let redundant = j == tracked::BASE_SHEAR || j == tracked::STOREYS + 1;
+            let redundant = (level && j == tracked::BASE_SHEAR) || j == tracked::STOREYS + 1;
             let elsewhere = STICK && (tracked::BLOCK..=tracked::FRICTION).contains(&j);
             if elsewhere || (one_storey && redundant) {
                 continue;
