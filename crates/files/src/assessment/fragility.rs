@@ -138,7 +138,10 @@ fn level_column(
     let candidates = [Some(asked.to_owned()), parsed.map(|measure| measure.column())];
     for column in candidates.into_iter().flatten() {
         if columns.has(&column) {
-            return Ok((asked.to_owned(), unit(asked, &column), column));
+            let unit = unit(asked, &column);
+            let column =
+                if same_values(columns, levels, &column) { levels.to_owned() } else { column };
+            return Ok((asked.to_owned(), unit, column));
         }
     }
     if said.is_none() && columns.has(levels) && parsed.is_some() {
@@ -147,6 +150,15 @@ fn level_column(
     }
     let column = parsed.map_or_else(|| asked.to_owned(), |measure| measure.column());
     Err(columns.lacking("--measure", &column))
+}
+
+/// Whether records were scaled to levels of a column's measure: its values are those of the levels, but
+/// for the rounding of each record's factor, which would take the levels apart.
+fn same_values(columns: &Columns, levels: &str, column: &str) -> bool {
+    let numbers = |name: &str| columns.numbers_or_nan(name).unwrap_or_default();
+    let (levels, values) = (numbers(levels), numbers(column));
+    let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-9 * b.abs();
+    !levels.is_empty() && levels.len() == values.len() && levels.iter().zip(&values).all(near)
 }
 
 fn stripes(columns: &Columns, level: &str) -> Result<Vec<Stripe>, AssessmentError> {
