@@ -121,7 +121,7 @@ impl Study {
             levels: levels.len() as u64,
             samples: design.count(),
         };
-        if !cases.runs().is_some_and(|runs| runs <= MAX_RUNS) {
+        if cases.runs().is_none_or(|runs| runs > MAX_RUNS) {
             let Cases { records, levels, samples } = cases;
             let expected = format!("at most {MAX_RUNS} runs");
             let found = format!("{records} records × {levels} levels × {samples} samples");

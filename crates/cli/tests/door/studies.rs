@@ -236,7 +236,7 @@ fn exact_repeat_reproduces_rows() {
         let result = folder.json(&arguments);
         let row = row(&folder, "all.parquet", run);
         compare(&result, &row);
-        assert_eq!(result["record"]["pgv_m_per_s"].as_f64().unwrap() > 0.0, true);
+        assert!(result["record"]["pgv_m_per_s"].as_f64().unwrap() > 0.0);
     }
     let refused = folder.refused(&["study", "plan.toml", "--repeat", "2250"]);
     assert!(refused.contains("expected a run from 0 to 2249, found 2250"), "{refused}");

@@ -169,7 +169,7 @@ impl<S: Simd> Walk<'_, S> {
         for m in (0..QUIET).step_by(4) {
             for i in 0..4 {
                 let tap = quiet.tap[QUIET - 1 - m - i].load(simd);
-                sums[i] = sums[i] + tap * four(simd, a[1 + m + i]);
+                sums[i] += tap * four(simd, a[1 + m + i]);
             }
         }
         let load = (sums[0] + sums[1]) + (sums[2] + sums[3]);

@@ -75,7 +75,7 @@ impl<S: Simd> Series<S> {
                 structure + load
             };
             if k > 0 {
-                bend = bend + c[k].abs() * four(simd, (k * (k + 1)) as f64);
+                bend += c[k].abs() * four(simd, (k * (k + 1)) as f64);
             }
         }
         Self { x: Four(x).load(simd), c, bend }

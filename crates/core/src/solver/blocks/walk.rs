@@ -141,7 +141,7 @@ impl<'w, S: Simd> Walk<'w, S> {
         let taps = &phase.tap;
         let mut load = times4(simd, &phase.first[k], a[0]);
         if SLIP {
-            load = load + times4(simd, &phase.force[k], force);
+            load += times4(simd, &phase.force[k], force);
         }
         if k == BLOCK {
             // Two sums, that neither has to wait for the other.
@@ -149,10 +149,10 @@ impl<'w, S: Simd> Walk<'w, S> {
                 + (times4(simd, &taps[3], a[5]) + times4(simd, &taps[1], a[7]));
             let even = (times4(simd, &taps[6], a[2]) + times4(simd, &taps[4], a[4]))
                 + (times4(simd, &taps[2], a[6]) + times4(simd, &taps[0], a[8]));
-            load = load + (odd + even);
+            load += odd + even;
         } else {
             for m in 1..=k {
-                load = load + times4(simd, &taps[k - m], a[m]);
+                load += times4(simd, &taps[k - m], a[m]);
             }
         }
         combine4(simd, &phase.power[k], x) + load
@@ -175,7 +175,7 @@ impl<'w, S: Simd> Walk<'w, S> {
             + (times8(simd, &taps[5], a[6]) + times8(simd, &taps[7], a[8]));
         let mut load = times8(simd, &row.first, a[0]) + (odd + even);
         if SLIP {
-            load = load + times8(simd, &row.force, force);
+            load += times8(simd, &row.force, force);
         }
         combine8(simd, &row.state, x) + load
     }
