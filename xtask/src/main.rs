@@ -1,6 +1,7 @@
 //! `cargo xtask`: the project's own tasks, on cargo and rustup alone unless a task says otherwise.
 
 mod ci;
+mod paper;
 mod peers;
 mod reference;
 mod shell;
@@ -17,11 +18,19 @@ Usage: cargo xtask TASK
                                  licences; last line: N passed, N failed, N skipped
   reference [--write]            every reference case: truth, tolerance, error reached
                                  (--write: into book/src/generated/verification.md)
+  paper [--write]                reproduces the paper and compares with the book's chapter
+                                 (--write: into book/src/paper.md and book/src/figures)
   bench-peers [--json] [--quick] [--write]
                                  times the same analyses here, in a numba loop, SciPy and
                                  OpenSeesPy (needs python3; makes .venv)
                                  (--write: into book/src/generated/peers.md)
+  bench-study [--quick] [--write]
+                                 times the far-field study on one thread and two, in a numba loop
+                                 and in OpenSeesPy; opens it in DuckDB (needs its records)
+                                 (--write: into book/src/generated/studies.md)
   fuzz [TARGET] [--seconds N]    all fuzz targets or one, 60 s each (installs cargo-fuzz)
+  coverage                       how often intervals of identify cover the truth, 200 tests a
+                                 parameter, and that silent tests are refused
   deny                           licences, advisories, doubles (installs cargo-deny)
   man                            the manual pages, into the target folder
   book                           the manual, into book/build (installs mdbook)
@@ -35,8 +44,11 @@ fn main() -> ExitCode {
     let outcome = match words.as_slice() {
         ["ci"] => return ci::ci(),
         ["reference", options @ ..] => reference::reference(options),
+        ["paper", options @ ..] => paper::paper(options),
         ["bench-peers", options @ ..] => peers::bench_peers(options),
+        ["bench-study", options @ ..] => peers::bench_study(options),
         ["fuzz", options @ ..] => tools::fuzz(options),
+        ["coverage"] => tools::coverage(),
         ["deny"] => tools::deny(),
         ["man"] => tools::man(),
         ["book"] => tools::book(),

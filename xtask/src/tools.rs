@@ -76,6 +76,7 @@ fn seed(target: &str) -> Outcome {
     }
     let sources: &[&str] = match target {
         "model" => &["crates/cli/models", "examples"],
+        "plan" => &["examples/studies"],
         _ => &["data/records"],
     };
     for source in sources {
@@ -89,6 +90,12 @@ fn seed(target: &str) -> Outcome {
         }
     }
     Ok(())
+}
+
+/// Two hundred made tests for each parameter that `identify` tells.
+pub fn coverage() -> Outcome {
+    const TESTS: &str = "test -p slipstick --lib -- --ignored --nocapture coverage_";
+    shell::run(&mut shell::cargo(TESTS))
 }
 
 fn fuzz_targets() -> Result<Vec<String>, String> {

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use slipstick::error::InputError;
-use slipstick_files::{FileError, JobError};
+use slipstick_files::{FileError, JobError, LaboratoryError, StudyError};
 
 /// Bad input, or an output that nobody reads any more.
 #[derive(Debug)]
@@ -20,6 +20,9 @@ pub enum Failure {
         /// The text of the model file.
         text: String,
     },
+    /// Data that tell nothing of what was asked: the input is in order, the answer is that there is
+    /// none.
+    CannotTell(String),
     /// Anything else, in one sentence.
     Message(String),
 }
@@ -44,6 +47,7 @@ impl Failure {
         match self {
             Self::ClosedPipe => {}
             Self::Message(message) => say(format_args!("error: {message}")),
+            Self::CannotTell(message) => say(format_args!("the data cannot tell: {message}")),
             Self::Input { error, text } => {
                 say(format_args!("error: {error}"));
                 if io::stderr().is_terminal()
@@ -76,6 +80,21 @@ fn excerpt(error: &InputError, text: &str) -> Option<String> {
         .path(&place.source_name)
         .annotation(AnnotationKind::Primary.span(place.span.clone()).label(&label));
     Some(renderer.render(&[Level::ERROR.primary_title(&error.found).element(snippet)]))
+}
+
+impl From<LaboratoryError> for Failure {
+    fn from(error: LaboratoryError) -> Self {
+        Self::Message(error.to_string())
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Input { error, text } => Self::Input { error, text },
+            other => Self::Message(other.to_string()),
+        }
+    }
 }
 
 impl From<FileError> for Failure {

@@ -39,6 +39,7 @@ fn main() -> ExitCode {
     failure.report();
     match failure {
         Failure::ClosedPipe => ExitCode::SUCCESS,
+        Failure::CannotTell(_) => ExitCode::from(1),
         _ => ExitCode::from(2),
     }
 }
@@ -58,8 +59,16 @@ fn run() -> Result<ExitCode, Failure> {
     };
     match &cli.command {
         Command::Run(args) => commands::run::run(args),
+        Command::Compare(args) => commands::compare::compare(args),
+        Command::Spectrum(args) => commands::spectrum::spectrum(args),
+        Command::Ida(args) => commands::ida::ida(args),
+        Command::Fragility(args) => commands::fragility::fragility(args),
+        Command::Design(args) => commands::design::design(args),
         Command::Record(command) => commands::record::record(command),
+        Command::Study(args) => commands::study::study(args),
+        Command::Identify { job } => commands::identify::identify(job),
         Command::Init(args) => commands::init::init(args),
+        Command::Paper(args) => commands::paper::paper(args),
         Command::Schema(args) => commands::text::schema(args),
         Command::Completions { shell } => commands::text::completions(*shell),
         Command::Man { folder } => commands::text::man(folder),

@@ -14,18 +14,27 @@ mod frame;
 mod json;
 mod json_schema;
 mod keys;
+mod mapping;
 mod motion;
 mod overrides;
+pub mod plan;
+mod plan_keys;
 mod reader;
 mod schema;
 #[cfg(test)]
 mod tests;
 mod tree;
+mod variation;
+mod write;
 
-pub use json_schema::json_schema;
+pub use build::Parts;
+pub use json_schema::{json_schema, plan_json_schema};
 pub use keys::MAX_STOREYS;
+pub use mapping::{Channel, ColumnRef, MappedColumn, Mapping};
 pub use motion::{MotionSource, RecordSource, Scale};
-pub use overrides::Override;
+pub use overrides::{Override, dimension_of};
+pub use plan_keys::MAX_RUNS;
+pub use variation::Variation;
 
 /// The longest text that can be a model, in bytes: a storey takes a hundred.
 pub const MAX_TEXT_BYTES: usize = 1 << 20;
@@ -122,8 +131,13 @@ pub fn from_bytes(
     bytes: &[u8],
     overrides: &[Override],
 ) -> Result<Analysis, InputError> {
+    parse(source_name, utf8(source_name, bytes)?, overrides)
+}
+
+/// The bytes of a file as text.
+fn utf8<'a>(source_name: &str, bytes: &'a [u8]) -> Result<&'a str, InputError> {
     let error = match std::str::from_utf8(bytes) {
-        Ok(text) => return parse(source_name, text, overrides),
+        Ok(text) => return Ok(text),
         Err(error) => error,
     };
     let at = error.valid_up_to();
@@ -149,6 +163,16 @@ impl Analysis {
             value: self.values.number(&leaf.path),
             unit: leaf.unit,
         })
+    }
+
+    /// The model file's text anew, without comments, in the order of the manual. The motion is that
+    /// of a record in a file beside it where `record` names one; else a made motion stays and a
+    /// record, whose path is relative to the original file, is left out.
+    ///
+    /// Reads back as an equal analysis (but for the motion).
+    #[must_use]
+    pub fn to_toml(&self, record: Option<&str>) -> String {
+        write::toml(&self.values, record)
     }
 
     /// The number written at a path, in SI where it has a unit; `None` where none is written.

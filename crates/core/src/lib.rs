@@ -14,14 +14,17 @@
 //! towards +x; storey displacements are relative to the block; the friction force `T` is that of
 //! the table on the block.
 
+pub mod assessment;
 pub mod check;
 pub mod error;
 pub mod friction;
 pub mod input;
+pub mod laboratory;
 pub mod linear;
 pub mod model;
 pub mod motion;
 pub mod record;
 pub mod response;
 pub mod solver;
+pub mod study;
 pub mod units;

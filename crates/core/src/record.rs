@@ -44,7 +44,9 @@ use std::collections::BTreeMap;
 use crate::error::{MotionError, RecordError};
 use crate::motion::{GroundMotion, Series};
 
+pub use delimited::{Column, Columns};
 pub use quality::{REST_KINDS, rest};
+pub(crate) use sampling::of_times;
 use text::Text;
 pub use unit::{Quantity, Units};
 pub use write::{write_at2, write_csv, write_smc};
@@ -359,6 +361,17 @@ fn read_text(text: &Text, options: &Options) -> Result<Record, RecordError> {
     }
 }
 
+/// Reads a table of numbers as it stands: every column with its name, nothing converted.
+///
+/// The text may be separated and headed as any record of delimited text may be.
+///
+/// # Errors
+/// [`RecordError`] with line and column for what is no table of finite numbers: an empty cell, a
+/// word, a row of another length, fewer than two rows.
+pub fn columns(source_name: &str, bytes: &[u8]) -> Result<Columns, RecordError> {
+    delimited::read_columns(&Text::new(source_name, bytes)?)
+}
+
 /// Numbers the channels that share a name, so that a name picks one channel or none.
 fn distinct(channels: &mut [Channel]) {
     let mut seen: BTreeMap<String, (usize, usize)> = BTreeMap::new();
@@ -377,25 +390,25 @@ fn distinct(channels: &mut [Channel]) {
 /// What tells whether a text is of a format.
 type Recognises = fn(&Text) -> bool;
 
-/// The formats that a text may be, the surest signs first: RENADIC and USC write volumes as CSMIP
-/// does.
+/// The formats that a text may be, the surest signs first.
 const TEXT_FORMATS: [(Format, Recognises); 17] = [
+    (Format::Cosmos, cosmos::recognises),
+    (Format::Smc, smc::recognises),
+    // USC, RENADIC and GeoNet write volumes much as CSMIP does.
+    (Format::Usc, usc::recognises),
+    (Format::Renadic, renadic::recognises),
+    (Format::Bhrc, bhrc::recognises),
+    (Format::GeoNet, geonet::recognises),
+    (Format::Csmip, csmip::recognises),
+    (Format::SeismoSignal, seismosignal::recognises),
     (Format::Knet, knet::recognises),
     (Format::Dyna, dyna::recognises),
     (Format::Itaca, itaca::recognises),
     (Format::Nsmn, nsmn::recognises),
-    (Format::GeoNet, geonet::recognises),
     (Format::Asa, asa::recognises),
     (Format::Csmnc, csmnc::recognises),
     (Format::Cwa, cwa::recognises),
     (Format::Sac, sac::recognises),
-    (Format::Cosmos, cosmos::recognises),
-    (Format::Smc, smc::recognises),
-    (Format::Usc, usc::recognises),
-    (Format::Renadic, renadic::recognises),
-    (Format::Bhrc, bhrc::recognises),
-    (Format::Csmip, csmip::recognises),
-    (Format::SeismoSignal, seismosignal::recognises),
     (Format::Peer, peer::recognises),
 ];
 

@@ -78,6 +78,14 @@ pub enum FileError {
         /// Why.
         source: RecordWriteError,
     },
+    /// Content that is no table in Parquet, or not the one that was expected.
+    #[error("{}: expected a Parquet file: {reason}", path.display())]
+    Table {
+        /// The file.
+        path: PathBuf,
+        /// What the library says.
+        reason: String,
+    },
     /// A result that cannot be written.
     #[error("{}: cannot be written: {}", path.display(), reason(source))]
     Write {

@@ -21,7 +21,7 @@ use crate::progress::watched;
 /// Runs one analysis, prints it and writes its files.
 pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let model = read_model(&args.model)?;
-    let overrides = overrides(args)?;
+    let overrides = overrides(&args.set, args.method)?;
     let analysis = input::from_bytes(&model.name, &model.bytes, &overrides)
         .map_err(|error| Failure::input(error, &model.text()))?;
     let record = args.motion.as_deref().map(|path| record_request(args, path)).transpose()?;
@@ -53,21 +53,23 @@ fn status(summary: &Summary) -> u8 {
 }
 
 /// The model file as it was read.
-struct ModelFile {
+pub(super) struct ModelFile {
     /// What messages call it.
-    name: String,
+    pub name: String,
     /// Where it is; empty for standard input.
-    path: PathBuf,
-    bytes: Vec<u8>,
+    pub path: PathBuf,
+    /// All of it.
+    pub bytes: Vec<u8>,
 }
 
 impl ModelFile {
-    fn text(&self) -> String {
+    /// All of it as text.
+    pub fn text(&self) -> String {
         String::from_utf8_lossy(&self.bytes).into_owned()
     }
 }
 
-fn read_model(path: &Path) -> Result<ModelFile, Failure> {
+pub(super) fn read_model(path: &Path) -> Result<ModelFile, Failure> {
     let limit = input::MAX_TEXT_BYTES as u64;
     if path != Path::new("-") {
         let name = path.display().to_string();
@@ -85,12 +87,16 @@ fn read_model(path: &Path) -> Result<ModelFile, Failure> {
     Ok(ModelFile { name: path.display().to_string(), path: PathBuf::new(), bytes })
 }
 
-fn overrides(args: &RunArgs) -> Result<Vec<Override>, Failure> {
-    let method = args.method.map(|method| match method {
+/// The options that set keys of the model.
+pub(super) fn overrides(
+    set: &[String],
+    method: Option<MethodName>,
+) -> Result<Vec<Override>, Failure> {
+    let method = method.map(|method| match method {
         MethodName::Exact => "analysis.method=exact".to_owned(),
         MethodName::Stepwise => "analysis.method=stepwise".to_owned(),
     });
-    let set = args.set.iter().cloned().chain(method);
+    let set = set.iter().cloned().chain(method);
     set.map(|text| Override::parse(&text).map_err(|error| Failure::Message(error.to_string())))
         .collect()
 }

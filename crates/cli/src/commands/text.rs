@@ -10,9 +10,14 @@ use slipstick_files::{FileError, OutputFolder};
 use crate::args::{Cli, SchemaArgs};
 use crate::failure::{Failure, print};
 
-/// Prints the JSON schema of the model file, or the units.
+/// Prints the JSON schema of the model file or of a study plan, or the units.
 pub fn schema(args: &SchemaArgs) -> Result<ExitCode, Failure> {
-    print(&if args.units { slipstick::units::table() } else { slipstick::input::json_schema() })?;
+    let text = match args {
+        SchemaArgs { units: true, .. } => slipstick::units::table(),
+        SchemaArgs { plan: true, .. } => slipstick::input::plan_json_schema(),
+        _ => slipstick::input::json_schema(),
+    };
+    print(&text)?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -3,12 +3,16 @@
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod accepted;
+mod assessment;
 mod cases;
 mod endings;
 mod files;
 mod json;
+mod laboratory;
 mod options;
+mod paper;
 mod record;
 mod records;
 mod refused;
+mod studies;
 mod support;

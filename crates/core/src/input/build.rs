@@ -1,7 +1,7 @@
 //! Checked values to an analysis: what no key can say alone.
 
 use super::frame;
-use super::motion;
+use super::motion::{self, MotionSource};
 use super::reader::Values;
 use super::{Analysis, FrictionBounds};
 use crate::error::{InputError, ModelError};
@@ -10,18 +10,35 @@ use crate::model::{Block, Frame, InitialState, Model, Slider};
 use crate::response::Method;
 use crate::units::STANDARD_GRAVITY_M_PER_S2;
 
-pub(super) fn analysis(values: Values) -> Result<Analysis, InputError> {
+/// What an analysis needs of the values, and what a study draws anew for each of its samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parts {
+    /// The checked model.
+    pub model: Model,
+    /// How the table moves; `None` where the file does not say.
+    pub motion: Option<MotionSource>,
+    /// Free vibration after the motion ends, in s.
+    pub tail_s: f64,
+}
+
+pub(super) fn parts(values: &Values) -> Result<Parts, InputError> {
     let gravity_m_per_s2 = values.number("analysis.gravity").unwrap_or(STANDARD_GRAVITY_M_PER_S2);
     let block = Block {
         mass_kg: values.required("block.mass")?,
         width_m: values.number("block.width"),
         height_m: values.number("block.height"),
     };
-    let frame = frame::frame(&values)?;
-    let slider = slider(&values, &block, &frame, gravity_m_per_s2)?;
-    let initial = initial(&values, frame.masses_kg.len())?;
+    let frame = frame::frame(values)?;
+    let slider = slider(values, &block, &frame, gravity_m_per_s2)?;
+    let initial = initial(values, frame.masses_kg.len())?;
     let model = Model::new(block, slider, frame, gravity_m_per_s2, initial)
-        .map_err(|error| model_error(&values, &error))?;
+        .map_err(|error| model_error(values, &error))?;
+    let tail_s = values.number("analysis.tail").unwrap_or(0.0);
+    Ok(Parts { model, motion: motion::motion(values)?, tail_s })
+}
+
+pub(super) fn analysis(values: Values) -> Result<Analysis, InputError> {
+    let Parts { model, motion, tail_s } = parts(&values)?;
     let friction_bounds = friction_bounds(&values)?;
     let method = match values.text("analysis.method") {
         Some("stepwise") => Method::Stepwise,
@@ -31,9 +48,9 @@ pub(super) fn analysis(values: Values) -> Result<Analysis, InputError> {
         name: values.text("name").map(str::to_owned),
         model,
         friction_bounds,
-        motion: motion::motion(&values)?,
+        motion,
         method,
-        tail_s: values.number("analysis.tail").unwrap_or(0.0),
+        tail_s,
         values,
     })
 }

@@ -2,18 +2,29 @@
 
 use super::json::Json;
 use super::keys::{MAX_STOREYS, MODEL};
-use super::schema::{Exclusive, Key, Kind, Range, Section};
+use super::plan_keys::{DISTRIBUTION, PLAN};
+use super::schema::{Exclusive, Key, Kind, Range, Section, Special};
 use crate::units::Dimension;
 
 /// The JSON Schema (draft 2020-12) of a model file, as text.
 #[must_use]
 pub fn json_schema() -> String {
-    let Json::Object(model) = section(&MODEL) else { return String::new() };
+    document("Slipstick model", &MODEL)
+}
+
+/// The JSON Schema (draft 2020-12) of a study plan, as text.
+#[must_use]
+pub fn plan_json_schema() -> String {
+    document("Slipstick study plan", &PLAN)
+}
+
+fn document(title: &str, root: &'static Section) -> String {
+    let Json::Object(keys) = section(root) else { return String::new() };
     let mut entries = vec![
         ("$schema", Json::text("https://json-schema.org/draft/2020-12/schema")),
-        ("title", Json::text("Slipstick model")),
+        ("title", Json::text(title)),
     ];
-    entries.extend(model);
+    entries.extend(keys);
     Json::Object(entries).pretty()
 }
 
@@ -113,8 +124,51 @@ fn key(key: &Key) -> Json {
             entries.push(("maxItems", Json::Number(MAX_STOREYS as f64)));
             entries.push(("items", section(inner)));
         }
+        Kind::Texts(example) => {
+            let list = vec![("type", Json::text("array")), ("items", a("string"))];
+            entries.push(("anyOf", Json::List(vec![a("string"), Json::Object(list)])));
+            entries.push(("examples", Json::texts([*example])));
+        }
+        Kind::Numbers(range) => {
+            entries.push(("type", Json::text("array")));
+            entries.push(("items", Json::Object(number(*range))));
+        }
+        Kind::Whole(least, most) => {
+            entries.push(("type", Json::text("integer")));
+            entries.push(("minimum", Json::Number(*least as f64)));
+            entries.push(("maximum", Json::Number(*most as f64)));
+        }
+        Kind::Special(special) => entries.extend(self::special(*special)),
     }
     Json::Object(entries)
+}
+
+fn special(special: Special) -> Vec<(&'static str, Json)> {
+    let list = |items| vec![("type", Json::text("array")), ("items", items)];
+    let number_or_text = || Json::Object(vec![("type", Json::texts(["number", "string"]))]);
+    match special {
+        Special::Vary => {
+            vec![("type", Json::text("object")), ("additionalProperties", section(&DISTRIBUTION))]
+        }
+        Special::Levels => list(a("string")),
+        Special::Correlation => list(Json::Object(vec![
+            ("type", Json::text("array")),
+            ("prefixItems", Json::List(vec![a("string"), a("string"), a("number")])),
+            ("minItems", Json::Number(3.0)),
+            ("maxItems", Json::Number(3.0)),
+        ])),
+        Special::Values(0) => {
+            let mut entries = list(number_or_text());
+            entries.push(("minItems", Json::Number(1.0)));
+            entries
+        }
+        Special::Values(count) => {
+            let mut entries = list(number_or_text());
+            entries.push(("minItems", Json::Number(count as f64)));
+            entries.push(("maxItems", Json::Number(count as f64)));
+            entries
+        }
+    }
 }
 
 fn a(kind: &str) -> Json {

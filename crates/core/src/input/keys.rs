@@ -188,6 +188,29 @@ static FRAME: Section = Section {
     choices: &[],
 };
 
+pub(super) const UNITS: Key = Key::optional(
+    "units",
+    Kind::UnitOf(Acceleration),
+    "Unit of the record, where its file does not state it; of counts the value of one, \
+     \"4.67e-6 m/s2\".",
+);
+pub(super) const RECORD_STEP: Key = Key::optional(
+    "dt",
+    Kind::Quantity(Time, Range::Positive),
+    "Time step of the record, where its file does not state it.",
+);
+pub(super) const CHANNEL: Key = Key::optional(
+    "channel",
+    Kind::NameOrIndex,
+    "Which of the record's channels, by name or counted from 1.",
+);
+pub(super) const VERTICAL_SCALE: Key = Key::optional(
+    "vertical_scale",
+    Kind::Number(Range::Any),
+    "Factor on the vertical motion besides that of the horizontal one; default 1.",
+)
+.beside("vertical");
+
 static MOTION: Section = Section {
     keys: &[
         Key::optional(
@@ -195,25 +218,9 @@ static MOTION: Section = Section {
             Kind::Text("records/taft.txt"),
             "File of a recorded ground motion, relative to the model file.",
         ),
-        Key::optional(
-            "units",
-            Kind::UnitOf(Acceleration),
-            "Unit of the record, where its file does not state it; of counts the value of one, \
-             \"4.67e-6 m/s2\".",
-        )
-        .beside("record"),
-        Key::optional(
-            "dt",
-            Kind::Quantity(Time, Range::Positive),
-            "Time step of the record, where its file does not state it.",
-        )
-        .beside("record"),
-        Key::optional(
-            "channel",
-            Kind::NameOrIndex,
-            "Which of the record's channels, by name or counted from 1.",
-        )
-        .beside("record"),
+        UNITS.beside("record"),
+        RECORD_STEP.beside("record"),
+        CHANNEL.beside("record"),
         Key::optional("scale", Kind::Number(Range::Any), "Factor on the record; may be negative.")
             .beside("record"),
         Key::optional(
@@ -228,12 +235,7 @@ static MOTION: Section = Section {
             "File of the vertical motion, which takes the factor of the horizontal one.",
         )
         .beside("record"),
-        Key::optional(
-            "vertical_scale",
-            Kind::Number(Range::Any),
-            "Factor on the vertical motion besides that of the horizontal one; default 1.",
-        )
-        .beside("vertical"),
+        VERTICAL_SCALE,
         Key::optional("sine", Kind::Section(&SINE), "A sine of constant frequency."),
         Key::optional("sweep", Kind::Section(&SWEEP), "A sine whose frequency changes."),
         Key::optional("pulse", Kind::Section(&PULSE), "A single pulse."),

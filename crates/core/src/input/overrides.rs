@@ -5,6 +5,7 @@ use super::reader::{NearestKey, join, matching, nearest_key};
 use super::schema::{Kind, Section};
 use super::tree::{self, Entry, Node, Sources, Spot, Table, Value};
 use crate::error::{InputError, cut};
+use crate::units::Dimension;
 
 /// A key set to a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,6 +56,12 @@ impl Override {
         self.text.get(..self.value_at.saturating_sub(1)).unwrap_or("").trim()
     }
 
+    /// It as it was given, `PATH=VALUE`.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
     fn sources(&self) -> Sources {
         let mut sources = Sources::default();
         sources.add(&self.source_name(), &self.text);
@@ -88,6 +95,26 @@ impl Override {
         let keys: Vec<&str> = self.path().split('.').collect();
         set(root, &MODEL, &keys, &spot, node)
             .map_err(|(expected, found)| sources.error(&spot, self.path(), expected, found))
+    }
+}
+
+/// What the number at a path measures; `None` for a ratio.
+///
+/// # Errors
+/// [`InputError`] for a path that no model has, and for one whose value is no number.
+pub fn dimension_of(path: &str) -> Result<Option<Dimension>, InputError> {
+    match find_kind(path) {
+        Ok(Kind::Quantity(dimension, _) | Kind::QuantityOrRatio(dimension, _)) => {
+            Ok(Some(*dimension))
+        }
+        Ok(Kind::Number(_) | Kind::NumberOr(..)) => Ok(None),
+        found => {
+            let set = Override { text: format!("{path}="), value_at: path.len() + 1 };
+            set.check_path()?;
+            let expected = found.map_or(String::new(), |_| "a path to a number".to_owned());
+            let place = set.path_spot(0);
+            Err(set.sources().error(&place, "", expected, format!("\"{}\"", cut(path))))
+        }
     }
 }
 
@@ -189,14 +216,14 @@ pub(super) fn kind_of(path: &str) -> Option<&'static Kind> {
 }
 
 /// As [`kind_of`]; else what was expected and the nearest path.
-fn find_kind(path: &str) -> Result<&'static Kind, (String, Option<String>)> {
+pub(super) fn find_kind(path: &str) -> Result<&'static Kind, (String, Option<String>)> {
     let mut section = &MODEL;
     let mut known = String::new();
     let mut keys = path.split('.').peekable();
     loop {
         let name = keys.next().unwrap_or("");
         let Some(key) = section.key(name) else {
-            let nearest = nearest_key(name, section).map(|nearest| match nearest {
+            let nearest = nearest_key(name, section, &MODEL).map(|nearest| match nearest {
                 NearestKey::Elsewhere(path) => path,
                 NearestKey::Here(name) => valid_or_start(join(&known, name), keys),
             });

@@ -36,6 +36,25 @@ pub(super) struct Values {
     leaf_of_path: BTreeMap<String, usize>,
     /// Tables and lists: where they stand and how many items a list has.
     tables: BTreeMap<String, (Spot, usize)>,
+    /// What other readers are to judge, as it stands.
+    specials: BTreeMap<String, Node>,
+    root: Root,
+}
+
+/// The description of the whole text.
+#[derive(Clone, Copy, Debug)]
+struct Root(&'static Section);
+
+impl Default for Root {
+    fn default() -> Self {
+        Self(&super::keys::MODEL)
+    }
+}
+
+impl PartialEq for Root {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self.0, other.0)
+    }
 }
 
 impl Values {
@@ -45,7 +64,7 @@ impl Values {
         root: &Table,
         section: &'static Section,
     ) -> Result<Self, InputError> {
-        let mut values = Self { sources, ..Self::default() };
+        let mut values = Self { sources, root: Root(section), ..Self::default() };
         values.read_table("", &Spot { source: 0, span: 0..0 }, root, section)?;
         Ok(values)
     }
@@ -93,6 +112,38 @@ impl Values {
         Some((1..=*count).filter_map(|item| self.number(&format!("{path}.{item}"))).collect())
     }
 
+    /// The texts of a list, or the one text that stands for it.
+    pub fn texts(&self, path: &str) -> Option<Vec<String>> {
+        if let Some(text) = self.text(path) {
+            return Some(vec![text.to_owned()]);
+        }
+        let (_, count) = self.tables.get(path)?;
+        let items = (1..=*count).filter_map(|item| self.text(&format!("{path}.{item}")));
+        Some(items.map(str::to_owned).collect())
+    }
+
+    /// The value at a path that its own reader is to judge.
+    pub fn special(&self, path: &str) -> Option<&Node> {
+        self.specials.get(path)
+    }
+
+    /// Tells errors where a path stands that its own reader has found.
+    pub fn mark(&mut self, path: &str, spot: &Spot) {
+        self.tables.insert(path.to_owned(), (spot.clone(), 0));
+    }
+
+    /// Replaces the number at a path; `false` where there is none.
+    pub fn set_number(&mut self, path: &str, value: f64) -> bool {
+        let leaf = self.leaf_of_path.get(path).and_then(|index| self.leaves.get_mut(*index));
+        match leaf {
+            Some(Leaf { given: given @ Given::Number(_), .. }) => {
+                *given = Given::Number(value);
+                true
+            }
+            _ => false,
+        }
+    }
+
     /// An error at the value of a path or, where there is none, at the table that lacks it.
     pub fn error(
         &self,
@@ -113,6 +164,17 @@ impl Values {
         self.sources.error(&nowhere, path, expected, found)
     }
 
+    /// An error at a place.
+    pub fn error_spot(
+        &self,
+        spot: &Spot,
+        path: &str,
+        expected: impl Into<String>,
+        found: impl Into<String>,
+    ) -> InputError {
+        self.sources.error(spot, path, expected, found)
+    }
+
     /// An error at the value of a path that says what was written there.
     pub fn wrong(&self, path: &str, expected: impl Into<String>) -> InputError {
         let found = self.leaf(path).map_or("nothing".to_owned(), |leaf| match leaf.given {
@@ -123,7 +185,8 @@ impl Values {
         self.error(path, expected, found)
     }
 
-    fn read_table(
+    /// Checks a table: every key known, none excluded by another, none missing, each of its type.
+    pub fn read_table(
         &mut self,
         path: &str,
         spot: &Spot,
@@ -187,6 +250,33 @@ impl Values {
                 }
                 Ok(())
             }
+            (Kind::Texts(_), Value::List(nodes)) => {
+                self.tables.insert(path.to_owned(), (node.spot.clone(), nodes.len()));
+                for (index, item) in nodes.iter().enumerate() {
+                    let path = join(path, &(index + 1).to_string());
+                    match &item.value {
+                        Value::Text(text) if !text.is_empty() => {
+                            self.insert(path, item, Given::Text(text.clone()), "");
+                        }
+                        _ => return Err(self.mistyped(&path, item, "text in quotes")),
+                    }
+                }
+                Ok(())
+            }
+            (Kind::Numbers(range), Value::List(nodes)) => {
+                self.tables.insert(path.to_owned(), (node.spot.clone(), nodes.len()));
+                for (index, item) in nodes.iter().enumerate() {
+                    let path = join(path, &(index + 1).to_string());
+                    let given = self.bare_number(&path, item, *range)?;
+                    self.insert(path, item, given, "");
+                }
+                Ok(())
+            }
+            (Kind::Special(_), _) => {
+                self.mark(path, &node.spot);
+                self.specials.insert(path.to_owned(), node.clone());
+                Ok(())
+            }
             _ => self.read_leaf(path, node, kind),
         }
     }
@@ -194,8 +284,15 @@ impl Values {
     fn read_leaf(&mut self, path: &str, node: &Node, kind: &Kind) -> Result<(), InputError> {
         let mut unit = "";
         let given = match (kind, &node.value) {
-            (Kind::Text(_) | Kind::NameOrIndex, Value::Text(text)) if !text.is_empty() => {
+            (Kind::Text(_) | Kind::NameOrIndex | Kind::Texts(_), Value::Text(text))
+                if !text.is_empty() =>
+            {
                 Given::Text(text.clone())
+            }
+            (Kind::Whole(least, most), Value::Number(value, _))
+                if *value >= *least as f64 && *value <= *most as f64 && value.fract() == 0.0 =>
+            {
+                Given::Number(*value)
             }
             (Kind::NameOrIndex, Value::Number(value, _))
                 if *value >= 1.0 && *value <= f64::from(u32::MAX) && value.fract() == 0.0 =>
@@ -238,7 +335,8 @@ impl Values {
         self.leaves.push(Leaf { path, given, written, unit, spot: node.spot.clone() });
     }
 
-    fn quantity(
+    /// A number with its unit, in SI.
+    pub fn quantity(
         &self,
         path: &str,
         node: &Node,
@@ -256,6 +354,14 @@ impl Values {
         Err(self.mistyped(path, node, range.expected(dimension.name())))
     }
 
+    /// A number without a unit.
+    pub fn bare_number(&self, path: &str, node: &Node, range: Range) -> Result<Given, InputError> {
+        match node.value {
+            Value::Number(value, _) => self.number_in_range(path, node, value, range),
+            _ => Err(self.mistyped(path, node, range.expected("number"))),
+        }
+    }
+
     fn number_in_range(
         &self,
         path: &str,
@@ -269,7 +375,8 @@ impl Values {
         Err(self.mistyped(path, node, range.expected("number")))
     }
 
-    fn mistyped(&self, path: &str, node: &Node, expected: impl Into<String>) -> InputError {
+    /// The error for a value that is not what was expected.
+    pub fn mistyped(&self, path: &str, node: &Node, expected: impl Into<String>) -> InputError {
         self.sources.error(&node.spot, path, expected, node.found())
     }
 
@@ -284,7 +391,7 @@ impl Values {
         let expected = format!("one of the keys {}", names.join(", "));
         let found = format!("\"{}\"", cut(&entry.name));
         let error = self.sources.error(&entry.key, &path, expected, found);
-        let nearest = nearest_key(&entry.name, section).map(|nearest| match nearest {
+        let nearest = nearest_key(&entry.name, section, self.root.0).map(|nearest| match nearest {
             NearestKey::Here(name) => name.to_owned(),
             NearestKey::Elsewhere(path) => path,
         });
@@ -362,17 +469,21 @@ pub(super) fn join(path: &str, key: &str) -> String {
 pub(super) enum NearestKey {
     /// A key of the same section.
     Here(&'static str),
-    /// The path of a key of the same name elsewhere in the model.
+    /// The path of a key of the same name elsewhere in the text.
     Elsewhere(String),
 }
 
-/// A similar key of the section, else the same name elsewhere in the model, else whichever key of
-/// the section is nearest.
-pub(super) fn nearest_key(name: &str, section: &'static Section) -> Option<NearestKey> {
+/// A similar key of the section, else the same name elsewhere in the text, else whichever key of
+/// the section is nearest. `root` describes the whole text.
+pub(super) fn nearest_key(
+    name: &str,
+    section: &'static Section,
+    root: &'static Section,
+) -> Option<NearestKey> {
     let names = section.keys.iter().map(|key| key.name);
     let here = names.min_by_key(|known| edit_distance(name, known))?;
     if 2 * edit_distance(name, here) > here.len().max(2)
-        && let Some(path) = path_of(name, "", &super::keys::MODEL)
+        && let Some(path) = path_of(name, "", root)
     {
         return Some(NearestKey::Elsewhere(path));
     }

@@ -63,7 +63,31 @@ pub enum Kind {
     Section(&'static Section),
     /// Any number of sections of the same form.
     Sections(&'static Section),
+    /// A text or a list of texts; here an example.
+    Texts(&'static str),
+    /// A list of dimensionless numbers.
+    Numbers(Range),
+    /// A whole number from the first to the second.
+    Whole(u64, u64),
+    /// What only its own reader can judge.
+    Special(Special),
 }
+
+/// Values whose form depends on other keys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Special {
+    /// Distributions by the paths of the model that they vary.
+    Vary,
+    /// Levels of an intensity measure, in its unit.
+    Levels,
+    /// Pairs of paths, each with their correlation.
+    Correlation,
+    /// That many values of the path that is varied; any number where it is 0.
+    Values(usize),
+}
+
+/// The largest whole number that every program keeps when it reads it as a double.
+pub const MAX_WHOLE: u64 = 1 << 53;
 
 /// The numbers that a key takes; always finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -155,6 +179,32 @@ impl Kind {
             }
             Self::Section(_) => "a table of keys".to_owned(),
             Self::Sections(_) => "a list of tables".to_owned(),
+            Self::Texts(example) => {
+                format!("text in quotes or a list of such, such as [\"{example}\"]")
+            }
+            Self::Numbers(range) => format!("a list of numbers, each {}", range.expected("number")),
+            Self::Whole(least, most) if *most == MAX_WHOLE => {
+                format!("a whole number from {least}")
+            }
+            Self::Whole(least, most) => format!("a whole number from {least} to {most}"),
+            Self::Special(special) => special.expected().to_owned(),
+        }
+    }
+}
+
+impl Special {
+    /// What to write, in words.
+    #[must_use]
+    pub fn expected(self) -> &'static str {
+        match self {
+            Self::Vary => {
+                "a table of paths of the model, each with a table such as { values = [1, 2] }"
+            }
+            Self::Levels => "a list of levels of the measure with their unit, such as [\"0.2 g\"]",
+            Self::Correlation => "a list of [\"PATH\", \"PATH\", NUMBER]",
+            Self::Values(2) => "a list of two values",
+            Self::Values(3) => "a list of two values and how many there are from one to the other",
+            Self::Values(_) => "a list of values",
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod errors;
 mod overrides;
+mod plans;
 mod properties;
 mod valid;
 

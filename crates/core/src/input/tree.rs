@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue};
 use crate::error::{InputError, Place, cut};
 
 /// A place in one of the texts.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Spot {
     /// Index of the text in [`Sources`].
     pub source: usize,

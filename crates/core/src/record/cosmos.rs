@@ -123,8 +123,9 @@ impl<'a> Head<'a> {
     }
 
     fn event(&self) -> Option<String> {
-        let line = self.text.get(1)?;
-        phrase(line, 0..line.bytes.len())
+        let text = self.text.get(1)?.trimmed();
+        let words: Vec<&str> = text.split_whitespace().collect();
+        (!words.is_empty()).then(|| words.join(" "))
     }
 
     /// `Statn No: 01-23075  Code:CE-J2236  CDMG Yucaipa - Bryant & Oak Glen`.
@@ -237,6 +238,8 @@ fn block(
     let npts = count(text, line, &first)?;
     let (units, word) = units(text, line)?;
     let units = match (units, options.units) {
+        // What one count is.
+        (Some(units), Some(given)) if units.quantity() == Quantity::Counts => given,
         (Some(units), given) => {
             agree(text, line, &word, units, given)?;
             units
@@ -259,8 +262,10 @@ fn block(
     }
     let fields = Fields::stated(line).unwrap_or(Fields::new(8, 10));
     let values = cursor.values(fields, npts, line)?;
-    let missing = |value: &f64| *value == head.null && units.quantity() != Quantity::Counts;
-    if let Some(at) = values.iter().position(|value| missing(value)) {
+    // Among whole numbers of a recorder it may be a value.
+    let whole = values.iter().all(|value| libm::trunc(*value) == *value);
+    let missing = |value: &f64| *value == head.null && !whole;
+    if let Some(at) = values.iter().position(missing) {
         let expected = format!("a value where {} stands for a missing one", head.null);
         let line = Line { number: line.number + 1 + at / fields.per_line, bytes: b"" };
         return Err(text.error(&line, 0, expected, &head.null.to_string()));

@@ -6,6 +6,7 @@
 //! many names. A first line of two numbers, count and step, is understood where what follows shows
 //! that it is one. Without header and times, three or more values a line are one series.
 
+mod columns;
 mod header;
 mod layout;
 mod style;
@@ -16,6 +17,8 @@ use super::{
     Channel, FilterCorners, Format, Options, Record, RecordError, RecordWarning, Sampling, Units,
     keys_to_add, sampling, to_si,
 };
+pub(super) use columns::read as read_columns;
+pub use columns::{Column, Columns};
 use header::{Header, Unit};
 use layout::Layout;
 use table::Table;

@@ -16,7 +16,7 @@ use crate::motion::constant_step;
 ///
 /// # Errors
 /// The column's own step in words where the caller's does not fit it.
-pub(super) fn of_times(
+pub(crate) fn of_times(
     times_s: Vec<f64>,
     given_s: Option<f64>,
 ) -> Result<(Sampling, Vec<RecordWarning>), String> {

@@ -45,6 +45,11 @@ impl<'a> Text<'a> {
         Ok(text)
     }
 
+    /// The caller's name for the text.
+    pub fn source_name(&self) -> &'a str {
+        self.source_name
+    }
+
     /// Number of bytes.
     pub fn len(&self) -> usize {
         self.bytes.len()
@@ -66,6 +71,11 @@ impl<'a> Text<'a> {
         let shorter = after_point(last) < usual;
         (alike && shorter && tail.ends_with(last))
             .then(|| String::from_utf8_lossy(last).into_owned())
+    }
+
+    /// Whether the last line is ended, or blanks stand at its end.
+    pub fn ends_with_line_end(&self) -> bool {
+        self.bytes.last().is_some_and(is_blank)
     }
 
     /// Lines ended by LF, CRLF, CR CR LF or CR.

@@ -50,7 +50,7 @@ impl Units {
     /// m/s².
     #[must_use]
     pub fn m_per_s2() -> Self {
-        Self { symbol: "m/s²", times: 1.0, quantity: Quantity::Acceleration, si: 1.0 }
+        Self { symbol: "m/s²", quantity: Quantity::Acceleration, si: 1.0, times: 1.0 }
     }
 
     /// The SI unit of a quantity; counts have none but themselves.
@@ -76,7 +76,7 @@ impl Units {
         let times = super::text::number(number.as_bytes()).filter(|times| *times > 0.0)?;
         let units = Self::named(word).filter(|units| units.quantity != Quantity::Counts)?;
         let si = times * units.si;
-        (si.is_finite() && si > 0.0).then_some(Self { times, si, ..units })
+        si.is_normal().then_some(Self { times, si, ..units })
     }
 
     fn named(word: &str) -> Option<Self> {

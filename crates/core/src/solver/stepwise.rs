@@ -13,7 +13,7 @@ use crate::motion::GroundMotion;
 use crate::response::{Event, EventKind, Iterations, Method, Mode, Response};
 
 /// Largest change of an acceleration in the last iteration, `δ` of eqs (17), (18), in m/s².
-const TOLERANCE_M_PER_S2: f64 = 1e-5;
+pub(super) const TOLERANCE_M_PER_S2: f64 = 1e-5;
 
 /// Most iterations in a step.
 const ITERATIONS_LIMIT: u32 = 200;
@@ -34,10 +34,14 @@ struct Step {
     f: Frame,
 }
 
-pub(super) fn solve(model: &Model, motion: &GroundMotion) -> Result<Response, SolveError> {
+pub(super) fn solve(
+    model: &Model,
+    motion: &GroundMotion,
+    tolerance_m_per_s2: f64,
+) -> Result<Response, SolveError> {
     let system = system_of::<Frame>(model);
     let excitation = Excitation::new(model, motion);
-    let program = Program { system: &system, excitation: &excitation };
+    let program = Program { system: &system, excitation: &excitation, tolerance_m_per_s2 };
     let mut recorder = Everything::new(model.storeys(), motion.len(), model.slope_m_per_s2());
     let mut extremes = Extremes::new(model, &system);
     let mut step = program.start(model);
@@ -94,8 +98,7 @@ pub(super) fn solve(model: &Model, motion: &GroundMotion) -> Result<Response, So
     let warnings = summary::warnings(model, &events, &contact_loss_s);
     let outcome = Outcome {
         events,
-        largest: extremes.largest.clone(),
-        smallest: extremes.smallest.clone(),
+        peaks: extremes.peak.clone(),
         overturns: extremes.overturns(),
         sliding,
         residual_m: step.s,
@@ -128,6 +131,8 @@ impl Step {
 struct Program<'a> {
     system: &'a System<Frame>,
     excitation: &'a Excitation<'a>,
+    /// `δ` of eqs (17), (18).
+    tolerance_m_per_s2: f64,
 }
 
 impl Program<'_> {
@@ -175,7 +180,7 @@ impl Program<'_> {
             self.test_stick(last, &mut next, sample);
             next.u = self.block_acceleration(&next, sample);
             let change = self.largest_change(u, &f, &next);
-            if change <= TOLERANCE_M_PER_S2 && iteration > 1 {
+            if change <= self.tolerance_m_per_s2 && iteration > 1 {
                 self.settle(last, &mut next, [a0, a1], half_s);
                 return Ok((next, iteration));
             }

@@ -7,7 +7,7 @@ use crate::describe::{model_rows, storey_rows};
 use crate::display::Quantity;
 use crate::markup::Markup;
 use crate::number::{compact, count, printed, significant};
-use crate::report::Report;
+use crate::report::{FileNote, InputText, Report};
 
 /// Model and record, with hashes, version and command line.
 pub fn section(out: &mut Markup, report: &Report) {
@@ -28,11 +28,7 @@ pub fn section(out: &mut Markup, report: &Report) {
         }
         out.raw("</tbody>\n</table>\n");
     }
-    files(out, report);
-    out.raw("<h3>Command</h3>\n<p class=\"command\">").text(report.command_line).raw("</p>\n");
-    for input in report.inputs {
-        out.raw("<h3>").text(input.path).raw("</h3>\n<pre>").text(input.text).raw("</pre>\n");
-    }
+    provenance(out, report.files, report.command_line, report.inputs);
     out.raw("</section>\n");
 }
 
@@ -69,14 +65,28 @@ fn record_rows(report: &Report) -> Vec<(&'static str, String)> {
     rows
 }
 
-fn files(out: &mut Markup, report: &Report) {
-    if report.files.is_empty() {
+/// Files with their hashes, the command, and texts that people wrote.
+pub(crate) fn provenance(
+    out: &mut Markup,
+    files: &[FileNote],
+    command_line: &str,
+    inputs: &[InputText],
+) {
+    file_table(out, files);
+    out.raw("<h3>Command</h3>\n<p class=\"command\">").text(command_line).raw("</p>\n");
+    for input in inputs {
+        out.raw("<h3>").text(input.path).raw("</h3>\n<pre>").text(input.text).raw("</pre>\n");
+    }
+}
+
+fn file_table(out: &mut Markup, files: &[FileNote]) {
+    if files.is_empty() {
         return;
     }
     out.raw("<h3>Files read</h3>\n");
     let heads = ["File", "What", "SHA-256"].map(|head| (head.to_owned(), false));
     table_head(out, &heads);
-    for file in report.files {
+    for file in files {
         out.raw("<tr><td>")
             .text(file.path)
             .raw("</td><td>")

@@ -93,6 +93,10 @@ pub enum Shape {
     Area(&'static str),
     /// Any curve: strokes that lie on each other are drawn once.
     Curve,
+    /// A band: the points go along its lower edge and back along the upper one; filled, no stroke.
+    Band(&'static str),
+    /// Separate points, filled in this colour (`#fff` for hollow ones).
+    Dots(&'static str),
 }
 
 /// A line of a panel.

@@ -168,6 +168,12 @@ impl Table {
         rows.nth(row).unwrap_or(Line { number: 1, bytes: b"" })
     }
 
+    /// The lines of the rows, one each, counted from 1.
+    pub fn row_lines(&self, text: &Text) -> Vec<u32> {
+        let rows = text.lines().skip(self.header_lines).filter(|line| !is_comment(line));
+        rows.take(self.rows()).map(|line| u32::try_from(line.number).unwrap_or(u32::MAX)).collect()
+    }
+
     /// An error at a cell.
     pub fn error_at(
         &self,

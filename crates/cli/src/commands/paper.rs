@@ -1,0 +1,79 @@
+//! `slipstick paper`: the paper, reproduced.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use slipstick::laboratory::paper::{Grid, Paper, PaperError, reproduce};
+use slipstick::motion::GroundMotion;
+use slipstick_files::{FileError, OutputFolder, folder_records, paper_library};
+use slipstick_report::paper;
+
+use crate::args::PaperArgs;
+use crate::failure::{Failure, print, say};
+
+/// Reproduces the paper, prints its verdicts and writes its chapter.
+pub fn paper(args: &PaperArgs) -> Result<ExitCode, Failure> {
+    let folders = args.out.as_deref().map(folders).transpose()?;
+    let grid = if args.quick { Grid::Quick } else { Grid::Full };
+    let mut progress = |what: &str| {
+        if !args.quiet {
+            say(format_args!("computing: {what}"));
+        }
+    };
+    let failed = |error: PaperError| Failure::Message(error.to_string());
+    let mut library = paper_library().map_err(failed)?;
+    if let Some(folder) = &args.records {
+        library = library.with_records(records(folder, args.quiet)?);
+    }
+    let result = reproduce(&library, grid, &mut progress).map_err(failed)?;
+    if let Some([out, figures]) = folders {
+        write(&result, out, figures)?;
+    }
+    if args.json {
+        print(&paper::claims_json(&result))?;
+    } else {
+        print(&paper::listing(&result))?;
+    }
+    if let (Some(out), false) = (&args.out, args.quiet) {
+        say(format_args!("wrote {}", out.join("chapter.md").display()));
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The records of a folder; how many files are none is said, and why the first is not.
+fn records(folder: &Path, quiet: bool) -> Result<Vec<(String, GroundMotion)>, Failure> {
+    let found = folder_records(folder)?;
+    if found.records.is_empty() {
+        let folder = folder.display();
+        return Err(Failure::Message(format!(
+            "{folder}: expected records, found none that can be read"
+        )));
+    }
+    if let (Some(first), false) = (found.skipped.first(), quiet) {
+        let (read, skipped) = (found.records.len(), found.skipped.len());
+        say(format_args!(
+            "warning: {read} records read, {skipped} files skipped; the first: {first}"
+        ));
+    }
+    Ok(found.records)
+}
+
+/// The output folder and the one for figures in it, found to be writable before the work.
+fn folders(out: &Path) -> Result<[OutputFolder; 2], FileError> {
+    Ok([OutputFolder::create(out, &[])?, OutputFolder::create(&out.join("figures"), &[])?])
+}
+
+fn write(
+    result: &Paper,
+    mut out: OutputFolder,
+    mut figures: OutputFolder,
+) -> Result<(), FileError> {
+    let chapter = paper::chapter(result);
+    out.write("chapter.md", chapter.markdown.as_bytes())?;
+    out.write("claims.json", paper::claims_json(result).as_bytes())?;
+    for (name, svg) in &chapter.figures {
+        figures.write(name, svg.as_str().as_bytes())?;
+    }
+    figures.commit()?;
+    out.commit()
+}

@@ -1,0 +1,145 @@
+//! `slipstick compare` and `slipstick identify`.
+
+use serde_json::Value;
+
+use super::support::{BLOCK, Folder};
+
+/// A folder with a model and the history of its own run, which is what a test might have measured.
+fn tested(name: &str) -> Folder {
+    let folder = Folder::with_model(name, BLOCK);
+    folder.stdout(&["run", "model.toml", "-q", "--out", "run"]);
+    folder.write("test.csv", folder.read("run/history.csv"));
+    folder
+}
+
+fn stderr(output: &std::process::Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+#[test]
+fn exact_a_run_compared_with_itself_agrees() {
+    let folder = tested("compare-self");
+    let bound = "peak_ratio.sliding_displacement=0.999999..1.000001";
+    let text = folder.stdout(&["compare", "test.csv", "model.toml", "--json", "--within", bound]);
+    let json: Value = serde_json::from_str(&text).unwrap();
+    let quantities = json["quantities"].as_array().unwrap();
+    let names: Vec<&str> = quantities.iter().map(|q| q["quantity"].as_str().unwrap()).collect();
+    assert_eq!(
+        names,
+        ["sliding_displacement", "sliding_velocity", "block_acceleration", "friction_force"]
+    );
+    for quantity in quantities {
+        assert!(quantity["normalised_rms_error"].as_f64().unwrap() < 1e-9, "{quantity}");
+    }
+    assert_eq!(json["within"][0]["holds"], true);
+    assert_eq!(json["warnings"].as_array().unwrap().len(), 0);
+}
+
+#[test]
+fn exact_a_missed_bound_is_named_and_status_1() {
+    let folder = tested("compare-missed");
+    let output = folder.output(&[
+        "compare",
+        "test.csv",
+        "model.toml",
+        "--set",
+        "slider.spring=60 kN/m",
+        "--within",
+        "peak_ratio.sliding_displacement=0.99..1.01",
+        "--within",
+        "arrival_lag.block_acceleration=-1..1",
+        "--out",
+        "out",
+    ]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("missed: peak_ratio.sliding_displacement"));
+    assert!(!stderr(&output).contains("missed: arrival_lag"));
+    assert_eq!(folder.names("out"), ["comparison.json", "report.html"]);
+    let page = folder.read("out/report.html");
+    assert!(page.contains("<svg") && page.contains("expected 0.99 to 1.01: missed"));
+}
+
+#[test]
+fn exact_bad_input_is_status_2_with_its_place() {
+    let folder = tested("compare-refused");
+    folder.write("map.toml", "block_acceleraton = \"A1 [g]\"\n");
+    folder.write("gap.csv", "time_s,table_acceleration_m_per_s2\n0,1\n1,\n2,3\n");
+    for (arguments, part) in [
+        (vec!["compare", "test.csv", "model.toml", "--mapping", "map.toml"], "map.toml:1:1: "),
+        (vec!["compare", "none.csv", "model.toml"], "none.csv: cannot be read"),
+        (vec!["compare", "gap.csv", "model.toml"], "gap.csv:3:3: "),
+        (
+            vec!["compare", "test.csv", "model.toml", "--map", "force = nothing [N]"],
+            "expected one of the columns",
+        ),
+        (vec!["compare", "test.csv", "model.toml", "--within", "peak=1..2"], "METRIC.QUANTITY"),
+        (vec!["identify", "cyclic", "test.csv"], "a column of force"),
+        (
+            vec!["identify", "shaking-table", "test.csv", "model.toml", "--fit", "slider.sprng"],
+            "nearest is \"slider.spring\"",
+        ),
+    ] {
+        let output = folder.output(&arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&output).contains(part), "{arguments:?}: {}", stderr(&output));
+        assert!(output.stdout.is_empty());
+    }
+    assert!(!folder.path().join("out").exists());
+}
+
+#[test]
+fn exact_fitted_model_is_one_that_runs_and_compares() {
+    let folder = tested("identify-table");
+    let start = "slider.kinetic_friction=0.12";
+    folder.stdout(&[
+        "identify",
+        "shaking-table",
+        "test.csv",
+        "model.toml",
+        "--set",
+        start,
+        "--fit",
+        "slider.kinetic_friction",
+        "--out",
+        "fitted",
+    ]);
+    assert_eq!(
+        folder.names("fitted"),
+        ["identified.json", "model.toml", "report.html", "table.csv"]
+    );
+    let json: Value = serde_json::from_str(&folder.read("fitted/identified.json")).unwrap();
+    let value = json["estimates"][0]["value"].as_f64().unwrap();
+    assert!((value / 0.153 - 1.0).abs() < 1e-4, "{value}");
+    folder.stdout(&["run", "fitted/model.toml"]);
+    folder.stdout(&["compare", "test.csv", "fitted/model.toml"]);
+}
+
+#[test]
+fn exact_what_cannot_be_told_is_status_1() {
+    let folder = Folder::with_model("identify-refused", BLOCK);
+    folder.stdout(&[
+        "run",
+        "model.toml",
+        "-q",
+        "--set",
+        "motion.sine.amplitude=1 m/s2",
+        "-o",
+        "run",
+    ]);
+    let output = folder.output(&[
+        "identify",
+        "shaking-table",
+        "run/history.csv",
+        "model.toml",
+        "--fit",
+        "slider.kinetic_friction,slider.static_friction",
+    ]);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(text.contains("The data cannot tell:"), "{text}");
+    let rows: String = (0..200).map(|i| format!("{},0,{}\n", 0.01 * f64::from(i), i % 7)).collect();
+    folder.write("stuck.csv", format!("time_s,displacement_mm,force_n\n{rows}"));
+    let output = folder.output(&["identify", "cyclic", "stuck.csv"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("no sliding in the record"), "{}", stderr(&output));
+}

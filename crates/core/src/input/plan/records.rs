@@ -1,0 +1,84 @@
+//! The ground motions of a plan and their levels.
+
+use super::{Levels, Records};
+use crate::error::{InputError, MeasureError};
+use crate::input::reader::{Given, Values};
+use crate::input::schema::{Range, Special};
+use crate::input::tree::{Node, Value};
+use crate::motion::intensity::Measure;
+use crate::record::Units;
+use crate::units::Dimension;
+
+/// Reads `[records]`, where it is given.
+pub(super) fn read(values: &Values) -> Result<Option<Records>, InputError> {
+    if !values.has("records") {
+        return Ok(None);
+    }
+    let texts = |path: &str| values.texts(path).unwrap_or_default();
+    let files = texts("records.files");
+    if files.is_empty() {
+        return Err(values.error("records.files", "at least one file or pattern", "none"));
+    }
+    let unit_name = values.leaf("records.units").and_then(|leaf| match leaf.given {
+        Given::Unit(unit) => Some(unit.name()),
+        _ => None,
+    });
+    Ok(Some(Records {
+        files,
+        units: unit_name.and_then(Units::parse),
+        unit_name,
+        dt_s: values.number("records.dt"),
+        channel: values.leaf("records.channel").map(|leaf| leaf.written.clone()),
+        vertical: texts("records.vertical"),
+        vertical_scale: values.number("records.vertical_scale"),
+        levels: levels(values)?,
+    }))
+}
+
+fn levels(values: &Values) -> Result<Levels, InputError> {
+    let Some(measure) = values.text("records.measure") else {
+        let factors = match values.numbers("records.scale") {
+            Some(factors) if factors.is_empty() => {
+                return Err(values.error("records.scale", "at least one factor", "none"));
+            }
+            Some(factors) => factors,
+            None => vec![1.0],
+        };
+        return Ok(Levels::Factors(factors));
+    };
+    let place = "records.measure";
+    let parsed = Measure::parse(measure).map_err(|error| {
+        let MeasureError { expected, found, nearest } = error;
+        InputError { nearest, ..values.error(place, expected, format!("\"{found}\"")) }
+    })?;
+    let dimension = match parsed.unit() {
+        "m/s2" => Some(Dimension::Acceleration),
+        "m/s" => Some(Dimension::Velocity),
+        "m" => Some(Dimension::Length),
+        _ => None,
+    };
+    let Some(dimension) = dimension.filter(|_| parsed.scales()) else {
+        let expected = "a measure that grows as the motion does, such as PGA or Sa(1.2 s)";
+        return Err(values.wrong(place, expected));
+    };
+    let node = values.special("records.levels");
+    let Some(Node { value: Value::List(items), .. }) = node else {
+        let expected = Special::Levels.expected();
+        return Err(match node {
+            Some(node) => values.mistyped("records.levels", node, expected),
+            None => values.error("records.levels", expected, "nothing"),
+        });
+    };
+    let mut levels = Vec::with_capacity(items.len());
+    for (index, item) in items.iter().enumerate() {
+        let place = format!("records.levels.{}", index + 1);
+        match values.quantity(&place, item, dimension, Range::Positive)? {
+            Given::Number(level) => levels.push(level),
+            _ => return Err(values.mistyped(&place, item, dimension.with_article())),
+        }
+    }
+    if levels.is_empty() {
+        return Err(values.error("records.levels", "at least one level", "none"));
+    }
+    Ok(Levels::Measure { measure: parsed, levels })
+}

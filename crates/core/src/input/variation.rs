@@ -1,0 +1,167 @@
+//! One model with many values: what a study sets anew for every sample.
+
+use super::build::{self, Parts};
+use super::keys::MODEL;
+use super::overrides::kind_of;
+use super::plan::Varied;
+use super::reader::Values;
+use super::schema::Range;
+use super::{Analysis, MAX_TEXT_BYTES, Override, parse, tree};
+use crate::error::InputError;
+
+/// A model text in which numbers at some paths take the place of what stands there.
+///
+/// A sample is checked as `--set` checks it, and gives the same bits; only the text is read once.
+#[derive(Clone, Debug)]
+pub struct Variation {
+    name: String,
+    text: String,
+    /// Keys set once, before those of a sample.
+    set: Vec<Override>,
+    paths: Vec<Path>,
+    /// The text with every path set, to numbers that do not matter.
+    values: Values,
+}
+
+#[derive(Clone, Debug)]
+struct Path {
+    path: String,
+    unit: &'static str,
+    range: Range,
+}
+
+impl Variation {
+    /// Reads a model text whose numbers at the paths of `vary` will be set.
+    ///
+    /// `name` is what errors call the text.
+    ///
+    /// # Errors
+    /// [`InputError`] for a text that is no model, whatever stands at those paths; for paths that
+    /// the model lacks (a storey too many), and for two paths of which one removes the other.
+    pub fn new(name: &str, text: &str, vary: &[Varied]) -> Result<Self, InputError> {
+        Self::with(name, text, &[], vary)
+    }
+
+    /// As [`Variation::new`], with keys of the text set first.
+    ///
+    /// # Errors
+    /// As [`Variation::new`], and for keys that cannot be set.
+    pub fn with(
+        name: &str,
+        text: &str,
+        set: &[Override],
+        vary: &[Varied],
+    ) -> Result<Self, InputError> {
+        let mut sources = tree::Sources::default();
+        let file = sources.add(name, text);
+        if text.len() > MAX_TEXT_BYTES {
+            // The reader's own message.
+            parse(name, text, &[])?;
+        }
+        let mut root = tree::parse_document(&sources, file)?;
+        let paths: Vec<Path> = vary
+            .iter()
+            .map(|varied| Path {
+                path: varied.path.clone(),
+                unit: varied.unit,
+                range: varied.range,
+            })
+            .collect();
+        for set in set {
+            set.apply(&mut sources, &mut root)?;
+        }
+        for path in &paths {
+            // One half lies within every range.
+            path.set(0.5)?.apply(&mut sources, &mut root)?;
+        }
+        let values = Values::read(sources, &root, &MODEL)?;
+        let set = set.to_vec();
+        let this = Self { name: name.to_owned(), text: text.to_owned(), set, paths, values };
+        for path in &this.paths {
+            if this.values.number(&path.path).is_none() {
+                let expected = "no other varied path that takes its place";
+                let found = format!("\"{}\" removed by another", path.path);
+                return Err(this.values.error(&path.path, expected, found));
+            }
+        }
+        Ok(this)
+    }
+
+    /// The model with the numbers of a sample, in the order of the paths, in SI.
+    ///
+    /// # Errors
+    /// [`InputError`], the one that `slipstick run` gives for the same values.
+    pub fn parts(&mut self, numbers: &[f64]) -> Result<Parts, InputError> {
+        let mut in_range = true;
+        for (path, &number) in self.paths.iter().zip(numbers) {
+            in_range &= path.range.contains(number) && self.values.set_number(&path.path, number);
+        }
+        if in_range && let Ok(parts) = build::parts(&self.values) {
+            return Ok(parts);
+        }
+        // The long way, for its message.
+        let Analysis { model, motion, tail_s, .. } = self.analysis(numbers)?;
+        Ok(Parts { model, motion, tail_s })
+    }
+
+    /// The analysis of a sample, read from the text as `slipstick run` reads it.
+    ///
+    /// # Errors
+    /// [`InputError`] where the model objects to the numbers.
+    pub fn analysis(&self, numbers: &[f64]) -> Result<Analysis, InputError> {
+        let all = self.set.iter().cloned().chain(self.overrides(numbers)?);
+        parse(&self.name, &self.text, &all.collect::<Vec<_>>())
+    }
+
+    /// The numbers of a sample as `--set` takes them.
+    ///
+    /// # Errors
+    /// None: the paths are known.
+    pub fn overrides(&self, numbers: &[f64]) -> Result<Vec<Override>, InputError> {
+        self.paths.iter().zip(numbers).map(|(path, number)| path.set(*number)).collect()
+    }
+
+    /// The number at a path that is not varied, as the model's text has it.
+    #[must_use]
+    pub fn number(&self, path: &str) -> Option<f64> {
+        self.values.number(path)
+    }
+
+    /// The error for a value that only its user can judge, at that value.
+    pub fn error_at(
+        &self,
+        path: &str,
+        expected: impl Into<String>,
+        found: impl Into<String>,
+    ) -> InputError {
+        self.values.error(path, expected, found)
+    }
+
+    /// Whether the model has a value at a path, or a table.
+    #[must_use]
+    pub fn has(&self, path: &str) -> bool {
+        self.values.has(path)
+    }
+
+    /// Number of storeys.
+    #[must_use]
+    pub fn storeys(&self) -> usize {
+        self.values.count("storey")
+    }
+
+    /// The text at a path.
+    #[must_use]
+    pub fn text(&self, path: &str) -> Option<&str> {
+        self.values.text(path)
+    }
+}
+
+impl Path {
+    /// `{:?}` is the shortest text that reads back as the same number.
+    fn set(&self, number: f64) -> Result<Override, InputError> {
+        debug_assert!(kind_of(&self.path).is_some());
+        let Self { path, unit, .. } = self;
+        let space = if unit.is_empty() { "" } else { " " };
+        Override::parse(&format!("{path}={number:?}{space}{unit}"))
+    }
+}

@@ -1,0 +1,477 @@
+//! Measured histories: columns of a file with what they mean, in SI, each on its own clock.
+
+use crate::error::{InputError, RecordError, similar};
+use crate::input::{Channel, ColumnRef, MappedColumn, Mapping};
+use crate::record::{self, Column, Columns, Sampling};
+use crate::response::Warning;
+use crate::units::{Dimension, Unit};
+
+/// One measured quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// What it is.
+    pub channel: Channel,
+    /// Where it comes from, in words: `column "A1" in g, × −1`.
+    pub origin: String,
+    /// When its values were taken, in s, from the file's first row; its own shift included.
+    pub times_s: Vec<f64>,
+    /// Its values in SI.
+    pub values: Vec<f64>,
+}
+
+/// The measured quantities of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// The caller's name for the file.
+    pub source_name: String,
+    /// The constant time step in s, or `None` where the rows are unevenly spaced.
+    pub dt_s: Option<f64>,
+    /// The quantities, in the order of the file's columns.
+    pub series: Vec<Series>,
+    /// What the reader of a result must know.
+    pub warnings: Vec<Warning>,
+    /// Names of the file's columns, for messages.
+    names: String,
+}
+
+/// What is wrong with a measured file or its mapping.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MeasuredError {
+    /// The file.
+    #[error(transparent)]
+    File(#[from] RecordError),
+    /// The mapping.
+    #[error(transparent)]
+    Mapping(#[from] InputError),
+}
+
+impl Measured {
+    /// Reads a table of numbers; columns that the mapping does not name are known by their own
+    /// names, which are those of `history.csv` or the same with another unit
+    /// (`block_acceleration_g`, `block_acceleration (g)`). Other columns are left alone.
+    ///
+    /// # Errors
+    /// [`MeasuredError`] for what is no table of finite numbers, a column that is not there, a
+    /// unit that is missing or not the one the header states, no times, times that run backwards
+    /// or leave a gap.
+    pub fn read(source_name: &str, bytes: &[u8], mapping: &Mapping) -> Result<Self, MeasuredError> {
+        Self::of_columns(record::columns(source_name, bytes)?, mapping)
+    }
+
+    /// As [`Measured::read`], of columns that were read already.
+    ///
+    /// # Errors
+    /// As [`Measured::read`], but for what makes no table.
+    pub fn of_columns(columns: Columns, mapping: &Mapping) -> Result<Self, MeasuredError> {
+        let mut found: Vec<(usize, Series)> = Vec::new();
+        let mut taken = vec![false; columns.columns.len()];
+        let mut time = None;
+        for entry in &mapping.columns {
+            let column = find(&columns, mapping, entry, &entry.column)?;
+            taken[column] = true;
+            let minus = match &entry.minus {
+                Some(minus) => Some(find(&columns, mapping, entry, minus)?),
+                None => None,
+            };
+            if let Some(minus) = minus {
+                taken[minus] = true;
+            }
+            let series = mapped(&columns, mapping, entry, column, minus)?;
+            if entry.channel == Channel::Time {
+                time = Some((column, series.values));
+            } else {
+                found.push((column, series));
+            }
+        }
+        for (index, column) in columns.columns.iter().enumerate().filter(|(i, _)| !taken[*i]) {
+            let Some((channel, unit)) = by_name(column) else { continue };
+            let mapped_already = mapping.get(channel).is_some()
+                || (channel == Channel::Time && mapping.dt_s.is_some());
+            if mapped_already {
+                continue;
+            }
+            let twice = found.iter().any(|(_, series)| series.channel == channel);
+            if twice || (channel == Channel::Time && time.is_some()) {
+                let expected = format!("one column of {}, or a mapping", channel.name());
+                return Err(columns.error(0, index + 1, expected, column.name.clone()).into());
+            }
+            let values = column.values.iter().map(|value| unit.to_si(*value)).collect();
+            if channel == Channel::Time {
+                time = Some((index, values));
+                continue;
+            }
+            let origin = format!("column {:?}, in {}", column.name, unit.name());
+            found.push((index, Series { channel, origin, times_s: Vec::new(), values }));
+        }
+        let names = columns.names();
+        let (times_s, dt_s, warnings) = clock(&columns, mapping, time)?;
+        found.sort_by_key(|(column, _)| *column);
+        let series = found.into_iter().map(|(_, mut series)| {
+            let offset_s = mapping.get(series.channel).map_or(0.0, |entry| entry.offset_s);
+            series.times_s = times_s.iter().map(|t| t + offset_s).collect();
+            series
+        });
+        let source_name = columns.source_name.clone();
+        Ok(Self { source_name, dt_s, series: series.collect(), warnings, names })
+    }
+
+    /// The series of a quantity.
+    #[must_use]
+    pub fn get(&self, channel: Channel) -> Option<&Series> {
+        self.series.iter().find(|series| series.channel == channel)
+    }
+
+    /// The series of a quantity that must be there.
+    ///
+    /// # Errors
+    /// [`RecordError`] that names the columns of the file and says how one is chosen.
+    pub fn require(&self, channel: Channel) -> Result<&Series, RecordError> {
+        self.get(channel).ok_or_else(|| {
+            let (name, unit) = (channel.name(), channel.dimension().si_unit());
+            RecordError {
+                source_name: self.source_name.clone(),
+                line: 1,
+                column: 1,
+                offset: None,
+                expected: format!(
+                    "a column of {name}: name it {} in the header, or say which it is with \
+                     --map \"{name}=COLUMN [{unit}]\"",
+                    column_name(channel)
+                ),
+                found: format!("the columns {}", self.names),
+            }
+        })
+    }
+}
+
+/// The name of a quantity's column in `history.csv`, with its SI unit.
+#[must_use]
+pub fn column_name(channel: Channel) -> String {
+    let unit = channel.dimension().si_unit().replace('/', "_per_").replace(' ', "_");
+    format!("{}_{}", channel.name(), unit.to_lowercase())
+}
+
+/// The column of a name, else of a number from 1 after `#`.
+fn find(
+    columns: &Columns,
+    mapping: &Mapping,
+    entry: &MappedColumn,
+    wanted: &ColumnRef,
+) -> Result<usize, InputError> {
+    let named = |name: &str| columns.columns.iter().position(|column| column.name == name);
+    let alike = || {
+        let mut same = columns.columns.iter().enumerate().filter(|(_, column)| {
+            column.name.eq_ignore_ascii_case(&wanted.name) || base(&column.name) == wanted.name
+        });
+        same.next().map(|(index, _)| index).filter(|_| same.next().is_none())
+    };
+    let numbered = || {
+        let number = wanted.name.strip_prefix('#')?.trim().parse::<usize>().ok()?;
+        number.checked_sub(1).filter(|index| *index < columns.columns.len())
+    };
+    named(&wanted.name).or_else(alike).or_else(numbered).ok_or_else(|| {
+        let names: Vec<&str> = columns.columns.iter().map(|column| column.name.as_str()).collect();
+        let nearest = similar(&wanted.name, names.iter().copied());
+        let expected = format!("one of the columns {} of {}", columns.names(), columns.source_name);
+        mapping.error_at_column(entry, wanted, expected, nearest)
+    })
+}
+
+/// A column in SI as its entry says.
+fn mapped(
+    columns: &Columns,
+    mapping: &Mapping,
+    entry: &MappedColumn,
+    column: usize,
+    minus: Option<usize>,
+) -> Result<Series, InputError> {
+    let dimension = entry.channel.dimension();
+    let in_si = |index: usize| -> Result<(Vec<f64>, &'static Unit), InputError> {
+        let column = &columns.columns[index];
+        let stated = stated_unit(&column.name, dimension);
+        let unit = match (entry.unit, stated) {
+            (Some(given), Stated::Unit(stated)) if given != stated => {
+                let expected = format!(
+                    "the unit that the header of {:?} states, {} (leave it out)",
+                    column.name,
+                    stated.name()
+                );
+                return Err(mapping.error_at(entry, expected, format!("\"{}\"", given.name())));
+            }
+            (None, Stated::Other(other)) => {
+                let expected = format!(
+                    "a column of {}, such as in {}, or its true unit in brackets",
+                    dimension.name(),
+                    dimension.si_unit()
+                );
+                return Err(mapping.error_at(entry, expected, format!("the unit \"{other}\"")));
+            }
+            (Some(given), _) => given,
+            (None, Stated::Unit(stated)) => stated,
+            (None, Stated::None) => {
+                let expected = format!(
+                    "a unit, which the header does not state, such as \"{} [{}]\"",
+                    column.name,
+                    dimension.si_unit()
+                );
+                return Err(mapping.error_at(entry, expected, "none".to_owned()));
+            }
+        };
+        Ok((column.values.iter().map(|value| unit.to_si(*value)).collect(), unit))
+    };
+    let (mut values, unit) = in_si(column)?;
+    let name = &columns.columns[column].name;
+    let mut origin = format!("column {name:?}");
+    if let Some(minus) = minus {
+        let (subtracted, _) = in_si(minus)?;
+        for (value, other) in values.iter_mut().zip(&subtracted) {
+            *value -= other;
+        }
+        origin.push_str(&format!(" − {:?}", columns.columns[minus].name));
+    }
+    origin.push_str(&format!(", in {}", unit.name()));
+    if entry.factor != 1.0 {
+        values.iter_mut().for_each(|value| *value *= entry.factor);
+        origin.push_str(&format!(", × {}", entry.factor));
+    }
+    if entry.offset_s != 0.0 {
+        origin.push_str(&format!(", {:+} s", entry.offset_s));
+    }
+    Ok(Series { channel: entry.channel, origin, times_s: Vec::new(), values })
+}
+
+/// What a column's name says of its unit.
+enum Stated {
+    None,
+    Unit(&'static Unit),
+    /// A unit in brackets that is not of the dimension.
+    Other(String),
+}
+
+/// The unit in a column's name: in brackets, or after an underscore (`_m_per_s2`).
+fn stated_unit(name: &str, dimension: Dimension) -> Stated {
+    if let Some((_, word)) = bracket(name) {
+        return match unit_of(word, dimension) {
+            Some(unit) => Stated::Unit(unit),
+            None => Stated::Other(word.to_owned()),
+        };
+    }
+    let suffixes = name.match_indices('_').map(|(at, _)| &name[at + 1..]);
+    let mut units = suffixes.filter_map(|suffix| unit_of(suffix, dimension));
+    units.next().map_or(Stated::None, Stated::Unit)
+}
+
+/// `name (unit)` or `name [unit]`, in two.
+fn bracket(name: &str) -> Option<(&str, &str)> {
+    let (start, unit) = name.trim().strip_suffix([')', ']'])?.rsplit_once(['(', '['])?;
+    Some((start.trim(), unit.trim()))
+}
+
+/// The unit of a word, capital letters or not where that is plain.
+fn unit_of(word: &str, dimension: Dimension) -> Option<&'static Unit> {
+    let spelt = word.replace("_per_", "/").replace('_', " ").replace("sec", "s");
+    if let Ok(unit) = crate::units::parse_unit(&spelt, dimension) {
+        return Some(unit);
+    }
+    let mut alike = dimension.units().iter().filter(|u| u.name().eq_ignore_ascii_case(&spelt));
+    alike.next().filter(|_| alike.next().is_none())
+}
+
+/// A column's name without its unit in brackets.
+fn base(name: &str) -> &str {
+    bracket(name).map_or(name, |(base, _)| base)
+}
+
+/// The quantity and unit that a column's own name states.
+fn by_name(column: &Column) -> Option<(Channel, &'static Unit)> {
+    let name = base(&column.name).to_lowercase();
+    if column.is_time || name == "t" || name == "time" {
+        return match stated_unit(&column.name, Dimension::Time) {
+            Stated::Unit(unit) => Some((Channel::Time, unit)),
+            Stated::None => Some((Channel::Time, &Dimension::Time.units()[0])),
+            Stated::Other(_) => None,
+        };
+    }
+    if bracket(&column.name).is_some() {
+        let channel = Channel::parse(&name)?;
+        let Stated::Unit(unit) = stated_unit(&column.name, channel.dimension()) else {
+            return None;
+        };
+        return Some((channel, unit));
+    }
+    name.match_indices('_').find_map(|(at, _)| {
+        let channel = Channel::parse(&name[..at])?;
+        Some((channel, unit_of(&column.name[at + 1..], channel.dimension())?))
+    })
+}
+
+type Clock = (Vec<f64>, Option<f64>, Vec<Warning>);
+
+/// The times of the rows in s from the first.
+fn clock(
+    columns: &Columns,
+    mapping: &Mapping,
+    time: Option<(usize, Vec<f64>)>,
+) -> Result<Clock, RecordError> {
+    let rows = columns.rows();
+    let even = |dt_s: f64| (0..rows).map(|row| row as f64 * dt_s).collect::<Vec<f64>>();
+    let Some((column, times_s)) = time else {
+        return match mapping.dt_s {
+            Some(dt_s) => Ok((even(dt_s), Some(dt_s), vec![])),
+            None => {
+                let expected = "a column of times (time_s), or --map \"time=COLUMN [s]\", or \
+                                --map \"time=0.01 s\" for a time step";
+                Err(columns.error(0, 1, expected, format!("the columns {}", columns.names())))
+            }
+        };
+    };
+    let at = |row: usize, expected: String| {
+        columns.error(row, column + 1, expected, format!("{} s", times_s[row]))
+    };
+    for row in 1..rows {
+        let third = row >= 2 && times_s[row - 2] == times_s[row];
+        if !(times_s[row] - times_s[0]).is_finite() || times_s[row] < times_s[row - 1] || third {
+            let expected = format!("a time after {} s", times_s[row - 1]);
+            return Err(at(row, expected));
+        }
+    }
+    if times_s[rows - 1] <= times_s[0] {
+        return Err(at(rows - 1, "times that increase".to_owned()));
+    }
+    if let Some((row, step_s)) = gap(&times_s) {
+        let (from, to) = (times_s[row - 1], times_s[row]);
+        let expected = format!(
+            "a sample every {step_s:.6} s (a gap is not filled: cut the file before or after it)"
+        );
+        let found = format!("a gap from {from} s to {to} s");
+        return Err(columns.error(row, column + 1, expected, found));
+    }
+    let (sampling, doubts) = record::of_times(times_s, None)
+        .map_err(|own| columns.error(0, column + 1, "evenly spaced times", own))?;
+    let warning = |doubt: record::RecordWarning| Warning {
+        kind: doubt.kind,
+        time_s: None,
+        message: doubt.message,
+    };
+    let warnings = doubts.into_iter().map(warning).collect();
+    Ok(match sampling {
+        Sampling::Dt(dt_s) => (even(dt_s), Some(dt_s), warnings),
+        Sampling::Times(times_s) => {
+            let start_s = times_s[0];
+            (times_s.into_iter().map(|t| t - start_s).collect(), None, warnings)
+        }
+    })
+}
+
+/// The row after the first gap, and the usual step: where nine of ten steps agree to a hundredth
+/// (or to the last decimal of the times), one that is half as long again is a gap.
+fn gap(times_s: &[f64]) -> Option<(usize, f64)> {
+    let mut steps: Vec<f64> = times_s.windows(2).map(|t| t[1] - t[0]).collect();
+    let unsorted = steps.clone();
+    steps.sort_by(f64::total_cmp);
+    let usual_s = steps[steps.len() / 2];
+    let agree = steps.iter().filter(|step| (*step - usual_s).abs() <= 0.1 * usual_s).count();
+    if usual_s <= 0.0 || 10 * agree < 9 * steps.len() {
+        return None;
+    }
+    unsorted.iter().position(|step| *step > 1.5 * usual_s).map(|row| (row + 1, usual_s))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str, options: &[&str]) -> Result<Measured, String> {
+        let options: Vec<String> = options.iter().map(|o| (*o).to_owned()).collect();
+        let mapping = Mapping::parse(None, &options).map_err(|error| error.to_string())?;
+        Measured::read("m.csv", text.as_bytes(), &mapping).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn exact_columns_of_history_need_no_mapping() {
+        let text = "time_s,table_acceleration_m_per_s2,sliding_displacement_mm,\
+                    storey1_acceleration (g),friction_force_n,remark\n\
+                    1.0,0.5,10,1,3,7\n1.5,-0.5,-20,2,4,7\n";
+        let measured = read(text, &[]).unwrap();
+        let channels: Vec<_> = measured.series.iter().map(|s| s.channel.name()).collect();
+        assert_eq!(
+            channels,
+            [
+                "table_acceleration",
+                "sliding_displacement",
+                "storey1_acceleration",
+                "friction_force"
+            ]
+        );
+        assert_eq!(measured.series[1].values, [0.01, -0.02]);
+        assert_eq!(measured.series[2].values, [9.80665, 2.0 * 9.80665]);
+        assert_eq!(measured.series[0].times_s, [0.0, 0.5]);
+        assert_eq!(measured.dt_s, Some(0.5));
+    }
+
+    #[test]
+    fn exact_mapping_takes_differences_signs_and_shifts() {
+        let text = "t,A1,X1,U\n0,1,12,2\n10,-1,14,3\n";
+        let options = [
+            "time=t [ms]",
+            "block_acceleration=A1 [g] * -1",
+            "sliding_displacement=X1 - U [mm] @ 5 ms",
+        ];
+        let measured = read(text, &options).unwrap();
+        let block = measured.get(Channel::BlockAcceleration).unwrap();
+        assert_eq!(block.values, [-9.80665, 9.80665]);
+        assert_eq!(block.origin, "column \"A1\", in g, × -1");
+        let sliding = measured.get(Channel::SlidingDisplacement).unwrap();
+        assert_eq!(sliding.values, [0.012 - 0.002, 0.014 - 0.003]);
+        assert_eq!(sliding.times_s, [0.005, 0.015]);
+        assert_eq!(sliding.origin, "column \"X1\" − \"U\", in mm, +0.005 s");
+    }
+
+    #[test]
+    fn exact_faults_name_file_line_and_remedy() {
+        assert_eq!(
+            read("time_s,force_n\n0,1\n0.01,\n0.02,1\n", &[]).unwrap_err(),
+            "m.csv:3:6: expected a finite number, found \"the end of the line\""
+        );
+        let rows: String = (0..40)
+            .filter(|i| *i != 20)
+            .map(|i| format!("{:.2},1\n", 0.01 * f64::from(i)))
+            .collect();
+        assert_eq!(
+            read(&format!("time_s,force_n\n{rows}"), &[]).unwrap_err(),
+            "m.csv:22:1: expected a sample every 0.010000 s (a gap is not filled: cut the file \
+             before or after it), found \"a gap from 0.19 s to 0.21 s\""
+        );
+        let text = "time_s,acc_block\n0,1\n1,2\n";
+        assert_eq!(
+            read(text, &["block_acceleration=acc_blok [g]"]).unwrap_err(),
+            "--map block_acceleration=acc_blok [g]:1:20: block_acceleration: expected one of the \
+             columns \"time_s\", \"acc_block\" of m.csv, found \"acc_blok\"; nearest is \
+             \"acc_block\""
+        );
+        assert!(
+            read(text, &["block_acceleration=acc_block"])
+                .unwrap_err()
+                .contains("expected a unit, which the header")
+        );
+        let stated = "time_s,acc (g)\n0,1\n1,2\n";
+        assert!(
+            read(stated, &["block_acceleration=acc (g) [m/s2]"]).is_err(),
+            "a unit other than the stated one"
+        );
+        assert!(read(stated, &["force=#2"]).unwrap_err().contains("found the unit \"g\""));
+        let measured = read(text, &[]).unwrap();
+        let missing = measured.require(Channel::TableAcceleration).unwrap_err().to_string();
+        assert!(missing.contains("table_acceleration_m_per_s2"), "{missing}");
+        assert!(missing.contains("time_s"), "{missing}");
+        assert!(read("a,b\n1,2\n3,4\n", &[]).unwrap_err().contains("a column of times"));
+        assert!(read("time_s,b\n1,2\n0,4\n", &[]).unwrap_err().contains("a time after 1 s"));
+    }
+
+    #[test]
+    fn exact_names_of_columns() {
+        assert_eq!(column_name(Channel::BlockAcceleration), "block_acceleration_m_per_s2");
+        assert_eq!(column_name(Channel::StoreyVelocity(2)), "storey2_velocity_m_per_s");
+        assert_eq!(column_name(Channel::FrictionForce), "friction_force_n");
+    }
+}

@@ -1,0 +1,327 @@
+//! Parameters of a model from a shaking-table record: those with which the exact response meets the
+//! measured histories best.
+//!
+//! The residuals of each quantity are taken over their own standard deviation, which is estimated
+//! from them. Parameters are sought from a seeded global start (see [`super::fit`]); intervals are
+//! those of profile likelihood for residuals that are normal, of one variance a quantity, and whose
+//! memory is as long as measured: the rise of the sum of squares that is allowed is multiplied by
+//! their correlation length.
+
+mod parameter;
+
+use core::cell::Cell;
+
+pub use parameter::{Builder, Parameter, ParameterError};
+
+use super::compare::{self, CompareError, Comparison};
+use super::estimate::{Estimate, correlation_length};
+use super::fit::{Interval, Minimum, Problem, Profile, global, profile, refine};
+use super::measured::Measured;
+use super::metrics::rms;
+use super::quantile::student_quantile;
+use crate::error::RecordError;
+use crate::friction::{Coulomb, Friction};
+use crate::input::Channel;
+use crate::model::Model;
+use crate::motion::GroundMotion;
+use crate::response::Method;
+use crate::solver;
+
+/// How much better than stuck a sliding response must fit before anything is said of the slider, in
+/// variances.
+const CLEAR_SLIDING: f64 = 25.0;
+/// Residuals that each parameter must have.
+const LEAST_RESIDUALS: usize = 10;
+
+/// A record to be fitted.
+pub struct TableTest<'a> {
+    /// What was measured.
+    pub measured: &'a Measured,
+    /// What is fitted.
+    pub parameters: &'a [Parameter],
+    /// The model of some values, in the order of the parameters; `None` where there is none.
+    pub build: &'a dyn Fn(&[f64]) -> Option<Model>,
+    /// Values to begin with, beside the random ones.
+    pub start: Option<Vec<f64>>,
+    /// Quantities to fit; `None`: all that the model has.
+    pub using: Option<Vec<Channel>>,
+    /// Seed of the global start.
+    pub seed: u64,
+}
+
+/// What a record says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableFit {
+    /// One estimate a parameter.
+    pub estimates: Vec<Estimate>,
+    /// The best values, also of those that the data do not tell.
+    pub values: Vec<f64>,
+    /// The model with them.
+    pub model: Model,
+    /// Its response beside what was measured.
+    pub comparison: Comparison,
+    /// The quantities that were fitted, with the standard deviation of their residuals in SI.
+    pub noise: Vec<(Channel, f64)>,
+    /// How many samples one independent sample is worth.
+    pub correlation_length: f64,
+    /// How much better than a stuck block the fit is, in variances.
+    pub sliding_evidence: f64,
+}
+
+/// Why nothing was fitted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TableError {
+    /// The file lacks a quantity.
+    #[error(transparent)]
+    Measured(#[from] RecordError),
+    /// The table acceleration or the response.
+    #[error(transparent)]
+    Compare(#[from] CompareError),
+    /// No values inside the ranges make a model that has a response.
+    #[error("no values of {parameters} inside their ranges give a response")]
+    NoResponse {
+        /// The parameters.
+        parameters: String,
+    },
+    /// Too little data.
+    #[error("expected at least {expected} measured values for {parameters}, found {found}")]
+    TooShort {
+        /// The parameters.
+        parameters: String,
+        /// Values needed.
+        expected: usize,
+        /// Values found.
+        found: usize,
+    },
+}
+
+/// Fits a record.
+///
+/// # Errors
+/// [`TableError`] where table acceleration or measured quantities are missing or too short, or
+/// nothing inside the ranges has a response.
+pub fn shaking_table(test: &TableTest) -> Result<TableFit, TableError> {
+    let (motion, start_s) = compare::table_motion(test.measured)?;
+    let chosen = chosen(test)?;
+    let data = Data { motion: &motion, start_s, measured: &chosen, build: test.build };
+    let names = || {
+        let names: Vec<&str> = test.parameters.iter().map(|p| p.path.as_str()).collect();
+        names.join(", ")
+    };
+    let no_response = || TableError::NoResponse { parameters: names() };
+    let bounds: Vec<[f64; 2]> = test.parameters.iter().map(|p| [p.low, p.high]).collect();
+    // First each quantity over its own size, then over what the fit leaves of it.
+    let mut scales: Vec<f64> = chosen.series.iter().map(|s| rms(&s.values).max(1e-300)).collect();
+    let mut minimum: Option<Minimum> = None;
+    for _ in 0..4 {
+        let residuals = |p: &[f64]| data.residuals(p, &scales);
+        let problem = Problem { bounds: bounds.clone(), residuals: &residuals };
+        let found = match &minimum {
+            None => global(&problem, test.start.as_deref(), test.seed),
+            Some(minimum) => refine(&problem, &minimum.unit),
+        };
+        let found = found.ok_or_else(no_response)?;
+        let expected = LEAST_RESIDUALS * bounds.len();
+        if found.count < expected {
+            let found = found.count;
+            return Err(TableError::TooShort { parameters: names(), expected, found });
+        }
+        let values = problem.parameters(&found.unit);
+        let left = data.by_quantity(&values).ok_or_else(no_response)?;
+        let next: Vec<f64> = left
+            .iter()
+            .zip(&chosen.series)
+            // A fit without noise is weighed by the last digits of the size.
+            .map(|(left, series)| rms(left).max(1e-9 * rms(&series.values)).max(1e-300))
+            .collect();
+        let settled = next.iter().zip(&scales).all(|(a, b)| (a / b - 1.0).abs() < 0.01);
+        minimum = Some(found);
+        scales = next;
+        if settled {
+            break;
+        }
+    }
+    let residuals = |p: &[f64]| data.residuals(p, &scales);
+    let problem = Problem { bounds, residuals: &residuals };
+    let minimum = minimum.and_then(|minimum| refine(&problem, &minimum.unit));
+    let found = intervals(&problem, &data, minimum.ok_or_else(no_response)?);
+    let values = problem.parameters(&found.minimum.unit);
+    let model = (test.build)(&values).ok_or_else(no_response)?;
+    let evidence = evidence(&data, &model, &scales, &found);
+    let estimates = test.parameters.iter().enumerate().map(|(index, parameter)| {
+        let slides = evidence > CLEAR_SLIDING || !parameter.path.starts_with("slider.");
+        let kinetic = test.parameters.iter().zip(&values).find_map(|(other, value)| {
+            let kinetic = parameter.path.replace("static", "kinetic");
+            (other.path == kinetic && kinetic != parameter.path).then_some(*value)
+        });
+        estimate(parameter, values[index], found.intervals[index], kinetic, slides)
+    });
+    let estimates = estimates.collect();
+    let comparison = compare::compare(test.measured, &model, Method::Exact)?;
+    let noise = chosen.series.iter().map(|s| s.channel).zip(scales.iter().copied()).collect();
+    Ok(TableFit {
+        estimates,
+        values,
+        model,
+        comparison,
+        noise,
+        correlation_length: found.length,
+        sliding_evidence: evidence,
+    })
+}
+
+/// The measured quantities to fit.
+fn chosen(test: &TableTest) -> Result<Measured, RecordError> {
+    let mut chosen = test.measured.clone();
+    if let Some(using) = &test.using {
+        for channel in using {
+            test.measured.require(*channel)?;
+        }
+        chosen.series.retain(|series| using.contains(&series.channel));
+    }
+    let driven = |channel: Channel| {
+        !matches!(
+            channel,
+            Channel::Time
+                | Channel::TableAcceleration
+                | Channel::Displacement
+                | Channel::Force
+                | Channel::Acceleration
+        )
+    };
+    chosen.series.retain(|series| driven(series.channel));
+    if chosen.series.is_empty() {
+        test.measured.require(Channel::BlockAcceleration)?;
+    }
+    Ok(chosen)
+}
+
+/// What residuals are made from.
+struct Data<'a> {
+    motion: &'a GroundMotion,
+    start_s: f64,
+    measured: &'a Measured,
+    build: &'a dyn Fn(&[f64]) -> Option<Model>,
+}
+
+impl Data<'_> {
+    /// Predicted less measured values, a list a quantity, in SI.
+    fn of_model(&self, model: &Model) -> Option<Vec<Vec<f64>>> {
+        let response = solver::exact(model, self.motion).ok()?;
+        let pairs = compare::pairs(self.measured, self.start_s, response.history.as_ref()?);
+        let all = pairs.len() == self.measured.series.len();
+        let left = |pair: &compare::Pair| {
+            pair.predicted.iter().zip(&pair.measured).map(|(p, m)| p - m).collect()
+        };
+        all.then(|| pairs.iter().map(left).collect())
+    }
+
+    fn by_quantity(&self, parameters: &[f64]) -> Option<Vec<Vec<f64>>> {
+        self.of_model(&(self.build)(parameters)?)
+    }
+
+    fn residuals(&self, parameters: &[f64], scales: &[f64]) -> Option<Vec<f64>> {
+        let lists = self.by_quantity(parameters)?;
+        Some(weighed(&lists, scales))
+    }
+}
+
+fn weighed(lists: &[Vec<f64>], scales: &[f64]) -> Vec<f64> {
+    let weigh =
+        |(list, scale): (&Vec<f64>, &f64)| list.iter().map(|r| r / scale).collect::<Vec<f64>>();
+    lists.iter().zip(scales).flat_map(weigh).collect()
+}
+
+struct Found {
+    minimum: Minimum,
+    intervals: Vec<Option<Interval>>,
+    length: f64,
+    variance: f64,
+}
+
+/// Intervals of all parameters, from the best minimum that turns up on the way.
+fn intervals(problem: &Problem, data: &Data, minimum: Minimum) -> Found {
+    let mut minimum = minimum;
+    let count = problem.bounds.len();
+    let mut found = Vec::new();
+    let (mut length, mut variance) = (1.0, 1.0);
+    for _ in 0..5 {
+        let values = problem.parameters(&minimum.unit);
+        let lists = data.by_quantity(&values).unwrap_or_default();
+        let lengths = lists.iter().map(|list| correlation_length(list));
+        length = lengths.fold(1.0, f64::max);
+        let freedom = minimum.count.saturating_sub(count + lists.len()).max(1) as f64;
+        variance = (minimum.sse / freedom).max(1e-24);
+        let t = student_quantile(0.95, freedom);
+        let better: Cell<Option<Minimum>> = Cell::new(None);
+        found.clear();
+        for index in 0..count {
+            match profile(problem, &minimum, index, t * t * length, variance) {
+                Profile::Interval(interval) => found.push(Some(interval)),
+                Profile::Better(minimum) => {
+                    better.set(Some(minimum));
+                    break;
+                }
+            }
+        }
+        match better.take().and_then(|better| refine(problem, &better.unit)) {
+            Some(better) => minimum = better,
+            None => break,
+        }
+    }
+    found.resize(count, None);
+    Found { minimum, intervals: found, length, variance }
+}
+
+/// How much better the fit is than a block that cannot slide.
+fn evidence(data: &Data, model: &Model, scales: &[f64], found: &Found) -> f64 {
+    const HOLDS: f64 = 1e6;
+    let Ok(friction) = Coulomb::new([HOLDS; 2], [HOLDS; 2]) else { return 0.0 };
+    let stuck = data.of_model(&model.with_friction(Friction::Coulomb(friction)));
+    let sse: f64 = match stuck {
+        Some(lists) => weighed(&lists, scales).iter().map(|r| r * r).sum(),
+        None => return f64::INFINITY,
+    };
+    (sse - found.minimum.sse) / (found.variance * found.length)
+}
+
+/// What a profile says of a parameter.
+fn estimate(
+    parameter: &Parameter,
+    value: f64,
+    interval: Option<Interval>,
+    kinetic: Option<f64>,
+    slides: bool,
+) -> Estimate {
+    let refused = |why: String| Estimate::refused(parameter.path.clone(), parameter.unit, why);
+    if !slides {
+        return refused(
+            "no sliding shows in the record: a block that is stuck fits it as well".to_owned(),
+        );
+    }
+    let Some(Interval { mut ends, open }) = interval else {
+        return refused("the fit has several minima that are equally good".to_owned());
+    };
+    let unit =
+        if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
+    let shown = |value: f64| format!("{value:.4e}{unit}");
+    let blocked = [open[0] && !parameter.natural[0], open[1] && !parameter.natural[1]];
+    match blocked {
+        _ if open == [true, true] => {
+            let why = "every value of its range fits as well";
+            return refused(format!("{why}, from {} to {}", shown(ends[0]), shown(ends[1])));
+        }
+        [true, _] => return refused(format!("values down to {} fit as well", shown(ends[0]))),
+        [_, true] => return refused(format!("values up to {} fit as well", shown(ends[1]))),
+        _ => {}
+    }
+    if open[0]
+        && let Some(kinetic) = kinetic
+    {
+        ends[0] = ends[0].max(kinetic).min(value);
+    }
+    Estimate::told(parameter.path.clone(), parameter.unit, value, ends)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,81 @@
+//! Rows under test: run again alone, from the model's text, with history and certificate.
+
+use super::rows::warnings;
+use super::{Row, Study, demand_values, made};
+use crate::check::{self, Certificate};
+use crate::input::Analysis;
+use crate::motion::GroundMotion;
+use crate::solver;
+
+/// What became of running a row again.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Verdict {
+    /// Whether every number of the row came out the same, to the last bit; of a failed run, the same
+    /// error.
+    pub same: bool,
+    /// Whether the certificate holds; of a failed run, which has none, whether it failed again.
+    pub holds: bool,
+    /// The certificate's largest defect of the equations of motion.
+    pub equilibrium_residual: f64,
+    /// Its largest excess over the friction law.
+    pub friction_excess: f64,
+    /// Its largest imbalance of energy.
+    pub energy_balance_error: f64,
+}
+
+impl Verdict {
+    /// Whether nothing is wrong with the row.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.same && self.holds
+    }
+}
+
+impl Study {
+    /// Runs a row again as `slipstick run` would, and judges the response.
+    #[must_use]
+    pub fn verify(&self, row: &Row) -> Verdict {
+        let (analysis, motion) = match self.alone(row) {
+            Ok(pair) => pair,
+            Err(error) => return failed_again(row, &error),
+        };
+        let response = match solver::exact(&analysis.model, &motion) {
+            Ok(response) => response,
+            Err(error) => return failed_again(row, &error.to_string()),
+        };
+        let history = response.history.as_ref();
+        let Some(history) = history else { return Verdict::default() };
+        let certificate = check::check(&analysis.model, &motion, history);
+        let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+        let record = self.records.get(row.case.record as usize);
+        let of_record = record.map_or(&[][..], |record| &record.warnings);
+        let same = row.error.is_none()
+            && bits(&demand_values(&response.demands)) == bits(&row.demands)
+            && warnings(of_record, &response) == row.warnings;
+        let holds = certificate.holds();
+        let Certificate { equilibrium_residual, friction_excess, energy_balance_error, .. } =
+            certificate;
+        Verdict { same, holds, equilibrium_residual, friction_excess, energy_balance_error }
+    }
+
+    /// The analysis and the motion of a row, made from the text and the record.
+    fn alone(&self, row: &Row) -> Result<(Analysis, GroundMotion), String> {
+        let values = self.design.values(row.case.sample);
+        let analysis = self.variation.analysis(&values).map_err(|error| error.to_string())?;
+        let motion = match self.records.get(row.case.record as usize) {
+            Some(record) => record.motion.scaled(self.factor(row.case)),
+            None => analysis.motion.as_ref().and_then(made).ok_or("the model makes no motion")?,
+        };
+        let tail = |motion: GroundMotion| match analysis.tail_s {
+            0.0 => Ok(motion),
+            tail_s => motion.with_tail(tail_s),
+        };
+        let motion = motion.and_then(tail).map_err(|error| error.to_string())?;
+        Ok((analysis, motion))
+    }
+}
+
+fn failed_again(row: &Row, error: &str) -> Verdict {
+    let same = row.error.as_deref() == Some(error);
+    Verdict { same, holds: same, ..Verdict::default() }
+}

@@ -1,0 +1,439 @@
+//! A prediction beside a measurement.
+
+use slipstick::input::Channel;
+use slipstick::laboratory::anderson;
+use slipstick::laboratory::compare::{Compared, Comparison, Metrics, Within};
+use slipstick::model::Model;
+use slipstick::response::{Method, Mode};
+use slipstick::units::Dimension;
+
+use super::text::{aligned, field, in_groups};
+use crate::describe::{model_line, model_rows};
+use crate::display::{DisplayUnits, Quantity, Unit};
+use crate::figures::Drawn;
+use crate::html::{self, Frame, inputs, name_table, table_head, warning_list};
+use crate::json::Json;
+use crate::markup::Markup;
+use crate::number::{significant, typeset};
+use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
+use crate::report::{FileNote, InputText};
+use crate::summary::method_name;
+
+/// The table's own acceleration: there to be seen, not to hide the others.
+const TABLE: Style = Style { colour: "#8a9a86", width: 0.8, dashes: "" };
+
+/// What a comparison is told from.
+#[derive(Clone, Copy, Debug)]
+pub struct CompareReport<'a> {
+    /// Version of this program.
+    pub version: &'static str,
+    /// Name of the model.
+    pub name: &'a str,
+    /// The measured file as it was given.
+    pub measured: &'a str,
+    /// The model.
+    pub model: &'a Model,
+    /// How the prediction was computed.
+    pub method: Method,
+    /// The comparison.
+    pub comparison: &'a Comparison,
+    /// Bounds that it must keep.
+    pub within: &'a [Within],
+    /// Texts that people wrote: model and mapping.
+    pub inputs: &'a [InputText<'a>],
+    /// Files read, with their hashes.
+    pub files: &'a [FileNote<'a>],
+    /// The command as it was typed.
+    pub command_line: &'a str,
+    /// Units to show results in.
+    pub display: DisplayUnits,
+}
+
+/// The quantity of the display table that a channel is.
+pub(super) fn quantity(channel: Channel) -> Quantity {
+    match channel.dimension() {
+        Dimension::Acceleration => Quantity::Acceleration,
+        Dimension::Length => Quantity::Length,
+        Dimension::Velocity => Quantity::Velocity,
+        Dimension::Force => Quantity::Force,
+        _ => Quantity::Time,
+    }
+}
+
+/// `Sliding displacement`, `Storey 1 acceleration`.
+pub(super) fn title(channel: Channel) -> String {
+    let name = channel.name().replace('_', " ").replace("storey", "storey ");
+    let mut letters = name.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+impl CompareReport<'_> {
+    /// The value of a bounded figure.
+    fn value(&self, within: &Within) -> Option<f64> {
+        self.comparison.get(within.channel)?.metrics.get(within.metric)
+    }
+
+    /// Bounds that are missed.
+    #[must_use]
+    pub fn missed(&self) -> Vec<&Within> {
+        self.within.iter().filter(|bound| !bound.holds(self.value(bound))).collect()
+    }
+
+    /// One line a bound: `peak_ratio.sliding_displacement = 1.25, expected 0.9 to 1.1: missed`.
+    #[must_use]
+    pub fn verdicts(&self) -> Vec<String> {
+        let end = |value: f64| if value.is_finite() { value.to_string() } else { "any".to_owned() };
+        let line = |bound: &Within| {
+            let value = self.value(bound);
+            let found = value.map_or("no value".to_owned(), |value| significant(value, 5));
+            let verdict = if bound.holds(value) { "kept" } else { "missed" };
+            let (least, most) = (end(bound.least), end(bound.most));
+            format!("{} = {found}, expected {least} to {most}: {verdict}", bound.name())
+        };
+        self.within.iter().map(line).collect()
+    }
+
+    fn unit(&self, compared: &Compared) -> Unit {
+        let largest = compared.metrics.measured_peak.max(compared.metrics.predicted_peak);
+        self.display.unit(quantity(compared.pair.channel), largest)
+    }
+
+    /// Rows of names and values, a column a quantity.
+    pub(super) fn rows(&self) -> Vec<Vec<String>> {
+        let all = &self.comparison.compared;
+        let digits = |value: f64| significant(value, 4);
+        let ratio = |value: Option<f64>| value.map_or("n/a".to_owned(), digits);
+        let row = |name: &str, of: &dyn Fn(&Compared, &Metrics, Unit) -> String| {
+            let cells = all.iter().map(|c| of(c, &c.metrics, self.unit(c)));
+            core::iter::once(name.to_owned()).chain(cells).collect::<Vec<String>>()
+        };
+        let mut rows = vec![
+            row("", &|c, _, _| title(c.pair.channel)),
+            row("Unit", &|_, _, unit| unit.symbol.to_owned()),
+            row("Measured peak", &|_, m, unit| digits(unit.of(m.measured_peak))),
+            row("Predicted peak", &|_, m, unit| digits(unit.of(m.predicted_peak))),
+            row("Peak ratio (predicted/measured)", &|_, m, _| ratio(m.peak_ratio)),
+            row("Measured at the end", &|_, m, unit| digits(unit.of(m.measured_residual))),
+            row("Predicted at the end", &|_, m, unit| digits(unit.of(m.predicted_residual))),
+            row("Error at the end", &|_, m, unit| digits(unit.of(m.residual_error))),
+            row("RMS, measured", &|_, m, unit| digits(unit.of(m.measured_rms))),
+            row("RMS of the error", &|_, m, unit| digits(unit.of(m.rms_error))),
+            row("  over the RMS measured", &|_, m, _| ratio(m.normalised_rms_error)),
+            row("Correlation", &|_, m, _| ratio(m.correlation)),
+            row("Russell: magnitude error", &|_, m, _| ratio(m.russell.map(|r| r.magnitude))),
+            row("Russell: phase error", &|_, m, _| ratio(m.russell.map(|r| r.phase))),
+            row("Russell: comprehensive error", &|_, m, _| {
+                ratio(m.russell.map(|r| r.comprehensive))
+            }),
+            row("Arrival lag (s)", &|_, m, _| ratio(m.arrival_lag_s)),
+        ];
+        if all.iter().any(|c| c.metrics.anderson.is_some()) {
+            rows.push(row("Anderson's goodness of fit (0 to 10)", &|_, m, _| {
+                let mean = m.anderson.map(|a| a.mean());
+                mean.map_or(String::new(), |s| format!("{s:.1} {}", anderson::word(s)))
+            }));
+        }
+        rows
+    }
+
+    /// The table that a person reads.
+    #[must_use]
+    pub fn table(&self) -> String {
+        let mut text =
+            format!("{}  (slipstick {}, {})\n", self.name, self.version, method_name(self.method));
+        text.push_str(&field("Measured", self.measured));
+        text.push_str(&field("Model", &model_line(self.model, self.display)));
+        text.push_str(&field("Times", &self.comparison.alignment));
+        text.push('\n');
+        for (i, group) in in_groups(&self.rows(), 4).iter().enumerate() {
+            text.push_str(if i > 0 { "\n" } else { "" });
+            text.push_str(&aligned(group));
+        }
+        if !self.within.is_empty() {
+            text.push('\n');
+            for verdict in self.verdicts() {
+                text.push_str(&field("Bound", &verdict));
+            }
+        }
+        if !self.comparison.warnings.is_empty() {
+            text.push('\n');
+            for warning in &self.comparison.warnings {
+                text.push_str(&field("Warning", &format!("{}: {}", warning.kind, warning.message)));
+            }
+        }
+        text
+    }
+
+    /// The object that `--json` prints.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        let c = self.comparison;
+        let quantities = c.compared.iter().map(|compared| {
+            let (pair, m) = (&compared.pair, &compared.metrics);
+            let scores = m.anderson.map_or(Json::Null, |a| {
+                let scores = a.scores().map(|(name, score)| (name, Json::from(score)));
+                let mut scores = scores.to_vec();
+                scores.push(("mean", a.mean().into()));
+                Json::Object(scores)
+            });
+            Json::Object(vec![
+                ("quantity", pair.channel.name().as_str().into()),
+                ("unit", pair.channel.dimension().si_unit().into()),
+                ("origin", pair.origin.as_str().into()),
+                ("samples", (pair.times_s.len() as u64).into()),
+                ("samples_not_interpolated", (pair.at_samples as u64).into()),
+                ("from_s", pair.times_s.first().copied().into()),
+                ("to_s", pair.times_s.last().copied().into()),
+                ("measured_peak", m.measured_peak.into()),
+                ("measured_peak_time_s", m.measured_peak_time_s.into()),
+                ("predicted_peak", m.predicted_peak.into()),
+                ("predicted_peak_time_s", m.predicted_peak_time_s.into()),
+                ("peak_ratio", m.peak_ratio.into()),
+                ("measured_residual", m.measured_residual.into()),
+                ("predicted_residual", m.predicted_residual.into()),
+                ("residual_error", m.residual_error.into()),
+                ("measured_rms", m.measured_rms.into()),
+                ("rms_error", m.rms_error.into()),
+                ("normalised_rms_error", m.normalised_rms_error.into()),
+                ("correlation", m.correlation.into()),
+                ("russell_magnitude", m.russell.map(|r| r.magnitude).into()),
+                ("russell_phase", m.russell.map(|r| r.phase).into()),
+                ("russell_comprehensive", m.russell.map(|r| r.comprehensive).into()),
+                ("anderson", scores),
+                ("arrival_lag_s", m.arrival_lag_s.into()),
+                ("correlation_at_lag", m.lagged_correlation.into()),
+            ])
+        });
+        let within = self.within.iter().map(|bound| {
+            let value = self.value(bound);
+            Json::Object(vec![
+                ("bound", bound.name().as_str().into()),
+                ("least", bound.least.into()),
+                ("most", bound.most.into()),
+                ("value", value.into()),
+                ("holds", bound.holds(value).into()),
+            ])
+        });
+        let figures = c.motion.figures();
+        Json::Object(vec![
+            ("slipstick", self.version.into()),
+            ("model", self.name.into()),
+            ("method", method_name(self.method).into()),
+            ("measured", self.measured.into()),
+            ("alignment", c.alignment.as_str().into()),
+            ("starts_at_s", c.start_s.into()),
+            ("samples", (c.motion.len() as u64).into()),
+            ("dt_s", c.motion.dt_s().into()),
+            ("table_peak_acceleration_m_per_s2", figures.pga_m_per_s2.into()),
+            ("quantities", Json::List(quantities.collect())),
+            ("within", Json::List(within.collect())),
+            ("warnings", Json::List(c.warnings.iter().map(warning_json).collect())),
+        ])
+        .to_pretty()
+    }
+
+    /// One self-contained page.
+    #[must_use]
+    pub fn to_html(&self) -> String {
+        let mut body = Markup::new();
+        let warnings: Vec<_> = self.comparison.warnings.iter().map(|w| (None, w)).collect();
+        warning_list(&mut body, &warnings);
+        body.raw("<section>\n<h2>Agreement</h2>\n");
+        for group in in_groups(&self.rows(), 3) {
+            number_table(&mut body, &group);
+        }
+        body.raw("<p>").text(&self.comparison.alignment).raw("</p>\n");
+        if !self.within.is_empty() {
+            body.raw("<h3>Bounds</h3>\n<ul>\n");
+            for verdict in self.verdicts() {
+                body.element("li", verdict).raw("\n");
+            }
+            body.raw("</ul>\n");
+        }
+        body.raw("</section>\n");
+        html::figure_section(&mut body, &self.figures());
+        body.raw("<section>\n<h2>Anderson's scores</h2>\n");
+        self.anderson(&mut body);
+        body.raw("</section>\n<section>\n<h2>What went in</h2>\n");
+        name_table(&mut body, "Model", &model_rows(self.model, self.display));
+        let origins: Vec<(String, String)> = self
+            .comparison
+            .compared
+            .iter()
+            .map(|c| (title(c.pair.channel), c.pair.origin.clone()))
+            .collect();
+        let origins: Vec<(&str, String)> =
+            origins.iter().map(|(name, origin)| (name.as_str(), origin.clone())).collect();
+        name_table(&mut body, "Measured quantities", &origins);
+        inputs::provenance(&mut body, self.files, self.command_line, self.inputs);
+        body.raw("</section>\n");
+        html::document(&Frame {
+            kind: "Prediction and measurement",
+            title_end: ": prediction and measurement",
+            name: self.name,
+            line: &format!(
+                "Slipstick {}, {} method, driven by the measured table acceleration of {}.",
+                self.version,
+                method_name(self.method),
+                self.measured
+            ),
+            version: self.version,
+            command_line: self.command_line,
+            body: &body,
+        })
+    }
+
+    fn anderson(&self, out: &mut Markup) {
+        let scored: Vec<_> = self
+            .comparison
+            .compared
+            .iter()
+            .filter_map(|c| Some((title(c.pair.channel), c.metrics.anderson?)))
+            .collect();
+        let Some((_, first)) = scored.first() else {
+            out.raw("<p>No acceleration was compared.</p>\n");
+            return;
+        };
+        let mut rows = vec![vec![String::new()]];
+        rows[0].extend(scored.iter().map(|(name, _)| name.clone()));
+        for (i, (name, _)) in first.scores().iter().enumerate() {
+            let mut row = vec![name.replace('_', " ")];
+            row.extend(scored.iter().map(|(_, a)| format!("{:.1}", a.scores()[i].1)));
+            rows.push(row);
+        }
+        for group in in_groups(&rows, 3) {
+            number_table(out, &group);
+        }
+    }
+
+    /// The overlays: accelerations with that of the table, then displacements and forces.
+    pub(super) fn figures(&self) -> Vec<Drawn> {
+        let c = self.comparison;
+        let panels: Vec<Panel> = c.compared.iter().map(|compared| self.panel(compared)).collect();
+        let shaded = sliding(c);
+        let of = |id: &'static str, title: &str, caption: String, panels: Vec<Panel>| {
+            let figure = Figure {
+                id,
+                title: title.to_owned(),
+                description: caption.clone(),
+                layout: Layout::Stacked,
+                panels,
+                shaded: shaded.clone(),
+            };
+            Drawn { id, caption, svg: figure.to_svg() }
+        };
+        let is_acceleration =
+            |i: usize| c.compared[i].pair.channel.dimension() == Dimension::Acceleration;
+        let (mut accelerations, mut others) = (Vec::new(), Vec::new());
+        for (i, panel) in panels.into_iter().enumerate() {
+            if is_acceleration(i) { accelerations.push(panel) } else { others.push(panel) }
+        }
+        let mut figures = Vec::new();
+        let grey = "Grey: the predicted block slides.";
+        if !accelerations.is_empty() {
+            let caption = format!(
+                "Total accelerations, measured (wide) and predicted (thin), with that of the table \
+                 (light). {grey}"
+            );
+            figures.push(of("accelerations", "Accelerations over time", caption, accelerations));
+        }
+        if !others.is_empty() {
+            let caption = format!(
+                "Measured (wide) and predicted (thin). The sliding displacement is block minus \
+                 table, storey displacements are relative to the block. {grey}"
+            );
+            figures.push(of("displacements", "Displacements over time", caption, others));
+        }
+        figures
+    }
+
+    fn panel(&self, compared: &Compared) -> Panel {
+        let pair = &compared.pair;
+        let unit = self.unit(compared);
+        let points = |times_s: &[f64], values: &[f64]| -> Vec<[f64; 2]> {
+            times_s.iter().zip(values).map(|(t, v)| [*t, unit.of(*v)]).collect()
+        };
+        let line = |label: &str, style, points| Series {
+            label: label.to_owned(),
+            style,
+            shape: Shape::History,
+            points,
+        };
+        let mut series = Vec::new();
+        let motion = &self.comparison.motion;
+        if pair.channel.dimension() == Dimension::Acceleration {
+            let table = points(motion.times_s(), motion.horizontal_m_per_s2());
+            series.push(line("table", TABLE, table));
+        }
+        series.push(line("measured", Style::WIDE, points(&pair.times_s, &pair.measured)));
+        series.push(line("predicted", Style::MAIN, points(&pair.times_s, &pair.predicted)));
+        let values: Vec<f64> = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect();
+        let note = compared
+            .metrics
+            .peak_ratio
+            .map_or(String::new(), |ratio| format!("peak ratio {}", significant(ratio, 3)));
+        Panel {
+            x: Axis::linear("Time (s)", 0.0, motion.duration_s()),
+            y: Axis::covering(unit.label(&title(pair.channel)), values),
+            height: 120.0,
+            series,
+            limits: Vec::new(),
+            peak: None,
+            note,
+        }
+    }
+}
+
+/// Intervals in which the predicted block slides.
+fn sliding(comparison: &Comparison) -> Vec<[f64; 2]> {
+    let Some(history) = &comparison.response.history else { return Vec::new() };
+    let mut intervals: Vec<[f64; 2]> = Vec::new();
+    for (times, mode) in history.time_s.windows(2).zip(&history.mode) {
+        if *mode == Mode::Stick || times[1] <= times[0] {
+            continue;
+        }
+        match intervals.last_mut() {
+            Some(last) if last[1] == times[0] => last[1] = times[1],
+            _ => intervals.push([times[0], times[1]]),
+        }
+    }
+    intervals
+}
+
+/// A table whose first row are heads and whose first column are names.
+pub(crate) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
+    let Some((heads, rows)) = rows.split_first() else { return };
+    let wide = heads.len() > 6;
+    out.raw(if wide { "<div class=\"small\">\n" } else { "" });
+    let heads: Vec<_> = heads.iter().enumerate().map(|(i, head)| (head.clone(), i > 0)).collect();
+    table_head(out, &heads);
+    for row in rows {
+        for (i, cell) in row.iter().enumerate() {
+            if i == 0 {
+                let sub = cell.starts_with(' ');
+                out.raw(if sub { "<tr class=\"sub\">" } else { "<tr>" })
+                    .raw("<th scope=\"row\">")
+                    .text(cell.trim_start())
+                    .raw("</th>");
+            } else {
+                out.raw("<td class=\"number\">").text(typeset_cell(cell)).raw("</td>");
+            }
+        }
+        out.raw("</tr>\n");
+    }
+    out.raw("</tbody>\n</table>\n").raw(if wide { "</div>\n" } else { "" });
+}
+
+/// Numbers are set as in print, words as they are.
+fn typeset_cell(cell: &str) -> String {
+    if cell.parse::<f64>().is_ok() { typeset(cell) } else { cell.to_owned() }
+}
+
+/// A warning as `summary.json` has it.
+pub(super) fn warning_json(warning: &slipstick::response::Warning) -> Json {
+    Json::Object(vec![
+        ("kind", warning.kind.into()),
+        ("time_s", warning.time_s.into()),
+        ("message", warning.message.as_str().into()),
+    ])
+}

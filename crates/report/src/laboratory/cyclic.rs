@@ -1,0 +1,253 @@
+//! Cyclic tests: loops of force over displacement with the fitted strokes.
+
+use slipstick::laboratory::cyclic::{Cycle, CyclicEstimates, CyclicFit, estimates};
+
+use super::identify::estimate_json;
+use crate::display::{DisplayUnits, Quantity};
+use crate::figures::Drawn;
+use crate::json::Json;
+use crate::number::significant;
+use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
+
+/// One test.
+#[derive(Clone, Copy, Debug)]
+pub struct Test<'a> {
+    /// Its file.
+    pub name: &'a str,
+    /// Displacement in m.
+    pub displacement_m: &'a [f64],
+    /// Force in N.
+    pub force_n: &'a [f64],
+    /// What it says.
+    pub fit: &'a CyclicFit,
+}
+
+/// What the intervals assume.
+pub const ASSUMPTION: &str = "Means over cycles with Student's 95 % interval: cycles are taken as \
+     independent, nothing is assumed of the noise within one. An offset of the force cell cannot be \
+     told from friction that differs by direction.";
+
+/// Other figures of some tests.
+#[must_use]
+pub fn facts(tests: &[Test], normal_force_n: Option<f64>) -> Vec<(&'static str, String)> {
+    let cycles: usize = tests.iter().map(|test| test.fit.cycles.len()).sum();
+    let left_out: usize = tests.iter().map(|test| test.fit.strokes_left_out).sum();
+    let slack = tests.iter().map(|test| test.fit.slack_m).fold(0.0, f64::max);
+    let hz = || tests.iter().flat_map(|test| test.fit.cycles.iter().map(|c| c.frequency_hz));
+    let (low, high) = hz().fold((f64::INFINITY, 0.0_f64), |(l, h), f| (l.min(f), h.max(f)));
+    vec![
+        ("Cycles", format!("{cycles} complete; {left_out} strokes incomplete or short, left out")),
+        ("Frequency", format!("{} to {} Hz", significant(low, 3), significant(high, 3))),
+        (
+            "Travel left out after each reversal",
+            format!("{} mm (friction builds up)", significant(1e3 * slack, 3)),
+        ),
+        (
+            "Normal force",
+            normal_force_n.map_or("not given: friction is a force".to_owned(), |n| {
+                format!("{} N", significant(n, 6))
+            }),
+        ),
+    ]
+}
+
+/// A row a test: its estimates, without their intervals.
+#[must_use]
+pub fn by_test(tests: &[Test], normal_force_n: Option<f64>) -> Vec<Vec<String>> {
+    let mut rows = vec![
+        ["Test", "f (Hz)", "cycles", "kinetic", "95 % from", "to", "static", "95 % from", "to"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    for test in tests {
+        let largest_n = test.force_n.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
+        let found = estimates(&[test.fit], largest_n, normal_force_n).estimates;
+        let cycles = &test.fit.cycles;
+        let hz = cycles.iter().map(|c| c.frequency_hz).sum::<f64>() / cycles.len().max(1) as f64;
+        let mut row = vec![test.name.to_owned(), significant(hz, 3), cycles.len().to_string()];
+        for estimate in [&found[0], &found[3]] {
+            let told = estimate.value().zip(estimate.interval());
+            row.extend(match told {
+                Some((value, [low, high])) => [value, low, high].map(|v| significant(v, 4)),
+                None => ["not told", "", ""].map(str::to_owned),
+            });
+        }
+        rows.push(row);
+    }
+    rows
+}
+
+/// A row a cycle.
+#[must_use]
+pub fn table(tests: &[Test], normal_force_n: Option<f64>) -> Vec<Vec<String>> {
+    let over = normal_force_n.unwrap_or(1.0);
+    let unit = if normal_force_n.is_some() { "" } else { " (N)" };
+    let mut rows = vec![vec![
+        "Cycle".to_owned(),
+        "f (Hz)".to_owned(),
+        "stroke (mm)".to_owned(),
+        format!("kinetic +x{unit}"),
+        format!("kinetic −x{unit}"),
+        format!("static +x{unit}"),
+        format!("static −x{unit}"),
+        "spring (N/m)".to_owned(),
+        "damper (N s/m)".to_owned(),
+        "rms left (N)".to_owned(),
+    ]];
+    for (number, test) in tests.iter().enumerate() {
+        for (index, cycle) in test.fit.cycles.iter().enumerate() {
+            let label = if tests.len() > 1 {
+                format!("{}.{}", number + 1, index + 1)
+            } else {
+                (index + 1).to_string()
+            };
+            rows.push(row(label, cycle, over));
+        }
+    }
+    rows
+}
+
+fn row(label: String, cycle: &Cycle, over: f64) -> Vec<String> {
+    let digits = |value: f64| significant(value, 4);
+    let maybe = |value: Option<f64>| value.map_or("none".to_owned(), digits);
+    vec![
+        label,
+        digits(cycle.frequency_hz),
+        digits(1e3 * cycle.stroke_m),
+        digits(cycle.kinetic_n[0] / over),
+        digits(cycle.kinetic_n[1] / over),
+        maybe(cycle.static_n[0].map(|f| f / over)),
+        maybe(cycle.static_n[1].map(|f| f / over)),
+        maybe(cycle.spring_n_per_m),
+        maybe(cycle.damper_n_s_per_m),
+        significant(cycle.residual_n, 3),
+    ]
+}
+
+/// What only this job has in its JSON object.
+#[must_use]
+pub fn json(tests: &[Test], found: &CyclicEstimates) -> Vec<(&'static str, Json)> {
+    let tests_json = tests.iter().map(|test| {
+        let cycles = test.fit.cycles.iter().map(|cycle| {
+            Json::Object(vec![
+                ("from_s", cycle.span_s[0].into()),
+                ("to_s", cycle.span_s[1].into()),
+                ("frequency_hz", cycle.frequency_hz.into()),
+                ("stroke_m", cycle.stroke_m.into()),
+                ("peak_velocity_m_per_s", cycle.peak_velocity_m_per_s.into()),
+                ("kinetic_positive_n", cycle.kinetic_n[0].into()),
+                ("kinetic_negative_n", cycle.kinetic_n[1].into()),
+                ("static_positive_n", cycle.static_n[0].into()),
+                ("static_negative_n", cycle.static_n[1].into()),
+                ("spring_n_per_m", cycle.spring_n_per_m.into()),
+                ("damper_n_s_per_m", cycle.damper_n_s_per_m.into()),
+                ("residual_n", cycle.residual_n.into()),
+            ])
+        });
+        Json::Object(vec![
+            ("file", test.name.into()),
+            ("slack_m", test.fit.slack_m.into()),
+            ("strokes_left_out", (test.fit.strokes_left_out as u64).into()),
+            ("cycles", Json::List(cycles.collect())),
+        ])
+    });
+    vec![
+        ("frequency_dependence", found.per_hz.as_ref().map_or(Json::Null, estimate_json)),
+        ("tests", Json::List(tests_json.collect())),
+    ]
+}
+
+/// One figure a test, of eight at most: measured loops with the fitted strokes, and friction by
+/// cycle.
+#[must_use]
+pub fn figures(tests: &[Test], display: DisplayUnits) -> Vec<Drawn> {
+    const IDS: [&str; 8] =
+        ["loop-1", "loop-2", "loop-3", "loop-4", "loop-5", "loop-6", "loop-7", "loop-8"];
+    tests.iter().zip(IDS).map(|(test, id)| figure(test, id, display)).collect()
+}
+
+fn figure(test: &Test, id: &'static str, display: DisplayUnits) -> Drawn {
+    let largest = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let x = display.unit(Quantity::Length, largest(test.displacement_m));
+    let y = display.unit(Quantity::Force, largest(test.force_n));
+    let point = |i: usize, force: f64| [x.of(test.displacement_m[i]), y.of(force)];
+    let measured: Vec<[f64; 2]> =
+        test.force_n.iter().enumerate().map(|(i, force)| point(i, *force)).collect();
+    let mut series = vec![Series {
+        label: "measured".to_owned(),
+        style: Style { width: 1.4, ..Style::WIDE },
+        shape: Shape::Curve,
+        points: measured.clone(),
+    }];
+    let mut stroke: Vec<[f64; 2]> = Vec::new();
+    let mut strokes = 0;
+    let mut close = |stroke: &mut Vec<[f64; 2]>| {
+        if stroke.len() > 1 {
+            let label = if strokes == 0 { "fitted while sliding" } else { "" }.to_owned();
+            let points = core::mem::take(stroke);
+            series.push(Series { label, style: Style::MAIN, shape: Shape::Curve, points });
+            strokes += 1;
+        }
+        stroke.clear();
+    };
+    for (i, force) in test.fit.fitted_n.iter().enumerate() {
+        if force.is_finite() {
+            stroke.push(point(i, *force));
+        } else {
+            close(&mut stroke);
+        }
+    }
+    close(&mut stroke);
+    let loops = Panel {
+        x: Axis::covering(x.label("Displacement"), measured.iter().map(|p| p[0])),
+        y: Axis::covering(y.label("Force"), measured.iter().map(|p| p[1])),
+        height: 230.0,
+        series,
+        limits: Vec::new(),
+        peak: None,
+        note: String::new(),
+    };
+    let by_cycle = |label: &str, style, value: &dyn Fn(&Cycle) -> Option<f64>| Series {
+        label: label.to_owned(),
+        style,
+        shape: Shape::Curve,
+        points: test
+            .fit
+            .cycles
+            .iter()
+            .enumerate()
+            .filter_map(|(i, cycle)| Some([i as f64 + 1.0, y.of(value(cycle)?)]))
+            .collect(),
+    };
+    let series = vec![
+        by_cycle("kinetic +x", Style::MAIN, &|c| Some(c.kinetic_n[0])),
+        by_cycle("kinetic −x", Style::DASHED, &|c| Some(c.kinetic_n[1])),
+        by_cycle("static +x", Style { dashes: "", ..Style::WIDE }, &|c| c.static_n[0]),
+        by_cycle("static −x", Style { dashes: "5 3", ..Style::WIDE }, &|c| c.static_n[1]),
+    ];
+    let series: Vec<Series> = series.into_iter().filter(|s| !s.points.is_empty()).collect();
+    let values: Vec<f64> = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect();
+    let cycles = Panel {
+        x: Axis::linear("Cycle", 0.5, test.fit.cycles.len() as f64 + 0.5),
+        y: Axis::from_zero(y.label("Friction"), values),
+        height: 230.0,
+        series,
+        limits: Vec::new(),
+        peak: None,
+        note: String::new(),
+    };
+    let caption = format!(
+        "{}: force over displacement, measured and fitted where the block slides, and friction cycle \
+         by cycle.",
+        test.name
+    );
+    let figure = Figure {
+        id,
+        title: format!("Force over displacement, {}", test.name),
+        description: caption.clone(),
+        layout: Layout::Beside,
+        panels: vec![loops, cycles],
+        shaded: Vec::new(),
+    };
+    Drawn { id, caption, svg: figure.to_svg() }
+}

@@ -1,0 +1,94 @@
+//! Free vibration: the measured history with the fitted oscillation.
+
+use slipstick::input::Channel;
+use slipstick::laboratory::free_vibration::FreeVibration;
+
+use super::compare::{quantity, title};
+use crate::display::DisplayUnits;
+use crate::figures::Drawn;
+use crate::json::Json;
+use crate::number::significant;
+use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
+
+/// What the intervals assume.
+pub const ASSUMPTION: &str = "95 % intervals by profile likelihood: one linear mode with viscous \
+     damping, residuals that are normal and of one variance; their measured correlation length \
+     widens the intervals.";
+
+/// Other figures of a fit.
+#[must_use]
+pub fn facts(
+    channel: Channel,
+    span_s: [f64; 2],
+    fit: &FreeVibration,
+) -> Vec<(&'static str, String)> {
+    vec![
+        ("Quantity", channel.name()),
+        ("Time", format!("{} to {} s", significant(span_s[0], 5), significant(span_s[1], 5))),
+        ("Cycles", significant(fit.cycles, 3)),
+        ("Variance explained", format!("{} %", significant(100.0 * fit.explained, 4))),
+        (
+            "Correlation length of the residuals",
+            format!("{} samples", significant(fit.correlation_length, 3)),
+        ),
+    ]
+}
+
+/// What only this job has in its JSON object.
+#[must_use]
+pub fn json(channel: Channel, span_s: [f64; 2], fit: &FreeVibration) -> Vec<(&'static str, Json)> {
+    vec![
+        ("quantity", channel.name().as_str().into()),
+        ("from_s", span_s[0].into()),
+        ("to_s", span_s[1].into()),
+        ("cycles", fit.cycles.into()),
+        ("variance_explained", fit.explained.into()),
+        ("correlation_length_samples", fit.correlation_length.into()),
+    ]
+}
+
+/// The overlay.
+#[must_use]
+pub fn figures(
+    channel: Channel,
+    times_s: &[f64],
+    values: &[f64],
+    fit: &FreeVibration,
+    display: DisplayUnits,
+) -> Vec<Drawn> {
+    let largest = values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let unit = display.unit(quantity(channel), largest);
+    let line = |label: &str, style, values: &[f64]| Series {
+        label: label.to_owned(),
+        style,
+        shape: Shape::History,
+        points: times_s.iter().zip(values).map(|(t, v)| [*t, unit.of(*v)]).collect(),
+    };
+    let mut series = vec![line("measured", Style::WIDE, values)];
+    if !fit.fitted.is_empty() {
+        series.push(line("fitted", Style::MAIN, &fit.fitted));
+    }
+    let all: Vec<f64> = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect();
+    let ends = [times_s.first(), times_s.last()].map(|t| t.copied().unwrap_or(0.0));
+    let panel = Panel {
+        x: Axis::linear("Time (s)", ends[0], ends[1]),
+        y: Axis::covering(unit.label(&title(channel)), all),
+        height: 200.0,
+        series,
+        limits: Vec::new(),
+        peak: None,
+        note: String::new(),
+    };
+    let caption =
+        "Free vibration, measured (wide) and the decaying oscillation that fits best (thin)."
+            .to_owned();
+    let figure = Figure {
+        id: "free-vibration",
+        title: "Free vibration over time".to_owned(),
+        description: caption.clone(),
+        layout: Layout::Stacked,
+        panels: vec![panel],
+        shaded: Vec::new(),
+    };
+    vec![Drawn { id: figure.id, caption, svg: figure.to_svg() }]
+}

@@ -1,0 +1,210 @@
+//! Identified parameters: what the three jobs have in common.
+
+use slipstick::laboratory::estimate::{Estimate, Outcome};
+use slipstick::response::Warning;
+
+use super::compare::{number_table, warning_json};
+use super::text::{aligned, field};
+use crate::display::{DisplayUnits, Quantity};
+use crate::figures::Drawn;
+use crate::html::{self, Frame, inputs, name_table, warning_list};
+use crate::json::Json;
+use crate::markup::Markup;
+use crate::number::significant;
+use crate::report::{FileNote, InputText};
+
+/// What was identified, and from what.
+#[derive(Clone, Debug)]
+pub struct IdentifyReport<'a> {
+    /// Version of this program.
+    pub version: &'static str,
+    /// The job: `cyclic`, `free-vibration` or `shaking-table`.
+    pub job: &'static str,
+    /// The measured files.
+    pub measured: &'a str,
+    /// The estimates.
+    pub estimates: Vec<Estimate>,
+    /// Other figures, by name.
+    pub facts: Vec<(&'static str, String)>,
+    /// Tables with their captions; the first row holds the heads.
+    pub tables: Vec<(String, Vec<Vec<String>>)>,
+    /// What the intervals assume.
+    pub assumption: String,
+    /// Keys of the JSON object that only this job has.
+    pub json: Vec<(&'static str, Json)>,
+    /// The figures of the page.
+    pub figures: Vec<Drawn>,
+    /// What was noticed.
+    pub warnings: Vec<Warning>,
+    /// Texts that people wrote: model and mapping.
+    pub inputs: &'a [InputText<'a>],
+    /// Files read, with their hashes.
+    pub files: &'a [FileNote<'a>],
+    /// The command as it was typed.
+    pub command_line: &'a str,
+    /// Units to show results in.
+    pub display: DisplayUnits,
+}
+
+/// A value and its unit as a person reads them: `[value, low, high]` and the unit.
+fn shown(display: DisplayUnits, unit: &'static str, values: [f64; 3]) -> ([String; 3], String) {
+    let largest = values.into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let quantity = match unit {
+        "N/m" => Some(Quantity::Stiffness),
+        "N s/m" => Some(Quantity::Damping),
+        "N" => Some(Quantity::Force),
+        "m" => Some(Quantity::Length),
+        "kg" => Some(Quantity::Mass),
+        _ => None,
+    };
+    let (factor, symbol) = match (quantity, unit) {
+        (Some(quantity), _) => {
+            let unit = display.unit(quantity, largest);
+            (unit.in_si, unit.symbol)
+        }
+        (None, "rad") => (1e-3, "mrad"),
+        (None, unit) => (1.0, unit),
+    };
+    // The interval says how many digits mean something: two of its own.
+    let width = (values[2] - values[1]).abs() / factor;
+    let digits = |value: f64| {
+        let value = value / factor;
+        if !(width > 0.0 && width.is_finite()) {
+            return significant(value, 4);
+        }
+        let decimals = (1.0 - libm::floor(libm::log10(width))).max(0.0) as usize;
+        if decimals <= 9 && value.abs() < 1e6 {
+            format!("{value:.decimals$}")
+        } else {
+            significant(value, 4)
+        }
+    };
+    (values.map(digits), symbol.to_owned())
+}
+
+impl IdentifyReport<'_> {
+    /// Whether the data tell every parameter.
+    #[must_use]
+    pub fn all_told(&self) -> bool {
+        self.estimates.iter().all(|estimate| estimate.value().is_some())
+    }
+
+    /// Parameter, value, interval, unit; the first row holds the heads.
+    fn rows(&self) -> Vec<Vec<String>> {
+        let heads = ["Parameter", "Value", "95 % from", "to", "Unit"].map(str::to_owned);
+        let told = self.estimates.iter().filter_map(|estimate| match estimate.outcome {
+            Outcome::Told { value, low, high } => {
+                let ([value, low, high], unit) =
+                    shown(self.display, estimate.unit, [value, low, high]);
+                Some(vec![estimate.path.clone(), value, low, high, unit])
+            }
+            Outcome::CannotTell { .. } => None,
+        });
+        core::iter::once(heads.to_vec()).chain(told).collect()
+    }
+
+    /// One sentence a parameter that the data do not tell.
+    #[must_use]
+    pub fn refusals(&self) -> Vec<String> {
+        let refusal = |estimate: &Estimate| Some(format!("{}: {}", estimate.path, estimate.why()?));
+        self.estimates.iter().filter_map(refusal).collect()
+    }
+
+    /// The table that a person reads.
+    #[must_use]
+    pub fn table(&self) -> String {
+        let mut text = format!("identify {}  (slipstick {})\n", self.job, self.version);
+        text.push_str(&field("Measured", self.measured));
+        for (name, fact) in &self.facts {
+            text.push_str(&field("", &format!("{name}: {fact}")));
+        }
+        let rows = self.rows();
+        if rows.len() > 1 {
+            text.push('\n');
+            text.push_str(&aligned(&rows));
+        }
+        let refusals = self.refusals();
+        if !refusals.is_empty() {
+            text.push_str("\nThe data cannot tell:\n");
+            for refusal in refusals {
+                text.push_str(&field("", &refusal));
+            }
+        }
+        for (caption, rows) in &self.tables {
+            text.push_str(&format!("\n{caption}\n{}", aligned(rows)));
+        }
+        text.push('\n');
+        text.push_str(&field("Interval", &self.assumption));
+        for warning in &self.warnings {
+            text.push_str(&field("Warning", &format!("{}: {}", warning.kind, warning.message)));
+        }
+        text
+    }
+
+    /// The object that `--json` prints.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        let mut keys: Vec<(&'static str, Json)> = vec![
+            ("slipstick", self.version.into()),
+            ("job", self.job.into()),
+            ("measured", self.measured.into()),
+            ("confidence", 0.95.into()),
+            ("estimates", Json::List(self.estimates.iter().map(estimate_json).collect())),
+        ];
+        keys.extend(self.json.iter().cloned());
+        keys.push(("warnings", Json::List(self.warnings.iter().map(warning_json).collect())));
+        Json::Object(keys).to_pretty()
+    }
+
+    /// One self-contained page.
+    #[must_use]
+    pub fn to_html(&self) -> String {
+        let mut body = Markup::new();
+        let warnings: Vec<_> = self.warnings.iter().map(|warning| (None, warning)).collect();
+        warning_list(&mut body, &warnings);
+        body.raw("<section>\n<h2>Parameters</h2>\n");
+        number_table(&mut body, &self.rows());
+        let refusals = self.refusals();
+        if !refusals.is_empty() {
+            body.raw("<h3>The data cannot tell</h3>\n<ul>\n");
+            for refusal in refusals {
+                body.element("li", refusal).raw("\n");
+            }
+            body.raw("</ul>\n");
+        }
+        body.raw("<p>").text(&self.assumption).raw("</p>\n</section>\n");
+        html::figure_section(&mut body, &self.figures);
+        body.raw("<section>\n<h2>Details</h2>\n");
+        let facts: Vec<(&str, String)> =
+            self.facts.iter().map(|(name, fact)| (*name, fact.clone())).collect();
+        name_table(&mut body, "Record and fit", &facts);
+        for (caption, rows) in &self.tables {
+            body.element("h3", caption).raw("\n");
+            number_table(&mut body, rows);
+        }
+        inputs::provenance(&mut body, self.files, self.command_line, self.inputs);
+        body.raw("</section>\n");
+        html::document(&Frame {
+            kind: "Parameters from a test",
+            title_end: ": identified parameters",
+            name: self.measured,
+            line: &format!("Slipstick {}, identify {}.", self.version, self.job),
+            version: self.version,
+            command_line: self.command_line,
+            body: &body,
+        })
+    }
+}
+
+/// An estimate as an object; numbers are null where the data do not tell it.
+pub(super) fn estimate_json(estimate: &Estimate) -> Json {
+    let interval = estimate.interval();
+    Json::Object(vec![
+        ("parameter", estimate.path.as_str().into()),
+        ("unit", estimate.unit.into()),
+        ("value", estimate.value().into()),
+        ("low", interval.map(|[low, _]| low).into()),
+        ("high", interval.map(|[_, high]| high).into()),
+        ("cannot_tell", estimate.why().map_or(Json::Null, Json::from)),
+    ])
+}

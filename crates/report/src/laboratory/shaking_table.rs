@@ -1,0 +1,91 @@
+//! A fitted shaking-table record: the response with the best values beside what was measured.
+
+use slipstick::laboratory::shaking_table::{Parameter, TableFit};
+use slipstick::response::Method;
+
+use super::CompareReport;
+use super::compare::{quantity, title};
+use crate::display::DisplayUnits;
+use crate::figures::Drawn;
+use crate::json::Json;
+use crate::number::significant;
+
+/// What the intervals assume.
+#[must_use]
+pub fn assumption(fit: &TableFit) -> String {
+    format!(
+        "95 % intervals by profile likelihood: residuals are normal, with one standard deviation a \
+         quantity, which is estimated from them; they are correlated over {} samples, by which the \
+         rise of the sum of squares that is allowed was multiplied. The table acceleration is \
+         taken as exact.",
+        significant(fit.correlation_length, 3)
+    )
+}
+
+/// Other figures of a fit.
+#[must_use]
+pub fn facts(fit: &TableFit, display: DisplayUnits) -> Vec<(&'static str, String)> {
+    let mut facts = vec![(
+        "Better than a stuck block by",
+        format!("{} variances", significant(fit.sliding_evidence, 3)),
+    )];
+    for (channel, noise) in &fit.noise {
+        let unit = display.unit(quantity(*channel), *noise);
+        facts.push((
+            "Standard deviation of the residuals",
+            format!("{}: {} {}", title(*channel), significant(unit.of(*noise), 3), unit.symbol),
+        ));
+    }
+    facts
+}
+
+/// What only this job has in its JSON object.
+#[must_use]
+pub fn json(fit: &TableFit, parameters: &[Parameter], seed: u64) -> Vec<(&'static str, Json)> {
+    let ranges = parameters.iter().zip(&fit.values).map(|(parameter, value)| {
+        Json::Object(vec![
+            ("parameter", parameter.path.as_str().into()),
+            ("least_tried", parameter.low.into()),
+            ("most_tried", parameter.high.into()),
+            ("best", (*value).into()),
+        ])
+    });
+    let noise = fit.noise.iter().map(|(channel, noise)| {
+        Json::Object(vec![
+            ("quantity", channel.name().as_str().into()),
+            ("unit", channel.dimension().si_unit().into()),
+            ("residual_rms", (*noise).into()),
+        ])
+    });
+    vec![
+        ("seed", seed.into()),
+        ("ranges", Json::List(ranges.collect())),
+        ("residuals", Json::List(noise.collect())),
+        ("correlation_length_samples", fit.correlation_length.into()),
+        ("sliding_evidence", fit.sliding_evidence.into()),
+    ]
+}
+
+/// The table of agreement and the overlays of a comparison with the best values.
+#[must_use]
+pub fn agreement(
+    fit: &TableFit,
+    measured: &str,
+    version: &'static str,
+    display: DisplayUnits,
+) -> (Vec<Vec<String>>, Vec<Drawn>) {
+    let report = CompareReport {
+        version,
+        name: measured,
+        measured,
+        model: &fit.model,
+        method: Method::Exact,
+        comparison: &fit.comparison,
+        within: &[],
+        inputs: &[],
+        files: &[],
+        command_line: "",
+        display,
+    };
+    (report.rows(), report.figures())
+}

@@ -1,0 +1,87 @@
+//! Aligned columns of plain text.
+
+/// Lines of cells, each column as wide as its widest; the first column left, the others right.
+pub fn aligned(rows: &[Vec<String>]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |column: usize| {
+        rows.iter().filter_map(|row| row.get(column)).map(|c| c.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut text = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (column, cell) in row.iter().enumerate() {
+            let width = widths[column];
+            if column == 0 {
+                line.push_str(&format!("{cell:<width$}"));
+            } else {
+                line.push_str(&format!("  {cell:>width$}"));
+            }
+        }
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    clean(&text)
+}
+
+/// A table of many columns as several, each with the first column and at most `most` others.
+pub fn in_groups(rows: &[Vec<String>], most: usize) -> Vec<Vec<Vec<String>>> {
+    let columns = rows.first().map_or(0, |row| row.len().saturating_sub(1));
+    let groups = columns.div_ceil(most.max(1)).max(1);
+    let size = columns.div_ceil(groups);
+    let part = |row: &Vec<String>, group: usize| -> Vec<String> {
+        row.iter().take(1).chain(row.iter().skip(1 + group * size).take(size)).cloned().collect()
+    };
+    (0..groups).map(|group| rows.iter().map(|row| part(row, group)).collect()).collect()
+}
+
+/// A name and a sentence beside it, wrapped at blanks.
+pub fn field(name: &str, sentence: &str) -> String {
+    const INDENT: usize = 9;
+    const WIDTH: usize = 96;
+    let mut text = String::new();
+    let mut line = format!("{name:<INDENT$}");
+    let mut empty = true;
+    for word in sentence.split_whitespace() {
+        if !empty && line.chars().count() + 1 + word.chars().count() > WIDTH {
+            text.push_str(line.trim_end());
+            text.push('\n');
+            line = " ".repeat(INDENT);
+            empty = true;
+        }
+        if !empty {
+            line.push(' ');
+        }
+        line.push_str(word);
+        empty = false;
+    }
+    text.push_str(line.trim_end());
+    text.push('\n');
+    clean(&text)
+}
+
+/// Names come from users: a control character must not reach a terminal.
+fn clean(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() && c != '\n' { ' ' } else { c }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_groups_repeat_the_names() {
+        let row = |text: &str| text.split(' ').map(str::to_owned).collect::<Vec<String>>();
+        let groups = in_groups(&[row("n a b c d"), row("m 1 2 3 4")], 3);
+        assert_eq!(groups[0], [row("n a b"), row("m 1 2")]);
+        assert_eq!(groups[1], [row("n c d"), row("m 3 4")]);
+        assert_eq!(in_groups(&[], 3), vec![Vec::<Vec<String>>::new()]);
+    }
+
+    #[test]
+    fn exact_columns_and_sentences() {
+        let rows = [vec!["a".to_owned(), "10".to_owned()], vec!["bcd".to_owned(), "1".to_owned()]];
+        assert_eq!(aligned(&rows), "a    10\nbcd   1\n");
+        assert_eq!(field("Name", "a b"), "Name     a b\n");
+    }
+}
