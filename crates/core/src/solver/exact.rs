@@ -162,6 +162,8 @@ pub(super) struct Sliding {
     pub(super) peak_time_s: f64,
     pub(super) path_m: f64,
     pub(super) time_s: f64,
+    /// Least margin of the decisions at stops so far; infinite where there was none.
+    pub(super) closest_stop: f64,
     phase_start: [f64; 2],
 }
 
@@ -173,7 +175,17 @@ impl Sliding {
             peak_time_s: 0.0,
             path_m: 0.0,
             time_s: 0.0,
+            closest_stop: f64::INFINITY,
             phase_start: [0.0, s],
+        }
+    }
+
+    /// A stop is decided: friction is asked for `demand`, its static bounds are `low` and `high`.
+    /// Without a bound there is nothing to decide.
+    pub(super) fn decide(&mut self, demand: f64, [low, high]: [f64; 2]) {
+        let bound = if demand < 0.0 { -low } else { high };
+        if bound > 0.0 {
+            self.closest_stop = self.closest_stop.min((1.0 - demand.abs() / bound).abs());
         }
     }
 

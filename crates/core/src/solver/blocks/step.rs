@@ -331,6 +331,7 @@ impl<S: Simd> Walk<'_, S> {
         };
         self.note_event(sample, at_s);
         if before != Mode::Stick {
+            self.carry.sliding.decide(demand, [low, high]);
             self.carry.sliding.end(time_s, s);
         }
         if mode != Mode::Stick {
