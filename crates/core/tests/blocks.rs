@@ -83,7 +83,7 @@ fn figures(r: &Response) -> (Vec<(&'static str, f64, f64)>, [u64; 3], bool) {
         ("largest s", d.max_sliding_displacement_m, s),
         ("smallest s", d.min_sliding_displacement_m, s),
         ("residual s", d.residual_sliding_displacement_m, s),
-        ("path", d.sliding_path_m, d.sliding_path_m),
+        ("path", d.sliding_path_m, d.sliding_path_m.max(s)),
         ("sliding time", d.sliding_time_s, d.sliding_time_s),
         ("time of peak", d.peak_sliding_displacement_time_s, f64::INFINITY),
     ];

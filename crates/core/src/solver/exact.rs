@@ -8,6 +8,8 @@ mod by_blocks;
 mod long_way;
 mod short_way;
 
+use std::sync::Arc;
+
 use fearless_simd::Level;
 
 use super::blocks::{Blocks, Tables, Windows};
@@ -59,8 +61,8 @@ pub(super) fn solve(
 }
 
 /// Tables for the blocks of a model, unless it must go the plain way.
-pub(super) fn tables(model: &Model, dt_s: f64) -> Option<Tables> {
-    fn of<V: PerStorey>(model: &Model, dt_s: f64) -> Option<Tables> {
+pub(super) fn tables(model: &Model, dt_s: f64) -> Option<Arc<Tables>> {
+    fn of<V: PerStorey>(model: &Model, dt_s: f64) -> Option<Arc<Tables>> {
         let system = system_of::<V>(model);
         Tables::new(&system, &Extremes::new(model, &system), dt_s)
     }
@@ -92,7 +94,7 @@ fn solve_for<V: PerStorey>(
     };
     let blocks = match way {
         Way::Blocks { windows, tables, level } if steady => {
-            tables.or(own.as_ref()).map(|tables| Blocks { tables, windows, level })
+            tables.or(own.as_deref()).map(|tables| Blocks { tables, windows, level })
         }
         _ => None,
     };

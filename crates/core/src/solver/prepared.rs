@@ -49,7 +49,7 @@ impl<'a> PreparedModel<'a> {
     #[must_use]
     pub fn new(model: &'a Model, motion: &PreparedMotion<'_>) -> Self {
         let dt_s = motion.windows.dt_s;
-        let tables = dt_s.and_then(|dt_s| exact::tables(model, dt_s)).map(Arc::new);
+        let tables = dt_s.and_then(|dt_s| exact::tables(model, dt_s));
         Self { model, dt_s, tables }
     }
 
@@ -60,7 +60,7 @@ impl<'a> PreparedModel<'a> {
         let tables = if same {
             self.tables.clone()
         } else {
-            self.dt_s.and_then(|dt_s| exact::tables(model, dt_s)).map(Arc::new)
+            self.dt_s.and_then(|dt_s| exact::tables(model, dt_s))
         };
         PreparedModel { model, dt_s: self.dt_s, tables }
     }
