@@ -155,9 +155,7 @@ pub fn cyclic(test: &CyclicTest) -> Result<CyclicFit, CyclicError> {
         let built: Vec<f64> = pairs
             .iter()
             .zip(&fits)
-            .filter_map(|(pair, fit)| {
-                Some(pair.map(|stroke| stroke.build_up_m(test, fit.as_ref()?)))
-            })
+            .map(|(pair, fit)| pair.map(|stroke| stroke.build_up_m(test, fit.as_ref()?)))
             .filter_map(|[a, b]| Some(a?.max(b?)))
             .collect();
         if test.slack_m.is_none() {

@@ -100,10 +100,8 @@ pub(super) fn inverse_between(u: f64, [lo, hi]: [f64; 2]) -> Option<f64> {
     }
     let [below, above] = [probability(lo), probability(hi)];
     let p = below + u * (above - below);
-    if !(above - below > f64::MIN_POSITIVE) || !(p > 0.0 && p < 1.0) {
-        return None;
-    }
-    Some(inverse(p).clamp(lo, hi))
+    let holds = above - below > f64::MIN_POSITIVE && p > 0.0 && p < 1.0;
+    holds.then(|| inverse(p).clamp(lo, hi))
 }
 
 #[cfg(test)]
