@@ -99,7 +99,7 @@ impl Study {
                 {
                     block.push(at..end);
                 }
-                _ => blocks.push(vec![at..end]),
+                _ => blocks.push(core::iter::once(at..end).collect()),
             }
             at = end;
         }

@@ -136,11 +136,11 @@ impl<S: Simd> Walk<'_, S> {
             let mut push = eight(simd, plant.participation) * f + eight(simd, force);
             if plant.stiffness_n_per_m != 0.0 {
                 let s = self.row::<true>(&rows[0], start, a, force);
-                push = push - eight(simd, plant.stiffness_n_per_m) * s;
+                push -= eight(simd, plant.stiffness_n_per_m) * s;
             }
             if plant.damper_n_s_per_m != 0.0 {
                 let w = self.row::<true>(&rows[1], start, a, force);
-                push = push - eight(simd, plant.damper_n_s_per_m) * w;
+                push -= eight(simd, plant.damper_n_s_per_m) * w;
             }
             let u = push * eight(simd, plant.per_block_mass);
             if self.outside(u, low[3], high[3], steps) {
