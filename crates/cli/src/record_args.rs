@@ -36,7 +36,7 @@ Steps, done in the order in which they are written:
 pub enum RecordCommand {
     /// Say what is understood of records: channels, units, steps, intensity measures, warnings
     Info(InfoArgs),
-    /// Write records in another format: CSV, AT2 or SMC
+    /// Write records in another format: CSV, AT2, SMC or Parquet
     Convert(ConvertArgs),
     /// Compute elastic response spectra, or Fourier amplitude spectra
     Spectrum(SpectrumArgs),
@@ -90,7 +90,7 @@ pub struct ConvertArgs {
     /// File to write, or a folder for several
     #[arg(value_name = "OUT")]
     pub output: PathBuf,
-    /// Format to write (csv, at2 or smc), where the name of OUT does not say it
+    /// Format to write (csv, at2, smc or parquet), where the name of OUT does not say it
     #[arg(long, value_name = "FORMAT")]
     pub to: Option<String>,
     #[command(flatten)]
@@ -154,10 +154,10 @@ pub struct ProcessArgs {
     /// File of that channel, where it is another one
     #[arg(long, value_name = "FILE", requires = "second")]
     pub second_file: Option<PathBuf>,
-    /// File to write (.csv, .AT2, .smc), or a folder for several; else CSV on standard output
+    /// File to write (.csv, .AT2, .smc, .parquet), or a folder for several; else CSV on standard output
     #[arg(short, long, value_name = "OUT")]
     pub out: Option<PathBuf>,
-    /// Format to write (csv, at2 or smc), where the name of OUT does not say it
+    /// Format to write (csv, at2, smc or parquet), where the name of OUT does not say it
     #[arg(long, value_name = "FORMAT")]
     pub to: Option<String>,
     /// No list of steps on standard error

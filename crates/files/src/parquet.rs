@@ -117,12 +117,24 @@ pub(crate) fn note<'a>(
 /// # Errors
 /// [`FileError::Table`] for columns of different lengths; `path` is for the message.
 pub fn columns_to_bytes(path: &Path, columns: &[NumberColumn]) -> Result<Vec<u8>, FileError> {
+    columns_with_notes(path, columns, &[])
+}
+
+/// The same with `notes` as metadata of the file.
+///
+/// # Errors
+/// As [`columns_to_bytes`].
+pub(crate) fn columns_with_notes(
+    path: &Path,
+    columns: &[NumberColumn],
+    notes: &[(&str, String)],
+) -> Result<Vec<u8>, FileError> {
     let fields = columns.iter().map(|c| field(&c.name, &c.unit, DataType::Float64, true));
     let schema: SchemaRef = Arc::new(Schema::new(fields.collect::<Vec<_>>()));
     let arrays = columns.iter().map(|column| numbers(column.values.iter().copied())).collect();
     let bytes = || -> Result<Vec<u8>, ParquetError> {
         let batch = RecordBatch::try_new(schema.clone(), arrays)?;
-        let mut table = TableWriter::new(Vec::new(), schema, &[])?;
+        let mut table = TableWriter::new(Vec::new(), schema, notes)?;
         table.row_group(&batch)?;
         table.finish()
     };

@@ -3,12 +3,13 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use slipstick::error::RecordWriteError;
 use slipstick::record::{
-    self, Channel, Format, Options, Quantity, Record, Units, write_at2, write_csv, write_smc,
+    self, Channel, Format, Options, Quantity, Record, Sampling, Units, write_at2, write_csv,
+    write_smc,
 };
 
 use crate::error::FileError;
+use crate::parquet::{NumberColumn, columns_with_notes};
 use crate::read::read_bytes;
 
 /// What the caller says of files that do not say it themselves.
@@ -107,6 +108,8 @@ pub enum WrittenFormat {
     At2,
     /// USGS SMC.
     Smc,
+    /// Times and values in SI as columns of a Parquet table.
+    Parquet,
 }
 
 impl WrittenFormat {
@@ -118,6 +121,7 @@ impl WrittenFormat {
             "csv" | "txt" => Some(Self::Csv),
             "at2" | "vt2" | "dt2" => Some(Self::At2),
             "smc" => Some(Self::Smc),
+            "parquet" => Some(Self::Parquet),
             _ => None,
         }
     }
@@ -131,20 +135,59 @@ impl WrittenFormat {
             (Self::At2, Quantity::Displacement) => "DT2",
             (Self::At2, _) => "AT2",
             (Self::Smc, _) => "smc",
+            (Self::Parquet, _) => "parquet",
         }
     }
 
-    /// The channel as text of this format.
+    /// The channel in this format. A `title`, one line or nothing, stands before the columns of
+    /// CSV and in the metadata of Parquet; the others have no room for it.
     ///
     /// # Errors
-    /// [`RecordWriteError`] where the format cannot hold it.
-    pub fn text(self, channel: &Channel) -> Result<String, RecordWriteError> {
-        match self {
-            Self::Csv => write_csv(channel),
+    /// [`FileError::Unwritable`] where the format cannot hold the channel; `path` is for the message.
+    pub fn bytes(self, path: &Path, channel: &Channel, title: &str) -> Result<Vec<u8>, FileError> {
+        let text = match self {
+            Self::Csv => write_csv(channel).map(|text| match title {
+                "" => text,
+                title => format!("{title}\n{text}"),
+            }),
             Self::At2 => write_at2(channel),
             Self::Smc => write_smc(channel),
-        }
+            Self::Parquet => return table(path, channel, title),
+        };
+        let unwritable = |source| FileError::Unwritable { path: path.to_owned(), source };
+        text.map(String::into_bytes).map_err(unwritable)
     }
+}
+
+/// Times and values as a Parquet table; what is known of the channel as its metadata.
+fn table(path: &Path, channel: &Channel, title: &str) -> Result<Vec<u8>, FileError> {
+    let quantity = channel.units.quantity();
+    let unit = match quantity {
+        Quantity::Acceleration => "m/s2",
+        Quantity::Velocity => "m/s",
+        Quantity::Displacement => "m",
+        Quantity::Counts => "",
+    };
+    let times_s = match &channel.sampling {
+        Sampling::Dt(dt_s) => (0..channel.values.len()).map(|i| i as f64 * dt_s).collect(),
+        Sampling::Times(times_s) => times_s.clone(),
+    };
+    let column = |name: &str, unit: &str, values| NumberColumn {
+        name: name.to_owned(),
+        unit: unit.to_owned(),
+        values,
+    };
+    let columns =
+        [column("time_s", "s", times_s), column(quantity.column(), unit, channel.values.clone())];
+    let known = [
+        ("event", channel.event.clone()),
+        ("station", channel.station.clone()),
+        ("component", channel.component.clone()),
+        ("processing", (!title.is_empty()).then(|| title.to_owned())),
+    ];
+    let notes: Vec<(&str, String)> =
+        known.into_iter().filter_map(|(key, text)| Some((key, text?))).collect();
+    columns_with_notes(path, &columns, &notes)
 }
 
 /// Names of files in one folder, none twice: `STEM.csv`, or `STEM-CHANNEL.csv` where a file gives
@@ -195,6 +238,7 @@ mod tests {
             ("a.csv", Some(WrittenFormat::Csv)),
             ("a.AT2", Some(WrittenFormat::At2)),
             ("a.Smc", Some(WrittenFormat::Smc)),
+            ("a.parquet", Some(WrittenFormat::Parquet)),
             ("a.xyz", None),
             ("a", None),
         ] {

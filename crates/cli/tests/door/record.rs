@@ -103,10 +103,13 @@ fn file_converted_records_read_back() {
     // Into a folder, by a pattern.
     folder.stdout(&["record", "convert", "sine.[cA]*", "made", "--to", "csv"]);
     assert_eq!(folder.names("made"), ["sine-2.csv", "sine.csv"]);
+    folder.stdout(&["record", "convert", "sine.csv", "sine.parquet"]);
+    let parquet = std::fs::read(folder.path().join("sine.parquet")).unwrap();
+    assert!(parquet.starts_with(b"PAR1") && parquet.ends_with(b"PAR1"));
     let output = folder.output(&["record", "convert", "sine.csv", "sine.csv"]);
     assert!(text(&output.stderr).contains("is an input"), "{}", text(&output.stderr));
     let output = folder.output(&["record", "convert", "sine.csv", "x.xyz"]);
-    assert!(text(&output.stderr).contains("ends in .csv, .AT2 or .smc"));
+    assert!(text(&output.stderr).contains("ends in .csv, .AT2, .smc or .parquet"));
 }
 
 #[test]

@@ -5,8 +5,8 @@ use std::process::ExitCode;
 
 use slipstick::record::Channel;
 use slipstick_files::{
-    FileError, FileNames, OutputFolder, Wanted, WrittenFormat, channels, open_record,
-    refuse_inputs, write_whole,
+    FileNames, OutputFolder, Wanted, WrittenFormat, channels, open_record, refuse_inputs,
+    write_whole,
 };
 
 use super::{Many, read_options, refuse};
@@ -24,7 +24,7 @@ pub fn convert(args: &ConvertArgs) -> Result<ExitCode, Failure> {
     many.each(|path| {
         let record = open_record(path, &options)?;
         let chosen = channels(path, &record, options.channel.as_deref(), Wanted::Any)?;
-        output.write_all(path, &chosen, |_, text| text)
+        output.write_all(path, &chosen, "")
     })?;
     output.commit()?;
     Ok(many.status())
@@ -33,7 +33,6 @@ pub fn convert(args: &ConvertArgs) -> Result<ExitCode, Failure> {
 /// One file, or a folder of them.
 pub struct Output {
     format: WrittenFormat,
-    inputs: Vec<PathBuf>,
     target: Target,
 }
 
@@ -57,24 +56,21 @@ impl Output {
             refuse_inputs(out, inputs)?;
             Target::File(out.to_owned())
         };
-        Ok(Self { format, inputs: inputs.to_vec(), target })
+        Ok(Self { format, target })
     }
 
-    /// Writes channels that come from one file; `finish` may add to the text of a format.
+    /// Writes channels that come from one file; `title` says in one line what was done to them.
     pub fn write_all<C: std::borrow::Borrow<Channel>>(
         &mut self,
         path: &Path,
         channels: &[C],
-        finish: impl Fn(WrittenFormat, String) -> String,
+        title: &str,
     ) -> Result<(), Failure> {
         let format = self.format;
-        let text = |channel: &Channel| {
-            let unwritable = |source| FileError::Unwritable { path: path.to_owned(), source };
-            format.text(channel).map(|text| finish(format, text)).map_err(unwritable)
-        };
+        let bytes = |channel: &Channel| format.bytes(path, channel, title);
         match &mut self.target {
             Target::File(file) => match channels {
-                [one] => Ok(write_whole(file, text(one.borrow())?.as_bytes())?),
+                [one] => Ok(write_whole(file, &bytes(one.borrow())?)?),
                 _ => {
                     let names = channels.iter().map(|c| format!("{:?}", c.borrow().name));
                     Err(Failure::Message(format!(
@@ -87,14 +83,14 @@ impl Output {
             },
             Target::Folder { folder, names } => {
                 // All of a file or nothing of it.
-                let texts = channels.iter().map(|c| text(c.borrow()));
-                let texts = texts.collect::<Result<Vec<_>, _>>()?;
-                for (channel, text) in channels.iter().zip(texts) {
+                let each = channels.iter().map(|c| bytes(c.borrow()));
+                let all = each.collect::<Result<Vec<_>, _>>()?;
+                for (channel, bytes) in channels.iter().zip(all) {
                     let channel = channel.borrow();
                     let named = (channels.len() > 1).then_some(channel.name.as_str());
                     let extension = format.extension(channel.units.quantity());
                     let name = names.name(path, named, extension);
-                    folder.write(&name.to_string_lossy(), text.as_bytes())?;
+                    folder.write(&name.to_string_lossy(), &bytes)?;
                 }
                 Ok(())
             }
@@ -104,24 +100,22 @@ impl Output {
     /// Gives files of a folder their names.
     pub fn commit(self) -> Result<(), Failure> {
         match self.target {
-            Target::File(_) => {}
-            Target::Folder { folder, .. } => folder.commit()?,
+            Target::File(_) => Ok(()),
+            Target::Folder { folder, .. } => Ok(folder.commit()?),
         }
-        drop(self.inputs);
-        Ok(())
     }
 }
 
 /// The format asked for, else that of the file's name.
 fn written_format(to: Option<&str>, out: Option<&Path>) -> Result<WrittenFormat, Failure> {
-    let expected = "csv, at2 or smc";
+    let expected = "csv, at2, smc or parquet";
     match (to, out) {
         (Some(word), _) => WrittenFormat::of_name(Path::new(&format!("x.{word}")))
             .ok_or_else(|| refuse("--to", &format!("expected {expected}, found {word:?}"))),
         (None, Some(out)) => WrittenFormat::of_name(out).ok_or_else(|| {
             let name = out.display();
             Failure::Message(format!(
-                "{name}: expected a name that ends in .csv, .AT2 or .smc, or --to"
+                "{name}: expected a name that ends in .csv, .AT2, .smc or .parquet, or --to"
             ))
         }),
         (None, None) => Err(refuse("--to", &format!("expected {expected} for files in a folder"))),

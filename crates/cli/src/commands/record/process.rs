@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use slipstick::motion::Series;
 use slipstick::motion::processing::{self, Step};
-use slipstick::record::{Channel, Record, write_csv};
+use slipstick::record::{Channel, Record};
 use slipstick::units::Dimension;
 use slipstick_files::{
     FileError, RecordOptions, Wanted, WrittenFormat, channels, one_channel, open_record,
@@ -47,20 +47,16 @@ pub fn process(args: &ProcessArgs) -> Result<ExitCode, Failure> {
         let record = open_record(path, &options)?;
         let made = made(path, &record, &before, &options, &steps)?;
         let title = title(path, &said);
-        let titled = |format: WrittenFormat, text: String| match format {
-            // Lines of text before the names of the columns are read as such.
-            WrittenFormat::Csv => format!("{title}\n{text}"),
-            _ => text,
-        };
         if let Some(output) = &mut output {
-            return output.write_all(path, &made, titled);
+            return output.write_all(path, &made, &title);
         }
         let [channel] = &made[..] else {
             one_channel(path, &record, None, Wanted::Any)?;
             return Ok(());
         };
-        let unwritable = |source| FileError::Unwritable { path: path.to_owned(), source };
-        print(&titled(WrittenFormat::Csv, write_csv(channel).map_err(unwritable)?))
+        // What CSV holds is text.
+        let bytes = WrittenFormat::Csv.bytes(path, channel, &title)?;
+        print(&String::from_utf8_lossy(&bytes))
     })?;
     if let Some(output) = output {
         output.commit()?;
