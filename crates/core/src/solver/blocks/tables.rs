@@ -5,6 +5,8 @@
 
 use std::sync::Arc;
 
+use fearless_simd::{Level, dispatch};
+
 use super::lanes::{BLOCK, Eight, Four};
 use crate::linear::polynomial::DEGREE;
 use crate::linear::{MAX_RATE_STEP, PerStorey, System};
@@ -186,6 +188,7 @@ impl Plant {
     }
 
     /// Largest value of a row on states of norm 1; in stick on those of the structure alone.
+    #[inline(always)]
     fn dual_norm(&self, slip: bool, c: [f64; 4]) -> f64 {
         let of_structure = c[2] * c[2] / self.omega2 + c[3] * c[3];
         let of_block = if slip {
@@ -199,6 +202,7 @@ impl Plant {
     }
 
     /// Derivative of a state under an acceleration and a friction force.
+    #[inline(always)]
     fn rate(&self, slip: bool, x: [f64; 4], a: f64, force: f64) -> [f64; 4] {
         let f = self.restoring(&x);
         if slip {
@@ -228,11 +232,13 @@ impl Tables {
             (tables.pieces, tables.piece_s) = (pieces as usize, dt_s / pieces);
             tables.shape = system.shapes.as_ref().first().copied().unwrap_or(0.0);
             (tables.arm, tables.slope) = (extremes.one_storey_arm(), extremes.slope());
-            tables.fill(dt_s);
+            // For the lanes of this machine too; the bits are the same on all.
+            dispatch!(Level::new(), _simd => tables.fill(dt_s));
         }
         Some(tables)
     }
 
+    #[inline(always)]
     fn fill(&mut self, dt_s: f64) {
         let Self { plant, pieces, piece_s, stick, slip, quiet, shape, arm, slope } = self;
         let rows = TrackedRows::new(plant, *shape, *arm, *slope);
@@ -292,6 +298,7 @@ const OF_A: usize = 4;
 const OF_FORCE: usize = 5;
 
 impl TrackedRows {
+    #[inline(always)]
     fn new(plant: &Plant, shape: f64, [arm, half]: [f64; 2], pull: f64) -> Self {
         let (k1, c1) = (plant.stiffness_n_per_m, plant.damper_n_s_per_m);
         let (l, per_mass) = (plant.participation, plant.per_block_mass);
@@ -326,10 +333,12 @@ impl TrackedRows {
         Self { stick, slip, slope: Eight(slope) }
     }
 
+    #[inline(always)]
     fn columns(&self, slip: bool) -> &[[f64; 8]; 6] {
         if slip { &self.slip } else { &self.stick }
     }
 
+    #[inline(always)]
     fn view(&self, plant: &Plant, slip: bool, shape: f64, [arm, half]: [f64; 2]) -> View {
         let columns = self.columns(slip);
         let column = |j: usize| Eight(columns[j]);
@@ -360,6 +369,7 @@ impl TrackedRows {
     }
 
     /// Row of a quantity over the state.
+    #[inline(always)]
     fn over_state(&self, plant: &Plant, slip: bool, j: usize) -> [f64; 4] {
         let c = self.columns(slip);
         [c[0][j], c[1][j], c[2][j] + plant.omega2 * c[3][j], plant.decay * c[3][j]]
@@ -419,6 +429,7 @@ impl Phase {
         }
     };
 
+    #[inline(always)]
     fn fill(&mut self, plant: &Plant, sample: &Sample, taps: &[Four; QUIET]) {
         self.tap.copy_from_slice(&taps[..BLOCK]);
         for j in 0..4 {
@@ -466,6 +477,7 @@ impl Phase {
 }
 
 impl Gates {
+    #[inline(always)]
     fn new(plant: &Plant, slip: bool, dt_s: f64) -> Self {
         let span_s = if slip { BLOCK as f64 * dt_s } else { dt_s };
         let f = [0.0, 0.0, plant.omega2, plant.decay];
@@ -494,6 +506,7 @@ impl Gates {
 /// [`Bend`] of some rows over chords of `span_s` within a block: `g″` of `g = c·x` is
 /// `c A² x + c A b a + c A d T + c b ȧ`, and the norm of the state grows in the block by no more
 /// than its duration times `√M_tot |a| + |T|/√M1`.
+#[inline(always)]
 fn bend(
     plant: &Plant,
     slip: bool,
@@ -520,6 +533,7 @@ fn bend(
     bend
 }
 
+#[inline(always)]
 fn unit(j: usize) -> [f64; 4] {
     let mut unit = [0.0; 4];
     unit[j] = 1.0;
@@ -527,6 +541,7 @@ fn unit(j: usize) -> [f64; 4] {
 }
 
 impl Quiet {
+    #[inline(always)]
     fn fill(
         &mut self,
         plant: &Plant,
@@ -565,6 +580,7 @@ impl Quiet {
 }
 
 impl Sample {
+    #[inline(always)]
     fn new(series: &[[Four; 7]; DEGREE], slip: bool, pieces: usize) -> Self {
         let sum = |input: usize| {
             let mut end = [0.0; 4];
@@ -604,11 +620,13 @@ impl Sample {
     }
 
     /// What a unit of acceleration that ramps down in a sample leaves.
+    #[inline(always)]
     fn before(&self) -> [f64; 4] {
         core::array::from_fn(|i| self.constant[i] - self.ramp[i])
     }
 
     /// What a unit at a sample leaves behind: it ramps up before and down in the next sample.
+    #[inline(always)]
     fn taps(&self, taps: &mut [Four]) {
         taps[0] = Four(self.ramp);
         for j in 1..taps.len() {
@@ -624,6 +642,7 @@ impl Sample {
 }
 
 /// Taylor coefficients of the state from the first on, over a piece, of every unit input.
+#[inline(always)]
 fn series(plant: &Plant, slip: bool, piece_s: f64, table: &mut [[Four; 7]; DEGREE]) {
     for input in if slip { 0..7 } else { 2..6 } {
         let mut x = if input < 4 { unit(input) } else { [0.0; 4] };
@@ -649,10 +668,12 @@ const RECIPROCAL: [f64; DEGREE] = {
     table
 };
 
+#[inline(always)]
 fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
     (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
 }
 
+#[inline(always)]
 fn times(columns: &Matrix, x: [f64; 4]) -> [f64; 4] {
     core::array::from_fn(|i| {
         (columns[0][i] * x[0] + columns[1][i] * x[1])
