@@ -102,7 +102,7 @@ fn peer_free_vibration() {
 #[test]
 fn file_cyclic_tests_of_a_friction_damper() {
     let Some(folder) = experiments("file_cyclic_tests_of_a_friction_damper") else { return };
-    let (inch, kip) = (0.0254, 4448.221_615_260_5);
+    let (inch, kip) = (0.0254, 4_448.221_615_260_5);
     let mut fits = Vec::new();
     for name in ["1Hz30lbtension0.5amplitude", "1Hz30lbtension1.5amplitude"] {
         let path = folder.join(format!("friction_damper_cyclic/{name}.json"));
