@@ -2,7 +2,7 @@
 //! every count.
 
 // Helpers of tests may panic as tests do.
-#![allow(clippy::expect_used)]
+#![allow(clippy::disallowed_macros, clippy::expect_used)]
 
 mod common;
 
@@ -75,8 +75,11 @@ fn record(random: &mut Random, count: usize, dt: f64, amplitude: f64) -> Vec<f64
         .collect()
 }
 
+/// A demand and the size it is measured by.
+type Figure = (&'static str, f64, f64);
+
 /// Every demand with the size it is measured by, and every count.
-fn figures(r: &Response) -> (Vec<(&'static str, f64, f64)>, [u64; 3], bool) {
+fn figures(r: &Response) -> (Vec<Figure>, [u64; 3], bool) {
     let d = &r.demands;
     let s = d.peak_sliding_displacement_m;
     let mut list = vec![
