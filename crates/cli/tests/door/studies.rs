@@ -405,7 +405,12 @@ fn exact_refused_plans_say_why() {
         "{model}"
     );
     let storey = refuse(&PLAN.replace("slider.radius", "storey.2.height"));
-    assert!(storey.contains("expected a number from 1 to 1, found \"2\""), "{storey}");
+    assert!(
+        storey.contains(
+            "plan.toml:11:21: vary.storey.2.height: expected a number from 1 to 1, found \"2\""
+        ),
+        "{storey}"
+    );
     let zero = "time_s,acceleration_m_per_s2\n0,0\n1,0\n";
     folder.write("records/a.csv", zero);
     let flat = refuse(PLAN);
