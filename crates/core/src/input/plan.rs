@@ -1,7 +1,7 @@
 //! Study plans: text to a checked plan.
 //!
 //! A plan names a model, perhaps records with their levels, what is varied and how the samples are
-//! drawn. Its keys are described as a model's are, in [`super::plan_keys`]; the paths that it varies
+//! drawn. Its keys are described as a model's are, in `plan_keys`; the paths that it varies
 //! are those of the model.
 
 use super::reader::Values;
