@@ -370,7 +370,8 @@ mod tests {
                 let verdict = study.verify(row);
                 assert!(verdict.holds(), "{verdict:?} {row:?}");
             }
-            let mut forged = whole[3].clone();
+            let slid = whole.iter().find(|row| row.demands[0] > 0.0);
+            let mut forged = slid.expect("a block that slides").clone();
             forged.demands[0] *= 1.0 + f64::EPSILON;
             assert!(!study.verify(&forged).holds());
         }
