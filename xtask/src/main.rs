@@ -24,6 +24,10 @@ Usage: cargo xtask TASK
                                  times the same analyses here, in a numba loop, SciPy and
                                  OpenSeesPy (needs python3; makes .venv)
                                  (--write: into book/src/generated/peers.md)
+  bench-study [--quick] [--write]
+                                 times the far-field study on one thread and two, in a numba loop
+                                 and in OpenSeesPy; opens it in DuckDB (needs its records)
+                                 (--write: into book/src/generated/studies.md)
   fuzz [TARGET] [--seconds N]    all fuzz targets or one, 60 s each (installs cargo-fuzz)
   coverage                       how often intervals of identify cover the truth, 200 tests a
                                  parameter, and that silent tests are refused
@@ -42,6 +46,7 @@ fn main() -> ExitCode {
         ["reference", options @ ..] => reference::reference(options),
         ["paper", options @ ..] => paper::paper(options),
         ["bench-peers", options @ ..] => peers::bench_peers(options),
+        ["bench-study", options @ ..] => peers::bench_study(options),
         ["fuzz", options @ ..] => tools::fuzz(options),
         ["coverage"] => tools::coverage(),
         ["deny"] => tools::deny(),

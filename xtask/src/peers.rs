@@ -45,6 +45,35 @@ fn helper(target: &Path) -> PathBuf {
     target.join(format!("release/examples/peer_bench{}", std::env::consts::EXE_SUFFIX))
 }
 
+/// The far-field study timed, on one thread and two, beside numba and OpenSeesPy; its folder opened
+/// by DuckDB.
+pub fn bench_study(options: &[&str]) -> Outcome {
+    const OPTIONS: &[&str] = &["--quick", "--write"];
+    if let Some(option) = options.iter().find(|option| !OPTIONS.contains(option)) {
+        return Err(format!("bench-study: expected {}, found {option}", OPTIONS.join(", ")));
+    }
+    let python = environment()?;
+    let target = shell::target_folder()?;
+    shell::run(&mut shell::cargo("build --release -p slipstick-cli"))?;
+    let folder = target.join("bench-study");
+    let slipstick = target.join(format!("release/slipstick{}", std::env::consts::EXE_SUFFIX));
+    let mut bench = shell::command(&python);
+    bench.env("PYTHONDONTWRITEBYTECODE", "1").arg("xtask/peers/study_bench.py");
+    bench.arg("--folder").arg(&folder).arg("--slipstick").arg(slipstick);
+    if options.contains(&"--quick") {
+        bench.arg("--quick");
+    }
+    shell::run(bench.stdout(Stdio::null()))?;
+    let path = folder.join("studies.md");
+    let text =
+        std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+    print!("{text}");
+    if options.contains(&"--write") {
+        shell::write(&shell::root().join("book/src/generated/studies.md"), &text)?;
+    }
+    Ok(())
+}
+
 /// Python of the environment in `.venv` with the programs of `peers/requirements.txt` in it.
 fn environment() -> Result<PathBuf, String> {
     let folder = shell::root().join(".venv");

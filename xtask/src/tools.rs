@@ -76,6 +76,7 @@ fn seed(target: &str) -> Outcome {
     }
     let sources: &[&str] = match target {
         "model" => &["crates/cli/models", "examples"],
+        "plan" => &["examples/studies"],
         _ => &["data/records"],
     };
     for source in sources {

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use slipstick::error::InputError;
-use slipstick_files::{FileError, JobError, LaboratoryError};
+use slipstick_files::{FileError, JobError, LaboratoryError, StudyError};
 
 /// Bad input, or an output that nobody reads any more.
 #[derive(Debug)]
@@ -85,6 +85,15 @@ fn excerpt(error: &InputError, text: &str) -> Option<String> {
 impl From<LaboratoryError> for Failure {
     fn from(error: LaboratoryError) -> Self {
         Self::Message(error.to_string())
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Input { error, text } => Self::Input { error, text },
+            other => Self::Message(other.to_string()),
+        }
     }
 }
 

@@ -4,6 +4,7 @@ mod args;
 mod commands;
 mod failure;
 mod progress;
+mod record_args;
 
 use std::io::{self, IsTerminal};
 use std::process::ExitCode;
@@ -59,6 +60,12 @@ fn run() -> Result<ExitCode, Failure> {
     match &cli.command {
         Command::Run(args) => commands::run::run(args),
         Command::Compare(args) => commands::compare::compare(args),
+        Command::Spectrum(args) => commands::spectrum::spectrum(args),
+        Command::Ida(args) => commands::ida::ida(args),
+        Command::Fragility(args) => commands::fragility::fragility(args),
+        Command::Design(args) => commands::design::design(args),
+        Command::Record(command) => commands::record::record(command),
+        Command::Study(args) => commands::study::study(args),
         Command::Identify { job } => commands::identify::identify(job),
         Command::Init(args) => commands::init::init(args),
         Command::Paper(args) => commands::paper::paper(args),

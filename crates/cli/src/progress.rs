@@ -22,6 +22,38 @@ pub fn clear() {
     }
 }
 
+/// A bar with rate and time left for so many steps, where a person watches.
+pub struct Steps(Option<ProgressBar>);
+
+impl Steps {
+    /// A bar that stands at 0 of `total`.
+    pub fn new(total: u64, quiet: bool) -> Self {
+        if quiet || !wanted() {
+            return Self(None);
+        }
+        let template = "{wide_bar} {human_pos}/{human_len} runs, {per_sec}, {eta} left";
+        let style = ProgressStyle::with_template(template);
+        let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
+        let bar = ProgressBar::new(total).with_style(style);
+        bar.enable_steady_tick(Duration::from_millis(200));
+        Self(Some(bar))
+    }
+
+    /// So many steps more.
+    pub fn advance(&self, steps: u64) {
+        if let Some(bar) = &self.0 {
+            bar.inc(steps);
+        }
+    }
+
+    /// Takes the bar off the screen.
+    pub fn finish(self) {
+        if let Some(bar) = self.0 {
+            bar.finish_and_clear();
+        }
+    }
+}
+
 /// Runs `work` and, where a person watches and it takes long, shows what is going on.
 pub fn watched<T: Send>(what: &'static str, quiet: bool, work: impl FnOnce() -> T + Send) -> T {
     if quiet || !wanted() {

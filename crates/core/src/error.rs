@@ -158,6 +158,83 @@ pub enum SolveError {
     },
 }
 
+/// Data from which a statistic cannot be told.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FitError {
+    /// Fewer observations than the statistic needs.
+    #[error("expected at least {expected} {what}, found {found}")]
+    TooFew {
+        /// What is counted.
+        what: &'static str,
+        /// How many are needed.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// A number outside its range.
+    #[error("{quantity}: expected {expected}, found {found}")]
+    OutOfRange {
+        /// Its name.
+        quantity: &'static str,
+        /// The range, in words.
+        expected: &'static str,
+        /// The number.
+        found: f64,
+    },
+    /// No observation exceeds the limit.
+    #[error(
+        "none of {runs} runs exceeds the limit, up to an intensity of {}: a fragility cannot be \
+         told; go to higher intensities or take a smaller limit", short(*highest)
+    )]
+    NoneExceeds {
+        /// Number of runs.
+        runs: u64,
+        /// Highest intensity among them.
+        highest: f64,
+    },
+    /// Every observation exceeds the limit.
+    #[error(
+        "all of {runs} runs exceed the limit, down to an intensity of {}: a fragility cannot be \
+         told; go to lower intensities or take a larger limit", short(*lowest)
+    )]
+    AllExceed {
+        /// Number of runs.
+        runs: u64,
+        /// Lowest intensity among them.
+        lowest: f64,
+    },
+    /// Exceedances and the rest do not overlap in intensity: the most likely curve is a step.
+    #[error(
+        "the runs that exceed the limit and those that do not are separated: none exceeds it below \
+         {}, all do above {}; the most likely fragility is a step without dispersion: add \
+         intensities between, or records", short(*below), short(*above)
+    )]
+    Separated {
+        /// Highest intensity of a run that does not exceed.
+        below: f64,
+        /// Lowest intensity of a run that exceeds.
+        above: f64,
+    },
+    /// A single intensity, or a single value of a covariate.
+    #[error("all runs have the one intensity {}: expected at least two", short(*level))]
+    OneLevel {
+        /// The intensity.
+        level: f64,
+    },
+    /// Exceedances that become rarer as intensity grows.
+    #[error(
+        "the share of runs that exceed the limit does not grow with intensity: no fragility curve \
+         describes that; check the measure and the limit"
+    )]
+    Falls,
+    /// A likelihood that grows without end.
+    #[error(
+        "the likelihood has no maximum: the values do not scatter, or too few of them are known \
+         exactly to tell all parameters"
+    )]
+    NoMaximum,
+}
+
 /// Bytes that are not a record: of text in the `file:line:column` form an editor can jump to, of a
 /// binary file with the offset of the first offending byte.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -251,6 +328,11 @@ impl std::fmt::Display for InputError {
     }
 }
 
+/// A number to six significant digits, as a person writes it.
+fn short(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
 fn nearest_suffix(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |nearest| format!("; nearest is \"{nearest}\""))
 }
@@ -274,7 +356,8 @@ pub(crate) fn cut(text: &str) -> String {
 }
 
 /// The known word nearest to `word`, where the two are alike: at least half of it is the same.
-pub(crate) fn similar<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
+#[must_use]
+pub fn similar<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
     let (distance, nearest) =
         known.map(|known| (edit_distance(word, known), known)).min_by_key(|(d, _)| *d)?;
     let longer = word.chars().count().max(nearest.chars().count());

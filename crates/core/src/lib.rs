@@ -14,6 +14,7 @@
 //! towards +x; storey displacements are relative to the block; the friction force `T` is that of
 //! the table on the block.
 
+pub mod assessment;
 pub mod check;
 pub mod error;
 pub mod friction;

@@ -14,7 +14,7 @@ pub use figures::Figures;
 pub use fourier::FourierSpectrum;
 pub use made::{Pulse, PulseShape, Sine, Sweep, SweepKind};
 pub use series::{Quantity, Series};
-pub use spectrum::{Ordinates, Spectrum, spectrum};
+pub use spectrum::{Ordinates, Spectrum, logarithmic_periods, spectrum};
 
 use crate::error::MotionError;
 

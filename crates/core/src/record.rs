@@ -42,7 +42,7 @@ mod write;
 use std::collections::BTreeMap;
 
 use crate::error::{MotionError, RecordError};
-use crate::motion::GroundMotion;
+use crate::motion::{GroundMotion, Series};
 
 pub use delimited::{Column, Columns};
 pub use quality::{REST_KINDS, rest};
@@ -263,6 +263,29 @@ impl Channel {
         let units = Units::m_per_s2();
         let values = motion.horizontal_m_per_s2().to_vec();
         Self { units, values, sampling, ..self.clone() }
+    }
+
+    /// The same channel with other samples in it, in SI: what processing makes of it.
+    #[must_use]
+    pub fn with_series(&self, series: &Series) -> Self {
+        let sampling = match series.dt_s() {
+            Some(dt_s) => Sampling::Dt(dt_s),
+            None => Sampling::Times(series.times_s().to_vec()),
+        };
+        let units = Units::si_of(series.quantity());
+        Self { units, values: series.values().to_vec(), sampling, ..self.clone() }
+    }
+
+    /// The channel, whatever it measures, as samples in SI whose clock starts at the first.
+    ///
+    /// # Errors
+    /// [`MotionError`] for samples that are too few, too many, or past the range of numbers.
+    pub fn series(&self) -> Result<Series, MotionError> {
+        let quantity = self.units.quantity();
+        match &self.sampling {
+            Sampling::Dt(dt_s) => Series::evenly_spaced(*dt_s, self.values.clone(), quantity),
+            Sampling::Times(times_s) => Series::new(times_s.clone(), self.values.clone(), quantity),
+        }
     }
 
     /// The channel as horizontal ground motion, its clock started at the first sample; `None` for

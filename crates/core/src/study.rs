@@ -11,7 +11,7 @@ mod design;
 mod directions;
 mod hash;
 mod latin;
-mod normal;
+pub(crate) mod normal;
 mod parallel;
 mod rows;
 mod sobol;
@@ -21,7 +21,7 @@ pub use cases::{Case, Cases};
 pub use columns::{Column, ColumnKind, demand_columns, demand_values};
 pub use design::Design;
 pub use rows::Row;
-pub use sobol::MAX_DIMENSIONS;
+pub use sobol::{MAX_DIMENSIONS, unit_points};
 pub use verify::Verdict;
 
 use std::sync::OnceLock;
@@ -88,7 +88,14 @@ impl Study {
         model_text: &str,
         records: Vec<Record>,
     ) -> Result<Self, InputError> {
-        let variation = Variation::new(model_name, model_text, &plan.vary)?;
+        let variation = Variation::new(model_name, model_text, &plan.vary).map_err(|error| {
+            // A path that the model does not take is a fault of the plan that varies it.
+            let place = format!("vary.{}", error.path);
+            if plan.vary.iter().any(|varied| varied.path == error.path) {
+                return plan.error_at(&place, error.expected, error.found);
+            }
+            error
+        })?;
         if variation.text("analysis.method") == Some("stepwise") {
             let expected = "the exact method, which is the only one of studies";
             return Err(variation.error_at("analysis.method", expected, "\"stepwise\""));
@@ -102,17 +109,26 @@ impl Study {
             if plan.records.is_some() {
                 return Err(plan.error_at("records.files", "at least one record", "none"));
             }
-            if !["sine", "sweep", "pulse"].iter().any(|m| variation.has(&format!("motion.{m}"))) {
+            let is_made = |name: &&str| variation.has(&format!("motion.{name}"));
+            if !["sine", "sweep", "pulse"].iter().any(is_made) {
                 let expected = "a made motion in the model, or a table [records]";
                 return Err(plan.error_at("records", expected, "neither"));
             }
+        }
+        if plan.records.is_none()
+            && !records.is_empty()
+            && let Some(varied) = plan.vary.iter().find(|v| v.path.starts_with("motion."))
+        {
+            let expected = "[records] with their levels: a record is not varied by its keys";
+            let place = format!("vary.{}", varied.path);
+            return Err(plan.error_at(&place, expected, format!("\"{}\"", varied.path)));
         }
         let cases = Cases {
             records: records.len().max(1) as u64,
             levels: levels.len() as u64,
             samples: design.count(),
         };
-        if !cases.runs().is_some_and(|runs| runs <= MAX_RUNS) {
+        if cases.runs().is_none_or(|runs| runs > MAX_RUNS) {
             let Cases { records, levels, samples } = cases;
             let expected = format!("at most {MAX_RUNS} runs");
             let found = format!("{records} records × {levels} levels × {samples} samples");
@@ -183,6 +199,37 @@ impl Study {
             Levels::Factors(_) => None,
             Levels::Measure { levels, .. } => levels.get(level as usize).copied(),
         }
+    }
+
+    /// The factor of a level that is one; NaN where levels are values of a measure.
+    #[must_use]
+    pub fn level_factor(&self, level: u64) -> f64 {
+        match &self.levels {
+            Levels::Factors(factors) => factors.get(level as usize).copied().unwrap_or(f64::NAN),
+            Levels::Measure { .. } => f64::NAN,
+        }
+    }
+
+    /// The SI unit of the measure that levels are values of; empty where they are factors.
+    #[must_use]
+    pub fn level_unit(&self) -> &'static str {
+        match &self.levels {
+            Levels::Factors(_) => "",
+            Levels::Measure { measure, .. } => measure.unit(),
+        }
+    }
+
+    /// Whether the model has bounds of friction, which a study does not run.
+    #[must_use]
+    pub fn has_bounds(&self) -> bool {
+        self.variation.has("slider.bounds")
+    }
+
+    /// The model's made motion: `sine`, `sweep` or `pulse`; empty where it has none.
+    #[must_use]
+    pub fn made_motion(&self) -> &'static str {
+        let is_made = |name: &&str| self.variation.has(&format!("motion.{name}"));
+        ["sine", "sweep", "pulse"].into_iter().find(is_made).unwrap_or("")
     }
 
     /// The factor on the record of a case.

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use slipstick::error::{MotionError, RecordError};
+use slipstick::error::{MotionError, RecordError, RecordWriteError};
 
 /// A file that cannot be read, understood or written.
 #[derive(Debug, thiserror::Error)]
@@ -59,6 +59,32 @@ pub enum FileError {
         path: PathBuf,
         /// Why.
         source: MotionError,
+    },
+    /// A step of processing that has no answer for a channel.
+    #[error("{}: {step}: {source}", path.display())]
+    Processing {
+        /// The record.
+        path: PathBuf,
+        /// The step in words.
+        step: String,
+        /// Why.
+        source: MotionError,
+    },
+    /// A channel that a format cannot hold.
+    #[error("{}: {source}", path.display())]
+    Unwritable {
+        /// The record.
+        path: PathBuf,
+        /// Why.
+        source: RecordWriteError,
+    },
+    /// Content that is no table in Parquet, or not the one that was expected.
+    #[error("{}: expected a Parquet file: {reason}", path.display())]
+    Table {
+        /// The file.
+        path: PathBuf,
+        /// What the library says.
+        reason: String,
     },
     /// A result that cannot be written.
     #[error("{}: cannot be written: {}", path.display(), reason(source))]

@@ -4,14 +4,18 @@
 //! the target, which is renamed when it is complete; whatever fails leaves no file behind, and a
 //! handler of Ctrl-C may call [`remove_temporaries`].
 
+pub mod assessment;
 mod error;
 mod folder;
 mod globs;
 mod laboratory;
 mod load;
 mod paper;
+mod parquet;
 mod read;
+mod records;
 mod run;
+mod study;
 mod tables;
 mod write;
 
@@ -21,7 +25,15 @@ pub use globs::{expand, expand_all};
 pub use laboratory::{LaboratoryError, TextFile, read_mapping, read_measured};
 pub use load::{LoadedMotion, RecordRequest, Scale, SourceFile, VerticalRequest, load_record};
 pub use paper::paper_library;
+pub use parquet::{NumberColumn, UNIT_KEY, columns_to_bytes, read_columns, write_columns};
 pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve, sha256_hex};
+pub use records::{
+    FileNames, RecordOptions, Wanted, WrittenFormat, channels, one_channel, open_record,
+};
 pub use run::{Job, JobError, Outcome};
+pub use study::{
+    Checks, Merged, OpenStudy, Shard, ShardOptions, ShardOutcome, StudyError, clear, conclude,
+    estimate, has_parts, merge, part_rows, run_shard,
+};
 pub use tables::{events_csv, history_csv};
 pub use write::{OutputFolder, refuse_inputs, remove_temporaries, write_whole};

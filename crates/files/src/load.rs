@@ -69,6 +69,8 @@ pub struct SourceFile {
 pub struct LoadedMotion {
     /// The motion, scaled, with its vertical component.
     pub motion: GroundMotion,
+    /// Name of the horizontal channel; empty for a made motion.
+    pub channel: String,
     /// What was understood, one line a file: `PEER AT2, 2800 values, 0.005 s, g`.
     pub description: Vec<String>,
     /// Figures of the horizontal component as analysed.
@@ -85,7 +87,8 @@ impl LoadedMotion {
     pub fn made(motion: GroundMotion, description: String) -> Self {
         let figures = motion.figures();
         let description = vec![description];
-        Self { motion, description, figures, warnings: vec![], sources: vec![] }
+        let channel = String::new();
+        Self { motion, channel, description, figures, warnings: vec![], sources: vec![] }
     }
 }
 
@@ -129,7 +132,8 @@ pub fn load_record(request: &RecordRequest) -> Result<LoadedMotion, FileError> {
     };
     let figures = motion.figures();
     warnings.extend(of_motion(&motion, &figures, lengths_differ));
-    Ok(LoadedMotion { motion, description, figures, warnings, sources })
+    let channel = horizontal.name.clone();
+    Ok(LoadedMotion { motion, channel, description, figures, warnings, sources })
 }
 
 fn open(
@@ -165,6 +169,12 @@ fn choose<'a>(
     let mut along = candidates.clone().filter(|c| c.name != VERTICAL_COLUMN);
     match (along.next(), along.next(), candidates.next()) {
         (Some(channel), None, _) | (None, _, Some(channel)) => Ok(channel),
+        (None, ..) if record.channels.iter().any(|c| c.units.quantity() == Quantity::Counts) => {
+            Err(error(
+                "the value of one count: add units = \"4.67e-6 m/s2\" to [motion] (or --units)"
+                    .to_owned(),
+            ))
+        }
         (None, ..) => Err(error("a channel of acceleration".to_owned())),
         (Some(first), Some(_), _) => Err(error(format!(
             "one channel of acceleration: add channel = {:?} to [motion] (or --channel)",

@@ -208,7 +208,7 @@ fn of_tail(analysis: &Analysis, error: &MotionError) -> InputError {
 }
 
 /// A record as the model asks for it.
-fn request(record: &RecordSource, folder: &Path) -> RecordRequest {
+pub(crate) fn request(record: &RecordSource, folder: &Path) -> RecordRequest {
     RecordRequest {
         path: resolve(folder, &record.path),
         format: None,

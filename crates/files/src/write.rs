@@ -64,6 +64,27 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     Temporary::write(path, |to| to.write_all(bytes))?.rename(&mut live())
 }
 
+/// As [`write_whole`], for content that is made while it is written.
+///
+/// # Errors
+/// As [`write_whole`], and those of `fill`.
+pub(crate) fn write_whole_with(
+    path: &Path,
+    fill: impl FnOnce(&mut BufWriter<fs::File>) -> Result<(), FileError>,
+) -> Result<(), FileError> {
+    let mut reason = None;
+    let filled = Temporary::write(path, |to| {
+        fill(to).map_err(|error| {
+            reason = Some(error);
+            io::ErrorKind::Other.into()
+        })
+    });
+    match (filled, reason) {
+        (_, Some(reason)) => Err(reason),
+        (filled, None) => filled?.rename(&mut live()),
+    }
+}
+
 /// A complete file under a temporary name; removed when dropped.
 struct Temporary {
     name: PathBuf,

@@ -7,7 +7,7 @@
 use std::sync::OnceLock;
 use std::thread;
 
-use slipstick::laboratory::paper::{Grid, Paper, Verdict, reproduce};
+use slipstick::laboratory::paper::{Grid, Paper, Shake, Verdict, reproduce};
 use slipstick_files::paper_library;
 use slipstick_report::paper::{chapter, claims_json, listing};
 
@@ -94,5 +94,19 @@ fn exact_every_figure_that_is_shown_is_drawn() {
 fn exact_every_test_is_certified() {
     for test in &papers()[0].tests {
         assert!(test.certified, "{}: {}", test.id, test.certificate);
+    }
+}
+
+/// Prose names the sine that the offset of the start is shown for: it is that of the example.
+#[test]
+fn file_prose_speaks_of_the_examples() {
+    let library = paper_library().expect("a library");
+    let named = |id: &str| library.experiments().iter().find(|e| e.id == id).map(|e| &e.shake);
+    match named("section3-124kg-free-sine") {
+        Some(Shake::Sine(sine)) => {
+            let found = (sine.frequency_hz, sine.amplitude_m_per_s2, sine.duration_s);
+            assert_eq!(found, (1.5, 3.0, 10.0));
+        }
+        other => panic!("{other:?}"),
     }
 }

@@ -37,6 +37,7 @@
 //!                                                   └─ Report ──> Report::to_html(), figures::all(…)
 //! ```
 
+pub mod assessment;
 pub mod describe;
 pub mod display;
 pub mod figures;
@@ -48,11 +49,14 @@ pub mod number;
 pub mod paper;
 pub mod peaks;
 pub mod plot;
+pub mod records;
 pub mod report;
+pub mod study;
 pub mod summary;
 pub mod table;
 
 pub use display::DisplayUnits;
 pub use laboratory::{CompareReport, IdentifyReport};
 pub use report::{FileNote, FloorSpectra, InputText, Report};
+pub use study::{LevelSummary, StudySummary};
 pub use summary::{Summary, SummaryInputs};

@@ -25,9 +25,10 @@ pub fn documentation(_: &mut Tally) -> Result<(), Problem> {
     Ok(shell::run(doc.env("RUSTDOCFLAGS", "-D warnings"))?)
 }
 
-/// Every model in `examples/` runs as it stands and gives JSON.
+/// Every model in `examples/` runs as it stands and gives JSON; of every study there, one part runs.
 pub fn examples(tally: &mut Tally) -> Result<(), Problem> {
-    let models = toml_files("examples")?;
+    let (plans, models): (Vec<_>, Vec<_>) =
+        toml_files("examples")?.into_iter().partition(|file| is_plan(file));
     if models.is_empty() {
         return Err(Problem::NotRun("no models in examples/".to_owned()));
     }
@@ -49,8 +50,42 @@ pub fn examples(tally: &mut Tally) -> Result<(), Problem> {
         }
     }
     println!("  {} of {} models ran", models.len() - failed.len(), models.len());
+    for plan in &plans {
+        study(&slipstick, plan, tally, &mut failed)?;
+    }
     tally.failed += failed.len() as u64;
     if failed.is_empty() { Ok(()) } else { Err(Problem::Failed(failed.join("; "))) }
+}
+
+/// Whether a TOML file is a study plan: it names a model before its first table.
+fn is_plan(file: &str) -> bool {
+    let text = std::fs::read_to_string(shell::root().join(file)).unwrap_or_default();
+    let top = text.lines().take_while(|line| !line.starts_with('['));
+    top.into_iter().any(|line| line.split('=').next().is_some_and(|key| key.trim() == "model"))
+}
+
+/// Runs one part of a study; a study whose records are not there is skipped.
+fn study(
+    slipstick: &PathBuf,
+    plan: &str,
+    tally: &mut Tally,
+    failed: &mut Vec<String>,
+) -> Result<(), Problem> {
+    let out =
+        shell::target_folder()?.join("examples-of-studies").join(plan.replace(['/', '.'], "-"));
+    let mut run = shell::command(slipstick);
+    run.arg("study").arg(plan).arg("--out").arg(&out).args(["--force", "-q", "--shard", "1/6"]);
+    let ended = run.output().map_err(|error| Problem::Failed(format!("{plan}: {error}")))?;
+    let message = String::from_utf8_lossy(&ended.stderr);
+    match ended.status.code() {
+        Some(0) if out.join("part-00000.parquet").is_file() => tally.passed += 1,
+        Some(2) if message.contains(" are missing, found no ") => {
+            println!("  {plan}: skipped, its records are not there");
+            tally.skipped += 1;
+        }
+        _ => failed.push(format!("{plan}: {message}")),
+    }
+    Ok(())
 }
 
 /// `core` and `report` build for the browser.

@@ -222,7 +222,7 @@ fn write_files(
 }
 
 /// The command as it was typed, with quotes where the shell needs them.
-pub(super) fn command_line() -> String {
+pub fn command_line() -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:@%".contains(c);
     let quoted = |argument: String| {
         if !argument.is_empty() && argument.chars().all(plain) {

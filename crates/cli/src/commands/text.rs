@@ -10,9 +10,14 @@ use slipstick_files::{FileError, OutputFolder};
 use crate::args::{Cli, SchemaArgs};
 use crate::failure::{Failure, print};
 
-/// Prints the JSON schema of the model file, or the units.
+/// Prints the JSON schema of the model file or of a study plan, or the units.
 pub fn schema(args: &SchemaArgs) -> Result<ExitCode, Failure> {
-    print(&if args.units { slipstick::units::table() } else { slipstick::input::json_schema() })?;
+    let text = match args {
+        SchemaArgs { units: true, .. } => slipstick::units::table(),
+        SchemaArgs { plan: true, .. } => slipstick::input::plan_json_schema(),
+        _ => slipstick::input::json_schema(),
+    };
+    print(&text)?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -31,7 +36,11 @@ pub fn man(folder: &Path) -> Result<ExitCode, Failure> {
     command.build();
     page(&command, "slipstick", &mut output)?;
     for sub in command.get_subcommands().filter(|sub| !sub.is_hide_set()) {
-        page(sub, &format!("slipstick-{}", sub.get_name()), &mut output)?;
+        let name = format!("slipstick-{}", sub.get_name());
+        page(sub, &name, &mut output)?;
+        for sub in sub.get_subcommands() {
+            page(sub, &format!("{name}-{}", sub.get_name()), &mut output)?;
+        }
     }
     output.commit()?;
     Ok(ExitCode::SUCCESS)

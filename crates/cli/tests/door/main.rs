@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod accepted;
+mod assessment;
 mod cases;
 mod endings;
 mod files;
@@ -10,6 +11,8 @@ mod json;
 mod laboratory;
 mod options;
 mod paper;
+mod record;
 mod records;
 mod refused;
+mod studies;
 mod support;

@@ -39,6 +39,8 @@ pub struct Records {
     pub files: Vec<String>,
     /// Unit of their values, where the files do not state it.
     pub units: Option<Units>,
+    /// Name of that unit.
+    pub unit_name: Option<&'static str>,
     /// Their time step in s, where the files do not state it.
     pub dt_s: Option<f64>,
     /// Which of their channels, by name or by number from 1.
@@ -94,6 +96,8 @@ pub struct Varied {
     pub distribution: Distribution,
     /// The path whose value is multiplied by what is drawn.
     pub factor_of: Option<String>,
+    /// Index of the path in whose list the value of the same place is drawn.
+    pub paired_with: Option<usize>,
 }
 
 /// What may be drawn, in SI.

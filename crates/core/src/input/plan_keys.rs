@@ -113,6 +113,12 @@ pub static DISTRIBUTION: Section = Section {
             Kind::Text("slider.kinetic_friction"),
             "The path whose value is multiplied by what is drawn here.",
         ),
+        Key::optional(
+            "paired_with",
+            Kind::Text("storey.1.mass"),
+            "The path whose list goes with this one: the values of one place belong together.",
+        )
+        .beside("values"),
     ],
     choices: &[Exclusive::one_of(&[
         "values",

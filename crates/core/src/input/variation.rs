@@ -16,6 +16,8 @@ use crate::error::InputError;
 pub struct Variation {
     name: String,
     text: String,
+    /// Keys set once, before those of a sample.
+    set: Vec<Override>,
     paths: Vec<Path>,
     /// The text with every path set, to numbers that do not matter.
     values: Values,
@@ -37,6 +39,19 @@ impl Variation {
     /// [`InputError`] for a text that is no model, whatever stands at those paths; for paths that
     /// the model lacks (a storey too many), and for two paths of which one removes the other.
     pub fn new(name: &str, text: &str, vary: &[Varied]) -> Result<Self, InputError> {
+        Self::with(name, text, &[], vary)
+    }
+
+    /// As [`Variation::new`], with keys of the text set first.
+    ///
+    /// # Errors
+    /// As [`Variation::new`], and for keys that cannot be set.
+    pub fn with(
+        name: &str,
+        text: &str,
+        set: &[Override],
+        vary: &[Varied],
+    ) -> Result<Self, InputError> {
         let mut sources = tree::Sources::default();
         let file = sources.add(name, text);
         if text.len() > MAX_TEXT_BYTES {
@@ -52,12 +67,16 @@ impl Variation {
                 range: varied.range,
             })
             .collect();
+        for set in set {
+            set.apply(&mut sources, &mut root)?;
+        }
         for path in &paths {
             // One half lies within every range.
             path.set(0.5)?.apply(&mut sources, &mut root)?;
         }
         let values = Values::read(sources, &root, &MODEL)?;
-        let this = Self { name: name.to_owned(), text: text.to_owned(), paths, values };
+        let set = set.to_vec();
+        let this = Self { name: name.to_owned(), text: text.to_owned(), set, paths, values };
         for path in &this.paths {
             if this.values.number(&path.path).is_none() {
                 let expected = "no other varied path that takes its place";
@@ -90,7 +109,8 @@ impl Variation {
     /// # Errors
     /// [`InputError`] where the model objects to the numbers.
     pub fn analysis(&self, numbers: &[f64]) -> Result<Analysis, InputError> {
-        parse(&self.name, &self.text, &self.overrides(numbers)?)
+        let all = self.set.iter().cloned().chain(self.overrides(numbers)?);
+        parse(&self.name, &self.text, &all.collect::<Vec<_>>())
     }
 
     /// The numbers of a sample as `--set` takes them.

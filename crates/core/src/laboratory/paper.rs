@@ -111,7 +111,7 @@ impl Claim {
             paper_value: Some(paper_value),
             computed_value: Some(computed_value),
             unit,
-            rule: format!("within {half_unit} of the printed number").replace("  ", " "),
+            rule: format!("within {half_unit} {unit} of the printed number").replace("  ", " "),
             verdict,
             why: why(verdict, difference),
         }

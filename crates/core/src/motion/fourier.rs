@@ -37,7 +37,8 @@ impl FourierSpectrum {
             Some(dt_s) => (dt_s, motion.horizontal_m_per_s2().to_vec()),
             None => evenly(motion),
         };
-        let least = (1.0 / (df_hz * dt_s)).min(MOST as f64) as usize;
+        // Rounding may not take it below what is asked for, nor above by a factor of two.
+        let least = libm::ceil((1.0 / (df_hz * dt_s)).min(MOST as f64) - 1e-6) as usize;
         let n = samples.len().max(least).next_power_of_two();
         let mut re = samples;
         re.resize(n, 0.0);

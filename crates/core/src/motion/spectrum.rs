@@ -56,6 +56,17 @@ impl Spectrum {
     }
 }
 
+/// `count` periods in s, two or more, from one to another, both > 0, evenly spaced by their
+/// logarithm.
+#[must_use]
+pub fn logarithmic_periods(from_s: f64, to_s: f64, count: usize) -> Vec<f64> {
+    let last = count.max(2) - 1;
+    let step = libm::log(to_s / from_s) / last as f64;
+    let mut periods_s: Vec<f64> = (0..last).map(|k| from_s * libm::exp(k as f64 * step)).collect();
+    periods_s.push(to_s);
+    periods_s
+}
+
 /// Elastic response spectrum of an acceleration in m/s² that is linear between `times_s`, where a
 /// repeated time is a jump; the oscillator starts from rest at the first.
 ///
@@ -98,11 +109,17 @@ pub fn spectrum(
     });
     let oscillators: Vec<Oscillator> = oscillators.collect();
     let elastic: Vec<Oscillator> = oscillators.iter().copied().filter(|o| o.is_elastic()).collect();
-    let peaks =
-        match super::constant_step(&times_s.iter().map(|t| t - times_s[0]).collect::<Vec<_>>()) {
-            Some(dt_s) => lanes::peaks(dt_s, acceleration_m_per_s2, &elastic),
-            None => elastic.iter().map(|o| o.peaks(times_s, acceleration_m_per_s2)).collect(),
-        };
+    let from_0: Vec<f64> = times_s.iter().map(|t| t - times_s[0]).collect();
+    let slowly = |o: &Oscillator| o.peaks(times_s, acceleration_m_per_s2);
+    let peaks: Vec<Peaks> = match super::constant_step(&from_0) {
+        Some(dt_s) => {
+            let quickly = lanes::peaks(dt_s, acceleration_m_per_s2, &elastic);
+            let either =
+                |(quick, o): (Option<Peaks>, &Oscillator)| quick.unwrap_or_else(|| slowly(o));
+            quickly.into_iter().zip(&elastic).map(either).collect()
+        }
+        None => elastic.iter().map(slowly).collect(),
+    };
     let mut peaks = peaks.into_iter();
     let pga = peak(acceleration_m_per_s2);
     let rigid = Ordinates { psa_m_per_s2: pga, sa_m_per_s2: pga, ..Ordinates::default() };

@@ -89,14 +89,9 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
         let count = counts[i].count(text, what)?;
         let values: Vec<f64> = table.iter().skip(i).step_by(n).take(count).copied().collect();
         let mut warnings: Vec<RecordWarning> = extra.clone().into_iter().collect();
-        let symbol = units.to_string();
-        warnings.extend(keys::check_peak(
-            text,
-            stated.get(i),
-            &values,
-            &symbol,
-            keys::PEAK_FACTOR,
-        )?);
+        // Peaks are stated in gal, whatever the values are.
+        let gal: Vec<f64> = values.iter().map(|v| v * units.si() / 0.01).collect();
+        warnings.extend(keys::check_peak(text, stated.get(i), &gal, "gal", keys::PEAK_FACTOR)?);
         warnings.extend(keys::check_duration(durations.get(i), count, dt_s));
         if let Some((field, (rate, digit))) = rates.get(i).and_then(|f| Some((f, f.number()?)))
             && (rate * dt_s - 1.0).abs() > 0.501 * digit * dt_s + 1e-6

@@ -123,8 +123,9 @@ impl<'a> Head<'a> {
     }
 
     fn event(&self) -> Option<String> {
-        let line = self.text.get(1)?;
-        phrase(line, 0..line.bytes.len())
+        let text = self.text.get(1)?.trimmed();
+        let words: Vec<&str> = text.split_whitespace().collect();
+        (!words.is_empty()).then(|| words.join(" "))
     }
 
     /// `Statn No: 01-23075  Code:CE-J2236  CDMG Yucaipa - Bryant & Oak Glen`.
@@ -264,7 +265,7 @@ fn block(
     // Among whole numbers of a recorder it may be a value.
     let whole = values.iter().all(|value| libm::trunc(*value) == *value);
     let missing = |value: &f64| *value == head.null && !whole;
-    if let Some(at) = values.iter().position(|value| missing(value)) {
+    if let Some(at) = values.iter().position(missing) {
         let expected = format!("a value where {} stands for a missing one", head.null);
         let line = Line { number: line.number + 1 + at / fields.per_line, bytes: b"" };
         return Err(text.error(&line, 0, expected, &head.null.to_string()));

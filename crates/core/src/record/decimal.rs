@@ -70,9 +70,13 @@ fn exponent(rest: &[u8]) -> Option<i32> {
 
 /// A number whose form was checked, by the standard library; `None` where it is not finite.
 fn slowly(word: &[u8]) -> Option<f64> {
-    let e = |b: &u8| if matches!(b, b'd' | b'D') { 'e' } else { char::from(*b) };
-    let text: String = word.iter().map(e).collect();
-    text.parse::<f64>().ok().filter(|value| value.is_finite())
+    let value = if word.iter().any(|b| matches!(b, b'd' | b'D')) {
+        let e = |b: &u8| if matches!(b, b'd' | b'D') { 'e' } else { char::from(*b) };
+        word.iter().map(e).collect::<String>().parse::<f64>()
+    } else {
+        core::str::from_utf8(word).ok()?.parse::<f64>()
+    };
+    value.ok().filter(|value| value.is_finite())
 }
 
 #[cfg(test)]

@@ -156,6 +156,7 @@ impl<'t, 'a> Cursor<'t, 'a> {
         let mut values = Vec::with_capacity(count.min(self.text.len()));
         let mut right: Option<usize> = None;
         let mut columns = true;
+        let first = self.peek().map(|line| Line { bytes: &line.bytes[..0], ..line });
         while values.len() < count {
             let Some(line) = self.lines.next() else {
                 let expected = format!("{count} values, as line {} says", announced.number);
@@ -172,7 +173,7 @@ impl<'t, 'a> Cursor<'t, 'a> {
                 self.line_of_words(&line, on_line, &mut values)?;
             }
         }
-        if !columns && let Some(cut) = self.text.cut_word(announced) {
+        if !columns && let Some(cut) = first.and_then(|first| self.text.cut_word(&first)) {
             let expected = "a last value written as those before it (a truncated file?)";
             return Err(self.text.error_at_end(expected, &cut));
         }

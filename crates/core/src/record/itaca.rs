@@ -4,7 +4,10 @@ use super::component::azimuth;
 use super::fixed::{Cursor, Fields};
 use super::keys::{self, Field, Keys};
 use super::text::Text;
-use super::{Channel, FilterCorners, Format, Options, Record, RecordError, Sampling, to_si};
+use super::{
+    Channel, FilterCorners, Format, Options, Record, RecordError, RecordWarning, Sampling, Units,
+    to_si,
+};
 
 /// Lines of the header.
 const HEADER_LINES: usize = 10;
@@ -44,14 +47,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
     let values = cursor.values(FIELDS, count, &announced.line)?;
     keys::end(&mut cursor, count, &announced.line)?;
 
-    // PGA (m/s/s), PGV (m/s) or PGD (m): the units of the values.
-    let peak = header.lines.iter().find(|line| line.find("PG", 0) == Some(0));
-    let peak = peak.and_then(|line| {
-        let colon = line.find(":", 0)?;
-        Some(Field::from(*line, colon + 1))
-    });
-    let symbol = units.to_string();
-    let warnings = keys::check_peak(text, peak.as_ref(), &values, &symbol, keys::PEAK_FACTOR)?;
+    let warnings = check_peak(text, &header, units, &values)?;
     let corners = header.get("Filter Cut-off Frequency (Hz)").map_or(vec![], |f| f.split(b'-'));
     let corner = |i: usize| corners.get(i)?.number().map(|(hz, _)| hz).filter(|hz| *hz > 0.0);
     let component = header.text("Orientation");
@@ -69,4 +65,23 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
     };
     let layout = "ITACA .acc".to_owned();
     Ok(Record { format: Format::Itaca, layout, channels: vec![channel], warnings: vec![] })
+}
+
+/// The peak stands under a key that names its units: `PGA (m/s/s) : 1.0E-02`, PGV or PGD.
+fn check_peak(
+    text: &Text,
+    header: &Keys,
+    units: Units,
+    values: &[f64],
+) -> Result<Option<RecordWarning>, RecordError> {
+    let Some(line) = header.lines.iter().find(|line| line.find("PG", 0) == Some(0)) else {
+        return Ok(None);
+    };
+    let [open, close, colon] = ["(", ")", ":"].map(|mark| line.find(mark, 0));
+    let named = open.zip(close).filter(|(open, close)| open < close);
+    let named = named.and_then(|(open, close)| Units::parse(&line.str(&(open + 1..close))));
+    let (Some(named), Some(colon)) = (named, colon) else { return Ok(None) };
+    let field = Field::from(*line, colon + 1);
+    let values: Vec<f64> = values.iter().map(|v| v * units.si() / named.si()).collect();
+    keys::check_peak(text, Some(&field), &values, &named.to_string(), keys::PEAK_FACTOR)
 }

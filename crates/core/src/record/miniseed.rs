@@ -57,7 +57,7 @@ pub(super) fn read_bytes(
     let bytes = Bytes::new(source_name, all);
     let mut streams = Streams::default();
     let mut warnings = Vec::new();
-    let (mut at, mut version) = (0, 2);
+    let (mut at, mut version, mut length) = (0, 2, 0);
     let mut total = 0;
     while at < all.len() {
         let rest = &all[at..];
@@ -67,8 +67,11 @@ pub(super) fn read_bytes(
         let record = if version3::is_record(rest) {
             version = 3;
             version3::header(&bytes, at)?
-        } else {
+        } else if version2::is_record(rest) || rest.len() >= length {
             version2::header(&bytes, at)?
+        } else {
+            // Less than a record, and not the beginning of one.
+            None
         };
         let Some(record) = record.filter(|record| at + record.length <= all.len()) else {
             if at == 0 {
@@ -78,13 +81,14 @@ pub(super) fn read_bytes(
             warnings.push(RecordWarning {
                 kind: "truncated",
                 message: format!(
-                    "the last record, at byte {at}, is cut after {} bytes and was left out",
+                    "from byte {at} on, {} bytes are no whole record and were left out",
                     rest.len()
                 ),
             });
             break;
         };
-        at += record.length;
+        length = record.length;
+        at += length;
         total += record.count;
         if total > MAX_SAMPLES {
             return Err(bytes.error(record.offset, "at most 100 000 000 samples", "more"));

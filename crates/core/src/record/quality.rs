@@ -22,20 +22,27 @@ pub fn rest(
     let [not_zero, drift] = REST_KINDS;
     if first_m_per_s2 != 0.0 {
         let message = format!(
-            "the first sample is {first_m_per_s2:.4} m/s², not 0: taken as a jump at the start of \
-             the motion"
+            "the first sample is {} m/s², not 0: taken as a jump at the start of \
+             the motion",
+            figures(first_m_per_s2)
         );
         warnings.push(RecordWarning { kind: not_zero, message });
     }
     if end_velocity_m_per_s.abs() > 0.05 * pgv_m_per_s {
         let percent = 100.0 * end_velocity_m_per_s.abs() / pgv_m_per_s;
         let message = format!(
-            "the record drifts: its velocity at the end is {end_velocity_m_per_s:.4} m/s, \
-             {percent:.0} % of its peak; nothing was corrected"
+            "the record drifts: its velocity at the end is {} m/s, \
+             {percent:.0} % of its peak; nothing was corrected",
+            figures(end_velocity_m_per_s)
         );
         warnings.push(RecordWarning { kind: drift, message });
     }
     warnings
+}
+
+/// Four decimals, or by a power of ten where the number is small.
+fn figures(x: f64) -> String {
+    if x.abs() < 1e-3 { format!("{x:.2e}") } else { format!("{x:.4}") }
 }
 
 /// Adds to a channel the warnings that its values and times call for.

@@ -67,7 +67,7 @@ pub(super) fn read_bytes(
         return Err(bytes.error(4 * header::NPTS, expected, &format!("{} bytes", all.len())));
     }
     let numbers: Vec<f64> = (0..sections * layout.count)
-        .filter_map(|i| f32_at(all, HEADER_BYTES + 4 * i, order).map(decimal_or_not))
+        .filter_map(|i| f32_at(all, HEADER_BYTES + 4 * i, order).map(f64::from))
         .collect();
     let dt_s = (header.version == 7).then(|| f64_at(all, values_end, order)).flatten();
     trace(&header, &layout, numbers, dt_s, options, &error, "SAC")
@@ -104,7 +104,23 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
         numbers.extend(keys::rows(&mut cursor, 5, layout.count, &announced)?);
     }
     keys::end(&mut cursor, sections * layout.count, &announced)?;
+    check_last(text, layout.count)?;
     trace(&header, &layout, numbers, None, options, &error, "SAC alphanumeric")
+}
+
+/// The last value of a text that ends in it must end in the column of those above it: a number that
+/// is cut is another number.
+fn check_last(text: &Text, count: usize) -> Result<(), RecordError> {
+    let ends = |line: &Line, i: usize| line.words().nth(i).map(|word| word.end);
+    let column = text.lines().nth(TEXT_LINES).and_then(|line| ends(&line, (count - 1) % 5));
+    let Some(last) = text.lines().last().filter(|last| !last.is_blank()) else { return Ok(()) };
+    let end = last.words().last().map(|word| word.end);
+    if !text.ends_with_line_end() && end != column {
+        let expected = "a last value that ends in the column of those above it (a truncated file?)";
+        let word = last.words().last().unwrap_or(0..0);
+        return Err(text.error_at(&last, &word, expected));
+    }
+    Ok(())
 }
 
 /// Where something stands in the file.
@@ -197,7 +213,9 @@ fn trace(
         warnings.extend(header.check_end(layout.count, dt_s));
         Sampling::Dt(dt_s)
     } else {
-        let times_s = numbers.split_off(layout.count);
+        // As they are written: 0.02, not the 32 bits nearest to it.
+        let times = numbers.split_off(layout.count).into_iter();
+        let times_s: Vec<f64> = times.map(|time_s| decimal(time_s as f32)).collect();
         let decreasing = times_s.windows(2).position(|t| t[1] < t[0]);
         let thrice = times_s.windows(3).position(|t| t[2] == t[0]);
         if let Some(i) = decreasing.map(|i| i + 1).or(thrice.map(|i| i + 2)) {

@@ -73,6 +73,11 @@ impl<'a> Text<'a> {
             .then(|| String::from_utf8_lossy(last).into_owned())
     }
 
+    /// Whether the last line is ended, or blanks stand at its end.
+    pub fn ends_with_line_end(&self) -> bool {
+        self.bytes.last().is_some_and(is_blank)
+    }
+
     /// Lines ended by LF, CRLF, CR CR LF or CR.
     pub fn lines(&self) -> Lines<'a> {
         Lines { rest: self.bytes, number: 0 }

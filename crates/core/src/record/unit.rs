@@ -53,6 +53,18 @@ impl Units {
         Self { symbol: "m/s²", quantity: Quantity::Acceleration, si: 1.0, times: 1.0 }
     }
 
+    /// The SI unit of a quantity; counts have none but themselves.
+    #[must_use]
+    pub fn si_of(quantity: Quantity) -> Self {
+        let symbol = match quantity {
+            Quantity::Acceleration => "m/s²",
+            Quantity::Velocity => "m/s",
+            Quantity::Displacement => "m",
+            Quantity::Counts => "counts",
+        };
+        Self { symbol, times: 1.0, quantity, si: 1.0 }
+    }
+
     /// The units of a word such as `g`, `cm/s2`, `CM/SEC/SEC`, `gal`; or of a number > 0 and a word,
     /// `4.674e-6 m/s2`: the value of one count.
     #[must_use]
@@ -64,7 +76,7 @@ impl Units {
         let times = super::text::number(number.as_bytes()).filter(|times| *times > 0.0)?;
         let units = Self::named(word).filter(|units| units.quantity != Quantity::Counts)?;
         let si = times * units.si;
-        (si.is_finite() && si > 0.0).then_some(Self { times, si, ..units })
+        si.is_normal().then_some(Self { times, si, ..units })
     }
 
     fn named(word: &str) -> Option<Self> {

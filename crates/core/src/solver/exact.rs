@@ -4,9 +4,15 @@
 //! a shorter way: the propagator gives the state at the sample's end, and the error bound of a
 //! chord shows that nothing can have happened between.
 
+mod by_blocks;
 mod long_way;
 mod short_way;
 
+use std::sync::Arc;
+
+use fearless_simd::Level;
+
+use super::blocks::{Blocks, Tables, Windows};
 use super::excitation::Excitation;
 use super::extremes::Extremes;
 use super::recorder::{Everything, Nothing, Recorder};
@@ -27,15 +33,43 @@ const RADIANS_LIMIT: f64 = 1e9;
 /// Largest rate times step at which the short way is tried: its bounds are hopeless beyond.
 const SHORT_WAY_RATE_STEP: f64 = 30.0;
 
+/// By which way ordinary samples go.
+#[derive(Clone, Copy)]
+pub(super) enum Way<'a> {
+    /// One by one.
+    Plain,
+    /// By blocks where the model and the motion allow it.
+    Blocks {
+        windows: &'a Windows,
+        /// For the step of the motion, where they are at hand.
+        tables: Option<&'a Tables>,
+        level: Level,
+    },
+}
+
 pub(super) fn solve(
     model: &Model,
     motion: &GroundMotion,
     with_history: bool,
+    way: Way<'_>,
 ) -> Result<Response, SolveError> {
     match model.storeys() {
-        0 => solve_for::<[f64; 0]>(model, motion, with_history),
-        1 => solve_for::<[f64; 1]>(model, motion, with_history),
-        _ => solve_for::<Vec<f64>>(model, motion, with_history),
+        0 => solve_for::<[f64; 0]>(model, motion, with_history, way),
+        1 => solve_for::<[f64; 1]>(model, motion, with_history, way),
+        _ => solve_for::<Vec<f64>>(model, motion, with_history, way),
+    }
+}
+
+/// Tables for the blocks of a model, unless it must go the plain way.
+pub(super) fn tables(model: &Model, dt_s: f64) -> Option<Arc<Tables>> {
+    fn of<V: PerStorey>(model: &Model, dt_s: f64) -> Option<Arc<Tables>> {
+        let system = system_of::<V>(model);
+        Tables::new(&system, &Extremes::new(model, &system), dt_s)
+    }
+    match model.storeys() {
+        0 => of::<[f64; 0]>(model, dt_s),
+        1 => of::<[f64; 1]>(model, dt_s),
+        _ => None,
     }
 }
 
@@ -43,6 +77,7 @@ fn solve_for<V: PerStorey>(
     model: &Model,
     motion: &GroundMotion,
     with_history: bool,
+    way: Way<'_>,
 ) -> Result<Response, SolveError> {
     let system = system_of::<V>(model);
     let excitation = Excitation::new(model, motion);
@@ -51,19 +86,32 @@ fn solve_for<V: PerStorey>(
         let duration_s = motion.duration_s();
         return Err(SolveError::TooStiff { radians, duration_s, limit: RADIANS_LIMIT });
     }
-    let short_way =
-        motion.dt_s().filter(|dt_s| dt_s * system.slip_rate_rad_per_s <= SHORT_WAY_RATE_STEP);
+    let steady = excitation.varying_normal().is_none();
+    let dt_s = excitation.dt_s;
+    let own = match way {
+        Way::Blocks { tables: None, .. } if steady => dt_s.and_then(|dt_s| tables(model, dt_s)),
+        _ => None,
+    };
+    let blocks = match way {
+        Way::Blocks { windows, tables, level } if steady => {
+            tables.or(own.as_deref()).map(|tables| Blocks { tables, windows, level })
+        }
+        _ => None,
+    };
+    let short_way = dt_s.filter(|dt_s| {
+        blocks.is_none() && dt_s * system.slip_rate_rad_per_s <= SHORT_WAY_RATE_STEP
+    });
     let propagators =
         short_way.map(|dt_s| [false, true].map(|slip| Propagator::new(&system, slip, dt_s)));
-    let table = motion.horizontal_m_per_s2();
+    let (ways, table) = ((propagators.as_ref(), blocks), motion.horizontal_m_per_s2());
     let (run, history) = if with_history {
         let recorder = Everything::new(model.storeys(), motion.len(), model.slope_m_per_s2());
-        let mut run = Run::new(model, &system, propagators.as_ref(), &excitation, table, recorder);
+        let mut run = Run::new(model, &system, ways, &excitation, table, recorder);
         run.walk()?;
         let history = core::mem::take(&mut run.recorder.history);
         (run.outcome(), Some(history))
     } else {
-        let mut run = Run::new(model, &system, propagators.as_ref(), &excitation, table, Nothing);
+        let mut run = Run::new(model, &system, ways, &excitation, table, Nothing);
         run.walk()?;
         (run.outcome(), None)
     };
@@ -100,9 +148,8 @@ pub(super) fn system_of<V: PerStorey>(model: &Model) -> System<V> {
 /// What a walk through the motion leaves behind.
 pub(super) struct Outcome {
     pub(super) events: Vec<Event>,
-    /// Largest and smallest values in the order of [`super::extremes::tracked`].
-    pub(super) largest: Vec<f64>,
-    pub(super) smallest: Vec<f64>,
+    /// Peaks in the order of [`super::extremes::tracked`].
+    pub(super) peaks: Vec<f64>,
     pub(super) overturns: bool,
     pub(super) sliding: Sliding,
     pub(super) residual_m: f64,
@@ -117,6 +164,8 @@ pub(super) struct Sliding {
     pub(super) peak_time_s: f64,
     pub(super) path_m: f64,
     pub(super) time_s: f64,
+    /// Least margin of the decisions at stops so far; infinite where there was none.
+    pub(super) closest_stop: f64,
     phase_start: [f64; 2],
 }
 
@@ -128,7 +177,17 @@ impl Sliding {
             peak_time_s: 0.0,
             path_m: 0.0,
             time_s: 0.0,
+            closest_stop: f64::INFINITY,
             phase_start: [0.0, s],
+        }
+    }
+
+    /// A stop is decided: friction is asked for `demand`, its static bounds are `low` and `high`.
+    /// Without a bound there is nothing to decide.
+    pub(super) fn decide(&mut self, demand: f64, [low, high]: [f64; 2]) {
+        let bound = if demand < 0.0 { -low } else { high };
+        if bound > 0.0 {
+            self.closest_stop = self.closest_stop.min((1.0 - demand.abs() / bound).abs());
         }
     }
 
@@ -152,30 +211,31 @@ impl Sliding {
 
 /// How a slip starts: `ṡ = 0`, and the leading coefficients of `|ṡ|` that are known to vanish.
 #[derive(Clone, Copy)]
-struct Start {
+pub(super) struct Start {
     /// Number of vanishing coefficients, the constant one included.
-    order: usize,
+    pub(super) order: usize,
     /// `|s̈|` at the start where `order` is 1.
-    acceleration: f64,
+    pub(super) acceleration: f64,
 }
 
-struct Run<'a, V: PerStorey, R> {
+pub(super) struct Run<'a, V: PerStorey, R> {
     system: &'a System<V>,
-    excitation: &'a Excitation<'a>,
+    pub(super) excitation: &'a Excitation<'a>,
     table: &'a [f64],
     /// Coefficients of the static bounds: `[−μ_s⁺, μ_s⁻]`.
     bounds: [f64; 2],
     propagators: Option<&'a [Propagator<V>; 2]>,
+    blocks: Option<Blocks<'a>>,
     recorder: R,
-    extremes: Extremes<V>,
+    pub(super) extremes: Extremes<V>,
     series: Series<V>,
-    state: State<V>,
-    mode: Mode,
+    pub(super) state: State<V>,
+    pub(super) mode: Mode,
     /// Set while a slip has just started.
-    start: Option<Start>,
-    events: Vec<Event>,
-    sliding: Sliding,
-    events_in_interval: u32,
+    pub(super) start: Option<Start>,
+    pub(super) events: Vec<Event>,
+    pub(super) sliding: Sliding,
+    pub(super) events_in_interval: u32,
     /// What a kink of acceleration and of normal force between samples adds to the norm of `ẍ`.
     per_kink: [f64; 2],
 }
@@ -184,7 +244,7 @@ impl<'a, V: PerStorey, R: Recorder<V>> Run<'a, V, R> {
     fn new(
         model: &Model,
         system: &'a System<V>,
-        propagators: Option<&'a [Propagator<V>; 2]>,
+        (propagators, blocks): (Option<&'a [Propagator<V>; 2]>, Option<Blocks<'a>>),
         excitation: &'a Excitation<'a>,
         table: &'a [f64],
         recorder: R,
@@ -221,6 +281,7 @@ impl<'a, V: PerStorey, R: Recorder<V>> Run<'a, V, R> {
             table,
             bounds: excitation.bounds(),
             propagators,
+            blocks,
             recorder,
             extremes: Extremes::new(model, system),
             series: Series::zeros(n),
@@ -248,8 +309,17 @@ impl<'a, V: PerStorey, R: Recorder<V>> Run<'a, V, R> {
                 sample += 1;
                 continue;
             }
-            sample = self.short_way(sample);
+            let end = self.excitation.regular_end(sample);
+            match self.blocks {
+                Some(blocks) if sample < end => {
+                    self.by_blocks(blocks, sample, end)?;
+                    sample = end;
+                }
+                Some(_) => {}
+                None => sample = self.short_way(sample),
+            }
             if sample < last && times_s[sample + 1] > times_s[sample] {
+                self.events_in_interval = 0;
                 self.long_way(sample)?;
                 sample += 1;
             }
@@ -283,8 +353,7 @@ impl<'a, V: PerStorey, R: Recorder<V>> Run<'a, V, R> {
     fn outcome(self) -> Outcome {
         Outcome {
             events: self.events,
-            largest: self.extremes.largest.as_ref().to_vec(),
-            smallest: self.extremes.smallest.as_ref().to_vec(),
+            peaks: self.extremes.peak.as_ref().to_vec(),
             overturns: self.extremes.overturns(),
             sliding: self.sliding,
             residual_m: self.state.s(),

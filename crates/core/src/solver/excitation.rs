@@ -207,7 +207,7 @@ impl<'a> Excitation<'a> {
 }
 
 /// The step that most intervals have to within rounding, and the intervals that have another.
-fn regular_step(times_s: &[f64]) -> (Option<f64>, Vec<usize>) {
+pub(super) fn regular_step(times_s: &[f64]) -> (Option<f64>, Vec<usize>) {
     let last = times_s.len() - 1;
     let slack_s = 8.0 * f64::EPSILON * times_s[last];
     let mut lengths_s: Vec<f64> = times_s.windows(2).map(|t| t[1] - t[0]).collect();

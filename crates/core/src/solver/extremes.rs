@@ -3,7 +3,8 @@
 //! Each tracked quantity is a linear function of the state, or of its derivative, whose second
 //! derivative over a piece of motion is bounded by its dual norm times the energy norm of `ẍ` at
 //! the start of the piece. With the error of a chord, its extremes lie within `length²/8` times
-//! that bound of the values at the ends. Pieces whose bound exceeds what has been attained so far
+//! that bound of the values at the ends. What counts is the peak, the largest size: accelerations
+//! are tracked without the slope's pull. Pieces whose bound exceeds the peak attained so far
 //! are kept; what is still in question at the end, or when too many have gathered, is looked at
 //! by its Taylor polynomial.
 
@@ -17,7 +18,7 @@ use crate::response::Mode;
 pub(super) mod tracked {
     /// `ṡ` in m/s.
     pub(in crate::solver) const VELOCITY: usize = 0;
-    /// `u = s̈ + a` in m/s².
+    /// `u = s̈ + a` less the slope's pull in m/s².
     pub(in crate::solver) const BLOCK: usize = 1;
     /// `T − K1 s − C1 ṡ` in N.
     pub(in crate::solver) const SLIDER: usize = 2;
@@ -27,7 +28,7 @@ pub(super) mod tracked {
     pub(in crate::solver) const BASE_SHEAR: usize = 4;
     /// Overturning moment about the sliding surface in N m.
     pub(in crate::solver) const OVERTURNING: usize = 5;
-    /// Storey displacements, then drifts, then accelerations `−Φ_i f`.
+    /// Storey displacements, then drifts, then accelerations `−Φ_i f` less the slope's pull.
     pub(in crate::solver) const STOREYS: usize = 6;
 }
 
@@ -40,8 +41,9 @@ pub(super) struct Extremes<V: PerStorey> {
     arm: Option<(V, f64)>,
     stick_norm: V::Tracked,
     slip_norm: V::Tracked,
-    pub(super) largest: V::Tracked,
-    pub(super) smallest: V::Tracked,
+    /// `g sin θ`.
+    slope: f64,
+    pub(super) peak: V::Tracked,
     pieces: Vec<Piece<V>>,
 }
 
@@ -53,13 +55,12 @@ struct Piece<V: PerStorey> {
     mode: Mode,
     state: State<V>,
     above: V::Tracked,
-    below: V::Tracked,
 }
 
-/// Between which values the ends of a piece must lie for it to be dismissed.
+/// Sizes within which the values at the ends of a piece must lie for it to be dismissed.
 pub(super) struct Limits<V: PerStorey> {
-    above: V::Tracked,
-    below: V::Tracked,
+    within: V::Tracked,
+    slope: f64,
 }
 
 impl<V: PerStorey> Limits<V> {
@@ -67,14 +68,12 @@ impl<V: PerStorey> Limits<V> {
     /// the friction force less `spring_n`.
     #[inline(always)]
     pub(super) fn stick(&self, spring_n: f64) -> StickLimits {
-        let of = |j: usize| [self.below.as_ref()[j], self.above.as_ref()[j]];
-        let (friction, slider) = (of(tracked::FRICTION), of(tracked::SLIDER));
+        let within = self.within.as_ref();
+        let (friction, slider) = (within[tracked::FRICTION], within[tracked::SLIDER]);
+        let block = within[tracked::BLOCK];
         StickLimits {
-            friction_n: [
-                friction[0].max(slider[0] + spring_n),
-                friction[1].min(slider[1] + spring_n),
-            ],
-            acceleration: of(tracked::BLOCK),
+            friction_n: [(spring_n - slider).max(-friction), (spring_n + slider).min(friction)],
+            acceleration: [self.slope - block, self.slope + block],
         }
     }
 
@@ -87,18 +86,20 @@ impl<V: PerStorey> Limits<V> {
     /// Whether all values, or all but those of [`StickLimits`], keep the limits.
     #[inline(always)]
     pub(super) fn hold_but<const STICK: bool>(&self, values: &V::Tracked) -> bool {
-        let (above, below, y) = (self.above.as_ref(), self.below.as_ref(), values.as_ref());
-        // One storey's drift is its displacement, and its acceleration goes with the base shear.
+        let (within, y) = (self.within.as_ref(), values.as_ref());
+        // One storey's drift is its displacement, and on the level its acceleration goes with the
+        // base shear.
         let one_storey = y.len() == tracked::STOREYS + 3;
+        let level = self.slope == 0.0;
         // Left at the first: in one go the compiler would gather into vectors what has just been
         // stored one by one, and wait for the stores.
         for j in 0..y.len() {
-            let redundant = j == tracked::BASE_SHEAR || j == tracked::STOREYS + 1;
+            let redundant = (level && j == tracked::BASE_SHEAR) || j == tracked::STOREYS + 1;
             let elsewhere = STICK && (tracked::BLOCK..=tracked::FRICTION).contains(&j);
             if elsewhere || (one_storey && redundant) {
                 continue;
             }
-            if !(below[j] <= y[j] && y[j] <= above[j]) {
+            if !(y[j].abs() <= within[j]) {
                 return false;
             }
         }
@@ -139,12 +140,39 @@ impl<V: PerStorey> Extremes<V> {
             arm,
             stick_norm: V::tracked(n, 0.0),
             slip_norm: V::tracked(n, 0.0),
-            largest: V::tracked(n, f64::NEG_INFINITY),
-            smallest: V::tracked(n, f64::INFINITY),
+            slope: model.slope_m_per_s2(),
+            peak: V::tracked(n, 0.0),
             pieces: Vec::new(),
         };
         extremes.set_norms(model, system);
         extremes
+    }
+
+    /// Of a system on the level, without an overturning moment, before anything has happened.
+    #[cfg(test)]
+    pub(super) fn untold(system: &System<V>) -> Self {
+        let n = system.storeys();
+        Self {
+            arm: None,
+            stick_norm: V::tracked(n, 0.0),
+            slip_norm: V::tracked(n, 0.0),
+            slope: 0.0,
+            peak: V::tracked(n, 0.0),
+            pieces: Vec::new(),
+        }
+    }
+
+    /// `g sin θ` in m/s².
+    pub(super) fn slope(&self) -> f64 {
+        self.slope
+    }
+
+    /// What `f` of one storey and the block's acceleration add to the overturning moment; zeros
+    /// where it is not tracked.
+    pub(super) fn one_storey_arm(&self) -> [f64; 2] {
+        self.arm
+            .as_ref()
+            .map_or([0.0; 2], |(arm, half)| [arm.as_ref().first().copied().unwrap_or(0.0), *half])
     }
 
     /// Whether the overturning moment is tracked.
@@ -207,7 +235,7 @@ impl<V: PerStorey> Extremes<V> {
         }
     }
 
-    /// Values of the tracked quantities in a state, or coefficient by coefficient in a series.
+    /// Values of the tracked quantities in a state.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)] // the letters of the equations
     pub(super) fn values(
@@ -221,11 +249,28 @@ impl<V: PerStorey> Extremes<V> {
         u: f64,
         friction: f64,
     ) -> V::Tracked {
+        self.linear(system, s, w, eta, f, shear, [u, self.slope], friction)
+    }
+
+    /// The same coefficient by coefficient in a series; the slope counts in the first alone.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)] // the letters of the equations
+    fn linear(
+        &self,
+        system: &System<V>,
+        s: f64,
+        w: f64,
+        eta: &[f64],
+        f: &[f64],
+        shear: f64,
+        [u, slope]: [f64; 2],
+        friction: f64,
+    ) -> V::Tracked {
         let n = eta.len();
         let mut out = V::tracked(n, 0.0);
         let y = out.as_mut();
         y[tracked::VELOCITY] = w;
-        y[tracked::BLOCK] = u;
+        y[tracked::BLOCK] = u - slope;
         y[tracked::SLIDER] = friction - system.stiffness_n_per_m * s - system.damper_n_s_per_m * w;
         y[tracked::FRICTION] = friction;
         y[tracked::BASE_SHEAR] = shear;
@@ -237,7 +282,7 @@ impl<V: PerStorey> Extremes<V> {
         for i in 0..n {
             drift[i] = q[i] - below;
             below = q[i];
-            acceleration[i] = -acceleration[i];
+            acceleration[i] = -acceleration[i] - slope;
         }
         if let Some((arm, half)) = &self.arm {
             let floors = arm.as_ref().iter().zip(f).fold(0.0, |sum, (arm, f)| sum - arm * f);
@@ -254,23 +299,17 @@ impl<V: PerStorey> Extremes<V> {
             Mode::Stick => &self.stick_norm,
             Mode::Slip(_) => &self.slip_norm,
         };
-        let mut limits: Limits<V> =
-            Limits { above: self.largest.clone(), below: self.smallest.clone() };
-        let (above, below) = (limits.above.as_mut(), limits.below.as_mut());
-        for (j, norm) in norm.as_ref().iter().enumerate() {
-            let slack = reach * norm;
-            above[j] -= slack;
-            below[j] += slack;
+        let mut limits: Limits<V> = Limits { within: self.peak.clone(), slope: self.slope };
+        for (within, norm) in limits.within.as_mut().iter_mut().zip(norm.as_ref()) {
+            *within -= reach * norm;
         }
         limits
     }
 
     /// Takes the values at an instant.
     pub(super) fn attain(&mut self, values: &V::Tracked) {
-        let (up, down) = (self.largest.as_mut(), self.smallest.as_mut());
-        for (j, value) in values.as_ref().iter().enumerate() {
-            up[j] = if *value > up[j] { *value } else { up[j] };
-            down[j] = if *value < down[j] { *value } else { down[j] };
+        for (peak, value) in self.peak.as_mut().iter_mut().zip(values.as_ref()) {
+            *peak = if value.abs() > *peak { value.abs() } else { *peak };
         }
     }
 
@@ -289,17 +328,14 @@ impl<V: PerStorey> Extremes<V> {
             Mode::Slip(_) => &self.slip_norm,
         };
         let (start, end, norm) = (start.as_ref(), end.as_ref(), norm.as_ref());
-        let (up, down) = (self.largest.as_mut(), self.smallest.as_mut());
+        let peak = self.peak.as_mut();
         let mut open = false;
         for j in 0..start.len() {
-            let (low, high) =
-                if start[j] < end[j] { (start[j], end[j]) } else { (end[j], start[j]) };
             let slack = reach * norm[j];
-            if high + slack > up[j] || low - slack < down[j] {
-                up[j] = up[j].max(high);
-                down[j] = down[j].min(low);
-                let [below, above] = bounds([low, high], slack);
-                open |= above > up[j] || below < down[j];
+            let attained = larger(start[j].abs(), end[j].abs());
+            if attained + slack > peak[j] {
+                peak[j] = larger(peak[j], attained);
+                open |= bound([start[j], end[j]], slack) > peak[j];
             }
         }
         open
@@ -320,11 +356,9 @@ impl<V: PerStorey> Extremes<V> {
             Mode::Stick => &self.stick_norm,
             Mode::Slip(_) => &self.slip_norm,
         };
-        let (mut above, mut below) = (start.clone(), end.clone());
+        let mut above = start.clone();
         for (j, norm) in norm.as_ref().iter().enumerate() {
-            let (a, b) = (start.as_ref()[j], end.as_ref()[j]);
-            let ends = if a < b { [a, b] } else { [b, a] };
-            [below.as_mut()[j], above.as_mut()[j]] = bounds(ends, reach * norm);
+            above.as_mut()[j] = bound([start.as_ref()[j], end.as_ref()[j]], reach * norm);
         }
         if self.pieces.len() == ROOM {
             self.drop_overtaken();
@@ -343,15 +377,13 @@ impl<V: PerStorey> Extremes<V> {
             mode: place.mode,
             state: place.state.clone(),
             above,
-            below,
         });
     }
 
     fn drop_overtaken(&mut self) {
-        let (up, down) = (self.largest.as_ref(), self.smallest.as_ref());
+        let peak = self.peak.as_ref();
         self.pieces.retain(|piece| {
-            let (above, below) = (piece.above.as_ref(), piece.below.as_ref());
-            (0..up.len()).any(|j| above[j] > up[j] || below[j] < down[j])
+            piece.above.as_ref().iter().zip(peak).any(|(above, peak)| above > peak)
         });
     }
 
@@ -364,11 +396,9 @@ impl<V: PerStorey> Extremes<V> {
     }
 
     fn look_at(&mut self, system: &System<V>, excitation: &Excitation<'_>, piece: &Piece<V>) {
-        let in_question = |up: &V::Tracked, down: &V::Tracked, j: usize| {
-            piece.above.as_ref()[j] > up.as_ref()[j] || piece.below.as_ref()[j] < down.as_ref()[j]
-        };
-        let tracked = self.largest.as_ref().len();
-        if !(0..tracked).any(|j| in_question(&self.largest, &self.smallest, j)) {
+        let in_question = |peak: &V::Tracked, j: usize| piece.above.as_ref()[j] > peak.as_ref()[j];
+        let tracked = self.peak.as_ref().len();
+        if !(0..tracked).any(|j| in_question(&self.peak, j)) {
             return;
         }
         let (rate, direction) = match piece.mode {
@@ -399,15 +429,14 @@ impl<V: PerStorey> Extremes<V> {
                     (None, 1) => load.acceleration_change,
                     (None, _) => 0.0,
                 };
-                self.values(system, s, w, eta, f, shear, u, friction[k])
+                let slope = if k == 0 { self.slope } else { 0.0 };
+                self.linear(system, s, w, eta, f, shear, [u, slope], friction[k])
             });
             for j in 0..tracked {
-                if in_question(&self.largest, &self.smallest, j) {
+                if in_question(&self.peak, j) {
                     let c = core::array::from_fn(|k| coefficients[k].as_ref()[j]);
-                    let up = &mut self.largest.as_mut()[j];
-                    *up = largest(&c, *up);
-                    let down = &mut self.smallest.as_mut()[j];
-                    *down = -largest(&c.map(|c| -c), -*down);
+                    let peak = &mut self.peak.as_mut()[j];
+                    *peak = largest(&c.map(|c| -c), largest(&c, *peak));
                 }
             }
             series.state_at(1.0, &mut state);
@@ -415,15 +444,20 @@ impl<V: PerStorey> Extremes<V> {
     }
 }
 
-/// Bounds on a value over a piece from the lower and the higher one at its ends: with `slack` the
-/// error of the chord, an extreme lies inside only where they are less than four times that apart.
+/// Bound on the size of a value over a piece from the values at its ends: with `slack` the error
+/// of the chord, an extreme lies inside only where they are less than four times that apart.
 #[inline(always)]
-fn bounds([low, high]: [f64; 2], slack: f64) -> [f64; 2] {
-    let inside = slack - 0.25 * (high - low);
+fn bound([a, b]: [f64; 2], slack: f64) -> f64 {
+    let attained = larger(a.abs(), b.abs());
+    let inside = slack - 0.25 * (a - b).abs();
     let bulge = if inside > 0.0 { inside * (inside / slack) } else { 0.0 };
     // A few ulp are no more than the rounding of the ends.
-    let beyond = |x: f64| if bulge > 1e-15 * x.abs() { bulge } else { 0.0 };
-    [low - beyond(low), high + beyond(high)]
+    attained + if bulge > 1e-15 * attained { bulge } else { 0.0 }
+}
+
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
 }
 
 /// Moment arms of the floors' and the block's inertia, where width and heights are given.

@@ -98,8 +98,7 @@ pub(super) fn solve(
     let warnings = summary::warnings(model, &events, &contact_loss_s);
     let outcome = Outcome {
         events,
-        largest: extremes.largest.clone(),
-        smallest: extremes.smallest.clone(),
+        peaks: extremes.peak.clone(),
         overturns: extremes.overturns(),
         sliding,
         residual_m: step.s,

@@ -9,16 +9,12 @@ use crate::response::{Demands, Event, EventKind, StoreyDemands, Warning};
 /// What the response asks of the structure.
 pub(super) fn demands(model: &Model, outcome: &Outcome) -> Demands {
     let n = model.storeys();
-    let slope = model.slope_m_per_s2();
     let weight_n = model.weight_n();
-    let (up, down) = (&outcome.largest, &outcome.smallest);
-    let peak = |j: usize| up[j].max(-down[j]);
-    // Accelerations are tracked with the slope's pull in them; the true ones are without.
-    let acceleration = |j: usize| (up[j] - slope).abs().max((down[j] - slope).abs());
+    let peak = |j: usize| outcome.peaks[j];
     let group = |k: usize, i: usize| tracked::STOREYS + k * n + i;
     let storeys: Vec<StoreyDemands> = (0..n)
         .map(|i| StoreyDemands {
-            peak_acceleration_m_per_s2: acceleration(group(2, i)),
+            peak_acceleration_m_per_s2: peak(group(2, i)),
             peak_displacement_m: peak(group(0, i)),
             peak_drift_m: peak(group(1, i)),
             peak_drift_ratio: model
@@ -45,7 +41,7 @@ pub(super) fn demands(model: &Model, outcome: &Outcome) -> Demands {
         slip_count: count(EventKind::Slip),
         reversal_count: count(EventKind::Reversal),
         stick_count: count(EventKind::Stick),
-        peak_block_acceleration_m_per_s2: acceleration(tracked::BLOCK),
+        peak_block_acceleration_m_per_s2: peak(tracked::BLOCK),
         storeys,
         peak_base_shear_n,
         peak_friction_force_n: peak(tracked::FRICTION),
@@ -53,6 +49,7 @@ pub(super) fn demands(model: &Model, outcome: &Outcome) -> Demands {
         base_shear_coefficient: peak_base_shear_n / weight_n,
         friction_coefficient_used: peak(tracked::FRICTION) / weight_n,
         slider_force_coefficient: peak(tracked::SLIDER) / weight_n,
+        closest_stop: Some(sliding.closest_stop).filter(|margin| margin.is_finite()),
         gap_ratio: model.slider().gap_m.map(|gap_m| peak_sliding_displacement_m / gap_m),
         overturning_ratio: model
             .block()

@@ -63,6 +63,20 @@ impl Coordinate {
     }
 }
 
+/// The first `count` scrambled points of the open unit cube, each with so many coordinates; fewer
+/// beyond [`MAX_DIMENSIONS`].
+#[must_use]
+pub fn unit_points(dimensions: usize, count: u32, seed: u64) -> Vec<Vec<f64>> {
+    let coordinates: Vec<Coordinate> = (0..dimensions).filter_map(Coordinate::new).collect();
+    let point = |index: u32| {
+        let coordinate = |(dimension, coordinate): (usize, &Coordinate)| {
+            coordinate.scrambled(index, Stream::new(seed, 0, dimension as u64))
+        };
+        coordinates.iter().enumerate().map(coordinate).collect()
+    };
+    (0..count).map(point).collect()
+}
+
 /// The numbers `m_i`, of which the first are given, by the recurrence of the polynomial: for
 /// `x^s + a_1 x^(s−1) + … + 1`,
 /// `m_i = 2 a_1 m_(i−1) ⊕ … ⊕ 2^(s−1) a_(s−1) m_(i−s+1) ⊕ 2^s m_(i−s) ⊕ m_(i−s)`.

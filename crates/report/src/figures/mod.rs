@@ -6,6 +6,8 @@ mod histories;
 mod spectra;
 mod trace;
 
+pub(crate) use trace::Trace;
+
 use slipstick::response::{History, Mode};
 
 use crate::display::Unit;
@@ -13,7 +15,7 @@ use crate::plot::{Axis, Figure, Svg};
 use crate::report::Report;
 
 /// A figure ready for the page.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Drawn {
     /// Identifier in the page and stem for a file: `sliding-displacement`.
     pub id: &'static str,

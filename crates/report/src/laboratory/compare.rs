@@ -401,7 +401,7 @@ fn sliding(comparison: &Comparison) -> Vec<[f64; 2]> {
 }
 
 /// A table whose first row are heads and whose first column are names.
-pub(super) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
+pub(crate) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
     let Some((heads, rows)) = rows.split_first() else { return };
     let wide = heads.len() > 6;
     out.raw(if wide { "<div class=\"small\">\n" } else { "" });

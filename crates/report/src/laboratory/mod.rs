@@ -6,7 +6,7 @@ pub mod cyclic;
 pub mod free_vibration;
 pub mod identify;
 pub mod shaking_table;
-mod text;
+pub(crate) mod text;
 
 pub use compare::CompareReport;
 pub use identify::IdentifyReport;

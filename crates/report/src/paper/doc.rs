@@ -2,7 +2,7 @@
 
 use slipstick::laboratory::paper::{Claim, Verdict};
 
-use crate::number::{printed, typeset};
+use crate::number::{compact, printed, typeset};
 use crate::plot::{Figure, Svg};
 
 /// A growing chapter and its figures.
@@ -77,18 +77,15 @@ impl Doc {
     /// Claims as a list, each with its verdict and reason.
     pub fn claims<'a>(&mut self, claims: impl Iterator<Item = &'a Claim>) {
         for claim in claims {
-            let value = |value: Option<f64>| {
-                value.map(|v| format!("{}{}", number(v), unit_after(claim.unit)))
-            };
             let mut text = format!("**{}** — {}", capital(claim.verdict.words()), claim.claim);
             text.push_str(
                 &format!(" (section {}).", claim.section).replace("section abstract", "abstract"),
             );
-            if let Some(paper) = value(claim.paper_value) {
-                text.push_str(&format!(" Paper: {paper}."));
+            if claim.paper_value.is_some() {
+                text.push_str(&format!(" Paper: {}.", paper_value(claim)));
             }
-            if let Some(computed) = value(claim.computed_value) {
-                text.push_str(&format!(" Computed: {computed}."));
+            if claim.computed_value.is_some() {
+                text.push_str(&format!(" Computed: {}.", computed_value(claim)));
             }
             text.push_str(&format!(" {}", typeset_minus(&claim.why)));
             if claim.verdict != Verdict::CannotBeChecked {
@@ -101,13 +98,33 @@ impl Doc {
     }
 }
 
-/// A number of a claim: four significant digits.
-fn number(value: f64) -> String {
-    if value != 0.0 && value.abs() < 1e-6 { typeset("0.000") } else { printed(value, 4) }
+/// The number that the paper prints, with its unit; nothing where it prints none.
+pub fn paper_value(claim: &Claim) -> String {
+    let text = |value: f64| typeset(&compact(value));
+    claim.paper_value.map_or_else(String::new, |v| format!("{}{}", text(v), unit_after(claim)))
 }
 
-fn unit_after(unit: &str) -> String {
-    if unit.is_empty() { String::new() } else { format!(" {unit}") }
+/// The computed number to four significant digits, with its unit; nothing where there is none.
+pub fn computed_value(claim: &Claim) -> String {
+    claim
+        .computed_value
+        .map_or_else(String::new, |v| format!("{}{}", printed(v, 4), unit_after(claim)))
+}
+
+fn unit_after(claim: &Claim) -> String {
+    if claim.unit.is_empty() { String::new() } else { format!(" {}", claim.unit) }
+}
+
+/// A test's name as a table has room for: no section, few words.
+pub fn short(name: &str) -> String {
+    let name = name.trim_start_matches("Section 3, ").trim_start_matches("Section 6, ");
+    name.replace(" without a spring", ", free")
+        .replace(" on the certified spring without pre-stress", ", certified")
+        .replace(" on the certified spring with pre-stress", ", certified pre-stressed")
+        .replace(" on the non-certified spring", ", non-certified")
+        .replace(" Taft 1952", " Taft")
+        .replace(", a ", ", ")
+        .replace(" sine", "")
 }
 
 fn capital(text: &str) -> String {

@@ -2,7 +2,7 @@
 
 use slipstick::laboratory::paper::Paper;
 
-use super::doc::{Doc, fixed, signed};
+use super::doc::{Doc, fixed, short, signed};
 use crate::number::{compact, rounded};
 
 pub fn write(doc: &mut Doc, paper: &Paper) {
@@ -21,12 +21,12 @@ pub fn write(doc: &mut Doc, paper: &Paper) {
             format!("{} both", compact(mu_s)),
         ];
         labels.into_iter().enumerate().map(|(i, label)| {
-            let name = if i == 0 { pair.name.trim_start_matches("Section ") } else { "" };
+            let name = if i == 0 { short(&pair.name) } else { String::new() };
             let [block, storey, peak, residual] = pair.figures[i];
             let [slips, reversals, sticks] = pair.counts[i];
             let storey = if storey == 0.0 { String::new() } else { fixed(storey, 3) };
             vec![
-                name.to_owned(),
+                name,
                 label,
                 fixed(block, 3),
                 storey,
@@ -38,7 +38,7 @@ pub fn write(doc: &mut Doc, paper: &Paper) {
     });
     doc.table(
         &[
-            "section and test",
+            "test",
             "friction",
             "block, m/s²",
             "storey, m/s²",
@@ -61,7 +61,7 @@ pub fn write(doc: &mut Doc, paper: &Paper) {
     let rows = paper.lighter.iter().map(|l| {
         let [acceleration, displacement, sliding] = l.changes_percent;
         vec![
-            l.name.trim_start_matches("Section ").to_owned(),
+            short(&l.name),
             format!("{}, {}", rounded(l.factors[0], 3), rounded(l.factors[1], 3)),
             signed(acceleration, 2),
             signed(displacement, 2),
@@ -71,7 +71,7 @@ pub fn write(doc: &mut Doc, paper: &Paper) {
     });
     doc.table(
         &[
-            "section and test",
+            "test",
             "factors on μ_s, μ_k",
             "storey acceleration, %",
             "storey displacement, %",
@@ -91,12 +91,12 @@ pub fn write(doc: &mut Doc, paper: &Paper) {
          reaches 1, by straight lines between the columns. Springs act at the sliding surface.",
     );
     let rows = paper.overturning.iter().map(|o| {
-        let mut cells = vec![o.name.trim_start_matches("Section ").to_owned()];
+        let mut cells = vec![short(&o.name)];
         cells.extend(o.ratios.iter().map(|[_, ratio]| fixed(*ratio, 3)));
         cells.push(o.lifts_at_m_per_s2.map_or("never".to_owned(), |level| fixed(level, 2)));
         cells
     });
-    let mut header = vec!["section and test".to_owned()];
+    let mut header = vec!["test".to_owned()];
     if let Some(first) = paper.overturning.first() {
         header.extend(first.ratios.iter().map(|[level, _]| compact(*level)));
     }

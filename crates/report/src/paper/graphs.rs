@@ -208,7 +208,7 @@ pub fn suite(paper: &Paper) -> Figure {
     Figure {
         id: "paper-suite",
         title: "Peak sliding displacement against friction".to_owned(),
-        description: "Rigid block without a spring, records scaled to 0.3 g.".to_owned(),
+        description: "Rigid block without a spring, records scaled to one peak.".to_owned(),
         layout: Layout::Stacked,
         panels: vec![panel(x, y, 190.0, series, Vec::new())],
         shaded: Vec::new(),

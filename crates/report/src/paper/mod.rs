@@ -21,7 +21,7 @@ use crate::plot::Svg;
 use doc::Doc;
 
 /// The chapter and its figures.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Chapter {
     /// Markdown; it shows its figures from the folder `figures` beside it.
     pub markdown: String,

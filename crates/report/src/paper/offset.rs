@@ -3,7 +3,7 @@
 use slipstick::laboratory::paper::{NOISE_M_PER_S2, OffsetRow, Paper};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
-use super::doc::{Doc, fixed, signed};
+use super::doc::{Doc, fixed, short, signed};
 use super::graphs;
 use crate::number::compact;
 
@@ -63,29 +63,30 @@ pub fn write(doc: &mut Doc, paper: &Paper) {
     doc.claims(paper.claims_of(&["accelerations-agree", "preliminary-design"]));
 }
 
-fn short(name: &str) -> String {
-    name.trim_start_matches("Section ").to_owned()
-}
-
 fn tolerances(doc: &mut Doc, paper: &Paper) {
+    let levels = |of: fn(&OffsetRow) -> &Vec<[f64; 2]>, unit: &str| -> Vec<String> {
+        let first = paper.offsets.first().map_or(&[][..], |row| of(row).as_slice());
+        first.iter().map(|[level, _]| format!("{} {unit}", compact(*level))).collect()
+    };
+    let tilts = levels(|row| &row.tilt, "mrad");
+    let mut header = vec!["test", "peak", "level"];
+    header.extend(tilts.iter().map(String::as_str));
+    header.push("a cycle");
     let rows = paper.offsets.iter().map(|row| {
         let mut cells = vec![short(&row.name), fixed(row.peak_mm, 2), fixed(row.residual_mm, 2)];
         cells.extend(row.tilt.iter().map(|[_, mm]| signed(*mm, 2)));
-        cells.extend(row.asymmetry.iter().map(|[_, mm]| signed(*mm, 2)));
         cells.push(row.growth_mm_per_cycle.map_or("–".to_owned(), |mm| signed(mm, 3)));
         cells
     });
-    let first = paper.offsets.first();
-    let levels = |of: fn(&OffsetRow) -> &Vec<[f64; 2]>, unit: &str| -> Vec<String> {
-        first.map_or_else(Vec::new, |row| {
-            of(row).iter().map(|[level, _]| format!("{} {unit}", compact(*level))).collect()
-        })
-    };
-    let mut header: Vec<String> = ["section and test", "peak", "level"].map(str::to_owned).to_vec();
-    header.extend(levels(|row| &row.tilt, "mrad"));
-    header.extend(levels(|row| &row.asymmetry, "%"));
-    header.push("a cycle".to_owned());
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    doc.table(&header, 1, rows.collect());
+    let asymmetries = levels(|row| &row.asymmetry, "%");
+    let mut header = vec!["test"];
+    header.extend(asymmetries.iter().map(String::as_str));
+    let rows = paper.offsets.iter().map(|row| {
+        let mut cells = vec![short(&row.name)];
+        cells.extend(row.asymmetry.iter().map(|[_, mm]| signed(*mm, 2)));
+        cells
+    });
     doc.table(&header, 1, rows.collect());
 }
 
@@ -96,7 +97,7 @@ fn disturbances(doc: &mut Doc, paper: &Paper) {
         cells.extend(row.baseline.iter().map(|[_, mm]| signed(*mm, 2)));
         cells
     });
-    let mut header = vec!["section and test".to_owned()];
+    let mut header = vec!["test".to_owned()];
     if let Some(row) = paper.offsets.first() {
         header.extend(row.noise.iter().map(|[level, _]| format!("noise {}", compact(*level))));
         header.extend(row.baseline.iter().map(|[level, _]| format!("error {}", compact(*level))));
@@ -113,7 +114,7 @@ fn steps(doc: &mut Doc, paper: &Paper) {
         }));
         cells
     });
-    let mut header = vec!["section and test".to_owned(), "peak".to_owned()];
+    let mut header = vec!["test".to_owned(), "peak".to_owned()];
     if let Some(drift) = paper.step_drifts.first() {
         header.extend(drift.steps.iter().map(|(dt_s, ..)| format!("{} ms", compact(1e3 * dt_s))));
     }
@@ -124,39 +125,36 @@ fn steps(doc: &mut Doc, paper: &Paper) {
 fn sensitivities(doc: &mut Doc, paper: &Paper) {
     doc.paragraph(&format!(
         "What small unknowns change: both coefficients of friction 1 % higher, a tilt of 1 mrad, 1 % \
-         asymmetry, white noise of {NOISE_M_PER_S2} m/s² on the table record (root mean square). \
-         Peak accelerations of block and storey in % of each; peak and residual sliding \
-         displacement in mm. The cells read friction, tilt, asymmetry, noise.",
+         asymmetry, white noise of {NOISE_M_PER_S2} m/s² on the table record (root mean square of \
+         the changes). Under each test's own figures, peak accelerations in m/s² and sliding \
+         displacements in mm, stand the changes of the accelerations in % of each, of the \
+         displacements in mm.",
     ));
-    let rows = paper.sensitivities.iter().map(|row| {
-        let four = |i: usize, decimals: usize| {
-            let cell = |(n, c): (usize, &[f64; 4])| {
-                if n == 3 { fixed(c[i], decimals) } else { signed(c[i], decimals) }
-            };
-            row.changes.iter().enumerate().map(cell).collect::<Vec<_>>().join(", ")
-        };
-        let storey = if row.base[1] == 0.0 { String::new() } else { four(1, 2) };
-        vec![
+    let labels = ["friction", "tilt", "asymmetry", "noise"];
+    let mut rows = Vec::new();
+    for row in &paper.sensitivities {
+        let has_storey = row.base[1] != 0.0;
+        let storey = |text: String| if has_storey { text } else { String::new() };
+        let [block, of_storey, peak, residual] = row.base;
+        rows.push(vec![
             short(&row.name),
-            four(0, 2),
-            storey,
-            fixed(row.base[2], 2),
-            four(2, 2),
-            fixed(row.base[3], 2),
-            four(3, 2),
-        ]
-    });
-    doc.table(
-        &[
-            "section and test",
-            "block, %",
-            "storey, %",
-            "peak sliding, mm",
-            "its changes, mm",
-            "residual, mm",
-            "its changes, mm",
-        ],
-        1,
-        rows.collect(),
-    );
+            String::new(),
+            fixed(block, 3),
+            storey(fixed(of_storey, 3)),
+            fixed(peak, 2),
+            fixed(residual, 2),
+        ]);
+        for (i, (label, change)) in labels.iter().zip(&row.changes).enumerate() {
+            let text = |value: f64| if i == 3 { fixed(value, 2) } else { signed(value, 2) };
+            rows.push(vec![
+                String::new(),
+                (*label).to_owned(),
+                format!("{} %", text(change[0])),
+                storey(format!("{} %", text(change[1]))),
+                text(change[2]),
+                text(change[3]),
+            ]);
+        }
+    }
+    doc.table(&["test", "", "block", "storey", "peak sliding", "residual"], 2, rows);
 }

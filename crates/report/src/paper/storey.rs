@@ -50,7 +50,7 @@ pub fn write(doc: &mut Doc, paper: &Paper) {
     doc.heading(2, "No amplification near resonance");
     doc.paragraph(
         "The three tests run near the storey's resonance. A fixed block would amplify; a block that \
-         slides freely passes on no more than its friction.",
+         slides freely passes on little more than its friction.",
     );
     doc.figure(
         &graphs::free_sliding(&paper.free_sliding),

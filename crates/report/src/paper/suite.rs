@@ -1,6 +1,7 @@
 //! Sliding displacement over records, and spectra.
 
-use slipstick::laboratory::paper::{Paper, SuiteRow};
+use slipstick::laboratory::paper::{Paper, SUITE_PEAK_M_PER_S2, SuiteRow};
+use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
 use super::doc::{Doc, fixed};
 use super::graphs;
@@ -8,17 +9,21 @@ use crate::number::compact;
 
 pub fn write(doc: &mut Doc, paper: &Paper) {
     doc.heading(2, "Sliding displacement against friction");
-    doc.paragraph(
+    let peak_g = compact(SUITE_PEAK_M_PER_S2 / STANDARD_GRAVITY_M_PER_S2);
+    doc.paragraph(&format!(
         "Choi and Tung asked, over many records, how far a block slides as its friction grows. Here are \
          the records that ship with the examples, and those of `--records` where that was given, \
-         scaled to a peak of 0.3 g; a rigid block without a spring, one coefficient for stick and \
+         scaled to a peak of {peak_g} g; a rigid block without a spring, one coefficient for stick and \
          slip. The columns are friction over the peak in g.",
-    );
+    ));
     doc.paragraph("Peak sliding displacement, mm:");
     table(doc, paper, |row| 1e3 * row.peak_m);
     doc.paragraph("Residual sliding displacement, mm:");
     table(doc, paper, |row| 1e3 * row.residual_m);
-    doc.figure(&graphs::suite(paper), "Peak sliding displacement of a rigid block at 0.3 g.");
+    doc.figure(
+        &graphs::suite(paper),
+        &format!("Peak sliding displacement of a rigid block at {peak_g} g."),
+    );
     doc.paragraph(
         "The records are trimmed at both ends and drift (see `examples/records/README.md`), which \
          moves the residuals at the smallest frictions.",

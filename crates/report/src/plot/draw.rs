@@ -43,7 +43,8 @@ impl Frame {
     }
 }
 
-pub fn figure(figure: &Figure) -> Markup {
+/// The element and its height.
+pub fn figure(figure: &Figure) -> (Markup, f64) {
     let mut body = Markup::new();
     let height = match figure.layout {
         Layout::Stacked => stacked(&mut body, figure),
@@ -67,7 +68,7 @@ pub fn figure(figure: &Figure) -> Markup {
         .raw("</desc>\n")
         .append(&body)
         .raw("</svg>\n");
-    svg
+    (svg, height)
 }
 
 fn stacked(out: &mut Markup, figure: &Figure) -> f64 {
@@ -208,7 +209,9 @@ fn header(out: &mut Markup, panel: &Panel, frame: Frame) {
 }
 
 fn sample(out: &mut Markup, series: &Series, x: f64, y: f64) {
-    if let Shape::Area(fill) = series.shape {
+    if let Shape::Dots(fill) = series.shape {
+        dot(out, series.style, fill, [x + 0.5 * SAMPLE, y]);
+    } else if let Shape::Area(fill) | Shape::Band(fill) = series.shape {
         out.raw("<rect height=\"9\" stroke-width=\"0.6\"")
             .attribute("stroke", INK)
             .attribute("fill", fill)
@@ -348,10 +351,44 @@ fn draw_series(out: &mut Markup, panel: &Panel, series: &Series, frame: Frame) {
     let path = match series.shape {
         Shape::History | Shape::Area(_) => history_path(&placed),
         Shape::Curve => curve_path(&placed),
+        Shape::Band(fill) => {
+            let path = format!("{}z", polygon_path(&placed));
+            out.raw("<path stroke=\"none\"")
+                .attribute("fill", fill)
+                .attribute("d", path)
+                .raw("/>\n");
+            return;
+        }
+        Shape::Dots(fill) => {
+            for at in placed {
+                dot(out, series.style, fill, at);
+            }
+            return;
+        }
     };
     out.raw("<path");
     stroke(out, series.style);
     out.attribute("d", path).raw("/>\n");
+}
+
+/// A point of a series, as wide as three strokes.
+fn dot(out: &mut Markup, style: Style, fill: &'static str, [x, y]: [f64; 2]) {
+    out.raw("<circle")
+        .attribute("cx", trimmed(x, 1))
+        .attribute("cy", trimmed(y, 2))
+        .attribute("r", trimmed(0.8 + 1.6 * style.width, 1))
+        .attribute("fill", fill)
+        .attribute("stroke", style.colour)
+        .raw(" stroke-width=\"0.8\"/>\n");
+}
+
+fn polygon_path(placed: &[[f64; 2]]) -> String {
+    let mut path = String::with_capacity(12 * placed.len());
+    for (i, [x, y]) in placed.iter().enumerate() {
+        path.push_str(if i == 0 { "M" } else { "L" });
+        path.push_str(&format!("{} {}", trimmed(*x, 1), trimmed(*y, 2)));
+    }
+    path
 }
 
 fn history_path(placed: &[[f64; 2]]) -> String {

@@ -16,21 +16,48 @@ use crate::markup::Markup;
 pub const WIDTH: f64 = 680.0;
 
 /// A finished drawing: one `<svg>` element.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Svg(Markup);
+#[derive(Clone, Debug, PartialEq)]
+pub struct Svg {
+    markup: Markup,
+    height: f64,
+}
 
 impl Svg {
     /// The `<svg>` element as text; also a file of its own.
     #[must_use]
     pub fn as_str(&self) -> &str {
-        self.0.as_str()
+        self.markup.as_str()
     }
 
     /// The element as a piece of a page.
     #[must_use]
     pub fn markup(&self) -> &Markup {
-        &self.0
+        &self.markup
     }
+}
+
+/// Drawings one below the other, as one file.
+#[must_use]
+pub fn column(drawings: &[Svg]) -> Svg {
+    let heights: Vec<f64> = drawings.iter().map(|svg| svg.height).collect();
+    let height = heights.iter().sum();
+    let mut out = Markup::new();
+    out.raw("<svg xmlns=\"http://www.w3.org/2000/svg\"")
+        .attribute("viewBox", format!("0 0 {WIDTH} {}", crate::number::trimmed(height, 1)))
+        .raw(">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n");
+    let mut top = 0.0;
+    for (svg, height) in drawings.iter().zip(heights) {
+        out.raw("<svg")
+            .attribute("y", crate::number::trimmed(top, 1))
+            .attribute("width", WIDTH)
+            .attribute("height", crate::number::trimmed(height, 1))
+            .raw(">\n")
+            .append(&svg.markup)
+            .raw("</svg>\n");
+        top += height;
+    }
+    out.raw("</svg>\n");
+    Svg { markup: out, height }
 }
 
 /// How a line is drawn.
@@ -66,6 +93,10 @@ pub enum Shape {
     Area(&'static str),
     /// Any curve: strokes that lie on each other are drawn once.
     Curve,
+    /// A band: the points go along its lower edge and back along the upper one; filled, no stroke.
+    Band(&'static str),
+    /// Separate points, filled in this colour (`#fff` for hollow ones).
+    Dots(&'static str),
 }
 
 /// A line of a panel.
@@ -141,6 +172,7 @@ impl Figure {
     /// Draws it.
     #[must_use]
     pub fn to_svg(&self) -> Svg {
-        Svg(draw::figure(self))
+        let (markup, height) = draw::figure(self);
+        Svg { markup, height }
     }
 }

@@ -19,13 +19,14 @@ pub(super) fn read(values: &Values) -> Result<Option<Records>, InputError> {
     if files.is_empty() {
         return Err(values.error("records.files", "at least one file or pattern", "none"));
     }
-    let units = values.leaf("records.units").and_then(|leaf| match leaf.given {
-        Given::Unit(unit) => Units::parse(unit.name()),
+    let unit_name = values.leaf("records.units").and_then(|leaf| match leaf.given {
+        Given::Unit(unit) => Some(unit.name()),
         _ => None,
     });
     Ok(Some(Records {
         files,
-        units,
+        units: unit_name.and_then(Units::parse),
+        unit_name,
         dt_s: values.number("records.dt"),
         channel: values.leaf("records.channel").map(|leaf| leaf.written.clone()),
         vertical: texts("records.vertical"),

@@ -53,6 +53,9 @@ fn grid(values: &Values, vary: &[Varied]) -> Result<u64, InputError> {
     let mut count = 1_u64;
     for varied in vary {
         let place = format!("vary.{}", varied.path);
+        if varied.paired_with.is_some() {
+            continue;
+        }
         let Distribution::List(list) = &varied.distribution else {
             let expected = "values, linspace or logspace with method = \"grid\"";
             return Err(values.error(&place, expected, "a distribution"));
@@ -116,8 +119,12 @@ fn dimension(
     let Value::Text(path) = &node.value else {
         return Err(values.mistyped(place, node, "a varied path in quotes"));
     };
-    vary.iter().position(|varied| varied.path == *path).ok_or_else(|| {
+    let own = |varied: &&Varied| varied.paired_with.is_none();
+    vary.iter().position(|varied| own(&varied) && varied.path == *path).ok_or_else(|| {
         let nearest = similar(path, vary.iter().map(|varied| varied.path.as_str()));
-        InputError { nearest, ..values.mistyped(place, node, "a path of [vary]") }
+        InputError {
+            nearest,
+            ..values.mistyped(place, node, "a path of [vary] that is drawn by itself")
+        }
     })
 }

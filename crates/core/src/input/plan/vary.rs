@@ -1,7 +1,7 @@
 //! What is varied: paths of the model, each with its distribution.
 
 use super::{Distribution, List, Varied};
-use crate::error::{InputError, cut};
+use crate::error::{InputError, cut, similar};
 use crate::input::overrides::{find_kind, kind_of};
 use crate::input::plan_keys::{DISTRIBUTION, MAX_RUNS};
 use crate::input::reader::{Given, Values, join};
@@ -37,6 +37,7 @@ pub(super) fn read(values: &mut Values) -> Result<Vec<Varied>, InputError> {
         return Err(values.error(&path, expected, all.len().to_string()));
     }
     check_factors(values, &all)?;
+    pair(values, &mut all)?;
     Ok(all)
 }
 
@@ -100,7 +101,8 @@ fn varied(values: &mut Values, path: &str, entry: &Entry) -> Result<Varied, Inpu
         (Some(dimension), Some(_)) => dimension.si_unit(),
         _ => "",
     };
-    Ok(Varied { path: path.to_owned(), unit, range: takes.range, distribution, factor_of })
+    let (path, range) = (path.to_owned(), takes.range);
+    Ok(Varied { path, unit, range, distribution, factor_of, paired_with: None })
 }
 
 fn takes(values: &Values, path: &str, key: &Spot) -> Result<Takes, InputError> {
@@ -310,6 +312,32 @@ fn number(given: Given) -> f64 {
         Given::Number(value) => value,
         _ => f64::NAN,
     }
+}
+
+/// Finds the partner of each list that goes with another.
+fn pair(values: &Values, all: &mut [Varied]) -> Result<(), InputError> {
+    for i in 0..all.len() {
+        let place = format!("vary.{}.paired_with", all[i].path);
+        let Some(with) = values.text(&place) else { continue };
+        let partner = all.iter().position(|other| other.path == with).ok_or_else(|| {
+            let nearest = similar(with, all.iter().map(|varied| varied.path.as_str()));
+            InputError { nearest, ..values.wrong(&place, "another path of [vary]") }
+        })?;
+        let length = |i: usize| match &all[i].distribution {
+            Distribution::List(list) => Some(list.len()),
+            _ => None,
+        };
+        let leads = !values.has(&format!("vary.{}.paired_with", all[partner].path));
+        if partner == i || !leads || length(partner) != length(i) {
+            let expected = match length(i) {
+                Some(count) => format!("a path with a list of {count} values of its own"),
+                None => "a path with a list".to_owned(),
+            };
+            return Err(values.wrong(&place, expected));
+        }
+        all[i].paired_with = Some(partner);
+    }
+    Ok(())
 }
 
 /// Each factor's path: of the same dimension, and not in the end its own.

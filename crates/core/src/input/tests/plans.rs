@@ -139,7 +139,7 @@ fn exact_errors_say_where_and_what() {
         ),
         (
             one("slider.radius", "{ valus = [\"1 m\"] }"),
-            "p.toml:3:21: vary.slider.radius.valus: expected one of the keys values, linspace, logspace, uniform, normal, lognormal, truncated, factor_of, found \"valus\"; nearest is \"values\"",
+            "p.toml:3:21: vary.slider.radius.valus: expected one of the keys values, linspace, logspace, uniform, normal, lognormal, truncated, factor_of, paired_with, found \"valus\"; nearest is \"values\"",
         ),
         (
             one("slider.radios", "{ values = [\"1 m\"] }"),
@@ -206,6 +206,14 @@ fn exact_errors_say_where_and_what() {
             "p.toml:3:33: vary.slider.radius.factor_of: expected a path that does not follow from this one, found \"slider.radius\"",
         ),
         (
+            one("slider.radius", "{ values = [\"1 m\"], paired_with = \"slider.gap\" }"),
+            "p.toml:3:53: vary.slider.radius.paired_with: expected another path of [vary], found \"slider.gap\"; nearest is \"slider.radius\"",
+        ),
+        (
+            one("slider.radius", "{ values = [\"1 m\"], paired_with = \"slider.radius\" }"),
+            "p.toml:3:53: vary.slider.radius.paired_with: expected a path with a list of 1 values of its own, found \"slider.radius\"",
+        ),
+        (
             "model = \"m.toml\"\n[vary]\nslider.radius = { values = [\"1 m\"] }\n".to_owned(),
             "p.toml:1:1: sampling: expected a table [sampling] beside [vary], found nothing",
         ),
@@ -235,7 +243,7 @@ fn exact_errors_say_where_and_what() {
         ),
         (
             correlated("[[\"slider.radius\", \"slider.gab\", 0.3]]"),
-            "p.toml:10:34: sampling.correlation.1: expected a path of [vary], found \"slider.gab\"; nearest is \"slider.gap\"",
+            "p.toml:10:34: sampling.correlation.1: expected a path of [vary] that is drawn by itself, found \"slider.gab\"; nearest is \"slider.gap\"",
         ),
         (
             correlated("[[\"slider.radius\", \"slider.gap\", 1]]"),

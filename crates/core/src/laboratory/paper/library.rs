@@ -286,3 +286,32 @@ pub(super) fn damping_ratio(model: &Model) -> f64 {
         crate::model::Damping::Dampers(_) => 0.0,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_subdivided_and_thinned() {
+        let motion =
+            GroundMotion::evenly_spaced(0.01, vec![0.0, 1.0, 3.0, 2.0, 0.0], None).unwrap();
+        let fine = resampled(&motion, 0.005).unwrap();
+        assert_eq!(fine.horizontal_m_per_s2(), [0.0, 0.5, 1.0, 2.0, 3.0, 2.5, 2.0, 1.0, 0.0]);
+        assert_eq!(fine.dt_s(), Some(0.005));
+        let coarse = resampled(&motion, 0.02).unwrap();
+        assert_eq!(
+            (coarse.horizontal_m_per_s2(), coarse.dt_s()),
+            (&[0.0, 3.0, 0.0][..], Some(0.02))
+        );
+        assert_eq!(resampled(&motion, 0.01).unwrap(), motion);
+    }
+
+    #[test]
+    fn file_a_record_that_is_not_there_is_named() {
+        let model = "[block]\nmass = \"1 kg\"\n[slider]\nstatic_friction = 0.2\n\
+                     kinetic_friction = 0.1\n[motion]\nrecord = \"a/b.txt\"\n";
+        let error = Library::read(&[("model", model)], &[]).unwrap_err();
+        let expected = "expected a/b.txt among the mock-ups and records of the paper, found none";
+        assert_eq!(error.to_string(), expected);
+    }
+}

@@ -271,3 +271,26 @@ fn measured_coefficients(library: &Library) -> Result<Vec<Claim>, PaperError> {
         ),
     ])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By hand: |H|² = (1 + (2ξr)²)/((1 − r²)² + (2ξr)²).
+    #[test]
+    fn exact_amplification() {
+        assert!((amplification(1.0 / 1.125, 0.01) - 4.7485).abs() < 5e-5);
+        assert!((amplification(2.984 / 2.687, 0.01) - 4.2684).abs() < 5e-5);
+        assert_eq!(amplification(0.0, 0.01), 1.0);
+    }
+
+    /// 20 mm of steel, 0.76 m long: I = π d⁴/64 = 7.854e-9 m⁴, 3EI/L³ = 11 272 N/m, 2.519 Hz with
+    /// 45 kg.
+    #[test]
+    fn exact_cantilever() {
+        let rods = cantilevers();
+        let rod = rods.iter().find(|c| (c.diameter_m, c.length_m) == (0.020, 0.76)).unwrap();
+        assert_eq!(rod.mass_kg, 45.0);
+        assert!((rod.frequency_hz - 2.519).abs() < 5e-4, "{}", rod.frequency_hz);
+    }
+}

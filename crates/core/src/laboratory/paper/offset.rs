@@ -429,3 +429,53 @@ fn reproduced(rows: &[OffsetRow]) -> Claim {
         ),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn free_block() -> Library {
+        let text = include_str!("../../../../../examples/paper/section3-124kg-free-sine.toml");
+        Library::read(&[("section3-124kg-free-sine", text)], &[]).unwrap()
+    }
+
+    /// The block slides without stopping: half of its peak-to-peak is
+    /// `(A/ω²) √(1 − (π η/2)²)` with `η = μ_k g/A`, and a small tilt θ moves it by
+    /// `−π² (A/ω²) (θ/μ_k) √(1 − (π η/2)²)` every cycle.
+    #[test]
+    fn exact_range_and_growth_of_a_block_that_never_stops() {
+        let library = free_block();
+        let test = library.experiment("section3-124kg-free-sine").unwrap();
+        let sine = test.sine().unwrap();
+        let rate = core::f64::consts::TAU * sine.frequency_hz;
+        let mu_k = test.model.kinetic_friction()[0];
+        let eta = mu_k * test.model.gravity_m_per_s2() / sine.amplitude_m_per_s2;
+        let half_pi = core::f64::consts::FRAC_PI_2;
+        let root = (1.0 - (half_pi * eta) * (half_pi * eta)).sqrt();
+        let half_mm = 1e3 * sine.amplitude_m_per_s2 / (rate * rate) * root;
+        let found = midline(&Experiment { tail_s: 0.0, ..test.clone() }, 14.0).unwrap()[1];
+        // 133 samples a cycle: a sine of straight lines is weaker by 2e-4.
+        assert!((found / half_mm - 1.0).abs() < 1e-3, "{found} {half_mm}");
+        let drift_mm = -4.0 * half_pi * half_pi * half_mm * (1e-3 / mu_k);
+        let found = growth(test).unwrap().unwrap();
+        assert!((found / drift_mm - 1.0).abs() < 5e-3, "{found} {drift_mm}");
+    }
+
+    /// A constant error of the table record is a tilt, but for cos θ and the start.
+    #[test]
+    fn exact_constant_error_is_a_tilt() {
+        let library = free_block();
+        let test = library.experiment("section3-124kg-free-sine").unwrap();
+        let gravity = test.model.gravity_m_per_s2();
+        let error = disturbed(test, 0.0, 1e-3 * gravity, 0).unwrap();
+        let residual = |model: &Model, motion: &GroundMotion| {
+            let demands = solver::exact_demands(model, motion).unwrap().demands;
+            1e3 * demands.residual_sliding_displacement_m
+        };
+        let level = residual(&test.model, &test.motion().unwrap());
+        let by_error = residual(&test.model, &error) - level;
+        let tilted = with_tilt(&test.model, 1e-3).unwrap();
+        let by_tilt = residual(&tilted, &test.motion().unwrap()) - level;
+        assert!((by_error / by_tilt - 1.0).abs() < 0.01, "{by_error} {by_tilt}");
+    }
+}

@@ -110,7 +110,7 @@ pub(super) fn steady(model: &Model, sine: &Sine) -> Result<Steady, PaperError> {
             let drift_m = demands.iter().map(|d| d.residual_sliding_displacement_m).sum();
             return Ok(Steady { period: Some(n), demands, drift_m });
         }
-        let due = made >= LEAD && made < LONGEST / 2 && since >= 8 && made % 8 == 0;
+        let due = (LEAD..LONGEST / 2).contains(&made) && since >= 8 && made % 8 == 0;
         if due
             && approaching(&states, &next.scale)
             && let Some(limit) = extrapolated(&states[states.len() - 5..])

@@ -300,8 +300,8 @@ mod tests {
     fn exact_what_cannot_be_filtered() {
         let band = Band::Low { corner_hz: 5.0 };
         let short = Series::evenly_spaced(0.01, vec![1.0; 15], Quantity::Acceleration).unwrap();
-        assert!(filter(&short, band, 4).is_err() && filter(&short, band, 2).is_err());
-        assert!(filter(&short, band, 1).is_ok());
+        assert!(filter(&short, band, 4).is_err());
+        assert!(filter(&short, band, 1).is_ok() && filter(&short, band, 2).is_ok());
         let uneven =
             Series::new(vec![0.0, 1.0, 3.0], vec![0.0; 3], Quantity::Acceleration).unwrap();
         assert_eq!(filter(&uneven, band, 1), Err(MotionError::Uneven { step: "a filter" }));

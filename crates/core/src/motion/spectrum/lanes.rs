@@ -10,7 +10,7 @@ use super::Oscillator;
 use crate::motion::oscillator::{Interval, Overshoot, Peaks, State, Step};
 
 /// Oscillators side by side.
-const LANES: usize = 8;
+const LANES: usize = 4;
 
 /// Samples between kept states.
 const BLOCK: usize = 64;
@@ -18,20 +18,61 @@ const BLOCK: usize = 64;
 /// One number for each oscillator.
 type Lanes = [f64; LANES];
 
-/// Peaks of every oscillator under an acceleration sampled every `dt_s`.
-pub(super) fn peaks(dt_s: f64, acceleration: &[f64], oscillators: &[Oscillator]) -> Vec<Peaks> {
-    let extents = extents(acceleration);
-    let mut blocks = Vec::with_capacity(extents.len());
-    let mut peaks = Vec::with_capacity(oscillators.len());
-    for group in oscillators.chunks(LANES) {
-        let matrices = Matrices::new(dt_s, group);
-        matrices.run(acceleration, &mut blocks);
-        for (lane, oscillator) in group.iter().enumerate() {
-            let one = One::new(dt_s, *oscillator, &matrices, lane);
-            peaks.push(one.peaks(acceleration, &extents, &blocks));
+/// Most samples that straight lines are cut into for short periods.
+const MOST_SAMPLES: usize = 1 << 24;
+
+/// Peaks of every oscillator under an acceleration sampled every `dt_s`; `None` for those whose
+/// period is too short for it.
+///
+/// An oscillator that turns far within a sample sees the straight lines cut into equal parts, which
+/// are the same motion: so its peaks between samples have a close bound, too.
+pub(super) fn peaks(
+    dt_s: f64,
+    acceleration: &[f64],
+    oscillators: &[Oscillator],
+) -> Vec<Option<Peaks>> {
+    let parts: Vec<f64> =
+        oscillators.iter().map(|o| Overshoot::parts(o.omega * dt_s, o.xi)).collect();
+    let mut order: Vec<usize> = (0..oscillators.len()).collect();
+    order.sort_by(|&i, &j| parts[i].total_cmp(&parts[j]));
+    let mut all = vec![None; oscillators.len()];
+    let mut blocks = Vec::new();
+    for alike in order.chunk_by(|&i, &j| parts[i] == parts[j]) {
+        let cuts = parts[alike[0]];
+        if !(cuts * acceleration.len() as f64 <= MOST_SAMPLES as f64) {
+            break;
+        }
+        let fine;
+        let acceleration = match cuts as usize {
+            1 => acceleration,
+            cuts => {
+                fine = cut(acceleration, cuts);
+                &fine[..]
+            }
+        };
+        let dt_s = dt_s / cuts;
+        let extents = extents(acceleration);
+        for indices in alike.chunks(LANES) {
+            let group: Vec<Oscillator> = indices.iter().map(|&i| oscillators[i]).collect();
+            let matrices = Matrices::new(dt_s, &group);
+            matrices.run(acceleration, &mut blocks);
+            for (lane, &i) in indices.iter().enumerate() {
+                let one = One::new(dt_s, oscillators[i], &matrices, lane);
+                all[i] = Some(one.peaks(acceleration, &extents, &blocks));
+            }
         }
     }
-    peaks
+    all
+}
+
+/// The straight lines between samples, each cut into equal parts.
+fn cut(acceleration: &[f64], parts: usize) -> Vec<f64> {
+    let mut fine = Vec::with_capacity((acceleration.len() - 1) * parts + 1);
+    for a in acceleration.windows(2) {
+        fine.extend((0..parts).map(|k| a[0] + (a[1] - a[0]) * (k as f64 / parts as f64)));
+    }
+    fine.extend(acceleration.last());
+    fine
 }
 
 /// Bounds of the acceleration over a block: largest |a|, and largest |a[k+1] − a[k]|.
@@ -114,40 +155,42 @@ impl Matrices {
     }
 
     /// All lanes over the whole record, from rest.
+    #[inline(never)]
     fn run(&self, acceleration: &[f64], blocks: &mut Vec<Block>) {
         blocks.clear();
         let (mut u, mut w) = ([0.0; LANES], [0.0; LANES]);
         for first in (0..acceleration.len() - 1).step_by(BLOCK) {
             let last = (first + BLOCK + 1).min(acceleration.len());
-            let mut block = Block {
-                u,
-                w,
-                peak_u: [0.0; LANES],
-                peak_w: [0.0; LANES],
-                peak_total: [0.0; LANES],
-            };
-            block.raise(&self.two_xi, &u, &w);
+            let mut block = Block::new(u, w, &self.two_xi);
             for a in acceleration[first..last].windows(2) {
                 for i in 0..LANES {
                     (u[i], w[i]) = self.step(i, u[i], w[i], a[0], a[1]);
+                    block.peak_u[i] = higher(block.peak_u[i], u[i]);
+                    block.peak_w[i] = higher(block.peak_w[i], w[i]);
+                    let total = u[i] + self.two_xi[i] * w[i];
+                    block.peak_total[i] = higher(block.peak_total[i], total);
                 }
-                block.raise(&self.two_xi, &u, &w);
             }
             blocks.push(block);
         }
     }
 }
 
+/// The larger of a peak and the size of a value.
+#[inline(always)]
+fn higher(peak: f64, value: f64) -> f64 {
+    let value = value.abs();
+    if value > peak { value } else { peak }
+}
+
 impl Block {
-    /// Raises the largest values by those of a state.
-    #[inline(always)]
-    fn raise(&mut self, two_xi: &Lanes, u: &Lanes, w: &Lanes) {
-        let higher = |peak: f64, value: f64| if value.abs() > peak { value.abs() } else { peak };
+    /// One that holds its first state alone.
+    fn new(u: Lanes, w: Lanes, two_xi: &Lanes) -> Self {
+        let mut total = [0.0; LANES];
         for i in 0..LANES {
-            self.peak_u[i] = higher(self.peak_u[i], u[i]);
-            self.peak_w[i] = higher(self.peak_w[i], w[i]);
-            self.peak_total[i] = higher(self.peak_total[i], u[i] + two_xi[i] * w[i]);
+            total[i] = (u[i] + two_xi[i] * w[i]).abs();
         }
+        Self { u, w, peak_u: u.map(f64::abs), peak_w: w.map(f64::abs), peak_total: total }
     }
 
     fn peaks(&self, i: usize) -> Peaks {

@@ -6,6 +6,9 @@ use crate::error::RecordError;
 use crate::record::RecordWarning;
 use crate::record::bytes::Bytes;
 
+/// What a record's time may be off by its rounding, in s.
+const CLOCK_S: f64 = 1e-9;
+
 /// Samples at equal steps without a gap.
 #[derive(Debug)]
 pub(super) struct Segment {
@@ -32,8 +35,10 @@ struct Block {
 
 impl Block {
     /// Time of the sample after its last, in ns since 1970.
-    fn end_ns(&self) -> f64 {
-        self.record.start_ns as f64 + self.values.len() as f64 * self.dt_s * 1e9
+    fn end_ns(&self) -> i64 {
+        let length_ns = libm::round(self.values.len() as f64 * self.dt_s * 1e9);
+        // A length past the range of times, which no record has, is cut to it.
+        self.record.start_ns.saturating_add(length_ns as i64)
     }
 }
 
@@ -73,14 +78,21 @@ impl Streams {
     /// The segments, and a warning for each stream that was left out.
     pub fn finish(self) -> (Vec<Segment>, Vec<RecordWarning>) {
         let mut segments = Vec::new();
-        for (id, blocks) in self.streams {
-            segments.extend(joined(&id, blocks));
-        }
-        let skipped = self.skipped.into_iter().map(|(id, coding)| RecordWarning {
+        let skip = |what: &str, id: &str| RecordWarning {
             kind: "channel_skipped",
-            message: format!("{coding} in {id}, left out"),
-        });
-        (segments, skipped.collect())
+            message: format!("{what} in {id}, left out"),
+        };
+        let mut skipped: Vec<_> = self.skipped.iter().map(|(id, what)| skip(what, id)).collect();
+        for (id, blocks) in self.streams {
+            for segment in joined(&id, blocks) {
+                if segment.values.len() >= 2 {
+                    segments.push(segment);
+                } else {
+                    skipped.push(skip("one sample only", &segment.name));
+                }
+            }
+        }
+        (segments, skipped)
     }
 }
 
@@ -96,12 +108,12 @@ fn joined(id: &str, mut blocks: Vec<Block>) -> Vec<Segment> {
     let repeated = all - blocks.len();
 
     let mut segments: Vec<Segment> = Vec::new();
-    let mut end_ns = f64::NAN;
+    let mut end_ns = 0;
     let mut drift = Drift::default();
     for block in blocks {
-        let late_s = (block.record.start_ns as f64 - end_ns) / 1e9;
+        let late_s = block.record.start_ns.saturating_sub(end_ns) as f64 / 1e9;
         let follows = segments.last().is_some_and(|segment| segment.dt_s == block.dt_s)
-            && late_s.abs() <= 0.5 * block.dt_s;
+            && late_s.abs() <= 0.5 * block.dt_s + CLOCK_S;
         end_ns = block.end_ns();
         if !follows {
             if let Some(segment) = segments.last_mut() {
@@ -159,7 +171,7 @@ fn finish(segments: &mut [Segment], sorted: bool, repeated: usize) {
 
 /// What comes between a segment and the next.
 fn interruption(count: usize, late_s: f64, dt_s: f64) -> RecordWarning {
-    if late_s.abs() <= 0.5 * dt_s {
+    if late_s.abs() <= 0.5 * dt_s + CLOCK_S {
         let message = format!("after its {count} samples the step changes");
         return RecordWarning { kind: "gap", message };
     }

@@ -37,10 +37,6 @@ pub(super) fn header(bytes: &Bytes, offset: usize) -> Result<Option<DataRecord>,
         return Err(bytes.error(offset, "a MiniSEED data record", found));
     }
     if !is_record(rest) {
-        // What is left of a record that is cut may be anything.
-        if offset > 0 && rest.len() < FIXED {
-            return Ok(None);
-        }
         let found: String = rest.iter().take(8).map(|b| b.escape_ascii().to_string()).collect();
         return Err(bytes.error(offset, "a MiniSEED data record", &found));
     }

@@ -13,16 +13,24 @@ use crate::solver::recorder::{Knot, Recorder};
 impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
     /// Walks through one sample interval.
     pub(super) fn long_way(&mut self, sample: usize) -> Result<(), SolveError> {
+        self.long_way_from(sample, 0.0)
+    }
+
+    /// Walks through the rest of one sample interval after a time in it.
+    pub(in crate::solver) fn long_way_from(
+        &mut self,
+        sample: usize,
+        mut from_s: f64,
+    ) -> Result<(), SolveError> {
         let times_s = self.excitation.times_s;
         let length_s = times_s[sample + 1] - times_s[sample];
         let kink_s = self.excitation.kink(sample).map(|part| part * length_s);
-        let mut from_s = 0.0;
         for to_s in kink_s.into_iter().chain([length_s]) {
             if to_s > from_s {
                 let stretch = self.excitation.stretch(sample, from_s, to_s);
                 self.walk_stretch(&stretch)?;
+                from_s = to_s;
             }
-            from_s = to_s;
         }
         Ok(())
     }
@@ -163,6 +171,7 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let demand = self.demand(stretch, at_s);
         let normal = stretch.normal_at(at_s);
         let [low, high] = self.bounds.map(|bound| bound * normal);
+        self.sliding.decide(demand, [low, high]);
         let direction = if demand > high {
             Direction::Negative
         } else if demand < low {
@@ -366,7 +375,13 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
     }
 
     /// Records the present state as a knot in a mode.
-    pub(super) fn record(&mut self, stretch: &Stretch, at_s: f64, mode: Mode, row: bool) {
+    pub(in crate::solver) fn record(
+        &mut self,
+        stretch: &Stretch,
+        at_s: f64,
+        mode: Mode,
+        row: bool,
+    ) {
         if !R::WANTED {
             return;
         }
@@ -384,7 +399,7 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
     }
 
     /// Records the present state as a knot at a sample.
-    pub(super) fn record_sample(&mut self, sample: usize, mode: Mode, row: bool) {
+    pub(in crate::solver) fn record_sample(&mut self, sample: usize, mode: Mode, row: bool) {
         if R::WANTED {
             self.record_at(&self.state.clone(), sample, mode, row);
         }

@@ -1,12 +1,16 @@
-//! Real files of networks, SAC and MiniSEED, compared with the table that came with them. They are
-//! not part of the repository: see `records.rs`.
+//! Files of networks, SAC and MiniSEED: real ones, compared with the table that came with them, which
+//! are not part of the repository (see `records.rs`); and the small ones of `data/records`.
 
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use slipstick::record::{self, Channel, Options, Record, Sampling, Units};
+use slipstick::record::{self, Channel, Options, Record, Units};
+
+mod changed;
+mod made;
+mod real;
 
 const G: f64 = 9.80665;
 const NOTHING: Options = Options { format: None, units: None, dt_s: None };
@@ -78,19 +82,6 @@ const ROWS: [Row; 27] = [
     ("cwa_taiwan/2-ECU.dat", "E", "cm/s²", 0.02, 6000, 0.002_866_42, 2.811),
 ];
 
-/// The header of the Mexican file states 17500 rows: the index counts two more, which repeat.
-#[test]
-fn records_networks_read_as_their_index_says() {
-    let Some(folder) = folder("records_networks_read_as_their_index_says") else { return };
-    for (file, name, units, dt_s, npts, pga_g, native) in ROWS {
-        let record = read(&folder, file, &NOTHING);
-        let channel = record.channel(name).unwrap_or_else(|| panic!("{file} {name}"));
-        let place = format!("{file}: {}", record.describe(channel));
-        assert_eq!(channel.values.len(), npts, "{place}");
-        assert_eq!(channel.sampling, Sampling::Dt(dt_s), "{place}");
-        assert_eq!(channel.units.to_string(), units, "{place}");
-        assert!((peak(channel) / native - 1.0).abs() < 1e-5, "{place}: {}", peak(channel));
-        let pga = peak(channel) * channel.units.si() / G;
-        assert!((pga / pga_g - 1.0).abs() < 1e-5, "{place}: {pga}");
-    }
+fn samples() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/records")
 }

@@ -1,0 +1,244 @@
+//! What spectrum, ida, fragility and design share: model and records in, sheets and tables out.
+
+use std::path::{Path, PathBuf};
+
+use slipstick::input::{self, Analysis, Override};
+use slipstick::motion::intensity::Measure;
+use slipstick::record::{self, Quantity as RecordQuantity};
+use slipstick::response::Method;
+use slipstick::units::{Dimension, parse_quantity};
+use slipstick_files::assessment::{
+    AssessmentError, Models, Scaling, Suite, SuiteRequest, Table, levels, on_threads,
+};
+use slipstick_files::{Job, OutputFolder, sha256_hex};
+use slipstick_report::assessment::{Sheet, Went, key};
+use slipstick_report::display::Quantity;
+use slipstick_report::{FileNote, InputText};
+
+use super::compare::name as model_name;
+use super::run::{ModelFile, command_line, overrides, read_model};
+use crate::args::{ResultArgs, ScaleArgs, SuiteArgs};
+use crate::failure::{Failure, print, say};
+use crate::progress::watched;
+
+/// A model and its suite, read.
+pub struct Opened {
+    pub file: ModelFile,
+    pub name: String,
+    pub analysis: Analysis,
+    overrides: Vec<Override>,
+    pub suite: Suite,
+}
+
+impl Opened {
+    /// Reads the model and the records, or the model's own motion.
+    pub fn open(args: &SuiteArgs) -> Result<Self, Failure> {
+        let file = read_model(&args.model)?;
+        let overrides = overrides(&args.set, None)?;
+        let analysis = input::from_bytes(&file.name, &file.bytes, &overrides)
+            .map_err(|error| Failure::input(error, &file.text()))?;
+        if analysis.method != Method::Exact {
+            let expected = "the exact method, which is the only one over a suite";
+            let error = analysis.error_at("analysis.method", expected, "\"stepwise\"");
+            return Err(Failure::input(error, &file.text()));
+        }
+        let name = model_name(&file, analysis.name.as_deref());
+        let suite = if args.records.is_empty() {
+            let job = Job::new(&file.path, analysis.clone(), None)
+                .map_err(|error| Failure::job(error, &file.name, &file.text()))?;
+            let made = job.loaded.sources.is_empty();
+            let record = job.loaded.description.join("; ");
+            Suite::single(&record, job.loaded, made)
+        } else {
+            let request = suite_request(args)?;
+            watched("reading", args.result.quiet, || Suite::open(&request))
+                .map_err(|error| Failure::Message(error.to_string()))?
+        };
+        Ok(Self { file, name, analysis, overrides, suite })
+    }
+
+    /// The models of a grid, from options `(option, PATH=VALUES)`.
+    pub fn models(&self, options: &[(&str, String)]) -> Result<Models, Failure> {
+        let coupled = options.iter().any(|(option, _)| *option == "--friction");
+        let text = self.file.text();
+        Models::new(&self.file.name, &text, &self.overrides, options, coupled)
+            .map_err(|error| self.failure(error))
+    }
+
+    /// An error of an analysis, with the model's text where it points into that.
+    pub fn failure(&self, error: AssessmentError) -> Failure {
+        match error {
+            AssessmentError::Input(error) => Failure::input(error, &self.file.text()),
+            other => Failure::Message(other.to_string()),
+        }
+    }
+
+    /// Runs something on the threads asked for, with a sign of life.
+    pub fn compute<T: Send>(
+        &self,
+        args: &SuiteArgs,
+        work: impl FnOnce() -> Result<T, AssessmentError> + Send,
+    ) -> Result<T, Failure> {
+        watched("computing", args.result.quiet, || on_threads(args.jobs.map(usize::from), work))
+            .map_err(|error| self.failure(error))
+    }
+
+    /// Files that went in, model first.
+    pub fn sources(&self) -> Vec<(String, String, String)> {
+        let model = (self.file.name.clone(), sha256_hex(&self.file.bytes), "model".to_owned());
+        std::iter::once(model).chain(self.suite.sources.iter().cloned()).collect()
+    }
+
+    /// The folder for the results, refused where it would replace an input.
+    pub fn folder(&self, args: &ResultArgs) -> Result<Option<OutputFolder>, Failure> {
+        let inputs: Vec<PathBuf> =
+            self.sources().into_iter().map(|(path, ..)| path.into()).collect();
+        folder(args, &inputs)
+    }
+
+    /// Text of the model, as the report shows it.
+    pub fn inputs(&self) -> Vec<(String, String)> {
+        vec![(self.file.name.clone(), self.file.text())]
+    }
+}
+
+/// The folder for results, made before any work is done.
+pub fn folder(args: &ResultArgs, inputs: &[PathBuf]) -> Result<Option<OutputFolder>, Failure> {
+    Ok(args.out.as_deref().map(|out| OutputFolder::create(out, inputs)).transpose()?)
+}
+
+fn suite_request(args: &SuiteArgs) -> Result<SuiteRequest, Failure> {
+    let units = args.units.as_deref().map(|units| {
+        let of_record = record::Units::parse(units);
+        of_record.filter(|u| u.quantity() == RecordQuantity::Acceleration).ok_or_else(|| {
+            let known = Dimension::Acceleration.units().iter().map(|unit| unit.name());
+            let known = known.collect::<Vec<_>>().join(", ");
+            message("--units", &format!("a unit of acceleration ({known})"), units)
+        })
+    });
+    let dt_s = args.dt.as_deref().map(|dt| {
+        let dt_s = quantity("--dt", dt, Dimension::Time)?;
+        if dt_s > 0.0 { Ok(dt_s) } else { Err(message("--dt", "a time step > 0", dt)) }
+    });
+    Ok(SuiteRequest {
+        patterns: args.records.clone(),
+        vertical: args.vertical.clone(),
+        units: units.transpose()?,
+        dt_s: dt_s.transpose()?,
+        channel: args.channel.clone(),
+    })
+}
+
+/// How the records are scaled, and that in words.
+pub fn scaling(args: &ScaleArgs) -> Result<(Scaling, String), Failure> {
+    let Some(level) = &args.level else {
+        let factor = args.scale.unwrap_or(1.0);
+        if !(factor.is_finite() && factor != 0.0) {
+            return Err(message("--scale", "a factor other than 0", &factor.to_string()));
+        }
+        let words = if factor == 1.0 { " as recorded".to_owned() } else { format!(" × {factor}") };
+        return Ok((Scaling::Factor(factor), words));
+    };
+    let measure = measure(&args.measure)?;
+    let values = levels("--level", level, &measure).map_err(|e| Failure::Message(e.to_string()))?;
+    let [value] = values[..] else {
+        return Err(message("--level", "one level", level));
+    };
+    Ok((Scaling::Level(measure, value), format!(" scaled to {measure} = {}", level.trim())))
+}
+
+/// A measure by its name.
+pub fn measure(name: &str) -> Result<Measure, Failure> {
+    Measure::parse(name).map_err(|error| Failure::Message(format!("--measure: {error}")))
+}
+
+/// A quantity of an option.
+pub fn quantity(option: &str, text: &str, dimension: Dimension) -> Result<f64, Failure> {
+    parse_quantity(text, dimension).map_err(|error| Failure::Message(format!("{option}: {error}")))
+}
+
+/// A limit > 0 on a demand: with the unit that its key ends in, or a bare number.
+pub fn limit(option: &str, text: &str, demand: &str) -> Result<f64, Failure> {
+    let dimension = match key::quantity(demand) {
+        Quantity::Length => Some(Dimension::Length),
+        Quantity::Velocity => Some(Dimension::Velocity),
+        Quantity::Acceleration => Some(Dimension::Acceleration),
+        Quantity::Force => Some(Dimension::Force),
+        Quantity::Time => Some(Dimension::Time),
+        _ => None,
+    };
+    let value = match dimension {
+        Some(dimension) => quantity(option, text, dimension)?,
+        None => text.trim().parse().map_err(|_| message(option, "a number", text))?,
+    };
+    if value.is_finite() && value > 0.0 {
+        Ok(value)
+    } else {
+        Err(message(option, "a limit > 0", text))
+    }
+}
+
+/// A share strictly between 0 and 1.
+pub fn share(option: &str, value: f64) -> Result<f64, Failure> {
+    let inside = value > 0.0 && value < 1.0;
+    if inside {
+        Ok(value)
+    } else {
+        Err(message(option, "a share between 0 and 1", &value.to_string()))
+    }
+}
+
+/// What was expected of an option, and what was found.
+pub fn message(option: &str, expected: &str, found: &str) -> Failure {
+    Failure::Message(format!("{option}: expected {expected}, found {found:?}"))
+}
+
+/// Writes tables, figures, summary and report, and prints the result.
+pub fn conclude(
+    args: &ResultArgs,
+    folder: Option<OutputFolder>,
+    sheet: &Sheet,
+    tables: &[(&str, &Table)],
+    sources: &[(String, String, String)],
+    inputs: &[(String, String)],
+) -> Result<(), Failure> {
+    if let Some(mut folder) = folder {
+        for (name, table) in tables {
+            match name.rsplit_once('.') {
+                Some((_, "parquet")) => folder.write(name, &table.to_parquet(Path::new(name))?)?,
+                _ => folder.write(name, table.to_csv().as_bytes())?,
+            }
+        }
+        for figure in &sheet.figures {
+            folder.write(&format!("{}.svg", figure.id), figure.svg.as_str().as_bytes())?;
+        }
+        let files: Vec<FileNote> = sources
+            .iter()
+            .map(|(path, sha256, description)| FileNote { path, sha256, description })
+            .collect();
+        let inputs: Vec<InputText> =
+            inputs.iter().map(|(path, text)| InputText { path, text }).collect();
+        let went = Went {
+            version: env!("CARGO_PKG_VERSION"),
+            command_line: &command_line(),
+            files: &files,
+            inputs: &inputs,
+        };
+        folder.write("summary.json", sheet.to_json().as_bytes())?;
+        folder.write("report.html", sheet.to_html(&went).as_bytes())?;
+        folder.commit()?;
+    }
+    print(&if args.json { sheet.to_json() } else { sheet.to_text() })?;
+    if args.quiet {
+        return Ok(());
+    }
+    if args.json {
+        for warning in &sheet.warnings {
+            say(format_args!("warning: {}: {}", warning.kind, warning.message));
+        }
+    }
+    if let Some(out) = &args.out {
+        say(format_args!("wrote {}", out.join("report.html").display()));
+    }
+    Ok(())
+}

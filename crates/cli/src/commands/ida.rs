@@ -1,0 +1,88 @@
+//! `slipstick ida`: incremental dynamic analysis.
+
+use std::process::ExitCode;
+
+use slipstick::motion::intensity::Measure;
+use slipstick_files::assessment::{IdaLevels, IdaRequest, levels, run_ida};
+use slipstick_report::assessment::ida::IdaReport;
+
+use super::assessment::{Opened, conclude, limit, measure, message};
+use crate::args::IdaArgs;
+use crate::failure::Failure;
+
+/// Where a hunt starts and ends without --between, over the records' median.
+const HUNTED: [f64; 2] = [0.05, 20.0];
+
+/// Runs, prints and writes.
+pub fn ida(args: &IdaArgs) -> Result<ExitCode, Failure> {
+    let opened = Opened::open(&args.suite)?;
+    let measure = measure(&args.measure)?;
+    let models = opened.models(&[])?;
+    models.column(&args.demand).map_err(|error| opened.failure(error))?;
+    let limit = the_limit(args, &opened)?;
+    let levels = the_levels(args, &opened, &measure)?;
+    let folder = opened.folder(&args.suite.result)?;
+    let request = IdaRequest {
+        models: &models,
+        suite: &opened.suite,
+        measure,
+        demand: &args.demand,
+        limit,
+        levels,
+    };
+    let run = opened.compute(&args.suite, || run_ida(&request))?;
+    let names = opened.suite.names();
+    let sheet = IdaReport {
+        version: env!("CARGO_PKG_VERSION"),
+        name: &opened.name,
+        measure: &measure.to_string(),
+        measure_unit: measure.unit(),
+        demand: &args.demand,
+        limit,
+        records: &names,
+        curves: &run.curves,
+        fixed_levels: !args.hunt,
+        fit: run.fit.as_ref(),
+        failures: &run.failures,
+        warnings: &opened.suite.warnings,
+        display: args.suite.result.display_units.into(),
+    }
+    .sheet();
+    let mut tables = vec![("ida.csv", &run.rows), ("ida.parquet", &run.rows)];
+    tables.extend(run.capacities.as_ref().map(|table| ("capacities.csv", table)));
+    conclude(&args.suite.result, folder, &sheet, &tables, &opened.sources(), &opened.inputs())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The limit: as given, else the model's gap where that is what is measured.
+fn the_limit(args: &IdaArgs, opened: &Opened) -> Result<Option<f64>, Failure> {
+    let gap = opened.analysis.model.slider().gap_m;
+    let slides = args.demand == "peak_sliding_displacement_m";
+    match args.to.as_deref().map(str::trim) {
+        Some("slider.gap") => {
+            gap.map(Some).ok_or_else(|| message("--to", "slider.gap in the model", "none there"))
+        }
+        Some(text) => limit("--to", text, &args.demand).map(Some),
+        None if args.hunt && !(slides && gap.is_some()) => {
+            let expected = "a limit to hunt for, such as \"150 mm\" (or slider.gap in the model)";
+            Err(message("--to", expected, ""))
+        }
+        None => Ok(gap.filter(|_| slides)),
+    }
+}
+
+fn the_levels(args: &IdaArgs, opened: &Opened, measure: &Measure) -> Result<IdaLevels, Failure> {
+    let told =
+        |error: slipstick_files::assessment::AssessmentError| Failure::Message(error.to_string());
+    if let Some(text) = &args.levels {
+        return Ok(IdaLevels::Fixed(levels("--levels", text, measure).map_err(told)?));
+    }
+    if let Some(text) = &args.between {
+        let both = levels("--between", &format!("{text}:2"), measure).map_err(told)?;
+        return Ok(IdaLevels::Hunt { start: both[0], top: both[1] });
+    }
+    let mut values = opened.suite.measure(measure).map_err(told)?;
+    values.sort_by(f64::total_cmp);
+    let median = values[values.len() / 2];
+    Ok(IdaLevels::Hunt { start: HUNTED[0] * median, top: HUNTED[1] * median })
+}

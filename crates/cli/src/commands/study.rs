@@ -1,0 +1,142 @@
+//! `slipstick study`: many analyses of one plan.
+
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Duration;
+
+use slipstick_files::{
+    FileError, OpenStudy, Shard, ShardOptions, StudyError, clear, conclude, estimate, has_parts,
+    merge, part_rows,
+};
+use slipstick_report::number::count;
+
+use crate::args::{StudyArgs, StudyCommand};
+use crate::failure::{Failure, print, say};
+use crate::progress::{Steps, watched};
+
+/// How long `--dry-run` runs samples to know how fast they are.
+const TRIAL: Duration = Duration::from_secs(1);
+
+/// Runs a plan, or what else is asked of it.
+pub fn study(args: &StudyArgs) -> Result<ExitCode, Failure> {
+    if let Some(StudyCommand::Merge { folders, out }) = &args.command {
+        let merged = merge(folders, out)?;
+        say(format_args!("wrote {}: {} rows", out.display(), count(merged.rows)));
+        return Ok(ExitCode::SUCCESS);
+    }
+    let Some(plan) = &args.plan else {
+        return Err(Failure::Message("expected a study plan, found none".to_owned()));
+    };
+    let shard = shard(args)?;
+    let study = watched("reading", args.quiet, || OpenStudy::open(plan))?;
+    if let Some(run) = args.repeat {
+        print(&study.repeat(run)?)?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    if !args.quiet {
+        for notice in &study.notices {
+            say(format_args!("warning: {notice}"));
+        }
+    }
+    if args.dry_run {
+        return dry_run(args, &study, shard);
+    }
+    let Some(out) = &args.out else {
+        return Err(Failure::Message("--out: expected a folder, found none".to_owned()));
+    };
+    run(args, &study, shard, out)
+}
+
+fn shard(args: &StudyArgs) -> Result<Shard, Failure> {
+    let Some(text) = &args.shard else { return Ok(Shard::WHOLE) };
+    let wrong = || {
+        let message =
+            format!("--shard: expected i/n with i from 1 to n, such as 3/8, found {text:?}");
+        Failure::Message(message)
+    };
+    let (index, of) = text.split_once('/').ok_or_else(wrong)?;
+    let number = |text: &str| text.trim().parse::<u64>().map_err(|_| wrong());
+    Shard::new(number(index)?, number(of)?).map_err(|_| wrong())
+}
+
+/// Runs what the folder lacks, then tells what the folder holds.
+fn run(args: &StudyArgs, study: &OpenStudy, shard: Shard, out: &Path) -> Result<ExitCode, Failure> {
+    if args.force {
+        clear(out)?;
+    } else if !args.resume && has_parts(out)? {
+        return Err(Failure::Message(format!(
+            "{}: expected an empty folder, found files: go on with --resume, or start anew with \
+             --force",
+            out.display()
+        )));
+    }
+    let bar = Steps::new(study.shard_runs(shard), args.quiet);
+    let progress = |runs: u64| bar.advance(runs);
+    let options = ShardOptions { jobs: args.jobs.map(usize::from), progress: Some(&progress) };
+    let outcome = study.run_shard(shard, out, &options);
+    bar.finish();
+    let outcome = match outcome {
+        Ok(outcome) => outcome,
+        Err(error @ StudyError::CheckFailed { .. }) => {
+            say(format_args!("error: {error}"));
+            return Ok(ExitCode::from(1));
+        }
+        Err(error) => return Err(error.into()),
+    };
+    let summary = watched("summarising", args.quiet, || conclude(study, out))?;
+    print(&summary.to_table(args.display_units.into()))?;
+    if !args.quiet {
+        let checks = outcome.checks;
+        say(format_args!(
+            "{} runs, {} failed; {} run again alone: same bits, equilibrium residual at most {:.1e}",
+            count(outcome.runs),
+            count(outcome.failures),
+            count(checks.rows),
+            checks.equilibrium_residual,
+        ));
+        say(format_args!("wrote {}", out.join("summary.csv").display()));
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Counts, and the time that the runs may take.
+fn dry_run(args: &StudyArgs, study: &OpenStudy, shard: Shard) -> Result<ExitCode, Failure> {
+    let jobs = args.jobs.map(usize::from);
+    let (runs, time) = watched("timing", args.quiet, || estimate(study, shard, jobs, TRIAL))?;
+    let cases = study.study.cases();
+    let total = study.study.runs();
+    let mut text = format!(
+        "records  {}\nlevels   {}\nsamples  {}\nruns     {}\n",
+        count(cases.records),
+        count(cases.levels),
+        count(cases.samples),
+        count(total)
+    );
+    if runs != total {
+        text.push_str(&format!("of shard {}\n", count(runs)));
+    }
+    text.push_str(&format!(
+        "parts    of {} rows\ntime     about {}\n",
+        count(part_rows(total)),
+        duration(time)
+    ));
+    print(&text)?;
+    if let Some(out) = &args.out
+        && out.exists()
+        && !out.is_dir()
+    {
+        return Err(FileError::NotAFolder { path: out.clone() }.into());
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A time as a person says it.
+fn duration(time: Duration) -> String {
+    match time.as_secs_f64() {
+        seconds if seconds < 1.0 => "1 s".to_owned(),
+        seconds if seconds < 120.0 => format!("{seconds:.0} s"),
+        seconds if seconds < 7200.0 => format!("{:.0} min", seconds / 60.0),
+        seconds if seconds < 172_800.0 => format!("{:.0} h", seconds / 3600.0),
+        seconds => format!("{:.0} days", seconds / 86_400.0),
+    }
+}

@@ -1,0 +1,570 @@
+//! Analyses over a suite: spectrum, ida, fragility, design.
+
+use serde_json::Value;
+
+use super::support::{BLOCK, Folder, cells, column, message, text};
+
+/// A storey on a pendulum slider with a gap.
+const TOWER: &str = r#"name = "Tower"
+[block]
+mass = "100 kg"
+[slider]
+static_friction = 0.06
+kinetic_friction = 0.05
+radius = "2 m"
+gap = "60 mm"
+bounds = { lower = 0.8, upper = 1.3 }
+[[storey]]
+mass = "50 kg"
+period = "0.5 s"
+damping_ratio = 0.02
+"#;
+
+/// A record of a decaying oscillation, another for every number.
+fn record(number: u32) -> String {
+    let mut text = "time_s,acceleration_m_per_s2\n".to_owned();
+    let f = f64::from(number);
+    for i in 0..=300 {
+        let t = 0.02 * f64::from(i);
+        let wave = (5.0 + 1.3 * f) * t;
+        let value = if i == 0 {
+            0.0
+        } else {
+            2.0 * (-0.4 * t).exp() * (wave.sin() + 0.5 * (2.3 * wave + f).sin())
+        };
+        text.push_str(&format!("{t:.2},{value:.6}\n"));
+    }
+    text
+}
+
+fn suite(test: &str, records: u32) -> Folder {
+    let folder = Folder::with_model(test, TOWER);
+    for number in 0..records {
+        folder.write(&format!("records/r{number}.csv"), record(number));
+    }
+    folder
+}
+
+fn json(folder: &Folder, arguments: &[&str]) -> Value {
+    let arguments = [arguments, &["--json", "-q"]].concat();
+    serde_json::from_str(&folder.stdout(&arguments)).unwrap()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// What `slipstick run` says of one record, for the same values.
+fn run(folder: &Folder, record: &str, scale: f64, set: &[&str]) -> Value {
+    let motion = format!("records/{record}.csv");
+    let scale = format!("{scale:?}");
+    let mut arguments = vec!["model.toml", "--motion", &motion, "--scale", &scale, "-q"];
+    for set in set {
+        arguments.extend(["--set", set]);
+    }
+    folder.json(&arguments)
+}
+
+#[test]
+fn exact_spectrum_of_one_record_is_that_of_its_runs() {
+    let folder = suite("spectrum-one", 1);
+    let over = "storey.1.period=0.2, 0.5, 1.1 s";
+    folder.stdout(&[
+        "spectrum",
+        "model.toml",
+        "--records",
+        "records",
+        "--over",
+        over,
+        "--friction",
+        "0.03,0.08",
+        "--scale",
+        "2",
+        "--out",
+        "out",
+        "-q",
+    ]);
+    let csv = folder.read("out/spectrum.csv");
+    let periods = column(&csv, "storey.1.period");
+    let frictions = column(&csv, "slider.kinetic_friction");
+    assert_eq!(periods, [0.2, 0.5, 1.1, 0.2, 0.5, 1.1]);
+    assert_eq!(frictions, [0.03, 0.03, 0.03, 0.08, 0.08, 0.08]);
+    for row in 0..6 {
+        let kinetic = format!("slider.kinetic_friction={:?}", frictions[row]);
+        // The ratio of the coefficients stays that of the model.
+        let fixed = format!("slider.static_friction={:?}", frictions[row] * (0.06 / 0.05));
+        let period = format!("storey.1.period={:?} s", periods[row]);
+        let expected = run(&folder, "r0", 2.0, &[&kinetic, &fixed, &period]);
+        let cell = |name: &str| column(&csv, name)[row];
+        for share in ["p16", "p50", "p84"] {
+            let found = cell(&format!("peak_sliding_displacement_m_{share}"));
+            assert_eq!(found, number(&expected["peak_sliding_displacement_m"]));
+        }
+        let residual = number(&expected["residual_sliding_displacement_m"]).abs();
+        assert_eq!(cell("residual_sliding_displacement_m_p50"), residual);
+        let roof = number(&expected["storeys"][0]["peak_acceleration_m_per_s2"]);
+        assert_eq!(cell("storey1_peak_acceleration_m_per_s2_p50"), roof);
+        let table = number(&expected["record"]["pga_m_per_s2"]);
+        assert_eq!(cell("storey1_amplification_p50"), roof / table);
+        // Held by friction that nothing overcomes.
+        let held = run(&folder, "r0", 2.0, &["slider.static_friction=1e6", &period]);
+        let held = number(&held["storeys"][0]["peak_acceleration_m_per_s2"]);
+        let ratio = cell("storey1_fixed_base_ratio_p50");
+        assert!((ratio * held / roof - 1.0).abs() < 1e-9, "{ratio} for {}", roof / held);
+    }
+    let page = folder.read("out/report.html");
+    assert!(page.contains("<svg") && !page.contains("<script") && page.contains("Sliding spectra"));
+    for name in
+        ["spectrum.parquet", "runs.parquet", "summary.json", "displacement.svg", "residual.svg"]
+    {
+        assert!(folder.names("out").contains(&name.to_owned()), "{name}");
+    }
+}
+
+#[test]
+fn exact_isolator_period_sets_the_radius() {
+    let folder = suite("isolator", 1);
+    let out = |over: &str| {
+        json(
+            &folder,
+            &[
+                "spectrum",
+                "model.toml",
+                "--records",
+                "records",
+                "--over",
+                over,
+                "--level",
+                "3 m/s2",
+            ],
+        )
+    };
+    let by_period = out("isolator.period=2, 3 s");
+    let radius = |t: f64| 9.80665 * (t / std::f64::consts::TAU) * (t / std::f64::consts::TAU);
+    let by_radius = out(&format!("slider.radius={:?}, {:?} m", radius(2.0), radius(3.0)));
+    assert_eq!(by_period["curves"], by_radius["curves"]);
+    assert_eq!(by_period["values"], serde_json::json!([2.0, 3.0]));
+    assert_eq!(by_period["over"], "isolator.period");
+}
+
+#[test]
+fn exact_frequency_response_has_its_window() {
+    let folder = Folder::with_model(
+        "frequency",
+        &format!(
+            "{BLOCK}\n[[storey]]\nmass = \"50 kg\"\nfrequency = \"2 Hz\"\ndamping_ratio = 0.01\n"
+        ),
+    );
+    let result =
+        json(&folder, &["spectrum", "model.toml", "--over", "motion.sine.frequency=0.5..5Hz:19"]);
+    assert_eq!(result["values"].as_array().unwrap().len(), 19);
+    assert_eq!(result["runs"], 19);
+    let windows = result["windows"][0]["above_1"].as_array().unwrap();
+    assert!(!windows.is_empty(), "{result}");
+    for window in windows {
+        assert!(number(&window[0]) < number(&window[1]));
+    }
+    // At 2 Hz the model is as it stands.
+    let plain = folder.json(&["model.toml"]);
+    let curve = &result["curves"][3];
+    assert_eq!(curve["demand"], "storey1_peak_acceleration_m_per_s2");
+    assert_eq!(curve["p50"][6], plain["storeys"][0]["peak_acceleration_m_per_s2"]);
+}
+
+#[test]
+fn exact_ida_at_levels_is_that_of_its_runs() {
+    let folder = suite("ida", 4);
+    folder.stdout(&[
+        "ida",
+        "model.toml",
+        "--records",
+        "records/*.csv",
+        "--levels",
+        "1..7 m/s2:4",
+        "--out",
+        "out",
+        "-q",
+    ]);
+    let csv = folder.read("out/ida.csv");
+    let (levels, scales) = (column(&csv, "level"), column(&csv, "scale"));
+    let (records, demands) = (cells(&csv, "record"), column(&csv, "peak_sliding_displacement_m"));
+    assert_eq!(levels.len(), 16);
+    assert_eq!(levels[..4], [1.0, 3.0, 5.0, 7.0]);
+    for row in [0, 5, 10, 15] {
+        let expected = run(&folder, &records[row], scales[row], &[]);
+        assert_eq!(demands[row], number(&expected["peak_sliding_displacement_m"]), "row {row}");
+        let pga = number(&expected["record"]["pga_m_per_s2"]);
+        assert!((pga / levels[row] - 1.0).abs() < 1e-14);
+    }
+    // The model's gap is the limit; fractiles are counted over the suite.
+    let summary: Value = serde_json::from_str(&folder.read("out/summary.json")).unwrap();
+    assert_eq!(summary["limit"], 0.06);
+    let mut third: Vec<f64> = (0..4).map(|r| demands[4 * r + 2]).collect();
+    third.sort_by(f64::total_cmp);
+    let median = number(&summary["demand_by_level"][2]["p50"]);
+    assert!((median - 0.5 * (third[1] + third[2])).abs() < 1e-15);
+    assert!(folder.read("out/report.html").contains("Incremental dynamic analysis"));
+}
+
+#[test]
+fn exact_hunt_brackets_the_gap_to_one_percent() {
+    let folder = suite("hunt", 3);
+    folder.stdout(&["ida", "model.toml", "--records", "records", "--hunt", "--out", "out", "-q"]);
+    let csv = folder.read("out/capacities.csv");
+    let records = cells(&csv, "record");
+    let (below, above) = (column(&csv, "below"), column(&csv, "above"));
+    assert_eq!(column(&csv, "reached"), [1.0; 3]);
+    for row in 0..3 {
+        assert!(above[row] - below[row] <= 0.01 * above[row]);
+        let pga = number(&run(&folder, &records[row], 1.0, &[])["record"]["pga_m_per_s2"]);
+        let peak = |level: f64| {
+            number(&run(&folder, &records[row], level / pga, &[])["peak_sliding_displacement_m"])
+        };
+        assert!(peak(below[row]) < 0.06 && peak(above[row]) >= 0.06, "{}", records[row]);
+    }
+    // What the hunt found is what the fragility is fitted to, from either file.
+    let of = |file: &str| {
+        let source = format!("out/{file}");
+        json(&folder, &["fragility", &source, "--limit", "60 mm", "--fit-to", "capacities"])
+    };
+    let (by_capacity, by_run) = (of("capacities.csv"), of("ida.csv"));
+    assert_eq!(by_capacity["median"], by_run["median"]);
+    assert_eq!(by_capacity["measure"], "PGA");
+    assert_eq!(by_capacity["method"], "capacities");
+    let capacities = column(&csv, "capacity");
+    let mean = capacities.iter().map(|c| c.ln()).sum::<f64>() / 3.0;
+    assert!((number(&by_capacity["median"]).ln() - mean).abs() < 1e-9);
+    // Another demand needs its own limit.
+    let refused = folder.refused(&[
+        "ida",
+        "model.toml",
+        "--records",
+        "records",
+        "--hunt",
+        "--demand",
+        "storey1_peak_drift_m",
+    ]);
+    assert!(refused.starts_with("--to: expected a limit to hunt for"), "{refused}");
+    let drift = json(
+        &folder,
+        &[
+            "ida",
+            "model.toml",
+            "--records",
+            "records",
+            "--hunt",
+            "--demand",
+            "storey1_peak_drift_m",
+            "--to",
+            "4 mm",
+        ],
+    );
+    assert_eq!(drift["limit"], 0.004);
+}
+
+/// statsmodels 0.15: `data/reference/fragility.json`, the case "few".
+#[test]
+fn peer_fragility_of_counts_is_that_of_statsmodels() {
+    let folder = Folder::new("fragility-counts");
+    folder.write("stripes.csv", "level,runs,exceeded\n0.2,11,1\n0.4,11,4\n0.8,11,10\n");
+    let text = include_str!("../../../../data/reference/fragility.json");
+    let reference: Value = serde_json::from_str(text).unwrap();
+    let case = &reference["stripes"][1];
+    assert_eq!(case["name"], "few");
+    let found = json(&folder, &["fragility", "stripes.csv", "--measure", "PGA", "--out", "out"]);
+    for key in ["median", "dispersion", "log_likelihood", "se_ln_median", "se_dispersion"] {
+        let (found, expected) = (number(&found[key]), number(&case[key]));
+        assert!((found / expected - 1.0).abs() < 1e-8, "{key}: {found} for {expected}");
+    }
+    for key in ["median_interval", "dispersion_interval"] {
+        for end in 0..2 {
+            let (found, expected) = (number(&found[key][end]), number(&case[key][end]));
+            assert!((found / expected - 1.0).abs() < 1e-6, "{key}: {found} for {expected}");
+        }
+    }
+    let curve = folder.read("out/fragility.csv");
+    let probability = column(&curve, "probability");
+    assert!(probability[0] == 0.0 && probability.windows(2).all(|p| p[0] <= p[1]));
+    for name in ["fragility.parquet", "fragility.svg", "report.html", "summary.json"] {
+        assert!(folder.names("out").contains(&name.to_owned()), "{name}");
+    }
+}
+
+#[test]
+fn exact_fragility_of_a_study_counts_its_rows() {
+    let folder = suite("fragility-study", 5);
+    folder.write(
+        "plan.toml",
+        "model = \"model.toml\"\n[records]\nfiles = [\"records/*.csv\"]\nmeasure = \"PGA\"\n\
+         levels = [\"1 m/s2\", \"1.5 m/s2\", \"2 m/s2\", \"2.5 m/s2\", \"3 m/s2\"]\n",
+    );
+    folder.stdout(&["study", "plan.toml", "--out", "study", "-q"]);
+    folder.stdout(&[
+        "ida",
+        "model.toml",
+        "--records",
+        "records/*.csv",
+        "--levels",
+        "1..3 m/s2:5",
+        "--out",
+        "ida",
+        "-q",
+    ]);
+    let limit = ["--limit", "40 mm", "--measure", "PGA"];
+    let of = |source: &str| json(&folder, &[&["fragility", source], &limit[..]].concat());
+    let (of_study, of_ida) = (of("study"), of("ida/ida.csv"));
+    assert_eq!(of_study["method"], "stripes");
+    assert_eq!(of_study["stripes"], of_ida["stripes"]);
+    assert_eq!(of_study["median"], of_ida["median"]);
+    assert_eq!(of("ida/ida.parquet")["median"], of_ida["median"]);
+    let csv = folder.read("ida/ida.csv");
+    let (levels, demands) = (column(&csv, "level"), column(&csv, "peak_sliding_displacement_m"));
+    for stripe in of_study["stripes"].as_array().unwrap() {
+        let level = number(&stripe["level"]);
+        let rows: Vec<usize> = (0..levels.len()).filter(|&i| levels[i] == level).collect();
+        let beyond = rows.iter().filter(|&&i| demands[i] > 0.04).count();
+        assert_eq!(
+            (rows.len(), beyond),
+            (
+                stripe["runs"].as_u64().unwrap() as usize,
+                stripe["exceeded"].as_u64().unwrap() as usize
+            )
+        );
+    }
+    // A cloud over another measure, which the study has as a column.
+    let cloud = [
+        "fragility",
+        "study",
+        "--limit",
+        "40 mm",
+        "--measure",
+        "PGV",
+        "--fit-to",
+        "cloud",
+        "--floor",
+        "0.1 mm",
+    ];
+    let cloud = json(&folder, &cloud);
+    assert_eq!((&cloud["method"], &cloud["measure_unit"]), (&"cloud".into(), &"m/s".into()));
+    assert!(number(&cloud["cloud"]["slope"]) > 0.5);
+}
+
+#[test]
+fn exact_design_front_is_that_of_all_designs() {
+    let folder = suite("design", 1);
+    let (friction, radius) = ("0.02..0.10:9", "slider.radius=0.5..4m:8");
+    let scale = ["--level", "2 m/s2"];
+    let arguments = |command: &'static str| {
+        let common = [command, "model.toml", "--records", "records", "--friction", friction, "-q"];
+        [&common[..], &scale[..]].concat()
+    };
+    folder.stdout(&[&arguments("spectrum")[..], &["--over", radius, "--out", "all"]].concat());
+    folder.stdout(
+        &[
+            &arguments("design")[..],
+            &["--vary", radius, "--gap", "80 mm", "--sensitivity", "16", "--out", "out"],
+        ]
+        .concat(),
+    );
+    let all = folder.read("all/spectrum.csv");
+    let d = column(&all, "peak_sliding_displacement_m_p50");
+    let a = column(&all, "storey1_peak_acceleration_m_per_s2_p50");
+    assert_eq!(d.len(), 72);
+    let feasible: Vec<usize> = (0..72).filter(|&i| d[i] <= 0.08).collect();
+    assert!(feasible.len() > 3 && feasible.len() < 72, "{} of 72", feasible.len());
+    let beaten = |i: usize| {
+        feasible.iter().any(|&j| d[j] <= d[i] && a[j] <= a[i] && (d[j] < d[i] || a[j] < a[i]))
+    };
+    let mut expected: Vec<[f64; 2]> =
+        feasible.iter().filter(|&&i| !beaten(i)).map(|&i| [d[i], a[i]]).collect();
+    expected.sort_by(|x, y| x[0].total_cmp(&y[0]));
+    let front = folder.read("out/front.csv");
+    let found: Vec<[f64; 2]> = column(&front, "displacement_m")
+        .into_iter()
+        .zip(column(&front, "acceleration_m_per_s2"))
+        .map(|(d, a)| [d, a])
+        .collect();
+    assert_eq!(found, expected);
+    let summary: Value = serde_json::from_str(&folder.read("out/summary.json")).unwrap();
+    let last = expected.last().unwrap();
+    assert_eq!(number(&summary["chosen"]["nominal"]["acceleration_m_per_s2"]), last[1]);
+    // The chosen design with lower friction, by hand.
+    let values = &summary["chosen"]["values"];
+    let [mu, radius] = [number(&values[0]), number(&values[1])];
+    let pga = number(&run(&folder, "r0", 1.0, &[])["record"]["pga_m_per_s2"]);
+    let set = [
+        format!("slider.kinetic_friction={mu:?}"),
+        format!("slider.static_friction={:?}", mu * (0.06 / 0.05)),
+        format!("slider.radius={radius:?} m"),
+    ];
+    let set: Vec<&str> = set.iter().map(String::as_str).collect();
+    let by_hand = run(&folder, "r0", 2.0 / pga, &set);
+    for (bound, expected) in
+        [("lower", &by_hand["bounds"]["lower"]), ("upper", &by_hand["bounds"]["upper"])]
+    {
+        let found = number(&summary["chosen"][bound]["displacement_m"]);
+        assert_eq!(found, number(&expected["peak_sliding_displacement_m"]), "{bound}");
+    }
+    let indices = summary["sensitivity"]["displacement"].as_array().unwrap();
+    assert_eq!(indices.len(), 2);
+}
+
+#[test]
+fn exact_design_that_cannot_be_is_status_1_with_the_nearest() {
+    let folder = suite("infeasible", 2);
+    let output = folder.output(&[
+        "design",
+        "model.toml",
+        "--records",
+        "records",
+        "--friction",
+        "0.02,0.03",
+        "--gap",
+        "0.1 mm",
+        "--level",
+        "6 m/s2",
+        "--sensitivity",
+        "0",
+        "--json",
+    ]);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    let result: Value = serde_json::from_str(&text(&output.stdout)).unwrap();
+    assert_eq!(result["chosen"], Value::Null);
+    assert!(number(&result["nearest"]["nominal"]["displacement_m"]) > 1e-4);
+    assert!(text(&output.stderr).contains("no_feasible_design"));
+}
+
+#[test]
+fn exact_results_are_the_same_on_any_number_of_threads() {
+    let folder = suite("threads", 3);
+    let commands: [&[&str]; 3] = [
+        &["spectrum", "model.toml", "--records", "records", "--over", "storey.1.period=0.2..1s:5"],
+        &["ida", "model.toml", "--records", "records", "--hunt"],
+        &[
+            "design",
+            "model.toml",
+            "--records",
+            "records",
+            "--friction",
+            "0.02..0.1:5",
+            "--gap",
+            "400 mm",
+            "--sensitivity",
+            "8",
+        ],
+    ];
+    for command in commands {
+        for jobs in ["1", "3"] {
+            let out = format!("out{jobs}");
+            folder.stdout(&[command, &["-q", "--jobs", jobs, "--out", &out]].concat());
+        }
+        for name in folder.names("out1") {
+            if name == "report.html" {
+                continue;
+            }
+            let bytes = |out: &str| std::fs::read(folder.path().join(out).join(&name)).unwrap();
+            assert!(bytes("out1") == bytes("out3"), "{command:?}: {name}");
+        }
+    }
+}
+
+#[test]
+fn exact_what_is_wrong_is_said() {
+    let folder = suite("refused", 2);
+    folder.write("none.csv", "level,runs,exceeded\n0.1,4,0\n0.2,4,0\n");
+    folder.write("cell.csv", "level,runs,exceeded\n0.1,4,0\n0.2,x,0\n");
+    folder.write("columns.csv", "record,level,peak_drift_m\na,1,2\n");
+    let records = ["--records", "records"];
+    let with = |arguments: &[&'static str]| -> Vec<&'static str> {
+        [&arguments[..2], &records[..], &arguments[2..]].concat()
+    };
+    let cases: [(Vec<&str>, &str); 13] = [
+        (
+            with(&["spectrum", "model.toml", "--over", "storey.1.perod=0.1..3s:30"]),
+            "--over storey.1.perod: expected a path of the model, found \"storey.1.perod\"; nearest is \
+             \"storey.1.period\"",
+        ),
+        (
+            with(&["spectrum", "model.toml", "--over", "storey.1.period=3..1s:3"]),
+            "--over storey.1.period: expected values that rise, found values that do not rise",
+        ),
+        (
+            with(&[
+                "spectrum",
+                "model.toml",
+                "--over",
+                "slider.radius=1,2 m",
+                "--demand",
+                "peak_sliding_displacement",
+            ]),
+            "--demand: expected the key of a demand, such as peak_sliding_displacement_m, found \
+             \"peak_sliding_displacement\"; nearest is \"peak_sliding_displacement_m\"",
+        ),
+        (
+            with(&["spectrum", "model.toml", "--over", "slider.radius=1,2 m", "--level", "0.3 m"]),
+            "--level: expected an acceleration, such as \"0.3 g\", found a length, \"0.3 m\"",
+        ),
+        (
+            with(&["ida", "model.toml", "--levels", "1 m/s2", "--measure", "PGAA"]),
+            "--measure: expected",
+        ),
+        (
+            with(&["ida", "model.toml", "--levels", "1 m/s2", "--measure", "Arias"]),
+            "--measure: expected a measure that grows as the motion does, such as PGA or Sa(1.2 s), found Arias",
+        ),
+        (
+            with(&["ida", "model.toml", "--levels", "2, 1 m/s2"]),
+            "--levels: expected levels > 0 that rise",
+        ),
+        (
+            vec!["ida", "model.toml", "--records", "records/*.AT2", "--levels", "1 m/s2"],
+            "records/*.AT2: ",
+        ),
+        (
+            with(&["design", "model.toml", "--gap", "1 mm"]),
+            "--vary: expected something to vary, --friction or --vary slider.radius=1..5m:50",
+        ),
+        (
+            vec!["fragility", "none.csv"],
+            "none of 8 runs exceeds the limit, up to an intensity of 0.2: a fragility cannot be told; go \
+             to higher intensities or take a smaller limit",
+        ),
+        (vec!["fragility", "cell.csv"], "cell.csv:3:5: expected a number in runs, found \"x\""),
+        (
+            vec!["fragility", "columns.csv", "--demand", "peak_drift", "--limit", "1"],
+            "--demand: expected a column of columns.csv, found \"peak_drift\"; nearest is \"peak_drift_m\"",
+        ),
+        (
+            vec!["fragility", "columns.csv", "--demand", "peak_drift_m"],
+            "--limit: expected a limit on the demand, such as \"150 mm\", found nothing",
+        ),
+    ];
+    for (arguments, expected) in cases {
+        let found = folder.refused(&arguments);
+        assert!(found.starts_with(expected), "{arguments:?}: {found:?}");
+    }
+    // A model that says something else than the exact method.
+    let output = folder.output(&with(&[
+        "ida",
+        "model.toml",
+        "--levels",
+        "1 m/s2",
+        "--set",
+        "analysis.method=stepwise",
+    ]));
+    let found = message(&["ida"], &output);
+    assert!(found.contains("expected the exact method"), "{found}");
+}
+
+#[test]
+fn exact_help_of_the_suite_teaches_in_a_hundred_columns() {
+    let folder = Folder::new("suite-help");
+    for command in ["spectrum", "ida", "fragility", "design"] {
+        let help = folder.stdout(&[command, "--help"]);
+        let longest = help.lines().map(|line| line.chars().count()).max().unwrap();
+        assert!(longest <= 105, "{command}: {longest} columns");
+        for word in ["Examples:", "report.html", "--json"] {
+            assert!(help.contains(word), "{command}: {word}");
+        }
+    }
+}

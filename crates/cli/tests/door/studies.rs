@@ -1,0 +1,460 @@
+//! Studies: whatever interrupts, divides or repeats them, the rows are the same.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use slipstick_files::read_columns;
+
+use crate::support::{Folder, RECORD, start, text};
+
+/// A block whose friction, radius and gap are varied.
+const MODEL: &str = r#"[block]
+mass = "10 t"
+
+[slider]
+static_friction = 0.2
+kinetic_friction = 0.1
+gap = "100 mm"
+
+[[storey]]
+mass = "5 t"
+period = "0.5 s"
+damping_ratio = 0.05
+
+[motion]
+sine = { frequency = "1 Hz", amplitude = "3 m/s2", duration = "2 s", dt = "0.01 s" }
+"#;
+
+/// 2 records × 3 levels × 250 samples: 1500 runs in three parts.
+const PLAN: &str = r#"name = "Test of studies"
+model = "model.toml"
+
+[records]
+files = ["records/*.csv"]
+measure = "PGA"
+levels = ["0.2 g", "0.3 g", "0.5 g"]
+
+[vary]
+"slider.kinetic_friction" = { uniform = [0.02, 0.15] }
+"slider.radius" = { lognormal = ["2 m", 0.3] }
+
+[sampling]
+method = "sobol"
+count = 250
+seed = 1
+"#;
+
+fn folder(test: &str) -> Folder {
+    let folder = Folder::with_model(test, MODEL);
+    folder.write("plan.toml", PLAN);
+    folder.write("records/a.csv", RECORD);
+    folder.write("records/b.csv", RECORD.replace("-5", "-3"));
+    folder
+}
+
+/// The parts of a folder with their bytes.
+fn parts(folder: &Folder, out: &str) -> BTreeMap<PathBuf, Vec<u8>> {
+    let all = folder.contents().into_iter();
+    let inside =
+        all.filter_map(|(path, bytes)| Some((path.strip_prefix(out).ok()?.to_owned(), bytes?)));
+    inside.filter(|(path, _)| path.extension().is_some_and(|e| e == "parquet")).collect()
+}
+
+/// The row of a run in the merged table, by column; NaN where there is none.
+fn row(folder: &Folder, file: &str, run: u64) -> BTreeMap<String, f64> {
+    let columns = read_columns(&folder.path().join(file)).unwrap();
+    let value = |column: &slipstick_files::NumberColumn| column.values[run as usize];
+    columns.iter().map(|column| (column.name.clone(), value(column))).collect()
+}
+
+#[test]
+fn exact_whole_study_has_every_run_in_order() {
+    let folder = folder("study-whole");
+    let table = folder.stdout(&["study", "plan.toml", "--out", "out"]);
+    assert!(table.contains("peak sliding displacement (mm)"), "{table}");
+    assert!(table.contains("0.2 g") && table.contains("a.csv"), "{table}");
+    let names = folder.names("out");
+    assert_eq!(
+        names,
+        [
+            "manifest.json",
+            "part-00000.parquet",
+            "part-00001.parquet",
+            "part-00002.parquet",
+            "summary.csv"
+        ]
+    );
+    folder.stdout(&["study", "merge", "out", "--out", "all.parquet"]);
+    let columns = read_columns(&folder.path().join("all.parquet")).unwrap();
+    let of = |name: &str| &columns.iter().find(|column| column.name == name).unwrap().values;
+    assert!(of("run").iter().enumerate().all(|(index, run)| *run == index as f64));
+    // Levels in order, the samples fastest, the same samples for every record and level.
+    let level = |run: usize| (of("level")[run] / 9.80665 * 10.0).round() / 10.0;
+    assert_eq!(
+        [level(0), level(249), level(250), level(500), level(750)],
+        [0.2, 0.2, 0.3, 0.5, 0.2]
+    );
+    let radius = of("slider.radius");
+    assert!(radius.iter().enumerate().all(|(run, value)| *value == radius[run % 250]));
+    let unit = |name: &str| columns.iter().find(|column| column.name == name).unwrap().unit.clone();
+    assert_eq!([unit("slider.radius"), unit("level"), unit("slip_count")], ["m", "m/s2", ""]);
+    // PGA of the motion as it was run is the level.
+    let pga = of("pga_m_per_s2");
+    assert!(pga.iter().zip(of("level")).all(|(pga, level)| (pga - level).abs() < 1e-12));
+    // 1000 and the first and last of each of three parts.
+    let manifest: serde_json::Value =
+        serde_json::from_str(&folder.read("out/manifest.json")).unwrap();
+    assert_eq!(manifest["checks"]["rows"], 7);
+    assert_eq!(manifest["rows"], 1500);
+    assert_eq!(manifest["complete"], true);
+    assert_eq!(manifest["seed"], 1);
+    assert_eq!(manifest["plan"], PLAN);
+    assert_eq!(manifest["inputs"].as_array().unwrap().len(), 4);
+    assert!(manifest["checks"]["equilibrium_residual"].as_f64().unwrap() < 1e-10);
+}
+
+/// Mean, quantiles and maximum as one would compute them from the sorted column.
+#[test]
+fn exact_summary_is_that_of_the_sorted_values() {
+    let folder = folder("study-summary");
+    folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
+    folder.stdout(&["study", "merge", "out", "--out", "all.parquet"]);
+    let columns = read_columns(&folder.path().join("all.parquet")).unwrap();
+    let summary = folder.read("out/summary.csv");
+    let mut lines = 0;
+    for line in summary.lines().skip(1) {
+        let cells: Vec<&str> = line.split(',').collect();
+        let number = |i: usize| cells[i].parse::<f64>().unwrap_or(f64::NAN);
+        let column = columns.iter().find(|column| column.name == cells[2]).unwrap();
+        let level = columns.iter().find(|column| column.name == "level").unwrap();
+        let of_level = |(run, value): (usize, &f64)| {
+            (level.values[run] == number(0) && !value.is_nan()).then_some((run, *value))
+        };
+        let mut values: Vec<(usize, f64)> =
+            column.values.iter().enumerate().filter_map(of_level).collect();
+        assert_eq!([number(4), number(5)], [500.0, 0.0]);
+        if values.is_empty() {
+            assert_eq!(cells[6], "");
+            continue;
+        }
+        let largest = values.iter().fold(0.0, |l: f64, (_, v)| l.max(v.abs()));
+        let first = values.iter().find(|(_, v)| v.abs() == largest).unwrap();
+        assert_eq!((number(10), number(12)), (first.1, first.0 as f64), "{line}");
+        assert_eq!(cells[11], if first.0 < 750 { "records/a.csv" } else { "records/b.csv" });
+        let mean = values.iter().map(|(_, v)| v).sum::<f64>() / values.len() as f64;
+        assert!((number(6) - mean).abs() <= 1e-12 * largest, "{line}");
+        values.sort_by(|a, b| a.1.total_cmp(&b.1));
+        for (cell, p) in [(7, 0.5), (8, 0.16), (9, 0.84)] {
+            let place = p * (values.len() - 1) as f64;
+            let [low, high] = [place.floor(), place.ceil()].map(|i| values[i as usize].1);
+            let expected = low + (high - low) * (place - place.floor());
+            assert_eq!(number(cell), expected, "{line}");
+        }
+        lines += 1;
+    }
+    assert!(lines > 60, "{lines}");
+}
+
+#[test]
+fn exact_shards_and_threads_give_the_same_bytes() {
+    let folder = folder("study-shards");
+    folder.stdout(&["study", "plan.toml", "--out", "one", "--jobs", "1"]);
+    folder.stdout(&["study", "plan.toml", "--out", "many", "--jobs", "3"]);
+    assert_eq!(parts(&folder, "one"), parts(&folder, "many"));
+    for file in ["manifest.json", "summary.csv"] {
+        assert_eq!(folder.read(&format!("one/{file}")), folder.read(&format!("many/{file}")));
+    }
+    let shards = ["1/4", "2/4", "3/4", "4/4"];
+    for (index, shard) in shards.iter().enumerate() {
+        let out = format!("shard{index}");
+        folder.stdout(&["study", "plan.toml", "--out", &out, "--shard", shard]);
+    }
+    folder.stdout(&["study", "merge", "one", "--out", "one.parquet"]);
+    let merge = ["study", "merge", "shard3", "shard0", "shard1", "shard2", "--out", "four.parquet"];
+    folder.stdout(&merge);
+    let bytes = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    assert_eq!(bytes("one.parquet"), bytes("four.parquet"));
+    let refused = folder.refused(&["study", "merge", "shard1", "shard2", "--out", "two.parquet"]);
+    let expected = "expected the runs 0 to 1499, found none from 0 on in shard1, shard2";
+    assert!(refused.contains(expected), "{refused}");
+}
+
+/// Killed at some moment the study loses what was in work, no more, and leaves nothing half-written
+/// under a part's name.
+#[test]
+fn exact_killed_study_is_resumed_to_the_same_bytes() {
+    let folder = folder("study-killed");
+    let many = PLAN.replace("count = 250", "count = 2500");
+    folder.write("plan.toml", many);
+    folder.stdout(&["study", "plan.toml", "--out", "whole", "-q"]);
+    let whole = parts(&folder, "whole");
+    assert_eq!(whole.len(), 30);
+    for wanted in [1, 7] {
+        let out = format!("killed{wanted}");
+        let mut child = start(&mut folder.command(&["study", "plan.toml", "--out", &out]));
+        let begun = Instant::now();
+        while parts(&folder, &out).len() < wanted {
+            assert!(begun.elapsed() < Duration::from_secs(60), "no part after a minute");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let left = parts(&folder, &out);
+        assert!(left.iter().all(|(name, bytes)| whole[name] == *bytes));
+        if left.len() < whole.len() {
+            let refused = folder.output(&["study", "plan.toml", "--out", &out]);
+            assert_eq!(refused.status.code(), Some(2));
+            assert!(text(&refused.stderr).contains("--resume"), "{}", text(&refused.stderr));
+        }
+        folder.stdout(&["study", "plan.toml", "--out", &out, "--resume"]);
+        assert_eq!(parts(&folder, &out), whole);
+        for file in ["manifest.json", "summary.csv"] {
+            assert_eq!(
+                folder.read(&format!("whole/{file}")),
+                folder.read(&format!("{out}/{file}"))
+            );
+        }
+        let hidden = folder.names(&out).into_iter().filter(|name| name.starts_with('.')).count();
+        assert_eq!(hidden, 0);
+    }
+}
+
+/// The printed line gives the row's demands, to the last bit.
+#[test]
+fn exact_repeat_reproduces_rows() {
+    let folder = folder("study-repeat");
+    // A file name that a shell would take apart.
+    folder.write("records/c d's.csv", RECORD.replace("5", "4"));
+    folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
+    folder.stdout(&["study", "merge", "out", "--out", "all.parquet"]);
+    for run in [0, 333, 1499, 2249] {
+        let line = folder.stdout(&["study", "plan.toml", "--repeat", &run.to_string()]);
+        let words = words(line.trim());
+        assert_eq!(words[..2], ["slipstick", "run"]);
+        let arguments: Vec<&str> = words[2..].iter().map(String::as_str).collect();
+        let result = folder.json(&arguments);
+        let row = row(&folder, "all.parquet", run);
+        compare(&result, &row);
+        assert!(result["record"]["pgv_m_per_s"].as_f64().unwrap() > 0.0);
+    }
+    let refused = folder.refused(&["study", "plan.toml", "--repeat", "2250"]);
+    assert!(refused.contains("expected a run from 0 to 2249, found 2250"), "{refused}");
+}
+
+/// Every demand of a summary that a row has is equal to it.
+fn compare(result: &serde_json::Value, row: &BTreeMap<String, f64>) {
+    let mut compared = 0;
+    for (name, value) in row {
+        let found = match name.strip_prefix("storey1_") {
+            Some(name) => &result["storeys"][0][name],
+            None => name.split('.').fold(result, |found, key| &found[key]),
+        };
+        let found = match found {
+            serde_json::Value::Bool(flag) => f64::from(u8::from(*flag)),
+            serde_json::Value::Number(number) => number.as_f64().unwrap(),
+            _ => continue,
+        };
+        assert!(found == *value, "{name}: run {found:?}, row {value:?}");
+        compared += 1;
+    }
+    assert!(compared > 20, "{compared}");
+}
+
+/// What a shell makes of a line with single quotes.
+fn words(line: &str) -> Vec<String> {
+    let (mut words, mut word, mut quoted) = (Vec::new(), String::new(), false);
+    let mut characters = line.chars();
+    while let Some(c) = characters.next() {
+        match c {
+            '\'' => quoted = !quoted,
+            '\\' if !quoted => word.extend(characters.next()),
+            ' ' if !quoted => words.push(std::mem::take(&mut word)),
+            c => word.push(c),
+        }
+    }
+    words.push(word);
+    words
+}
+
+#[test]
+fn exact_vertical_motions_go_with_their_records() {
+    let folder = folder("study-vertical");
+    folder.write("up/a.csv", RECORD.replace("5", "2"));
+    folder.write("up/b.csv", RECORD.replace("5", "1"));
+    let vertical = "files = [\"records/*.csv\"]\nvertical = \"up/*.csv\"\nvertical_scale = 0.5";
+    folder.write("plan.toml", PLAN.replace("files = [\"records/*.csv\"]", vertical));
+    folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
+    folder.stdout(&["study", "merge", "out", "--out", "all.parquet"]);
+    for run in [77, 1400] {
+        let line = folder.stdout(&["study", "plan.toml", "--repeat", &run.to_string()]);
+        assert!(line.contains("motion.vertical="), "{line}");
+        let words = words(line.trim());
+        let arguments: Vec<&str> = words[2..].iter().map(String::as_str).collect();
+        compare(&folder.json(&arguments), &row(&folder, "all.parquet", run));
+    }
+    folder.write("up/c.csv", RECORD);
+    let refused = folder.refused(&["study", "plan.toml", "--out", "other"]);
+    let expected = "records.vertical: expected one vertical motion for each of 2 files, found 3";
+    assert!(refused.contains(expected), "{refused}");
+}
+
+/// A frequency response curve is a study of the model's own made motion.
+#[test]
+fn exact_made_motions_may_be_varied() {
+    let folder = folder("study-made");
+    let plan = "model = \"model.toml\"\n[vary]\n\
+                \"motion.sine.amplitude\" = { values = [\"2 m/s2\", \"4 m/s2\"] }\n\
+                \"motion.sine.frequency\" = { linspace = [\"0.5 Hz\", \"3 Hz\", 30] }\n\
+                \"analysis.tail\" = { values = [\"0 s\", \"1 s\"] }\n\
+                [sampling]\nmethod = \"grid\"\n";
+    folder.write("plan.toml", plan);
+    folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
+    folder.stdout(&["study", "merge", "out", "--out", "all.parquet"]);
+    for run in [0, 1, 61, 119] {
+        let line = folder.stdout(&["study", "plan.toml", "--repeat", &run.to_string()]);
+        let words = words(line.trim());
+        let arguments: Vec<&str> = words[2..].iter().map(String::as_str).collect();
+        let row = row(&folder, "all.parquet", run);
+        compare(&folder.json(&arguments), &row);
+        assert!((row["pga_m_per_s2"] - row["motion.sine.amplitude"]).abs() < 0.2);
+        assert!(row["level"].is_nan() && row["scale"] == 1.0);
+    }
+    let row = row(&folder, "all.parquet", 61);
+    assert_eq!((row["motion.sine.amplitude"], row["motion.sine.frequency"]), (4.0, 0.5));
+    assert_eq!(row["analysis.tail"], 1.0);
+}
+
+/// A model's own record is a study's record too.
+#[test]
+fn exact_own_record_of_the_model() {
+    let folder = folder("study-own-record");
+    let motion = "[motion]\nrecord = \"records/a.csv\"\nscale_to = \"0.4 g\"\n";
+    let model = MODEL.split("[motion]").next().unwrap().to_owned() + motion;
+    folder.write("model.toml", model);
+    let start = PLAN.find("[records]").unwrap();
+    let end = PLAN.find("[vary]").unwrap();
+    folder.write("plan.toml", PLAN.replace(&PLAN[start..end], ""));
+    folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
+    folder.stdout(&["study", "merge", "out", "--out", "all.parquet"]);
+    let line = folder.stdout(&["study", "plan.toml", "--repeat", "42"]);
+    assert!(!line.contains("--motion"), "{line}");
+    let words = words(line.trim());
+    let arguments: Vec<&str> = words[2..].iter().map(String::as_str).collect();
+    compare(&folder.json(&arguments), &row(&folder, "all.parquet", 42));
+}
+
+/// Runs whose sample makes no model are rows, counted and told, and the study goes on.
+#[test]
+fn exact_failing_runs_are_rows() {
+    let folder = folder("study-failing");
+    folder.write("plan.toml", PLAN.replace("[0.02, 0.15]", "[0.1, 0.3]"));
+    let output = folder.output(&["study", "plan.toml", "--out", "out"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let table = text(&output.stdout);
+    assert!(table.ends_with("750 runs failed: see the column status\n"), "{table}");
+    assert!(text(&output.stderr).contains("1500 runs, 750 failed"), "{}", text(&output.stderr));
+    folder.stdout(&["study", "merge", "out", "--out", "all.parquet"]);
+    let columns = read_columns(&folder.path().join("all.parquet")).unwrap();
+    let of = |name: &str| &columns.iter().find(|column| column.name == name).unwrap().values;
+    let peaks = of("peak_sliding_displacement_m").iter().zip(of("slider.kinetic_friction"));
+    assert!(peaks.clone().all(|(peak, friction)| peak.is_nan() == (*friction > 0.2)));
+}
+
+#[test]
+fn exact_folders_with_files_need_a_word() {
+    let folder = folder("study-nonempty");
+    folder.write("out/mine.txt", "mine");
+    let refused = folder.refused(&["study", "plan.toml", "--out", "out"]);
+    let expected = "out: expected an empty folder, found files: go on with --resume, or start anew";
+    assert!(refused.contains(expected), "{refused}");
+    folder.stdout(&["study", "plan.toml", "--out", "out", "--resume", "-q"]);
+    let first = parts(&folder, "out");
+    // Another seed is another study.
+    folder.write("plan.toml", PLAN.replace("seed = 1", "seed = 2"));
+    let refused = folder.refused(&["study", "plan.toml", "--out", "out", "--resume"]);
+    assert!(refused.contains("part-00000.parquet: belongs to another study"), "{refused}");
+    folder.stdout(&["study", "plan.toml", "--out", "out", "--force", "-q"]);
+    let second = parts(&folder, "out");
+    assert_eq!(first.len(), second.len());
+    assert!(first.iter().all(|(name, bytes)| second[name] != *bytes));
+    assert_eq!(folder.read("out/mine.txt"), "mine");
+    folder.write("out/part-00001.parquet", "PAR1 no more");
+    let refused = folder.refused(&["study", "plan.toml", "--out", "out", "--resume"]);
+    assert!(refused.contains("part-00001.parquet: expected a Parquet file"), "{refused}");
+    folder.write("file", "");
+    let refused = folder.refused(&["study", "plan.toml", "--out", "file"]);
+    assert!(refused.contains("file: expected a folder to write to, found a file"), "{refused}");
+}
+
+#[test]
+fn exact_refused_plans_say_why() {
+    let folder = folder("study-refused");
+    let refuse = |text: &str| {
+        folder.write("plan.toml", text);
+        folder.refused(&["study", "plan.toml", "--out", "out"])
+    };
+    let missing =
+        refuse(&PLAN.replace("[\"records/*.csv\"]", "[\"records/*.csv\", \"x.AT2\", \"y/*.txt\"]"));
+    let expected = "plan.toml:5:9: records.files: expected files beside the plan; 2 of 3 are \
+                    missing, found no \"x.AT2\", \"y/*.txt\"";
+    assert!(missing.contains(expected), "{missing}");
+    let model = refuse(&PLAN.replace("model.toml", "none.toml"));
+    assert!(
+        model.contains("plan.toml:2:9: model: expected a model file that can be read"),
+        "{model}"
+    );
+    let storey = refuse(&PLAN.replace("slider.radius", "storey.2.height"));
+    assert!(
+        storey.contains(
+            "plan.toml:11:21: vary.storey.2.height: expected a number from 1 to 1, found \"2\""
+        ),
+        "{storey}"
+    );
+    let zero = "time_s,acceleration_m_per_s2\n0,0\n1,0\n";
+    folder.write("records/a.csv", zero);
+    let flat = refuse(PLAN);
+    assert!(
+        flat.contains("expected records that can be scaled to PGA, found PGA = 0 of records/a.csv"),
+        "{flat}"
+    );
+    let many = refuse(&PLAN.replace("count = 250", "count = 100000000"));
+    assert!(many.contains("expected at most 100000000 runs"), "{many}");
+    folder.write("plan.toml", PLAN);
+    for shard in ["0/4", "5/4", "4", "a/b"] {
+        let refused = folder.refused(&["study", "plan.toml", "--out", "out", "--shard", shard]);
+        assert!(refused.contains("expected i/n with i from 1 to n"), "{refused}");
+    }
+    let refused = folder.refused(&["study", "merge", "records", "--out", "all.parquet"]);
+    assert!(refused.contains("records: expected a Parquet file: it holds no parts"), "{refused}");
+    folder.write("model.toml", format!("{MODEL}\n[analysis]\nmethod = \"stepwise\"\n"));
+    folder.write("records/a.csv", RECORD);
+    let refused = folder.refused(&["study", "plan.toml", "--out", "out"]);
+    assert!(
+        refused.contains("expected the exact method, which is the only one of studies"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn exact_dry_run_counts_and_writes_nothing() {
+    let folder = folder("study-dry");
+    let before = folder.contents();
+    let text = folder.stdout(&["study", "plan.toml", "--dry-run"]);
+    assert!(text.contains("records  2\nlevels   3\nsamples  250\nruns     1500\n"), "{text}");
+    assert!(text.contains("\ntime     about "), "{text}");
+    let text = folder.stdout(&["study", "plan.toml", "--dry-run", "--shard", "1/3"]);
+    assert!(text.contains("runs     1500\nof shard 500\n"), "{text}");
+    assert_eq!(folder.contents(), before);
+}
+
+#[test]
+fn exact_schema_of_plans_is_json() {
+    let folder = Folder::new("study-schema");
+    let schema: serde_json::Value =
+        serde_json::from_str(&folder.stdout(&["schema", "--plan"])).unwrap();
+    assert_eq!(schema["title"], "Slipstick study plan");
+    assert!(
+        schema["properties"]["vary"]["additionalProperties"]["properties"]["factor_of"].is_object()
+    );
+}

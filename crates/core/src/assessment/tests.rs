@@ -1,0 +1,3 @@
+mod choice;
+mod fits;
+mod hunts;

@@ -1,0 +1,682 @@
+//! What a block needs to know of a system and a time step, made once.
+//!
+//! All tables hold the state in the order `s, ṡ, η, η̇`; a rigid block has zeros for the structure.
+//! They depend neither on friction nor on the motion.
+
+use std::sync::Arc;
+
+use fearless_simd::{Level, dispatch};
+
+use super::lanes::{BLOCK, Eight, Four};
+use crate::linear::polynomial::DEGREE;
+use crate::linear::{MAX_RATE_STEP, PerStorey, System};
+use crate::solver::extremes::{Extremes, tracked};
+
+/// Samples in a stretch of quiet stick.
+pub(super) const QUIET: usize = 32;
+
+/// Most pieces a sample is cut into for the Taylor series.
+const MOST_PIECES: f64 = 16.0;
+
+/// The equations of a rigid block (with zeros) or a block with one storey.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plant {
+    pub(super) block_mass_kg: f64,
+    pub(super) per_block_mass: f64,
+    pub(super) stiffness_n_per_m: f64,
+    pub(super) damper_n_s_per_m: f64,
+    /// `Ω`, 1 for a rigid block.
+    pub(super) omega2: f64,
+    /// `D`.
+    pub(super) decay: f64,
+    /// `L`.
+    pub(super) participation: f64,
+    /// `√M_tot`.
+    pub(super) root_mass: f64,
+    /// `1/√M1`.
+    pub(super) per_root_block: f64,
+}
+
+/// Tables of a system and a step.
+#[derive(Debug)]
+pub(in crate::solver) struct Tables {
+    pub(super) plant: Plant,
+    /// Equal pieces into which a sample is cut for its Taylor series.
+    pub(super) pieces: usize,
+    pub(super) piece_s: f64,
+    pub(super) stick: Phase,
+    pub(super) slip: Phase,
+    pub(super) quiet: Quiet,
+    /// `Φ`, and what `f` and the block's acceleration add to the overturning moment.
+    pub(super) shape: f64,
+    pub(super) arm: [f64; 2],
+    pub(super) slope: f64,
+}
+
+/// Tables of stick or slip.
+#[derive(Debug)]
+pub(super) struct Phase {
+    /// Taylor coefficients from the first on over a piece, order by order: what one unit of each
+    /// component of the state, of the acceleration, of its change over the piece and of the friction
+    /// force adds to the state.
+    pub(super) series: [[Four; 7]; DEGREE],
+    /// `E^k`, column by column.
+    pub(super) power: [[Four; 4]; BLOCK + 1],
+    /// What a unit of acceleration at the first sample leaves after `k`.
+    pub(super) first: [Four; BLOCK + 1],
+    /// What a unit of acceleration at a sample leaves `j` samples later.
+    pub(super) tap: [Four; BLOCK],
+    /// What a unit of friction force leaves after `k` samples.
+    pub(super) force: [Four; BLOCK + 1],
+    /// The same for one value at all samples of a block: `s`, `ṡ`, `η`, `f`.
+    pub(super) rows: [Row; 4],
+    /// The tracked quantities.
+    pub(super) view: View,
+    /// What is watched on the way.
+    pub(super) gates: Gates,
+}
+
+/// What is watched from block to block: `ṡ`, `η`, `f` and the block's acceleration `u`. Nearly all
+/// tracked quantities follow from one of them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gates {
+    /// They are the sum of these times the state and the input: the friction force in slip, the
+    /// acceleration in stick.
+    pub(super) columns: [Four; 4],
+    pub(super) of_input: Four,
+    /// Sizes of the columns.
+    pub(super) sizes: [Four; 4],
+    pub(super) bend: Bend,
+}
+
+/// One value at the samples `1 … 8` after a state.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row {
+    pub(super) state: [Eight; 4],
+    pub(super) first: Eight,
+    pub(super) tap: [Eight; BLOCK],
+    pub(super) force: Eight,
+}
+
+/// The tracked quantities in the order of [`tracked`] with the drift, which is the displacement,
+/// left out: the sum of columns times `s, ṡ, η, f` and of the acceleration and the friction force
+/// times theirs, less the slope's pull in accelerations.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    pub(super) columns: [Eight; 4],
+    pub(super) of_acceleration: Eight,
+    pub(super) of_force: Eight,
+    pub(super) slope: Eight,
+    /// How far they may be off for each unit that the gates are off.
+    pub(super) of_gates: [Eight; 4],
+}
+
+/// Bound on what a chord hides of the gates: the sum of these times the norm of the state at the
+/// start, the largest acceleration, its largest rate, and the friction force. In slip a chord spans
+/// a block, in stick a sample.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bend {
+    pub(super) of_norm: Four,
+    pub(super) of_acceleration: Four,
+    pub(super) of_rate: Four,
+    pub(super) of_force: Four,
+}
+
+/// Stick over many samples.
+#[derive(Debug)]
+pub(super) struct Quiet {
+    pub(super) power: [Four; 4],
+    pub(super) first: Four,
+    pub(super) tap: [Four; QUIET],
+    /// Bounds on the tracked quantities over a block and over the stretch: of the norm of the state
+    /// at the start, of the largest acceleration, and of |s|.
+    pub(super) of_norm: Eight,
+    pub(super) of_acceleration: [Eight; 2],
+    pub(super) of_s: Eight,
+    /// What the slope adds to them.
+    pub(super) of_slope: Eight,
+}
+
+impl Plant {
+    fn new<V: PerStorey>(system: &System<V>) -> Self {
+        let one_storey = system.storeys() == 1;
+        let of = |x: f64, v: f64| {
+            if one_storey { system.restoring(&[x], &[v]).as_ref()[0] } else { x }
+        };
+        let participation = if one_storey { system.participation.as_ref()[0] } else { 0.0 };
+        let total_kg = system.block_mass_kg + participation * participation;
+        Self {
+            block_mass_kg: system.block_mass_kg,
+            per_block_mass: system.per_block_mass,
+            stiffness_n_per_m: system.stiffness_n_per_m,
+            damper_n_s_per_m: system.damper_n_s_per_m,
+            omega2: of(1.0, 0.0),
+            decay: of(0.0, 1.0),
+            participation,
+            root_mass: total_kg.sqrt(),
+            per_root_block: 1.0 / system.block_mass_kg.sqrt(),
+        }
+    }
+
+    /// `f = D η̇ + Ω η`.
+    #[inline(always)]
+    pub(super) fn restoring(&self, x: &[f64; 4]) -> f64 {
+        self.omega2 * x[2] + self.decay * x[3]
+    }
+
+    /// `u` in slip under a friction force.
+    #[inline(always)]
+    pub(super) fn block_acceleration(&self, x: &[f64; 4], f: f64, force: f64) -> f64 {
+        ((force - self.damper_n_s_per_m * x[1])
+            + (self.participation * f - self.stiffness_n_per_m * x[0]))
+            * self.per_block_mass
+    }
+
+    /// The force that keeps the block stuck under an acceleration.
+    #[inline(always)]
+    pub(super) fn demand_n(&self, x: &[f64; 4], a: f64) -> f64 {
+        (self.block_mass_kg * a + self.stiffness_n_per_m * x[0])
+            - self.participation * self.restoring(x)
+    }
+
+    /// Energy norm of a state.
+    #[inline(always)]
+    pub(super) fn norm(&self, x: &[f64; 4]) -> f64 {
+        let momentum = x[3] + self.participation * x[1];
+        let of_block = self.stiffness_n_per_m * (x[0] * x[0]) + self.block_mass_kg * (x[1] * x[1]);
+        (of_block + (self.omega2 * (x[2] * x[2]) + momentum * momentum)).sqrt()
+    }
+
+    /// Largest value of a row on states of norm 1; in stick on those of the structure alone.
+    #[inline(always)]
+    fn dual_norm(&self, slip: bool, c: [f64; 4]) -> f64 {
+        let of_structure = c[2] * c[2] / self.omega2 + c[3] * c[3];
+        let of_block = if slip {
+            let of_s = if c[0] == 0.0 { 0.0 } else { c[0] * c[0] / self.stiffness_n_per_m };
+            let momentum = c[1] - c[3] * self.participation;
+            of_s + momentum * momentum * self.per_block_mass
+        } else {
+            0.0
+        };
+        (of_block + of_structure).sqrt()
+    }
+
+    /// Derivative of a state under an acceleration and a friction force.
+    #[inline(always)]
+    fn rate(&self, slip: bool, x: [f64; 4], a: f64, force: f64) -> [f64; 4] {
+        let f = self.restoring(&x);
+        if slip {
+            let u = self.block_acceleration(&x, f, force);
+            [x[1], u - a, x[3], -f - self.participation * u]
+        } else {
+            [0.0, 0.0, x[3], -f - self.participation * a]
+        }
+    }
+}
+
+impl Tables {
+    /// Tables of a system with at most one storey, unless the step is too long for its rates.
+    pub(in crate::solver) fn new<V: PerStorey>(
+        system: &System<V>,
+        extremes: &Extremes<V>,
+        dt_s: f64,
+    ) -> Option<Arc<Self>> {
+        let pieces = (dt_s * system.slip_rate_rad_per_s / MAX_RATE_STEP).ceil().max(1.0);
+        if !(system.storeys() <= 1 && pieces <= MOST_PIECES) {
+            return None;
+        }
+        // Filled in place: they are too large to be moved about.
+        let mut tables = Arc::new(Self::EMPTY);
+        if let Some(tables) = Arc::get_mut(&mut tables) {
+            tables.plant = Plant::new(system);
+            (tables.pieces, tables.piece_s) = (pieces as usize, dt_s / pieces);
+            tables.shape = system.shapes.as_ref().first().copied().unwrap_or(0.0);
+            (tables.arm, tables.slope) = (extremes.one_storey_arm(), extremes.slope());
+            // For the lanes of this machine too; the bits are the same on all.
+            dispatch!(Level::new(), _simd => tables.fill(dt_s));
+        }
+        Some(tables)
+    }
+
+    #[inline(always)]
+    fn fill(&mut self, dt_s: f64) {
+        let Self { plant, pieces, piece_s, stick, slip, quiet, shape, arm, slope } = self;
+        let rows = TrackedRows::new(plant, *shape, *arm, *slope);
+        let mut taps = [Four::ZERO; QUIET];
+        for (is_slip, phase) in [(true, slip), (false, &mut *stick)] {
+            series(plant, is_slip, *piece_s, &mut phase.series);
+            let sample = Sample::new(&phase.series, is_slip, *pieces);
+            sample.taps(&mut taps[..if is_slip { BLOCK } else { QUIET }]);
+            phase.fill(plant, &sample, &taps);
+            phase.view = rows.view(plant, is_slip, *shape, *arm);
+            phase.gates = Gates::new(plant, is_slip, dt_s);
+        }
+        quiet.fill(plant, &rows, stick, &taps, dt_s);
+    }
+
+    const EMPTY: Self = Self {
+        plant: Plant {
+            block_mass_kg: 0.0,
+            per_block_mass: 0.0,
+            stiffness_n_per_m: 0.0,
+            damper_n_s_per_m: 0.0,
+            omega2: 0.0,
+            decay: 0.0,
+            participation: 0.0,
+            root_mass: 0.0,
+            per_root_block: 0.0,
+        },
+        pieces: 0,
+        piece_s: 0.0,
+        stick: Phase::EMPTY,
+        slip: Phase::EMPTY,
+        quiet: Quiet {
+            power: [Four::ZERO; 4],
+            first: Four::ZERO,
+            tap: [Four::ZERO; QUIET],
+            of_norm: Eight::ZERO,
+            of_acceleration: [Eight::ZERO; 2],
+            of_s: Eight::ZERO,
+            of_slope: Eight::ZERO,
+        },
+        shape: 0.0,
+        arm: [0.0; 2],
+        slope: 0.0,
+    };
+}
+
+/// Coefficients of the tracked quantities.
+struct TrackedRows {
+    stick: [[f64; 8]; 6],
+    slip: [[f64; 8]; 6],
+    /// Lanes from which the slope's pull is taken.
+    slope: Eight,
+}
+
+/// Rows of [`TrackedRows`]: of `s`, `ṡ`, `η`, `f`, the acceleration, the friction force.
+const OF_A: usize = 4;
+const OF_FORCE: usize = 5;
+
+impl TrackedRows {
+    #[inline(always)]
+    fn new(plant: &Plant, shape: f64, [arm, half]: [f64; 2], pull: f64) -> Self {
+        let (k1, c1) = (plant.stiffness_n_per_m, plant.damper_n_s_per_m);
+        let (l, per_mass) = (plant.participation, plant.per_block_mass);
+        let mut slip = [[0.0; 8]; 6];
+        slip[1][tracked::VELOCITY] = 1.0;
+        let u = [-k1 * per_mass, -c1 * per_mass, 0.0, l * per_mass, 0.0, per_mass];
+        for (column, u) in slip.iter_mut().zip(u) {
+            column[tracked::BLOCK] = u;
+            column[tracked::OVERTURNING] = half * u;
+        }
+        (slip[0][tracked::SLIDER], slip[1][tracked::SLIDER]) = (-k1, -c1);
+        slip[OF_FORCE][tracked::SLIDER] = 1.0;
+        slip[OF_FORCE][tracked::FRICTION] = 1.0;
+        let mut stick = [[0.0; 8]; 6];
+        stick[OF_A][tracked::BLOCK] = 1.0;
+        stick[OF_A][tracked::OVERTURNING] = half;
+        stick[0][tracked::FRICTION] = k1;
+        for j in [tracked::SLIDER, tracked::FRICTION] {
+            stick[OF_A][j] = plant.block_mass_kg;
+            stick[3][j] = -l;
+        }
+        for columns in [&mut slip, &mut stick] {
+            columns[3][tracked::BASE_SHEAR] = l;
+            columns[3][tracked::OVERTURNING] -= arm;
+            columns[2][DISPLACEMENT] = shape;
+            columns[3][ACCELERATION] = -shape;
+        }
+        let mut slope = [0.0; 8];
+        slope[tracked::BLOCK] = pull;
+        // A rigid block has no floor whose acceleration could be told.
+        slope[ACCELERATION] = if l == 0.0 { 0.0 } else { pull };
+        Self { stick, slip, slope: Eight(slope) }
+    }
+
+    #[inline(always)]
+    fn columns(&self, slip: bool) -> &[[f64; 8]; 6] {
+        if slip { &self.slip } else { &self.stick }
+    }
+
+    #[inline(always)]
+    fn view(&self, plant: &Plant, slip: bool, shape: f64, [arm, half]: [f64; 2]) -> View {
+        let columns = self.columns(slip);
+        let column = |j: usize| Eight(columns[j]);
+        let mut of_gates = [Eight::ZERO; 4];
+        let l = plant.participation;
+        of_gates[0].0[tracked::VELOCITY] = 1.0;
+        of_gates[1].0[DISPLACEMENT] = shape;
+        let f = &mut of_gates[2].0;
+        f[tracked::BASE_SHEAR] = l;
+        f[ACCELERATION] = shape;
+        f[tracked::SLIDER] = l;
+        f[tracked::FRICTION] = if slip { 0.0 } else { l };
+        f[tracked::OVERTURNING] = arm.abs();
+        if slip {
+            let u = &mut of_gates[3].0;
+            u[tracked::BLOCK] = 1.0;
+            // The slider force is M1 u − L f.
+            u[tracked::SLIDER] = plant.block_mass_kg;
+            u[tracked::OVERTURNING] = half.abs();
+        }
+        View {
+            columns: core::array::from_fn(column),
+            of_acceleration: column(OF_A),
+            of_force: column(OF_FORCE),
+            slope: self.slope,
+            of_gates,
+        }
+    }
+
+    /// Row of a quantity over the state.
+    #[inline(always)]
+    fn over_state(&self, plant: &Plant, slip: bool, j: usize) -> [f64; 4] {
+        let c = self.columns(slip);
+        [c[0][j], c[1][j], c[2][j] + plant.omega2 * c[3][j], plant.decay * c[3][j]]
+    }
+}
+
+/// Place of the storey's displacement, and drift, among the tracked quantities of a block.
+pub(in crate::solver) const DISPLACEMENT: usize = 6;
+/// Place of the floor's acceleration.
+pub(in crate::solver) const ACCELERATION: usize = 7;
+
+type Matrix = [[f64; 4]; 4];
+
+/// What unit inputs leave at the end of one sample: of the state, of a constant acceleration, of
+/// one that rises from 0 to 1, of a friction force.
+struct Sample {
+    state: Matrix,
+    constant: [f64; 4],
+    ramp: [f64; 4],
+    force: [f64; 4],
+}
+
+impl Phase {
+    const EMPTY: Self = {
+        let zeros = [Four::ZERO; 4];
+        let row = Row {
+            state: [Eight::ZERO; 4],
+            first: Eight::ZERO,
+            tap: [Eight::ZERO; BLOCK],
+            force: Eight::ZERO,
+        };
+        Self {
+            series: [[Four::ZERO; 7]; DEGREE],
+            power: [zeros; BLOCK + 1],
+            first: [Four::ZERO; BLOCK + 1],
+            tap: [Four::ZERO; BLOCK],
+            force: [Four::ZERO; BLOCK + 1],
+            rows: [row; 4],
+            view: View {
+                columns: [Eight::ZERO; 4],
+                of_acceleration: Eight::ZERO,
+                of_force: Eight::ZERO,
+                slope: Eight::ZERO,
+                of_gates: [Eight::ZERO; 4],
+            },
+            gates: Gates {
+                columns: zeros,
+                of_input: Four::ZERO,
+                sizes: zeros,
+                bend: Bend {
+                    of_norm: Four::ZERO,
+                    of_acceleration: Four::ZERO,
+                    of_rate: Four::ZERO,
+                    of_force: Four::ZERO,
+                },
+            },
+        }
+    };
+
+    #[inline(always)]
+    fn fill(&mut self, plant: &Plant, sample: &Sample, taps: &[Four; QUIET]) {
+        self.tap.copy_from_slice(&taps[..BLOCK]);
+        for j in 0..4 {
+            self.power[0][j] = Four(unit(j));
+        }
+        for k in 1..=BLOCK {
+            for j in 0..4 {
+                self.power[k][j] = Four(times(&sample.state, self.power[k - 1][j].0));
+            }
+            self.first[k] = Four(match k {
+                1 => sample.before(),
+                _ => times(&sample.state, self.first[k - 1].0),
+            });
+            self.force[k] = Four(times(&sample.state, self.force[k - 1].0));
+            for i in 0..4 {
+                self.force[k].0[i] += sample.force[i];
+            }
+        }
+        for i in 0..3 {
+            let Row { state, first, tap, force } = &mut self.rows[i];
+            for k in 1..=BLOCK {
+                for j in 0..4 {
+                    state[j].0[k - 1] = self.power[k][j].0[i];
+                }
+                first.0[k - 1] = self.first[k].0[i];
+                force.0[k - 1] = self.force[k].0[i];
+                for m in 1..=k {
+                    tap[m - 1].0[k - 1] = self.tap[k - m].0[i];
+                }
+            }
+        }
+        for k in 1..=BLOCK {
+            let f = |column: &Four| plant.restoring(&column.0);
+            let Row { state, first, tap, force } = &mut self.rows[3];
+            for j in 0..4 {
+                state[j].0[k - 1] = f(&self.power[k][j]);
+            }
+            first.0[k - 1] = f(&self.first[k]);
+            force.0[k - 1] = f(&self.force[k]);
+            for m in 1..=k {
+                tap[m - 1].0[k - 1] = f(&self.tap[k - m]);
+            }
+        }
+    }
+}
+
+impl Gates {
+    #[inline(always)]
+    fn new(plant: &Plant, slip: bool, dt_s: f64) -> Self {
+        let span_s = if slip { BLOCK as f64 * dt_s } else { dt_s };
+        let f = [0.0, 0.0, plant.omega2, plant.decay];
+        let share = plant.participation * plant.per_block_mass;
+        let u = [
+            -plant.stiffness_n_per_m * plant.per_block_mass,
+            -plant.damper_n_s_per_m * plant.per_block_mass,
+            share * f[2],
+            share * f[3],
+        ];
+        let u = if slip { u } else { [0.0; 4] };
+        let rows = [[0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], f, u];
+        let columns: [Four; 4] =
+            core::array::from_fn(|i| Four(core::array::from_fn(|j| rows[j][i])));
+        let [of_norm, of_acceleration, of_rate, of_force] =
+            bend(plant, slip, &rows, [span_s, dt_s]).map(Four);
+        Self {
+            columns,
+            of_input: Four([0.0, 0.0, 0.0, if slip { plant.per_block_mass } else { 1.0 }]),
+            sizes: columns.map(|column| Four(column.0.map(f64::abs))),
+            bend: Bend { of_norm, of_acceleration, of_rate, of_force },
+        }
+    }
+}
+
+/// [`Bend`] of some rows over chords of `span_s` within a block: `g″` of `g = c·x` is
+/// `c A² x + c A b a + c A d T + c b ȧ`, and the norm of the state grows in the block by no more
+/// than its duration times `√M_tot |a| + |T|/√M1`.
+#[inline(always)]
+fn bend(
+    plant: &Plant,
+    slip: bool,
+    rows: &[[f64; 4]; 4],
+    [span_s, dt_s]: [f64; 2],
+) -> [[f64; 4]; 4] {
+    let a: Matrix = core::array::from_fn(|j| plant.rate(slip, unit(j), 0.0, 0.0));
+    let on_a = plant.rate(slip, [0.0; 4], 1.0, 0.0);
+    let on_force = if slip { plant.rate(slip, [0.0; 4], 0.0, 1.0) } else { [0.0; 4] };
+    let reach = 0.125 * span_s * span_s;
+    let block_s = BLOCK as f64 * dt_s;
+    let growth = if slip { plant.root_mass } else { plant.participation };
+    let mut bend = [[0.0; 4]; 4];
+    for (j, row) in rows.iter().enumerate() {
+        let once: [f64; 4] = core::array::from_fn(|i| dot(row, &a[i]));
+        let twice: [f64; 4] = core::array::from_fn(|i| dot(&once, &a[i]));
+        let on_norm = plant.dual_norm(slip, twice);
+        bend[0][j] = reach * on_norm;
+        bend[1][j] = reach * (dot(&once, &on_a).abs() + on_norm * (block_s * growth));
+        bend[2][j] = reach * dot(row, &on_a).abs();
+        bend[3][j] =
+            reach * (dot(&once, &on_force).abs() + on_norm * (block_s * plant.per_root_block));
+    }
+    bend
+}
+
+#[inline(always)]
+fn unit(j: usize) -> [f64; 4] {
+    let mut unit = [0.0; 4];
+    unit[j] = 1.0;
+    unit
+}
+
+impl Quiet {
+    #[inline(always)]
+    fn fill(
+        &mut self,
+        plant: &Plant,
+        tracked: &TrackedRows,
+        stick: &Phase,
+        tap: &[Four; QUIET],
+        dt_s: f64,
+    ) {
+        let square = |m: &Matrix| -> Matrix { core::array::from_fn(|j| times(m, m[j])) };
+        let by_8 = stick.power[BLOCK].map(|c| c.0);
+        let by_16 = square(&by_8);
+        self.power = square(&by_16).map(Four);
+        // The first sample's ramp down has the whole stretch before it.
+        self.first = Four(times(&by_16, times(&by_8, stick.first[BLOCK].0)));
+        self.tap = *tap;
+        let columns = tracked.columns(false);
+        let mut of_norm = [0.0; 8];
+        let mut of_acceleration = [[0.0; 8]; 2];
+        let mut of_slope = [0.0; 8];
+        let slope = tracked.slope.0;
+        for j in 0..8 {
+            of_norm[j] = plant.dual_norm(false, tracked.over_state(plant, false, j));
+            for (of_acceleration, samples) in of_acceleration.iter_mut().zip([BLOCK, QUIET]) {
+                let growth = samples as f64 * dt_s * plant.participation;
+                of_acceleration[j] = of_norm[j] * growth + columns[OF_A][j].abs();
+            }
+            of_slope[j] = slope[j].abs();
+        }
+        // The block's own acceleration in stick is the table's, which is the load less the slope.
+        of_slope[tracked::BLOCK] = -of_slope[tracked::BLOCK];
+        self.of_norm = Eight(of_norm);
+        self.of_acceleration = of_acceleration.map(Eight);
+        self.of_s = Eight(columns[0].map(f64::abs));
+        self.of_slope = Eight(of_slope);
+    }
+}
+
+impl Sample {
+    #[inline(always)]
+    fn new(series: &[[Four; 7]; DEGREE], slip: bool, pieces: usize) -> Self {
+        let sum = |input: usize| {
+            let mut end = [0.0; 4];
+            for order in series.iter().rev() {
+                for (end, c) in end.iter_mut().zip(order[input].0) {
+                    *end += c;
+                }
+            }
+            end
+        };
+        let mut piece: Matrix = core::array::from_fn(sum);
+        for (j, column) in piece.iter_mut().enumerate() {
+            column[j] += 1.0;
+        }
+        let (of_a, of_change) = (sum(4), sum(5));
+        let of_force = if slip { sum(6) } else { [0.0; 4] };
+        let per_piece = 1.0 / pieces as f64;
+        let run = |mut x: [f64; 4], a: [f64; 2], force: f64| {
+            for i in 0..pieces {
+                let start = a[0] + (a[1] - a[0]) * (per_piece * i as f64);
+                let change = (a[1] - a[0]) * per_piece;
+                let moved = times(&piece, x);
+                x = core::array::from_fn(|i| {
+                    moved[i] + (of_a[i] * start + of_change[i] * change) + of_force[i] * force
+                });
+            }
+            x
+        };
+        Self {
+            state: core::array::from_fn(|j| {
+                if pieces == 1 { piece[j] } else { run(unit(j), [0.0; 2], 0.0) }
+            }),
+            constant: run([0.0; 4], [1.0, 1.0], 0.0),
+            ramp: run([0.0; 4], [0.0, 1.0], 0.0),
+            force: run([0.0; 4], [0.0; 2], 1.0),
+        }
+    }
+
+    /// What a unit of acceleration that ramps down in a sample leaves.
+    #[inline(always)]
+    fn before(&self) -> [f64; 4] {
+        core::array::from_fn(|i| self.constant[i] - self.ramp[i])
+    }
+
+    /// What a unit at a sample leaves behind: it ramps up before and down in the next sample.
+    #[inline(always)]
+    fn taps(&self, taps: &mut [Four]) {
+        taps[0] = Four(self.ramp);
+        for j in 1..taps.len() {
+            taps[j] = Four(times(&self.state, taps[j - 1].0));
+            if j == 1 {
+                let before = self.before();
+                for i in 0..4 {
+                    taps[1].0[i] += before[i];
+                }
+            }
+        }
+    }
+}
+
+/// Taylor coefficients of the state from the first on, over a piece, of every unit input.
+#[inline(always)]
+fn series(plant: &Plant, slip: bool, piece_s: f64, table: &mut [[Four; 7]; DEGREE]) {
+    for input in if slip { 0..7 } else { 2..6 } {
+        let mut x = if input < 4 { unit(input) } else { [0.0; 4] };
+        for (k, order) in table.iter_mut().enumerate() {
+            // The acceleration counts at the start, its change in the order after.
+            let a = if input == 4 + k && k < 2 { 1.0 } else { 0.0 };
+            let force = if input == 6 && k == 0 { 1.0 } else { 0.0 };
+            let step = piece_s * RECIPROCAL[k];
+            x = plant.rate(slip, x, a, force).map(|rate| step * rate);
+            order[input] = Four(x);
+        }
+    }
+}
+
+/// 1 / (k + 1).
+const RECIPROCAL: [f64; DEGREE] = {
+    let mut table = [0.0; DEGREE];
+    let mut k = 0;
+    while k < DEGREE {
+        table[k] = 1.0 / (k + 1) as f64;
+        k += 1;
+    }
+    table
+};
+
+#[inline(always)]
+fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+    (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
+}
+
+#[inline(always)]
+fn times(columns: &Matrix, x: [f64; 4]) -> [f64; 4] {
+    core::array::from_fn(|i| {
+        (columns[0][i] * x[0] + columns[1][i] * x[1])
+            + (columns[2][i] * x[2] + columns[3][i] * x[3])
+    })
+}

@@ -1,0 +1,309 @@
+//! The state of a walk by blocks, and what its steps share.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x4, f64x8, mask64x4};
+
+use super::lanes::{BLOCK, Four, combine4, combine8, four, larger, times4, times8};
+use super::peaks::Candidates;
+use super::tables::{ACCELERATION, DISPLACEMENT, Phase, Row, Tables};
+use super::windows::Windows;
+use crate::error::SolveError;
+use crate::friction::Direction;
+use crate::response::{Event, Mode};
+use crate::solver::exact::{Sliding, Start};
+use crate::solver::extremes::tracked;
+
+/// What a walk by blocks and the run it serves hand to each other.
+pub(in crate::solver) struct Carry {
+    /// `s, ṡ, η, η̇`, with zeros for the structure of a rigid block.
+    pub(in crate::solver) x: [f64; 4],
+    /// Peaks attained so far, in the order of [`View`](super::tables::View).
+    pub(in crate::solver) peak: [f64; 8],
+    pub(in crate::solver) mode: Mode,
+    pub(in crate::solver) start: Option<Start>,
+    pub(in crate::solver) events: Vec<Event>,
+    pub(in crate::solver) sliding: Sliding,
+}
+
+/// The run that a walk by blocks serves.
+pub(in crate::solver) trait Host {
+    /// Takes the long way through the rest of a sample after a time in it.
+    fn long_way(&mut self, carry: &mut Carry, sample: usize, from_s: f64)
+    -> Result<(), SolveError>;
+
+    /// Whether a history is wanted.
+    fn records(&self) -> bool;
+
+    /// Records a state at a sample as a row of the history.
+    fn record_row(&mut self, x: &[f64; 4], mode: Mode, sample: usize);
+
+    /// Records one side of an event at a time after a sample.
+    fn record_event(&mut self, carry: &Carry, sample: usize, at_s: f64);
+}
+
+/// Evenly spaced samples under a constant normal force.
+pub(in crate::solver) struct Ground<'a> {
+    pub(in crate::solver) times_s: &'a [f64],
+    /// `a = Ü + g sin θ` at the samples.
+    pub(in crate::solver) acceleration: &'a [f64],
+    /// `|g sin θ|`.
+    pub(in crate::solver) slope_size: f64,
+    /// Static bounds in N, and friction force of sliding towards +x and −x.
+    pub(in crate::solver) bounds: [f64; 2],
+    pub(in crate::solver) kinetic: [f64; 2],
+}
+
+/// A walk by blocks.
+pub(super) struct Walk<'w, S: Simd> {
+    pub(super) simd: S,
+    pub(super) tables: &'w Tables,
+    pub(super) windows: &'w Windows,
+    pub(super) ground: &'w Ground<'w>,
+    pub(super) host: &'w mut dyn Host,
+    pub(super) carry: &'w mut Carry,
+    pub(super) candidates: Candidates,
+    /// Peaks attained so far; those of `carry` are behind.
+    pub(super) peak: f64x8<S>,
+    /// Within which values of the gates nothing new is told.
+    pub(super) low: f64x4<S>,
+    pub(super) high: f64x4<S>,
+    /// Peaks of friction and slider force in stick that matter, infinite where the static bounds
+    /// keep them.
+    pub(super) most_friction: f64,
+    pub(super) most_slider: f64,
+    pub(super) records: bool,
+}
+
+impl<'w, S: Simd> Walk<'w, S> {
+    #[inline(always)]
+    pub(super) fn new(
+        simd: S,
+        (tables, windows): (&'w Tables, &'w Windows),
+        ground: &'w Ground<'w>,
+        host: &'w mut dyn Host,
+        carry: &'w mut Carry,
+    ) -> Self {
+        let zero = four(simd, 0.0);
+        let mut walk = Self {
+            simd,
+            tables,
+            windows,
+            ground,
+            records: host.records(),
+            host,
+            candidates: Candidates::default(),
+            peak: f64x8::load_array(simd, carry.peak),
+            low: zero,
+            high: zero,
+            most_friction: 0.0,
+            most_slider: 0.0,
+            carry,
+        };
+        walk.set_gates();
+        walk
+    }
+
+    /// Walks from a sample to the end of the evenly spaced samples.
+    #[inline(always)]
+    pub(super) fn go(&mut self, mut sample: usize, end: usize) -> Result<(), SolveError> {
+        self.attain();
+        while sample < end {
+            sample = match self.carry.mode {
+                Mode::Slip(_) if self.is_due() => sample,
+                Mode::Slip(direction) => self.slide(sample, end, direction),
+                Mode::Stick => self.hold(sample, end),
+            };
+            if sample < end {
+                self.step(sample)?;
+                sample += 1;
+            }
+        }
+        self.attain();
+        self.settle();
+        self.carry.peak = self.peak.to_array();
+        Ok(())
+    }
+
+    /// Whether a slip has just started, or a stop is still to be decided.
+    #[inline(always)]
+    pub(super) fn is_due(&self) -> bool {
+        self.carry.start.is_some() || (self.carry.mode != Mode::Stick && self.carry.x[1] == 0.0)
+    }
+
+    /// The long way through the rest of a sample.
+    #[inline(never)]
+    pub(super) fn long_way(&mut self, sample: usize, from_s: f64) -> Result<(), SolveError> {
+        self.carry.peak = self.peak.to_array();
+        let result = self.host.long_way(self.carry, sample, from_s);
+        self.peak = f64x8::load_array(self.simd, self.carry.peak);
+        self.set_gates();
+        result
+    }
+
+    /// Friction force of sliding in a direction, in N.
+    #[inline(always)]
+    pub(super) fn force(&self, direction: Direction) -> f64 {
+        self.ground.kinetic[if direction == Direction::Positive { 0 } else { 1 }]
+    }
+
+    /// State after `k` samples from a state at the first of `a`.
+    #[inline(always)]
+    pub(super) fn end<const SLIP: bool>(
+        &self,
+        k: usize,
+        x: f64x4<S>,
+        a: &[f64; BLOCK + 1],
+        force: f64,
+    ) -> f64x4<S> {
+        let (simd, phase) = (self.simd, self.phase::<SLIP>());
+        let taps = &phase.tap;
+        let mut load = times4(simd, &phase.first[k], a[0]);
+        if SLIP {
+            load += times4(simd, &phase.force[k], force);
+        }
+        if k == BLOCK {
+            // Two sums, that neither has to wait for the other.
+            let odd = (times4(simd, &taps[7], a[1]) + times4(simd, &taps[5], a[3]))
+                + (times4(simd, &taps[3], a[5]) + times4(simd, &taps[1], a[7]));
+            let even = (times4(simd, &taps[6], a[2]) + times4(simd, &taps[4], a[4]))
+                + (times4(simd, &taps[2], a[6]) + times4(simd, &taps[0], a[8]));
+            load += odd + even;
+        } else {
+            for m in 1..=k {
+                load += times4(simd, &taps[k - m], a[m]);
+            }
+        }
+        combine4(simd, &phase.power[k], x) + load
+    }
+
+    /// One value at the samples 1 … 8 after a state.
+    #[inline(always)]
+    pub(super) fn row<const SLIP: bool>(
+        &self,
+        row: &Row,
+        x: [f64; 4],
+        a: &[f64; BLOCK + 1],
+        force: f64,
+    ) -> f64x8<S> {
+        let simd = self.simd;
+        let taps = &row.tap;
+        let odd = (times8(simd, &taps[0], a[1]) + times8(simd, &taps[2], a[3]))
+            + (times8(simd, &taps[4], a[5]) + times8(simd, &taps[6], a[7]));
+        let even = (times8(simd, &taps[1], a[2]) + times8(simd, &taps[3], a[4]))
+            + (times8(simd, &taps[5], a[6]) + times8(simd, &taps[7], a[8]));
+        let mut load = times8(simd, &row.first, a[0]) + (odd + even);
+        if SLIP {
+            load += times8(simd, &row.force, force);
+        }
+        combine8(simd, &row.state, x) + load
+    }
+
+    /// Takes the values of sliding at the present for attained: in a slip the friction force, and
+    /// without a damper the slider force, have their peaks at its ends, where nothing else looks if
+    /// the samples begin or end amid it.
+    #[inline(always)]
+    fn attain(&mut self) {
+        if let Mode::Slip(direction) = self.carry.mode
+            && !self.is_due()
+        {
+            let view = self.view::<true>(self.carry.x, 0.0, self.force(direction));
+            self.peak = larger(self.peak, view.abs());
+            self.set_gates();
+        }
+    }
+
+    /// Draws the gates around the peaks attained.
+    #[inline(always)]
+    pub(super) fn set_gates(&mut self) {
+        let (tables, simd) = (self.tables, self.simd);
+        let (plant, shape, slope) = (&tables.plant, tables.shape, tables.slope);
+        let peak = self.peak.to_array();
+        let mut low = [f64::NEG_INFINITY; 4];
+        let mut high = [f64::INFINITY; 4];
+        (low[0], high[0]) = (-peak[tracked::VELOCITY], peak[tracked::VELOCITY]);
+        if shape > 0.0 {
+            let per_shape = 1.0 / shape;
+            high[1] = peak[DISPLACEMENT] * per_shape;
+            low[1] = -high[1];
+            let of_shear = peak[tracked::BASE_SHEAR] / plant.participation;
+            high[2] = ((peak[ACCELERATION] - slope) * per_shape).min(of_shear);
+            low[2] = -((peak[ACCELERATION] + slope) * per_shape).min(of_shear);
+        }
+        (low[3], high[3]) = (slope - peak[tracked::BLOCK], slope + peak[tracked::BLOCK]);
+        (self.low, self.high) = (Four(low).load(simd), Four(high).load(simd));
+        // A demand that has reached its largest bound cannot grow but by rounding.
+        let bound = self.ground.bounds[1].max(-self.ground.bounds[0]) * (1.0 - 1e-14);
+        let [friction, slider] = [peak[tracked::FRICTION], peak[tracked::SLIDER]];
+        let free = plant.stiffness_n_per_m == 0.0;
+        self.most_friction = if friction >= bound { f64::INFINITY } else { friction };
+        self.most_slider = if free && slider >= bound { f64::INFINITY } else { slider };
+    }
+
+    /// What is watched in a state.
+    #[inline(always)]
+    pub(super) fn gates<const SLIP: bool>(&self, x: f64x4<S>, input: f64) -> f64x4<S> {
+        let gates = &self.phase::<SLIP>().gates;
+        combine4(self.simd, &gates.columns, x) + times4(self.simd, &gates.of_input, input)
+    }
+
+    /// Whether values of the gates stay within them by a slack.
+    #[inline(always)]
+    pub(super) fn inside(&self, view: f64x4<S>, slack: f64x4<S>) -> mask64x4<S> {
+        view.simd_ge(self.low + slack) & view.simd_le(self.high - slack)
+    }
+
+    /// Whether the overturning moment, and in slip the slider force, are to be watched besides.
+    #[inline(always)]
+    pub(super) fn careful(&self) -> bool {
+        self.tables.plant.damper_n_s_per_m != 0.0 || self.tables.arm != [0.0; 2]
+    }
+
+    /// The tracked quantities in a state under an acceleration and a friction force.
+    #[inline(always)]
+    pub(super) fn view<const SLIP: bool>(&self, x: [f64; 4], a: f64, force: f64) -> f64x8<S> {
+        let (simd, view) = (self.simd, &self.phase::<SLIP>().view);
+        let f = self.tables.plant.restoring(&x);
+        let input = if SLIP {
+            times8(simd, &view.of_force, force)
+        } else {
+            times8(simd, &view.of_acceleration, a)
+        };
+        combine8(simd, &view.columns, [x[0], x[1], x[2], f]) + (input - view.slope.load(simd))
+    }
+
+    #[inline(always)]
+    pub(super) fn phase<const SLIP: bool>(&self) -> &'w Phase {
+        if SLIP { &self.tables.slip } else { &self.tables.stick }
+    }
+
+    /// Records samples of a block as rows of the history, if one is wanted.
+    #[inline(always)]
+    pub(super) fn record<const SLIP: bool>(
+        &mut self,
+        sample: usize,
+        steps: usize,
+        x: f64x4<S>,
+        force: f64,
+    ) {
+        if !self.records {
+            return;
+        }
+        let a = self.block_at(sample);
+        for k in 0..steps {
+            let x = self.end::<SLIP>(k, x, a, force).to_array();
+            self.host.record_row(&x, self.carry.mode, sample + k);
+        }
+    }
+
+    /// The accelerations that a block from a sample touches; zeros where the motion has ended.
+    #[inline(always)]
+    pub(super) fn block_at(&self, sample: usize) -> &'w [f64; BLOCK + 1] {
+        self.ground.acceleration[sample..].first_chunk().unwrap_or(&[0.0; BLOCK + 1])
+    }
+
+    /// The state as a vector.
+    #[inline(always)]
+    pub(super) fn state(&self) -> f64x4<S> {
+        Four(self.carry.x).load(self.simd)
+    }
+}

@@ -1,0 +1,95 @@
+//! Studies in files: a plan in, a folder of Parquet parts out.
+//!
+//! A study's rows are cut into parts of a fixed size that follows from their number. [`run_shard`]
+//! computes the parts of one shard that a folder does not hold yet, each whole or not at all, so that
+//! it may be killed and called again at any time. [`conclude`] writes the manifest and the summary
+//! of a folder; [`merge`] joins folders to one file.
+
+mod merge;
+mod open;
+mod part;
+mod parts;
+mod repeat;
+mod shard;
+mod summary;
+
+pub use merge::{Merged, conclude, merge};
+pub use open::OpenStudy;
+pub use part::{Checks, part_rows};
+pub use parts::{clear, has_parts};
+pub use shard::{Shard, ShardOptions, ShardOutcome, estimate, run_shard};
+
+use std::path::PathBuf;
+
+use slipstick::error::InputError;
+
+use crate::error::FileError;
+
+/// What ends a study early.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// The plan or the model.
+    #[error("{error}")]
+    Input {
+        /// What is wrong, and where.
+        error: Box<InputError>,
+        /// The text it points into.
+        text: String,
+    },
+    /// A file.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A part of another study where one of this study was expected.
+    #[error(
+        "{}: belongs to another study (another plan, model, record or version): choose another \
+         folder, or start anew with --force",
+        path.display()
+    )]
+    Foreign {
+        /// The part.
+        path: PathBuf,
+    },
+    /// Folders that do not hold every run.
+    #[error("expected the runs 0 to {last}, found none from {missing} on in {folders}")]
+    Incomplete {
+        /// The last run of the study.
+        last: u64,
+        /// The first run that is missing.
+        missing: u64,
+        /// Where they were looked for.
+        folders: String,
+    },
+    /// A run whose certificate does not hold, or that came out differently when run again.
+    #[error(
+        "run {run} fails its check ({what}); nothing of its part was written. It is reproduced by\n  \
+         {repeat}"
+    )]
+    CheckFailed {
+        /// The run.
+        run: u64,
+        /// What was found.
+        what: String,
+        /// The command that reproduces it.
+        repeat: String,
+    },
+    /// No such run or shard.
+    #[error("expected {expected}, found {found}")]
+    OutOfRange {
+        /// What was expected.
+        expected: String,
+        /// What was asked for.
+        found: String,
+    },
+    /// Threads that cannot be started.
+    #[error("{reason}")]
+    Threads {
+        /// Why.
+        reason: String,
+    },
+}
+
+impl StudyError {
+    fn input(error: InputError, text: &str) -> Self {
+        Self::Input { error: Box::new(error), text: text.to_owned() }
+    }
+}

@@ -1,0 +1,172 @@
+//! The end of a study: manifest and summary of a folder, and one file of many folders.
+
+use std::path::{Path, PathBuf};
+
+use arrow_array::RecordBatch;
+use parquet::errors::ParquetError;
+use slipstick::input::plan::Method;
+use slipstick_report::StudySummary;
+use slipstick_report::json::Json;
+
+use super::part::{self, Checks, Notes, PartFile};
+use super::parts::{MANIFEST, SUMMARY, parts, refuse_foreign};
+use super::summary;
+use super::{OpenStudy, StudyError};
+use crate::error::FileError;
+use crate::parquet::{at, open};
+use crate::write::{refuse_inputs, write_whole, write_whole_with};
+
+/// What was joined to one file.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Merged {
+    /// Number of rows.
+    pub rows: u64,
+    /// Runs that failed.
+    pub failures: u64,
+    /// What came of running some again.
+    pub checks: Checks,
+}
+
+/// Writes `manifest.json` and `summary.csv` of the parts in a folder, and gives the summary.
+///
+/// # Errors
+/// [`StudyError`] for parts that are damaged or belong to another study, and files that cannot be
+/// written.
+pub fn conclude(study: &OpenStudy, folder: &Path) -> Result<StudySummary, StudyError> {
+    let files = parts(folder)?;
+    refuse_foreign(&files, &study.id)?;
+    let summary = summary::of(study, &files)?;
+    summary::write(&folder.join(SUMMARY), &summary)?;
+    write_whole(&folder.join(MANIFEST), manifest(study, &files).to_pretty().as_bytes())?;
+    Ok(summary)
+}
+
+/// What the manifest says: version, plan, inputs with their hashes, seed, counts and checks. Nothing
+/// in it depends on when, where or by which machine the study was run.
+fn manifest(study: &OpenStudy, files: &[PartFile]) -> Json {
+    let total = totals(files);
+    let cases = study.study.cases();
+    let sampling = study.plan.sampling.as_ref();
+    let method = sampling.map(|sampling| match sampling.method {
+        Method::Sobol => "sobol",
+        Method::LatinHypercube => "latin-hypercube",
+        Method::Grid => "grid",
+    });
+    let text = |text: Option<&str>| text.map_or(Json::Null, Json::from);
+    let inputs = study.inputs.iter().map(|(name, sha256)| {
+        Json::Object(vec![("path", name.as_str().into()), ("sha256", sha256.as_str().into())])
+    });
+    Json::Object(vec![
+        ("slipstick", env!("CARGO_PKG_VERSION").into()),
+        ("study", study.id.as_str().into()),
+        ("name", text(study.plan.name.as_deref())),
+        ("plan", study.plan_text.as_str().into()),
+        ("inputs", Json::List(inputs.collect())),
+        ("method", text(method)),
+        ("seed", sampling.and_then(|sampling| sampling.seed).map_or(Json::Null, Json::Count)),
+        ("records", cases.records.into()),
+        ("levels", cases.levels.into()),
+        ("samples", cases.samples.into()),
+        ("runs", study.study.runs().into()),
+        ("rows", total.rows.into()),
+        ("complete", (total.rows == study.study.runs()).into()),
+        ("failures", total.failures.into()),
+        ("checks", checks(&total.checks)),
+    ])
+}
+
+fn checks(checks: &Checks) -> Json {
+    Json::Object(vec![
+        ("rows", checks.rows.into()),
+        ("equilibrium_residual", checks.equilibrium_residual.into()),
+        ("friction_excess", checks.friction_excess.into()),
+        ("energy_balance_error", checks.energy_balance_error.into()),
+    ])
+}
+
+fn totals(files: &[PartFile]) -> Merged {
+    let mut total = Merged::default();
+    for PartFile { notes, .. } in files {
+        total.rows += notes.rows;
+        total.failures += notes.failures;
+        total.checks.join(&notes.checks);
+    }
+    total
+}
+
+/// Joins the parts in some folders to one file: all runs of the study in their order.
+///
+/// The bytes of the file follow from the rows alone. A part that is in two folders counts once.
+///
+/// # Errors
+/// [`StudyError::Foreign`] for parts of different studies, [`StudyError::Incomplete`] where runs
+/// are missing, [`FileError`] for files that cannot be read or written.
+pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, StudyError> {
+    let mut files: Vec<PartFile> = Vec::new();
+    for folder in folders {
+        for file in parts(folder)? {
+            if !files.iter().any(|known| known.notes.first == file.notes.first) {
+                files.push(file);
+            }
+        }
+    }
+    files.sort_by_key(|file| file.notes.first);
+    let named = folders.iter().map(|f| f.display().to_string()).collect::<Vec<_>>().join(", ");
+    let Some(first) = files.first().cloned() else {
+        let reason = "it holds no parts of a study".to_owned();
+        let path = folders.first().cloned().unwrap_or_default();
+        return Err(FileError::Table { path, reason }.into());
+    };
+    refuse_foreign(&files, &first.notes.id)?;
+    let runs = first.notes.runs;
+    let mut next = 0;
+    for file in &files {
+        if file.notes.first != next {
+            break;
+        }
+        next += file.notes.rows;
+    }
+    if next != runs {
+        let last = runs.saturating_sub(1);
+        return Err(StudyError::Incomplete { last, missing: next, folders: named });
+    }
+    let inputs: Vec<PathBuf> = files.iter().map(|file| file.path.clone()).collect();
+    refuse_inputs(out, &inputs)?;
+    let total = totals(&files);
+    let notes = Notes {
+        first: 0,
+        rows: total.rows,
+        failures: total.failures,
+        checks: total.checks,
+        ..first.notes
+    };
+    let schema = open(&first.path)?.schema().clone();
+    write_whole_with(out, |to| {
+        let mut table = part::table(to, schema, &notes).map_err(at(out))?;
+        for file in &files {
+            table.row_group(&whole(&file.path)?).map_err(at(out))?;
+        }
+        table.finish().map_err(at(out))?;
+        Ok(())
+    })?;
+    Ok(total)
+}
+
+/// All rows of a part.
+fn whole(path: &Path) -> Result<RecordBatch, FileError> {
+    let table = open(path)?;
+    let schema = table.schema().clone();
+    let rows = table.metadata().file_metadata().num_rows().max(1) as usize;
+    let reader = table.with_batch_size(rows).build().map_err(at(path))?;
+    let failed =
+        |error: arrow_schema::ArrowError| at(path)(ParquetError::ArrowError(error.to_string()));
+    let mut batches = reader.collect::<Result<Vec<_>, _>>().map_err(failed)?;
+    match (batches.pop(), batches.is_empty()) {
+        (Some(batch), true) => Ok(batch),
+        (None, _) => Ok(RecordBatch::new_empty(schema)),
+        (Some(_), false) => {
+            let reason = "its rows do not come in one piece".to_owned();
+            Err(FileError::Table { path: path.to_owned(), reason })
+        }
+    }
+}

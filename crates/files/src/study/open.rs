@@ -1,0 +1,233 @@
+//! From the path of a plan to a study that can be run.
+
+use std::path::{Path, PathBuf};
+
+use slipstick::input::plan::{Plan, Records};
+use slipstick::input::{self, MAX_TEXT_BYTES, MotionSource};
+use slipstick::study::{Record, Study};
+
+use super::StudyError;
+use crate::error::FileError;
+use crate::globs::expand;
+use crate::load::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
+use crate::read::{read_at_most, resolve, sha256_hex};
+use crate::run::request;
+
+/// A study with all its inputs read.
+#[derive(Debug)]
+pub struct OpenStudy {
+    /// The plan.
+    pub plan: Plan,
+    /// Its runs.
+    pub study: Study,
+    /// Path of the plan as it was given.
+    pub plan_path: PathBuf,
+    /// Path of the model file.
+    pub model_path: PathBuf,
+    /// Every file that was read, named as plan and model name it, and its hash: the plan, the
+    /// model, then the records.
+    pub inputs: Vec<(String, String)>,
+    /// Hash of the version and of all inputs: parts of one study have the same.
+    pub id: String,
+    /// The text of the plan.
+    pub plan_text: String,
+    /// Paths of the records, in the order of the study's.
+    pub(super) record_paths: Vec<RecordPaths>,
+    /// What a person should know before it runs.
+    pub notices: Vec<String>,
+}
+
+/// Where a record and its vertical component are.
+#[derive(Clone, Debug, Default)]
+pub(super) struct RecordPaths {
+    pub horizontal: PathBuf,
+    pub vertical: Option<PathBuf>,
+}
+
+impl OpenStudy {
+    /// Reads a plan, its model and its records.
+    ///
+    /// # Errors
+    /// [`StudyError`] for a plan or a model that cannot be understood, and for records that are
+    /// missing or are none; all that are missing are named.
+    pub fn open(plan_path: &Path) -> Result<Self, StudyError> {
+        let plan_name = plan_path.display().to_string();
+        let plan_bytes = read_at_most(plan_path, MAX_TEXT_BYTES as u64)?;
+        let plan_text = String::from_utf8_lossy(&plan_bytes).into_owned();
+        let in_plan = |error| StudyError::input(error, &plan_text);
+        let plan = Plan::from_bytes(&plan_name, &plan_bytes).map_err(in_plan)?;
+        let folder = plan_path.parent().unwrap_or(Path::new(""));
+        let model_path = resolve(folder, &plan.model);
+        let model_bytes = read_at_most(&model_path, MAX_TEXT_BYTES as u64).map_err(|error| {
+            let expected = "a model file that can be read";
+            in_plan(plan.error_at("model", expected, error.to_string()))
+        })?;
+        let model_text = String::from_utf8_lossy(&model_bytes).into_owned();
+        let in_model = |error| StudyError::input(error, &model_text);
+        let mut inputs = vec![
+            (file_name(plan_path), sha256_hex(&plan_bytes)),
+            (portable(&plan.model), sha256_hex(&model_bytes)),
+        ];
+        let mut notices = Vec::new();
+        let loaded = match &plan.records {
+            Some(records) => load_all(&plan, records, folder, &in_plan)?,
+            None => own_record(&plan, &model_path, &model_bytes, &in_model)?,
+        };
+        let mut records = Vec::new();
+        let mut record_paths = Vec::new();
+        for Loaded { name, vertical_name, paths, loaded } in loaded {
+            let names = [Some(name.clone()), vertical_name].into_iter().flatten();
+            inputs.extend(names.zip(loaded.sources.iter().map(|source| source.sha256.clone())));
+            records.push(Record {
+                name,
+                channel: loaded.channel,
+                motion: loaded.motion,
+                warnings: loaded.warnings.iter().map(|warning| warning.kind).collect(),
+            });
+            record_paths.push(paths);
+        }
+        // The model's name in messages goes into rows: it is the one in the plan, on every machine.
+        let study = Study::new(&plan, &portable(&plan.model), &model_text, records);
+        let study = study.map_err(|error| match &*error.place.source_name {
+            name if name == plan_name => in_plan(error),
+            _ => in_model(error),
+        })?;
+        if study.has_bounds() {
+            notices.push("slider.bounds of the model are not run: vary the friction".to_owned());
+        }
+        let id = id(&inputs);
+        let model_path = model_path.clone();
+        let plan_path = plan_path.to_owned();
+        Ok(Self {
+            plan,
+            study,
+            plan_path,
+            model_path,
+            inputs,
+            id,
+            plan_text,
+            record_paths,
+            notices,
+        })
+    }
+}
+
+struct Loaded {
+    name: String,
+    vertical_name: Option<String>,
+    paths: RecordPaths,
+    loaded: LoadedMotion,
+}
+
+/// All records of a plan.
+fn load_all(
+    plan: &Plan,
+    records: &Records,
+    folder: &Path,
+    in_plan: &impl Fn(slipstick::error::InputError) -> StudyError,
+) -> Result<Vec<Loaded>, StudyError> {
+    let files = find(plan, "records.files", &records.files, folder).map_err(in_plan)?;
+    let vertical = find(plan, "records.vertical", &records.vertical, folder).map_err(in_plan)?;
+    if !vertical.is_empty() && vertical.len() != files.len() {
+        let expected = format!("one vertical motion for each of {} files", files.len());
+        let found = vertical.len().to_string();
+        return Err(in_plan(plan.error_at("records.vertical", expected, found)));
+    }
+    let mut all = Vec::with_capacity(files.len());
+    for (index, path) in files.into_iter().enumerate() {
+        let up = vertical.get(index).cloned();
+        let loaded = load_record(&RecordRequest {
+            path: path.clone(),
+            units: records.units,
+            dt_s: records.dt_s,
+            channel: records.channel.clone(),
+            vertical: up.clone().map(|path| VerticalRequest {
+                path,
+                channel: None,
+                factor: records.vertical_scale.unwrap_or(1.0),
+            }),
+            ..RecordRequest::default()
+        })?;
+        all.push(Loaded {
+            name: name_from(folder, &path),
+            vertical_name: up.as_deref().map(|path| name_from(folder, path)),
+            paths: RecordPaths { horizontal: path, vertical: up },
+            loaded,
+        });
+    }
+    Ok(all)
+}
+
+/// The files that patterns mean, in the order of the patterns; all that mean none are named at once.
+fn find(
+    plan: &Plan,
+    place: &str,
+    patterns: &[String],
+    folder: &Path,
+) -> Result<Vec<PathBuf>, slipstick::error::InputError> {
+    let mut files = Vec::new();
+    let mut missing = Vec::new();
+    for pattern in patterns {
+        match expand(folder, pattern) {
+            Ok(found) => files.extend(found),
+            Err(FileError::NoMatch { .. }) => missing.push(format!("\"{pattern}\"")),
+            Err(error) => {
+                return Err(plan.error_at(place, "files that can be read", error.to_string()));
+            }
+        }
+    }
+    if missing.is_empty() {
+        return Ok(files);
+    }
+    let expected =
+        format!("files beside the plan; {} of {} are missing", missing.len(), patterns.len());
+    Err(plan.error_at(place, expected, format!("no {}", missing.join(", "))))
+}
+
+/// The model's own record, scaled as the model says, where it has one and the plan has none.
+fn own_record(
+    plan: &Plan,
+    model_path: &Path,
+    model_bytes: &[u8],
+    in_model: &impl Fn(slipstick::error::InputError) -> StudyError,
+) -> Result<Vec<Loaded>, StudyError> {
+    let name = portable(&plan.model);
+    // What is wrong with the model itself the study says, with the varied values in it.
+    let Ok(analysis) = input::from_bytes(&name, model_bytes, &[]) else { return Ok(Vec::new()) };
+    let Some(MotionSource::Record(source)) = &analysis.motion else { return Ok(Vec::new()) };
+    let folder = model_path.parent().unwrap_or(Path::new(""));
+    let request = request(source, folder);
+    let loaded = load_record(&request).map_err(|error| {
+        in_model(analysis.error_at("motion.record", "a record that can be read", error.to_string()))
+    })?;
+    let paths = RecordPaths {
+        horizontal: request.path,
+        vertical: request.vertical.map(|vertical| vertical.path),
+    };
+    let vertical_name = source.vertical.as_deref().map(portable);
+    Ok(vec![Loaded { name: portable(&source.path), vertical_name, paths, loaded }])
+}
+
+/// A record's path as the plan might have named it: relative to it, divided by `/`.
+fn name_from(folder: &Path, path: &Path) -> String {
+    portable(&path.strip_prefix(folder).unwrap_or(path).display().to_string())
+}
+
+fn portable(path: &str) -> String {
+    path.replace('\\', "/")
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
+/// Hash of the version and of the inputs in their order.
+fn id(inputs: &[(String, String)]) -> String {
+    let mut text = format!("slipstick {}\n", env!("CARGO_PKG_VERSION"));
+    // The plan's own name does not matter.
+    for (index, (name, sha256)) in inputs.iter().enumerate() {
+        let name = if index == 0 { "plan" } else { name };
+        text.push_str(&format!("{sha256} {name}\n"));
+    }
+    sha256_hex(text.as_bytes())
+}

@@ -1,0 +1,89 @@
+//! The command that reproduces a row.
+
+use slipstick::input::plan::Records;
+
+use super::{OpenStudy, StudyError};
+
+impl OpenStudy {
+    /// The `slipstick run` line that gives the demands of a run, bit for bit; paths are relative to
+    /// the folder that the plan's path is relative to.
+    ///
+    /// # Errors
+    /// [`StudyError::OutOfRange`] for a run that the study does not have.
+    pub fn repeat(&self, run: u64) -> Result<String, StudyError> {
+        let runs = self.study.runs();
+        if run >= runs {
+            return Err(StudyError::OutOfRange {
+                expected: format!("a run from 0 to {}", runs.saturating_sub(1)),
+                found: run.to_string(),
+            });
+        }
+        let case = self.study.cases().case(run);
+        let mut words = vec!["slipstick".to_owned(), "run".to_owned()];
+        words.push(self.model_path.display().to_string());
+        let mut set = Vec::new();
+        if let Some(records) = &self.plan.records {
+            let factor = self.study.factor(case);
+            self.record(case.record as usize, factor, records, &mut words, &mut set);
+        }
+        let varied = self.study.overrides(case);
+        set.extend(varied.map_err(|error| StudyError::input(error, ""))?);
+        for pair in set {
+            words.extend(["--set".to_owned(), pair]);
+        }
+        Ok(words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" "))
+    }
+
+    /// The record by the options of `run`; with a vertical component, which those do not have, by
+    /// the keys of the model, whose paths start at the model's folder.
+    fn record(
+        &self,
+        index: usize,
+        factor: f64,
+        records: &Records,
+        words: &mut Vec<String>,
+        set: &mut Vec<String>,
+    ) {
+        let Some(paths) = self.record_paths.get(index) else { return };
+        let units = records.unit_name.map(str::to_owned);
+        let dt = records.dt_s.map(|dt_s| format!("{dt_s:?} s"));
+        let Some(vertical) = &paths.vertical else {
+            let mut option = |name: &str, value: Option<String>| {
+                if let Some(value) = value {
+                    words.extend([name.to_owned(), value]);
+                }
+            };
+            option("--motion", Some(paths.horizontal.display().to_string()));
+            option("--units", units);
+            option("--dt", dt);
+            option("--channel", records.channel.clone());
+            option("--scale", Some(format!("{factor:?}")));
+            return;
+        };
+        let from_model = |path: &std::path::Path| {
+            let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+            absolute.display().to_string()
+        };
+        set.push(format!("motion.record={}", from_model(&paths.horizontal)));
+        let mut key = |name: &str, value: Option<String>| {
+            if let Some(value) = value {
+                set.push(format!("motion.{name}={value}"));
+            }
+        };
+        key("units", units);
+        key("dt", dt);
+        key("channel", records.channel.clone());
+        key("vertical", Some(from_model(vertical)));
+        key("vertical_scale", records.vertical_scale.map(|scale| format!("{scale:?}")));
+        key("scale", Some(format!("{factor:?}")));
+    }
+}
+
+/// A word as a shell takes it.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', r"'\''"))
+}

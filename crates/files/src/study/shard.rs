@@ -1,0 +1,310 @@
+//! Runs the parts of a shard that are not there yet.
+
+use std::ops::Range;
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+use slipstick::study::{Row, Verdict};
+
+use super::part::{self, Checks, Layout, Notes, is_checked, part_count, part_name, part_rows};
+use super::parts::{parts, refuse_foreign, remove_leftovers};
+use super::{OpenStudy, StudyError};
+use crate::parquet::at;
+use crate::write::{OutputFolder, write_whole};
+
+/// One of so many shards of a study, from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    index: u64,
+    count: u64,
+}
+
+impl Shard {
+    /// The whole study.
+    pub const WHOLE: Self = Self { index: 1, count: 1 };
+
+    /// The shard `index` of `count`, both from 1.
+    ///
+    /// # Errors
+    /// [`StudyError::OutOfRange`] unless `1 ≤ index ≤ count`.
+    pub fn new(index: u64, count: u64) -> Result<Self, StudyError> {
+        if 1 <= index && index <= count {
+            return Ok(Self { index, count });
+        }
+        Err(StudyError::OutOfRange {
+            expected: "a shard i/n with i from 1 to n".to_owned(),
+            found: format!("{index}/{count}"),
+        })
+    }
+
+    /// Its parts, of so many.
+    fn parts(self, count: u64) -> Range<u64> {
+        let bound = |index: u64| {
+            // Neither factor is above 10⁸ but a count of shards that someone typed.
+            (u128::from(count) * u128::from(index) / u128::from(self.count)) as u64
+        };
+        bound(self.index - 1)..bound(self.index)
+    }
+}
+
+/// How a shard is run.
+#[derive(Clone, Copy, Default)]
+pub struct ShardOptions<'a> {
+    /// Number of threads; as many as the machine has where `None`.
+    pub jobs: Option<usize>,
+    /// Told how many more runs are done, from any thread.
+    pub progress: Option<&'a (dyn Fn(u64) + Sync)>,
+}
+
+/// What a shard came to.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ShardOutcome {
+    /// Runs of the shard.
+    pub runs: u64,
+    /// Those that were there already.
+    pub kept: u64,
+    /// Those that failed.
+    pub failures: u64,
+    /// What came of running some again.
+    pub checks: Checks,
+}
+
+/// Runs what a folder lacks of a shard's parts.
+///
+/// The rows of a part, and so the bytes of its file, follow from the plan and its inputs alone:
+/// they are the same whatever the shard, the number of threads and what was there before. A part
+/// appears whole or not at all. Called again with the same plan it does what is left to do.
+///
+/// # Errors
+/// [`StudyError`] for inputs that cannot be used, a folder that cannot be written or that holds
+/// parts of another study, and a run that fails its check. A run that cannot be solved is a row.
+pub fn run_shard(
+    plan: &Path,
+    shard: Shard,
+    folder: &Path,
+    options: &ShardOptions<'_>,
+) -> Result<ShardOutcome, StudyError> {
+    OpenStudy::open(plan)?.run_shard(shard, folder, options)
+}
+
+impl OpenStudy {
+    /// As [`run_shard`], of a study that is open.
+    ///
+    /// # Errors
+    /// As [`run_shard`].
+    pub fn run_shard(
+        &self,
+        shard: Shard,
+        folder: &Path,
+        options: &ShardOptions<'_>,
+    ) -> Result<ShardOutcome, StudyError> {
+        OutputFolder::create(folder, &[])?.commit()?;
+        let runs = self.study.runs();
+        let wanted = shard.parts(part_count(runs));
+        remove_leftovers(folder, &wanted)?;
+        let present = parts(folder)?;
+        refuse_foreign(&present, &self.id)?;
+        let mut outcome = ShardOutcome::default();
+        let mut to_do = Vec::new();
+        for part in wanted {
+            let rows = rows_of(part, runs);
+            outcome.runs += rows.end - rows.start;
+            match present.iter().find(|file| file.path.ends_with(part_name(part))) {
+                Some(file) => {
+                    outcome.kept += file.notes.rows;
+                    outcome.failures += file.notes.failures;
+                    outcome.checks.join(&file.notes.checks);
+                }
+                None => to_do.push(part),
+            }
+        }
+        let none: &(dyn Fn(u64) + Sync) = &|_| {};
+        let progress = options.progress.unwrap_or(none);
+        progress(outcome.kept);
+        let layout = Layout::new(&self.study);
+        on_threads(options.jobs, || {
+            for part in to_do {
+                let notes = self.run_part(part, folder, &layout, progress)?;
+                outcome.failures += notes.failures;
+                outcome.checks.join(&notes.checks);
+            }
+            Ok(outcome)
+        })
+    }
+
+    /// Number of runs of a shard.
+    #[must_use]
+    pub fn shard_runs(&self, shard: Shard) -> u64 {
+        let runs = self.study.runs();
+        let parts = shard.parts(part_count(runs));
+        parts.map(|part| rows_of(part, runs)).map(|rows| rows.end - rows.start).sum()
+    }
+
+    /// Runs one part and writes it.
+    fn run_part(
+        &self,
+        part: u64,
+        folder: &Path,
+        layout: &Layout,
+        progress: &(dyn Fn(u64) + Sync),
+    ) -> Result<Notes, StudyError> {
+        let runs = self.study.runs();
+        let range = rows_of(part, runs);
+        let rows = self.study.rows(range.clone(), progress);
+        let checks = self.check(&rows, &range)?;
+        let notes = Notes {
+            id: self.id.clone(),
+            runs,
+            first: range.start,
+            rows: rows.len() as u64,
+            failures: rows.iter().filter(|row| row.error.is_some()).count() as u64,
+            checks,
+        };
+        let path = folder.join(part_name(part));
+        let bytes = || {
+            let mut table = part::table(Vec::new(), layout.schema.clone(), &notes)?;
+            table.row_group(&layout.batch(&self.study, &rows)?)?;
+            table.finish()
+        };
+        write_whole(&path, &bytes().map_err(at(&path))?)?;
+        Ok(notes)
+    }
+
+    /// Runs some rows of a part again, alone and with their histories.
+    fn check(&self, rows: &[Row], range: &Range<u64>) -> Result<Checks, StudyError> {
+        let checked: Vec<&Row> = rows.iter().filter(|row| is_checked(row.run, range)).collect();
+        let mut checks = Checks::default();
+        for (row, verdict) in checked.iter().zip(verdicts(self, &checked)) {
+            checks.add(&verdict);
+            if !verdict.holds() {
+                return Err(StudyError::CheckFailed {
+                    run: row.run,
+                    what: what_failed(&verdict),
+                    repeat: self.repeat(row.run)?,
+                });
+            }
+        }
+        Ok(checks)
+    }
+}
+
+fn what_failed(verdict: &Verdict) -> String {
+    if !verdict.same {
+        return "run again alone it came out differently".to_owned();
+    }
+    format!(
+        "equilibrium residual {:e}, friction excess {:e}, energy balance error {:e}",
+        verdict.equilibrium_residual, verdict.friction_excess, verdict.energy_balance_error
+    )
+}
+
+/// The runs of a part.
+pub(super) fn rows_of(part: u64, runs: u64) -> Range<u64> {
+    let size = part_rows(runs);
+    part * size..((part + 1) * size).min(runs)
+}
+
+#[cfg(feature = "parallel")]
+fn verdicts(study: &OpenStudy, rows: &[&Row]) -> Vec<Verdict> {
+    use rayon::prelude::*;
+    rows.par_iter().map(|row| study.study.verify(row)).collect()
+}
+
+#[cfg(not(feature = "parallel"))]
+fn verdicts(study: &OpenStudy, rows: &[&Row]) -> Vec<Verdict> {
+    rows.iter().map(|row| study.study.verify(row)).collect()
+}
+
+#[cfg(feature = "parallel")]
+fn on_threads<T: Send>(
+    jobs: Option<usize>,
+    work: impl FnOnce() -> Result<T, StudyError> + Send,
+) -> Result<T, StudyError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs.unwrap_or(0)).build();
+    let pool = pool.map_err(|error| StudyError::Threads { reason: error.to_string() })?;
+    pool.install(work)
+}
+
+#[cfg(not(feature = "parallel"))]
+fn on_threads<T: Send>(
+    _jobs: Option<usize>,
+    work: impl FnOnce() -> Result<T, StudyError> + Send,
+) -> Result<T, StudyError> {
+    work()
+}
+
+/// Time that a shard may take, from runs spread over it that are timed for about `budget`.
+///
+/// # Errors
+/// [`StudyError::Threads`].
+pub fn estimate(
+    study: &OpenStudy,
+    shard: Shard,
+    jobs: Option<usize>,
+    budget: Duration,
+) -> Result<(u64, Duration), StudyError> {
+    let total = study.study.runs();
+    let parts = shard.parts(part_count(total));
+    let runs = if parts.is_empty() {
+        0..0
+    } else {
+        rows_of(parts.start, total).start..rows_of(parts.end - 1, total).end
+    };
+    let count = runs.end - runs.start;
+    if count == 0 {
+        return Ok((0, Duration::ZERO));
+    }
+    let timed = AtomicU64::new(0);
+    let spent = on_threads(jobs, || {
+        let start = Instant::now();
+        // A few runs at a time from all over the shard, as long as time is left.
+        let steps = 64_u64;
+        let block = (count / steps).clamp(1, 64);
+        for step in 0..steps {
+            // An odd stride visits every step once, the far ones early.
+            let at = runs.start + (count - block) * (step * 37 % steps) / steps;
+            let rows = study.study.rows(at..at + block, &|_| {});
+            timed.fetch_add(rows.len() as u64, Ordering::Relaxed);
+            if start.elapsed() > budget {
+                break;
+            }
+        }
+        Ok(start.elapsed())
+    })?;
+    let per_run = spent.as_secs_f64() / timed.load(Ordering::Relaxed).max(1) as f64;
+    Ok((count, Duration::from_secs_f64(per_run * count as f64)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_shards_cover_all_parts_once() {
+        for (parts, shards) in [(128, 1), (128, 3), (5, 100), (1, 1), (1, 7)] {
+            let mut next = 0;
+            for index in 1..=shards {
+                let range = Shard::new(index, shards).unwrap().parts(parts);
+                assert_eq!(range.start, next);
+                next = range.end;
+            }
+            assert_eq!(next, parts);
+        }
+        assert!(Shard::new(0, 3).is_err() && Shard::new(4, 3).is_err());
+    }
+
+    #[test]
+    fn exact_parts_cover_all_runs_once() {
+        for runs in [1, 499, 500, 501, 64_000, 64_001, 880_000, 100_000_000] {
+            let mut next = 0;
+            for part in 0..part_count(runs) {
+                let range = rows_of(part, runs);
+                assert_eq!(range.start, next);
+                assert!(range.end > range.start);
+                next = range.end;
+            }
+            assert_eq!(next, runs);
+        }
+    }
+}

@@ -1,0 +1,453 @@
+//! A design over a suite: front, choice, sensitivity, robustness.
+
+mod figures;
+
+use slipstick::assessment::design::{Figures, Found, Point, Target};
+use slipstick::assessment::sensitivity::Index;
+use slipstick::response::Warning;
+
+use super::key::title;
+use super::sheet::{Sheet, cell, counted};
+use crate::display::{DisplayUnits, Quantity, Unit};
+use crate::json::Json;
+use crate::number::compact;
+
+/// A varied path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variable {
+    /// The path.
+    pub path: String,
+    /// Its SI unit; empty where it has none.
+    pub unit: String,
+    /// Its values on the grid, SI.
+    pub values: Vec<f64>,
+}
+
+/// A design with friction at its lower and upper bound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounded {
+    /// Number of the design.
+    pub design: usize,
+    /// Its figures with lower friction.
+    pub lower: Figures,
+    /// Its figures with upper friction.
+    pub upper: Figures,
+}
+
+/// Indices of every variable for displacement and acceleration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensitivity {
+    /// Number of sample points `N`.
+    pub points: usize,
+    /// For the displacement that the asked share keeps.
+    pub displacement: Vec<Index>,
+    /// For the acceleration.
+    pub acceleration: Vec<Index>,
+}
+
+/// What a design is told from.
+#[derive(Clone, Debug)]
+pub struct DesignReport<'a> {
+    /// Version of this program.
+    pub version: &'static str,
+    /// Name of the model.
+    pub name: &'a str,
+    /// Number of records.
+    pub records: usize,
+    /// How the records were scaled, in words.
+    pub scaled: &'a str,
+    /// What was asked.
+    pub target: Target,
+    /// What was varied, the last fastest.
+    pub variables: &'a [Variable],
+    /// Key of the acceleration, such as `storey1_peak_acceleration_m_per_s2`.
+    pub acceleration: &'a str,
+    /// What was found.
+    pub found: &'a Found,
+    /// Factors on friction and the designs of the front (or the nearest) with them.
+    pub bounds: Option<([f64; 2], &'a [Bounded])>,
+    /// Sensitivity, where asked for, or why there is none.
+    pub sensitivity: Option<&'a Result<Sensitivity, String>>,
+    /// Confidence of intervals.
+    pub confidence: f64,
+    /// Messages of failed runs.
+    pub failures: &'a [String],
+    /// What reading the records gave notice of.
+    pub warnings: &'a [Warning],
+    /// Units to show results in.
+    pub display: DisplayUnits,
+}
+
+impl DesignReport<'_> {
+    /// Values of a design, one a variable, SI.
+    #[must_use]
+    pub fn values(&self, design: usize) -> Vec<f64> {
+        let mut rest = design;
+        let mut values: Vec<f64> = Vec::with_capacity(self.variables.len());
+        for variable in self.variables.iter().rev() {
+            let n = variable.values.len().max(1);
+            values.push(variable.values.get(rest % n).copied().unwrap_or(f64::NAN));
+            rest /= n;
+        }
+        values.reverse();
+        values
+    }
+
+    /// The design of the front with the least nominal acceleration that keeps the gap with lower and
+    /// upper friction too.
+    #[must_use]
+    pub fn robust(&self) -> Option<Point> {
+        let (_, bounded) = self.bounds?;
+        let keeps = |point: &&Point| {
+            bounded.iter().any(|b| {
+                b.design == point.design
+                    && b.lower.displacement_m <= self.target.gap_m
+                    && b.upper.displacement_m <= self.target.gap_m
+            })
+        };
+        self.found.front.iter().rev().find(keeps).copied()
+    }
+
+    fn length(&self) -> Unit {
+        self.display.unit(Quantity::Length, self.target.gap_m)
+    }
+
+    fn acceleration_unit(&self) -> Unit {
+        let all = self.found.front.iter().map(|p| p.figures.acceleration_m_per_s2);
+        self.display.unit(Quantity::Acceleration, all.fold(0.0, f64::max))
+    }
+
+    /// The result laid out.
+    #[must_use]
+    pub fn sheet(&self) -> Sheet {
+        let designs: usize = self.variables.iter().map(|v| v.values.len()).product();
+        Sheet {
+            kind: "Design over a suite",
+            name: self.name.to_owned(),
+            line: format!(
+                "{designs} designs, {} records{}; {} runs of {} were needed",
+                self.records,
+                self.scaled,
+                self.found.runs,
+                designs * self.records
+            ),
+            warnings: self.all_warnings(),
+            tables: self.tables(),
+            notes: self.notes(),
+            figures: self.figures(),
+            method: self.method(),
+            json: self.json(),
+        }
+    }
+
+    fn all_warnings(&self) -> Vec<Warning> {
+        let mut all: Vec<Warning> = counted("failed_runs", self.failures).into_iter().collect();
+        let mut warn = |kind, message| all.push(Warning { kind, time_s: None, message });
+        if self.found.front.is_empty() {
+            warn(
+                "no_feasible_design",
+                format!(
+                    "no design of the grid keeps the gap in {} % of the records; the least \
+                     displacement that can be kept is told instead",
+                    compact(100.0 * self.target.probability)
+                ),
+            );
+        }
+        if let Some(chosen) = self.found.chosen() {
+            let values = self.values(chosen.design);
+            let edges: Vec<&str> = self
+                .variables
+                .iter()
+                .zip(&values)
+                .filter(|(v, x)| {
+                    v.values.len() > 1
+                        && (v.values.first() == Some(x) || v.values.last() == Some(x))
+                })
+                .map(|(v, _)| v.path.as_str())
+                .collect();
+            if !edges.is_empty() {
+                let message = format!(
+                    "the chosen design lies at an end of the range of {}: a better one may lie beyond",
+                    edges.join(" and ")
+                );
+                warn("edge_of_range", message);
+            }
+            let robust = self.robust();
+            if self.bounds.is_some() && robust != Some(chosen) {
+                warn(
+                    "not_robust",
+                    match robust {
+                        Some(_) => "the chosen design passes the gap with lower- or upper-bound friction; \
+                                    the robust one keeps it"
+                            .to_owned(),
+                        None => "no design of the front keeps the gap with lower- and upper-bound friction"
+                            .to_owned(),
+                    },
+                );
+            }
+        }
+        let needed = slipstick::assessment::design::records_needed(&self.target, self.records);
+        if needed == self.records && self.target.probability < 1.0 {
+            warn(
+                "few_records",
+                format!(
+                    "with {} records a share of {} asks all of them to keep the gap",
+                    self.records,
+                    compact(self.target.probability)
+                ),
+            );
+        }
+        all.extend(self.warnings.iter().cloned());
+        all
+    }
+
+    fn heads(&self) -> Vec<String> {
+        let (l, a) = (self.length(), self.acceleration_unit());
+        std::iter::once("Design".to_owned())
+            .chain(self.variables.iter().map(label))
+            .chain([
+                l.label("D"),
+                a.label("A"),
+                "Gap kept".to_owned(),
+                format!("{} % interval", compact(100.0 * self.confidence)),
+            ])
+            .collect()
+    }
+
+    fn row(&self, name: &str, design: usize, figures: &Figures) -> Vec<String> {
+        let (l, a) = (self.length(), self.acceleration_unit());
+        let values = self.values(design).into_iter().map(|v| crate::number::rounded(v, 4));
+        let [low, high] = figures.within.wilson(self.confidence);
+        let percent = |p: f64| compact(libm::round(1000.0 * p) / 10.0);
+        std::iter::once(name.to_owned())
+            .chain(values)
+            .chain([
+                cell(l.of(figures.displacement_m)),
+                cell(a.of(figures.acceleration_m_per_s2)),
+                format!("{} %", percent(figures.within.estimate())),
+                format!("{} to {} %", percent(low), percent(high)),
+            ])
+            .collect()
+    }
+
+    fn tables(&self) -> Vec<(String, Vec<Vec<String>>)> {
+        let mut rows = vec![self.heads()];
+        let main = self.found.chosen().or(self.found.nearest);
+        let name = if self.found.front.is_empty() { "nearest" } else { "chosen" };
+        if let Some(point) = main {
+            rows.push(self.row(name, point.design, &point.figures));
+            if let Some(([lower, upper], bounded)) = self.bounds
+                && let Some(b) = bounded.iter().find(|b| b.design == point.design)
+            {
+                rows.push(self.row(
+                    &format!("  friction × {}", compact(lower)),
+                    b.design,
+                    &b.lower,
+                ));
+                rows.push(self.row(
+                    &format!("  friction × {}", compact(upper)),
+                    b.design,
+                    &b.upper,
+                ));
+            }
+        }
+        if let Some(robust) = self.robust()
+            && main != Some(robust)
+        {
+            rows.push(self.row("robust", robust.design, &robust.figures));
+            if let Some(([lower, upper], bounded)) = self.bounds
+                && let Some(b) = bounded.iter().find(|b| b.design == robust.design)
+            {
+                rows.push(self.row(
+                    &format!("  friction × {}", compact(lower)),
+                    b.design,
+                    &b.lower,
+                ));
+                rows.push(self.row(
+                    &format!("  friction × {}", compact(upper)),
+                    b.design,
+                    &b.upper,
+                ));
+            }
+        }
+        let mut tables = vec![("Choice".to_owned(), rows)];
+        if self.found.front.len() > 1 {
+            const SHOWN: usize = 12;
+            let n = self.found.front.len();
+            let mut shown: Vec<usize> = if n <= SHOWN {
+                (0..n).collect()
+            } else {
+                (0..SHOWN).map(|i| i * (n - 1) / (SHOWN - 1)).collect()
+            };
+            shown.dedup();
+            let mut rows = vec![self.heads()];
+            for i in shown.into_iter().rev() {
+                let point = &self.found.front[i];
+                rows.push(self.row(&(n - i).to_string(), point.design, &point.figures));
+            }
+            let heading = if n > SHOWN {
+                format!("Front: {SHOWN} of {n} designs, all in front.csv")
+            } else {
+                "Front".to_owned()
+            };
+            tables.push((heading, rows));
+        }
+        if let Some(Ok(sensitivity)) = self.sensitivity {
+            let heads = ["", "First order", "from", "to", "Total", "from", "to"].map(str::to_owned);
+            for (what, indices) in [
+                ("displacement", &sensitivity.displacement),
+                ("acceleration", &sensitivity.acceleration),
+            ] {
+                let row = |(v, i): (&Variable, &Index)| {
+                    let numbers = [
+                        i.first,
+                        i.first_interval[0],
+                        i.first_interval[1],
+                        i.total,
+                        i.total_interval[0],
+                        i.total_interval[1],
+                    ];
+                    let numbers = numbers.map(|x| format!("{x:.3}"));
+                    std::iter::once(v.path.clone()).chain(numbers).collect()
+                };
+                let rows = std::iter::once(heads.to_vec())
+                    .chain(self.variables.iter().zip(indices).map(row))
+                    .collect();
+                tables.push((format!("Sobol' indices of the {what}"), rows));
+            }
+        }
+        tables
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        let needed = slipstick::assessment::design::records_needed(&self.target, self.records);
+        let percent = |share: f64| compact(100.0 * share);
+        notes.push(format!(
+            "D: peak sliding displacement that {} % of the records do not exceed. A: {} that {} % of \
+             them do not exceed. Gap kept: share of the records, with its interval.",
+            percent(self.target.probability),
+            title(self.acceleration).to_lowercase(),
+            percent(self.target.acceleration_share)
+        ));
+        notes.push(format!(
+            "The gap of {} {} must be kept in at least {needed} of {} records.",
+            compact(self.length().of(self.target.gap_m)),
+            self.length().symbol,
+            self.records
+        ));
+        if let Some(Err(error)) = self.sensitivity {
+            notes.push(format!("No sensitivity: {error}."));
+        }
+        notes
+    }
+
+    fn method(&self) -> Vec<String> {
+        let mut method = vec![
+            "Both figures are counted: the value that the stated share of the records does not exceed. \
+             The front is that of the full grid: runs were left out only where lower bounds of both \
+             figures show that they cannot change it."
+                .to_owned(),
+            "The probability is that of the suite as it is scaled, each record counting the same; its \
+             interval (Wilson's) is what so few records can tell of all that might come."
+                .to_owned(),
+        ];
+        if self.bounds.is_some() {
+            method.push(
+                "Robustness: every design of the front is run again with both coefficients of friction \
+                 times the lower and the upper factor. The robust design is the best of the front that \
+                 keeps the gap each time; one off the nominal front might be better still."
+                    .to_owned(),
+            );
+        }
+        if self.sensitivity.is_some() {
+            method.push(
+                "Sobol' indices by Saltelli's and Jansen's estimators from scrambled Sobol' points, the \
+                 variables uniform between their ends; intervals by the bootstrap."
+                    .to_owned(),
+            );
+        }
+        method
+    }
+
+    fn json(&self) -> Json {
+        let pair = |[low, high]: [f64; 2]| Json::List(vec![low.into(), high.into()]);
+        let figures = |f: &Figures| {
+            Json::Object(vec![
+                ("displacement_m", f.displacement_m.into()),
+                ("acceleration_m_per_s2", f.acceleration_m_per_s2.into()),
+                ("probability_within_gap", f.within.estimate().into()),
+                ("wilson", pair(f.within.wilson(self.confidence))),
+                ("clopper_pearson", pair(f.within.clopper_pearson(self.confidence))),
+            ])
+        };
+        let point = |p: &Point| {
+            let values = self.values(p.design).into_iter().map(Json::from).collect();
+            let bounded =
+                self.bounds.and_then(|(_, all)| all.iter().find(|b| b.design == p.design));
+            Json::Object(vec![
+                ("values", Json::List(values)),
+                ("nominal", figures(&p.figures)),
+                ("lower", bounded.map_or(Json::Null, |b| figures(&b.lower))),
+                ("upper", bounded.map_or(Json::Null, |b| figures(&b.upper))),
+            ])
+        };
+        let optional = |p: Option<Point>| p.map_or(Json::Null, |p| point(&p));
+        let variable = |v: &Variable| {
+            Json::Object(vec![
+                ("path", v.path.as_str().into()),
+                ("unit", v.unit.as_str().into()),
+                ("values", Json::List(v.values.iter().map(|x| Json::from(*x)).collect())),
+            ])
+        };
+        let index = |(v, i): (&Variable, &Index)| {
+            Json::Object(vec![
+                ("path", v.path.as_str().into()),
+                ("first", i.first.into()),
+                ("first_interval", pair(i.first_interval)),
+                ("total", i.total.into()),
+                ("total_interval", pair(i.total_interval)),
+            ])
+        };
+        let sensitivity = match self.sensitivity {
+            Some(Ok(s)) => {
+                let of =
+                    |all: &[Index]| Json::List(self.variables.iter().zip(all).map(index).collect());
+                Json::Object(vec![
+                    ("points", Json::Count(s.points as u64)),
+                    ("displacement", of(&s.displacement)),
+                    ("acceleration", of(&s.acceleration)),
+                ])
+            }
+            _ => Json::Null,
+        };
+        Json::Object(vec![
+            ("slipstick", self.version.into()),
+            ("model", self.name.into()),
+            ("records", Json::Count(self.records as u64)),
+            ("gap_m", self.target.gap_m.into()),
+            ("probability", self.target.probability.into()),
+            ("acceleration", self.acceleration.into()),
+            ("acceleration_share", self.target.acceleration_share.into()),
+            ("confidence", self.confidence.into()),
+            ("variables", Json::List(self.variables.iter().map(variable).collect())),
+            ("runs", Json::Count(self.found.runs)),
+            ("failed", Json::Count(self.failures.len() as u64)),
+            ("designs_beyond_gap", Json::Count(self.found.beyond_gap as u64)),
+            ("chosen", optional(self.found.chosen())),
+            ("robust", optional(self.robust())),
+            ("nearest", optional(self.found.nearest)),
+            ("front", Json::List(self.found.front.iter().map(point).collect())),
+            ("sensitivity", sensitivity),
+        ])
+    }
+}
+
+/// The last words of a path that say enough, with the unit: `kinetic friction`, `radius (m)`.
+fn label(variable: &Variable) -> String {
+    let name = match variable.path.split_once('.') {
+        Some(("slider", key)) => key.replace('_', " "),
+        _ => variable.path.clone(),
+    };
+    if variable.unit.is_empty() { name } else { format!("{name} ({})", variable.unit) }
+}

@@ -1,0 +1,381 @@
+//! Fragility curves with their certainty.
+
+mod figures;
+
+use slipstick::assessment::censored::Known;
+use slipstick::assessment::fragility::{
+    Capacity, CloudPoint, Fragility, Stripe, test_counts, test_normality,
+};
+use slipstick::response::Warning;
+
+use super::key::{of_measure, quantity, title};
+use super::sheet::{Sheet, cell};
+use crate::display::{DisplayUnits, Unit};
+use crate::json::Json;
+use crate::number::compact;
+
+/// What a curve was fitted to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Data {
+    /// Counts of exceedances at levels.
+    Stripes(Vec<Stripe>),
+    /// Levels at which records reach the limit.
+    Capacities(Vec<Capacity>),
+    /// Intensities and demands of single runs.
+    Cloud(Vec<CloudPoint>),
+}
+
+/// What a fragility is told from.
+#[derive(Clone, Debug)]
+pub struct FragilityReport<'a> {
+    /// Version of this program.
+    pub version: &'static str,
+    /// Where the data came from, as a person calls it.
+    pub name: &'a str,
+    /// The intensity measure, as `Sa(1.2 s, 5 %)`.
+    pub measure: &'a str,
+    /// Its SI unit.
+    pub measure_unit: &'a str,
+    /// Key of the demand.
+    pub demand: &'a str,
+    /// The limit on it, SI; `None` where the data are counts or capacities of a limit unknown.
+    pub limit: Option<f64>,
+    /// The data.
+    pub data: &'a Data,
+    /// The fit.
+    pub fragility: &'a Fragility,
+    /// Confidence of intervals and band, such as 0.9.
+    pub confidence: f64,
+    /// Choices that had to be made.
+    pub warnings: &'a [Warning],
+    /// Units to show results in.
+    pub display: DisplayUnits,
+}
+
+/// Shares whose intensities are tabled.
+const SHARES: [f64; 5] = [0.05, 0.16, 0.5, 0.84, 0.95];
+const POINTS: usize = 161;
+
+impl FragilityReport<'_> {
+    fn levels(&self) -> Vec<f64> {
+        match self.data {
+            Data::Stripes(stripes) => stripes.iter().map(|stripe| stripe.level).collect(),
+            Data::Capacities(capacities) => capacities.iter().map(|c| c.level).collect(),
+            Data::Cloud(points) => points.iter().map(|point| point.level).collect(),
+        }
+    }
+
+    fn unit(&self) -> Unit {
+        of_measure(self.measure_unit, self.display, self.levels().into_iter().fold(0.0, f64::max))
+    }
+
+    fn demand_unit(&self) -> Unit {
+        self.display.unit(quantity(self.demand), self.limit.unwrap_or(0.0))
+    }
+
+    /// `Peak sliding displacement > 150 mm`, or that the limit is not known.
+    fn exceedance(&self) -> String {
+        let unit = self.demand_unit();
+        match self.limit {
+            Some(limit) => {
+                format!("{} > {} {}", title(self.demand), compact(unit.of(limit)), unit.symbol)
+                    .trim_end()
+                    .to_owned()
+            }
+            None => "exceedance of the limit that was counted".to_owned(),
+        }
+    }
+
+    /// Intensities from 0 to where the curve ends, with probability and band: the tabled curve.
+    #[must_use]
+    pub fn curve(&self) -> Vec<[f64; 4]> {
+        let curve = self.fragility.curve();
+        let data = self.levels().into_iter().fold(0.0, f64::max);
+        // Past the data the curve is drawn to 99 %, but no further than half as far again.
+        let last = curve.intensity(0.99).clamp(data, 1.5 * data);
+        let of = |i: usize| {
+            let x = last * i as f64 / (POINTS - 1) as f64;
+            if i == 0 {
+                return [0.0; 4];
+            }
+            let [low, high] = self.fragility.band(x, self.confidence);
+            [x, curve.probability(x), low, high]
+        };
+        (0..POINTS).map(of).collect()
+    }
+
+    /// The result laid out.
+    #[must_use]
+    pub fn sheet(&self) -> Sheet {
+        let (unit, edp) = (self.unit(), self.demand_unit());
+        let from = match self.data {
+            Data::Stripes(stripes) => {
+                let runs: u64 = stripes.iter().map(|stripe| stripe.runs).sum();
+                format!("{} stripes, {runs} runs", stripes.len())
+            }
+            Data::Capacities(capacities) => {
+                let reached = capacities.iter().filter(|c| c.reached).count();
+                format!("capacities of {} records, {reached} reached", capacities.len())
+            }
+            Data::Cloud(points) => format!("a cloud of {} runs", points.len()),
+        };
+        let mut figures = vec![self.figure(unit)];
+        if let Data::Cloud(points) = self.data {
+            figures.push(self.cloud_figure(points, unit, edp));
+        }
+        Sheet {
+            kind: "Fragility",
+            name: self.name.to_owned(),
+            line: format!("{} over {}, from {from}", self.exceedance(), self.measure),
+            warnings: self.warnings.to_vec(),
+            tables: self.tables(unit),
+            notes: self.goodness().1,
+            figures,
+            method: self.method(),
+            json: self.json(),
+        }
+    }
+
+    fn tables(&self, unit: Unit) -> Vec<(String, Vec<Vec<String>>)> {
+        let curve = self.fragility.curve();
+        let [of_median, of_dispersion] = self.fragility.standard_errors();
+        let percent = compact(100.0 * self.confidence);
+        let heads = ["", "Estimate", "Standard error", &format!("{percent} % from"), "to"];
+        let end = |end: Option<f64>, unit: Option<Unit>| {
+            end.map_or("open".to_owned(), |v| cell(unit.map_or(v, |unit| unit.of(v))))
+        };
+        let [low, high] = self.fragility.median_interval(self.confidence);
+        let median = vec![
+            unit.label("Median θ"),
+            cell(unit.of(curve.median)),
+            format!("{} (of ln θ)", cell(of_median)),
+            end(low, Some(unit)),
+            end(high, Some(unit)),
+        ];
+        let [low, high] = self.fragility.dispersion_interval(self.confidence);
+        let dispersion = vec![
+            "Dispersion β".to_owned(),
+            cell(curve.dispersion),
+            cell(of_dispersion),
+            end(low, None),
+            end(high, None),
+        ];
+        let mut tables = vec![(
+            "Lognormal fragility".to_owned(),
+            vec![heads.map(str::to_owned).to_vec(), median, dispersion],
+        )];
+        let heads = vec!["Probability of exceedance".to_owned(), unit.label(self.measure)];
+        let row =
+            |p: f64| vec![format!("{} %", compact(100.0 * p)), cell(unit.of(curve.intensity(p)))];
+        tables.push((
+            "Intensity by probability".to_owned(),
+            std::iter::once(heads).chain(SHARES.map(row)).collect(),
+        ));
+        if let Data::Stripes(stripes) = self.data {
+            let heads =
+                [&unit.label(self.measure), "Runs", "Exceed", "Share", "Fitted", "from", "to"];
+            let row = |stripe: &Stripe| {
+                let [low, high] = self.fragility.band(stripe.level, self.confidence);
+                vec![
+                    cell(unit.of(stripe.level)),
+                    stripe.runs.to_string(),
+                    stripe.exceeded.to_string(),
+                    cell(stripe.exceeded as f64 / stripe.runs as f64),
+                    cell(curve.probability(stripe.level)),
+                    cell(low),
+                    cell(high),
+                ]
+            };
+            let heads = heads.map(|head| head.to_string()).to_vec();
+            let rows = std::iter::once(heads).chain(stripes.iter().map(row)).collect();
+            tables.push(("Stripes".to_owned(), rows));
+        }
+        if let Data::Cloud(points) = self.data {
+            let fit = self.fragility.fit();
+            let count =
+                |known: Known| points.iter().filter(|p| p.known == known).count().to_string();
+            let rows = [
+                ("", "Value".to_owned()),
+                ("a (ln D = a + b ln IM, SI)", cell(fit.intercept())),
+                ("b", cell(fit.slope())),
+                ("σ of ln D", cell(fit.sigma())),
+                ("Demands known", count(Known::Exactly)),
+                ("  below the floor", count(Known::AtMost)),
+                ("  above the cap", count(Known::AtLeast)),
+            ];
+            let rows = rows.map(|(name, value)| vec![name.to_owned(), value]).to_vec();
+            tables.push(("Cloud regression".to_owned(), rows));
+        }
+        tables
+    }
+
+    /// Goodness of fit, as JSON and in words.
+    fn goodness(&self) -> (Json, Vec<String>) {
+        let normality = |values: &[f64], of: &str| {
+            match test_normality(values) {
+            Some(test) => (
+                Json::Object(vec![
+                    ("test", "anderson_darling".into()),
+                    ("statistic", test.anderson_darling.into()),
+                    ("p_value", test.p_value.into()),
+                    ("largest_difference", test.largest_difference.into()),
+                ]),
+                format!(
+                    "Goodness of fit: Anderson and Darling's A² of {of} is {}, p = {}; largest \
+                     difference from the fitted distribution {}. {}",
+                    cell(test.anderson_darling),
+                    cell(test.p_value),
+                    cell(test.largest_difference),
+                    verdict(test.p_value)
+                ),
+            ),
+            None => (
+                Json::Null,
+                "Goodness of fit is not tested: it needs eight values or more, none of them censored."
+                    .to_owned(),
+            ),
+        }
+        };
+        let (json, note) = match self.data {
+            Data::Stripes(stripes) => {
+                let test = test_counts(&self.fragility.curve(), stripes);
+                let p = test.p_value.map_or("no degrees of freedom".to_owned(), |p| {
+                    format!("p = {} on {} degrees of freedom", cell(p), test.degrees)
+                });
+                let rough = if test.least_expected < 1.0 {
+                    " Some expected counts are below 1, so p is rough."
+                } else {
+                    ""
+                };
+                let json = Json::Object(vec![
+                    ("test", "deviance".into()),
+                    ("statistic", test.deviance.into()),
+                    ("pearson", test.pearson.into()),
+                    ("degrees_of_freedom", Json::Count(test.degrees as u64)),
+                    ("p_value", test.p_value.into()),
+                ]);
+                let verdict = test.p_value.map_or("", verdict);
+                let note = format!(
+                    "Goodness of fit: deviance {}, {p}; Pearson's χ² {}. {verdict}{rough}",
+                    cell(test.deviance),
+                    cell(test.pearson)
+                );
+                (json, note)
+            }
+            Data::Capacities(capacities) => {
+                let all = capacities.iter().all(|capacity| capacity.reached);
+                let logs: Vec<f64> = capacities.iter().map(|c| libm::log(c.level)).collect();
+                normality(if all { &logs } else { &[] }, "the logarithms of the capacities")
+            }
+            Data::Cloud(points) => {
+                let fit = self.fragility.fit();
+                let all = points.iter().all(|point| point.known == Known::Exactly);
+                let residual = |p: &CloudPoint| {
+                    libm::log(p.demand) - fit.intercept() - fit.slope() * libm::log(p.level)
+                };
+                let residuals: Vec<f64> = points.iter().map(residual).collect();
+                normality(if all { &residuals } else { &[] }, "the residuals of ln D")
+            }
+        };
+        (json, vec![note.trim_end().to_owned()])
+    }
+
+    fn method(&self) -> Vec<String> {
+        let mut method = vec![
+            "P(exceedance | x) = Φ(ln(x/θ)/β), by maximum likelihood. Intervals of θ and β are by profile \
+             likelihood; the band is pointwise, Φ(η ± z se(η)) of the linear predictor, with the observed \
+             information. All count the scatter between the runs given, not what the suite, the model or \
+             the measure leave out."
+                .to_owned(),
+        ];
+        method.push(
+            match self.data {
+                Data::Stripes(_) => {
+                    "Counts: k of n runs at a level exceed, independently (Baker 2015). Records used at \
+                     several levels are not independent of themselves: the intervals are then somewhat \
+                     too narrow."
+                }
+                Data::Capacities(_) => {
+                    "Capacities: a record that does not reach the limit at its highest level counts as a \
+                     capacity above it (right-censored)."
+                }
+                Data::Cloud(_) => {
+                    "Cloud: ln D is linear in ln IM with constant, normal scatter; demands below the floor \
+                     and above the cap count as such (Tobin's likelihood). σ is that of maximum \
+                     likelihood, with n."
+                }
+            }
+            .to_owned(),
+        );
+        method
+    }
+
+    fn json(&self) -> Json {
+        let curve = self.fragility.curve();
+        let pair = |ends: [Option<f64>; 2]| Json::List(ends.map(Json::from).to_vec());
+        let [of_median, of_dispersion] = self.fragility.standard_errors();
+        let (method, data) = match self.data {
+            Data::Stripes(stripes) => {
+                let of = |s: &Stripe| {
+                    Json::Object(vec![
+                        ("level", s.level.into()),
+                        ("runs", Json::Count(s.runs)),
+                        ("exceeded", Json::Count(s.exceeded)),
+                    ])
+                };
+                ("stripes", ("stripes", Json::List(stripes.iter().map(of).collect())))
+            }
+            Data::Capacities(capacities) => {
+                let of = |c: &Capacity| {
+                    let reached = Json::from(c.reached);
+                    Json::Object(vec![("level", c.level.into()), ("reached", reached)])
+                };
+                ("capacities", ("capacities", Json::List(capacities.iter().map(of).collect())))
+            }
+            Data::Cloud(points) => {
+                let fit = self.fragility.fit();
+                let count =
+                    |k: Known| Json::Count(points.iter().filter(|p| p.known == k).count() as u64);
+                let cloud = Json::Object(vec![
+                    ("intercept", fit.intercept().into()),
+                    ("slope", fit.slope().into()),
+                    ("sigma", fit.sigma().into()),
+                    ("known", count(Known::Exactly)),
+                    ("below_floor", count(Known::AtMost)),
+                    ("above_cap", count(Known::AtLeast)),
+                ]);
+                ("cloud", ("cloud", cloud))
+            }
+        };
+        let row =
+            |[x, p, low, high]: [f64; 4]| Json::List([x, p, low, high].map(Json::from).to_vec());
+        Json::Object(vec![
+            ("slipstick", self.version.into()),
+            ("name", self.name.into()),
+            ("method", method.into()),
+            ("measure", self.measure.into()),
+            ("measure_unit", self.measure_unit.into()),
+            ("demand", self.demand.into()),
+            ("limit", self.limit.into()),
+            ("median", curve.median.into()),
+            ("dispersion", curve.dispersion.into()),
+            ("se_ln_median", of_median.into()),
+            ("se_dispersion", of_dispersion.into()),
+            ("confidence", self.confidence.into()),
+            ("median_interval", pair(self.fragility.median_interval(self.confidence))),
+            ("dispersion_interval", pair(self.fragility.dispersion_interval(self.confidence))),
+            ("log_likelihood", self.fragility.fit().log_likelihood().into()),
+            ("goodness_of_fit", self.goodness().0),
+            data,
+            ("curve", Json::List(self.curve().into_iter().map(row).collect())),
+        ])
+    }
+}
+
+fn verdict(p: f64) -> &'static str {
+    if p < 0.05 {
+        "The data speak against a lognormal curve at the 5 % level."
+    } else {
+        "The data do not speak against a lognormal curve at the 5 % level."
+    }
+}

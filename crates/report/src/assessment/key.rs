@@ -1,0 +1,57 @@
+//! Keys of demands and measures as people read them.
+
+use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
+
+use crate::display::{DisplayUnits, Quantity, Unit};
+
+/// Endings of keys with the quantity that they mean, the longer before the shorter.
+const ENDINGS: [(&str, Quantity); 5] = [
+    ("_m_per_s2", Quantity::Acceleration),
+    ("_m_per_s", Quantity::Velocity),
+    ("_m", Quantity::Length),
+    ("_n", Quantity::Force),
+    ("_s", Quantity::Time),
+];
+
+/// What a key measures, by its ending.
+#[must_use]
+pub fn quantity(key: &str) -> Quantity {
+    let found = ENDINGS.iter().find(|(ending, _)| key.ends_with(ending));
+    found.map_or(Quantity::Ratio, |(_, quantity)| *quantity)
+}
+
+/// `Peak sliding displacement` of `peak_sliding_displacement_m`.
+#[must_use]
+pub fn title(key: &str) -> String {
+    let found = ENDINGS.iter().find_map(|(ending, _)| key.strip_suffix(ending));
+    let plain = found.unwrap_or(key).replace(['_', '.'], " ").replace("storey", "storey ");
+    let mut letters = plain.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// The unit of an intensity measure given its SI unit: accelerations in g, as levels are written.
+#[must_use]
+pub fn of_measure(si_unit: &str, display: DisplayUnits, largest: f64) -> Unit {
+    match si_unit {
+        "m/s2" => Unit { in_si: STANDARD_GRAVITY_M_PER_S2, symbol: "g" },
+        "m/s" => display.unit(Quantity::Velocity, largest),
+        "m" => display.unit(Quantity::Length, largest),
+        "s" => Unit { in_si: 1.0, symbol: "s" },
+        _ => Unit { in_si: 1.0, symbol: "" },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_keys_have_titles_and_quantities() {
+        assert_eq!(title("peak_sliding_displacement_m"), "Peak sliding displacement");
+        assert_eq!(title("storey2_peak_acceleration_m_per_s2"), "Storey 2 peak acceleration");
+        assert_eq!(title("gap_ratio"), "Gap ratio");
+        assert_eq!(quantity("peak_sliding_velocity_m_per_s"), Quantity::Velocity);
+        assert_eq!(quantity("gap_ratio"), Quantity::Ratio);
+        assert_eq!(quantity("peak_base_shear_n"), Quantity::Force);
+    }
+}

@@ -1,0 +1,107 @@
+//! Lines that all figures of many runs share.
+
+use slipstick::assessment::fractile::SHARES;
+
+use crate::figures::Drawn;
+use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
+
+/// Styles of groups: they differ by dash and width, not only by colour.
+pub const GROUPS: [Style; 6] = [
+    Style { colour: "#0b3c6f", width: 1.6, dashes: "" },
+    Style { colour: "#b3541e", width: 1.6, dashes: "7 3" },
+    Style { colour: "#1a1a1a", width: 1.5, dashes: "1.4 2.6" },
+    Style { colour: "#3f7d4e", width: 2.6, dashes: "" },
+    Style { colour: "#6a4c93", width: 1.6, dashes: "10 3 2 3" },
+    Style { colour: "#7a7a7a", width: 2.6, dashes: "4 3" },
+];
+
+/// A single record of a suite.
+pub const RECORD: Style = Style { colour: "#a0a0a0", width: 0.6, dashes: "" };
+
+/// The fill between two fractiles.
+pub const BAND: &str = "#dde5ee";
+
+/// Styles of the fractiles of 16, 50 and 84 %.
+pub const FRACTILES: [Style; 3] = [
+    Style { colour: "#1a1a1a", width: 1.3, dashes: "2 2.5" },
+    Style { colour: "#0b3c6f", width: 2.0, dashes: "" },
+    Style { colour: "#b3541e", width: 1.4, dashes: "7 3" },
+];
+
+/// `16 %`, `median`, `84 %`.
+pub fn share_names() -> [String; 3] {
+    SHARES.map(
+        |share| if share == 0.5 { "median".to_owned() } else { format!("{} %", 100.0 * share) },
+    )
+}
+
+pub fn line(label: impl Into<String>, style: Style, points: Vec<[f64; 2]>) -> Series {
+    Series { label: label.into(), style, shape: Shape::Curve, points }
+}
+
+/// Points along lower and back along upper values, where both are finite.
+pub fn band(
+    x: &[f64],
+    low: &[f64],
+    high: &[f64],
+    label: impl Into<String>,
+    fill: &'static str,
+) -> Series {
+    let both = |i: &usize| low[*i].is_finite() && high[*i].is_finite();
+    let kept: Vec<usize> = (0..x.len()).filter(both).collect();
+    let lower = kept.iter().map(|&i| [x[i], low[i]]);
+    let upper = kept.iter().rev().map(|&i| [x[i], high[i]]);
+    let points = lower.chain(upper).collect();
+    Series { label: label.into(), style: Style::MAIN, shape: Shape::Band(fill), points }
+}
+
+/// A curve cut off where x or y passes the end of its axis, at the axis itself; what is not finite
+/// ends it.
+pub fn clipped(points: &[[f64; 2]], [x_end, y_end]: [f64; 2]) -> Vec<[f64; 2]> {
+    let mut kept: Vec<[f64; 2]> = Vec::new();
+    for &[x, y] in points {
+        if !(x.is_finite() && y.is_finite()) {
+            break;
+        }
+        if x <= x_end && y <= y_end {
+            kept.push([x, y]);
+            continue;
+        }
+        if let Some(&[x0, y0]) = kept.last() {
+            let part = ((x_end - x0) / (x - x0)).min(if y > y0 {
+                (y_end - y0) / (y - y0)
+            } else {
+                f64::INFINITY
+            });
+            let part = if x > x0 { part } else { (y_end - y0) / (y - y0) };
+            if part.is_finite() {
+                kept.push([x0 + part * (x - x0), y0 + part * (y - y0)]);
+            }
+        }
+        break;
+    }
+    kept
+}
+
+/// A figure of one panel.
+pub fn single(id: &'static str, title: &str, caption: String, panel: Panel) -> Drawn {
+    stacked(id, title, caption, vec![panel])
+}
+
+/// A figure of panels one above the other.
+pub fn stacked(id: &'static str, title: &str, caption: String, panels: Vec<Panel>) -> Drawn {
+    let figure = Figure {
+        id,
+        title: title.to_owned(),
+        description: caption.clone(),
+        layout: Layout::Stacked,
+        panels,
+        shaded: Vec::new(),
+    };
+    Drawn { id, caption, svg: figure.to_svg() }
+}
+
+/// A panel without limits or notes.
+pub fn panel(x: Axis, y: Axis, height: f64, series: Vec<Series>) -> Panel {
+    Panel { x, y, height, series, limits: Vec::new(), peak: None, note: String::new() }
+}

@@ -1,0 +1,126 @@
+//! A result laid out: tables, figures, notes.
+
+use slipstick::response::Warning;
+
+use crate::figures::Drawn;
+use crate::html::{Frame, document, figure_section, inputs, warning_list};
+use crate::json::Json;
+use crate::laboratory::compare::number_table;
+use crate::laboratory::text::{aligned, field};
+use crate::markup::Markup;
+use crate::report::{FileNote, InputText};
+
+/// A result as people and programs read it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sheet {
+    /// What it is, above the name: `Incremental dynamic analysis`.
+    pub kind: &'static str,
+    /// Name of the model.
+    pub name: String,
+    /// What was done, in a line.
+    pub line: String,
+    /// All that a reader must know.
+    pub warnings: Vec<Warning>,
+    /// Headings with their tables: the first row are heads, the first column names.
+    pub tables: Vec<(String, Vec<Vec<String>>)>,
+    /// Sentences below the tables.
+    pub notes: Vec<String>,
+    /// Drawings.
+    pub figures: Vec<Drawn>,
+    /// How it was found and what that leaves out, a sentence or two each.
+    pub method: Vec<String>,
+    /// The object that `--json` prints.
+    pub json: Json,
+}
+
+/// What a result was made from.
+#[derive(Clone, Copy, Debug)]
+pub struct Went<'a> {
+    /// Version of this program.
+    pub version: &'a str,
+    /// The command as it was typed.
+    pub command_line: &'a str,
+    /// Files read, with their hashes.
+    pub files: &'a [FileNote<'a>],
+    /// Texts that people wrote.
+    pub inputs: &'a [InputText<'a>],
+}
+
+impl Sheet {
+    /// The result as plain text for a terminal.
+    #[must_use]
+    pub fn to_text(&self) -> String {
+        let mut text = field("Model", &self.name);
+        text.push_str(&field("Analysis", &format!("{}. {}", self.kind, self.line)));
+        for (heading, rows) in &self.tables {
+            text.push_str(&format!("\n{heading}\n"));
+            text.push_str(&aligned(rows));
+        }
+        if !self.notes.is_empty() {
+            text.push('\n');
+        }
+        for note in &self.notes {
+            text.push_str(&field("", note));
+        }
+        for warning in &self.warnings {
+            text.push('\n');
+            text.push_str(&field("Warning", &format!("{}: {}", warning.kind, warning.message)));
+        }
+        text
+    }
+
+    /// The object that `--json` prints, indented.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        self.json.to_pretty()
+    }
+
+    /// One self-contained HTML page that prints on A4.
+    #[must_use]
+    pub fn to_html(&self, went: &Went) -> String {
+        let mut body = Markup::new();
+        let warnings: Vec<_> = self.warnings.iter().map(|warning| (None, warning)).collect();
+        warning_list(&mut body, &warnings);
+        body.raw("<section>\n<h2>Results</h2>\n");
+        for (heading, rows) in &self.tables {
+            body.element("h3", heading).raw("\n");
+            number_table(&mut body, rows);
+        }
+        for note in &self.notes {
+            body.element("p", note).raw("\n");
+        }
+        body.raw("</section>\n");
+        figure_section(&mut body, &self.figures);
+        body.raw("<section>\n<h2>Method and limits</h2>\n<ul>\n");
+        for line in &self.method {
+            body.element("li", line).raw("\n");
+        }
+        body.raw("</ul>\n</section>\n<section>\n<h2>What went in</h2>\n");
+        inputs::provenance(&mut body, went.files, went.command_line, went.inputs);
+        body.raw("</section>\n");
+        document(&Frame {
+            kind: self.kind,
+            title_end: ": ",
+            name: &self.name,
+            line: &format!("Slipstick {}. {}", went.version, self.line),
+            version: went.version,
+            command_line: went.command_line,
+            body: &body,
+        })
+    }
+}
+
+/// A number of a table: four digits, or a dash where there is none.
+pub(super) fn cell(value: f64) -> String {
+    if value.is_finite() { crate::number::significant(value, 4) } else { "—".to_owned() }
+}
+
+/// A heading for a list of warnings from the messages of runs: each message once, with its count.
+pub(super) fn counted(kind: &'static str, messages: &[String]) -> Option<Warning> {
+    let first = messages.first()?;
+    let more = match messages.len() - 1 {
+        0 => String::new(),
+        more => format!(" (and {more} more)"),
+    };
+    Some(Warning { kind, time_s: None, message: format!("{first}{more}") })
+}

@@ -1,0 +1,315 @@
+//! Sliding spectra and frequency response curves.
+
+use slipstick::response::Warning;
+
+use super::key::{quantity, title};
+use super::lines::{BAND, FRACTILES, GROUPS, band, line, panel, share_names, stacked};
+use super::sheet::{Sheet, cell, counted};
+use crate::display::{DisplayUnits, Unit};
+use crate::json::Json;
+use crate::number::compact;
+use crate::plot::{Axis, Limit, Panel, Series, Style};
+
+/// What a spectrum is told from.
+#[derive(Clone, Debug)]
+pub struct SpectrumReport<'a> {
+    /// Version of this program.
+    pub version: &'static str,
+    /// Name of the model.
+    pub name: &'a str,
+    /// The varied path along the axis.
+    pub over: &'a str,
+    /// Its unit; empty where it has none.
+    pub unit: &'a str,
+    /// Its values, rising, in SI.
+    pub values: &'a [f64],
+    /// Names of the groups of curves, such as `friction 0.05`; one empty name where there is one group.
+    pub groups: &'a [String],
+    /// Names of the records; of a made motion, its description alone.
+    pub records: &'a [String],
+    /// How the records were scaled, in words.
+    pub scaled: &'a str,
+    /// The demands.
+    pub curves: &'a [Curves],
+    /// Of the key that they belong to: intervals in which the median of the group is above 1.
+    pub windows: Option<(&'a str, &'a [Vec<[f64; 2]>])>,
+    /// Messages of failed runs.
+    pub failures: &'a [String],
+    /// Number of runs.
+    pub runs: usize,
+    /// What reading the records gave notice of.
+    pub warnings: &'a [Warning],
+    /// Units to show results in.
+    pub display: DisplayUnits,
+}
+
+/// Fractiles of one demand over the records.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curves {
+    /// Key of the demand, its unit at the end.
+    pub key: String,
+    /// Fractiles of 16, 50 and 84 %, SI: group by group, one entry a value along the axis.
+    pub fractiles: Vec<Vec<[f64; 3]>>,
+}
+
+impl<'s> SpectrumReport<'s> {
+    /// The result laid out.
+    #[must_use]
+    pub fn sheet(&self) -> Sheet {
+        let count = self.records.len();
+        let records = match self.records {
+            [one] => one.clone(),
+            _ => format!("{count} records"),
+        };
+        Sheet {
+            kind: "Sliding spectra",
+            name: self.name.to_owned(),
+            line: format!("{} runs: {records}{}", self.runs, self.scaled),
+            warnings: counted("failed_runs", self.failures)
+                .into_iter()
+                .chain(self.warnings.iter().cloned())
+                .collect(),
+            tables: self.tables(),
+            notes: self.notes(),
+            figures: self.curves.iter().map(|curves| self.figure(curves)).collect(),
+            method: self.method(),
+            json: self.json(),
+        }
+    }
+
+    /// At most this many rows of a table: the ends and what lies evenly between.
+    fn shown(&self) -> Vec<usize> {
+        const ROWS: usize = 13;
+        let n = self.values.len();
+        if n <= ROWS {
+            return (0..n).collect();
+        }
+        let mut shown: Vec<usize> =
+            (0..ROWS).map(|i| (i * (n - 1) + (ROWS - 1) / 2) / (ROWS - 1)).collect();
+        shown.dedup();
+        shown
+    }
+
+    fn unit_of(&self, curves: &Curves) -> Unit {
+        let largest = curves.fractiles.iter().flatten().map(|f| f[2]).filter(|v| v.is_finite());
+        self.display.unit(quantity(&curves.key), largest.fold(0.0, f64::max))
+    }
+
+    fn axis_label(&self) -> String {
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" ({})", self.unit) };
+        format!("{}{unit}", self.over)
+    }
+
+    /// One group: a table a demand with its fractiles, or of a single motion three demands a table.
+    /// Several groups: a table a demand with their medians.
+    fn tables(&self) -> Vec<(String, Vec<Vec<String>>)> {
+        let (single, many) = (self.records.len() == 1, self.groups.len() > 1);
+        let named = |curves: &Curves| self.unit_of(curves).label(&title(&curves.key));
+        let column = |head: String, curves, group, which| Column { head, curves, group, which };
+        let tables: Vec<(String, Vec<Column>)> = if many {
+            let of = |curves: &'s Curves| {
+                let of_group =
+                    |(g, name): (usize, &String)| column(name.clone(), curves, g, MEDIAN);
+                let after = if single { "" } else { ", median" };
+                let columns = self.groups.iter().enumerate().map(of_group).collect();
+                (format!("{}{after}", named(curves)), columns)
+            };
+            self.curves.iter().map(of).collect()
+        } else if single {
+            let of = |part: &'s [Curves]| {
+                let columns = part.iter().map(|curves| column(named(curves), curves, 0, MEDIAN));
+                ("Demands".to_owned(), columns.collect())
+            };
+            self.curves.chunks(3).map(of).collect()
+        } else {
+            let of = |curves: &'s Curves| {
+                let names = share_names().into_iter().enumerate();
+                let columns = names.map(|(which, name)| column(name, curves, 0, which)).collect();
+                (named(curves), columns)
+            };
+            self.curves.iter().map(of).collect()
+        };
+        let table = |(heading, columns): (String, Vec<Column>)| {
+            let heads = columns.iter().map(|column| column.head.clone());
+            let heads = std::iter::once(self.axis_label()).chain(heads).collect();
+            let row = |&i: &usize| {
+                let number = |c: &Column| {
+                    cell(self.unit_of(c.curves).of(c.curves.fractiles[c.group][i][c.which]))
+                };
+                std::iter::once(compact(self.values[i])).chain(columns.iter().map(number)).collect()
+            };
+            let rows = std::iter::once(heads).chain(self.shown().iter().map(row)).collect();
+            (heading, rows)
+        };
+        tables.into_iter().map(table).collect()
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if self.shown().len() < self.values.len() {
+            notes.push(format!(
+                "{} of {} values along the axis are shown; all, with all fractiles, are in spectrum.csv.",
+                self.shown().len(),
+                self.values.len()
+            ));
+        }
+        let Some((key, windows)) = self.windows else { return notes };
+        for (name, windows) in self.groups.iter().zip(windows) {
+            let of =
+                |[from, to]: &[f64; 2]| format!("{} to {} {}", cell(*from), cell(*to), self.unit);
+            let list: Vec<String> = windows.iter().map(of).collect();
+            let where_ =
+                if list.is_empty() { "nowhere in the range".to_owned() } else { list.join(", ") };
+            let group = if name.is_empty() { String::new() } else { format!(" ({name})") };
+            notes.push(format!("{} is above 1{group}: {}.", title(key), where_.trim_end()));
+        }
+        notes
+    }
+
+    fn figure(&self, curves: &Curves) -> crate::figures::Drawn {
+        let unit = self.unit_of(curves);
+        let x = self.values;
+        let ends = (x.first().copied().unwrap_or(0.0), x.last().copied().unwrap_or(1.0));
+        // Values at equal ratios, or over more than a decade, want a logarithmic axis.
+        let logarithmic = ends.0 > 0.0 && ends.1 / ends.0 >= 12.0;
+        let x_axis = if logarithmic {
+            Axis::logarithmic(self.axis_label(), ends.0, ends.1)
+        } else {
+            Axis::linear(self.axis_label(), ends.0, ends.1)
+        };
+        let of = |group: usize, which: usize| -> Vec<f64> {
+            curves.fractiles[group].iter().map(|f| unit.of(f[which])).collect()
+        };
+        let points = |values: &[f64]| -> Vec<[f64; 2]> {
+            x.iter().zip(values).map(|(&x, &y)| [x, y]).collect()
+        };
+        let (many, single) = (self.groups.len() > 1, self.records.len() == 1);
+        let mut series: Vec<Series> = Vec::new();
+        if !single && !many {
+            series.push(band(x, &of(0, 0), &of(0, 2), "16 to 84 %", BAND));
+        }
+        for (group, name) in self.groups.iter().enumerate() {
+            let style = if many { GROUPS[group % GROUPS.len()] } else { FRACTILES[1] };
+            if many && !single {
+                for which in [0, 2] {
+                    let thin = Style { width: 0.6, ..style };
+                    series.push(line("", thin, points(&of(group, which))));
+                }
+            }
+            let label = if many {
+                name.clone()
+            } else if single {
+                String::new()
+            } else {
+                share_names()[1].clone()
+            };
+            series.push(line(label, style, points(&of(group, 1))));
+        }
+        let values = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect::<Vec<_>>();
+        let ratio = curves.key.ends_with("_ratio") || curves.key.ends_with("amplification");
+        let limits = if ratio {
+            vec![Limit { value: 1.0, label: "1".to_owned(), style: Style::LIMIT }]
+        } else {
+            Vec::new()
+        };
+        let y_axis = Axis::from_zero(unit.label(&title(&curves.key)), values);
+        let panel = Panel { limits, ..panel(x_axis, y_axis, 210.0, series) };
+        let what = title(&curves.key);
+        let spread = match (single, many) {
+            (true, _) => "",
+            (false, true) => {
+                " Thick: median over the records; thin, in the same dashes: 16 and 84 %."
+            }
+            (false, false) => " Line: median over the records; band: 16 to 84 %.",
+        };
+        let id: &'static str = FIGURES
+            .iter()
+            .find(|(part, _)| curves.key.contains(part))
+            .map_or("spectrum", |(_, id)| id);
+        stacked(id, &what, format!("{what} over {}.{spread}", self.over), vec![panel])
+    }
+
+    fn method(&self) -> Vec<String> {
+        let mut method = vec![
+            "Every run is an exact analysis of its own; no value of one is taken from another."
+                .to_owned(),
+        ];
+        if self.records.len() > 1 {
+            method.push(
+                "Fractiles interpolate linearly between the sorted values of the suite, at position \
+                 p (n − 1) counted from 0; a failed run counts as above all."
+                    .to_owned(),
+            );
+        }
+        method.push(
+            "The residual sliding displacement is taken without its sign. The fixed-base ratio is the \
+             storey's peak total acceleration over that of the same structure held to the table; the \
+             amplification is over the peak of the table."
+                .to_owned(),
+        );
+        method
+    }
+
+    fn json(&self) -> Json {
+        let numbers = |values: &[f64]| Json::List(values.iter().map(|v| Json::from(*v)).collect());
+        let texts =
+            |values: &[String]| Json::List(values.iter().map(|v| v.as_str().into()).collect());
+        let mut curves = Vec::new();
+        for of_demand in self.curves {
+            for (group, fractiles) in self.groups.iter().zip(&of_demand.fractiles) {
+                let pick = |i: usize| numbers(&fractiles.iter().map(|f| f[i]).collect::<Vec<_>>());
+                curves.push(Json::Object(vec![
+                    ("demand", of_demand.key.as_str().into()),
+                    ("group", group.as_str().into()),
+                    ("p16", pick(0)),
+                    ("p50", pick(1)),
+                    ("p84", pick(2)),
+                ]));
+            }
+        }
+        let windows = self.windows.map_or(Json::Null, |(key, windows)| {
+            let of = |(group, windows): (&String, &Vec<[f64; 2]>)| {
+                Json::Object(vec![
+                    ("demand", key.into()),
+                    ("group", group.as_str().into()),
+                    ("above_1", Json::List(windows.iter().map(|w| numbers(w)).collect())),
+                ])
+            };
+            Json::List(self.groups.iter().zip(windows).map(of).collect())
+        });
+        Json::Object(vec![
+            ("slipstick", self.version.into()),
+            ("model", self.name.into()),
+            ("over", self.over.into()),
+            ("unit", self.unit.into()),
+            ("values", numbers(self.values)),
+            ("groups", texts(self.groups)),
+            ("records", texts(self.records)),
+            ("runs", Json::Count(self.runs as u64)),
+            ("failed", Json::Count(self.failures.len() as u64)),
+            ("curves", Json::List(curves)),
+            ("windows", windows),
+        ])
+    }
+}
+
+/// A column of a table: its head, and which fractile of which group it is.
+struct Column<'a> {
+    head: String,
+    curves: &'a Curves,
+    group: usize,
+    which: usize,
+}
+
+/// The median among the three fractiles.
+const MEDIAN: usize = 1;
+
+/// Identifiers of figures by what the demand's key contains.
+const FIGURES: [(&str, &str); 6] = [
+    ("fixed_base_ratio", "fixed-base-ratio"),
+    ("amplification", "amplification"),
+    ("residual", "residual"),
+    ("path", "path"),
+    ("displacement", "displacement"),
+    ("acceleration", "acceleration"),
+];

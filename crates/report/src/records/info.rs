@@ -1,0 +1,231 @@
+//! What `slipstick record info` says of every channel.
+
+use slipstick::motion::intensity::IntensityMeasures;
+use slipstick::record::{Channel, Quantity, Record, RecordWarning, Sampling};
+
+use crate::display::{DisplayUnits, Quantity as Shown};
+use crate::json::Json;
+use crate::number::significant;
+
+/// One channel of one file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChannelInfo {
+    /// The file as it was named.
+    pub file: String,
+    /// Keyword of the format.
+    pub format: &'static str,
+    /// The format and its variant in words.
+    pub layout: String,
+    /// What picks the channel.
+    pub channel: String,
+    /// Component, where stated.
+    pub component: Option<String>,
+    /// Azimuth clockwise from north in degrees, where stated.
+    pub azimuth_deg: Option<f64>,
+    /// Units of the file's values.
+    pub units: String,
+    /// What they measure.
+    pub quantity: Quantity,
+    /// Number of samples.
+    pub npts: usize,
+    /// Step in s, `None` where samples are uneven.
+    pub dt_s: Option<f64>,
+    /// From the first sample to the last, in s.
+    pub duration_s: f64,
+    /// Corners of the filter that was applied, in Hz, where stated.
+    pub high_pass_hz: Option<f64>,
+    /// Upper corner.
+    pub low_pass_hz: Option<f64>,
+    /// Measures of an acceleration, and the velocity it leaves at its end in m/s; `None` for
+    /// another quantity, or where it is no motion.
+    pub measures: Option<(IntensityMeasures, f64)>,
+    /// Earthquake, where stated.
+    pub event: Option<String>,
+    /// Station, where stated.
+    pub station: Option<String>,
+    /// What to know of the file and the channel.
+    pub warnings: Vec<RecordWarning>,
+}
+
+impl ChannelInfo {
+    /// What is known of a channel of a file.
+    #[must_use]
+    pub fn new(file: &str, record: &Record, channel: &Channel) -> Self {
+        let (dt_s, duration_s) = match &channel.sampling {
+            Sampling::Dt(dt_s) => {
+                (Some(*dt_s), channel.values.len().saturating_sub(1) as f64 * dt_s)
+            }
+            Sampling::Times(times_s) => {
+                (None, times_s.last().zip(times_s.first()).map_or(0.0, |(b, a)| b - a))
+            }
+        };
+        let mut warnings: Vec<RecordWarning> =
+            record.warnings.iter().chain(&channel.warnings).cloned().collect();
+        let measures = match channel.motion() {
+            Some(Ok(motion)) => {
+                Some((IntensityMeasures::of(&motion), motion.figures().end_velocity_m_per_s))
+            }
+            Some(Err(error)) => {
+                let message = format!("no measures: {error}");
+                warnings.push(RecordWarning { kind: "no_measures", message });
+                None
+            }
+            None => None,
+        };
+        Self {
+            file: file.to_owned(),
+            format: record.format.keyword(),
+            layout: record.layout.clone(),
+            channel: channel.name.clone(),
+            component: channel.component.clone(),
+            azimuth_deg: channel.azimuth_deg,
+            units: channel.units.to_string(),
+            quantity: channel.units.quantity(),
+            npts: channel.values.len(),
+            dt_s,
+            duration_s,
+            high_pass_hz: channel.filter.high_pass_hz,
+            low_pass_hz: channel.filter.low_pass_hz,
+            measures,
+            event: channel.event.clone(),
+            station: channel.station.clone(),
+            warnings,
+        }
+    }
+
+    fn json(&self) -> Json {
+        let text = |value: &Option<String>| value.as_deref().map_or(Json::Null, Json::from);
+        let warnings = self.warnings.iter().map(|w| {
+            Json::Object(vec![("kind", w.kind.into()), ("message", w.message.as_str().into())])
+        });
+        let mut keys = vec![
+            ("file", self.file.as_str().into()),
+            ("format", self.format.into()),
+            ("layout", self.layout.as_str().into()),
+            ("channel", self.channel.as_str().into()),
+            ("component", text(&self.component)),
+            ("azimuth_deg", self.azimuth_deg.into()),
+            ("units", self.units.as_str().into()),
+            ("quantity", self.quantity.name().into()),
+            ("npts", (self.npts as u64).into()),
+            ("dt_s", self.dt_s.into()),
+            ("duration_s", self.duration_s.into()),
+            ("high_pass_hz", self.high_pass_hz.into()),
+            ("low_pass_hz", self.low_pass_hz.into()),
+        ];
+        // The keys stand there for every channel; without an acceleration they are null.
+        let columns = self.measures.map_or(IntensityMeasures::default(), |(set, _)| set).columns();
+        let value = |value: f64| self.measures.map_or(Json::Null, |_| value.into());
+        keys.extend(columns.into_iter().map(|(_, column, si)| (column, value(si))));
+        keys.push(("end_velocity_m_per_s", self.measures.map(|(_, end)| end).into()));
+        keys.push(("event", text(&self.event)));
+        keys.push(("station", text(&self.station)));
+        keys.push(("warnings", Json::List(warnings.collect())));
+        Json::Object(keys)
+    }
+}
+
+/// One JSON array with an object a channel; numbers in SI.
+#[must_use]
+pub fn info_json(channels: &[ChannelInfo]) -> String {
+    Json::List(channels.iter().map(ChannelInfo::json).collect()).to_pretty()
+}
+
+/// A table of channels below the name of their file, with what there is to know of them.
+#[must_use]
+pub fn info_table(channels: &[ChannelInfo], display: DisplayUnits) -> String {
+    let mut out = String::new();
+    let mut start = 0;
+    while start < channels.len() {
+        let file = &channels[start].file;
+        let count = channels[start..].iter().take_while(|c| c.file == *file).count();
+        file_table(&mut out, &channels[start..start + count], display);
+        start += count;
+        if start < channels.len() {
+            out.push('\n');
+        }
+    }
+    out
+}
+
+/// The channels of one file.
+fn file_table(out: &mut String, channels: &[ChannelInfo], display: DisplayUnits) {
+    let first = &channels[0];
+    out.push_str(&format!("{}  ({})\n", plain(&first.file), plain(&first.layout)));
+    let said = [("Event", &first.event), ("Station", &first.station)];
+    for (name, value) in said {
+        if let Some(value) = value {
+            out.push_str(&format!("{name:<9}{}\n", plain(value)));
+        }
+    }
+    let mut rows = vec![
+        [
+            "Channel", "Units", "Values", "dt", "Duration", "PGA", "PGV", "PGD", "Arias", "D5-95",
+            "Tm",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
+    ];
+    for channel in channels {
+        let shown = |quantity, si: f64| {
+            let unit = display.unit(quantity, si.abs());
+            format!("{} {}", significant(unit.of(si), 4), unit.symbol)
+        };
+        let dt = channel.dt_s.map_or("uneven".to_owned(), |dt_s| format!("{dt_s} s"));
+        let mut row = vec![
+            plain(&channel.channel),
+            channel.units.clone(),
+            channel.npts.to_string(),
+            dt,
+            format!("{} s", significant(channel.duration_s, 5)),
+        ];
+        match &channel.measures {
+            Some((set, _)) => row.extend([
+                shown(Shown::Acceleration, set.pga_m_per_s2),
+                shown(Shown::Velocity, set.pgv_m_per_s),
+                shown(Shown::Length, set.pgd_m),
+                shown(Shown::Velocity, set.arias_m_per_s),
+                format!("{} s", significant(set.d5_95_s, 4)),
+                format!("{} s", significant(set.tm_s, 4)),
+            ]),
+            None => row.push(format!("({})", channel.quantity.name())),
+        }
+        rows.push(row);
+    }
+    let width = |column: usize| {
+        rows.iter().filter_map(|row| row.get(column)).map(|c| c.chars().count()).max().unwrap_or(0)
+    };
+    for row in &rows {
+        let cells: Vec<String> = row
+            .iter()
+            .enumerate()
+            .map(|(i, cell)| {
+                let space = " ".repeat(width(i) - cell.chars().count());
+                if i < 2 { format!("{cell}{space}") } else { format!("{space}{cell}") }
+            })
+            .collect();
+        out.push_str(cells.join("  ").trim_end());
+        out.push('\n');
+    }
+    let mut told: Vec<&RecordWarning> = Vec::new();
+    for channel in channels {
+        for warning in &channel.warnings {
+            // What is said of the file is said once.
+            if told.contains(&warning) {
+                continue;
+            }
+            told.push(warning);
+            let of = if channels.len() > 1 {
+                format!("{}: ", plain(&channel.channel))
+            } else {
+                String::new()
+            };
+            out.push_str(&format!("Warning  {of}{}: {}\n", warning.kind, plain(&warning.message)));
+        }
+    }
+}
+
+/// Text of a file without characters that would move a terminal's cursor.
+fn plain(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+}

@@ -1,0 +1,106 @@
+//! A record on a page to read and print.
+
+use super::ChannelInfo;
+use crate::display::{DisplayUnits, Quantity as Shown};
+use crate::figures::Drawn;
+use crate::markup::Markup;
+use crate::number::{printed, typeset};
+use slipstick::motion::intensity::Measure;
+
+/// One self-contained page: what the channel is, its measures, its figures.
+#[must_use]
+pub fn page(
+    channels: &[(ChannelInfo, Vec<Drawn>)],
+    display: DisplayUnits,
+    command: &str,
+) -> String {
+    let mut out = Markup::new();
+    let version = env!("CARGO_PKG_VERSION");
+    let first = channels.first().map_or("", |(info, _)| info.file.as_str());
+    let one_file = channels.iter().all(|(info, _)| info.file == first);
+    let title = if one_file { first } else { "Ground motions" };
+    out.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n")
+        .raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>")
+        .text(title)
+        .raw(": ground motion</title>\n<style>\n")
+        .raw(include_str!("../html/style.css"))
+        .raw("@page { size: A4; margin: 18mm 17mm 18mm 20mm; }\n</style>\n</head>\n<body>\n")
+        .raw("<header>\n<p>Ground motion</p>\n")
+        .element("h1", title)
+        .raw("\n</header>\n<main>\n");
+    for (info, figures) in channels {
+        channel(&mut out, info, figures, one_file, display);
+    }
+    out.raw("</main>\n<footer>\n<p>")
+        .text(format!("Slipstick {version}: "))
+        .raw("<code>")
+        .text(command)
+        .raw("</code></p>\n</footer>\n</body>\n</html>\n");
+    out.into_string()
+}
+
+fn channel(
+    out: &mut Markup,
+    info: &ChannelInfo,
+    figures: &[Drawn],
+    one_file: bool,
+    display: DisplayUnits,
+) {
+    let channel = format!("Channel {}", info.channel);
+    let head = if one_file { channel } else { format!("{}: {channel}", info.file) };
+    out.raw("<section class=\"figures\">\n").element("h2", head);
+    let dt = info.dt_s.map_or("uneven samples".to_owned(), |dt_s| format!("{dt_s} s"));
+    out.raw("\n<p>").text(format!("{}, {} values, {dt}, {}.", info.layout, info.npts, info.units));
+    for (name, value) in
+        [("Event", &info.event), ("Station", &info.station), ("Component", &info.component)]
+    {
+        if let Some(value) = value {
+            out.text(format!(" {name}: {value}."));
+        }
+    }
+    out.raw("</p>\n");
+    if !info.warnings.is_empty() {
+        out.raw("<section class=\"warnings\">\n<h2>Warnings</h2>\n<ul>\n");
+        for warning in &info.warnings {
+            out.raw("<li>")
+                .element("strong", warning.kind.replace('_', " "))
+                .raw(": ")
+                .text(&warning.message)
+                .raw("</li>\n");
+        }
+        out.raw("</ul>\n</section>\n");
+    }
+    if let Some((set, _)) = &info.measures {
+        out.raw("<table>\n<tbody>\n");
+        let columns = set.columns();
+        for pair in columns.chunks(2) {
+            out.raw("<tr>");
+            for (measure, _, si) in pair {
+                out.raw("<th scope=\"row\">")
+                    .text(measure)
+                    .raw("</th><td class=\"number\">")
+                    .text(typeset(&shown(measure, *si, display)))
+                    .raw("</td>");
+            }
+            out.raw("</tr>\n");
+        }
+        out.raw("</tbody>\n</table>\n");
+    }
+    for figure in figures {
+        out.raw("<figure>\n").append(figure.svg.markup());
+        out.raw("<figcaption>").text(&figure.caption).raw("</figcaption>\n</figure>\n");
+    }
+    out.raw("</section>\n");
+}
+
+/// A measure with its unit.
+fn shown(measure: &Measure, si: f64, display: DisplayUnits) -> String {
+    let quantity = match measure.unit() {
+        "m/s2" => Shown::Acceleration,
+        "m/s" => Shown::Velocity,
+        "m" => Shown::Length,
+        _ => Shown::Time,
+    };
+    let unit = display.unit(quantity, si.abs());
+    format!("{} {}", printed(unit.of(si), 4), unit.symbol)
+}

@@ -1,0 +1,105 @@
+//! Response spectra and Fourier spectra of channels as tables for other programs.
+
+use slipstick::motion::{FourierSpectrum, Ordinates, Spectrum};
+
+use crate::json::Json;
+
+/// The response spectrum of one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChannelSpectrum {
+    /// The file as it was named.
+    pub file: String,
+    /// What picks the channel.
+    pub channel: String,
+    /// Its ordinates.
+    pub spectrum: Spectrum,
+}
+
+/// The Fourier amplitude spectrum of one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChannelFourier {
+    /// The file as it was named.
+    pub file: String,
+    /// What picks the channel.
+    pub channel: String,
+    /// Its amplitudes.
+    pub spectrum: FourierSpectrum,
+}
+
+/// Name of a column and the ordinate in it.
+type Column = (&'static str, fn(&Ordinates) -> f64);
+
+const COLUMNS: [Column; 5] = [
+    ("sd_m", |o| o.sd_m),
+    ("sv_m_per_s", |o| o.sv_m_per_s),
+    ("psv_m_per_s", |o| o.psv_m_per_s),
+    ("psa_m_per_s2", |o| o.psa_m_per_s2),
+    ("sa_m_per_s2", |o| o.sa_m_per_s2),
+];
+
+/// CSV: file, channel, damping ratio, period and ordinates, one row a period.
+#[must_use]
+pub fn spectra_csv(spectra: &[ChannelSpectrum]) -> String {
+    let names = COLUMNS.map(|(name, _)| name).join(",");
+    let mut out = format!("file,channel,damping_ratio,period_s,{names}\n");
+    for one in spectra {
+        let (file, channel) = (field(&one.file), field(&one.channel));
+        for (index, damping) in one.spectrum.damping_ratios.iter().enumerate() {
+            let ordinates = one.spectrum.of_damping(index);
+            for (period, ordinates) in one.spectrum.periods_s.iter().zip(ordinates) {
+                out.push_str(&format!("{file},{channel},{damping:?},{period:?}"));
+                for (_, value) in COLUMNS {
+                    out.push_str(&format!(",{:.16e}", value(ordinates)));
+                }
+                out.push('\n');
+            }
+        }
+    }
+    out
+}
+
+/// One JSON array with an object a channel: its periods, and the ordinates of each damping ratio.
+#[must_use]
+pub fn spectra_json(spectra: &[ChannelSpectrum]) -> String {
+    let list = |values: &[f64]| Json::List(values.iter().map(|v| Json::from(*v)).collect());
+    let one = |one: &ChannelSpectrum| {
+        let of_damping = |(index, damping): (usize, &f64)| {
+            let ordinates = one.spectrum.of_damping(index);
+            let mut keys = vec![("damping_ratio", Json::from(*damping))];
+            keys.extend(COLUMNS.map(|(name, value)| {
+                (name, list(&ordinates.iter().map(value).collect::<Vec<f64>>()))
+            }));
+            Json::Object(keys)
+        };
+        let damping = one.spectrum.damping_ratios.iter().enumerate();
+        Json::Object(vec![
+            ("file", one.file.as_str().into()),
+            ("channel", one.channel.as_str().into()),
+            ("periods_s", list(&one.spectrum.periods_s)),
+            ("spectra", Json::List(damping.map(of_damping).collect())),
+        ])
+    };
+    Json::List(spectra.iter().map(one).collect()).to_pretty()
+}
+
+/// CSV: file, channel, frequency and amplitude, one row a frequency.
+#[must_use]
+pub fn fourier_csv(spectra: &[ChannelFourier]) -> String {
+    let mut out = "file,channel,frequency_hz,fourier_amplitude_m_per_s\n".to_owned();
+    for one in spectra {
+        let (file, channel) = (field(&one.file), field(&one.channel));
+        for (f, amplitude) in one.spectrum.frequencies_hz().zip(&one.spectrum.amplitudes_m_per_s) {
+            out.push_str(&format!("{file},{channel},{f:?},{amplitude:.16e}\n"));
+        }
+    }
+    out
+}
+
+/// A field of CSV, in quotes where it needs them.
+fn field(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}
