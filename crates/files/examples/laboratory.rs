@@ -100,10 +100,10 @@ fn shaking_table() -> Result<String, Box<dyn Error>> {
     let mut text = String::from("t,A0,A1,D1\n");
     for (i, &knot) in history.rows.iter().enumerate() {
         let mut noisy = |value: f64, noise: f64| value + noise * random.normal();
-        let table = noisy(history.table_acceleration_m_per_s2[knot], 0.001) / GRAVITY;
+        let table = noisy(history.table_acceleration_m_per_s2[knot], 0.005) / GRAVITY;
         let block = noisy(history.block_acceleration_m_per_s2[knot], 0.03) / GRAVITY;
         let sliding_mm = 1e3 * noisy(history.sliding_displacement_m[knot], 1e-4);
-        let _ = writeln!(text, "{:.2},{table:.6},{:.5},{sliding_mm:.3}", 0.01 * i as f64, -block);
+        let _ = writeln!(text, "{:.2},{table:.5},{:.5},{sliding_mm:.3}", 0.01 * i as f64, -block);
     }
     Ok(text)
 }
