@@ -8,7 +8,9 @@
 
 use slipstick::friction::{Coulomb, Friction};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
-use slipstick::motion::GroundMotion;
+use slipstick::motion::intensity::{IntensityMeasures, Measure};
+use slipstick::motion::processing::Step;
+use slipstick::motion::{GroundMotion, logarithmic_periods, spectrum};
 use slipstick::response::Response;
 use slipstick::solver;
 use std::process::ExitCode;
@@ -39,7 +41,32 @@ fn hashes() -> Result<Vec<String>, Box<dyn std::error::Error>> {
             }
         }
     }
+    for motion in &motions {
+        hashes.push(format!("{:016x}", of_values(&measures(motion)?)));
+    }
     Ok(hashes)
+}
+
+/// Every measure of a motion, spectra included.
+fn measures(motion: &GroundMotion) -> Result<Vec<f64>, Box<dyn std::error::Error>> {
+    let mut values = IntensityMeasures::of(motion).columns().map(|(.., value)| value).to_vec();
+    values.push(Measure::parse("FIV3(0.7 s)")?.of(motion));
+    let periods_s = logarithmic_periods(0.005, 5.0, 40);
+    let (times_s, a) = (motion.times_s(), motion.horizontal_m_per_s2());
+    for o in spectrum(times_s, a, &periods_s, &[0.0, 0.05, 0.5])?.ordinates {
+        values.extend([o.sd_m, o.sv_m_per_s, o.sa_m_per_s2]);
+    }
+    let filtered = Step::parse("band-pass 0.1 Hz 25 Hz")?.apply(&motion.series())?;
+    values.extend(filtered.values());
+    Ok(values)
+}
+
+/// FNV-1a over the bits of values.
+fn of_values(values: &[f64]) -> u64 {
+    let bytes = values.iter().flat_map(|value| value.to_bits().to_le_bytes());
+    bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
 }
 
 fn sine() -> Result<GroundMotion, Box<dyn std::error::Error>> {

@@ -27,7 +27,8 @@ pub struct ChannelFourier {
 }
 
 /// Name of a column and the ordinate in it.
-const COLUMNS: [(&str, fn(&Ordinates) -> f64); 5] = [
+type Column = (&'static str, fn(&Ordinates) -> f64);
+const COLUMNS: [Column; 5] = [
     ("sd_m", |o| o.sd_m),
     ("sv_m_per_s", |o| o.sv_m_per_s),
     ("psv_m_per_s", |o| o.psv_m_per_s),
