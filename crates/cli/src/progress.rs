@@ -39,7 +39,7 @@ impl Steps {
         Self(Some(bar))
     }
 
-    /// So many steps more; `kept` ones were done before and say nothing of the rate.
+    /// So many steps more.
     pub fn advance(&self, steps: u64) {
         if let Some(bar) = &self.0 {
             bar.inc(steps);

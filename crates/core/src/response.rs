@@ -181,6 +181,9 @@ pub struct Demands {
     pub friction_coefficient_used: f64,
     /// Peak slider force over the weight.
     pub slider_force_coefficient: f64,
+    /// Least margin of the decisions at stops, `||demand| − bound| / bound`; `None` where there were
+    /// none, and of the stepwise method.
+    pub closest_stop: Option<f64>,
     /// Peak sliding displacement over the gap, where one is given.
     pub gap_ratio: Option<f64>,
     /// Largest overturning moment about the sliding surface over `M_tot g width/2`, where width and

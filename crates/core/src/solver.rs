@@ -17,7 +17,7 @@ use crate::response::{Method, Response};
 
 pub use ensemble::ensemble;
 pub use exact::EVENTS_PER_INTERVAL_LIMIT;
-pub use prepared::{PreparedModel, PreparedMotion, demands};
+pub use prepared::{InstructionSet, PreparedModel, PreparedMotion, demands, demands_by};
 
 /// Exact response with its history.
 ///
@@ -46,7 +46,8 @@ pub use prepared::{PreparedModel, PreparedMotion, demands};
 /// ```
 pub fn exact(model: &Model, motion: &GroundMotion) -> Result<Response, SolveError> {
     let motion = PreparedMotion::new(motion);
-    prepared::solve(&PreparedModel::new(model, &motion), &motion, true)
+    let model = PreparedModel::new(model, &motion);
+    prepared::solve(InstructionSet::best(), &model, &motion, true)
 }
 
 /// Exact response without a history: peaks, counts and events only.

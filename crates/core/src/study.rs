@@ -88,7 +88,14 @@ impl Study {
         model_text: &str,
         records: Vec<Record>,
     ) -> Result<Self, InputError> {
-        let variation = Variation::new(model_name, model_text, &plan.vary)?;
+        let variation = Variation::new(model_name, model_text, &plan.vary).map_err(|error| {
+            // A path that the model does not take is a fault of the plan that varies it.
+            let place = format!("vary.{}", error.path);
+            if plan.vary.iter().any(|varied| varied.path == error.path) {
+                return plan.error_at(&place, error.expected, error.found);
+            }
+            error
+        })?;
         if variation.text("analysis.method") == Some("stepwise") {
             let expected = "the exact method, which is the only one of studies";
             return Err(variation.error_at("analysis.method", expected, "\"stepwise\""));
@@ -121,7 +128,7 @@ impl Study {
             levels: levels.len() as u64,
             samples: design.count(),
         };
-        if !cases.runs().is_some_and(|runs| runs <= MAX_RUNS) {
+        if cases.runs().is_none_or(|runs| runs > MAX_RUNS) {
             let Cases { records, levels, samples } = cases;
             let expected = format!("at most {MAX_RUNS} runs");
             let found = format!("{records} records × {levels} levels × {samples} samples");

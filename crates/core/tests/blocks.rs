@@ -2,14 +2,15 @@
 //! every count.
 
 // Helpers of tests may panic as tests do.
-#![allow(clippy::expect_used)]
+#![allow(clippy::disallowed_macros, clippy::expect_used)]
 
 mod common;
 
 use common::random::Random;
 use common::sketch::Sketch;
+use slipstick::motion::GroundMotion;
 use slipstick::response::Response;
-use slipstick::solver;
+use slipstick::solver::{self, InstructionSet, PreparedModel, PreparedMotion};
 
 /// Largest difference, over the peak of each quantity.
 const TOLERANCE: f64 = 1e-11;
@@ -74,8 +75,11 @@ fn record(random: &mut Random, count: usize, dt: f64, amplitude: f64) -> Vec<f64
         .collect()
 }
 
+/// A demand and the size it is measured by.
+type Figure = (&'static str, f64, f64);
+
 /// Every demand with the size it is measured by, and every count.
-fn figures(r: &Response) -> (Vec<(&'static str, f64, f64)>, [u64; 3], bool) {
+fn figures(r: &Response) -> (Vec<Figure>, [u64; 3], bool) {
     let d = &r.demands;
     let s = d.peak_sliding_displacement_m;
     let mut list = vec![
@@ -83,7 +87,7 @@ fn figures(r: &Response) -> (Vec<(&'static str, f64, f64)>, [u64; 3], bool) {
         ("largest s", d.max_sliding_displacement_m, s),
         ("smallest s", d.min_sliding_displacement_m, s),
         ("residual s", d.residual_sliding_displacement_m, s),
-        ("path", d.sliding_path_m, d.sliding_path_m),
+        ("path", d.sliding_path_m, d.sliding_path_m.max(s)),
         ("sliding time", d.sliding_time_s, d.sliding_time_s),
         ("time of peak", d.peak_sliding_displacement_time_s, f64::INFINITY),
     ];
@@ -151,4 +155,173 @@ fn agree(seed: u64, systems: u64, draw: impl Fn(&mut Random) -> Sketch) {
 #[test]
 fn peer_plain_path_on_random_systems() {
     agree(1, SYSTEMS, shaken);
+}
+
+/// The bits of all that a response says but its history.
+fn bits(r: &Response) -> (Vec<u64>, [u64; 3], Vec<[u64; 2]>) {
+    let (list, counts, _) = figures(r);
+    let events = r.events.iter();
+    let events = events.map(|e| [e.time_s.to_bits(), e.sliding_displacement_m.to_bits()]);
+    (list.iter().map(|x| x.1.to_bits()).collect(), counts, events.collect())
+}
+
+#[test]
+fn exact_bits_are_the_same_by_every_instruction_set() {
+    let all = InstructionSet::all();
+    assert!(!all.is_empty());
+    for seed in 0..400 {
+        let (model, motion) = shaken(&mut Random::new(seed)).build();
+        let motion = PreparedMotion::new(&motion);
+        let model = PreparedModel::new(&model, &motion);
+        let by = |set: InstructionSet| {
+            bits(&solver::demands_by(set, &model, &motion).expect("a response"))
+        };
+        let first = by(all[0]);
+        for set in &all[1..] {
+            assert_eq!(by(*set), first, "seed {seed}: {set:?} and {:?}", all[0]);
+        }
+    }
+}
+
+#[test]
+fn exact_history_changes_no_bit() {
+    for seed in 0..400 {
+        let (model, motion) = shaken(&mut Random::new(seed)).build();
+        let with = solver::exact(&model, &motion).expect("a response");
+        let without = solver::exact_demands(&model, &motion).expect("a response");
+        assert_eq!(bits(&with), bits(&without), "seed {seed}");
+    }
+}
+
+#[test]
+fn exact_sharing_and_foreign_steps_change_no_bit() {
+    for seed in 0..200 {
+        let (model, motion) = shaken(&mut Random::new(seed)).build();
+        let fresh = bits(&solver::exact_demands(&model, &motion).expect("a response"));
+        let prepared = PreparedMotion::new(&motion);
+        let rougher = model.with_friction(model.slider().friction.scaled(1.7).expect("friction"));
+        let shared = PreparedModel::new(&rougher, &prepared).sharing(&model);
+        assert_eq!(bits(&solver::demands(&shared, &prepared).expect("a response")), fresh);
+        // Prepared for another step.
+        let other = GroundMotion::evenly_spaced(0.0123, vec![0.0; 20], None).expect("a motion");
+        let foreign = PreparedModel::new(&model, &PreparedMotion::new(&other));
+        assert_eq!(bits(&solver::demands(&foreign, &prepared).expect("a response")), fresh);
+    }
+}
+
+/// Everything turned round gives the same numbers, the never-slid residual of −0 included.
+#[test]
+fn exact_mirrored_systems_give_mirrored_numbers() {
+    for seed in 0..1000 {
+        let sketch = shaken(&mut Random::new(seed));
+        let mut other = sketch.clone();
+        let turn = |list: &mut Vec<f64>| list.iter_mut().for_each(|x| *x = -*x);
+        turn(&mut other.horizontal);
+        turn(&mut other.v);
+        other.q.as_mut().map(turn);
+        (other.s, other.w, other.tilt) = (-sketch.s, -sketch.w, -sketch.tilt);
+        other.static_friction.reverse();
+        other.kinetic_friction.reverse();
+        let of = |sketch: &Sketch| {
+            let (model, motion) = sketch.build();
+            solver::exact_demands(&model, &motion).expect("a response")
+        };
+        let (a, b) = (of(&sketch), of(&other));
+        let ((x, counts, sliding), (y, other_counts, other_sliding)) = (figures(&a), figures(&b));
+        assert_eq!((counts, sliding), (other_counts, other_sliding), "seed {seed}");
+        for (x, y) in x.iter().zip(&y) {
+            let expected = match x.0 {
+                "largest s" => -b.demands.min_sliding_displacement_m,
+                "smallest s" => -b.demands.max_sliding_displacement_m,
+                "residual s" => -y.1,
+                _ => y.1,
+            };
+            assert!(x.1 == expected, "seed {seed}: {} is {:e}, mirrored {expected:e}", x.0, x.1);
+        }
+        assert!(a.events.iter().zip(&b.events).all(|(a, b)| a.time_s == b.time_s), "seed {seed}");
+    }
+}
+
+/// An undamped storey swings on a stuck block: `q = v₀/ω sin ωt`, whatever sample of a block the
+/// peak follows, the first of all included.
+#[test]
+fn exact_peak_after_any_sample_of_a_block() {
+    for k in 0..40 {
+        let mut x = Sketch::block(0.5, 0.5);
+        x.masses = vec![32.0];
+        let rate = 8.0;
+        x.stiffnesses = vec![32.0 * rate * rate];
+        let dt = 0.02;
+        // The peak lies between samples k and k + 1, nearer to the former.
+        let phase = core::f64::consts::FRAC_PI_2 - rate * dt * (k as f64 + 0.3);
+        x.q = Some(vec![0.01 * libm::sin(phase)]);
+        x.v = vec![0.01 * rate * libm::cos(phase)];
+        x.times = (0..60).map(|i| f64::from(i) * dt).collect();
+        x.horizontal = vec![0.0; 60];
+        let (model, motion) = x.build();
+        let d = solver::exact_demands(&model, &motion).expect("a response").demands;
+        let found = d.storeys[0].peak_displacement_m;
+        assert!((found - 0.01).abs() < 1e-14, "peak after sample {k}: {found:e}");
+        let shear = 0.01 * 32.0 * rate * rate;
+        assert!((d.peak_base_shear_n - shear).abs() < 1e-12 * shear, "peak after sample {k}");
+    }
+}
+
+/// A rigid block on a spring slides from `w₀` to its stop at `s`, `½ w₀² = ½ k s² + f s`; its
+/// acceleration, which is `f` alone without a spring, is largest there: `k s + f`.
+#[test]
+fn exact_acceleration_of_a_rigid_block_on_a_spring() {
+    let mut x = Sketch::block(0.05, 0.05);
+    (x.w, x.spring) = (0.5, 128.0 * 9.0);
+    x.times = (0..200).map(|i| f64::from(i) * 0.01).collect();
+    x.horizontal = vec![0.0; 200];
+    let (model, motion) = x.build();
+    let d = solver::exact_demands(&model, &motion).expect("a response").demands;
+    let (k, f) = (9.0_f64, 0.05 * 8.0);
+    let s = ((f * f + k * 0.25).sqrt() - f) / k;
+    assert!((d.peak_sliding_displacement_m - s).abs() < 1e-14);
+    assert!((d.peak_block_acceleration_m_per_s2 - (k * s + f)).abs() < 1e-13);
+}
+
+/// A jump amid what would be a block: the block that just holds before it slips right after.
+#[test]
+fn exact_jump_amid_a_block() {
+    for at in 1..20 {
+        let mut x = Sketch::block(0.1, 0.1);
+        x.times = (0..=at).map(|i| f64::from(i) * 0.125).collect();
+        x.horizontal = vec![0.5; x.times.len()];
+        x.times.extend((at..40).map(|i| f64::from(i) * 0.125));
+        x.horizontal.resize(x.times.len(), 1.6);
+        let (model, motion) = x.build();
+        let r = solver::exact_demands(&model, &motion).expect("a response");
+        assert_eq!(r.events.len(), 1, "jump at sample {at}");
+        assert_eq!(r.events[0].time_s, f64::from(at) * 0.125);
+        // Slides at 0.8 − 1.6 m/s² ever after.
+        let t = (39 - at) as f64 * 0.125;
+        let s = -0.5 * 0.8 * t * t;
+        assert!((r.demands.residual_sliding_displacement_m - s).abs() < 1e-13);
+    }
+}
+
+/// Static and kinetic friction are equal: each release starts with no acceleration, and none of
+/// its double zeros is a stop. A rigid block under a triangle wave turns round in closed form; here
+/// the counts of the plain path are the measure, over hundreds of releases.
+#[test]
+fn peer_plain_path_on_equal_friction() {
+    agree(100_000, 1000, |random| {
+        let mut x = shaken(random);
+        x.static_friction = x.kinetic_friction;
+        x
+    });
+}
+
+/// Coarse sampling: an event every few samples, and chords that hide much.
+#[test]
+fn peer_plain_path_on_coarse_samples() {
+    agree(200_000, 1000, |random| {
+        let mut x = shaken(random);
+        let factor = random.between(2.0, 10.0);
+        x.times.iter_mut().for_each(|t| *t *= factor);
+        x
+    });
 }

@@ -102,7 +102,7 @@ fn peer_free_vibration() {
 #[test]
 fn file_cyclic_tests_of_a_friction_damper() {
     let Some(folder) = experiments("file_cyclic_tests_of_a_friction_damper") else { return };
-    let (inch, kip) = (0.0254, 4448.221_615_260_5);
+    let (inch, kip) = (0.0254, 4_448.221_615_260_5);
     let mut fits = Vec::new();
     for name in ["1Hz30lbtension0.5amplitude", "1Hz30lbtension1.5amplitude"] {
         let path = folder.join(format!("friction_damper_cyclic/{name}.json"));
@@ -188,4 +188,70 @@ fn file_isolated_building_on_a_shaking_table() {
     assert!((0.33..0.47).contains(&hz), "{hz} {:?}", found.estimates);
     // What a model leaves of another kind of bearing has a memory.
     assert!(found.correlation_length > 5.0);
+}
+
+/// Any text as measured file, mapping, bound or parameter is an error or a value, never a panic.
+#[test]
+fn prop_any_text_ends_well() {
+    use slipstick::laboratory::compare::{Within, compare};
+    use slipstick::laboratory::random::Random;
+    use slipstick::response::Method;
+
+    let model =
+        "[block]\nmass = \"1 t\"\n[slider]\nstatic_friction = 0.2\nkinetic_friction = 0.1\n";
+    let analysis = input::parse("m.toml", model, &[]).unwrap();
+    let words = [
+        "time_s",
+        "table_acceleration_g",
+        "sliding_displacement (mm)",
+        "a",
+        "€",
+        ",",
+        ",",
+        "\n",
+        "\n",
+        "\n",
+        "0",
+        "1",
+        "-2.5",
+        "1e300",
+        "nan",
+        "[g]",
+        "[",
+        "]",
+        "'",
+        " - ",
+        "*",
+        "@",
+        "=",
+        "..",
+        "\"",
+        "#1",
+        "#0",
+        "slider.tilt",
+        "peak_ratio.",
+        "5 ms",
+        " ",
+        "\u{0}",
+    ];
+    for seed in 0..4000 {
+        let mut random = Random::new(seed);
+        let length = 1 + (24.0 * random.uniform()) as usize;
+        let text: String =
+            (0..length).map(|_| words[(words.len() as f64 * random.uniform()) as usize]).collect();
+        let file = format!(
+            "time_s,table_acceleration_g,block_acceleration_g\n{text}\n0,1,2\n1,2,3\n2,1,0\n"
+        );
+        for bytes in [text.as_bytes(), file.as_bytes()] {
+            if let Ok(measured) = Measured::read("m.csv", bytes, &Mapping::default()) {
+                let _ = compare(&measured, &analysis.model, Method::Exact);
+            }
+        }
+        let _ = Mapping::parse(Some(("map.toml", &text)), &[]);
+        let _ = Mapping::parse(None, &[text.clone(), format!("force={text}")]);
+        let _ = Within::parse(&text);
+        let _ = Within::parse(&format!("peak_ratio.force={text}"));
+        let _ = Parameter::parse(&text, &analysis, &[&text]);
+        let _ = Parameter::parse(&format!("slider.tilt={text}"), &analysis, &[]);
+    }
 }

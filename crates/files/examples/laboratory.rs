@@ -21,20 +21,18 @@ mass = "124 kg"
 [slider]
 static_friction  = 0.165
 kinetic_friction = 0.153
-spring = "19.4 kN/m"
-tilt = "0.8 mrad"
+tilt = "1.5 mrad"
 "#;
 const MASS_KG: f64 = 124.0;
 const STATIC: f64 = 0.165;
 const KINETIC: f64 = 0.153;
-const SPRING_N_PER_M: f64 = 19.4e3;
 const GRAVITY: f64 = slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
 const FOLDER: &str = "examples/laboratory";
 
 fn main() -> Result<(), Box<dyn Error>> {
     for (i, (name, frequency_hz)) in
-        [("cyclic-0.1hz.csv", 0.1), ("cyclic-0.3hz.csv", 0.3), ("cyclic-1hz.csv", 1.0)]
+        [("cyclic-0.1hz.csv", 0.1), ("cyclic-0.25hz.csv", 0.25), ("cyclic-1hz.csv", 1.0)]
             .into_iter()
             .enumerate()
     {
@@ -54,7 +52,7 @@ fn write(name: &str, text: &str) -> Result<(), Box<dyn Error>> {
 /// force is below static friction, and follows when it slides.
 fn cyclic(frequency_hz: f64, seed: u64) -> String {
     const FINE: usize = 10;
-    let (amplitude_m, load_train_n_per_m, viscous) = (0.015, 6e4, 5.0);
+    let (amplitude_m, load_train_n_per_m, viscous) = (0.015, 6e4, 1.0);
     let mut random = Random::new(seed);
     let dt_s = 0.001 / frequency_hz;
     let h = dt_s / FINE as f64;
@@ -66,13 +64,12 @@ fn cyclic(frequency_hz: f64, seed: u64) -> String {
         let t = i as f64 * h;
         let turns = TAU * frequency_hz * t;
         let target = amplitude_m * libm::sin(turns + 0.03 * libm::sin(0.3819 * turns + wander));
-        let demand = load_train_n_per_m * (target - x) - SPRING_N_PER_M * x;
+        let demand = load_train_n_per_m * (target - x);
         sliding = sliding || demand.abs() > STATIC * weight_n;
         if sliding {
             let friction = (KINETIC * weight_n).copysign(demand);
-            let stiff = load_train_n_per_m + SPRING_N_PER_M;
             let moved = (x + h / viscous * (load_train_n_per_m * target - friction))
-                / (1.0 + h / viscous * stiff);
+                / (1.0 + h / viscous * load_train_n_per_m);
             if (moved - x) * demand > 0.0 { x = moved } else { sliding = false }
         }
         if i % FINE == 0 {
@@ -103,10 +100,10 @@ fn shaking_table() -> Result<String, Box<dyn Error>> {
     let mut text = String::from("t,A0,A1,D1\n");
     for (i, &knot) in history.rows.iter().enumerate() {
         let mut noisy = |value: f64, noise: f64| value + noise * random.normal();
-        let table = noisy(history.table_acceleration_m_per_s2[knot], 0.005) / GRAVITY;
+        let table = noisy(history.table_acceleration_m_per_s2[knot], 0.001) / GRAVITY;
         let block = noisy(history.block_acceleration_m_per_s2[knot], 0.03) / GRAVITY;
         let sliding_mm = 1e3 * noisy(history.sliding_displacement_m[knot], 1e-4);
-        let _ = writeln!(text, "{:.2},{table:.5},{:.5},{sliding_mm:.3}", 0.01 * i as f64, -block);
+        let _ = writeln!(text, "{:.2},{table:.6},{:.5},{sliding_mm:.3}", 0.01 * i as f64, -block);
     }
     Ok(text)
 }

@@ -296,7 +296,7 @@ fn exact_fragility_of_a_study_counts_its_rows() {
     folder.write(
         "plan.toml",
         "model = \"model.toml\"\n[records]\nfiles = [\"records/*.csv\"]\nmeasure = \"PGA\"\n\
-         levels = [\"2 m/s2\", \"3 m/s2\", \"4 m/s2\", \"5 m/s2\", \"6 m/s2\"]\n",
+         levels = [\"1 m/s2\", \"1.5 m/s2\", \"2 m/s2\", \"2.5 m/s2\", \"3 m/s2\"]\n",
     );
     folder.stdout(&["study", "plan.toml", "--out", "study", "-q"]);
     folder.stdout(&[
@@ -305,7 +305,7 @@ fn exact_fragility_of_a_study_counts_its_rows() {
         "--records",
         "records/*.csv",
         "--levels",
-        "2..6 m/s2:5",
+        "1..3 m/s2:5",
         "--out",
         "ida",
         "-q",
@@ -353,7 +353,7 @@ fn exact_fragility_of_a_study_counts_its_rows() {
 fn exact_design_front_is_that_of_all_designs() {
     let folder = suite("design", 1);
     let (friction, radius) = ("0.02..0.10:9", "slider.radius=0.5..4m:8");
-    let scale = ["--level", "5 m/s2"];
+    let scale = ["--level", "2 m/s2"];
     let arguments = |command: &'static str| {
         let common = [command, "model.toml", "--records", "records", "--friction", friction, "-q"];
         [&common[..], &scale[..]].concat()
@@ -398,7 +398,7 @@ fn exact_design_front_is_that_of_all_designs() {
         format!("slider.radius={radius:?} m"),
     ];
     let set: Vec<&str> = set.iter().map(String::as_str).collect();
-    let by_hand = run(&folder, "r0", 5.0 / pga, &set);
+    let by_hand = run(&folder, "r0", 2.0 / pga, &set);
     for (bound, expected) in
         [("lower", &by_hand["bounds"]["lower"]), ("upper", &by_hand["bounds"]["upper"])]
     {
@@ -447,6 +447,8 @@ fn exact_results_are_the_same_on_any_number_of_threads() {
             "records",
             "--friction",
             "0.02..0.1:5",
+            "--gap",
+            "400 mm",
             "--sensitivity",
             "8",
         ],
@@ -493,10 +495,10 @@ fn exact_what_is_wrong_is_said() {
                 "--over",
                 "slider.radius=1,2 m",
                 "--demand",
-                "peak_sliding_m",
+                "peak_sliding_displacement",
             ]),
             "--demand: expected the key of a demand, such as peak_sliding_displacement_m, found \
-             \"peak_sliding_m\"; nearest is \"peak_sliding_displacement_m\"",
+             \"peak_sliding_displacement\"; nearest is \"peak_sliding_displacement_m\"",
         ),
         (
             with(&["spectrum", "model.toml", "--over", "slider.radius=1,2 m", "--level", "0.3 m"]),

@@ -236,7 +236,7 @@ fn exact_repeat_reproduces_rows() {
         let result = folder.json(&arguments);
         let row = row(&folder, "all.parquet", run);
         compare(&result, &row);
-        assert_eq!(result["record"]["pgv_m_per_s"].as_f64().unwrap() > 0.0, true);
+        assert!(result["record"]["pgv_m_per_s"].as_f64().unwrap() > 0.0);
     }
     let refused = folder.refused(&["study", "plan.toml", "--repeat", "2250"]);
     assert!(refused.contains("expected a run from 0 to 2249, found 2250"), "{refused}");
@@ -405,7 +405,12 @@ fn exact_refused_plans_say_why() {
         "{model}"
     );
     let storey = refuse(&PLAN.replace("slider.radius", "storey.2.height"));
-    assert!(storey.contains("expected a number from 1 to 1, found \"2\""), "{storey}");
+    assert!(
+        storey.contains(
+            "plan.toml:11:21: vary.storey.2.height: expected a number from 1 to 1, found \"2\""
+        ),
+        "{storey}"
+    );
     let zero = "time_s,acceleration_m_per_s2\n0,0\n1,0\n";
     folder.write("records/a.csv", zero);
     let flat = refuse(PLAN);

@@ -53,7 +53,7 @@ pub struct CyclicTest<'a> {
 pub struct Cycle {
     /// From its first reversal to its last, in s.
     pub span_s: [f64; 2],
-    /// One over that time, in Hz.
+    /// One over twice the time between the middles of its strokes, in Hz.
     pub frequency_hz: f64,
     /// Mean of both strokes in m.
     pub stroke_m: f64,
@@ -142,6 +142,7 @@ pub fn cyclic(test: &CyclicTest) -> Result<CyclicFit, CyclicError> {
     let mut starts: Vec<[usize; 2]> =
         pairs.iter().map(|pair| pair.map(|stroke| stroke.after(test, slack_m))).collect();
     let mut fitted_n = vec![f64::NAN; n];
+    let noise_n = stroke::noise(test.force_n);
     let mut breakaways: Vec<[Option<Breakaway>; 2]> = vec![[None, None]; pairs.len()];
     for turn in 0..3 {
         fitted_n.fill(f64::NAN);
@@ -155,9 +156,7 @@ pub fn cyclic(test: &CyclicTest) -> Result<CyclicFit, CyclicError> {
         let built: Vec<f64> = pairs
             .iter()
             .zip(&fits)
-            .filter_map(|(pair, fit)| {
-                Some(pair.map(|stroke| stroke.build_up_m(test, fit.as_ref()?)))
-            })
+            .map(|(pair, fit)| pair.map(|stroke| stroke.build_up_m(test, fit.as_ref()?)))
             .filter_map(|[a, b]| Some(a?.max(b?)))
             .collect();
         if test.slack_m.is_none() {
@@ -166,8 +165,9 @@ pub fn cyclic(test: &CyclicTest) -> Result<CyclicFit, CyclicError> {
         for (i, (pair, fit)) in pairs.iter().zip(&fits).enumerate() {
             let Some(fit) = fit else { continue };
             for side in 0..2 {
+                // Stuck samples that slipped in spoil the fit, so its residuals cannot judge here.
                 let breakaway = pair[side].breakaway(test, fit, slack_m);
-                let clear = breakaway.filter(|b| b.is_clear(fit.residual_n));
+                let clear = breakaway.filter(|b| b.is_clear(noise_n));
                 let after = pair[side].after(test, slack_m);
                 starts[i][side] =
                     clear.map_or(after, |b| after.max(b.sample + pair[side].smoothing + 2));
@@ -238,9 +238,11 @@ fn fit_cycle(
     }
     let [first, second] = pair;
     let span_s = [test.times_s[first.first], test.times_s[second.last]];
+    // Where a stroke turns is blurred while the block is stuck; when it passes its middle is not.
+    let half_s = second.middle_s(test) - first.middle_s(test);
     Some(Cycle {
         span_s,
-        frequency_hz: 1.0 / (span_s[1] - span_s[0]),
+        frequency_hz: 0.5 / half_s,
         stroke_m: 0.5 * (first.length_m(test) + second.length_m(test)),
         peak_velocity_m_per_s: first.peak_velocity().max(second.peak_velocity()),
         kinetic_n: [coefficients[0]?, coefficients[1]?],

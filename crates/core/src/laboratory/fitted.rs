@@ -9,7 +9,7 @@ const DIGITS: usize = 6;
 
 /// The keys of a model that estimates set, and what had to be decided.
 ///
-/// - Friction by direction goes before that of both ways together.
+/// - Friction is one number where the intervals of both directions overlap, else one a direction.
 /// - Static friction that the data do not tell, or that lies below the kinetic one, is taken as
 ///   large as the kinetic one.
 /// - A spring or damper whose interval reaches below 0 is left out.
@@ -23,8 +23,16 @@ pub fn overrides(estimates: &[Estimate]) -> (Vec<Override>, Vec<Warning>) {
     let here = |path: &str| estimates.iter().any(|e| e.path == path);
     let both = ["slider.kinetic_friction", "slider.static_friction"];
     let ways: Vec<String> = {
-        let by_way = [".positive", ".negative"].map(|way| format!("{}{way}", both[0]));
-        if by_way.iter().all(|path| told(path).is_some()) {
+        let by_way = |what: &str| {
+            let of = |way: &str| {
+                let path = format!("{what}{way}");
+                estimates.iter().find(|e| e.path == path).and_then(Estimate::interval)
+            };
+            of(".positive").zip(of(".negative"))
+        };
+        let differ = |what: &&str| by_way(what).is_some_and(|(a, b)| a[1] < b[0] || b[1] < a[0]);
+        let one = told(both[0]).is_some() && !both.iter().any(differ);
+        if by_way(both[0]).is_some() && !one {
             vec![".positive".to_owned(), ".negative".to_owned()]
         } else {
             vec![String::new()]
@@ -98,8 +106,8 @@ mod tests {
         let refused = |path: &str| Estimate::refused(path, "", "because");
         let (set, warnings) = paths(&[
             told("slider.kinetic_friction", 0.15, 0.14),
-            told("slider.kinetic_friction.positive", 0.16, 0.15),
-            told("slider.kinetic_friction.negative", 0.14, 0.13),
+            Estimate::told("slider.kinetic_friction.positive", "", 0.16, [0.155, 0.165]),
+            Estimate::told("slider.kinetic_friction.negative", "", 0.14, [0.135, 0.145]),
             refused("slider.static_friction"),
             refused("slider.static_friction.positive"),
             told("slider.static_friction.negative", 0.17, 0.13),
@@ -118,6 +126,12 @@ mod tests {
             ]
         );
         assert_eq!(warnings, ["static_taken_as_kinetic", "not_clear_of_zero"]);
+        // Where the directions agree, one number is enough.
+        let near = |way: &str| {
+            Estimate::told(format!("slider.kinetic_friction{way}"), "", 0.1, [0.09, 0.11])
+        };
+        let (set, _) = paths(&[near(""), near(".positive"), near(".negative")]);
+        assert_eq!(set, ["slider.kinetic_friction"]);
         // Static friction that was not asked for stays as the model has it.
         let (set, warnings) = paths(&[told("slider.kinetic_friction", 0.1, 0.0)]);
         assert_eq!((set.len(), warnings.len()), (1, 0));

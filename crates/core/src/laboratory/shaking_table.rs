@@ -150,9 +150,15 @@ pub fn shaking_table(test: &TableTest) -> Result<TableFit, TableError> {
     let evidence = evidence(&data, &model, &scales, &found);
     let estimates = test.parameters.iter().enumerate().map(|(index, parameter)| {
         let slides = evidence > CLEAR_SLIDING || !parameter.path.starts_with("slider.");
-        let kinetic = test.parameters.iter().zip(&values).find_map(|(other, value)| {
-            let kinetic = parameter.path.replace("static", "kinetic");
-            (other.path == kinetic && kinetic != parameter.path).then_some(*value)
+        // Static friction may go down to the kinetic one, where the data tell that.
+        let path = parameter.path.replace("static", "kinetic");
+        let kinetic =
+            test.parameters.iter().position(|other| other.path == path && path != parameter.path);
+        let kinetic = kinetic.map(|other| {
+            let natural = test.parameters[other].natural;
+            let told = found.intervals[other]
+                .is_some_and(|i| (!i.open[0] || natural[0]) && (!i.open[1] || natural[1]));
+            (values[other], told)
         });
         estimate(parameter, values[index], found.intervals[index], kinetic, slides)
     });
@@ -290,7 +296,7 @@ fn estimate(
     parameter: &Parameter,
     value: f64,
     interval: Option<Interval>,
-    kinetic: Option<f64>,
+    kinetic: Option<(f64, bool)>,
     slides: bool,
 ) -> Estimate {
     let refused = |why: String| Estimate::refused(parameter.path.clone(), parameter.unit, why);
@@ -305,7 +311,8 @@ fn estimate(
     let unit =
         if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
     let shown = |value: f64| format!("{value:.4e}{unit}");
-    let blocked = [open[0] && !parameter.natural[0], open[1] && !parameter.natural[1]];
+    let bottom = parameter.natural[0] && kinetic.is_none_or(|(_, told)| told);
+    let blocked = [open[0] && !bottom, open[1] && !parameter.natural[1]];
     match blocked {
         _ if open == [true, true] => {
             let why = "every value of its range fits as well";
@@ -316,7 +323,7 @@ fn estimate(
         _ => {}
     }
     if open[0]
-        && let Some(kinetic) = kinetic
+        && let Some((kinetic, _)) = kinetic
     {
         ends[0] = ends[0].max(kinetic).min(value);
     }

@@ -274,7 +274,7 @@ mod tests {
         assert_eq!(largest(&c, f64::MIN), 0.0);
         (c[0], c[12]) = (1e-30, 1.0);
         let x = first_root(&c).expect("falls below zero");
-        assert!((x / 1e-30_f64.powf(1.0 / 11.0) - 1.0).abs() < 1e-3, "{x}");
+        assert!((x / libm::pow(1e-30, 1.0 / 11.0) - 1.0).abs() < 1e-3, "{x}");
     }
 
     /// The worst case of the chord bound: a parabola that touches it.

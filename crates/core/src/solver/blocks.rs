@@ -12,6 +12,8 @@ mod leap;
 mod peaks;
 mod step;
 mod tables;
+#[cfg(test)]
+mod tests;
 mod walk;
 mod windows;
 

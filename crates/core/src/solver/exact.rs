@@ -8,6 +8,8 @@ mod by_blocks;
 mod long_way;
 mod short_way;
 
+use std::sync::Arc;
+
 use fearless_simd::Level;
 
 use super::blocks::{Blocks, Tables, Windows};
@@ -59,8 +61,8 @@ pub(super) fn solve(
 }
 
 /// Tables for the blocks of a model, unless it must go the plain way.
-pub(super) fn tables(model: &Model, dt_s: f64) -> Option<Tables> {
-    fn of<V: PerStorey>(model: &Model, dt_s: f64) -> Option<Tables> {
+pub(super) fn tables(model: &Model, dt_s: f64) -> Option<Arc<Tables>> {
+    fn of<V: PerStorey>(model: &Model, dt_s: f64) -> Option<Arc<Tables>> {
         let system = system_of::<V>(model);
         Tables::new(&system, &Extremes::new(model, &system), dt_s)
     }
@@ -92,7 +94,7 @@ fn solve_for<V: PerStorey>(
     };
     let blocks = match way {
         Way::Blocks { windows, tables, level } if steady => {
-            tables.or(own.as_ref()).map(|tables| Blocks { tables, windows, level })
+            tables.or(own.as_deref()).map(|tables| Blocks { tables, windows, level })
         }
         _ => None,
     };
@@ -162,6 +164,8 @@ pub(super) struct Sliding {
     pub(super) peak_time_s: f64,
     pub(super) path_m: f64,
     pub(super) time_s: f64,
+    /// Least margin of the decisions at stops so far; infinite where there was none.
+    pub(super) closest_stop: f64,
     phase_start: [f64; 2],
 }
 
@@ -173,7 +177,17 @@ impl Sliding {
             peak_time_s: 0.0,
             path_m: 0.0,
             time_s: 0.0,
+            closest_stop: f64::INFINITY,
             phase_start: [0.0, s],
+        }
+    }
+
+    /// A stop is decided: friction is asked for `demand`, its static bounds are `low` and `high`.
+    /// Without a bound there is nothing to decide.
+    pub(super) fn decide(&mut self, demand: f64, [low, high]: [f64; 2]) {
+        let bound = if demand < 0.0 { -low } else { high };
+        if bound > 0.0 {
+            self.closest_stop = self.closest_stop.min((1.0 - demand.abs() / bound).abs());
         }
     }
 

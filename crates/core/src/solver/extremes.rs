@@ -148,6 +148,20 @@ impl<V: PerStorey> Extremes<V> {
         extremes
     }
 
+    /// Of a system on the level, without an overturning moment, before anything has happened.
+    #[cfg(test)]
+    pub(super) fn untold(system: &System<V>) -> Self {
+        let n = system.storeys();
+        Self {
+            arm: None,
+            stick_norm: V::tracked(n, 0.0),
+            slip_norm: V::tracked(n, 0.0),
+            slope: 0.0,
+            peak: V::tracked(n, 0.0),
+            pieces: Vec::new(),
+        }
+    }
+
     /// `g sin θ` in m/s².
     pub(super) fn slope(&self) -> f64 {
         self.slope

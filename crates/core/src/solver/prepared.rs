@@ -49,7 +49,7 @@ impl<'a> PreparedModel<'a> {
     #[must_use]
     pub fn new(model: &'a Model, motion: &PreparedMotion<'_>) -> Self {
         let dt_s = motion.windows.dt_s;
-        let tables = dt_s.and_then(|dt_s| exact::tables(model, dt_s)).map(Arc::new);
+        let tables = dt_s.and_then(|dt_s| exact::tables(model, dt_s));
         Self { model, dt_s, tables }
     }
 
@@ -60,7 +60,7 @@ impl<'a> PreparedModel<'a> {
         let tables = if same {
             self.tables.clone()
         } else {
-            self.dt_s.and_then(|dt_s| exact::tables(model, dt_s)).map(Arc::new)
+            self.dt_s.and_then(|dt_s| exact::tables(model, dt_s))
         };
         PreparedModel { model, dt_s: self.dt_s, tables }
     }
@@ -83,15 +83,63 @@ pub fn demands(
     model: &PreparedModel<'_>,
     motion: &PreparedMotion<'_>,
 ) -> Result<Response, SolveError> {
-    solve(model, motion, false)
+    demands_by(InstructionSet::best(), model, motion)
+}
+
+/// [`demands`] by a given instruction set: the bits are the same by all.
+///
+/// # Errors
+/// [`SolveError`] with time and cause.
+pub fn demands_by(
+    instructions: InstructionSet,
+    model: &PreparedModel<'_>,
+    motion: &PreparedMotion<'_>,
+) -> Result<Response, SolveError> {
+    solve(instructions, model, motion, false)
 }
 
 pub(super) fn solve(
+    instructions: InstructionSet,
     model: &PreparedModel<'_>,
     motion: &PreparedMotion<'_>,
     with_history: bool,
 ) -> Result<Response, SolveError> {
     let tables = model.tables.as_deref().filter(|_| model.dt_s == motion.windows.dt_s);
-    let way = Way::Blocks { windows: &motion.windows, tables, level: Level::new() };
+    let way = Way::Blocks { windows: &motion.windows, tables, level: instructions.0 };
     exact::solve(model.model, motion.motion, with_history, way)
+}
+
+/// Vector instructions of the processor, as found when the program runs.
+#[derive(Clone, Copy, Debug)]
+pub struct InstructionSet(Level);
+
+impl InstructionSet {
+    /// The best of this machine.
+    #[must_use]
+    pub fn best() -> Self {
+        Self(Level::new())
+    }
+
+    /// All of this machine that a response can be computed by; with the feature `scalar` also no
+    /// vector instructions at all.
+    #[must_use]
+    pub fn all() -> Vec<Self> {
+        let best = Level::new();
+        let mut all = vec![best];
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        {
+            all = [
+                best.as_avx512().map(Level::Avx512),
+                best.as_avx2().map(Level::Avx2),
+                best.as_sse4_2().map(Level::Sse4_2),
+                best.as_sse2().map(Level::Sse2),
+            ]
+            .into_iter()
+            .flatten()
+            .collect();
+        }
+        #[cfg(feature = "scalar")]
+        all.push(Level::fallback());
+        all.into_iter().map(Self).collect()
+    }
 }

@@ -49,6 +49,7 @@ pub(super) fn demands(model: &Model, outcome: &Outcome) -> Demands {
         base_shear_coefficient: peak_base_shear_n / weight_n,
         friction_coefficient_used: peak(tracked::FRICTION) / weight_n,
         slider_force_coefficient: peak(tracked::SLIDER) / weight_n,
+        closest_stop: Some(sliding.closest_stop).filter(|margin| margin.is_finite()),
         gap_ratio: model.slider().gap_m.map(|gap_m| peak_sliding_displacement_m / gap_m),
         overturning_ratio: model
             .block()

@@ -60,7 +60,7 @@ const OF_STOREY: [Entry<StoreyDemands>; 4] = [
     ("peak_drift_ratio", "", Number, |d| d.peak_drift_ratio),
 ];
 
-const AFTER_STOREYS: [Entry<Demands>; 8] = [
+const AFTER_STOREYS: [Entry<Demands>; 9] = [
     ("peak_base_shear_n", "N", Number, |d| Some(d.peak_base_shear_n)),
     ("peak_friction_force_n", "N", Number, |d| Some(d.peak_friction_force_n)),
     ("peak_slider_force_n", "N", Number, |d| Some(d.peak_slider_force_n)),
@@ -69,6 +69,7 @@ const AFTER_STOREYS: [Entry<Demands>; 8] = [
     ("slider_force_coefficient", "", Number, |d| Some(d.slider_force_coefficient)),
     ("gap_ratio", "", Number, |d| d.gap_ratio),
     ("overturning_ratio", "", Number, |d| d.overturning_ratio),
+    ("closest_stop", "", Number, |d| d.closest_stop),
 ];
 
 /// The demands of a structure of so many storeys, named as in the summary of a run; what that has

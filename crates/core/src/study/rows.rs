@@ -8,7 +8,10 @@ use crate::input::MotionSource;
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{IntensityMeasures, Measure};
 use crate::response::Response;
-use crate::solver;
+use crate::solver::{self, PreparedModel, PreparedMotion};
+
+/// Most samples of scaled copies of a record that are held at a time.
+const SAMPLES_AT_ONCE: usize = 4_000_000;
 
 /// One run of a study.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +41,17 @@ pub struct Row {
 struct Prepared {
     motion: GroundMotion,
     measures: Arc<[f64]>,
+}
+
+/// The same with what the solver needs to know of it.
+struct Ready<'a> {
+    motion: PreparedMotion<'a>,
+    measures: Arc<[f64]>,
+}
+
+fn ready(prepared: &Result<Prepared, String>) -> Result<Ready<'_>, String> {
+    let Prepared { motion, measures } = prepared.as_ref().map_err(Clone::clone)?;
+    Ok(Ready { motion: PreparedMotion::new(motion), measures: measures.clone() })
 }
 
 /// What a prepared motion was made from: it serves for all samples that agree on it.
@@ -72,49 +86,89 @@ impl Study {
     #[must_use]
     pub fn rows(&self, runs: Range<u64>, done: &(dyn Fn(u64) + Sync)) -> Vec<Row> {
         let samples = self.cases.samples;
-        let groups: Vec<Range<u64>> = {
+        let mut blocks: Vec<Vec<Range<u64>>> = Vec::new();
+        let mut at = runs.start;
+        while at < runs.end {
             // All runs of one record at one level stand together.
-            let first = runs.start / samples;
-            let last = runs.end.div_ceil(samples);
-            let range = |group: u64| {
-                (group * samples).max(runs.start)..((group + 1) * samples).min(runs.end)
-            };
-            (first..last).map(range).filter(|range| !range.is_empty()).collect()
-        };
-        parallel::map(&groups, |group| self.group(group.clone(), done))
-            .into_iter()
-            .flatten()
-            .collect()
+            let end = ((at / samples + 1) * samples).min(runs.end);
+            let record = self.cases.case(at).record;
+            match blocks.last_mut() {
+                Some(block)
+                    if self.cases.case(block[0].start).record == record
+                        && block.len() < self.levels_at_once(record) =>
+                {
+                    block.push(at..end);
+                }
+                _ => blocks.push(core::iter::once(at..end).collect()),
+            }
+            at = end;
+        }
+        parallel::map(&blocks, |block| self.block(block, done)).into_iter().flatten().collect()
     }
 
-    /// Runs of one record at one level.
-    fn group(&self, runs: Range<u64>, done: &(dyn Fn(u64) + Sync)) -> Vec<Row> {
-        let first = self.cases.case(runs.start);
-        let samples = self.samples(first.sample..first.sample + (runs.end - runs.start));
-        let scale = self.factor(first);
-        let scaled = self.records.get(first.record as usize).map(|record| {
-            let motion = record.motion.scaled(scale).map_err(|error| error.to_string())?;
-            let measures = self.measures_of(first.record, scale, &motion);
-            Ok(Prepared { motion, measures })
-        });
-        let chunks: Vec<_> = chunks(0..samples.len() as u64).collect();
-        let of_chunk = |chunk: &Range<u64>| -> Vec<Row> {
-            let samples = &samples[chunk.start as usize..chunk.end as usize];
-            let first = Case { sample: first.sample + chunk.start, ..first };
-            let rows = self.chunk(first, scale, samples, scaled.as_ref());
-            done(chunk.end - chunk.start);
+    /// How many scaled copies of a record are held at a time.
+    fn levels_at_once(&self, record: u64) -> usize {
+        let length = self.records.get(record as usize).map_or(1, |record| record.motion.len());
+        (SAMPLES_AT_ONCE / length).max(1)
+    }
+
+    /// Runs of one record at some levels, each a range: a model is prepared once for all of them.
+    fn block(&self, levels: &[Range<u64>], done: &(dyn Fn(u64) + Sync)) -> Vec<Row> {
+        let cases: Vec<Case> = levels.iter().map(|runs| self.cases.case(runs.start)).collect();
+        let scaled: Vec<Option<Result<Prepared, String>>> =
+            parallel::map(&cases, |case| self.scaled(case));
+        let ready: Vec<_> = scaled.iter().map(|scaled| scaled.as_ref().map(ready)).collect();
+        let sample = |run: u64| run % self.cases.samples;
+        let first = levels.iter().map(|runs| sample(runs.start)).min().unwrap_or(0);
+        let last = levels.iter().map(|runs| sample(runs.end - 1)).max().unwrap_or(0);
+        let samples = self.samples(first..last + 1);
+        let chunks: Vec<_> = chunks(first..last + 1).collect();
+        let of_chunk = |chunk: &Range<u64>| -> Vec<Vec<Row>> {
+            let own = |index: u64| (index - first) as usize;
+            let samples = &samples[own(chunk.start)..own(chunk.end)];
+            let mut models: Vec<Option<PreparedModel<'_>>> = samples.iter().map(|_| None).collect();
+            let of_level = |(runs, ready): (&Range<u64>, _)| {
+                let start = sample(runs.start).max(chunk.start);
+                let end = (sample(runs.end - 1) + 1).min(chunk.end);
+                if start >= end {
+                    return Vec::new();
+                }
+                let case = Case { sample: start, ..self.cases.case(runs.start) };
+                let these = (start - chunk.start) as usize..(end - chunk.start) as usize;
+                let (samples, models) = (&samples[these.clone()], &mut models[these]);
+                self.chunk(case, samples, models, Option::as_ref(ready))
+            };
+            let rows: Vec<Vec<Row>> = levels.iter().zip(&ready).map(of_level).collect();
+            done(rows.iter().map(|rows| rows.len() as u64).sum());
             rows
         };
-        parallel::map(&chunks, of_chunk).into_iter().flatten().collect()
+        let mut of_levels: Vec<Vec<Row>> = levels.iter().map(|_| Vec::new()).collect();
+        for of_chunk in parallel::map(&chunks, of_chunk) {
+            for (rows, more) in of_levels.iter_mut().zip(of_chunk) {
+                rows.extend(more);
+            }
+        }
+        of_levels.into_iter().flatten().collect()
     }
 
-    /// Runs of neighbouring samples; those that move the table alike share one motion.
-    fn chunk(
+    /// The record of a case at its level; `None` where the model makes its own motion.
+    fn scaled(&self, case: &Case) -> Option<Result<Prepared, String>> {
+        let record = self.records.get(case.record as usize)?;
+        let scale = self.factor(*case);
+        let motion = record.motion.scaled(scale).map_err(|error| error.to_string());
+        Some(motion.map(|motion| {
+            let measures = self.measures_of(case.record, scale, &motion);
+            Prepared { motion, measures }
+        }))
+    }
+
+    /// Runs of neighbouring samples at one level; those that move the table alike share one motion.
+    fn chunk<'s>(
         &self,
         first: Case,
-        scale: f64,
-        samples: &[Sample],
-        scaled: Option<&Result<Prepared, String>>,
+        samples: &'s [Sample],
+        models: &mut [Option<PreparedModel<'s>>],
+        scaled: Option<&Result<Ready<'_>, String>>,
     ) -> Vec<Row> {
         let made = |sample: &Sample| {
             let parts = sample.parts.as_ref().ok()?;
@@ -123,45 +177,46 @@ impl Study {
         };
         let none = Err("the model makes no motion".to_owned());
         let mut rows = Vec::with_capacity(samples.len());
-        let mut rest = samples;
-        while let Some(sample) = rest.first() {
+        while let Some(sample) = samples.get(rows.len()) {
             let alike = made(sample);
-            let count = rest.iter().take_while(|other| made(other) == alike).count();
             let own;
-            let prepared = match (scaled, &alike) {
+            let own_ready;
+            let motion = match (scaled, &alike) {
                 (Some(scaled), None | Some(Made { tail_s: 0.0, .. })) => scaled,
                 (None, None) => &none,
                 (_, Some(made)) => {
                     own = self.with_tail(made, scaled);
-                    &own
+                    own_ready = ready(&own);
+                    &own_ready
                 }
             };
-            let (these, others) = rest.split_at(count);
-            for sample in these {
+            let start = rows.len();
+            let rest = samples[start..].iter().zip(&mut models[start..]);
+            for (sample, model) in rest.take_while(|(sample, _)| made(sample) == alike) {
                 let case = Case { sample: first.sample + rows.len() as u64, ..first };
-                rows.push(self.run(case, scale, sample, prepared));
+                rows.push(self.run(case, sample, model, motion));
             }
-            rest = others;
         }
         rows
     }
 
-    fn run(
+    fn run<'s>(
         &self,
         case: Case,
-        scale: f64,
-        sample: &Sample,
-        prepared: &Result<Prepared, String>,
+        sample: &'s Sample,
+        model: &mut Option<PreparedModel<'s>>,
+        motion: &Result<Ready<'_>, String>,
     ) -> Row {
-        let measures = match prepared {
-            Ok(prepared) => prepared.measures.clone(),
+        let measures = match motion {
+            Ok(ready) => ready.measures.clone(),
             Err(_) => vec![f64::NAN; self.measures.len()].into(),
         };
         let (run, values) = (self.cases.run(case), sample.values.clone());
+        let scale = self.factor(case);
         let outcome = sample.parts.as_ref().map_err(Clone::clone).and_then(|parts| {
-            let prepared = prepared.as_ref().map_err(Clone::clone)?;
-            let response = solver::exact_demands(&parts.model, &prepared.motion);
-            response.map_err(|error| error.to_string())
+            let motion = &motion.as_ref().map_err(Clone::clone)?.motion;
+            let model = model.get_or_insert_with(|| PreparedModel::new(&parts.model, motion));
+            solver::demands(model, motion).map_err(|error| error.to_string())
         });
         let (demands, warnings, error) = match outcome {
             Ok(response) => {
@@ -179,10 +234,13 @@ impl Study {
     fn with_tail(
         &self,
         made: &Made,
-        scaled: Option<&Result<Prepared, String>>,
+        scaled: Option<&Result<Ready<'_>, String>>,
     ) -> Result<Prepared, String> {
         let bare = match (scaled, &made.source) {
-            (Some(scaled), _) => scaled.clone()?,
+            (Some(scaled), _) => {
+                let Ready { motion, measures } = scaled.as_ref().map_err(Clone::clone)?;
+                Prepared { motion: motion.motion().clone(), measures: measures.clone() }
+            }
             (None, source) => {
                 let motion = source.as_ref().and_then(super::made);
                 let motion = motion.ok_or("the model makes no motion")?;
@@ -232,4 +290,101 @@ pub(super) fn warnings(of_record: &[&'static str], response: &Response) -> Vec<&
         }
     }
     kinds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::friction::{Coulomb, Friction};
+    use crate::input::plan::Plan;
+    use crate::model::Model;
+    use crate::study::Record;
+
+    /// A block that slides under 0.4 g for half a second and stops under −0.1 g: friction of 0.2 is
+    /// asked for half of what it has.
+    #[test]
+    fn exact_closest_stop_is_the_share_that_is_left() {
+        let g = crate::units::STANDARD_GRAVITY_M_PER_S2;
+        let friction = Friction::Coulomb(Coulomb::new([0.2; 2], [0.2; 2]).unwrap());
+        let model = Model::rigid_block(10.0, friction).unwrap();
+        let values = [0.4, 0.4, -0.1, -0.1].map(|a| a * g).to_vec();
+        let motion = GroundMotion::new(vec![0.0, 0.5, 0.5, 4.0], values, None).unwrap();
+        let demands = solver::exact_demands(&model, &motion).unwrap().demands;
+        assert_eq!(demands.stick_count, 1);
+        assert!((demands.closest_stop.unwrap() - 0.5).abs() < 1e-13, "{demands:?}");
+        let still = motion.scaled(0.25).unwrap();
+        assert_eq!(solver::exact_demands(&model, &still).unwrap().demands.closest_stop, None);
+    }
+
+    const MODEL: &str = "[block]\nmass = \"10 t\"\n[slider]\nstatic_friction = 0.2\n\
+                         kinetic_friction = 0.1\n[[storey]]\nmass = \"5 t\"\nperiod = \"0.5 s\"\n\
+                         damping_ratio = 0.05\n";
+
+    fn study(vary: &str, count: u64) -> Study {
+        let text = format!(
+            "model = \"m.toml\"\n[records]\nfiles = \"*.txt\"\nmeasure = \"PGA\"\n\
+             levels = [\"0.2 g\", \"0.5 g\", \"1 g\"]\n[vary]\n{vary}\n[sampling]\n\
+             method = \"sobol\"\ncount = {count}\nseed = 9\n"
+        );
+        let plan = Plan::parse("p.toml", &text).unwrap();
+        let record = |name: &str, phase: f64, dt_s: f64| {
+            let wave = |i: u32| {
+                let t = f64::from(i) * dt_s;
+                libm::sin(7.0 * t + phase) * libm::sin(23.0 * t) * libm::exp(-0.2 * t)
+            };
+            let motion = GroundMotion::evenly_spaced(dt_s, (0..600).map(wave).collect(), None);
+            Record {
+                name: name.to_owned(),
+                channel: String::new(),
+                motion: motion.unwrap(),
+                warnings: vec![],
+            }
+        };
+        let records = vec![record("a", 0.0, 0.01), record("b", 1.0, 0.02)];
+        Study::new(&plan, "m.toml", MODEL, records).unwrap()
+    }
+
+    /// Any range of runs gives the rows that the whole study has there, and each row is that of the
+    /// run alone, from the model's text and with its history.
+    #[test]
+    fn exact_rows_do_not_depend_on_their_neighbours() {
+        let vary = "slider.kinetic_friction = { uniform = [0.02, 0.21] }\n\
+                    slider.radius = { uniform = [\"1 m\", \"4 m\"] }";
+        let with_tail = format!("{vary}\nanalysis.tail = {{ values = [\"0 s\", \"1.003 s\"] }}");
+        for vary in [vary, &with_tail] {
+            let study = study(vary, 70);
+            assert_eq!(study.runs(), 420);
+            let whole = study.rows(0..420, &|_| {});
+            let bits = |rows: &[Row]| -> Vec<String> {
+                rows.iter().map(|row| format!("{row:?}")).collect()
+            };
+            for range in [0..1, 5..140, 69..71, 200..420, 139..141, 419..420] {
+                let part = study.rows(range.clone(), &|_| {});
+                let these = &whole[range.start as usize..range.end as usize];
+                assert_eq!(bits(&part), bits(these), "{range:?}");
+            }
+            let failed = whole.iter().filter(|row| row.error.is_some()).count();
+            assert!(0 < failed && failed < 60, "{failed}");
+            for (run, row) in whole.iter().enumerate() {
+                assert_eq!(row.run, run as u64);
+                let verdict = study.verify(row);
+                assert!(verdict.holds(), "{verdict:?} {row:?}");
+            }
+            let slid = whole.iter().find(|row| row.demands[0] > 0.0);
+            let mut forged = slid.expect("a block that slides").clone();
+            forged.demands[0] *= 1.0 + f64::EPSILON;
+            assert!(!study.verify(&forged).holds());
+        }
+    }
+
+    /// Models of more samples than are kept are made anew, and are the same.
+    #[test]
+    fn exact_many_samples_are_as_few() {
+        let vary = "slider.kinetic_friction = { uniform = [0.02, 0.19] }";
+        let study = study(vary, 20_000);
+        let rows = study.rows(19_990..20_003, &|_| {});
+        assert_eq!(rows.len(), 13);
+        assert_eq!(rows[12].case, Case { record: 0, level: 1, sample: 2 });
+        assert!(rows.iter().all(|row| study.verify(row).holds()));
+    }
 }

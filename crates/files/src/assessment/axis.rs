@@ -108,15 +108,19 @@ impl Grid {
 /// # Errors
 /// [`AssessmentError::Option`] which names the option.
 pub fn levels(option: &str, text: &str, measure: &Measure) -> Result<Vec<f64>, AssessmentError> {
+    let unscalable = || {
+        let expected = "a measure that grows as the motion does, such as PGA or Sa(1.2 s)";
+        refuse("--measure", expected, measure.to_string())
+    };
+    if !measure.scales() {
+        return Err(unscalable());
+    }
     // A path of the model that takes what the measure takes.
     let like = match measure.unit() {
         "m/s2" => "motion.sine.amplitude",
         "m/s" => "initial.sliding_velocity",
         "m" => "block.width",
-        _ => {
-            let expected = "a measure that grows as the motion does, such as PGA or Sa(1.2 s)";
-            return Err(refuse("--measure", expected, measure.to_string()));
-        }
+        _ => return Err(unscalable()),
     };
     let grid = Grid::parse(&[(option, format!("{like}={text}"))]).map_err(|error| match error {
         AssessmentError::Option { expected, found, nearest, .. } => {

@@ -28,6 +28,7 @@ pub struct ChannelFourier {
 
 /// Name of a column and the ordinate in it.
 type Column = (&'static str, fn(&Ordinates) -> f64);
+
 const COLUMNS: [Column; 5] = [
     ("sd_m", |o| o.sd_m),
     ("sv_m_per_s", |o| o.sv_m_per_s),

@@ -79,7 +79,7 @@ pub(super) fn strokes(test: &CyclicTest) -> Result<(Vec<Stroke>, usize), CyclicE
 }
 
 /// Standard deviation of the noise of a smooth history: from the median of its third differences.
-fn noise(values: &[f64]) -> f64 {
+pub(super) fn noise(values: &[f64]) -> f64 {
     let mut thirds: Vec<f64> =
         values.windows(4).map(|v| (v[3] - 3.0 * v[2] + 3.0 * v[1] - v[0]).abs()).collect();
     thirds.sort_by(f64::total_cmp);
@@ -139,6 +139,16 @@ impl Stroke {
     /// How far it has come at a sample, in m.
     fn travel_m(&self, test: &CyclicTest, sample: usize) -> f64 {
         self.sign * (test.displacement_m[sample] - test.displacement_m[self.first])
+    }
+
+    /// When it passes the middle of its travel, in s, by the straight line between two samples.
+    pub fn middle_s(&self, test: &CyclicTest) -> f64 {
+        let half_m = 0.5 * self.length_m(test);
+        let beyond = (self.first + 1..self.last).find(|i| self.travel_m(test, *i) >= half_m);
+        let i = beyond.unwrap_or(self.last);
+        let (a, b) = (self.travel_m(test, i - 1), self.travel_m(test, i));
+        let part = if b > a { ((half_m - a) / (b - a)).clamp(0.0, 1.0) } else { 1.0 };
+        test.times_s[i - 1] + part * (test.times_s[i] - test.times_s[i - 1])
     }
 
     /// The first sample beyond some travel, and clear of what the smoothing mixes.

@@ -98,7 +98,7 @@ impl Parameter {
             |path: &str| all.iter().any(|text| text.split('=').next().unwrap_or("").trim() == path);
         let other = |from: &str, to: &str| {
             let path = self.path.replace(from, to);
-            if path == self.path || of(&path) { None } else { analysis.value(&path) }
+            if path == self.path || of(&path) { None } else { written(analysis, &path) }
         };
         if let Some(limit) = other("kinetic_friction", "static_friction").filter(|l| *l > self.low)
             && limit <= self.high
@@ -125,6 +125,14 @@ fn end(text: &str, dimension: Option<Dimension>) -> Result<f64, String> {
             number.ok_or_else(|| "a number".to_owned())
         }
     }
+}
+
+/// The value at a path; friction for both ways stands also for each of them, and that towards +x
+/// for both.
+fn written(analysis: &Analysis, path: &str) -> Option<f64> {
+    let parent = path.strip_suffix(".positive").or(path.strip_suffix(".negative"));
+    let one_way = || analysis.value(&format!("{path}.positive"));
+    analysis.value(path).or_else(|| analysis.value(parent?)).or_else(one_way)
 }
 
 /// The range of a key that was given none.

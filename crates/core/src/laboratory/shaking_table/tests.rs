@@ -199,6 +199,12 @@ fn exact_ranges() {
         let message = range(text).unwrap_err();
         assert!(message.contains(part), "{message}");
     }
+    // Friction by direction has a value for both.
+    let by_way = BLOCK.replace("0.12", "{ positive = 0.13, negative = 0.12 }");
+    let analysis_by_way = parse("m.toml", &by_way, &[]).unwrap();
+    let names = ["slider.static_friction"];
+    let both_ways = Parameter::parse(names[0], &analysis_by_way, &names).unwrap();
+    assert_eq!([both_ways.low, both_ways.high], [0.1, 5.0 * 0.13]);
     // Static friction below the kinetic one counts as equal to it.
     let both = ["slider.static_friction", "slider.kinetic_friction"]
         .map(|text| Parameter::parse(text, &analysis, &STATIC_KINETIC).unwrap());

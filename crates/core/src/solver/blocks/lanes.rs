@@ -81,3 +81,9 @@ pub(super) fn combine8<S: Simd>(simd: S, c: &[Eight; 4], x: [f64; 4]) -> f64x8<S
 pub(super) fn larger<S: Simd>(a: f64x8<S>, b: f64x8<S>) -> f64x8<S> {
     b.simd_gt(a).select(b, a)
 }
+
+/// The larger lane by lane; the first where they cannot be compared.
+#[inline(always)]
+pub(super) fn larger4<S: Simd>(a: f64x4<S>, b: f64x4<S>) -> f64x4<S> {
+    b.simd_gt(a).select(b, a)
+}

@@ -3,65 +3,83 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
-use super::lanes::{BLOCK, Eight, combine4, eight, four, times4, times8};
+use super::lanes::{BLOCK, Eight, combine4, eight, four, larger4, times4, times8};
 use super::peaks::Block;
-use super::tables::QUIET;
+use super::tables::{ACCELERATION, DISPLACEMENT, QUIET};
 use super::walk::Walk;
 use crate::friction::Direction;
 use crate::solver::extremes::tracked;
 
-/// All samples of a block.
-const ALL: u64 = (1 << BLOCK) - 1;
-
 /// A chord over a sample is off by this part of what one over a block is.
 const PER_SAMPLE: f64 = 1.0 / (BLOCK * BLOCK) as f64;
+
+/// Tracked quantities that follow from each gate.
+const BEHIND: [u64; 4] = [
+    1 << tracked::VELOCITY,
+    1 << DISPLACEMENT,
+    1 << tracked::BASE_SHEAR | 1 << ACCELERATION,
+    1 << tracked::BLOCK,
+];
+
+/// All of them.
+const BEHIND_ANY: u64 = BEHIND[0] | BEHIND[1] | BEHIND[2] | BEHIND[3];
 
 impl<S: Simd> Walk<'_, S> {
     /// Takes samples of sliding; the first that the bounds do not vouch for.
     #[inline(always)]
     pub(super) fn slide(&mut self, mut sample: usize, end: usize, direction: Direction) -> usize {
         let (simd, tables) = (self.simd, self.tables);
-        let bend = &tables.slip.bend;
+        let bend = &tables.slip.gates.bend;
         let (sign, force) = (direction.sign(), self.force(direction));
-        let by_force = times8(simd, &bend.of_force, force.abs());
+        let by_force = times4(simd, &bend.of_force, force.abs());
         let mut x = self.state();
-        let mut view = self.view::<true>(self.carry.x, 0.0, force);
+        let mut view = self.gates::<true>(x, force);
         while sample + BLOCK <= end {
             let a = self.block_at(sample);
             let window = self.windows.at(sample);
             let start = x.to_array();
             let norm = tables.plant.norm(&start);
             let size = window.block + self.ground.slope_size;
-            let slack = (times8(simd, &bend.of_norm, norm)
-                + times8(simd, &bend.of_acceleration, size))
-                + (times8(simd, &bend.of_rate, window.rate) + by_force);
+            let slack = (times4(simd, &bend.of_norm, norm)
+                + times4(simd, &bend.of_acceleration, size))
+                + (times4(simd, &bend.of_rate, window.rate) + by_force);
             let next = self.end::<true>(BLOCK, x, a, force);
-            let ahead = next.to_array();
-            let next_view = self.view::<true>(ahead, 0.0, force);
-            let within = self.peak - slack;
-            let quiet = view.abs().simd_le(within) & next_view.abs().simd_le(within);
-            let hidden = slack.as_array()[tracked::VELOCITY];
-            let slides = sign * start[1] > hidden && sign * ahead[1] > hidden;
-            if slides && quiet.all_true() {
+            let next_view = self.gates::<true>(next, force);
+            let quiet = self.inside(view, slack) & self.inside(next_view, slack);
+            let hidden = slack.as_array()[0];
+            let slides = sign * start[1] > hidden && sign * next.as_array()[1] > hidden;
+            let mut hits = 0;
+            if self.careful() {
+                let most = larger4(view.abs(), next_view.abs()) + slack;
+                let s = start[0].abs().max(next.as_array()[0].abs());
+                hits = self.beside(most.to_array(), s, force);
+            }
+            if slides && quiet.all_true() && hits == 0 {
                 self.record::<true>(sample, BLOCK, x, force);
                 (x, view) = (next, next_view);
                 sample += BLOCK;
                 continue;
             }
+            let open = !quiet.to_bitmask() & 0b1111;
             let mut steps = BLOCK;
+            let mut speed = eight(simd, 0.0);
+            if !slides || open & 1 != 0 {
+                speed = self.row::<true>(&tables.slip.rows[1], start, a, force);
+            }
             if !slides {
                 let hidden = PER_SAMPLE * hidden;
-                let w = self.row::<true>(&tables.slip.rows[1], start, a, force);
-                let clear = (eight(simd, sign) * w).simd_gt(eight(simd, hidden)).to_bitmask();
+                let clear = (eight(simd, sign) * speed).simd_gt(eight(simd, hidden)).to_bitmask();
                 steps = clear_steps(clear, sign * start[1] > hidden);
                 if steps == 0 {
                     break;
                 }
             }
-            let block = Block { sample, steps, direction: Some(direction), x: start };
-            let open = !quiet.to_bitmask() & ALL;
-            if open != 0 {
-                self.watch::<true>(&block, open, view, slack * eight(simd, PER_SAMPLE));
+            let slack = slack * four(simd, PER_SAMPLE);
+            hits |= self.hits_in_slip(start, a, force, [open, steps as u64], speed, slack);
+            hits |= BEHIND_ANY * u64::from(!self.inside(view, slack).all_true());
+            if hits != 0 {
+                let block = Block { sample, steps, direction: Some(direction), x: start };
+                self.watch::<true>(&block, hits, slack);
             }
             self.record::<true>(sample, steps, x, force);
             sample += steps;
@@ -75,16 +93,80 @@ impl<S: Simd> Walk<'_, S> {
         sample
     }
 
+    /// Tracked quantities behind no gate that may pass their peaks where the gates and `s` are at
+    /// most so large: the slider force `T − K1 s − C1 ṡ` and the overturning moment.
+    #[inline(always)]
+    fn beside(&self, most: [f64; 4], s: f64, force: f64) -> u64 {
+        let (plant, [arm, half]) = (&self.tables.plant, self.tables.arm);
+        let peak = self.peak.as_array();
+        let slider = force.abs() + plant.stiffness_n_per_m * s + plant.damper_n_s_per_m * most[0];
+        let moment = arm.abs() * most[2] + half.abs() * most[3];
+        u64::from(!(slider <= peak[tracked::SLIDER])) << tracked::SLIDER
+            | u64::from(!(moment <= peak[tracked::OVERTURNING])) << tracked::OVERTURNING
+    }
+
+    /// Tracked quantities behind the `open` gates that a sample of a block passes.
+    #[inline(always)]
+    fn hits_in_slip(
+        &self,
+        start: [f64; 4],
+        a: &[f64; BLOCK + 1],
+        force: f64,
+        [open, steps]: [u64; 2],
+        speed: f64x8<S>,
+        slack: f64x4<S>,
+    ) -> u64 {
+        let (simd, rows, plant) = (self.simd, &self.tables.slip.rows, &self.tables.plant);
+        let (low, high) = ((self.low + slack).to_array(), (self.high - slack).to_array());
+        let mut hits = 0;
+        if open & 0b0001 != 0 && self.outside(speed, low[0], high[0], steps) {
+            hits |= BEHIND[0];
+        }
+        if open & 0b0010 != 0 {
+            let eta = self.row::<true>(&rows[2], start, a, force);
+            if self.outside(eta, low[1], high[1], steps) {
+                hits |= BEHIND[1];
+            }
+        }
+        if open & 0b1100 != 0 {
+            let f = self.row::<true>(&rows[3], start, a, force);
+            if self.outside(f, low[2], high[2], steps) {
+                hits |= BEHIND[2];
+            }
+            let mut push = eight(simd, plant.participation) * f + eight(simd, force);
+            if plant.stiffness_n_per_m != 0.0 {
+                let s = self.row::<true>(&rows[0], start, a, force);
+                push -= eight(simd, plant.stiffness_n_per_m) * s;
+            }
+            if plant.damper_n_s_per_m != 0.0 {
+                let w = self.row::<true>(&rows[1], start, a, force);
+                push -= eight(simd, plant.damper_n_s_per_m) * w;
+            }
+            let u = push * eight(simd, plant.per_block_mass);
+            if self.outside(u, low[3], high[3], steps) {
+                hits |= BEHIND[3];
+            }
+        }
+        hits
+    }
+
+    /// Whether one of the first samples of a block is outside some limits.
+    #[inline(always)]
+    fn outside(&self, values: f64x8<S>, low: f64, high: f64, steps: u64) -> bool {
+        let simd = self.simd;
+        let inside = values.simd_ge(eight(simd, low)) & values.simd_le(eight(simd, high));
+        !inside.to_bitmask() & ((1 << steps) - 1) != 0
+    }
+
     /// Takes samples of stick; the first that the bounds do not vouch for.
     #[inline(always)]
     pub(super) fn hold(&mut self, mut sample: usize, end: usize) -> usize {
         let (simd, tables) = (self.simd, self.tables);
-        let (bend, quiet, plant) = (&tables.stick.bend, &tables.quiet, &tables.plant);
+        let (bend, quiet, plant) = (&tables.stick.gates.bend, &tables.quiet, &tables.plant);
         let [low, high] = self.ground.bounds;
         let mut holds = Eight([f64::INFINITY; 8]);
         holds.0[tracked::FRICTION] = high.min(-low);
         let holds = holds.load(simd);
-        let of_norm = quiet.of_norm.load(simd);
         let constant = times8(simd, &quiet.of_s, self.carry.x[0].abs()) + quiet.of_slope.load(simd);
         let mut x = self.state();
         let spring_n = plant.stiffness_n_per_m * self.carry.x[0];
@@ -93,14 +175,13 @@ impl<S: Simd> Walk<'_, S> {
             let start = x.to_array();
             let norm = plant.norm(&start);
             let size = window.block + self.ground.slope_size;
-            let base = of_norm * eight(simd, norm) + constant;
+            let base = times8(simd, &quiet.of_norm, norm) + constant;
             let reach = base + times8(simd, &quiet.of_acceleration[0], size);
             let within = reach.simd_le(self.peak);
             if (within & reach.simd_lt(holds)).all_true() {
-                let long = base
-                    + quiet.of_acceleration[1].load(simd)
-                        * eight(simd, window.quiet + self.ground.slope_size);
-                let all = long.simd_le(self.peak) & long.simd_lt(holds);
+                let far = window.quiet + self.ground.slope_size;
+                let reach = base + times8(simd, &quiet.of_acceleration[1], far);
+                let all = reach.simd_le(self.peak) & reach.simd_lt(holds);
                 if sample + QUIET <= end && all.all_true() {
                     let next = self.after_quiet(sample, x);
                     if self.records {
@@ -116,27 +197,54 @@ impl<S: Simd> Walk<'_, S> {
                 continue;
             }
             let a = self.block_at(sample);
-            let slack = (times8(simd, &bend.of_norm, norm)
-                + times8(simd, &bend.of_acceleration, size))
-                + times8(simd, &bend.of_rate, window.rate);
-            let hidden = slack.as_array()[tracked::FRICTION];
+            let slack = (times4(simd, &bend.of_norm, norm)
+                + times4(simd, &bend.of_acceleration, size))
+                + times4(simd, &bend.of_rate, window.rate);
+            let hidden = plant.participation * slack.as_array()[2];
             let f = self.row::<false>(&tables.stick.rows[3], start, a, 0.0);
             let table = f64x8::from_slice(simd, &a[1..]);
             let demand = (eight(simd, plant.block_mass_kg) * table + eight(simd, spring_n))
                 - eight(simd, plant.participation) * f;
             let clear = demand.simd_gt(eight(simd, low + hidden))
                 & demand.simd_lt(eight(simd, high - hidden));
-            let demand = plant.demand_n(&start, a[0]);
-            let first = demand > low + hidden && demand < high - hidden;
-            let steps = clear_steps(clear.to_bitmask(), first);
+            let first = plant.demand_n(&start, a[0]);
+            let holds_first = first > low + hidden && first < high - hidden;
+            let steps = clear_steps(clear.to_bitmask(), holds_first);
             if steps == 0 {
                 break;
             }
-            let open = !within.to_bitmask() & ALL;
+            let open = !within.to_bitmask() & 0xff;
             if open != 0 {
-                let block = Block { sample, steps, direction: None, x: start };
-                let view = self.view::<false>(start, a[0], 0.0);
-                self.watch::<false>(&block, open, view, slack);
+                let view = self.gates::<false>(x, a[0]);
+                let n = steps as u64;
+                let (low, high) = ((self.low + slack).to_array(), (self.high - slack).to_array());
+                let mut hits = open & (1 << tracked::OVERTURNING);
+                hits |= BEHIND_ANY * u64::from(!self.inside(view, slack).all_true());
+                if open & BEHIND[2] != 0 && self.outside(f, low[2], high[2], n) {
+                    hits |= BEHIND[2];
+                }
+                if open & BEHIND[3] != 0 && self.outside(table, low[3], high[3], n) {
+                    hits |= BEHIND[3];
+                }
+                if open & BEHIND[1] != 0 {
+                    let eta = self.row::<false>(&tables.stick.rows[2], start, a, 0.0);
+                    if self.outside(eta, low[1], high[1], n) {
+                        hits |= BEHIND[1];
+                    }
+                }
+                let most = self.most_friction - hidden;
+                if first.abs() > most || self.outside(demand, -most, most, n) {
+                    hits |= 1 << tracked::FRICTION;
+                }
+                let most = self.most_slider - hidden;
+                let slider = demand - eight(simd, spring_n);
+                if (first - spring_n).abs() > most || self.outside(slider, -most, most, n) {
+                    hits |= 1 << tracked::SLIDER;
+                }
+                if hits != 0 {
+                    let block = Block { sample, steps, direction: None, x: start };
+                    self.watch::<false>(&block, hits, slack);
+                }
             }
             self.record::<false>(sample, steps, x, 0.0);
             sample += steps;
@@ -169,7 +277,7 @@ impl<S: Simd> Walk<'_, S> {
         for m in (0..QUIET).step_by(4) {
             for i in 0..4 {
                 let tap = quiet.tap[QUIET - 1 - m - i].load(simd);
-                sums[i] = sums[i] + tap * four(simd, a[1 + m + i]);
+                sums[i] += tap * four(simd, a[1 + m + i]);
             }
         }
         let load = (sums[0] + sums[1]) + (sums[2] + sums[3]);

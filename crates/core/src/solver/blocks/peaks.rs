@@ -3,15 +3,16 @@
 //! As in [`extremes`](crate::solver::extremes), but a block is kept as a whole, and a second look
 //! takes the samples of it that may hold more.
 
-use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
+use fearless_simd::{f64x4, f64x8};
 
-use super::lanes::{BLOCK, Eight, combine8, eight, larger};
+use super::lanes::{BLOCK, Eight, Four, combine4, combine8, eight, four, larger};
 use super::step::{Segment, Series};
 use super::walk::Walk;
 use crate::friction::Direction;
 use crate::linear::polynomial::{DEGREE, largest};
 use crate::response::Mode;
+use crate::solver::extremes::tracked;
 
 /// Most places in question that are kept before they are looked at.
 const ROOM: usize = 16;
@@ -53,15 +54,14 @@ struct Candidate {
 pub(super) struct Candidates(Vec<Candidate>);
 
 impl<S: Simd> Walk<'_, S> {
-    /// Looks for peaks in whole samples, among the quantities whose bits are set in `open`: `view`
-    /// are the values at the start, `slack` is what a chord over a sample hides of them.
+    /// Looks for peaks in whole samples, among the quantities whose bits are set in `open`; a chord
+    /// over a sample hides `slack` of the gates.
     #[inline(never)]
     pub(super) fn watch<const SLIP: bool>(
         &mut self,
         block: &Block,
         mut open: u64,
-        view: f64x8<S>,
-        slack: f64x8<S>,
+        slack: f64x4<S>,
     ) {
         let simd = self.simd;
         simd.vectorize(
@@ -86,8 +86,8 @@ impl<S: Simd> Walk<'_, S> {
                     ]
                 };
                 let table = f64x8::from_slice(simd, &a[1..]);
-                let first = view.abs().to_array();
-                let slack = slack.to_array();
+                let first = self.view::<SLIP>(block.x, a[0], force).abs().to_array();
+                let slack = combine8(simd, &phase.view.of_gates, slack.to_array()).to_array();
                 let mut peak = self.peak.to_array();
                 let mut above = [0.0; 8];
                 let steps = (1_u64 << block.steps) - 1;
@@ -117,6 +117,7 @@ impl<S: Simd> Walk<'_, S> {
                     above[j] = attained + slack[j];
                 }
                 self.peak = f64x8::load_array(simd, peak);
+                self.set_gates();
                 let above = Eight(above);
                 if above.load(simd).simd_gt(self.peak).any_true() {
                     self.keep(Candidate { place: Place::Block(*block, Eight(slack)), above });
@@ -133,20 +134,54 @@ impl<S: Simd> Walk<'_, S> {
         series: &Series<S>,
         end: [f64; 4],
         t: f64,
-        force: f64,
+        friction: [f64; 2],
     ) {
         let simd = self.simd;
         let a = part.segment.a;
-        let first = self.view::<SLIP>(part.x, a, force);
-        let last = self.view::<SLIP>(end, a + part.segment.change * t, force);
-        let bend = series.bend.to_array();
-        let sizes = &self.phase::<SLIP>().view.sizes;
-        let slack = combine8(simd, sizes, bend) * eight(simd, 0.125 * (t * t));
+        let end_a = a + part.segment.change * t;
+        let gates = &self.phase::<SLIP>().gates;
+        let input = if SLIP { friction } else { [a, end_a] };
+        let slack = combine4(simd, &gates.sizes, series.bend) * four(simd, 0.125 * (t * t));
+        let first = self.gates::<SLIP>(Four(part.x).load(simd), input[0]);
+        let last = self.gates::<SLIP>(Four(end).load(simd), input[1]);
+        let quiet = (self.inside(first, slack) & self.inside(last, slack)).all_true();
+        let plant = &self.tables.plant;
+        let spring = [plant.stiffness_n_per_m * part.x[0], plant.stiffness_n_per_m * end[0]];
+        let most = friction[0].abs().max(friction[1].abs());
+        let slider = (friction[0] - spring[0]).abs().max((friction[1] - spring[1]).abs());
+        let forces = if SLIP {
+            let peak = self.peak.as_array();
+            most <= peak[tracked::FRICTION] && slider <= peak[tracked::SLIDER]
+        } else {
+            let hidden = plant.participation * slack.as_array()[2];
+            most + hidden <= self.most_friction && slider + hidden <= self.most_slider
+        };
+        if !(quiet && forces) || self.careful() {
+            self.look_at_all::<SLIP>(part, end, t, input, slack);
+        }
+    }
+
+    /// The same for all tracked quantities.
+    #[inline(always)]
+    fn look_at_all<const SLIP: bool>(
+        &mut self,
+        part: &Part,
+        end: [f64; 4],
+        t: f64,
+        input: [f64; 2],
+        slack: f64x4<S>,
+    ) {
+        let simd = self.simd;
+        let first = self.view::<SLIP>(part.x, input[0], input[0]);
+        let last = self.view::<SLIP>(end, input[1], input[1]);
+        let of_gates = &self.phase::<SLIP>().view.of_gates;
+        let slack = combine8(simd, of_gates, slack.to_array());
         let attained = larger(first.abs(), last.abs());
         if (attained + slack).simd_le(self.peak).all_true() {
             return;
         }
         self.peak = larger(self.peak, attained);
+        self.set_gates();
         // An extreme lies inside only where the ends are less than four times the slack apart.
         let zero = eight(simd, 0.0);
         let inside = slack - (last - first).abs() * eight(simd, 0.25);
@@ -214,7 +249,7 @@ impl<S: Simd> Walk<'_, S> {
         let force = block.direction.map_or(0.0, |direction| self.force(direction));
         let mode = block.direction.map_or(Mode::Stick, Mode::Slip);
         let a: &[f64; BLOCK + 1] = self.block_at(block.sample);
-        let x = super::lanes::Four(block.x).load(simd);
+        let x = Four(block.x).load(simd);
         let slack = slack.load(simd);
         let mut start = block.x;
         let mut first = self.view::<SLIP>(start, a[0], force);
@@ -262,9 +297,10 @@ impl<S: Simd> Walk<'_, S> {
         let end = series.at(simd, rest).to_array();
         let first = self.view::<SLIP>(part.x, a, force);
         let last = self.view::<SLIP>(end, a + change * rest, force);
-        let bend = series.bend.to_array();
         let view = &self.phase::<SLIP>().view;
-        let slack = combine8(simd, &view.sizes, bend) * eight(simd, 0.125 * (rest * rest));
+        let sizes = &self.phase::<SLIP>().gates.sizes;
+        let slack = combine4(simd, sizes, series.bend) * four(simd, 0.125 * (rest * rest));
+        let slack = combine8(simd, &view.of_gates, slack.to_array());
         let attained = larger(first.abs(), last.abs());
         let mut open = (attained + slack).simd_gt(self.peak).to_bitmask();
         self.peak = larger(self.peak, attained);
@@ -289,6 +325,7 @@ impl<S: Simd> Walk<'_, S> {
             peak[j] = largest(&q.map(|c| -c), largest(&q, peak[j]));
         }
         self.peak = f64x8::load_array(simd, peak);
+        self.set_gates();
     }
 }
 

@@ -51,6 +51,30 @@ pub(super) struct Segment {
     pub(super) change: f64,
 }
 
+/// What the coefficients of every order are made of.
+struct Order<'a, S: Simd> {
+    simd: S,
+    x: [f64; 4],
+    segment: &'a Segment,
+    force: f64,
+}
+
+impl<S: Simd> Order<'_, S> {
+    #[inline(always)]
+    fn of<const SLIP: bool>(&self, table: &[Four; 7]) -> f64x4<S> {
+        let (simd, x) = (self.simd, self.x);
+        let structure = times4(simd, &table[2], x[2]) + times4(simd, &table[3], x[3]);
+        let load =
+            times4(simd, &table[4], self.segment.a) + times4(simd, &table[5], self.segment.change);
+        if SLIP {
+            let block = times4(simd, &table[0], x[0]) + times4(simd, &table[1], x[1]);
+            (block + structure) + (load + times4(simd, &table[6], self.force))
+        } else {
+            structure + load
+        }
+    }
+}
+
 impl<S: Simd> Series<S> {
     /// Series of a phase from a state.
     #[inline(always)]
@@ -61,24 +85,29 @@ impl<S: Simd> Series<S> {
         segment: &Segment,
         force: f64,
     ) -> Self {
-        let mut bend = four(simd, 0.0);
-        // A loop: what is passed to a function of the library would not be compiled for the lanes.
-        let mut c = [bend; DEGREE];
-        for k in 0..DEGREE {
-            let of = &table[k];
-            let structure = times4(simd, &of[2], x[2]) + times4(simd, &of[3], x[3]);
-            let load = times4(simd, &of[4], segment.a) + times4(simd, &of[5], segment.change);
-            c[k] = if SLIP {
-                let block = times4(simd, &of[0], x[0]) + times4(simd, &of[1], x[1]);
-                (block + structure) + (load + times4(simd, &of[6], force))
-            } else {
-                structure + load
-            };
-            if k > 0 {
-                bend = bend + c[k].abs() * four(simd, (k * (k + 1)) as f64);
-            }
-        }
-        Self { x: Four(x).load(simd), c, bend }
+        let order = Order { simd, x, segment, force };
+        // One by one: a loop would not be unrolled.
+        let c = [
+            order.of::<SLIP>(&table[0]),
+            order.of::<SLIP>(&table[1]),
+            order.of::<SLIP>(&table[2]),
+            order.of::<SLIP>(&table[3]),
+            order.of::<SLIP>(&table[4]),
+            order.of::<SLIP>(&table[5]),
+            order.of::<SLIP>(&table[6]),
+            order.of::<SLIP>(&table[7]),
+            order.of::<SLIP>(&table[8]),
+            order.of::<SLIP>(&table[9]),
+            order.of::<SLIP>(&table[10]),
+            order.of::<SLIP>(&table[11]),
+        ];
+        let odd = ((c[1].abs() * four(simd, 2.0) + c[3].abs() * four(simd, 12.0))
+            + (c[5].abs() * four(simd, 30.0) + c[7].abs() * four(simd, 56.0)))
+            + (c[9].abs() * four(simd, 90.0) + c[11].abs() * four(simd, 132.0));
+        let even = ((c[2].abs() * four(simd, 6.0) + c[4].abs() * four(simd, 20.0))
+            + (c[6].abs() * four(simd, 42.0) + c[8].abs() * four(simd, 72.0)))
+            + c[10].abs() * four(simd, 110.0);
+        Self { x: Four(x).load(simd), c, bend: odd + even }
     }
 
     /// State at a part of the piece.
@@ -155,7 +184,7 @@ impl<S: Simd> Walk<'_, S> {
         let below = (demand - low).min(end_demand - low) > hidden;
         if above && below {
             self.note_start(place, fresh);
-            self.look::<false>(place, &series, end, rest, 0.0);
+            self.look::<false>(place, &series, end, rest, [demand, end_demand]);
             self.carry.x = end;
             return Led::Through;
         }
@@ -164,10 +193,11 @@ impl<S: Simd> Walk<'_, S> {
         let distance = sign * (bound - demand);
         let of = |k: usize| plant.participation * plant.restoring(series.c[k].as_array());
         let slope = sign * (of(0) - plant.block_mass_kg * segment.change);
+        let second = 2.0 * sign * of(1);
         let one_way = (above || below)
             && distance > DOUBT * bound.abs()
             && sign * (bound - end_demand) < 0.0
-            && slope + bend * rest < 0.0;
+            && crosses_once(slope, second, bend, rest);
         if !one_way {
             return Led::Doubt;
         }
@@ -190,7 +220,14 @@ impl<S: Simd> Walk<'_, S> {
             let d = halley(g, g1, g2);
             t += d;
             if d.abs() < SHORT {
-                return self.event::<false>(place, fresh, &series, t, taylor(y, first, second, d));
+                return self.event::<false>(
+                    place,
+                    fresh,
+                    &series,
+                    t,
+                    taylor(y, first, second, d),
+                    [demand, bound],
+                );
             }
         }
         Led::Doubt
@@ -223,12 +260,14 @@ impl<S: Simd> Walk<'_, S> {
         };
         if slides {
             self.note_start(place, fresh);
-            self.look::<true>(place, &series, end, rest, force);
+            self.look::<true>(place, &series, end, rest, [force; 2]);
             self.carry.x = end;
             return Led::Through;
         }
-        let one_way =
-            start.is_none() && speed > 0.0 && end_speed < 0.0 && of(0) + bend * rest < 0.0;
+        let one_way = start.is_none()
+            && speed > 0.0
+            && end_speed < 0.0
+            && crosses_once(of(0), 2.0 * of(1), bend, rest);
         if !one_way {
             return Led::Doubt;
         }
@@ -252,7 +291,7 @@ impl<S: Simd> Walk<'_, S> {
             if d.abs() < SHORT {
                 let mut y = taylor(y, first, second, d);
                 y[1] = 0.0;
-                return self.event::<true>(place, fresh, &series, t, y);
+                return self.event::<true>(place, fresh, &series, t, y, [force; 2]);
             }
         }
         Led::Doubt
@@ -267,16 +306,13 @@ impl<S: Simd> Walk<'_, S> {
         series: &Series<S>,
         t: f64,
         x: [f64; 4],
+        friction: [f64; 2],
     ) -> Led {
         if !(t > DOUBT && t < place.segment.rest - DOUBT) {
             return Led::Doubt;
         }
-        let force = match place.mode {
-            Mode::Stick => 0.0,
-            Mode::Slip(direction) => self.force(direction),
-        };
         self.note_start(place, fresh);
-        self.look::<SLIP>(place, series, x, t, force);
+        self.look::<SLIP>(place, series, x, t, friction);
         self.carry.x = x;
         Led::Event(t)
     }
@@ -331,6 +367,7 @@ impl<S: Simd> Walk<'_, S> {
         };
         self.note_event(sample, at_s);
         if before != Mode::Stick {
+            self.carry.sliding.decide(demand, [low, high]);
             self.carry.sliding.end(time_s, s);
         }
         if mode != Mode::Stick {
@@ -357,6 +394,13 @@ impl<S: Simd> Walk<'_, S> {
             self.host.record_event(self.carry, sample, at_s);
         }
     }
+}
+
+/// Whether a value that is positive at the start and negative at the end, with these derivatives at
+/// the start and a bound on the second, crosses zero once: it falls all the way, or is concave.
+#[inline(always)]
+fn crosses_once(slope: f64, second: f64, bend: f64, rest: f64) -> bool {
+    slope + bend * rest < 0.0 || second < -(bend - second.abs())
 }
 
 /// First falling root by the terms up to the third power, or anything.

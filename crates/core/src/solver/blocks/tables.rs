@@ -3,6 +3,10 @@
 //! All tables hold the state in the order `s, ṡ, η, η̇`; a rigid block has zeros for the structure.
 //! They depend neither on friction nor on the motion.
 
+use std::sync::Arc;
+
+use fearless_simd::{Level, dispatch};
+
 use super::lanes::{BLOCK, Eight, Four};
 use crate::linear::polynomial::DEGREE;
 use crate::linear::{MAX_RATE_STEP, PerStorey, System};
@@ -43,6 +47,10 @@ pub(in crate::solver) struct Tables {
     pub(super) stick: Phase,
     pub(super) slip: Phase,
     pub(super) quiet: Quiet,
+    /// `Φ`, and what `f` and the block's acceleration add to the overturning moment.
+    pub(super) shape: f64,
+    pub(super) arm: [f64; 2],
+    pub(super) slope: f64,
 }
 
 /// Tables of stick or slip.
@@ -64,7 +72,20 @@ pub(super) struct Phase {
     pub(super) rows: [Row; 4],
     /// The tracked quantities.
     pub(super) view: View,
-    /// How far chords may be off.
+    /// What is watched on the way.
+    pub(super) gates: Gates,
+}
+
+/// What is watched from block to block: `ṡ`, `η`, `f` and the block's acceleration `u`. Nearly all
+/// tracked quantities follow from one of them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gates {
+    /// They are the sum of these times the state and the input: the friction force in slip, the
+    /// acceleration in stick.
+    pub(super) columns: [Four; 4],
+    pub(super) of_input: Four,
+    /// Sizes of the columns.
+    pub(super) sizes: [Four; 4],
     pub(super) bend: Bend,
 }
 
@@ -86,18 +107,19 @@ pub(super) struct View {
     pub(super) of_acceleration: Eight,
     pub(super) of_force: Eight,
     pub(super) slope: Eight,
-    /// Sizes of what the state `s, ṡ, η, η̇` adds.
-    pub(super) sizes: [Eight; 4],
+    /// How far they may be off for each unit that the gates are off.
+    pub(super) of_gates: [Eight; 4],
 }
 
-/// Bound on what a chord hides of the tracked quantities: the sum of these times the norm of the
-/// state at the start, the largest acceleration, its largest rate, and the friction force.
+/// Bound on what a chord hides of the gates: the sum of these times the norm of the state at the
+/// start, the largest acceleration, its largest rate, and the friction force. In slip a chord spans
+/// a block, in stick a sample.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bend {
-    pub(super) of_norm: Eight,
-    pub(super) of_acceleration: Eight,
-    pub(super) of_rate: Eight,
-    pub(super) of_force: Eight,
+    pub(super) of_norm: Four,
+    pub(super) of_acceleration: Four,
+    pub(super) of_rate: Four,
+    pub(super) of_force: Four,
 }
 
 /// Stick over many samples.
@@ -166,6 +188,7 @@ impl Plant {
     }
 
     /// Largest value of a row on states of norm 1; in stick on those of the structure alone.
+    #[inline(always)]
     fn dual_norm(&self, slip: bool, c: [f64; 4]) -> f64 {
         let of_structure = c[2] * c[2] / self.omega2 + c[3] * c[3];
         let of_block = if slip {
@@ -179,6 +202,7 @@ impl Plant {
     }
 
     /// Derivative of a state under an acceleration and a friction force.
+    #[inline(always)]
     fn rate(&self, slip: bool, x: [f64; 4], a: f64, force: f64) -> [f64; 4] {
         let f = self.restoring(&x);
         if slip {
@@ -196,20 +220,69 @@ impl Tables {
         system: &System<V>,
         extremes: &Extremes<V>,
         dt_s: f64,
-    ) -> Option<Self> {
+    ) -> Option<Arc<Self>> {
         let pieces = (dt_s * system.slip_rate_rad_per_s / MAX_RATE_STEP).ceil().max(1.0);
         if !(system.storeys() <= 1 && pieces <= MOST_PIECES) {
             return None;
         }
-        let plant = Plant::new(system);
-        let piece_s = dt_s / pieces;
-        let shape = system.shapes.as_ref().first().copied().unwrap_or(0.0);
-        let tracked = TrackedRows::new(&plant, shape, extremes);
-        let (stick, quiet_taps) = Phase::new(&plant, &tracked, false, [dt_s, piece_s], pieces);
-        let (slip, _) = Phase::new(&plant, &tracked, true, [dt_s, piece_s], pieces);
-        let quiet = Quiet::new(&plant, &tracked, &stick, quiet_taps, dt_s);
-        Some(Self { plant, pieces: pieces as usize, piece_s, stick, slip, quiet })
+        // Filled in place: they are too large to be moved about.
+        let mut tables = Arc::new(Self::EMPTY);
+        if let Some(tables) = Arc::get_mut(&mut tables) {
+            tables.plant = Plant::new(system);
+            (tables.pieces, tables.piece_s) = (pieces as usize, dt_s / pieces);
+            tables.shape = system.shapes.as_ref().first().copied().unwrap_or(0.0);
+            (tables.arm, tables.slope) = (extremes.one_storey_arm(), extremes.slope());
+            // For the lanes of this machine too; the bits are the same on all.
+            dispatch!(Level::new(), _simd => tables.fill(dt_s));
+        }
+        Some(tables)
     }
+
+    #[inline(always)]
+    fn fill(&mut self, dt_s: f64) {
+        let Self { plant, pieces, piece_s, stick, slip, quiet, shape, arm, slope } = self;
+        let rows = TrackedRows::new(plant, *shape, *arm, *slope);
+        let mut taps = [Four::ZERO; QUIET];
+        for (is_slip, phase) in [(true, slip), (false, &mut *stick)] {
+            series(plant, is_slip, *piece_s, &mut phase.series);
+            let sample = Sample::new(&phase.series, is_slip, *pieces);
+            sample.taps(&mut taps[..if is_slip { BLOCK } else { QUIET }]);
+            phase.fill(plant, &sample, &taps);
+            phase.view = rows.view(plant, is_slip, *shape, *arm);
+            phase.gates = Gates::new(plant, is_slip, dt_s);
+        }
+        quiet.fill(plant, &rows, stick, &taps, dt_s);
+    }
+
+    const EMPTY: Self = Self {
+        plant: Plant {
+            block_mass_kg: 0.0,
+            per_block_mass: 0.0,
+            stiffness_n_per_m: 0.0,
+            damper_n_s_per_m: 0.0,
+            omega2: 0.0,
+            decay: 0.0,
+            participation: 0.0,
+            root_mass: 0.0,
+            per_root_block: 0.0,
+        },
+        pieces: 0,
+        piece_s: 0.0,
+        stick: Phase::EMPTY,
+        slip: Phase::EMPTY,
+        quiet: Quiet {
+            power: [Four::ZERO; 4],
+            first: Four::ZERO,
+            tap: [Four::ZERO; QUIET],
+            of_norm: Eight::ZERO,
+            of_acceleration: [Eight::ZERO; 2],
+            of_s: Eight::ZERO,
+            of_slope: Eight::ZERO,
+        },
+        shape: 0.0,
+        arm: [0.0; 2],
+        slope: 0.0,
+    };
 }
 
 /// Coefficients of the tracked quantities.
@@ -225,10 +298,10 @@ const OF_A: usize = 4;
 const OF_FORCE: usize = 5;
 
 impl TrackedRows {
-    fn new<V: PerStorey>(plant: &Plant, shape: f64, extremes: &Extremes<V>) -> Self {
+    #[inline(always)]
+    fn new(plant: &Plant, shape: f64, [arm, half]: [f64; 2], pull: f64) -> Self {
         let (k1, c1) = (plant.stiffness_n_per_m, plant.damper_n_s_per_m);
         let (l, per_mass) = (plant.participation, plant.per_block_mass);
-        let [arm, half] = extremes.one_storey_arm();
         let mut slip = [[0.0; 8]; 6];
         slip[1][tracked::VELOCITY] = 1.0;
         let u = [-k1 * per_mass, -c1 * per_mass, 0.0, l * per_mass, 0.0, per_mass];
@@ -254,17 +327,49 @@ impl TrackedRows {
             columns[3][ACCELERATION] = -shape;
         }
         let mut slope = [0.0; 8];
-        slope[tracked::BLOCK] = extremes.slope();
+        slope[tracked::BLOCK] = pull;
         // A rigid block has no floor whose acceleration could be told.
-        slope[ACCELERATION] = if l == 0.0 { 0.0 } else { extremes.slope() };
+        slope[ACCELERATION] = if l == 0.0 { 0.0 } else { pull };
         Self { stick, slip, slope: Eight(slope) }
     }
 
+    #[inline(always)]
     fn columns(&self, slip: bool) -> &[[f64; 8]; 6] {
         if slip { &self.slip } else { &self.stick }
     }
 
+    #[inline(always)]
+    fn view(&self, plant: &Plant, slip: bool, shape: f64, [arm, half]: [f64; 2]) -> View {
+        let columns = self.columns(slip);
+        let column = |j: usize| Eight(columns[j]);
+        let mut of_gates = [Eight::ZERO; 4];
+        let l = plant.participation;
+        of_gates[0].0[tracked::VELOCITY] = 1.0;
+        of_gates[1].0[DISPLACEMENT] = shape;
+        let f = &mut of_gates[2].0;
+        f[tracked::BASE_SHEAR] = l;
+        f[ACCELERATION] = shape;
+        f[tracked::SLIDER] = l;
+        f[tracked::FRICTION] = if slip { 0.0 } else { l };
+        f[tracked::OVERTURNING] = arm.abs();
+        if slip {
+            let u = &mut of_gates[3].0;
+            u[tracked::BLOCK] = 1.0;
+            // The slider force is M1 u − L f.
+            u[tracked::SLIDER] = plant.block_mass_kg;
+            u[tracked::OVERTURNING] = half.abs();
+        }
+        View {
+            columns: core::array::from_fn(column),
+            of_acceleration: column(OF_A),
+            of_force: column(OF_FORCE),
+            slope: self.slope,
+            of_gates,
+        }
+    }
+
     /// Row of a quantity over the state.
+    #[inline(always)]
     fn over_state(&self, plant: &Plant, slip: bool, j: usize) -> [f64; 4] {
         let c = self.columns(slip);
         [c[0][j], c[1][j], c[2][j] + plant.omega2 * c[3][j], plant.decay * c[3][j]]
@@ -288,115 +393,170 @@ struct Sample {
 }
 
 impl Phase {
-    fn new(
-        plant: &Plant,
-        tracked: &TrackedRows,
-        slip: bool,
-        [dt_s, piece_s]: [f64; 2],
-        pieces: f64,
-    ) -> (Self, [Four; QUIET]) {
-        let series = series(plant, slip, piece_s);
-        let sample = Sample::new(&series, slip, pieces as usize);
-        let e = &sample.state;
-        let before: [f64; 4] = core::array::from_fn(|i| sample.constant[i] - sample.ramp[i]);
-        // What a unit at a sample leaves behind: it ramps down in the next sample, and up before.
-        let mut taps = [Four::ZERO; QUIET];
-        taps[0] = Four(sample.ramp);
-        for j in 1..if slip { BLOCK } else { QUIET } {
-            let from = taps[j - 1].0;
-            taps[j] = Four(times(e, from));
-            if j == 1 {
-                taps[1] = Four(core::array::from_fn(|i| taps[1].0[i] + before[i]));
+    const EMPTY: Self = {
+        let zeros = [Four::ZERO; 4];
+        let row = Row {
+            state: [Eight::ZERO; 4],
+            first: Eight::ZERO,
+            tap: [Eight::ZERO; BLOCK],
+            force: Eight::ZERO,
+        };
+        Self {
+            series: [[Four::ZERO; 7]; DEGREE],
+            power: [zeros; BLOCK + 1],
+            first: [Four::ZERO; BLOCK + 1],
+            tap: [Four::ZERO; BLOCK],
+            force: [Four::ZERO; BLOCK + 1],
+            rows: [row; 4],
+            view: View {
+                columns: [Eight::ZERO; 4],
+                of_acceleration: Eight::ZERO,
+                of_force: Eight::ZERO,
+                slope: Eight::ZERO,
+                of_gates: [Eight::ZERO; 4],
+            },
+            gates: Gates {
+                columns: zeros,
+                of_input: Four::ZERO,
+                sizes: zeros,
+                bend: Bend {
+                    of_norm: Four::ZERO,
+                    of_acceleration: Four::ZERO,
+                    of_rate: Four::ZERO,
+                    of_force: Four::ZERO,
+                },
+            },
+        }
+    };
+
+    #[inline(always)]
+    fn fill(&mut self, plant: &Plant, sample: &Sample, taps: &[Four; QUIET]) {
+        self.tap.copy_from_slice(&taps[..BLOCK]);
+        for j in 0..4 {
+            self.power[0][j] = Four(unit(j));
+        }
+        for k in 1..=BLOCK {
+            for j in 0..4 {
+                self.power[k][j] = Four(times(&sample.state, self.power[k - 1][j].0));
+            }
+            self.first[k] = Four(match k {
+                1 => sample.before(),
+                _ => times(&sample.state, self.first[k - 1].0),
+            });
+            self.force[k] = Four(times(&sample.state, self.force[k - 1].0));
+            for i in 0..4 {
+                self.force[k].0[i] += sample.force[i];
             }
         }
-        let tap: [Four; BLOCK] = core::array::from_fn(|j| taps[j]);
-        let identity: [Four; 4] =
-            core::array::from_fn(|j| Four(core::array::from_fn(|i| f64::from(u8::from(i == j)))));
-        let mut power = [identity; BLOCK + 1];
-        let mut first = [Four::ZERO; BLOCK + 1];
-        let mut force = [Four::ZERO; BLOCK + 1];
-        for k in 1..=BLOCK {
-            power[k] = power[k - 1].map(|column| Four(times(e, column.0)));
-            first[k] = Four(if k == 1 { before } else { times(e, first[k - 1].0) });
-            let moved = times(e, force[k - 1].0);
-            force[k] = Four(core::array::from_fn(|i| moved[i] + sample.force[i]));
+        for i in 0..3 {
+            let Row { state, first, tap, force } = &mut self.rows[i];
+            for k in 1..=BLOCK {
+                for j in 0..4 {
+                    state[j].0[k - 1] = self.power[k][j].0[i];
+                }
+                first.0[k - 1] = self.first[k].0[i];
+                force.0[k - 1] = self.force[k].0[i];
+                for m in 1..=k {
+                    tap[m - 1].0[k - 1] = self.tap[k - m].0[i];
+                }
+            }
         }
-        let row = |of: [f64; 4]| Row::new(of, &power, &first, &tap, &force);
-        let rows = [
-            row([1.0, 0.0, 0.0, 0.0]),
-            row([0.0, 1.0, 0.0, 0.0]),
-            row([0.0, 0.0, 1.0, 0.0]),
-            row([0.0, 0.0, plant.omega2, plant.decay]),
-        ];
-        let columns = tracked.columns(slip);
-        let column = |j: usize| Eight(columns[j]);
-        let rows_of_state: [[f64; 4]; 8] =
-            core::array::from_fn(|j| tracked.over_state(plant, slip, j));
-        let sizes =
-            core::array::from_fn(|i| Eight(core::array::from_fn(|j| rows_of_state[j][i].abs())));
-        let view = View {
-            columns: core::array::from_fn(column),
-            of_acceleration: column(OF_A),
-            of_force: column(OF_FORCE),
-            slope: tracked.slope,
-            sizes,
-        };
-        // In slip a chord spans a block, in stick a sample.
-        let span_s = if slip { BLOCK as f64 * dt_s } else { dt_s };
-        let bend = Bend::new(plant, slip, &rows_of_state, span_s, dt_s);
-        (Self { series, power, first, tap, force, rows, view, bend }, taps)
+        for k in 1..=BLOCK {
+            let f = |column: &Four| plant.restoring(&column.0);
+            let Row { state, first, tap, force } = &mut self.rows[3];
+            for j in 0..4 {
+                state[j].0[k - 1] = f(&self.power[k][j]);
+            }
+            first.0[k - 1] = f(&self.first[k]);
+            force.0[k - 1] = f(&self.force[k]);
+            for m in 1..=k {
+                tap[m - 1].0[k - 1] = f(&self.tap[k - m]);
+            }
+        }
     }
 }
 
-impl Bend {
-    /// Over `span_s`, within a block: `g″` of `g = c·x` is
-    /// `c A² x + c A b a + c A d T + c b ȧ`, and the norm of the state grows in the block by no more
-    /// than its duration times `√M_tot |a| + |T|/√M1`.
-    fn new(plant: &Plant, slip: bool, rows: &[[f64; 4]; 8], span_s: f64, dt_s: f64) -> Self {
-        let a: Matrix = core::array::from_fn(|j| {
-            let unit = core::array::from_fn(|i| f64::from(u8::from(i == j)));
-            plant.rate(slip, unit, 0.0, 0.0)
-        });
-        let on_a = plant.rate(slip, [0.0; 4], 1.0, 0.0);
-        let on_force = if slip { plant.rate(slip, [0.0; 4], 0.0, 1.0) } else { [0.0; 4] };
-        let reach = 0.125 * span_s * span_s;
-        let block_s = BLOCK as f64 * dt_s;
-        let growth = if slip { plant.root_mass } else { plant.participation };
-        let mut bend = Self {
-            of_norm: Eight::ZERO,
-            of_acceleration: Eight::ZERO,
-            of_rate: Eight::ZERO,
-            of_force: Eight::ZERO,
-        };
-        for (j, row) in rows.iter().enumerate() {
-            let once: [f64; 4] = core::array::from_fn(|i| dot(row, &a[i]));
-            let twice: [f64; 4] = core::array::from_fn(|i| dot(&once, &a[i]));
-            let on_norm = plant.dual_norm(slip, twice);
-            bend.of_norm.0[j] = reach * on_norm;
-            bend.of_acceleration.0[j] =
-                reach * (dot(&once, &on_a).abs() + on_norm * (block_s * growth));
-            bend.of_rate.0[j] = reach * dot(row, &on_a).abs();
-            bend.of_force.0[j] =
-                reach * (dot(&once, &on_force).abs() + on_norm * (block_s * plant.per_root_block));
+impl Gates {
+    #[inline(always)]
+    fn new(plant: &Plant, slip: bool, dt_s: f64) -> Self {
+        let span_s = if slip { BLOCK as f64 * dt_s } else { dt_s };
+        let f = [0.0, 0.0, plant.omega2, plant.decay];
+        let share = plant.participation * plant.per_block_mass;
+        let u = [
+            -plant.stiffness_n_per_m * plant.per_block_mass,
+            -plant.damper_n_s_per_m * plant.per_block_mass,
+            share * f[2],
+            share * f[3],
+        ];
+        let u = if slip { u } else { [0.0; 4] };
+        let rows = [[0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], f, u];
+        let columns: [Four; 4] =
+            core::array::from_fn(|i| Four(core::array::from_fn(|j| rows[j][i])));
+        let [of_norm, of_acceleration, of_rate, of_force] =
+            bend(plant, slip, &rows, [span_s, dt_s]).map(Four);
+        Self {
+            columns,
+            of_input: Four([0.0, 0.0, 0.0, if slip { plant.per_block_mass } else { 1.0 }]),
+            sizes: columns.map(|column| Four(column.0.map(f64::abs))),
+            bend: Bend { of_norm, of_acceleration, of_rate, of_force },
         }
-        bend
     }
+}
+
+/// [`Bend`] of some rows over chords of `span_s` within a block: `g″` of `g = c·x` is
+/// `c A² x + c A b a + c A d T + c b ȧ`, and the norm of the state grows in the block by no more
+/// than its duration times `√M_tot |a| + |T|/√M1`.
+#[inline(always)]
+fn bend(
+    plant: &Plant,
+    slip: bool,
+    rows: &[[f64; 4]; 4],
+    [span_s, dt_s]: [f64; 2],
+) -> [[f64; 4]; 4] {
+    let a: Matrix = core::array::from_fn(|j| plant.rate(slip, unit(j), 0.0, 0.0));
+    let on_a = plant.rate(slip, [0.0; 4], 1.0, 0.0);
+    let on_force = if slip { plant.rate(slip, [0.0; 4], 0.0, 1.0) } else { [0.0; 4] };
+    let reach = 0.125 * span_s * span_s;
+    let block_s = BLOCK as f64 * dt_s;
+    let growth = if slip { plant.root_mass } else { plant.participation };
+    let mut bend = [[0.0; 4]; 4];
+    for (j, row) in rows.iter().enumerate() {
+        let once: [f64; 4] = core::array::from_fn(|i| dot(row, &a[i]));
+        let twice: [f64; 4] = core::array::from_fn(|i| dot(&once, &a[i]));
+        let on_norm = plant.dual_norm(slip, twice);
+        bend[0][j] = reach * on_norm;
+        bend[1][j] = reach * (dot(&once, &on_a).abs() + on_norm * (block_s * growth));
+        bend[2][j] = reach * dot(row, &on_a).abs();
+        bend[3][j] =
+            reach * (dot(&once, &on_force).abs() + on_norm * (block_s * plant.per_root_block));
+    }
+    bend
+}
+
+#[inline(always)]
+fn unit(j: usize) -> [f64; 4] {
+    let mut unit = [0.0; 4];
+    unit[j] = 1.0;
+    unit
 }
 
 impl Quiet {
-    fn new(
+    #[inline(always)]
+    fn fill(
+        &mut self,
         plant: &Plant,
         tracked: &TrackedRows,
         stick: &Phase,
-        tap: [Four; QUIET],
+        tap: &[Four; QUIET],
         dt_s: f64,
-    ) -> Self {
-        let square = |m: &[Four; 4]| m.map(|column| Four(times(&m.map(|c| c.0), column.0)));
-        let power = square(&square(&stick.power[BLOCK]));
-        // The first sample's ramp down has the whole stretch before it.
-        let by_16 = square(&stick.power[BLOCK]).map(|c| c.0);
+    ) {
+        let square = |m: &Matrix| -> Matrix { core::array::from_fn(|j| times(m, m[j])) };
         let by_8 = stick.power[BLOCK].map(|c| c.0);
-        let first = Four(times(&by_16, times(&by_8, stick.first[BLOCK].0)));
+        let by_16 = square(&by_8);
+        self.power = square(&by_16).map(Four);
+        // The first sample's ramp down has the whole stretch before it.
+        self.first = Four(times(&by_16, times(&by_8, stick.first[BLOCK].0)));
+        self.tap = *tap;
         let columns = tracked.columns(false);
         let mut of_norm = [0.0; 8];
         let mut of_acceleration = [[0.0; 8]; 2];
@@ -412,40 +572,15 @@ impl Quiet {
         }
         // The block's own acceleration in stick is the table's, which is the load less the slope.
         of_slope[tracked::BLOCK] = -of_slope[tracked::BLOCK];
-        Self {
-            power,
-            first,
-            tap,
-            of_norm: Eight(of_norm),
-            of_acceleration: of_acceleration.map(Eight),
-            of_s: Eight(columns[0].map(f64::abs)),
-            of_slope: Eight(of_slope),
-        }
-    }
-}
-
-impl Row {
-    fn new(
-        of: [f64; 4],
-        power: &[[Four; 4]; BLOCK + 1],
-        first: &[Four; BLOCK + 1],
-        tap: &[Four; BLOCK],
-        force: &[Four; BLOCK + 1],
-    ) -> Self {
-        let lanes = |value: &dyn Fn(usize) -> f64| Eight(core::array::from_fn(|k| value(k + 1)));
-        Self {
-            state: core::array::from_fn(|j| lanes(&|k| dot(&of, &power[k][j].0))),
-            first: lanes(&|k| dot(&of, &first[k].0)),
-            tap: {
-                let taps: [f64; BLOCK] = core::array::from_fn(|j| dot(&of, &tap[j].0));
-                core::array::from_fn(|m| lanes(&|k| if k > m { taps[k - 1 - m] } else { 0.0 }))
-            },
-            force: lanes(&|k| dot(&of, &force[k].0)),
-        }
+        self.of_norm = Eight(of_norm);
+        self.of_acceleration = of_acceleration.map(Eight);
+        self.of_s = Eight(columns[0].map(f64::abs));
+        self.of_slope = Eight(of_slope);
     }
 }
 
 impl Sample {
+    #[inline(always)]
     fn new(series: &[[Four; 7]; DEGREE], slip: bool, pieces: usize) -> Self {
         let sum = |input: usize| {
             let mut end = [0.0; 4];
@@ -474,40 +609,71 @@ impl Sample {
             }
             x
         };
-        let unit = |j: usize| core::array::from_fn(|i| f64::from(u8::from(i == j)));
         Self {
-            state: core::array::from_fn(|j| run(unit(j), [0.0; 2], 0.0)),
+            state: core::array::from_fn(|j| {
+                if pieces == 1 { piece[j] } else { run(unit(j), [0.0; 2], 0.0) }
+            }),
             constant: run([0.0; 4], [1.0, 1.0], 0.0),
             ramp: run([0.0; 4], [0.0, 1.0], 0.0),
             force: run([0.0; 4], [0.0; 2], 1.0),
         }
     }
+
+    /// What a unit of acceleration that ramps down in a sample leaves.
+    #[inline(always)]
+    fn before(&self) -> [f64; 4] {
+        core::array::from_fn(|i| self.constant[i] - self.ramp[i])
+    }
+
+    /// What a unit at a sample leaves behind: it ramps up before and down in the next sample.
+    #[inline(always)]
+    fn taps(&self, taps: &mut [Four]) {
+        taps[0] = Four(self.ramp);
+        for j in 1..taps.len() {
+            taps[j] = Four(times(&self.state, taps[j - 1].0));
+            if j == 1 {
+                let before = self.before();
+                for i in 0..4 {
+                    taps[1].0[i] += before[i];
+                }
+            }
+        }
+    }
 }
 
 /// Taylor coefficients of the state from the first on, over a piece, of every unit input.
-fn series(plant: &Plant, slip: bool, piece_s: f64) -> [[Four; 7]; DEGREE] {
-    let mut table = [[Four::ZERO; 7]; DEGREE];
-    for input in 0..7 {
-        let mut x: [f64; 4] = core::array::from_fn(|i| f64::from(u8::from(i == input)));
-        if !slip {
-            (x[0], x[1]) = (0.0, 0.0);
-        }
+#[inline(always)]
+fn series(plant: &Plant, slip: bool, piece_s: f64, table: &mut [[Four; 7]; DEGREE]) {
+    for input in if slip { 0..7 } else { 2..6 } {
+        let mut x = if input < 4 { unit(input) } else { [0.0; 4] };
         for (k, order) in table.iter_mut().enumerate() {
             // The acceleration counts at the start, its change in the order after.
-            let a = f64::from(u8::from(input == 4 + k));
-            let force = f64::from(u8::from(input == 6 && k == 0));
-            let step = piece_s / (k + 1) as f64;
-            x = plant.rate(slip, x, if k < 2 { a } else { 0.0 }, force).map(|rate| step * rate);
+            let a = if input == 4 + k && k < 2 { 1.0 } else { 0.0 };
+            let force = if input == 6 && k == 0 { 1.0 } else { 0.0 };
+            let step = piece_s * RECIPROCAL[k];
+            x = plant.rate(slip, x, a, force).map(|rate| step * rate);
             order[input] = Four(x);
         }
     }
-    table
 }
 
+/// 1 / (k + 1).
+const RECIPROCAL: [f64; DEGREE] = {
+    let mut table = [0.0; DEGREE];
+    let mut k = 0;
+    while k < DEGREE {
+        table[k] = 1.0 / (k + 1) as f64;
+        k += 1;
+    }
+    table
+};
+
+#[inline(always)]
 fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
     (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
 }
 
+#[inline(always)]
 fn times(columns: &Matrix, x: [f64; 4]) -> [f64; 4] {
     core::array::from_fn(|i| {
         (columns[0][i] * x[0] + columns[1][i] * x[1])

@@ -1,16 +1,17 @@
 //! The state of a walk by blocks, and what its steps share.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{f64x4, f64x8};
+use fearless_simd::{f64x4, f64x8, mask64x4};
 
-use super::lanes::{BLOCK, Four, combine4, combine8, times4, times8};
+use super::lanes::{BLOCK, Four, combine4, combine8, four, larger, times4, times8};
 use super::peaks::Candidates;
-use super::tables::{Phase, Row, Tables};
+use super::tables::{ACCELERATION, DISPLACEMENT, Phase, Row, Tables};
 use super::windows::Windows;
 use crate::error::SolveError;
 use crate::friction::Direction;
 use crate::response::{Event, Mode};
 use crate::solver::exact::{Sliding, Start};
+use crate::solver::extremes::tracked;
 
 /// What a walk by blocks and the run it serves hand to each other.
 pub(in crate::solver) struct Carry {
@@ -63,6 +64,13 @@ pub(super) struct Walk<'w, S: Simd> {
     pub(super) candidates: Candidates,
     /// Peaks attained so far; those of `carry` are behind.
     pub(super) peak: f64x8<S>,
+    /// Within which values of the gates nothing new is told.
+    pub(super) low: f64x4<S>,
+    pub(super) high: f64x4<S>,
+    /// Peaks of friction and slider force in stick that matter, infinite where the static bounds
+    /// keep them.
+    pub(super) most_friction: f64,
+    pub(super) most_slider: f64,
     pub(super) records: bool,
 }
 
@@ -75,7 +83,8 @@ impl<'w, S: Simd> Walk<'w, S> {
         host: &'w mut dyn Host,
         carry: &'w mut Carry,
     ) -> Self {
-        Self {
+        let zero = four(simd, 0.0);
+        let mut walk = Self {
             simd,
             tables,
             windows,
@@ -84,13 +93,20 @@ impl<'w, S: Simd> Walk<'w, S> {
             host,
             candidates: Candidates::default(),
             peak: f64x8::load_array(simd, carry.peak),
+            low: zero,
+            high: zero,
+            most_friction: 0.0,
+            most_slider: 0.0,
             carry,
-        }
+        };
+        walk.set_gates();
+        walk
     }
 
     /// Walks from a sample to the end of the evenly spaced samples.
     #[inline(always)]
     pub(super) fn go(&mut self, mut sample: usize, end: usize) -> Result<(), SolveError> {
+        self.attain();
         while sample < end {
             sample = match self.carry.mode {
                 Mode::Slip(_) if self.is_due() => sample,
@@ -102,6 +118,7 @@ impl<'w, S: Simd> Walk<'w, S> {
                 sample += 1;
             }
         }
+        self.attain();
         self.settle();
         self.carry.peak = self.peak.to_array();
         Ok(())
@@ -119,6 +136,7 @@ impl<'w, S: Simd> Walk<'w, S> {
         self.carry.peak = self.peak.to_array();
         let result = self.host.long_way(self.carry, sample, from_s);
         self.peak = f64x8::load_array(self.simd, self.carry.peak);
+        self.set_gates();
         result
     }
 
@@ -141,7 +159,7 @@ impl<'w, S: Simd> Walk<'w, S> {
         let taps = &phase.tap;
         let mut load = times4(simd, &phase.first[k], a[0]);
         if SLIP {
-            load = load + times4(simd, &phase.force[k], force);
+            load += times4(simd, &phase.force[k], force);
         }
         if k == BLOCK {
             // Two sums, that neither has to wait for the other.
@@ -149,10 +167,10 @@ impl<'w, S: Simd> Walk<'w, S> {
                 + (times4(simd, &taps[3], a[5]) + times4(simd, &taps[1], a[7]));
             let even = (times4(simd, &taps[6], a[2]) + times4(simd, &taps[4], a[4]))
                 + (times4(simd, &taps[2], a[6]) + times4(simd, &taps[0], a[8]));
-            load = load + (odd + even);
+            load += odd + even;
         } else {
             for m in 1..=k {
-                load = load + times4(simd, &taps[k - m], a[m]);
+                load += times4(simd, &taps[k - m], a[m]);
             }
         }
         combine4(simd, &phase.power[k], x) + load
@@ -175,9 +193,69 @@ impl<'w, S: Simd> Walk<'w, S> {
             + (times8(simd, &taps[5], a[6]) + times8(simd, &taps[7], a[8]));
         let mut load = times8(simd, &row.first, a[0]) + (odd + even);
         if SLIP {
-            load = load + times8(simd, &row.force, force);
+            load += times8(simd, &row.force, force);
         }
         combine8(simd, &row.state, x) + load
+    }
+
+    /// Takes the values of sliding at the present for attained: in a slip the friction force, and
+    /// without a damper the slider force, have their peaks at its ends, where nothing else looks if
+    /// the samples begin or end amid it.
+    #[inline(always)]
+    fn attain(&mut self) {
+        if let Mode::Slip(direction) = self.carry.mode
+            && !self.is_due()
+        {
+            let view = self.view::<true>(self.carry.x, 0.0, self.force(direction));
+            self.peak = larger(self.peak, view.abs());
+            self.set_gates();
+        }
+    }
+
+    /// Draws the gates around the peaks attained.
+    #[inline(always)]
+    pub(super) fn set_gates(&mut self) {
+        let (tables, simd) = (self.tables, self.simd);
+        let (plant, shape, slope) = (&tables.plant, tables.shape, tables.slope);
+        let peak = self.peak.to_array();
+        let mut low = [f64::NEG_INFINITY; 4];
+        let mut high = [f64::INFINITY; 4];
+        (low[0], high[0]) = (-peak[tracked::VELOCITY], peak[tracked::VELOCITY]);
+        if shape > 0.0 {
+            let per_shape = 1.0 / shape;
+            high[1] = peak[DISPLACEMENT] * per_shape;
+            low[1] = -high[1];
+            let of_shear = peak[tracked::BASE_SHEAR] / plant.participation;
+            high[2] = ((peak[ACCELERATION] - slope) * per_shape).min(of_shear);
+            low[2] = -((peak[ACCELERATION] + slope) * per_shape).min(of_shear);
+        }
+        (low[3], high[3]) = (slope - peak[tracked::BLOCK], slope + peak[tracked::BLOCK]);
+        (self.low, self.high) = (Four(low).load(simd), Four(high).load(simd));
+        // A demand that has reached its largest bound cannot grow but by rounding.
+        let bound = self.ground.bounds[1].max(-self.ground.bounds[0]) * (1.0 - 1e-14);
+        let [friction, slider] = [peak[tracked::FRICTION], peak[tracked::SLIDER]];
+        let free = plant.stiffness_n_per_m == 0.0;
+        self.most_friction = if friction >= bound { f64::INFINITY } else { friction };
+        self.most_slider = if free && slider >= bound { f64::INFINITY } else { slider };
+    }
+
+    /// What is watched in a state.
+    #[inline(always)]
+    pub(super) fn gates<const SLIP: bool>(&self, x: f64x4<S>, input: f64) -> f64x4<S> {
+        let gates = &self.phase::<SLIP>().gates;
+        combine4(self.simd, &gates.columns, x) + times4(self.simd, &gates.of_input, input)
+    }
+
+    /// Whether values of the gates stay within them by a slack.
+    #[inline(always)]
+    pub(super) fn inside(&self, view: f64x4<S>, slack: f64x4<S>) -> mask64x4<S> {
+        view.simd_ge(self.low + slack) & view.simd_le(self.high - slack)
+    }
+
+    /// Whether the overturning moment, and in slip the slider force, are to be watched besides.
+    #[inline(always)]
+    pub(super) fn careful(&self) -> bool {
+        self.tables.plant.damper_n_s_per_m != 0.0 || self.tables.arm != [0.0; 2]
     }
 
     /// The tracked quantities in a state under an acceleration and a friction force.

@@ -32,31 +32,39 @@ impl Windows {
         let dt_s = motion.dt_s().or_else(|| regular_step(motion.times_s()).0);
         let a = motion.horizontal_m_per_s2();
         let over_dt = dt_s.map_or(0.0, |dt_s| 1.0 / dt_s);
-        let chunks = a.len().div_ceil(BLOCK);
         // Largest over the samples and intervals that begin in a chunk.
-        let mut sizes = Vec::with_capacity(chunks);
+        let larger = |a: f64, b: f64| if b > a { b } else { a };
+        let most = |x: &[f64; BLOCK]| {
+            let pairs =
+                [larger(x[0], x[4]), larger(x[1], x[5]), larger(x[2], x[6]), larger(x[3], x[7])];
+            larger(larger(pairs[0], pairs[2]), larger(pairs[1], pairs[3]))
+        };
+        let mut sizes = Vec::with_capacity(a.len().div_ceil(BLOCK) + QUIET / BLOCK);
         for from in (0..a.len()).step_by(BLOCK) {
-            let (mut size, mut rate) = (0.0_f64, 0.0_f64);
-            for i in from..a.len().min(from + BLOCK) {
-                size = size.max(a[i].abs());
-                if let Some(next) = a.get(i + 1) {
-                    rate = rate.max((next - a[i]).abs());
+            let rest = &a[from..];
+            let (mut size, mut change) = ([0.0; BLOCK], [0.0; BLOCK]);
+            if let Some(x) = rest.first_chunk::<{ BLOCK + 1 }>() {
+                for k in 0..BLOCK {
+                    (size[k], change[k]) = (x[k].abs(), (x[k + 1] - x[k]).abs());
+                }
+            } else {
+                for (k, x) in rest.iter().enumerate() {
+                    size[k] = x.abs();
+                    change[k] = rest.get(k + 1).map_or(0.0, |next| (next - x).abs());
                 }
             }
-            sizes.push([size, rate * over_dt]);
+            sizes.push([most(&size), most(&change) * over_dt]);
         }
+        let chunks = sizes.len();
+        sizes.resize(chunks + QUIET / BLOCK, [0.0; 2]);
         // From the last of eight samples a block ends at the last sample of the next chunk, and a
         // stretch of quiet stick at that of the fourth.
-        let over = |from: usize, chunks: usize, which: usize| {
-            sizes[from..sizes.len().min(from + chunks)]
-                .iter()
-                .fold(0.0_f64, |largest, x| largest.max(x[which]))
-        };
-        let largest = (0..chunks)
-            .map(|c| Window {
-                block: over(c, 2, 0),
-                quiet: over(c, 1 + QUIET / BLOCK, 0),
-                rate: over(c, 2, 1),
+        let largest = sizes
+            .windows(1 + QUIET / BLOCK)
+            .map(|s| {
+                let block = larger(s[0][0], s[1][0]);
+                let quiet = larger(larger(block, s[2][0]), larger(s[3][0], s[4][0]));
+                Window { block, quiet, rate: larger(s[0][1], s[1][1]) }
             })
             .collect();
         Self { dt_s, largest }

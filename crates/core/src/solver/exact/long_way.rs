@@ -171,6 +171,7 @@ impl<V: PerStorey, R: Recorder<V>> Run<'_, V, R> {
         let demand = self.demand(stretch, at_s);
         let normal = stretch.normal_at(at_s);
         let [low, high] = self.bounds.map(|bound| bound * normal);
+        self.sliding.decide(demand, [low, high]);
         let direction = if demand > high {
             Direction::Negative
         } else if demand < low {
