@@ -173,21 +173,22 @@ impl Overshoot {
         libm::ceil(theta / longest).max(1.0)
     }
 
-    /// Whether the peak inside may be above `attained`.
+    /// What a value at an end has to exceed for the peak inside to be above `attained`.
     #[inline(always)]
-    pub fn may_pass(&self, attained: f64, ends: f64, forcing: f64) -> bool {
-        // Always true where the bound says nothing, `c = 1`, but for an interval of zeros.
-        ends + self.c * forcing > (1.0 - self.c) * attained
+    pub fn limit(&self, attained: f64, forcing: f64) -> f64 {
+        // Where the bound says nothing, `c = 1`, every value but 0 exceeds it.
+        (1.0 - self.c) * attained - self.c * forcing
     }
 
-    /// The same for one interval whose values and slopes are known: a sharper bound.
+    /// Whether `−y` and `y` may be above `attained` inside an interval whose values and slopes at
+    /// both ends are known: a sharper bound.
     ///
     /// The cubic `H` through both departs from `y` by at most `θ⁴/384 sup|y⁗|`. As `f` is linear,
     /// `y‴ = −y′ − 2ξ y″ − f′` and `y⁗ = −y″ − 2ξ y‴`, where `|y″| ≤ D` and `|y′| ≤ θD` as above.
-    fn may_pass_closely(&self, attained: f64, line: &Line, end: [f64; 2]) -> bool {
+    fn sides(&self, attained: f64, line: &Line, end: [f64; 2]) -> [bool; 2] {
         let Self { theta, xi, room, c } = *self;
         if c >= 1.0 {
-            return true;
+            return [true; 2];
         }
         let ([y0, slope0], [y1, slope1]) = ([line.y, line.slope], end);
         let forcing = line.f[0].abs().max(line.f[1].abs());
@@ -195,31 +196,33 @@ impl Overshoot {
         let bend = (highest + forcing) / room;
         // From its value at one end to 0 and on to that at the other y′ needs this much bend.
         if slope0 * slope1 > 0.0 && slope0.abs() + slope1.abs() > bend * theta {
-            return false;
+            return [false; 2];
         }
         let third = (theta + 2.0 * xi) * bend + (line.f[1] - line.f[0]).abs() / theta;
         let square = theta * theta;
         let error = square * square / 384.0 * (bend + 2.0 * xi * third);
-        cubic_peak(y0, y1, theta * slope0, theta * slope1) + error > attained
+        let [lowest, highest] = cubic_extremes(y0, y1, theta * slope0, theta * slope1);
+        [-lowest + error > attained, highest + error > attained]
     }
 }
 
-/// Largest |cubic| on [0, 1] by its values and slopes at both ends.
-fn cubic_peak(y0: f64, y1: f64, d0: f64, d1: f64) -> f64 {
+/// Least and largest value of a cubic on [0, 1] by its values and slopes at both ends.
+fn cubic_extremes(y0: f64, y1: f64, d0: f64, d1: f64) -> [f64; 2] {
     let rise = y1 - y0;
     let (c2, c3) = (3.0 * rise - 2.0 * d0 - d1, d0 + d1 - 2.0 * rise);
     // 3 c3 x² + 2 c2 x + d0 = 0, in the form that does not cancel.
     let discriminant = c2 * c2 - 3.0 * c3 * d0;
-    let mut peak = y0.abs().max(y1.abs());
+    let (mut lowest, mut highest) = (y0.min(y1), y0.max(y1));
     if discriminant >= 0.0 {
         let s = -(c2 + libm::copysign(discriminant.sqrt(), c2));
         for x in [s / (3.0 * c3), d0 / s] {
             if x > 0.0 && x < 1.0 {
-                peak = peak.max((y0 + x * (d0 + x * (c2 + x * c3))).abs());
+                let y = y0 + x * (d0 + x * (c2 + x * c3));
+                (lowest, highest) = (lowest.min(y), highest.max(y));
             }
         }
     }
-    peak
+    [lowest, highest]
 }
 
 /// One interval of the history, seen by one oscillator.
@@ -247,11 +250,13 @@ impl Interval {
         let total = |s: State| s.u + 2.0 * xi * s.w;
         let totals = [total(start), total(end)];
         let raise = |peak: &mut f64, y: [f64; 2], f: [f64; 2], slopes: &dyn Fn() -> [f64; 2]| {
-            if overshoot.may_pass(*peak, y[0].abs().max(y[1].abs()), f[0].abs().max(f[1].abs())) {
+            let limit = overshoot.limit(*peak, f[0].abs().max(f[1].abs()));
+            if y[0].abs() > limit || y[1].abs() > limit {
                 let slopes = slopes();
                 let line = Line { xi, theta, y: y[0], slope: slopes[0], f };
-                if overshoot.may_pass_closely(*peak, &line, [y[1], slopes[1]]) {
-                    line.raise(peak);
+                let sides = overshoot.sides(*peak, &line, [y[1], slopes[1]]);
+                if sides != [false; 2] {
+                    line.raise(sides, peak);
                 }
             }
         };
@@ -280,8 +285,8 @@ impl Line {
     /// Longest phase that one Taylor polynomial spans: what it leaves out is below 1e-15.
     const LONGEST: f64 = 0.375;
 
-    /// Raises the peak by the largest |y|.
-    fn raise(&self, peak: &mut f64) {
+    /// Raises the peak by the largest `−y` and `y`, each where asked for.
+    fn raise(&self, [below, above]: [bool; 2], peak: &mut f64) {
         let parts = libm::ceil(self.theta / Self::LONGEST).max(1.0);
         let theta = self.theta / parts;
         let (mut y, mut slope) = (self.y, self.slope);
@@ -289,8 +294,12 @@ impl Line {
         for part in 0..parts as u64 {
             let at = |k: u64| f0 + (f1 - f0) * (k as f64 / parts);
             let c = taylor(theta, self.xi, y, slope, [at(part), at(part + 1)]);
-            *peak = polynomial::largest(&c, *peak);
-            *peak = polynomial::largest(&c.map(|c| -c), *peak);
+            if above {
+                *peak = polynomial::largest(&c, *peak);
+            }
+            if below {
+                *peak = polynomial::largest(&c.map(|c| -c), *peak);
+            }
             y = polynomial::value(&c, 1.0);
             slope = polynomial::value(&polynomial::derivative(&c), 1.0) / theta;
         }
@@ -381,27 +390,26 @@ mod tests {
             let steps = 200;
             let step = Step::new(theta / f64::from(steps), xi);
             let mut state = State { u: line.y, w: line.slope };
-            let mut largest = state.u.abs();
+            let mut signed = state.u;
             for k in 0..steps {
                 let at =
                     |k: i32| line.f[0] + (line.f[1] - line.f[0]) * f64::from(k) / f64::from(steps);
                 state = step.apply(state, at(k), at(k + 1));
-                largest = largest.max(state.u.abs());
+                signed = if state.u.abs() > signed.abs() { state.u } else { signed };
             }
+            let largest = signed.abs();
             let ends = line.y.abs().max(state.u.abs());
             let forcing = line.f[0].abs().max(line.f[1].abs());
             if largest > ends {
                 let below = largest * (1.0 - 1e-14);
-                assert!(overshoot.may_pass(below, ends, forcing), "{theta} {xi}");
-                assert!(
-                    overshoot.may_pass_closely(below, &line, [state.u, state.w]),
-                    "{theta} {xi}"
-                );
+                assert!(ends > overshoot.limit(below, forcing), "{theta} {xi}");
+                let sides = overshoot.sides(below, &line, [state.u, state.w]);
+                assert!(sides[usize::from(signed > 0.0)], "{theta} {xi}");
                 let bound = (ends + overshoot.c * forcing) / (1.0 - overshoot.c);
                 tight = tight.max((largest - ends) / (bound - ends));
             }
             let mut peak = ends;
-            line.raise(&mut peak);
+            line.raise([true; 2], &mut peak);
             assert!(peak >= largest * (1.0 - 1e-13) && peak <= largest + 1e-4, "{peak} {largest}");
         }
         assert!(tight > 0.8, "{tight}");

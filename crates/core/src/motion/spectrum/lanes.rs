@@ -6,14 +6,16 @@
 //! between samples may be above what was attained: few of them. Lanes do not mix and no sum is
 //! reordered, so that the bits are the same whatever instructions do it.
 
+use fearless_simd::{Level, dispatch};
+
 use super::Oscillator;
 use crate::motion::oscillator::{Interval, Overshoot, Peaks, State, Step};
 
 /// Oscillators side by side.
-const LANES: usize = 4;
+const LANES: usize = 8;
 
 /// Samples between kept states.
-const BLOCK: usize = 64;
+const BLOCK: usize = 32;
 
 /// One number for each oscillator.
 type Lanes = [f64; LANES];
@@ -37,6 +39,7 @@ pub(super) fn peaks(
     order.sort_by(|&i, &j| parts[i].total_cmp(&parts[j]));
     let mut all = vec![None; oscillators.len()];
     let mut blocks = Vec::new();
+    let level = Level::new();
     for alike in order.chunk_by(|&i, &j| parts[i] == parts[j]) {
         let cuts = parts[alike[0]];
         if !(cuts * acceleration.len() as f64 <= MOST_SAMPLES as f64) {
@@ -55,7 +58,7 @@ pub(super) fn peaks(
         for indices in alike.chunks(LANES) {
             let group: Vec<Oscillator> = indices.iter().map(|&i| oscillators[i]).collect();
             let matrices = Matrices::new(dt_s, &group);
-            matrices.run(acceleration, &mut blocks);
+            dispatch!(level, _simd => matrices.run(acceleration, &mut blocks));
             for (lane, &i) in indices.iter().enumerate() {
                 let one = One::new(dt_s, oscillators[i], &matrices, lane);
                 all[i] = Some(one.peaks(acceleration, &extents, &blocks));
@@ -155,7 +158,7 @@ impl Matrices {
     }
 
     /// All lanes over the whole record, from rest.
-    #[inline(never)]
+    #[inline(always)]
     fn run(&self, acceleration: &[f64], blocks: &mut Vec<Block>) {
         blocks.clear();
         let (mut u, mut w) = ([0.0; LANES], [0.0; LANES]);
@@ -202,16 +205,20 @@ impl Block {
 struct One<'a> {
     matrices: &'a Matrices,
     lane: usize,
-    oscillator: Oscillator,
+    xi: f64,
     theta: f64,
+    /// `α` over the acceleration, and its slope by phase over the change in a sample.
+    compliance: f64,
+    by_change: f64,
     overshoot: Overshoot,
 }
 
 impl<'a> One<'a> {
     fn new(dt_s: f64, oscillator: Oscillator, matrices: &'a Matrices, lane: usize) -> Self {
-        let theta = oscillator.omega * dt_s;
-        let overshoot = Overshoot::new(theta, oscillator.xi);
-        Self { matrices, lane, oscillator, theta, overshoot }
+        let (xi, theta) = (oscillator.xi, oscillator.omega * dt_s);
+        let compliance = oscillator.compliance();
+        let overshoot = Overshoot::new(theta, xi);
+        Self { matrices, lane, xi, theta, compliance, by_change: compliance / theta, overshoot }
     }
 
     fn peaks(&self, acceleration: &[f64], extents: &[Extent], blocks: &[Block]) -> Peaks {
@@ -229,40 +236,65 @@ impl<'a> One<'a> {
         }
         // The highest first: what they attain leaves fewer of the others to look at.
         for &index in &highest {
-            self.look_closely(acceleration, index, &blocks[index], &mut peaks);
+            self.look_closely(acceleration, index, &blocks[index], extents[index], &mut peaks);
         }
         for (index, block) in blocks.iter().enumerate() {
-            if self.may_pass(&peaks, &block.peaks(self.lane), extents[index]) {
-                self.look_closely(acceleration, index, block, &mut peaks);
+            if exceeds(&block.peaks(self.lane), &self.limits(&peaks, extents[index])) {
+                self.look_closely(acceleration, index, block, extents[index], &mut peaks);
             }
         }
         peaks
     }
 
-    /// Whether a peak between samples of a block may be above those attained.
-    fn may_pass(&self, attained: &Peaks, block: &Peaks, extent: Extent) -> bool {
-        let compliance = self.oscillator.compliance();
-        let value = compliance * extent.value;
-        let slope = compliance * extent.change / self.theta;
-        let total = value + 2.0 * self.oscillator.xi * slope;
-        self.overshoot.may_pass(attained.u, block.u, value)
-            || self.overshoot.may_pass(attained.w, block.w, slope)
-            || self.overshoot.may_pass(attained.total, block.total, total)
+    /// What values at samples of a block have to exceed for a peak between them to be above those
+    /// attained.
+    #[inline(always)]
+    fn limits(&self, attained: &Peaks, extent: Extent) -> Peaks {
+        let (value, slope) = (self.compliance * extent.value, self.by_change * extent.change);
+        let total = value + 2.0 * self.xi * slope;
+        Peaks {
+            u: self.overshoot.limit(attained.u, value),
+            w: self.overshoot.limit(attained.w, slope),
+            total: self.overshoot.limit(attained.total, total),
+        }
     }
 
     /// Goes through a block again and raises the peaks by those between its samples.
-    fn look_closely(&self, acceleration: &[f64], index: usize, block: &Block, peaks: &mut Peaks) {
+    fn look_closely(
+        &self,
+        acceleration: &[f64],
+        index: usize,
+        block: &Block,
+        extent: Extent,
+        peaks: &mut Peaks,
+    ) {
         let first = index * BLOCK;
         let last = (first + BLOCK + 1).min(acceleration.len());
-        let (xi, theta, compliance) =
-            (self.oscillator.xi, self.theta, self.oscillator.compliance());
+        let sizes = |s: State| Peaks {
+            u: s.u.abs(),
+            w: s.w.abs(),
+            total: (s.u + 2.0 * self.xi * s.w).abs(),
+        };
+        // As peaks rise, limits do: those at the start let through a few too many.
+        let limits = self.limits(peaks, extent);
         let mut start = State { u: block.u[self.lane], w: block.w[self.lane] };
+        let mut from_start = exceeds(&sizes(start), &limits);
         for a in acceleration[first..last].windows(2) {
             let (u, w) = self.matrices.step(self.lane, start.u, start.w, a[0], a[1]);
             let end = State { u, w };
-            let (alpha0, alpha1) = (compliance * a[0], compliance * a[1]);
-            Interval { xi, theta, start, end, alpha0, alpha1 }.raise(self.overshoot, peaks);
-            start = end;
+            let from_end = exceeds(&sizes(end), &limits);
+            if from_start || from_end {
+                let (alpha0, alpha1) = (self.compliance * a[0], self.compliance * a[1]);
+                let (xi, theta) = (self.xi, self.theta);
+                Interval { xi, theta, start, end, alpha0, alpha1 }.raise(self.overshoot, peaks);
+            }
+            (start, from_start) = (end, from_end);
         }
     }
+}
+
+/// Whether one of the values is above its limit.
+#[inline(always)]
+fn exceeds(values: &Peaks, limits: &Peaks) -> bool {
+    values.u > limits.u || values.w > limits.w || values.total > limits.total
 }
