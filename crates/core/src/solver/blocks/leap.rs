@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
-use super::lanes::{BLOCK, Four, combine4, eight, four, larger4, times4, times8};
+use super::lanes::{BLOCK, Four, combine4, eight, four, larger4, times4};
 use super::peaks::Block;
 use super::tables::{ACCELERATION, DISPLACEMENT, QUIET};
 use super::walk::Walk;
