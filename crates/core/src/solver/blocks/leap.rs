@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
-use super::lanes::{BLOCK, Eight, combine4, eight, four, larger4, times4, times8};
+use super::lanes::{BLOCK, Four, combine4, eight, four, larger4, times4};
 use super::peaks::Block;
 use super::tables::{ACCELERATION, DISPLACEMENT, QUIET};
 use super::walk::Walk;
@@ -49,7 +49,7 @@ impl<S: Simd> Walk<'_, S> {
             let hidden = slack.as_array()[0];
             let slides = sign * start[1] > hidden && sign * next.as_array()[1] > hidden;
             let mut hits = 0;
-            if self.careful() {
+            if self.careful {
                 let most = larger4(view.abs(), next_view.abs()) + slack;
                 let s = start[0].abs().max(next.as_array()[0].abs());
                 hits = self.beside(most.to_array(), s, force);
@@ -164,25 +164,22 @@ impl<S: Simd> Walk<'_, S> {
         let (simd, tables) = (self.simd, self.tables);
         let (bend, quiet, plant) = (&tables.stick.gates.bend, &tables.quiet, &tables.plant);
         let [low, high] = self.ground.bounds;
-        let mut holds = Eight([f64::INFINITY; 8]);
-        holds.0[tracked::FRICTION] = high.min(-low);
-        let holds = holds.load(simd);
-        let constant = times8(simd, &quiet.of_s, self.carry.x[0].abs()) + quiet.of_slope.load(simd);
         let mut x = self.state();
         let spring_n = plant.stiffness_n_per_m * self.carry.x[0];
+        let mut limit = self.stick_limits(spring_n);
         while sample + BLOCK <= end {
             let window = self.windows.at(sample);
             let start = x.to_array();
             let norm = plant.norm(&start);
             let size = window.block + self.ground.slope_size;
-            let base = times8(simd, &quiet.of_norm, norm) + constant;
-            let reach = base + times8(simd, &quiet.of_acceleration[0], size);
-            let within = reach.simd_le(self.peak);
-            if (within & reach.simd_lt(holds)).all_true() {
+            let base = times4(simd, &quiet.of_norm, norm);
+            let reach = base + times4(simd, &quiet.of_acceleration[0], size);
+            let within = reach.simd_le(limit);
+            if within.all_true() && self.moment_stays(reach) {
                 let far = window.quiet + self.ground.slope_size;
-                let reach = base + times8(simd, &quiet.of_acceleration[1], far);
-                let all = reach.simd_le(self.peak) & reach.simd_lt(holds);
-                if sample + QUIET <= end && all.all_true() {
+                let reach = base + times4(simd, &quiet.of_acceleration[1], far);
+                let all = reach.simd_le(limit).all_true() && self.moment_stays(reach);
+                if sample + QUIET <= end && all {
                     let next = self.after_quiet(sample, x);
                     if self.records {
                         self.record_quiet(sample, x);
@@ -213,25 +210,13 @@ impl<S: Simd> Walk<'_, S> {
             if steps == 0 {
                 break;
             }
-            let open = !within.to_bitmask() & 0xff;
-            if open != 0 {
-                let view = self.gates::<false>(x, a[0]);
-                let n = steps as u64;
-                let (low, high) = ((self.low + slack).to_array(), (self.high - slack).to_array());
-                let mut hits = open & (1 << tracked::OVERTURNING);
-                hits |= BEHIND_ANY * u64::from(!self.inside(view, slack).all_true());
-                if open & BEHIND[2] != 0 && self.outside(f, low[2], high[2], n) {
-                    hits |= BEHIND[2];
-                }
-                if open & BEHIND[3] != 0 && self.outside(table, low[3], high[3], n) {
-                    hits |= BEHIND[3];
-                }
-                if open & BEHIND[1] != 0 {
-                    let eta = self.row::<false>(&tables.stick.rows[2], start, a, 0.0);
-                    if self.outside(eta, low[1], high[1], n) {
-                        hits |= BEHIND[1];
-                    }
-                }
+            let open = !within.to_bitmask() & 0b1111;
+            let n = steps as u64;
+            let (lows, highs) = ((self.low + slack).to_array(), (self.high - slack).to_array());
+            let view = self.gates::<false>(x, a[0]);
+            let mut hits = BEHIND_ANY * u64::from(!self.inside(view, slack).all_true());
+            hits |= u64::from(!self.moment_stays(reach)) << tracked::OVERTURNING;
+            if open & 0b0001 != 0 {
                 let most = self.most_friction - hidden;
                 if first.abs() > most || self.outside(demand, -most, most, n) {
                     hits |= 1 << tracked::FRICTION;
@@ -241,10 +226,23 @@ impl<S: Simd> Walk<'_, S> {
                 if (first - spring_n).abs() > most || self.outside(slider, -most, most, n) {
                     hits |= 1 << tracked::SLIDER;
                 }
-                if hits != 0 {
-                    let block = Block { sample, steps, direction: None, x: start };
-                    self.watch::<false>(&block, hits, slack);
+            }
+            if open & 0b0010 != 0 {
+                let eta = self.row::<false>(&tables.stick.rows[2], start, a, 0.0);
+                if self.outside(eta, lows[1], highs[1], n) {
+                    hits |= BEHIND[1];
                 }
+            }
+            if open & 0b0100 != 0 && self.outside(f, lows[2], highs[2], n) {
+                hits |= BEHIND[2];
+            }
+            if open & 0b1000 != 0 && self.outside(table, lows[3], highs[3], n) {
+                hits |= BEHIND[3];
+            }
+            if hits != 0 {
+                let block = Block { sample, steps, direction: None, x: start };
+                self.watch::<false>(&block, hits, slack);
+                limit = self.stick_limits(spring_n);
             }
             self.record::<false>(sample, steps, x, 0.0);
             sample += steps;
@@ -255,6 +253,34 @@ impl<S: Simd> Walk<'_, S> {
         }
         self.carry.x = x.to_array();
         sample
+    }
+
+    /// Sizes below which nothing new is told in stick: of the demand without the spring's part, `η`,
+    /// `f` and `a`.
+    #[inline(always)]
+    fn stick_limits(&self, spring_n: f64) -> f64x4<S> {
+        let (low, high) = (self.low.to_array(), self.high.to_array());
+        let least = |a: f64, b: f64| if b < a { b } else { a };
+        let [holds_low, holds_high] = self.ground.bounds;
+        let holds = least(least(holds_high, -holds_low), self.most_friction) - spring_n.abs();
+        let limits = [
+            least(holds, self.most_slider),
+            high[1],
+            least(high[2], -low[2]),
+            least(high[3], -low[3]),
+        ];
+        Four(limits).load(self.simd)
+    }
+
+    /// Whether in stick the overturning moment stays below its peak.
+    #[inline(always)]
+    fn moment_stays(&self, reach: f64x4<S>) -> bool {
+        let [arm, half] = self.tables.arm;
+        if arm == 0.0 && half == 0.0 {
+            return true;
+        }
+        let reach = reach.to_array();
+        arm.abs() * reach[2] + half.abs() * reach[3] <= self.peak.as_array()[tracked::OVERTURNING]
     }
 
     /// Records a stretch of quiet stick.

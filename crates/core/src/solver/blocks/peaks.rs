@@ -156,7 +156,7 @@ impl<S: Simd> Walk<'_, S> {
             let hidden = plant.participation * slack.as_array()[2];
             most + hidden <= self.most_friction && slider + hidden <= self.most_slider
         };
-        if !(quiet && forces) || self.careful() {
+        if !(quiet && forces) || self.careful {
             self.look_at_all::<SLIP>(part, end, t, input, slack);
         }
     }

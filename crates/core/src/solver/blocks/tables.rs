@@ -128,13 +128,10 @@ pub(super) struct Quiet {
     pub(super) power: [Four; 4],
     pub(super) first: Four,
     pub(super) tap: [Four; QUIET],
-    /// Bounds on the tracked quantities over a block and over the stretch: of the norm of the state
-    /// at the start, of the largest acceleration, and of |s|.
-    pub(super) of_norm: Eight,
-    pub(super) of_acceleration: [Eight; 2],
-    pub(super) of_s: Eight,
-    /// What the slope adds to them.
-    pub(super) of_slope: Eight,
+    /// Bounds over a block and over the stretch on the size of the demand without the spring's part,
+    /// of `η`, `f` and `a`: of the norm of the state at the start, and of the largest acceleration.
+    pub(super) of_norm: Four,
+    pub(super) of_acceleration: [Four; 2],
 }
 
 impl Plant {
@@ -251,7 +248,7 @@ impl Tables {
             phase.view = rows.view(plant, is_slip, *shape, *arm);
             phase.gates = Gates::new(plant, is_slip, dt_s);
         }
-        quiet.fill(plant, &rows, stick, &taps, dt_s);
+        quiet.fill(plant, stick, &taps, dt_s);
     }
 
     const EMPTY: Self = Self {
@@ -274,10 +271,8 @@ impl Tables {
             power: [Four::ZERO; 4],
             first: Four::ZERO,
             tap: [Four::ZERO; QUIET],
-            of_norm: Eight::ZERO,
-            of_acceleration: [Eight::ZERO; 2],
-            of_s: Eight::ZERO,
-            of_slope: Eight::ZERO,
+            of_norm: Four::ZERO,
+            of_acceleration: [Four::ZERO; 2],
         },
         shape: 0.0,
         arm: [0.0; 2],
@@ -366,13 +361,6 @@ impl TrackedRows {
             slope: self.slope,
             of_gates,
         }
-    }
-
-    /// Row of a quantity over the state.
-    #[inline(always)]
-    fn over_state(&self, plant: &Plant, slip: bool, j: usize) -> [f64; 4] {
-        let c = self.columns(slip);
-        [c[0][j], c[1][j], c[2][j] + plant.omega2 * c[3][j], plant.decay * c[3][j]]
     }
 }
 
@@ -542,14 +530,7 @@ fn unit(j: usize) -> [f64; 4] {
 
 impl Quiet {
     #[inline(always)]
-    fn fill(
-        &mut self,
-        plant: &Plant,
-        tracked: &TrackedRows,
-        stick: &Phase,
-        tap: &[Four; QUIET],
-        dt_s: f64,
-    ) {
+    fn fill(&mut self, plant: &Plant, stick: &Phase, tap: &[Four; QUIET], dt_s: f64) {
         let square = |m: &Matrix| -> Matrix { core::array::from_fn(|j| times(m, m[j])) };
         let by_8 = stick.power[BLOCK].map(|c| c.0);
         let by_16 = square(&by_8);
@@ -557,25 +538,16 @@ impl Quiet {
         // The first sample's ramp down has the whole stretch before it.
         self.first = Four(times(&by_16, times(&by_8, stick.first[BLOCK].0)));
         self.tap = *tap;
-        let columns = tracked.columns(false);
-        let mut of_norm = [0.0; 8];
-        let mut of_acceleration = [[0.0; 8]; 2];
-        let mut of_slope = [0.0; 8];
-        let slope = tracked.slope.0;
-        for j in 0..8 {
-            of_norm[j] = plant.dual_norm(false, tracked.over_state(plant, false, j));
-            for (of_acceleration, samples) in of_acceleration.iter_mut().zip([BLOCK, QUIET]) {
-                let growth = samples as f64 * dt_s * plant.participation;
-                of_acceleration[j] = of_norm[j] * growth + columns[OF_A][j].abs();
-            }
-            of_slope[j] = slope[j].abs();
+        let of_f = plant.dual_norm(false, [0.0, 0.0, plant.omega2, plant.decay]);
+        let of_eta = plant.dual_norm(false, unit(2));
+        let of_norm = [plant.participation * of_f, of_eta, of_f, 0.0];
+        self.of_norm = Four(of_norm);
+        for (of_acceleration, samples) in self.of_acceleration.iter_mut().zip([BLOCK, QUIET]) {
+            let growth = samples as f64 * dt_s * plant.participation;
+            *of_acceleration = Four(of_norm.map(|of_norm| of_norm * growth));
+            of_acceleration.0[0] += plant.block_mass_kg;
+            of_acceleration.0[3] = 1.0;
         }
-        // The block's own acceleration in stick is the table's, which is the load less the slope.
-        of_slope[tracked::BLOCK] = -of_slope[tracked::BLOCK];
-        self.of_norm = Eight(of_norm);
-        self.of_acceleration = of_acceleration.map(Eight);
-        self.of_s = Eight(columns[0].map(f64::abs));
-        self.of_slope = Eight(of_slope);
     }
 }
 

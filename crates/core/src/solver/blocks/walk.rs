@@ -72,6 +72,8 @@ pub(super) struct Walk<'w, S: Simd> {
     pub(super) most_friction: f64,
     pub(super) most_slider: f64,
     pub(super) records: bool,
+    /// Whether the overturning moment, or in slip the slider force, is to be watched besides.
+    pub(super) careful: bool,
 }
 
 impl<'w, S: Simd> Walk<'w, S> {
@@ -90,6 +92,7 @@ impl<'w, S: Simd> Walk<'w, S> {
             windows,
             ground,
             records: host.records(),
+            careful: tables.plant.damper_n_s_per_m != 0.0 || tables.arm != [0.0; 2],
             host,
             candidates: Candidates::default(),
             peak: f64x8::load_array(simd, carry.peak),
@@ -250,12 +253,6 @@ impl<'w, S: Simd> Walk<'w, S> {
     #[inline(always)]
     pub(super) fn inside(&self, view: f64x4<S>, slack: f64x4<S>) -> mask64x4<S> {
         view.simd_ge(self.low + slack) & view.simd_le(self.high - slack)
-    }
-
-    /// Whether the overturning moment, and in slip the slider force, are to be watched besides.
-    #[inline(always)]
-    pub(super) fn careful(&self) -> bool {
-        self.tables.plant.damper_n_s_per_m != 0.0 || self.tables.arm != [0.0; 2]
     }
 
     /// The tracked quantities in a state under an acceleration and a friction force.
