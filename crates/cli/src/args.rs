@@ -7,8 +7,7 @@ pub use assessment::{
     DesignArgs, FitToName, FragilityArgs, IdaArgs, ScaleArgs, SpectrumArgs, SuiteArgs,
 };
 pub use laboratory::{
-    CompareArgs, CyclicArgs, FreeVibrationArgs, IdentifyCommand, MappingArgs, Part, ResultArgs,
-    ShakingTableArgs,
+    CompareArgs, CyclicArgs, FreeVibrationArgs, IdentifyCommand, Part, ResultArgs, ShakingTableArgs,
 };
 
 use clap::{Args, Parser, Subcommand, ValueEnum};

@@ -1,6 +1,6 @@
 //! Options of `slipstick compare` and `slipstick identify`.
 
-use super::UnitSystem;
+use super::{MethodName, UnitSystem};
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 

@@ -139,10 +139,7 @@ fn written(analysis: &Analysis, path: &str) -> Option<f64> {
 fn default_range(path: &str, analysis: &Analysis) -> Option<[f64; 2]> {
     let name = path.rsplit('.').next().unwrap_or(path);
     let model = &analysis.model;
-    // A coefficient for both ways stands also for each of them.
-    let parent = path.strip_suffix(".positive").or(path.strip_suffix(".negative"));
-    let value =
-        analysis.value(path).or_else(|| analysis.value(parent?)).filter(|value| *value > 0.0);
+    let value = written(analysis, path).filter(|value| *value > 0.0);
     let times = |least: f64, most: f64| value.map(|value| [least * value, most * value]);
     match name {
         "tilt" => Some([-0.02, 0.02]),

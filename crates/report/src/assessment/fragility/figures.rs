@@ -30,7 +30,9 @@ impl FragilityReport<'_> {
         };
         let what = match self.data {
             Data::Stripes(stripes) => {
-                let point = |s: &Stripe| [unit.of(s.level), s.exceeded as f64 / s.runs as f64];
+                let point = |s: &slipstick::assessment::fragility::Stripe| {
+                    [unit.of(s.level), s.exceeded as f64 / s.runs as f64]
+                };
                 series.push(dots("observed share", stripes.iter().map(point).collect()));
                 "points: share of the runs of each level that exceed the limit"
             }
