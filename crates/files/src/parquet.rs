@@ -87,7 +87,12 @@ impl<W: Write + Send> TableWriter<W> {
 
 /// What is wrong with a file, in the words of the Parquet library.
 pub(crate) fn at(path: &Path) -> impl Fn(ParquetError) -> FileError + '_ {
-    |error| FileError::Table { path: path.to_owned(), reason: error.to_string() }
+    |error| {
+        // The library says whose error it is; the message says so already.
+        let reason = error.to_string();
+        let reason = reason.strip_prefix("Parquet error: ").unwrap_or(&reason).to_owned();
+        FileError::Table { path: path.to_owned(), reason }
+    }
 }
 
 /// Opens a table.
