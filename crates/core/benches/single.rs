@@ -11,7 +11,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use slipstick::friction::{Coulomb, Friction};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::GroundMotion;
-use slipstick::solver;
+use slipstick::solver::{self, PreparedModel, PreparedMotion};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 use std::hint::black_box;
 
@@ -31,6 +31,16 @@ fn single(c: &mut Criterion) {
         group.bench_function(format!("{name}/{events} events"), |b| {
             b.iter(|| solver::exact_demands(black_box(model), black_box(motion)));
         });
+        group.bench_function(format!("{name}/plain way"), |b| {
+            b.iter(|| solver::exact_demands_plain(black_box(model), black_box(motion)));
+        });
+        let prepared = PreparedMotion::new(motion);
+        group.bench_function(format!("{name}/prepared motion"), |b| {
+            b.iter(|| {
+                let model = PreparedModel::new(black_box(model), &prepared);
+                solver::demands(&model, black_box(&prepared))
+            });
+        });
         group.bench_function(format!("{name}/with history"), |b| {
             b.iter(|| solver::exact(black_box(model), black_box(motion)));
         });
@@ -40,6 +50,10 @@ fn single(c: &mut Criterion) {
     group.throughput(Throughput::Elements(1));
     group.bench_function("set_up", |b| {
         b.iter(|| solver::exact_demands(black_box(&model(0.06, 0.05, 143e3)), &still));
+    });
+    let prepared = PreparedMotion::new(&still);
+    group.bench_function("tables", |b| {
+        b.iter(|| black_box(PreparedModel::new(black_box(&pendulum), &prepared)));
     });
     group.finish();
 }
