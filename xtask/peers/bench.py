@@ -8,14 +8,10 @@ its matrix exponentials out.
 
 import argparse
 import json
-import os
-import platform
 import statistics
 import subprocess
-import sys
 import time
 from dataclasses import replace
-from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +21,7 @@ import numba_loop
 import opensees
 import reference
 import scipy_events
+from machine import machine, note
 
 LABELS = {
     "slipstick": "Slipstick",
@@ -262,22 +259,6 @@ def table(rows, parts, machine):
     return "\n".join(lines) + "\n"
 
 
-def machine():
-    model = platform.processor() or platform.machine()
-    info = Path("/proc/cpuinfo")
-    if info.is_file():
-        names = [line.split(":")[1].strip() for line in info.read_text().split("\n")
-                 if line.startswith("model name")]
-        model = names[0] if names else model
-    versions = ", ".join(f"{name} {version(name)}" for name in ("openseespy", "numba", "scipy"))
-    return (f"{platform.system()}, {model}, {os.cpu_count()} cores, "
-            f"Python {platform.python_version()}, {versions}")
-
-
-def note(text):
-    print(text, file=sys.stderr, flush=True)
-
-
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--helper", required=True)
@@ -299,7 +280,7 @@ def main():
     rows += suite(helpers, ops, options.folder, min(rounds, 3), options.quick)
     parts = [pieces(case, helpers["slipstick"], rounds)
              for case in cases.named_cases() if case.name in ("A", "B", "F")]
-    where = machine()
+    where = machine("openseespy", "numba", "scipy")
     result = {"machine": where, "rows": rows, "pieces": parts}
     (options.folder / "peers.json").write_text(json.dumps(result, indent=1, default=float) + "\n")
     (options.folder / "peers.md").write_text(table(rows, parts, where))

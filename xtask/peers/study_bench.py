@@ -5,12 +5,10 @@ DuckDB."""
 import argparse
 import json
 import os
-import platform
 import shutil
 import subprocess
 import sys
 import time
-from importlib.metadata import version
 from pathlib import Path
 
 import duckdb
@@ -19,26 +17,12 @@ import numpy as np
 import cases
 import numba_loop
 import opensees
+from machine import machine, note
 
 # The study's model takes g as records do.
 cases.GRAVITY = cases.RECORD_G
 
 BLOCK_KG, FLOOR_KG, DAMPING = 20e3, 30e3, 0.05
-
-
-def machine():
-    model = platform.processor() or platform.machine()
-    info = Path("/proc/cpuinfo")
-    if info.is_file():
-        names = [line.split(":")[1].strip() for line in info.read_text().split("\n")
-                 if line.startswith("model name")]
-        model = names[0] if names else model
-    versions = ", ".join(f"{name} {version(name)}" for name in ("openseespy", "numba"))
-    return f"{platform.system()}, {model}, {os.cpu_count()} cores, {versions}"
-
-
-def note(text):
-    print(text, file=sys.stderr, flush=True)
 
 
 def prepare(folder):
@@ -209,7 +193,7 @@ def main():
     runs = 880 * counts[-1]
     note("peers")
     result = {
-        "machine": machine(),
+        "machine": machine("openseespy", "numba"),
         "runs": runs,
         "part": 880 * counts[1],
         "whole": {"jobs": jobs, "seconds": took},

@@ -28,6 +28,9 @@ Usage: cargo xtask TASK
                                  times the far-field study on one thread and two, in a numba loop
                                  and in OpenSeesPy; opens it in DuckDB (needs its records)
                                  (--write: into book/src/generated/studies.md)
+  bench-records [--quick] [--write]
+                                 times reading and response spectra beside NumPy, ObsPy, eqsig
+                                 and pyrotd (--write: into book/src/generated/records.md)
   fuzz [TARGET] [--seconds N]    all fuzz targets or one, 60 s each (installs cargo-fuzz)
   coverage                       how often intervals of identify cover the truth, 200 tests a
                                  parameter, and that silent tests are refused
@@ -47,6 +50,7 @@ fn main() -> ExitCode {
         ["paper", options @ ..] => paper::paper(options),
         ["bench-peers", options @ ..] => peers::bench_peers(options),
         ["bench-study", options @ ..] => peers::bench_study(options),
+        ["bench-records", options @ ..] => peers::bench_records(options),
         ["fuzz", options @ ..] => tools::fuzz(options),
         ["coverage"] => tools::coverage(),
         ["deny"] => tools::deny(),

@@ -1,8 +1,8 @@
-//! `cargo xtask bench-peers`: the same analyses here and in other programs, timed in one run.
+//! `cargo xtask bench-…`: the same work here and in other programs, timed in one run.
 
 use crate::shell::{self, Outcome};
 use std::path::{Path, PathBuf};
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 
 /// Makes a Python environment, builds the helper, runs `peers/bench.py` and prints its table.
 pub fn bench_peers(options: &[&str]) -> Outcome {
@@ -60,16 +60,38 @@ pub fn bench_study(options: &[&str]) -> Outcome {
     let mut bench = shell::command(&python);
     bench.env("PYTHONDONTWRITEBYTECODE", "1").arg("xtask/peers/study_bench.py");
     bench.arg("--folder").arg(&folder).arg("--slipstick").arg(slipstick);
+    written(bench, options, &folder.join("studies.md"), "studies.md")
+}
+
+/// Reading and response spectra timed beside NumPy, ObsPy, eqsig and pyrotd.
+pub fn bench_records(options: &[&str]) -> Outcome {
+    const OPTIONS: &[&str] = &["--quick", "--write"];
+    if let Some(option) = options.iter().find(|option| !OPTIONS.contains(option)) {
+        return Err(format!("bench-records: expected {}, found {option}", OPTIONS.join(", ")));
+    }
+    let python = environment()?;
+    let target = shell::target_folder()?;
+    shell::run(&mut shell::cargo("build --release -p slipstick --example record_bench"))?;
+    let helper =
+        target.join(format!("release/examples/record_bench{}", std::env::consts::EXE_SUFFIX));
+    let mut bench = shell::command(&python);
+    bench.env("PYTHONDONTWRITEBYTECODE", "1").arg("xtask/peers/record_bench.py");
+    let folder = target.join("bench-records");
+    bench.arg("--folder").arg(&folder).arg("--helper").arg(helper);
+    written(bench, options, &folder.join("records.md"), "records.md")
+}
+
+/// Runs a bench, prints the page that it wrote and, with `--write`, puts it into the book.
+fn written(mut bench: Command, options: &[&str], page: &Path, name: &str) -> Outcome {
     if options.contains(&"--quick") {
         bench.arg("--quick");
     }
     shell::run(bench.stdout(Stdio::null()))?;
-    let path = folder.join("studies.md");
     let text =
-        std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+        std::fs::read_to_string(page).map_err(|error| format!("{}: {error}", page.display()))?;
     print!("{text}");
     if options.contains(&"--write") {
-        shell::write(&shell::root().join("book/src/generated/studies.md"), &text)?;
+        shell::write(&shell::root().join("book/src/generated").join(name), &text)?;
     }
     Ok(())
 }

@@ -27,16 +27,18 @@ pub fn documentation(_: &mut Tally) -> Result<(), Problem> {
 
 /// Every model in `examples/` runs as it stands and gives JSON; of every study there, one part runs.
 pub fn examples(tally: &mut Tally) -> Result<(), Problem> {
-    let (plans, models): (Vec<_>, Vec<_>) =
-        toml_files("examples")?.into_iter().partition(|file| is_plan(file));
+    let (mut plans, mut models) = (Vec::new(), Vec::new());
+    for file in toml_files("examples")? {
+        match kind(&file) {
+            Kind::Plan => plans.push(file),
+            Kind::Model => models.push(file),
+            Kind::Mapping => {}
+        }
+    }
     if models.is_empty() {
         return Err(Problem::NotRun("no models in examples/".to_owned()));
     }
-    // The profile of the tests, so that nothing is compiled once more.
-    shell::run(&mut shell::cargo("build --workspace --profile test --bin slipstick"))?;
-    let slipstick = shell::target_folder()?
-        .join("debug")
-        .join(format!("slipstick{}", std::env::consts::EXE_SUFFIX));
+    let slipstick = tested("slipstick")?;
     let mut failed = Vec::new();
     for model in &models {
         let mut run = shell::command(&slipstick);
@@ -57,11 +59,31 @@ pub fn examples(tally: &mut Tally) -> Result<(), Problem> {
     if failed.is_empty() { Ok(()) } else { Err(Problem::Failed(failed.join("; "))) }
 }
 
-/// Whether a TOML file is a study plan: it names a model before its first table.
-fn is_plan(file: &str) -> bool {
+/// A program that the tests have built, so that nothing is compiled once more.
+fn tested(program: &str) -> Result<PathBuf, String> {
+    shell::run(&mut shell::cargo("test --workspace --no-run --quiet"))?;
+    let file = format!("{program}{}", std::env::consts::EXE_SUFFIX);
+    Ok(shell::target_folder()?.join("debug").join(file))
+}
+
+/// What a TOML file of the examples is.
+enum Kind {
+    Model,
+    Plan,
+    /// Says which column of a measured file is what; the commands that read one are tested.
+    Mapping,
+}
+
+/// By its keys before its first table: a plan names a model, a mapping the time.
+fn kind(file: &str) -> Kind {
     let text = std::fs::read_to_string(shell::root().join(file)).unwrap_or_default();
     let top = text.lines().take_while(|line| !line.starts_with('['));
-    top.into_iter().any(|line| line.split('=').next().is_some_and(|key| key.trim() == "model"))
+    let keys: Vec<&str> = top.filter_map(|line| Some(line.split_once('=')?.0.trim())).collect();
+    match () {
+        () if keys.contains(&"model") => Kind::Plan,
+        () if keys.contains(&"time") => Kind::Mapping,
+        () => Kind::Model,
+    }
 }
 
 /// Runs one part of a study; a study whose records are not there is skipped.
@@ -101,8 +123,7 @@ pub fn wasm_golden(_: &mut Tally) -> Result<(), Problem> {
     let host = wasm_host().ok_or_else(|| {
         Problem::NotRun("found neither node nor wasmtime to run WebAssembly".to_owned())
     })?;
-    let native = "run --quiet --profile test -p slipstick --example golden";
-    let golden = shell::output(&mut shell::cargo(native))?;
+    let golden = shell::output(&mut shell::command(tested("examples/golden")?))?;
     println!("  here:  {}", golden.trim());
     let build = format!("build --quiet -p slipstick --example golden --target {WASM}");
     // The program compares its own bits with these, and returns the first that differs.

@@ -53,7 +53,7 @@ pub struct CyclicTest<'a> {
 pub struct Cycle {
     /// From its first reversal to its last, in s.
     pub span_s: [f64; 2],
-    /// One over twice the time between the middles of its strokes, in Hz.
+    /// One over the time from its first turn to its last, in Hz.
     pub frequency_hz: f64,
     /// Mean of both strokes in m.
     pub stroke_m: f64,
@@ -238,11 +238,11 @@ fn fit_cycle(
     }
     let [first, second] = pair;
     let span_s = [test.times_s[first.first], test.times_s[second.last]];
-    // Where a stroke turns is blurred while the block is stuck; when it passes its middle is not.
-    let half_s = second.middle_s(test) - first.middle_s(test);
+    let [from_s, to_s] = [(first, first.first), (second, second.last)]
+        .map(|(stroke, sample)| stroke::turning_s(test, sample, stroke.length_m(test)));
     Some(Cycle {
         span_s,
-        frequency_hz: 0.5 / half_s,
+        frequency_hz: 1.0 / (to_s - from_s),
         stroke_m: 0.5 * (first.length_m(test) + second.length_m(test)),
         peak_velocity_m_per_s: first.peak_velocity().max(second.peak_velocity()),
         kinetic_n: [coefficients[0]?, coefficients[1]?],

@@ -141,16 +141,6 @@ impl Stroke {
         self.sign * (test.displacement_m[sample] - test.displacement_m[self.first])
     }
 
-    /// When it passes the middle of its travel, in s, by the straight line between two samples.
-    pub fn middle_s(&self, test: &CyclicTest) -> f64 {
-        let half_m = 0.5 * self.length_m(test);
-        let beyond = (self.first + 1..self.last).find(|i| self.travel_m(test, *i) >= half_m);
-        let i = beyond.unwrap_or(self.last);
-        let (a, b) = (self.travel_m(test, i - 1), self.travel_m(test, i));
-        let part = if b > a { ((half_m - a) / (b - a)).clamp(0.0, 1.0) } else { 1.0 };
-        test.times_s[i - 1] + part * (test.times_s[i] - test.times_s[i - 1])
-    }
-
     /// The first sample beyond some travel, and clear of what the smoothing mixes.
     pub fn after(&self, test: &CyclicTest, travel_m: f64) -> usize {
         let beyond = (self.first..self.last).find(|i| self.travel_m(test, *i) > travel_m);
@@ -257,6 +247,25 @@ impl Stroke {
             drop_n,
             sampling_n: rate.abs() / 12.0_f64.sqrt(),
         })
+    }
+}
+
+/// When the displacement turns at a sample, in s: the middle of the time within a twentieth of a
+/// stroke of it. While the block is stuck the sample itself is any of many.
+pub(super) fn turning_s(test: &CyclicTest, sample: usize, length_m: f64) -> f64 {
+    let x = test.displacement_m;
+    let reach_m = 0.05 * length_m;
+    let away_m = |i: usize| (x[i] - x[sample]).abs();
+    // By the straight line between the last sample within reach and the first beyond it.
+    let leaves_s = |within: usize, beyond: usize| {
+        let part = (reach_m - away_m(within)) / (away_m(beyond) - away_m(within));
+        test.times_s[within] + part * (test.times_s[beyond] - test.times_s[within])
+    };
+    let before = (0..sample).rev().find(|i| away_m(*i) > reach_m);
+    let after = (sample + 1..x.len()).find(|i| away_m(*i) > reach_m);
+    match (before, after) {
+        (Some(i), Some(j)) => 0.5 * (leaves_s(i + 1, i) + leaves_s(j - 1, j)),
+        _ => test.times_s[sample],
     }
 }
 
