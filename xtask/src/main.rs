@@ -1,6 +1,7 @@
 //! `cargo xtask`: the project's own tasks, on cargo and rustup alone unless a task says otherwise.
 
 mod ci;
+mod console;
 mod paper;
 mod peers;
 mod reference;
@@ -18,6 +19,8 @@ Usage: cargo xtask TASK
                                  licences; last line: N passed, N failed, N skipped
   reference [--write]            every reference case: truth, tolerance, error reached
                                  (--write: into book/src/generated/verification.md)
+  console [--write]              runs the commands that README and book show and compares what
+                                 they print (--write: puts it there)
   paper [--write]                reproduces the paper and compares with the book's chapter
                                  (--write: into book/src/paper.md and book/src/figures)
   bench-peers [--json] [--quick] [--write]
@@ -47,6 +50,7 @@ fn main() -> ExitCode {
     let outcome = match words.as_slice() {
         ["ci"] => return ci::ci(),
         ["reference", options @ ..] => reference::reference(options),
+        ["console", options @ ..] => console::console(options),
         ["paper", options @ ..] => paper::paper(options),
         ["bench-peers", options @ ..] => peers::bench_peers(options),
         ["bench-study", options @ ..] => peers::bench_study(options),

@@ -12,6 +12,7 @@ Examples:
   slipstick record info records --json
   slipstick record convert RSN15.AT2 taft.csv
   slipstick record spectrum taft.AT2 --damping \"5 %\" --damping \"2 %\" > spectrum.csv
+  slipstick record spectrum RSN15_NS.AT2 RSN15_EW.AT2 --rotd > rotd.csv
   slipstick record spectrum out/history.csv --channel storey1_acceleration_m_per_s2 -o floor
   slipstick record process raw.smc --step \"remove linear\" --step \"band-pass 0.1 Hz 25 Hz\" -o ok.csv
   slipstick record plot taft.AT2 -o taft.html
@@ -120,6 +121,12 @@ pub struct SpectrumArgs {
     /// Damping, such as "5 %" (which is the default) or 0.05; repeatable
     #[arg(long, value_name = "DAMPING")]
     pub damping: Vec<String>,
+    /// RotD50 and RotD100 of two channels at right angles instead
+    #[arg(long, conflicts_with = "fourier")]
+    pub rotd: bool,
+    /// The other channel of a file of several, for --rotd
+    #[arg(long, value_name = "NAME", requires_all = ["rotd", "channel"])]
+    pub second: Option<String>,
     /// Fourier amplitudes instead
     #[arg(long, conflicts_with_all = ["period", "from", "to", "count", "damping"])]
     pub fourier: bool,

@@ -15,7 +15,6 @@ pub mod measured;
 pub mod metrics;
 pub mod paper;
 pub mod quantile;
-pub mod random;
 pub mod shaking_table;
 
 /// Prints how many of 200 intervals cover the truth and how many of 200 silent records are refused,

@@ -23,6 +23,7 @@ pub mod laboratory;
 pub mod linear;
 pub mod model;
 pub mod motion;
+pub mod random;
 pub mod record;
 pub mod response;
 pub mod solver;

@@ -243,11 +243,21 @@ impl Record {
         format!("{layout}, {} values, {sampling}, {}", channel.values.len(), channel.units)
     }
 
-    /// The channel of a name (capital letters or not), else of a number counted from 1.
+    /// The channel of a name (capital letters or not), else of a name without its unit in brackets
+    /// if only one has it, else of a number counted from 1.
     #[must_use]
     pub fn channel(&self, name: &str) -> Option<&Channel> {
-        let named = self.channels.iter().find(|c| c.name.eq_ignore_ascii_case(name.trim()));
-        named.or_else(|| self.channels.get(name.trim().parse::<usize>().ok()?.checked_sub(1)?))
+        let name = name.trim();
+        let named = self.channels.iter().find(|c| c.name.eq_ignore_ascii_case(name));
+        let bare = || {
+            let mut alike = self.channels.iter().filter(|channel| {
+                let mut bare = channel.name.split(['[', '(']);
+                bare.next().is_some_and(|bare| bare.trim().eq_ignore_ascii_case(name))
+            });
+            alike.next().filter(|_| alike.next().is_none())
+        };
+        let numbered = || self.channels.get(name.parse::<usize>().ok()?.checked_sub(1)?);
+        named.or_else(bare).or_else(numbered)
     }
 }
 

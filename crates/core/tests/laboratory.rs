@@ -194,7 +194,7 @@ fn file_isolated_building_on_a_shaking_table() {
 #[test]
 fn prop_any_text_ends_well() {
     use slipstick::laboratory::compare::{Within, compare};
-    use slipstick::laboratory::random::Random;
+    use slipstick::random::Random;
     use slipstick::response::Method;
 
     let model =

@@ -9,8 +9,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use slipstick::input;
-use slipstick::laboratory::random::Random;
 use slipstick::motion::GroundMotion;
+use slipstick::random::Random;
 use slipstick::solver;
 use slipstick_files::{RecordRequest, Scale, load_record, write_whole};
 

@@ -10,7 +10,7 @@ const DEEPEST: usize = 32;
 /// Files that `pattern` means, sorted by their path, each once.
 ///
 /// - A name that exists is that file, whatever characters it has; a folder means the files in it
-///   (not in folders below), but for hidden ones.
+///   and in folders below, but for hidden ones.
 /// - Else `*` stands for any characters of a name, `?` for one, `[abc]`, `[a-z]` and `[!a-z]` for
 ///   one of a set, `**` for any folders or none. A name that starts with a dot is met only by a
 ///   pattern that does.
@@ -28,11 +28,8 @@ pub fn expand(base: &Path, pattern: &str) -> Result<Vec<PathBuf>, FileError> {
     }
     let mut found = Vec::new();
     if whole.is_dir() {
-        for (path, is_folder) in entries(&whole)? {
-            if !is_folder && !is_hidden(&path) {
-                found.push(path);
-            }
-        }
+        entries(&whole)?;
+        walk(whole.clone(), &["**".to_owned(), "*".to_owned()], 0, &mut found);
     } else if pattern.contains(['*', '?', '[']) {
         let (start, parts) = split(&whole);
         walk(start, &parts, 0, &mut found);
@@ -232,7 +229,11 @@ mod tests {
         };
         assert_eq!(found("a.AT2"), ["a.AT2"]);
         assert_eq!(found("*.AT2"), ["a.AT2", "b.AT2", "x[1].AT2"]);
-        assert_eq!(found("."), ["a.AT2", "b.AT2", "c.txt", "x[1].AT2"]);
+        assert_eq!(
+            found("."),
+            ["a.AT2", "b.AT2", "c.txt", "in/d.AT2", "in/deep/e.AT2", "x[1].AT2"]
+        );
+        assert_eq!(found("in"), ["in/d.AT2", "in/deep/e.AT2"]);
         assert_eq!(found("x[1].AT2"), ["x[1].AT2"]);
         assert_eq!(found("[ab].AT2"), ["a.AT2", "b.AT2"]);
         assert_eq!(found("*/d.AT2"), ["in/d.AT2"]);

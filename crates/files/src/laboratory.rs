@@ -5,9 +5,11 @@ use std::path::Path;
 use slipstick::error::InputError;
 use slipstick::input::{MAX_TEXT_BYTES, Mapping};
 use slipstick::laboratory::measured::{Measured, MeasuredError};
+use slipstick::record::{Column, Columns};
 
 use crate::error::FileError;
 use crate::load::SourceFile;
+use crate::parquet::{NumberColumn, read_columns};
 use crate::read::{read_at_most, read_bytes, sha256_hex};
 
 /// Why a measured file is of no use.
@@ -49,7 +51,7 @@ pub fn read_mapping(
     Ok((mapping, Some(TextFile { source, text })))
 }
 
-/// Reads a measured file: text in columns.
+/// Reads a measured file: text in columns, or Parquet.
 ///
 /// # Errors
 /// [`LaboratoryError`] where it cannot be read or understood.
@@ -58,6 +60,65 @@ pub fn read_measured(
     mapping: &Mapping,
 ) -> Result<(Measured, SourceFile), LaboratoryError> {
     let bytes = read_bytes(path)?;
-    let measured = Measured::read(&path.display().to_string(), &bytes, mapping)?;
+    let name = path.display().to_string();
+    let measured = if bytes.starts_with(b"PAR1") {
+        let columns = read_columns(path)?.into_iter().map(measured_column).collect();
+        let columns = Columns::new(&name, columns).map_err(MeasuredError::from)?;
+        Measured::of_columns(columns, mapping)?
+    } else {
+        Measured::read(&name, &bytes, mapping)?
+    };
     Ok((measured, SourceFile { path: path.to_owned(), sha256: sha256_hex(&bytes) }))
+}
+
+/// A column whose name states its unit, which in Parquet may stand beside it.
+fn measured_column(column: NumberColumn) -> Column {
+    let NumberColumn { name, unit, values } = column;
+    let suffix = format!("_{}", unit.replace('/', "_per_").replace(' ', "_"));
+    let states_unit = unit.is_empty() || name.ends_with(']') || name.ends_with(&suffix);
+    let name = if states_unit { name } else { format!("{name} [{unit}]") };
+    Column { is_time: false, name, values }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parquet::write_columns;
+
+    /// The same numbers as text and as Parquet, its units in names or beside them.
+    #[test]
+    fn exact_parquet_is_read_as_text_is() {
+        let folder = std::env::temp_dir().join(format!("slipstick-lab-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let (text, table) = (folder.join("a.csv"), folder.join("a.parquet"));
+        std::fs::write(
+            &text,
+            "time_s,A0 [g],sliding_displacement [mm]\n0,0,1\n0.01,0.5,2\n0.02,-0.25,1.5\n",
+        )
+        .unwrap();
+        let column = |name: &str, unit: &str, values: [f64; 3]| NumberColumn {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            values: values.to_vec(),
+        };
+        let mut columns = vec![
+            column("time_s", "s", [0.0, 0.01, 0.02]),
+            column("A0", "g", [0.0, 0.5, -0.25]),
+            column("sliding_displacement [mm]", "", [1.0, 2.0, 1.5]),
+        ];
+        write_columns(&table, &columns).unwrap();
+        let mapping = Mapping::parse(None, &["table_acceleration=A0".to_owned()]).unwrap();
+        let (expected, _) = read_measured(&text, &mapping).unwrap();
+        let (found, source) = read_measured(&table, &mapping).unwrap();
+        assert_eq!(found.series, expected.series);
+        assert_eq!(source.sha256, sha256_hex(&std::fs::read(&table).unwrap()));
+
+        columns[1].values[2] = f64::NAN;
+        write_columns(&table, &columns).unwrap();
+        let error = read_measured(&table, &mapping).unwrap_err().to_string();
+        assert!(error.contains("a.parquet:3:2: expected a number in \"A0 [g]\", found"), "{error}");
+        std::fs::write(&table, b"PAR1, and no more").unwrap();
+        assert!(read_measured(&table, &mapping).is_err());
+        std::fs::remove_dir_all(folder).unwrap();
+    }
 }

@@ -5,7 +5,7 @@ mod info;
 mod page;
 mod spectra;
 
-pub use figures::{Histories, Husid, figures};
+pub use figures::{Histories, Husid, figures, spectrum_figures};
 pub use info::{ChannelInfo, info_json, info_table};
 pub use page::page;
 pub use spectra::{ChannelFourier, ChannelSpectrum, fourier_csv, spectra_csv, spectra_json};

@@ -42,6 +42,7 @@ const STEPS: &[(&str, Step)] = &[
     ("tests and doc tests", testing::tests),
     ("documentation", steps::documentation),
     ("examples", steps::examples),
+    ("outputs in README and book", steps::console),
     ("wasm build of core and report", steps::wasm_build),
     ("golden values equal in bits under wasm", steps::wasm_golden),
     ("licences of all dependencies", licences::licences),

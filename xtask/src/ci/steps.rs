@@ -110,6 +110,18 @@ fn study(
     Ok(())
 }
 
+/// The commands in README and book print what is shown there.
+pub fn console(_: &mut Tally) -> Result<(), Problem> {
+    if !shell::answers("sh", "-c true") {
+        return Err(Problem::NotRun("found no sh".to_owned()));
+    }
+    let slipstick = tested("slipstick")?;
+    let folder = slipstick.parent().unwrap_or(&slipstick);
+    let (blocks, differing) = crate::console::pages(folder, false)?;
+    println!("  {blocks} blocks of commands, {} pages differ", differing.len());
+    if differing.is_empty() { Ok(()) } else { Err(Problem::Failed(differing.join("; "))) }
+}
+
 /// `core` and `report` build for the browser.
 pub fn wasm_build(_: &mut Tally) -> Result<(), Problem> {
     ensure_wasm()?;

@@ -151,6 +151,33 @@ fn file_spectrum_of_a_history() {
     assert!(fourier.starts_with("file,channel,frequency_hz,fourier_amplitude_m_per_s\n"));
 }
 
+/// Two components that are one motion at 30°: RotD100 is that motion, RotD50 what |cos| leaves.
+#[test]
+fn file_spectrum_of_a_pair_over_all_directions() {
+    let folder = Folder::new("record-rotd");
+    let rows = (0..200).map(|i| {
+        let a = (0.3 * f64::from(i)).sin();
+        format!("{:.2},{:e},{:e},0\n", 0.01 * f64::from(i), a * 0.75_f64.sqrt(), a * 0.5)
+    });
+    let header = "time [s],north [m/s2],east [m/s2],up [m/s2]\n";
+    folder.write("pair.csv", header.to_owned() + &rows.collect::<String>());
+    let pair = ["record", "spectrum", "pair.csv", "--channel", "north", "--second", "east"];
+    let json = folder.stdout(&[&pair[..], &["--rotd", "--period", "0 s", "--json"]].concat());
+    let list: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let value = |i: usize| list[i]["spectra"][0]["sa_m_per_s2"][0].as_f64().unwrap();
+    assert_eq!([&list[0]["channel"], &list[1]["channel"]], ["RotD50", "RotD100"]);
+    let peak = (0..200).map(|i| (0.3 * f64::from(i)).sin().abs()).fold(0.0, f64::max);
+    // The middle of |cos| over whole degrees is that at 45° and 135°.
+    assert!((value(0) / peak - 0.5_f64.sqrt()).abs() < 1e-12, "{}", value(0));
+    assert!((value(1) / peak - 1.0).abs() < 1e-12);
+    folder.stdout(&[&pair[..], &["--rotd", "--count", "5", "-o", "out"]].concat());
+    assert_eq!(folder.names("out"), ["RotD100.svg", "RotD50.svg", "spectrum.csv"]);
+    let output = folder.output(&["record", "spectrum", "pair.csv", "--rotd"]);
+    let message = text(&output.stderr);
+    assert!(message.contains("expected two channels of acceleration at right angles"), "{message}");
+    assert!(message.contains("--second), found 3"), "{message}");
+}
+
 #[test]
 fn file_processed_record_names_its_steps() {
     let folder = Folder::new("record-process");

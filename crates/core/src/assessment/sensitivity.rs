@@ -13,6 +13,7 @@
 
 use super::fractile::{fractile, sorted};
 use crate::error::FitError;
+use crate::random::Random;
 
 /// Indices of one input.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,7 +79,7 @@ pub fn indices(outputs: &[f64], inputs: usize, confidence: f64) -> Result<Vec<In
     let Some(estimate) = estimates(a, b, mixed, &all) else {
         return Err(FitError::NoMaximum);
     };
-    let mut random = SplitMix(0x5eed);
+    let mut random = Random::new(0x5eed);
     let mut draws: Vec<Vec<[f64; 2]>> = vec![Vec::new(); inputs];
     for _ in 0..BOOTSTRAP {
         let rows: Vec<usize> = (0..n).map(|_| random.below(n)).collect();
@@ -127,18 +128,4 @@ fn estimates(a: &[f64], b: &[f64], mixed: &[f64], rows: &[usize]) -> Option<Vec<
         [first / (count * variance), total / (2.0 * count * variance)]
     };
     Some(mixed.chunks_exact(n).map(one).collect())
-}
-
-/// G. L. Steele, D. Lea and C. H. Flood's generator (2014): enough to draw rows.
-struct SplitMix(u64);
-
-impl SplitMix {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        ((u128::from(z) * n as u128) >> 64) as usize
-    }
 }

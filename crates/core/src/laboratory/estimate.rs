@@ -127,7 +127,7 @@ mod tests {
     /// A process `r_k = φ r_{k−1} + noise` has `ρ_k = φᵏ`, so a length of `(1 + φ)/(1 − φ)`.
     #[test]
     fn exact_length_of_a_process_with_memory() {
-        let mut random = crate::laboratory::random::Random::new(4);
+        let mut random = crate::random::Random::new(4);
         let mut r = 0.0;
         let mut process = |phi: f64| -> Vec<f64> {
             let next = |_| {

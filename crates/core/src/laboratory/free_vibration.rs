@@ -229,7 +229,7 @@ fn strongest_frequency(times_s: &[f64], values: &[f64], mean: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laboratory::random::Random;
+    use crate::random::Random;
 
     fn record(f: f64, xi: f64, noise: f64, seconds: f64, seed: u64) -> (Vec<f64>, Vec<f64>) {
         let mut random = Random::new(seed);

@@ -18,7 +18,6 @@ mod iteration;
 mod library;
 mod numbers;
 mod offset;
-mod random;
 mod resonance;
 mod sensitivity;
 mod steady;

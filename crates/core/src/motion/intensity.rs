@@ -12,7 +12,7 @@ mod rotated;
 mod spectral;
 mod standard;
 
-pub use rotated::RotD;
+pub use rotated::{RotD, rotated_spectra};
 pub use standard::IntensityMeasures;
 
 use super::GroundMotion;

@@ -125,21 +125,18 @@ impl InstructionSet {
     #[must_use]
     pub fn all() -> Vec<Self> {
         let best = Level::new();
-        let mut all = vec![best];
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        {
-            all = [
-                best.as_avx512().map(Level::Avx512),
-                best.as_avx2().map(Level::Avx2),
-                best.as_sse4_2().map(Level::Sse4_2),
-                best.as_sse2().map(Level::Sse2),
-            ]
-            .into_iter()
-            .flatten()
-            .collect();
-        }
+        let found = [
+            best.as_avx512().map(Level::Avx512),
+            best.as_avx2().map(Level::Avx2),
+            best.as_sse4_2().map(Level::Sse4_2),
+            best.as_sse2().map(Level::Sse2),
+        ];
+        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+        let found = [Some(best)];
+        let all = found.into_iter().flatten();
         #[cfg(feature = "scalar")]
-        all.push(Level::fallback());
-        all.into_iter().map(Self).collect()
+        let all = all.chain([Level::fallback()]);
+        all.map(Self).collect()
     }
 }

@@ -74,7 +74,9 @@ fn shown(display: DisplayUnits, unit: &'static str, values: [f64; 3]) -> ([Strin
         }
         let decimals = (1.0 - libm::floor(libm::log10(width))).max(0.0) as usize;
         if decimals <= 9 && value.abs() < 1e6 {
-            format!("{value:.decimals$}")
+            let text = format!("{value:.decimals$}");
+            let is_zero = !text.bytes().any(|b| b.is_ascii_digit() && b != b'0');
+            if is_zero { text.trim_start_matches('-').to_owned() } else { text }
         } else {
             significant(value, 4)
         }

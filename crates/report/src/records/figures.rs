@@ -19,11 +19,14 @@ const SPECTRUM_HEIGHT: f64 = 210.0;
 #[must_use]
 pub fn figures(motion: &GroundMotion, spectrum: &Spectrum, display: DisplayUnits) -> Vec<Drawn> {
     let histories = Histories { motion, display }.drawn();
-    let spectra = [
-        spectra(spectrum, display, "spectrum-acceleration"),
-        spectra(spectrum, display, "spectrum-displacement"),
-    ];
-    std::iter::once(histories).chain(spectra.into_iter().flatten()).collect()
+    std::iter::once(histories).chain(spectrum_figures(spectrum, display)).collect()
+}
+
+/// PSa and Sd over the period, one line a damping ratio; none where there is nothing to draw.
+#[must_use]
+pub fn spectrum_figures(spectrum: &Spectrum, display: DisplayUnits) -> Vec<Drawn> {
+    let of = |id| spectra(spectrum, display, id);
+    ["spectrum-acceleration", "spectrum-displacement"].into_iter().filter_map(of).collect()
 }
 
 /// Acceleration, velocity, displacement and the Husid plot on one time axis.

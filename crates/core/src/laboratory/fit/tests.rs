@@ -1,6 +1,6 @@
 use super::*;
 use crate::laboratory::quantile::student_quantile;
-use crate::laboratory::random::Random;
+use crate::random::Random;
 
 fn interval(problem: &Problem, minimum: &Minimum, index: usize, variance: f64) -> Interval {
     let freedom = (minimum.count - problem.bounds.len()) as f64;

@@ -3,10 +3,10 @@
 use super::curves::{crossing, linspace, range};
 use super::experiments::FIGURE_11_HZ;
 use super::library::{Experiment, Library, Shake, with_asymmetry, with_frequency, with_tilt};
-use super::random::Random;
 use super::{Claim, Grid, PaperError, Verdict};
 use crate::model::Model;
 use crate::motion::{GroundMotion, Sine};
+use crate::random::Random;
 use crate::response::Demands;
 use crate::solver;
 

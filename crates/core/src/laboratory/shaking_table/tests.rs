@@ -2,7 +2,7 @@ use core::f64::consts::TAU;
 
 use super::*;
 use crate::input::{Mapping, parse};
-use crate::laboratory::random::Random;
+use crate::random::Random;
 
 pub const BLOCK: &str = "[block]\nmass = \"124 kg\"\n[slider]\nstatic_friction = 0.12\n\
                          kinetic_friction = 0.1\nspring = \"20 kN/m\"\n";

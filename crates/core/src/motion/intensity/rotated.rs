@@ -2,7 +2,7 @@
 
 use super::Measure;
 use crate::error::MotionError;
-use crate::motion::GroundMotion;
+use crate::motion::{GroundMotion, Ordinates, Spectrum, spectrum};
 
 /// A measure of the component at every whole degree from 0 to 179 between two components.
 ///
@@ -34,10 +34,7 @@ impl RotD {
     /// RotD50: the median over the directions, the mean of the two middle values.
     #[must_use]
     pub fn median(&self) -> f64 {
-        let mut sorted = self.values.clone();
-        sorted.sort_by(f64::total_cmp);
-        let n = sorted.len();
-        0.5 * (sorted[(n - 1) / 2] + sorted[n / 2])
+        median(&mut self.values.clone())
     }
 
     /// RotD100: the largest over the directions.
@@ -51,6 +48,53 @@ impl RotD {
     pub fn smallest(&self) -> f64 {
         self.values.iter().copied().fold(f64::INFINITY, f64::min)
     }
+}
+
+/// Response spectra of a pair over all directions: RotD50 and RotD100 of every ordinate.
+///
+/// As [`RotD::of`] and [`spectrum`]; each ordinate has its own direction.
+///
+/// # Errors
+/// As those two.
+pub fn rotated_spectra(
+    x: &GroundMotion,
+    y: &GroundMotion,
+    periods_s: &[f64],
+    damping_ratios: &[f64],
+) -> Result<[Spectrum; 2], MotionError> {
+    let (pair, _) = x.with_vertical(y, 1.0)?;
+    let all = (0..180).map(|degrees| {
+        let motion = pair.in_direction(f64::from(degrees))?;
+        spectrum(motion.times_s(), motion.horizontal_m_per_s2(), periods_s, damping_ratios)
+    });
+    let all: Vec<Spectrum> = all.collect::<Result<_, MotionError>>()?;
+    let over_directions = |fold: &dyn Fn(&mut [f64]) -> f64| Spectrum {
+        periods_s: periods_s.to_vec(),
+        damping_ratios: damping_ratios.to_vec(),
+        ordinates: (0..periods_s.len() * damping_ratios.len())
+            .map(|i| {
+                let of = |value: fn(&Ordinates) -> f64| {
+                    fold(&mut all.iter().map(|one| value(&one.ordinates[i])).collect::<Vec<f64>>())
+                };
+                Ordinates {
+                    sd_m: of(|o| o.sd_m),
+                    sv_m_per_s: of(|o| o.sv_m_per_s),
+                    psv_m_per_s: of(|o| o.psv_m_per_s),
+                    psa_m_per_s2: of(|o| o.psa_m_per_s2),
+                    sa_m_per_s2: of(|o| o.sa_m_per_s2),
+                }
+            })
+            .collect(),
+    };
+    let largest = |values: &mut [f64]| values.iter().copied().fold(0.0, f64::max);
+    Ok([over_directions(&median), over_directions(&largest)])
+}
+
+/// The mean of the two middle values.
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let n = values.len();
+    0.5 * (values[(n - 1) / 2] + values[n / 2])
 }
 
 #[cfg(test)]
@@ -81,5 +125,26 @@ mod tests {
         let rotated = RotD::of(&Measure::Pga, &x, &y).unwrap();
         assert!((rotated.largest() - 1.0).abs() < 1e-12);
         assert!((rotated.median() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn exact_rotated_spectra_are_those_of_every_ordinate() {
+        let wave = |k: f64, phase: f64| libm::sin(0.3 * k + phase) * libm::exp(-0.02 * k);
+        let of = |phase: f64| {
+            let a = (0..100).map(|k| wave(f64::from(k), phase)).collect();
+            GroundMotion::evenly_spaced(0.02, a, None).unwrap()
+        };
+        let (x, y) = (of(0.0), of(1.3));
+        let [median, largest] = rotated_spectra(&x, &y, &[0.0, 0.3, 1.0], &[0.05]).unwrap();
+        assert_eq!(median.periods_s, [0.0, 0.3, 1.0]);
+        let rotated = RotD::of(&Measure::Pga, &x, &y).unwrap();
+        assert_eq!(median.ordinates[0].psa_m_per_s2, rotated.median());
+        assert_eq!(largest.ordinates[0].psa_m_per_s2, rotated.largest());
+        for (i, name) in [(1, "Sa(0.3 s)"), (2, "Sa(1 s)")] {
+            let rotated = RotD::of(&Measure::parse(name).unwrap(), &x, &y).unwrap();
+            let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
+            assert!(close(median.ordinates[i].psa_m_per_s2, rotated.median()), "{name}");
+            assert!(close(largest.ordinates[i].psa_m_per_s2, rotated.largest()), "{name}");
+        }
     }
 }

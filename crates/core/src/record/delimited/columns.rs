@@ -29,6 +29,37 @@ pub struct Columns {
 }
 
 impl Columns {
+    /// A table that was read elsewhere; its rows count from 1 as lines do.
+    ///
+    /// # Errors
+    /// [`RecordError`] for no column, fewer than two rows, columns of different lengths and numbers
+    /// that are not finite.
+    pub fn new(source_name: &str, columns: Vec<Column>) -> Result<Self, RecordError> {
+        let rows = columns.first().map_or(0, |column| column.values.len());
+        let lines = (1..=u32::try_from(rows).unwrap_or(u32::MAX)).collect();
+        let table = Self { source_name: source_name.to_owned(), columns, lines };
+        if !(2..=MAX_SAMPLES).contains(&rows) {
+            let expected = "2 to 100 000 000 rows of numbers";
+            return Err(table.error(0, 1, expected, rows.to_string()));
+        }
+        for (index, column) in table.columns.iter().enumerate() {
+            let (name, found) = (&column.name, column.values.len());
+            if found != rows {
+                let expected = format!("{rows} numbers in {name:?}, as in the first column");
+                return Err(table.error(found.min(rows), index + 1, expected, found.to_string()));
+            }
+            if let Some(row) = column.values.iter().position(|value| !value.is_finite()) {
+                let found = match column.values[row] {
+                    value if value.is_nan() => "none".to_owned(),
+                    value => value.to_string(),
+                };
+                let expected = format!("a number in {name:?}");
+                return Err(table.error(row, index + 1, expected, found));
+            }
+        }
+        Ok(table)
+    }
+
     /// Number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {

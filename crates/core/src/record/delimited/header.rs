@@ -82,8 +82,8 @@ impl<'a> Header<'a> {
             }
             if texts > TEXT_LINES {
                 let expected = format!(
-                    "a format that is read (PEER AT2, or text with at most {TEXT_LINES} lines \
-                     before its numbers)"
+                    "a format that is recognised, or text with at most {TEXT_LINES} lines before \
+                     its numbers"
                 );
                 return Err(text.error(&line, 0, expected, &line.trimmed()));
             }

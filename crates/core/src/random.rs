@@ -3,6 +3,17 @@
 //! Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014. The same seed
 //! gives the same numbers on every machine.
 
+/// By which the state of the generator grows.
+pub const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
+
+/// Its output function: every bit of the output depends on every bit of the input; a permutation of
+/// 64-bit words.
+pub const fn mix(mut z: u64) -> u64 {
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
+
 /// A generator of random numbers.
 #[derive(Clone, Debug)]
 pub struct Random {
@@ -18,11 +29,13 @@ impl Random {
 
     /// The next 64 bits.
     pub fn bits(&mut self) -> u64 {
-        self.state = self.state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
+        self.state = self.state.wrapping_add(GOLDEN);
+        mix(self.state)
+    }
+
+    /// One of `0 … n − 1`, each as likely as the others to 2⁻⁶⁴ n.
+    pub fn below(&mut self, n: usize) -> usize {
+        ((u128::from(self.bits()) * n as u128) >> 64) as usize
     }
 
     /// Uniform between 0 and 1, without the ends.
