@@ -122,7 +122,7 @@ def as_one_table(out, runs):
     """DuckDB takes the folder as one table that holds every run once."""
     table = f"read_parquet('{out}/*.parquet')"
     query = f"select count(*), count(distinct run), min(run), max(run), count(*) filter (status = 'ok') from {table}"
-    found = duckdb.sql(query).fetchone()
+    found = duckdb.sql(query).fetchall()[0]
     if found[:4] != (runs, runs, 0, runs - 1):
         raise SystemExit(f"bench-study: DuckDB finds {found} in {out}, expected {runs} runs")
     return {"duckdb": duckdb.__version__, "rows": found[0], "ok": found[4]}
