@@ -34,9 +34,9 @@ Examples:
   slipstick run tank.toml --set analysis.tail=\"5 s\" --display-units kN-mm
   slipstick run - --json < tank.toml
 
-Values are numbers with a unit, \"0.3 g\"; slipstick schema --units lists the units. Paths of keys are
-joined by dots, storeys counted from 1. The model's record lies relative to the model file, that of
---motion relative to the working folder.
+Values are numbers with a unit, \"0.3 g\"; slipstick schema --units lists the units. Paths of
+keys are joined by dots, storeys counted from 1. The model's record lies relative to the
+model file, that of --motion relative to the working folder.
 
 Writes with --out, each file whole or not at all:
   summary.json  the object that --json prints

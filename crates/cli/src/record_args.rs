@@ -17,8 +17,8 @@ Examples:
   slipstick record process raw.smc --step \"remove linear\" --step \"band-pass 0.1 Hz 25 Hz\" -o ok.csv
   slipstick record plot taft.AT2 -o taft.html
 
-FILE is a file, a folder or a pattern such as \"suite/*.AT2\". A file that cannot be read is reported and
-the others go on; then the exit status is 1.";
+FILE is a file, a folder or a pattern such as \"suite/*.AT2\". A file that cannot be read is
+reported and the others go on; then the exit status is 1.";
 
 /// Below the help of `slipstick record process`.
 const STEPS: &str = "\

@@ -17,6 +17,7 @@ mod keys;
 mod mapping;
 mod motion;
 mod overrides;
+mod paths;
 pub mod plan;
 mod plan_keys;
 mod reader;

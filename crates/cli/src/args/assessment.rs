@@ -14,13 +14,14 @@ Examples:
       --measure \"Sa(1.2 s)\" --level \"0.5 g\"
   slipstick spectrum shaken.toml --over motion.sine.frequency=0.5..5Hz:100 --friction 0.02,0.05
 
-Values are a list, \"1, 2 m\", or a range FROM..TO with a count, \"0.1..3s:30\", \"0.1..3s:30 log\" at equal
-ratios. isolator.period is 2 pi sqrt(R/g) and sets slider.radius. --friction sets the kinetic coefficient
-and keeps the model's ratio of static to kinetic. Without --records the model's own motion is used; over
-motion.sine.frequency that gives response curves, with the window in which the structure amplifies.
+Values are a list, \"1, 2 m\", or a range FROM..TO with a count, \"0.1..3s:30\", \"0.1..3s:30
+log\" at equal ratios. isolator.period is 2 pi sqrt(R/g) and sets slider.radius. --friction
+sets the kinetic coefficient and keeps the model's ratio of static to kinetic. Without
+--records the model's own motion is used; over motion.sine.frequency that gives response
+curves, with the window in which the structure amplifies.
 
-Writes with --out: spectrum.csv and spectrum.parquet (16, 50, 84 % fractiles), runs.parquet (every run),
-a figure a demand (SVG), summary.json, report.html.";
+Writes with --out: spectrum.csv and spectrum.parquet (16, 50, 84 % fractiles), runs.parquet
+(every run), a figure a demand (SVG), summary.json, report.html.";
 
 pub const IDA_EXAMPLES: &str = "\
 Examples:
@@ -29,12 +30,12 @@ Examples:
   slipstick ida tank.toml --records far-field --hunt --out out
   slipstick ida tank.toml --records far-field --hunt --demand storey1_peak_drift_m --to \"20 mm\"
 
---hunt seeks, for each record, the level at which the demand first reaches --to (slider.gap of the model
-where that is not given), to 1 %. Demands are keys of summary.json, those of storeys as
-storey1_peak_acceleration_m_per_s2.
+--hunt seeks, for each record, the level at which the demand first reaches --to (slider.gap
+of the model where that is not given), to 1 %. Demands are keys of summary.json, those of
+storeys as storey1_peak_acceleration_m_per_s2.
 
-Writes with --out: ida.csv and ida.parquet (every run), capacities.csv (with a limit), ida.svg,
-summary.json, report.html. slipstick fragility reads ida.csv and capacities.csv.";
+Writes with --out: ida.csv and ida.parquet (every run), capacities.csv (with a limit),
+ida.svg, summary.json, report.html. slipstick fragility reads ida.csv and capacities.csv.";
 
 pub const FRAGILITY_EXAMPLES: &str = "\
 Examples:
@@ -43,12 +44,13 @@ Examples:
   slipstick fragility study-folder --measure PGV --fit-to cloud --floor \"1 mm\" --limit \"150 mm\"
   slipstick fragility stripes.csv --measure PGA
 
-SOURCE is ida.csv or capacities.csv of slipstick ida, the folder of a study (or a Parquet file), or
-counts of your own: a CSV with the columns level (SI), runs, exceeded. --measure names the column of
-intensities where it is not that of the levels: PGV, Sa(1.2 s), or the name itself.
+SOURCE is ida.csv or capacities.csv of slipstick ida, the folder of a study (or a Parquet
+file), or counts of your own: a CSV with the columns level (SI), runs, exceeded. --measure
+names the column of intensities where it is not that of the levels: PGV, Sa(1.2 s), or the
+name itself.
 
-Writes with --out: fragility.csv and fragility.parquet (curve and band), fragility.svg, summary.json,
-report.html.";
+Writes with --out: fragility.csv and fragility.parquet (curve and band), fragility.svg,
+summary.json, report.html.";
 
 pub const DESIGN_EXAMPLES: &str = "\
 Examples:
@@ -57,10 +59,10 @@ Examples:
   slipstick design tank.toml --records far-field --measure \"Sa(1.2 s)\" --level \"0.6 g\" \\
       --friction 0.02..0.12:50 --vary slider.radius=\"1, 2, 3, 4 m\" --probability 0.84
 
-Every design of the grid is judged by the sliding displacement that the stated share of the records
-keeps, and by the floor acceleration that half of them keep (--share). Chosen is the design within the
-gap with the least acceleration; with slider.bounds in the model, or --bounds, the front is run again
-with lower and upper friction.
+Every design of the grid is judged by the sliding displacement that the stated share of the
+records keeps, and by the floor acceleration that half of them keep (--share). Chosen is the
+design within the gap with the least acceleration; with slider.bounds in the model, or
+--bounds, the front is run again with lower and upper friction.
 
 Exit status 1 where no design keeps the gap.
 

@@ -12,16 +12,17 @@ Examples:
       --map \"sliding_displacement = X1 - U [mm]\" --map \"time = 0.005 s\"
   slipstick compare test12.csv mock-up.toml --within peak_ratio.sliding_displacement=0.9..1.1
 
-The prediction is driven by the measured table acceleration; the model's [motion] plays no part.
-Columns that are named as in history.csv, perhaps in another unit (block_acceleration_g), need no
-mapping. Others are named by QUANTITY = COLUMN [- COLUMN] [UNIT] * FACTOR @ SHIFT, as an option or in
-a mapping file (TOML, QUANTITY = \"COLUMN …\"); all parts but the first column are optional, and #3 is the
-third column. Quantities: time, table_acceleration, block_acceleration, sliding_displacement,
-sliding_velocity, friction_force, storey1_displacement, storey1_velocity, storey1_acceleration, …
+The prediction is driven by the measured table acceleration; the model's [motion] plays no
+part. Columns that are named as in history.csv, perhaps in another unit
+(block_acceleration_g), need no mapping. Others are named by QUANTITY = COLUMN [- COLUMN]
+[UNIT] * FACTOR @ SHIFT, as an option or in a mapping file (TOML, QUANTITY = \"COLUMN …\");
+all parts but the first column are optional, and #3 is the third column. Quantities: time,
+table_acceleration, block_acceleration, sliding_displacement, sliding_velocity,
+friction_force, storey1_displacement, storey1_velocity, storey1_acceleration, …
 
-Figures for --within: peak_ratio, residual_error, rms_error, normalised_rms_error, correlation,
-russell_magnitude, russell_phase, russell_comprehensive, anderson, arrival_lag; SI, either end may be
-left out. A bound that is missed makes the exit status 1.";
+Figures for --within: peak_ratio, residual_error, rms_error, normalised_rms_error,
+correlation, russell_magnitude, russell_phase, russell_comprehensive, anderson, arrival_lag;
+SI, either end may be left out. A bound that is missed makes the exit status 1.";
 pub(super) const IDENTIFY_EXAMPLES: &str = "\
 Examples:
   slipstick identify cyclic cyclic-*.csv --mass \"124 kg\" --out friction
@@ -29,10 +30,10 @@ Examples:
   slipstick identify shaking-table test12.csv mock-up.toml \\
       --fit slider.static_friction,slider.kinetic_friction,slider.tilt --out fitted
 
-Every value comes with its 95 % interval of confidence; what the data cannot tell is refused with the
-reason, and the exit status is then 1. Columns are named as for slipstick compare; a cyclic test has
-the quantities displacement and force. With --out: identified.json, report.html and, where a model is
-known, model.toml, which run and compare read.";
+Every value comes with its 95 % interval of confidence; what the data cannot tell is refused
+with the reason, and the exit status is then 1. Columns are named as for slipstick compare;
+a cyclic test has the quantities displacement and force. With --out: identified.json,
+report.html and, where a model is known, model.toml, which run and compare read.";
 /// What the columns of a measured file are.
 #[derive(Debug, Args)]
 pub struct MappingArgs {
@@ -64,7 +65,7 @@ pub struct ResultArgs {
 /// `slipstick compare`.
 #[derive(Debug, Args)]
 pub struct CompareArgs {
-    /// Measured histories: text in columns with a header
+    /// Measured histories: text in columns with a header, or Parquet
     pub measured: PathBuf,
     /// Model file (TOML), or - to read it from standard input
     pub model: PathBuf,

@@ -7,6 +7,7 @@ mod assessment;
 mod cases;
 mod endings;
 mod files;
+mod fragility;
 mod json;
 mod laboratory;
 mod options;

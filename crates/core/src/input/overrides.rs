@@ -1,7 +1,7 @@
 //! Keys set from outside the file: `--set PATH=VALUE`, and the paths that a study varies.
 
 use super::keys::MODEL;
-use super::reader::{NearestKey, join, matching, nearest_key};
+use super::paths::{NearestKey, join, matching, nearest_key};
 use super::schema::{Kind, Section};
 use super::tree::{self, Entry, Node, Sources, Spot, Table, Value};
 use crate::error::{InputError, cut};

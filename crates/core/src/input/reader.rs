@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::schema::{self, Key, Kind, Range, Section};
+use super::paths::{NearestKey, join, matching, nearest_key};
+use super::schema::{Key, Kind, Range, Section};
 use super::tree::{Entry, Node, Sources, Spot, Table, Value};
-use crate::error::{InputError, UnitError, cut, edit_distance, similar};
+use crate::error::{InputError, UnitError, cut, similar};
 use crate::units::{self, Unit};
 
 /// What a key was given.
@@ -450,55 +451,6 @@ impl Values {
         let expected = format!("this key only beside \"{other}\"");
         Err(self.sources.error(&entry.key, path, expected, found))
     }
-}
-
-/// The entry of a name in a group of excluding keys: `key.*` is that key given as a table.
-pub(super) fn matching<'a>(table: &'a Table, name: &str) -> Option<&'a Entry> {
-    match name.strip_suffix(".*") {
-        None => table.get(name),
-        Some(name) => table.get(name).filter(|entry| matches!(entry.node.value, Value::Table(_))),
-    }
-}
-
-/// A path one key deeper.
-pub(super) fn join(path: &str, key: &str) -> String {
-    if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
-}
-
-/// The key that was probably meant.
-pub(super) enum NearestKey {
-    /// A key of the same section.
-    Here(&'static str),
-    /// The path of a key of the same name elsewhere in the text.
-    Elsewhere(String),
-}
-
-/// A similar key of the section, else the same name elsewhere in the text, else whichever key of
-/// the section is nearest. `root` describes the whole text.
-pub(super) fn nearest_key(
-    name: &str,
-    section: &'static Section,
-    root: &'static Section,
-) -> Option<NearestKey> {
-    let names = section.keys.iter().map(|key| key.name);
-    let here = names.min_by_key(|known| edit_distance(name, known))?;
-    if 2 * edit_distance(name, here) > here.len().max(2)
-        && let Some(path) = path_of(name, "", root)
-    {
-        return Some(NearestKey::Elsewhere(path));
-    }
-    Some(NearestKey::Here(here))
-}
-
-fn path_of(name: &str, path: &str, section: &'static Section) -> Option<String> {
-    section.keys.iter().find_map(|key| {
-        let path = join(path, key.name);
-        if key.name == name {
-            return Some(path);
-        }
-        let path = if matches!(key.kind, schema::Kind::Sections(_)) { path + ".1" } else { path };
-        key.kind.section().and_then(|section| path_of(name, &path, section))
-    })
 }
 
 /// The unit of `4.67e-6 m/s2`, the value of one count, or all of the text.

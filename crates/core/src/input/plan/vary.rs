@@ -3,8 +3,9 @@
 use super::{Distribution, List, Varied};
 use crate::error::{InputError, cut, similar};
 use crate::input::overrides::{find_kind, kind_of};
+use crate::input::paths::join;
 use crate::input::plan_keys::{DISTRIBUTION, MAX_RUNS};
-use crate::input::reader::{Given, Values, join};
+use crate::input::reader::{Given, Values};
 use crate::input::schema::{Kind, Range};
 use crate::input::tree::{Entry, Node, Spot, Table, Value};
 use crate::units::Dimension;
