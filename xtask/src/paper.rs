@@ -17,8 +17,7 @@ pub fn paper(options: &[&str]) -> Outcome {
     let folder = shell::target_folder()?.join("paper");
     // What an earlier run left there is no figure of this one.
     let _ = fs::remove_dir_all(&folder);
-    // The profile of the tests, so that nothing is compiled once more; the bits are the same.
-    let run = "run --quiet --profile test --package slipstick-cli -- paper --out";
+    let run = "run --quiet --package slipstick-cli -- paper --out";
     shell::output(shell::cargo(run).arg(&folder))?;
     let book = shell::root().join("book/src");
     let mut files = vec![(folder.join("chapter.md"), book.join("paper.md"))];

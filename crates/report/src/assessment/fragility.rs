@@ -180,10 +180,10 @@ impl FragilityReport<'_> {
                     cell(unit.of(stripe.level)),
                     stripe.runs.to_string(),
                     stripe.exceeded.to_string(),
-                    cell(stripe.exceeded as f64 / stripe.runs as f64),
-                    cell(curve.probability(stripe.level)),
-                    cell(low),
-                    cell(high),
+                    share(stripe.exceeded as f64 / stripe.runs as f64),
+                    share(curve.probability(stripe.level)),
+                    share(low),
+                    share(high),
                 ]
             };
             let heads = heads.map(|head| head.to_string()).to_vec();
@@ -378,4 +378,9 @@ fn verdict(p: f64) -> &'static str {
     } else {
         "The data do not speak against a lognormal curve at the 5 % level."
     }
+}
+
+/// A probability as a table shows it: what no data can tell from 0 is not spelt out.
+fn share(value: f64) -> String {
+    if value > 0.0 && value < 1e-6 { "< 1e-6".to_owned() } else { cell(value) }
 }
