@@ -30,6 +30,8 @@ use crate::solver;
 /// How much better than stuck a sliding response must fit before anything is said of the slider, in
 /// variances.
 const CLEAR_SLIDING: f64 = 25.0;
+/// How often a profile may turn up a better fit and start anew.
+const MOST_TURNS: usize = 20;
 /// Residuals that each parameter must have.
 const LEAST_RESIDUALS: usize = 10;
 
@@ -251,7 +253,7 @@ fn intervals(problem: &Problem, data: &Data, minimum: Minimum) -> Found {
     let count = problem.bounds.len();
     let mut found = Vec::new();
     let (mut length, mut variance) = (1.0, 1.0);
-    for _ in 0..5 {
+    for _ in 0..MOST_TURNS {
         let values = problem.parameters(&minimum.unit);
         let lists = data.by_quantity(&values).unwrap_or_default();
         let lengths = lists.iter().map(|list| correlation_length(list));

@@ -4,6 +4,10 @@
 use super::{Minimum, Problem, levenberg, simplex};
 use crate::laboratory::algebra::inverse;
 
+/// Where beyond an end a second valley is looked for, in its distance from the minimum or, if that is
+/// larger, in what derivatives at the minimum make of it.
+const BEYOND: [f64; 6] = [0.1, 0.25, 0.5, 1.0, 1.5, 2.0];
+
 /// The interval of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
@@ -166,33 +170,49 @@ impl<'a> Walk<'a> {
 
     fn search(&mut self, threshold: f64) -> Result<End, Minimum> {
         let room = self.room();
-        let mut step = self.guess(threshold).min(room);
+        let guess = self.guess(threshold);
+        let mut step = guess.min(room);
         let mut inside = (0.0, 0.0);
-        let mut outside;
         loop {
             // Outwards until the fit is too bad.
-            loop {
+            let outside = loop {
                 if room <= 0.0 || inside.0 >= room {
                     return Ok(End::Bound);
                 }
                 let distance = (inside.0 + step).min(room);
                 let rise = self.rise(distance)?;
                 if rise > threshold {
-                    outside = (distance, rise);
-                    break;
+                    break (distance, rise);
                 }
                 inside = (distance, rise);
                 step *= 1.6;
-            }
+            };
             let end = self.crossing(threshold, inside, outside)?;
-            // A second valley beyond a jump.
-            let beyond = (2.0 * end).min(room);
-            let rise = if beyond > outside.0 { self.rise(beyond)? } else { f64::INFINITY };
-            if rise > threshold {
-                return Ok(End::At(self.minimum.unit[self.index] + self.sign * end));
+            match self.valley_beyond(threshold, end, guess.max(end))? {
+                Some(valley) => inside = valley,
+                None => return Ok(End::At(self.minimum.unit[self.index] + self.sign * end)),
             }
-            inside = (beyond, rise);
         }
+    }
+
+    /// A place beyond an end where the fit is good enough again, the furthest that is found.
+    fn valley_beyond(
+        &mut self,
+        threshold: f64,
+        end: f64,
+        scale: f64,
+    ) -> Result<Option<(f64, f64)>, Minimum> {
+        let room = self.room();
+        for part in BEYOND.into_iter().rev() {
+            let distance = end + part * scale;
+            if distance <= room {
+                let rise = self.rise(distance)?;
+                if rise <= threshold {
+                    return Ok(Some((distance, rise)));
+                }
+            }
+        }
+        Ok(None)
     }
 
     /// The distance between two at which the root of the rise passes that of the threshold.

@@ -78,18 +78,12 @@ const STOREY: &str = "[block]\nmass = \"325 kg\"\n[slider]\nstatic_friction = 0.
                       tilt = \"1 mrad\"\nasymmetry = 0.05\n[[storey]]\nmass = \"90 kg\"\n\
                       frequency = \"1.75 Hz\"\ndamping_ratio = 0.02\n";
 
-/// What is fitted, in two goes, and the truth.
-const GOES: [(&str, &[(&str, f64)]); 3] = [
+/// What is fitted, a go each, and the truth. A tilt and an asymmetry do much the same, so that one
+/// record hardly tells both.
+const GOES: [(&str, &[(&str, f64)]); 4] = [
     (BLOCK, &[("slider.static_friction", 0.12), ("slider.kinetic_friction", 0.1)]),
-    (
-        STOREY,
-        &[
-            ("slider.spring", 20e3),
-            ("slider.damper", 150.0),
-            ("slider.tilt", 1e-3),
-            ("slider.asymmetry", 0.05),
-        ],
-    ),
+    (STOREY, &[("slider.spring", 20e3), ("slider.damper", 150.0), ("slider.tilt", 1e-3)]),
+    (STOREY, &[("slider.static_friction", 0.06), ("slider.asymmetry", 0.05)]),
     (
         STOREY,
         &[
@@ -126,7 +120,7 @@ fn silent_is_refused(seed: u64) -> bool {
 
 #[test]
 fn prop_intervals_cover() {
-    for go in 0..3 {
+    for go in 0..4 {
         // At 95 % fewer than 9 of 12 have a chance of 3e-3.
         let counts = covered(go, 12);
         assert!(counts.iter().all(|(_, count)| *count >= 9), "{counts:?}");
@@ -154,8 +148,14 @@ fn coverage_shaking_table_slider() {
 
 #[test]
 #[ignore = "200 records: cargo xtask coverage"]
-fn coverage_shaking_table_storey() {
+fn coverage_shaking_table_asymmetry() {
     crate::laboratory::told(&covered(2, 200), 200);
+}
+
+#[test]
+#[ignore = "200 records: cargo xtask coverage"]
+fn coverage_shaking_table_storey() {
+    crate::laboratory::told(&covered(3, 200), 200);
 }
 
 #[test]
