@@ -313,7 +313,7 @@ fn units(text: &Text, line: &Line) -> Result<(Option<Units>, Range<usize>), Reco
     let start = at + skip;
     let end = line.find(",FORMAT", start).or_else(|| line.find("FORMAT", start)).unwrap_or(n);
     let stated = line.str(&(start..end));
-    let word = start..start + stated.trim_end().len();
+    let word = start..start + line.bytes[start..end].trim_ascii_end().len();
     let (name, code) = match stated.split_once('(') {
         Some((name, code)) => (name, code.split(')').next().unwrap_or("").trim().parse().ok()),
         None => (stated.as_str(), None),

@@ -96,6 +96,10 @@ impl<'a> Head<'a> {
             }
             text.push(line);
         }
+        if text.is_empty() {
+            let expected = "lines of text before the header of integers";
+            return Err(cursor.text.error(&first, 0, expected, &first.trimmed()));
+        }
         let mut integers = 0;
         while cursor.peek().is_some_and(|line| is_numeric(&line, false)) && integers < NUMBER_LINES
         {

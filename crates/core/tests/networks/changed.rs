@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use slipstick::record::{self, Options, Record};
+use slipstick::record::{self, Format, Options, Record};
 
 use super::{NOTHING, ROWS, bytes, folder, given, kinds, samples};
 
@@ -91,6 +91,26 @@ fn exact_changed_sac_headers_are_noticed() {
     assert!(kinds(&longer.channels[0]).contains(&"duration_differs"));
     let larger = changed(632, 9.0_f32.to_le_bytes()).unwrap();
     assert!(kinds(&larger.channels[0]).contains(&"peak_differs"));
+}
+
+/// A header without its lines of text, and bytes that are no text where units are stated.
+#[test]
+fn regress_headers_of_numbers_and_of_no_text() {
+    let volume = bytes(&samples(), "bhrc.V1");
+    let full = |line: &&[u8]| {
+        line.len() > 60 && line.iter().all(|b| b.is_ascii_digit() || b.is_ascii_whitespace())
+    };
+    let lines: Vec<&[u8]> = volume.split_inclusive(|b| *b == b'\n').collect();
+    let at = lines.iter().position(full).unwrap();
+    let options = Options { format: Some(Format::Bhrc), ..NOTHING };
+    let error = record::read("f", &lines[at..].concat(), &options).unwrap_err().to_string();
+    assert!(error.contains("expected lines of text before the header of integers"), "{error}");
+
+    let plain = bytes(&samples(), "cosmos.V2c");
+    let at = plain.windows(6).position(|w| w == b"units=").unwrap() + 6;
+    let changed = [&plain[..at], &[0xFF; 40], &plain[at + 9..]].concat();
+    let error = record::read("f", &changed, &NOTHING).unwrap_err().to_string();
+    assert!(error.contains("expected units of"), "{error}");
 }
 
 /// Bytes of every sample, and what is given with them.
