@@ -8,9 +8,10 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// From left to right.
-const ORDER: [&str; 14] = [
+const ORDER: [&str; 15] = [
     "error",
     "units",
+    "random",
     "linear",
     "motion",
     "record",
