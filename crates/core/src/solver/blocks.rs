@@ -10,6 +10,8 @@
 mod lanes;
 mod leap;
 mod peaks;
+mod plant;
+mod series;
 mod step;
 mod tables;
 #[cfg(test)]

@@ -7,7 +7,8 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
 use super::lanes::{BLOCK, Eight, Four, combine4, combine8, eight, four, larger};
-use super::step::{Segment, Series};
+use super::series::Series;
+use super::step::Segment;
 use super::walk::Walk;
 use crate::friction::Direction;
 use crate::linear::polynomial::{DEGREE, largest};
@@ -312,10 +313,9 @@ impl<S: Simd> Walk<'_, S> {
             let mut q = [0.0; DEGREE + 1];
             q[0] = first[j];
             let mut power = 1.0;
-            for (k, c) in series.c.iter().enumerate() {
+            for (k, c) in series.coefficients().iter().enumerate() {
                 power *= rest;
-                let c = c.to_array();
-                let f = plant.restoring(&c);
+                let f = plant.restoring(c);
                 let columns = &view.columns;
                 let value = (columns[0].0[j] * c[0] + columns[1].0[j] * c[1])
                     + (columns[2].0[j] * c[2] + columns[3].0[j] * f);

@@ -6,12 +6,12 @@
 use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
 
-use super::lanes::{Four, four, times4};
+use super::lanes::four;
 use super::peaks::Part;
+use super::series::Series;
 use super::walk::Walk;
 use crate::error::SolveError;
 use crate::friction::Direction;
-use crate::linear::polynomial::DEGREE;
 use crate::response::{Event, EventKind, Mode};
 use crate::solver::exact::Start;
 
@@ -34,14 +34,6 @@ enum Led {
     Doubt,
 }
 
-/// Taylor coefficients of the state over a piece from the first on, and their bound on its second
-/// derivative.
-pub(super) struct Series<S: Simd> {
-    x: f64x4<S>,
-    pub(super) c: [f64x4<S>; DEGREE],
-    pub(super) bend: f64x4<S>,
-}
-
 /// A segment: from `at` in a piece to its end.
 #[derive(Clone, Copy)]
 pub(super) struct Segment {
@@ -49,79 +41,6 @@ pub(super) struct Segment {
     /// Acceleration at its start and its change over a whole piece.
     pub(super) a: f64,
     pub(super) change: f64,
-}
-
-/// What the coefficients of every order are made of.
-struct Order<'a, S: Simd> {
-    simd: S,
-    x: [f64; 4],
-    segment: &'a Segment,
-    force: f64,
-}
-
-impl<S: Simd> Order<'_, S> {
-    #[inline(always)]
-    fn of<const SLIP: bool>(&self, table: &[Four; 7]) -> f64x4<S> {
-        let (simd, x) = (self.simd, self.x);
-        let structure = times4(simd, &table[2], x[2]) + times4(simd, &table[3], x[3]);
-        let load =
-            times4(simd, &table[4], self.segment.a) + times4(simd, &table[5], self.segment.change);
-        if SLIP {
-            let block = times4(simd, &table[0], x[0]) + times4(simd, &table[1], x[1]);
-            (block + structure) + (load + times4(simd, &table[6], self.force))
-        } else {
-            structure + load
-        }
-    }
-}
-
-impl<S: Simd> Series<S> {
-    /// Series of a phase from a state.
-    #[inline(always)]
-    pub(super) fn new<const SLIP: bool>(
-        simd: S,
-        table: &[[Four; 7]; DEGREE],
-        x: [f64; 4],
-        segment: &Segment,
-        force: f64,
-    ) -> Self {
-        let order = Order { simd, x, segment, force };
-        // One by one: a loop would not be unrolled.
-        let c = [
-            order.of::<SLIP>(&table[0]),
-            order.of::<SLIP>(&table[1]),
-            order.of::<SLIP>(&table[2]),
-            order.of::<SLIP>(&table[3]),
-            order.of::<SLIP>(&table[4]),
-            order.of::<SLIP>(&table[5]),
-            order.of::<SLIP>(&table[6]),
-            order.of::<SLIP>(&table[7]),
-            order.of::<SLIP>(&table[8]),
-            order.of::<SLIP>(&table[9]),
-            order.of::<SLIP>(&table[10]),
-            order.of::<SLIP>(&table[11]),
-        ];
-        let odd = ((c[1].abs() * four(simd, 2.0) + c[3].abs() * four(simd, 12.0))
-            + (c[5].abs() * four(simd, 30.0) + c[7].abs() * four(simd, 56.0)))
-            + (c[9].abs() * four(simd, 90.0) + c[11].abs() * four(simd, 132.0));
-        let even = ((c[2].abs() * four(simd, 6.0) + c[4].abs() * four(simd, 20.0))
-            + (c[6].abs() * four(simd, 42.0) + c[8].abs() * four(simd, 72.0)))
-            + c[10].abs() * four(simd, 110.0);
-        Self { x: Four(x).load(simd), c, bend: odd + even }
-    }
-
-    /// State at a part of the piece.
-    #[inline(always)]
-    pub(super) fn at(&self, simd: S, t: f64) -> f64x4<S> {
-        let t2 = t * t;
-        let t4 = t2 * t2;
-        let (t, t2, t4) = (four(simd, t), four(simd, t2), four(simd, t4));
-        let c = &self.c;
-        let p0 = (self.x + c[0] * t) + (c[1] + c[2] * t) * t2;
-        let p1 = (c[3] + c[4] * t) + (c[5] + c[6] * t) * t2;
-        let p2 = (c[7] + c[8] * t) + (c[9] + c[10] * t) * t2;
-        p0 + (p1 + (p2 + c[11] * t4) * t4) * t4
-    }
 }
 
 impl<S: Simd> Walk<'_, S> {
@@ -191,43 +110,32 @@ impl<S: Simd> Walk<'_, S> {
         // A release is beyond doubt where the distance from one bound falls all the way.
         let (sign, bound) = if below { (1.0, high) } else { (-1.0, low) };
         let distance = sign * (bound - demand);
-        let of = |k: usize| plant.participation * plant.restoring(series.c[k].as_array());
-        let slope = sign * (of(0) - plant.block_mass_kg * segment.change);
-        let second = 2.0 * sign * of(1);
+        let [of_1, of_2, of_3, of_4] =
+            series.leading().map(|c| sign * plant.participation * plant.restoring(&c));
+        let slope = of_1 - sign * plant.block_mass_kg * segment.change;
         let one_way = (above || below)
             && distance > DOUBT * bound.abs()
             && sign * (bound - end_demand) < 0.0
-            && crosses_once(slope, second, bend, rest);
+            && crosses_once(slope, 2.0 * of_2, bend, rest);
         if !one_way {
             return Led::Doubt;
         }
-        let mut t = guess([distance, slope, sign * of(1), sign * of(2)]);
-        let h = tables.piece_s;
+        let mut t = guess([distance, slope, of_2, of_3, of_4]);
+        let (m, l) = (sign * plant.block_mass_kg, sign * plant.participation);
         for _ in 0..4 {
             if !(t > 0.0 && t < rest) {
                 return Led::Doubt;
             }
-            let y = series.at(simd, t).to_array();
+            let y = series.at(simd, t);
+            let derivatives = series.derivatives(simd, t);
+            let [f1, f2] = derivatives.map(|y| l * plant.restoring(&y.to_array()));
             let a = segment.a + segment.change * t;
-            let f = plant.restoring(&y);
-            let first = [0.0, 0.0, h * y[3], h * (-f - plant.participation * a)];
-            let f1 = plant.restoring(&first);
-            let second = [0.0, 0.0, h * first[3], h * (-f1 - plant.participation * segment.change)];
-            let f2 = plant.restoring(&second);
-            let g = sign * (bound - plant.demand_n(&y, a));
-            let g1 = sign * (plant.participation * f1 - plant.block_mass_kg * segment.change);
-            let g2 = sign * (plant.participation * f2);
-            let d = halley(g, g1, g2);
+            let g = sign * bound - sign * plant.demand_n(&y.to_array(), a);
+            let d = halley(g, f1 - m * segment.change, f2);
             t += d;
             if d.abs() < SHORT {
-                return self.event::<false>(
-                    place,
-                    fresh,
-                    &series,
-                    t,
-                    taylor(y, first, second, d),
-                    [demand, bound],
-                );
+                let y = later(simd, y, derivatives, d).to_array();
+                return self.event::<false>(place, fresh, &series, t, y, [demand, bound]);
             }
         }
         Led::Doubt
@@ -242,13 +150,13 @@ impl<S: Simd> Walk<'_, S> {
         start: Option<Start>,
         fresh: bool,
     ) -> Led {
-        let (simd, tables, plant) = (self.simd, self.tables, &self.tables.plant);
+        let (simd, tables) = (self.simd, self.tables);
         let (x, segment) = (place.x, &place.segment);
         let (sign, force, rest) = (direction.sign(), self.force(direction), segment.rest);
         let series = Series::<S>::new::<true>(simd, &tables.slip.series, x, segment, force);
         let end = series.at(simd, rest).to_array();
         let bend = series.bend.as_array()[1];
-        let of = |k: usize| sign * series.c[k].as_array()[1];
+        let [of_1, of_2, of_3, of_4] = series.leading().map(|c| sign * c[1]);
         let (speed, end_speed) = (sign * x[1], sign * end[1]);
         let slides = match start {
             None => speed.min(end_speed) > 0.125 * bend * (rest * rest),
@@ -256,7 +164,7 @@ impl<S: Simd> Walk<'_, S> {
             Some(start) if start.order == 1 => {
                 start.acceleration * tables.piece_s > 0.5 * bend * rest
             }
-            Some(_) => of(1) > rest * (bend - 2.0 * of(1)) * (1.0 / 6.0),
+            Some(_) => of_2 > rest * (bend - 2.0 * of_2) * (1.0 / 6.0),
         };
         if slides {
             self.note_start(place, fresh);
@@ -267,29 +175,22 @@ impl<S: Simd> Walk<'_, S> {
         let one_way = start.is_none()
             && speed > 0.0
             && end_speed < 0.0
-            && crosses_once(of(0), 2.0 * of(1), bend, rest);
+            && crosses_once(of_1, 2.0 * of_2, bend, rest);
         if !one_way {
             return Led::Doubt;
         }
-        let mut t = guess([speed, of(0), of(1), of(2)]);
-        let (h, l) = (tables.piece_s, plant.participation);
+        let mut t = guess([speed, of_1, of_2, of_3, of_4]);
         for _ in 0..4 {
             if !(t > 0.0 && t < rest) {
                 return Led::Doubt;
             }
-            let y = series.at(simd, t).to_array();
-            let a = segment.a + segment.change * t;
-            let f = plant.restoring(&y);
-            let u = plant.block_acceleration(&y, f, force);
-            let first = [h * y[1], h * (u - a), h * y[3], h * (-f - l * u)];
-            let f1 = plant.restoring(&first);
-            let u1 = plant.block_acceleration(&first, f1, 0.0);
-            let second =
-                [h * first[1], h * (u1 - segment.change), h * first[3], h * (-f1 - l * u1)];
-            let d = halley(sign * y[1], sign * first[1], sign * second[1]);
+            let y = series.at(simd, t);
+            let derivatives = series.derivatives(simd, t);
+            let [g1, g2] = derivatives.map(|y| sign * y.as_array()[1]);
+            let d = halley(sign * y.as_array()[1], g1, g2);
             t += d;
             if d.abs() < SHORT {
-                let mut y = taylor(y, first, second, d);
+                let mut y = later(simd, y, derivatives, d).to_array();
                 y[1] = 0.0;
                 return self.event::<true>(place, fresh, &series, t, y, [force; 2]);
             }
@@ -403,11 +304,16 @@ fn crosses_once(slope: f64, second: f64, bend: f64, rest: f64) -> bool {
     slope + bend * rest < 0.0 || second < -(bend - second.abs())
 }
 
-/// First falling root by the terms up to the third power, or anything.
+/// First falling root by the terms up to the fourth power, or anything: that of the quadratic terms,
+/// where the slope is `−root`, corrected twice by the others.
 #[inline(always)]
-fn guess([c0, c1, c2, c3]: [f64; 4]) -> f64 {
-    let t = 2.0 * c0 / ((c1 * c1 - 4.0 * c0 * c2).sqrt() - c1);
-    t - c3 * (t * t * t) / (c1 + 2.0 * c2 * t)
+fn guess([c0, c1, c2, c3, c4]: [f64; 5]) -> f64 {
+    let root = (c1 * c1 - 4.0 * c0 * c2).sqrt();
+    let t = 2.0 * c0 / (root - c1);
+    let (per, t2) = (1.0 / root, t * t);
+    let first = (c3 + c4 * t) * (t2 * t) * per;
+    let change = (3.0 * c3 + 4.0 * (c4 * t)) * t2 + c2 * first;
+    t + (first + first * (change * per))
 }
 
 /// Halley's correction of a root.
@@ -418,11 +324,6 @@ fn halley(g: f64, g1: f64, g2: f64) -> f64 {
 
 /// State a little later.
 #[inline(always)]
-fn taylor(y: [f64; 4], first: [f64; 4], second: [f64; 4], d: f64) -> [f64; 4] {
-    let half = 0.5 * (d * d);
-    let mut x = y;
-    for i in 0..4 {
-        x[i] += d * first[i] + half * second[i];
-    }
-    x
+fn later<S: Simd>(simd: S, y: f64x4<S>, [first, second]: [f64x4<S>; 2], d: f64) -> f64x4<S> {
+    y + (first * four(simd, d) + second * four(simd, 0.5 * (d * d)))
 }

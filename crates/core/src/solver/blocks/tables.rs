@@ -8,7 +8,8 @@ use std::sync::Arc;
 use fearless_simd::{Level, dispatch};
 
 use super::lanes::{BLOCK, Eight, Four};
-use crate::linear::polynomial::DEGREE;
+use super::plant::{Plant, unit};
+use super::series::{self, Table};
 use crate::linear::{MAX_RATE_STEP, PerStorey, System};
 use crate::solver::extremes::{Extremes, tracked};
 
@@ -17,25 +18,6 @@ pub(super) const QUIET: usize = 32;
 
 /// Most pieces a sample is cut into for the Taylor series.
 const MOST_PIECES: f64 = 16.0;
-
-/// The equations of a rigid block (with zeros) or a block with one storey.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Plant {
-    pub(super) block_mass_kg: f64,
-    pub(super) per_block_mass: f64,
-    pub(super) stiffness_n_per_m: f64,
-    pub(super) damper_n_s_per_m: f64,
-    /// `Ω`, 1 for a rigid block.
-    pub(super) omega2: f64,
-    /// `D`.
-    pub(super) decay: f64,
-    /// `L`.
-    pub(super) participation: f64,
-    /// `√M_tot`.
-    pub(super) root_mass: f64,
-    /// `1/√M1`.
-    pub(super) per_root_block: f64,
-}
 
 /// Tables of a system and a step.
 #[derive(Debug)]
@@ -56,16 +38,13 @@ pub(in crate::solver) struct Tables {
 /// Tables of stick or slip.
 #[derive(Debug)]
 pub(super) struct Phase {
-    /// Taylor coefficients from the first on over a piece, order by order: what one unit of each
-    /// component of the state, of the acceleration, of its change over the piece and of the friction
-    /// force adds to the state.
-    pub(super) series: [[Four; 7]; DEGREE],
+    pub(super) series: Table,
     /// `E^k`, column by column.
     pub(super) power: [[Four; 4]; BLOCK + 1],
     /// What a unit of acceleration at the first sample leaves after `k`.
     pub(super) first: [Four; BLOCK + 1],
-    /// What a unit of acceleration at a sample leaves `j` samples later.
-    pub(super) tap: [Four; BLOCK],
+    /// What a unit of acceleration at a sample leaves `j − 8` samples later, zeros before it.
+    pub(super) tap: [Four; 2 * BLOCK],
     /// What a unit of friction force leaves after `k` samples.
     pub(super) force: [Four; BLOCK + 1],
     /// The same for one value at all samples of a block: `s`, `ṡ`, `η`, `f`.
@@ -134,83 +113,6 @@ pub(super) struct Quiet {
     pub(super) of_acceleration: [Four; 2],
 }
 
-impl Plant {
-    fn new<V: PerStorey>(system: &System<V>) -> Self {
-        let one_storey = system.storeys() == 1;
-        let of = |x: f64, v: f64| {
-            if one_storey { system.restoring(&[x], &[v]).as_ref()[0] } else { x }
-        };
-        let participation = if one_storey { system.participation.as_ref()[0] } else { 0.0 };
-        let total_kg = system.block_mass_kg + participation * participation;
-        Self {
-            block_mass_kg: system.block_mass_kg,
-            per_block_mass: system.per_block_mass,
-            stiffness_n_per_m: system.stiffness_n_per_m,
-            damper_n_s_per_m: system.damper_n_s_per_m,
-            omega2: of(1.0, 0.0),
-            decay: of(0.0, 1.0),
-            participation,
-            root_mass: total_kg.sqrt(),
-            per_root_block: 1.0 / system.block_mass_kg.sqrt(),
-        }
-    }
-
-    /// `f = D η̇ + Ω η`.
-    #[inline(always)]
-    pub(super) fn restoring(&self, x: &[f64; 4]) -> f64 {
-        self.omega2 * x[2] + self.decay * x[3]
-    }
-
-    /// `u` in slip under a friction force.
-    #[inline(always)]
-    pub(super) fn block_acceleration(&self, x: &[f64; 4], f: f64, force: f64) -> f64 {
-        ((force - self.damper_n_s_per_m * x[1])
-            + (self.participation * f - self.stiffness_n_per_m * x[0]))
-            * self.per_block_mass
-    }
-
-    /// The force that keeps the block stuck under an acceleration.
-    #[inline(always)]
-    pub(super) fn demand_n(&self, x: &[f64; 4], a: f64) -> f64 {
-        (self.block_mass_kg * a + self.stiffness_n_per_m * x[0])
-            - self.participation * self.restoring(x)
-    }
-
-    /// Energy norm of a state.
-    #[inline(always)]
-    pub(super) fn norm(&self, x: &[f64; 4]) -> f64 {
-        let momentum = x[3] + self.participation * x[1];
-        let of_block = self.stiffness_n_per_m * (x[0] * x[0]) + self.block_mass_kg * (x[1] * x[1]);
-        (of_block + (self.omega2 * (x[2] * x[2]) + momentum * momentum)).sqrt()
-    }
-
-    /// Largest value of a row on states of norm 1; in stick on those of the structure alone.
-    #[inline(always)]
-    fn dual_norm(&self, slip: bool, c: [f64; 4]) -> f64 {
-        let of_structure = c[2] * c[2] / self.omega2 + c[3] * c[3];
-        let of_block = if slip {
-            let of_s = if c[0] == 0.0 { 0.0 } else { c[0] * c[0] / self.stiffness_n_per_m };
-            let momentum = c[1] - c[3] * self.participation;
-            of_s + momentum * momentum * self.per_block_mass
-        } else {
-            0.0
-        };
-        (of_block + of_structure).sqrt()
-    }
-
-    /// Derivative of a state under an acceleration and a friction force.
-    #[inline(always)]
-    fn rate(&self, slip: bool, x: [f64; 4], a: f64, force: f64) -> [f64; 4] {
-        let f = self.restoring(&x);
-        if slip {
-            let u = self.block_acceleration(&x, f, force);
-            [x[1], u - a, x[3], -f - self.participation * u]
-        } else {
-            [0.0, 0.0, x[3], -f - self.participation * a]
-        }
-    }
-}
-
 impl Tables {
     /// Tables of a system with at most one storey, unless the step is too long for its rates.
     pub(in crate::solver) fn new<V: PerStorey>(
@@ -241,7 +143,7 @@ impl Tables {
         let rows = TrackedRows::new(plant, *shape, *arm, *slope);
         let mut taps = [Four::ZERO; QUIET];
         for (is_slip, phase) in [(true, slip), (false, &mut *stick)] {
-            series(plant, is_slip, *piece_s, &mut phase.series);
+            series::fill(plant, is_slip, *piece_s, &mut phase.series);
             let sample = Sample::new(&phase.series, is_slip, *pieces);
             sample.taps(&mut taps[..if is_slip { BLOCK } else { QUIET }]);
             phase.fill(plant, &sample, &taps);
@@ -390,10 +292,10 @@ impl Phase {
             force: Eight::ZERO,
         };
         Self {
-            series: [[Four::ZERO; 7]; DEGREE],
+            series: series::EMPTY,
             power: [zeros; BLOCK + 1],
             first: [Four::ZERO; BLOCK + 1],
-            tap: [Four::ZERO; BLOCK],
+            tap: [Four::ZERO; 2 * BLOCK],
             force: [Four::ZERO; BLOCK + 1],
             rows: [row; 4],
             view: View {
@@ -419,7 +321,7 @@ impl Phase {
 
     #[inline(always)]
     fn fill(&mut self, plant: &Plant, sample: &Sample, taps: &[Four; QUIET]) {
-        self.tap.copy_from_slice(&taps[..BLOCK]);
+        self.tap[BLOCK..].copy_from_slice(&taps[..BLOCK]);
         for j in 0..4 {
             self.power[0][j] = Four(unit(j));
         }
@@ -445,7 +347,7 @@ impl Phase {
                 first.0[k - 1] = self.first[k].0[i];
                 force.0[k - 1] = self.force[k].0[i];
                 for m in 1..=k {
-                    tap[m - 1].0[k - 1] = self.tap[k - m].0[i];
+                    tap[m - 1].0[k - 1] = taps[k - m].0[i];
                 }
             }
         }
@@ -458,7 +360,7 @@ impl Phase {
             first.0[k - 1] = f(&self.first[k]);
             force.0[k - 1] = f(&self.force[k]);
             for m in 1..=k {
-                tap[m - 1].0[k - 1] = f(&self.tap[k - m]);
+                tap[m - 1].0[k - 1] = f(&taps[k - m]);
             }
         }
     }
@@ -521,13 +423,6 @@ fn bend(
     bend
 }
 
-#[inline(always)]
-fn unit(j: usize) -> [f64; 4] {
-    let mut unit = [0.0; 4];
-    unit[j] = 1.0;
-    unit
-}
-
 impl Quiet {
     #[inline(always)]
     fn fill(&mut self, plant: &Plant, stick: &Phase, tap: &[Four; QUIET], dt_s: f64) {
@@ -553,16 +448,8 @@ impl Quiet {
 
 impl Sample {
     #[inline(always)]
-    fn new(series: &[[Four; 7]; DEGREE], slip: bool, pieces: usize) -> Self {
-        let sum = |input: usize| {
-            let mut end = [0.0; 4];
-            for order in series.iter().rev() {
-                for (end, c) in end.iter_mut().zip(order[input].0) {
-                    *end += c;
-                }
-            }
-            end
-        };
+    fn new(series: &Table, slip: bool, pieces: usize) -> Self {
+        let sum = |input: usize| series::sum(series, input);
         let mut piece: Matrix = core::array::from_fn(sum);
         for (j, column) in piece.iter_mut().enumerate() {
             column[j] += 1.0;
@@ -612,33 +499,6 @@ impl Sample {
         }
     }
 }
-
-/// Taylor coefficients of the state from the first on, over a piece, of every unit input.
-#[inline(always)]
-fn series(plant: &Plant, slip: bool, piece_s: f64, table: &mut [[Four; 7]; DEGREE]) {
-    for input in if slip { 0..7 } else { 2..6 } {
-        let mut x = if input < 4 { unit(input) } else { [0.0; 4] };
-        for (k, order) in table.iter_mut().enumerate() {
-            // The acceleration counts at the start, its change in the order after.
-            let a = if input == 4 + k && k < 2 { 1.0 } else { 0.0 };
-            let force = if input == 6 && k == 0 { 1.0 } else { 0.0 };
-            let step = piece_s * RECIPROCAL[k];
-            x = plant.rate(slip, x, a, force).map(|rate| step * rate);
-            order[input] = Four(x);
-        }
-    }
-}
-
-/// 1 / (k + 1).
-const RECIPROCAL: [f64; DEGREE] = {
-    let mut table = [0.0; DEGREE];
-    let mut k = 0;
-    while k < DEGREE {
-        table[k] = 1.0 / (k + 1) as f64;
-        k += 1;
-    }
-    table
-};
 
 #[inline(always)]
 fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {

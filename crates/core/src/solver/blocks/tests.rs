@@ -1,7 +1,8 @@
 //! The bounds of the book's chapter "Proofs", (h) to (j): that they hold, and that they are near.
 
 use super::lanes::{BLOCK, Four};
-use super::tables::{Phase, Plant, Tables};
+use super::plant::Plant;
+use super::tables::{Phase, Tables};
 use crate::linear::polynomial::value;
 use crate::linear::{Load, Series, State, StoreyDamping, System};
 use crate::solver::extremes::Extremes;
@@ -205,7 +206,7 @@ fn exact_formulas_of_many_samples_are_those_of_one_repeated() {
 fn end(phase: &Phase, k: usize, x: [f64; 4], a: &[f64], force: f64) -> [f64; 4] {
     core::array::from_fn(|i| {
         let state: f64 = (0..4).map(|j| phase.power[k][j].0[i] * x[j]).sum();
-        let taps: f64 = (1..=k).map(|m| phase.tap[k - m].0[i] * a[m]).sum();
+        let taps: f64 = (1..=k).map(|m| phase.tap[BLOCK + k - m].0[i] * a[m]).sum();
         state + taps + phase.first[k].0[i] * a[0] + phase.force[k].0[i] * force
     })
 }

@@ -159,23 +159,17 @@ impl<'w, S: Simd> Walk<'w, S> {
         force: f64,
     ) -> f64x4<S> {
         let (simd, phase) = (self.simd, self.phase::<SLIP>());
-        let taps = &phase.tap;
+        let taps = &phase.tap[k..k + BLOCK];
         let mut load = times4(simd, &phase.first[k], a[0]);
         if SLIP {
             load += times4(simd, &phase.force[k], force);
         }
-        if k == BLOCK {
-            // Two sums, that neither has to wait for the other.
-            let odd = (times4(simd, &taps[7], a[1]) + times4(simd, &taps[5], a[3]))
-                + (times4(simd, &taps[3], a[5]) + times4(simd, &taps[1], a[7]));
-            let even = (times4(simd, &taps[6], a[2]) + times4(simd, &taps[4], a[4]))
-                + (times4(simd, &taps[2], a[6]) + times4(simd, &taps[0], a[8]));
-            load += odd + even;
-        } else {
-            for m in 1..=k {
-                load += times4(simd, &taps[k - m], a[m]);
-            }
-        }
+        // Two sums, that neither has to wait for the other.
+        let odd = (times4(simd, &taps[7], a[1]) + times4(simd, &taps[5], a[3]))
+            + (times4(simd, &taps[3], a[5]) + times4(simd, &taps[1], a[7]));
+        let even = (times4(simd, &taps[6], a[2]) + times4(simd, &taps[4], a[4]))
+            + (times4(simd, &taps[2], a[6]) + times4(simd, &taps[0], a[8]));
+        load += odd + even;
         combine4(simd, &phase.power[k], x) + load
     }
 

@@ -1,5 +1,7 @@
 //! Largest accelerations and rates in windows of a motion, looked through once.
 
+use fearless_simd::{Level, dispatch};
+
 use super::lanes::BLOCK;
 use super::tables::QUIET;
 use crate::motion::GroundMotion;
@@ -30,8 +32,14 @@ pub(super) struct Window {
 impl Windows {
     pub(in crate::solver) fn new(motion: &GroundMotion) -> Self {
         let dt_s = motion.dt_s().or_else(|| regular_step(motion.times_s()).0);
-        let a = motion.horizontal_m_per_s2();
-        let over_dt = dt_s.map_or(0.0, |dt_s| 1.0 / dt_s);
+        let (a, over_dt) = (motion.horizontal_m_per_s2(), dt_s.map_or(0.0, |dt_s| 1.0 / dt_s));
+        // For the lanes of this machine too; the bits are the same on all.
+        let largest = dispatch!(Level::new(), _simd => Self::largest(a, over_dt));
+        Self { dt_s, largest }
+    }
+
+    #[inline(always)]
+    fn largest(a: &[f64], over_dt: f64) -> Vec<Window> {
         // Largest over the samples and intervals that begin in a chunk.
         let larger = |a: f64, b: f64| if b > a { b } else { a };
         let most = |x: &[f64; BLOCK]| {
@@ -59,15 +67,14 @@ impl Windows {
         sizes.resize(chunks + QUIET / BLOCK, [0.0; 2]);
         // From the last of eight samples a block ends at the last sample of the next chunk, and a
         // stretch of quiet stick at that of the fourth.
-        let largest = sizes
+        sizes
             .windows(1 + QUIET / BLOCK)
             .map(|s| {
                 let block = larger(s[0][0], s[1][0]);
                 let quiet = larger(larger(block, s[2][0]), larger(s[3][0], s[4][0]));
                 Window { block, quiet, rate: larger(s[0][1], s[1][1]) }
             })
-            .collect();
-        Self { dt_s, largest }
+            .collect()
     }
 
     /// The window of the blocks that begin at a sample.
