@@ -87,3 +87,15 @@ pub(super) fn larger<S: Simd>(a: f64x8<S>, b: f64x8<S>) -> f64x8<S> {
 pub(super) fn larger4<S: Simd>(a: f64x4<S>, b: f64x4<S>) -> f64x4<S> {
     b.simd_gt(a).select(b, a)
 }
+
+/// The smaller; the first where they cannot be compared.
+#[inline(always)]
+pub(super) fn least(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+/// The larger; the first where they cannot be compared.
+#[inline(always)]
+pub(super) fn greatest(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}

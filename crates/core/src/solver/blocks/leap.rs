@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
-use super::lanes::{BLOCK, Four, combine4, eight, four, larger4, times4};
+use super::lanes::{BLOCK, Four, combine4, eight, four, greatest, larger4, least, times4};
 use super::peaks::Block;
 use super::tables::{ACCELERATION, DISPLACEMENT, QUIET};
 use super::walk::Walk;
@@ -51,7 +51,7 @@ impl<S: Simd> Walk<'_, S> {
             let mut hits = 0;
             if self.careful {
                 let most = larger4(view.abs(), next_view.abs()) + slack;
-                let s = start[0].abs().max(next.as_array()[0].abs());
+                let s = greatest(start[0].abs(), next.as_array()[0].abs());
                 hits = self.beside(most.to_array(), s, force);
             }
             if slides && quiet.all_true() && hits == 0 {
@@ -166,20 +166,22 @@ impl<S: Simd> Walk<'_, S> {
         let [low, high] = self.ground.bounds;
         let mut x = self.state();
         let spring_n = plant.stiffness_n_per_m * self.carry.x[0];
+        let holds = least(high, -low) - spring_n.abs();
         let mut limit = self.stick_limits(spring_n);
         while sample + BLOCK <= end {
             let window = self.windows.at(sample);
             let start = x.to_array();
-            let norm = plant.norm(&start);
+            let norm = plant.norm_of_structure(&start);
             let size = window.block + self.ground.slope_size;
             let base = times4(simd, &quiet.of_norm, norm);
             let reach = base + times4(simd, &quiet.of_acceleration[0], size);
             let within = reach.simd_le(limit);
-            if within.all_true() && self.moment_stays(reach) {
+            let quiet_block = within.all_true() && self.moment_stays(reach);
+            if quiet_block && reach.as_array()[0] <= holds {
                 let far = window.quiet + self.ground.slope_size;
                 let reach = base + times4(simd, &quiet.of_acceleration[1], far);
-                let all = reach.simd_le(limit).all_true() && self.moment_stays(reach);
-                if sample + QUIET <= end && all {
+                let all = reach.simd_le(limit).all_true() && reach.as_array()[0] <= holds;
+                if sample + QUIET <= end && all && self.moment_stays(reach) {
                     let next = self.after_quiet(sample, x);
                     if self.records {
                         self.record_quiet(sample, x);
@@ -198,51 +200,55 @@ impl<S: Simd> Walk<'_, S> {
                 + times4(simd, &bend.of_acceleration, size))
                 + times4(simd, &bend.of_rate, window.rate);
             let hidden = plant.participation * slack.as_array()[2];
-            let f = self.row::<false>(&tables.stick.rows[3], start, a, 0.0);
-            let table = f64x8::from_slice(simd, &a[1..]);
-            let demand = (eight(simd, plant.block_mass_kg) * table + eight(simd, spring_n))
-                - eight(simd, plant.participation) * f;
-            let clear = demand.simd_gt(eight(simd, low + hidden))
-                & demand.simd_lt(eight(simd, high - hidden));
+            // Of the demand without the spring's part.
+            let demand = self.row::<false>(&tables.stick.rows[0], start, a, 0.0);
+            let clear = demand.simd_gt(eight(simd, (low - spring_n) + hidden))
+                & demand.simd_lt(eight(simd, (high - spring_n) - hidden));
             let first = plant.demand_n(&start, a[0]);
             let holds_first = first > low + hidden && first < high - hidden;
             let steps = clear_steps(clear.to_bitmask(), holds_first);
             if steps == 0 {
                 break;
             }
-            let open = !within.to_bitmask() & 0b1111;
-            let n = steps as u64;
-            let (lows, highs) = ((self.low + slack).to_array(), (self.high - slack).to_array());
-            let view = self.gates::<false>(x, a[0]);
-            let mut hits = BEHIND_ANY * u64::from(!self.inside(view, slack).all_true());
-            hits |= u64::from(!self.moment_stays(reach)) << tracked::OVERTURNING;
-            if open & 0b0001 != 0 {
-                let most = self.most_friction - hidden;
-                if first.abs() > most || self.outside(demand, -most, most, n) {
-                    hits |= 1 << tracked::FRICTION;
+            if !quiet_block {
+                let open = !within.to_bitmask() & 0b1111;
+                let n = steps as u64;
+                let (lows, highs) = ((self.low + slack).to_array(), (self.high - slack).to_array());
+                let view = self.gates::<false>(x, a[0]);
+                let mut hits = BEHIND_ANY * u64::from(!self.inside(view, slack).all_true());
+                hits |= u64::from(!self.moment_stays(reach)) << tracked::OVERTURNING;
+                if open & 0b0001 != 0 {
+                    let most = self.most_friction - hidden;
+                    let friction = demand + eight(simd, spring_n);
+                    if first.abs() > most || self.outside(friction, -most, most, n) {
+                        hits |= 1 << tracked::FRICTION;
+                    }
+                    let most = self.most_slider - hidden;
+                    if (first - spring_n).abs() > most || self.outside(demand, -most, most, n) {
+                        hits |= 1 << tracked::SLIDER;
+                    }
                 }
-                let most = self.most_slider - hidden;
-                let slider = demand - eight(simd, spring_n);
-                if (first - spring_n).abs() > most || self.outside(slider, -most, most, n) {
-                    hits |= 1 << tracked::SLIDER;
+                if open & 0b0010 != 0 {
+                    let eta = self.row::<false>(&tables.stick.rows[2], start, a, 0.0);
+                    if self.outside(eta, lows[1], highs[1], n) {
+                        hits |= BEHIND[1];
+                    }
                 }
-            }
-            if open & 0b0010 != 0 {
-                let eta = self.row::<false>(&tables.stick.rows[2], start, a, 0.0);
-                if self.outside(eta, lows[1], highs[1], n) {
-                    hits |= BEHIND[1];
+                if open & 0b0100 != 0 {
+                    let f = self.row::<false>(&tables.stick.rows[3], start, a, 0.0);
+                    if self.outside(f, lows[2], highs[2], n) {
+                        hits |= BEHIND[2];
+                    }
                 }
-            }
-            if open & 0b0100 != 0 && self.outside(f, lows[2], highs[2], n) {
-                hits |= BEHIND[2];
-            }
-            if open & 0b1000 != 0 && self.outside(table, lows[3], highs[3], n) {
-                hits |= BEHIND[3];
-            }
-            if hits != 0 {
-                let block = Block { sample, steps, direction: None, x: start };
-                self.watch::<false>(&block, hits, slack);
-                limit = self.stick_limits(spring_n);
+                let table = f64x8::from_slice(simd, &a[1..]);
+                if open & 0b1000 != 0 && self.outside(table, lows[3], highs[3], n) {
+                    hits |= BEHIND[3];
+                }
+                if hits != 0 {
+                    let block = Block { sample, steps, direction: None, x: start };
+                    self.watch::<false>(&block, hits, slack);
+                    limit = self.stick_limits(spring_n);
+                }
             }
             self.record::<false>(sample, steps, x, 0.0);
             sample += steps;
@@ -260,11 +266,8 @@ impl<S: Simd> Walk<'_, S> {
     #[inline(always)]
     fn stick_limits(&self, spring_n: f64) -> f64x4<S> {
         let (low, high) = (self.low.to_array(), self.high.to_array());
-        let least = |a: f64, b: f64| if b < a { b } else { a };
-        let [holds_low, holds_high] = self.ground.bounds;
-        let holds = least(least(holds_high, -holds_low), self.most_friction) - spring_n.abs();
         let limits = [
-            least(holds, self.most_slider),
+            least(self.most_friction - spring_n.abs(), self.most_slider),
             high[1],
             least(high[2], -low[2]),
             least(high[3], -low[3]),
@@ -275,10 +278,10 @@ impl<S: Simd> Walk<'_, S> {
     /// Whether in stick the overturning moment stays below its peak.
     #[inline(always)]
     fn moment_stays(&self, reach: f64x4<S>) -> bool {
-        let [arm, half] = self.tables.arm;
-        if arm == 0.0 && half == 0.0 {
+        if !self.tells_moment {
             return true;
         }
+        let [arm, half] = self.tables.arm;
         let reach = reach.to_array();
         arm.abs() * reach[2] + half.abs() * reach[3] <= self.peak.as_array()[tracked::OVERTURNING]
     }

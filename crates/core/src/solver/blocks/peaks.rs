@@ -6,7 +6,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
-use super::lanes::{BLOCK, Eight, Four, combine4, combine8, eight, four, larger};
+use super::lanes::{BLOCK, Eight, Four, combine4, combine8, eight, four, greatest, larger};
 use super::series::Series;
 use super::step::Segment;
 use super::walk::Walk;
@@ -133,7 +133,7 @@ impl<S: Simd> Walk<'_, S> {
         &mut self,
         part: &Part,
         series: &Series<S>,
-        end: [f64; 4],
+        end: f64x4<S>,
         t: f64,
         friction: [f64; 2],
     ) {
@@ -144,12 +144,14 @@ impl<S: Simd> Walk<'_, S> {
         let input = if SLIP { friction } else { [a, end_a] };
         let slack = combine4(simd, &gates.sizes, series.bend) * four(simd, 0.125 * (t * t));
         let first = self.gates::<SLIP>(Four(part.x).load(simd), input[0]);
-        let last = self.gates::<SLIP>(Four(end).load(simd), input[1]);
+        let last = self.gates::<SLIP>(end, input[1]);
         let quiet = (self.inside(first, slack) & self.inside(last, slack)).all_true();
         let plant = &self.tables.plant;
-        let spring = [plant.stiffness_n_per_m * part.x[0], plant.stiffness_n_per_m * end[0]];
-        let most = friction[0].abs().max(friction[1].abs());
-        let slider = (friction[0] - spring[0]).abs().max((friction[1] - spring[1]).abs());
+        let spring =
+            [plant.stiffness_n_per_m * part.x[0], plant.stiffness_n_per_m * end.as_array()[0]];
+        let most = greatest(friction[0].abs(), friction[1].abs());
+        let sliders = [friction[0] - spring[0], friction[1] - spring[1]];
+        let slider = greatest(sliders[0].abs(), sliders[1].abs());
         let forces = if SLIP {
             let peak = self.peak.as_array();
             most <= peak[tracked::FRICTION] && slider <= peak[tracked::SLIDER]
@@ -158,7 +160,7 @@ impl<S: Simd> Walk<'_, S> {
             most + hidden <= self.most_friction && slider + hidden <= self.most_slider
         };
         if !(quiet && forces) || self.careful {
-            self.look_at_all::<SLIP>(part, end, t, input, slack);
+            self.look_at_all::<SLIP>(part, end.to_array(), t, input, slack);
         }
     }
 
@@ -302,9 +304,11 @@ impl<S: Simd> Walk<'_, S> {
         let sizes = &self.phase::<SLIP>().gates.sizes;
         let slack = combine4(simd, sizes, series.bend) * four(simd, 0.125 * (rest * rest));
         let slack = combine8(simd, &view.of_gates, slack.to_array());
-        let attained = larger(first.abs(), last.abs());
-        let mut open = (attained + slack).simd_gt(self.peak).to_bitmask();
-        self.peak = larger(self.peak, attained);
+        // A peak at the upper side, and at the lower one.
+        let upper = (larger(first, last) + slack).simd_gt(self.peak).to_bitmask();
+        let lower = (larger(-first, -last) + slack).simd_gt(self.peak).to_bitmask();
+        let mut open = upper | lower;
+        self.peak = larger(self.peak, larger(first.abs(), last.abs()));
         let mut peak = self.peak.to_array();
         let first = first.to_array();
         while open != 0 {
@@ -322,7 +326,12 @@ impl<S: Simd> Walk<'_, S> {
                 let input = if SLIP || k > 0 { 0.0 } else { view.of_acceleration.0[j] * change };
                 q[k + 1] = (value + input) * power;
             }
-            peak[j] = largest(&q.map(|c| -c), largest(&q, peak[j]));
+            if upper >> j & 1 != 0 {
+                peak[j] = largest(&q, peak[j]);
+            }
+            if lower >> j & 1 != 0 {
+                peak[j] = largest(&q.map(|c| -c), peak[j]);
+            }
         }
         self.peak = f64x8::load_array(simd, peak);
         self.set_gates();

@@ -71,6 +71,12 @@ impl Plant {
         (of_block + (self.omega2 * (x[2] * x[2]) + momentum * momentum)).sqrt()
     }
 
+    /// Energy norm of the structure's part of a state, which is all that moves in stick.
+    #[inline(always)]
+    pub(super) fn norm_of_structure(&self, x: &[f64; 4]) -> f64 {
+        (self.omega2 * (x[2] * x[2]) + x[3] * x[3]).sqrt()
+    }
+
     /// Largest value of a row on states of norm 1; in stick on those of the structure alone.
     #[inline(always)]
     pub(super) fn dual_norm(&self, slip: bool, c: [f64; 4]) -> f64 {

@@ -52,15 +52,18 @@ const fn factors(twice: bool) -> [Eight; PAIRS] {
 /// Fills the table of a phase.
 #[inline(always)]
 pub(super) fn fill(plant: &Plant, slip: bool, piece_s: f64, table: &mut Table) {
-    for input in if slip { 0..7 } else { 2..6 } {
-        let mut x = if input < 4 { unit(input) } else { [0.0; 4] };
-        for k in 0..DEGREE {
+    let inputs = if slip { 0..7 } else { 2..6 };
+    let mut x: [[f64; 4]; 7] =
+        core::array::from_fn(|input| if input < 4 { unit(input) } else { [0.0; 4] });
+    // All inputs order by order: they do not wait for each other.
+    for k in 0..DEGREE {
+        let step = piece_s * RECIPROCAL[k];
+        for input in inputs.clone() {
             // The acceleration counts at the start, its change in the order after.
             let a = if input == 4 + k && k < 2 { 1.0 } else { 0.0 };
             let force = if input == 6 && k == 0 { 1.0 } else { 0.0 };
-            let step = piece_s * RECIPROCAL[k];
-            x = plant.rate(slip, x, a, force).map(|rate| step * rate);
-            table[k / 2][input].0[k % 2 * 4..][..4].copy_from_slice(&x);
+            x[input] = plant.rate(slip, x[input], a, force).map(|rate| step * rate);
+            table[k / 2][input].0[k % 2 * 4..][..4].copy_from_slice(&x[input]);
         }
     }
 }

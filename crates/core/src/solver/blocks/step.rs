@@ -6,7 +6,7 @@
 use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
 
-use super::lanes::four;
+use super::lanes::{four, least};
 use super::peaks::Part;
 use super::series::Series;
 use super::walk::Walk;
@@ -94,17 +94,17 @@ impl<S: Simd> Walk<'_, S> {
         let rest = segment.rest;
         let [low, high] = self.ground.bounds;
         let series = Series::<S>::new::<false>(simd, &tables.stick.series, x, segment, 0.0);
-        let end = series.at(simd, rest).to_array();
+        let end = series.at(simd, rest);
         let bend = plant.participation * plant.restoring(series.bend.as_array());
         let hidden = 0.125 * bend * (rest * rest);
         let demand = plant.demand_n(&x, segment.a);
-        let end_demand = plant.demand_n(&end, segment.a + segment.change * rest);
-        let above = (high - demand).min(high - end_demand) > hidden;
-        let below = (demand - low).min(end_demand - low) > hidden;
+        let end_demand = plant.demand_n(end.as_array(), segment.a + segment.change * rest);
+        let above = least(high - demand, high - end_demand) > hidden;
+        let below = least(demand - low, end_demand - low) > hidden;
         if above && below {
             self.note_start(place, fresh);
             self.look::<false>(place, &series, end, rest, [demand, end_demand]);
-            self.carry.x = end;
+            self.carry.x = end.to_array();
             return Led::Through;
         }
         // A release is beyond doubt where the distance from one bound falls all the way.
@@ -128,13 +128,13 @@ impl<S: Simd> Walk<'_, S> {
             }
             let y = series.at(simd, t);
             let derivatives = series.derivatives(simd, t);
-            let [f1, f2] = derivatives.map(|y| l * plant.restoring(&y.to_array()));
+            let [f1, f2] = derivatives.map(|y| l * plant.restoring(y.as_array()));
             let a = segment.a + segment.change * t;
-            let g = sign * bound - sign * plant.demand_n(&y.to_array(), a);
+            let g = sign * bound - sign * plant.demand_n(y.as_array(), a);
             let d = halley(g, f1 - m * segment.change, f2);
             t += d;
             if d.abs() < SHORT {
-                let y = later(simd, y, derivatives, d).to_array();
+                let y = later(simd, y, derivatives, d);
                 return self.event::<false>(place, fresh, &series, t, y, [demand, bound]);
             }
         }
@@ -154,12 +154,12 @@ impl<S: Simd> Walk<'_, S> {
         let (x, segment) = (place.x, &place.segment);
         let (sign, force, rest) = (direction.sign(), self.force(direction), segment.rest);
         let series = Series::<S>::new::<true>(simd, &tables.slip.series, x, segment, force);
-        let end = series.at(simd, rest).to_array();
+        let end = series.at(simd, rest);
         let bend = series.bend.as_array()[1];
         let [of_1, of_2, of_3, of_4] = series.leading().map(|c| sign * c[1]);
-        let (speed, end_speed) = (sign * x[1], sign * end[1]);
+        let (speed, end_speed) = (sign * x[1], sign * end.as_array()[1]);
         let slides = match start {
-            None => speed.min(end_speed) > 0.125 * bend * (rest * rest),
+            None => least(speed, end_speed) > 0.125 * bend * (rest * rest),
             // The zero at the start is no stop: what is left after dividing by it stays positive.
             Some(start) if start.order == 1 => {
                 start.acceleration * tables.piece_s > 0.5 * bend * rest
@@ -169,7 +169,7 @@ impl<S: Simd> Walk<'_, S> {
         if slides {
             self.note_start(place, fresh);
             self.look::<true>(place, &series, end, rest, [force; 2]);
-            self.carry.x = end;
+            self.carry.x = end.to_array();
             return Led::Through;
         }
         let one_way = start.is_none()
@@ -190,8 +190,7 @@ impl<S: Simd> Walk<'_, S> {
             let d = halley(sign * y.as_array()[1], g1, g2);
             t += d;
             if d.abs() < SHORT {
-                let mut y = later(simd, y, derivatives, d).to_array();
-                y[1] = 0.0;
+                let y = later(simd, y, derivatives, d);
                 return self.event::<true>(place, fresh, &series, t, y, [force; 2]);
             }
         }
@@ -206,7 +205,7 @@ impl<S: Simd> Walk<'_, S> {
         fresh: bool,
         series: &Series<S>,
         t: f64,
-        x: [f64; 4],
+        x: f64x4<S>,
         friction: [f64; 2],
     ) -> Led {
         if !(t > DOUBT && t < place.segment.rest - DOUBT) {
@@ -214,7 +213,10 @@ impl<S: Simd> Walk<'_, S> {
         }
         self.note_start(place, fresh);
         self.look::<SLIP>(place, series, x, t, friction);
-        self.carry.x = x;
+        self.carry.x = x.to_array();
+        if SLIP {
+            self.carry.x[1] = 0.0;
+        }
         Led::Event(t)
     }
 

@@ -47,7 +47,8 @@ pub(super) struct Phase {
     pub(super) tap: [Four; 2 * BLOCK],
     /// What a unit of friction force leaves after `k` samples.
     pub(super) force: [Four; BLOCK + 1],
-    /// The same for one value at all samples of a block: `s`, `ṡ`, `η`, `f`.
+    /// The same for one value at all samples of a block: `s`, `ṡ`, `η`, `f`; in stick the demand
+    /// without the spring's part in the place of `s`.
     pub(super) rows: [Row; 4],
     /// The tracked quantities.
     pub(super) view: View,
@@ -141,12 +142,12 @@ impl Tables {
     fn fill(&mut self, dt_s: f64) {
         let Self { plant, pieces, piece_s, stick, slip, quiet, shape, arm, slope } = self;
         let rows = TrackedRows::new(plant, *shape, *arm, *slope);
-        let mut taps = [Four::ZERO; QUIET];
+        let mut taps = [Four::ZERO; BLOCK + 1];
         for (is_slip, phase) in [(true, slip), (false, &mut *stick)] {
             series::fill(plant, is_slip, *piece_s, &mut phase.series);
             let sample = Sample::new(&phase.series, is_slip, *pieces);
-            sample.taps(&mut taps[..if is_slip { BLOCK } else { QUIET }]);
-            phase.fill(plant, &sample, &taps);
+            sample.taps(&mut taps);
+            phase.fill(plant, is_slip, &sample, &taps);
             phase.view = rows.view(plant, is_slip, *shape, *arm);
             phase.gates = Gates::new(plant, is_slip, dt_s);
         }
@@ -320,7 +321,7 @@ impl Phase {
     };
 
     #[inline(always)]
-    fn fill(&mut self, plant: &Plant, sample: &Sample, taps: &[Four; QUIET]) {
+    fn fill(&mut self, plant: &Plant, slip: bool, sample: &Sample, taps: &[Four; BLOCK + 1]) {
         self.tap[BLOCK..].copy_from_slice(&taps[..BLOCK]);
         for j in 0..4 {
             self.power[0][j] = Four(unit(j));
@@ -338,29 +339,34 @@ impl Phase {
                 self.force[k].0[i] += sample.force[i];
             }
         }
-        for i in 0..3 {
-            let Row { state, first, tap, force } = &mut self.rows[i];
-            for k in 1..=BLOCK {
+        let values = |column: &Four| {
+            let [s, w, eta, _] = column.0;
+            let f = plant.restoring(&column.0);
+            [if slip { s } else { -plant.participation * f }, w, eta, f]
+        };
+        for k in 1..=BLOCK {
+            let state = self.power[k].map(|column| values(&column));
+            let (first, force) = (values(&self.first[k]), values(&self.force[k]));
+            for (i, row) in self.rows.iter_mut().enumerate() {
                 for j in 0..4 {
-                    state[j].0[k - 1] = self.power[k][j].0[i];
+                    row.state[j].0[k - 1] = state[j][i];
                 }
-                first.0[k - 1] = self.first[k].0[i];
-                force.0[k - 1] = self.force[k].0[i];
-                for m in 1..=k {
-                    tap[m - 1].0[k - 1] = taps[k - m].0[i];
-                }
+                (row.first.0[k - 1], row.force.0[k - 1]) = (first[i], force[i]);
             }
         }
-        for k in 1..=BLOCK {
-            let f = |column: &Four| plant.restoring(&column.0);
-            let Row { state, first, tap, force } = &mut self.rows[3];
-            for j in 0..4 {
-                state[j].0[k - 1] = f(&self.power[k][j]);
+        // What a sample leaves at those before it, at itself and after it.
+        let mut left = [[0.0; 2 * BLOCK]; 4];
+        for (j, tap) in taps[..BLOCK].iter().enumerate() {
+            for (left, value) in left.iter_mut().zip(values(tap)) {
+                left[BLOCK - 1 + j] = value;
             }
-            first.0[k - 1] = f(&self.first[k]);
-            force.0[k - 1] = f(&self.force[k]);
-            for m in 1..=k {
-                tap[m - 1].0[k - 1] = f(&taps[k - m]);
+        }
+        if !slip {
+            left[0][BLOCK - 1] += plant.block_mass_kg;
+        }
+        for (row, left) in self.rows.iter_mut().zip(&left) {
+            for (m, tap) in row.tap.iter_mut().enumerate() {
+                tap.0.copy_from_slice(&left[BLOCK - 1 - m..][..BLOCK]);
             }
         }
     }
@@ -425,14 +431,18 @@ fn bend(
 
 impl Quiet {
     #[inline(always)]
-    fn fill(&mut self, plant: &Plant, stick: &Phase, tap: &[Four; QUIET], dt_s: f64) {
+    fn fill(&mut self, plant: &Plant, stick: &Phase, taps: &[Four; BLOCK + 1], dt_s: f64) {
         let square = |m: &Matrix| -> Matrix { core::array::from_fn(|j| times(m, m[j])) };
         let by_8 = stick.power[BLOCK].map(|c| c.0);
         let by_16 = square(&by_8);
         self.power = square(&by_16).map(Four);
         // The first sample's ramp down has the whole stretch before it.
         self.first = Four(times(&by_16, times(&by_8, stick.first[BLOCK].0)));
-        self.tap = *tap;
+        self.tap[..=BLOCK].copy_from_slice(taps);
+        // From the sample after it on what a unit has left moves on by itself.
+        for j in BLOCK + 1..QUIET {
+            self.tap[j] = Four(times(&by_8, self.tap[j - BLOCK].0));
+        }
         let of_f = plant.dual_norm(false, [0.0, 0.0, plant.omega2, plant.decay]);
         let of_eta = plant.dual_norm(false, unit(2));
         let of_norm = [plant.participation * of_f, of_eta, of_f, 0.0];
@@ -486,9 +496,9 @@ impl Sample {
 
     /// What a unit at a sample leaves behind: it ramps up before and down in the next sample.
     #[inline(always)]
-    fn taps(&self, taps: &mut [Four]) {
+    fn taps(&self, taps: &mut [Four; BLOCK + 1]) {
         taps[0] = Four(self.ramp);
-        for j in 1..taps.len() {
+        for j in 1..=BLOCK {
             taps[j] = Four(times(&self.state, taps[j - 1].0));
             if j == 1 {
                 let before = self.before();

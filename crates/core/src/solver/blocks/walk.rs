@@ -74,6 +74,8 @@ pub(super) struct Walk<'w, S: Simd> {
     pub(super) records: bool,
     /// Whether the overturning moment, or in slip the slider force, is to be watched besides.
     pub(super) careful: bool,
+    /// Whether an overturning moment is told.
+    pub(super) tells_moment: bool,
 }
 
 impl<'w, S: Simd> Walk<'w, S> {
@@ -93,6 +95,7 @@ impl<'w, S: Simd> Walk<'w, S> {
             ground,
             records: host.records(),
             careful: tables.plant.damper_n_s_per_m != 0.0 || tables.arm != [0.0; 2],
+            tells_moment: tables.arm != [0.0; 2],
             host,
             candidates: Candidates::default(),
             peak: f64x8::load_array(simd, carry.peak),

@@ -1,8 +1,9 @@
 //! Largest accelerations and rates in windows of a motion, looked through once.
 
-use fearless_simd::{Level, dispatch};
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, dispatch, f64x8};
 
-use super::lanes::BLOCK;
+use super::lanes::{BLOCK, eight, greatest, larger};
 use super::tables::QUIET;
 use crate::motion::GroundMotion;
 use crate::solver::excitation::regular_step;
@@ -33,48 +34,44 @@ impl Windows {
     pub(in crate::solver) fn new(motion: &GroundMotion) -> Self {
         let dt_s = motion.dt_s().or_else(|| regular_step(motion.times_s()).0);
         let (a, over_dt) = (motion.horizontal_m_per_s2(), dt_s.map_or(0.0, |dt_s| 1.0 / dt_s));
-        // For the lanes of this machine too; the bits are the same on all.
-        let largest = dispatch!(Level::new(), _simd => Self::largest(a, over_dt));
+        let largest = dispatch!(Level::new(), simd => Self::largest(simd, a, over_dt));
         Self { dt_s, largest }
     }
 
     #[inline(always)]
-    fn largest(a: &[f64], over_dt: f64) -> Vec<Window> {
-        // Largest over the samples and intervals that begin in a chunk.
-        let larger = |a: f64, b: f64| if b > a { b } else { a };
-        let most = |x: &[f64; BLOCK]| {
-            let pairs =
-                [larger(x[0], x[4]), larger(x[1], x[5]), larger(x[2], x[6]), larger(x[3], x[7])];
-            larger(larger(pairs[0], pairs[2]), larger(pairs[1], pairs[3]))
-        };
-        let mut sizes = Vec::with_capacity(a.len().div_ceil(BLOCK) + QUIET / BLOCK);
-        for from in (0..a.len()).step_by(BLOCK) {
-            let rest = &a[from..];
-            let (mut size, mut change) = ([0.0; BLOCK], [0.0; BLOCK]);
-            if let Some(x) = rest.first_chunk::<{ BLOCK + 1 }>() {
-                for k in 0..BLOCK {
-                    (size[k], change[k]) = (x[k].abs(), (x[k + 1] - x[k]).abs());
-                }
-            } else {
-                for (k, x) in rest.iter().enumerate() {
-                    size[k] = x.abs();
-                    change[k] = rest.get(k + 1).map_or(0.0, |next| (next - x).abs());
-                }
-            }
-            sizes.push([most(&size), most(&change) * over_dt]);
+    fn largest<S: Simd>(simd: S, a: &[f64], over_dt: f64) -> Vec<Window> {
+        // Largest over the samples and intervals that begin in a chunk of eight.
+        let chunks = a.len().div_ceil(BLOCK);
+        let mut sizes = vec![0.0; chunks + QUIET / BLOCK];
+        let mut rates = sizes.clone();
+        for chunk in (0..chunks).step_by(BLOCK) {
+            let rest = &a[chunk * BLOCK..];
+            let mut last = [0.0; BLOCK * BLOCK + 1];
+            let x = rest.first_chunk().unwrap_or_else(|| {
+                // The last value once more, for no change.
+                last.fill(rest[rest.len() - 1]);
+                last[..rest.len()].copy_from_slice(rest);
+                &last
+            });
+            let of = |from: usize| f64x8::from_slice(simd, &x[from..from + BLOCK]);
+            let size = most(core::array::from_fn(|c| of(c * BLOCK).abs()));
+            let change = most(core::array::from_fn(|c| (of(c * BLOCK + 1) - of(c * BLOCK)).abs()));
+            let rate = change * eight(simd, over_dt);
+            let count = BLOCK.min(chunks - chunk);
+            sizes[chunk..chunk + count].copy_from_slice(&size.as_array()[..count]);
+            rates[chunk..chunk + count].copy_from_slice(&rate.as_array()[..count]);
         }
-        let chunks = sizes.len();
-        sizes.resize(chunks + QUIET / BLOCK, [0.0; 2]);
         // From the last of eight samples a block ends at the last sample of the next chunk, and a
         // stretch of quiet stick at that of the fourth.
-        sizes
-            .windows(1 + QUIET / BLOCK)
-            .map(|s| {
-                let block = larger(s[0][0], s[1][0]);
-                let quiet = larger(larger(block, s[2][0]), larger(s[3][0], s[4][0]));
-                Window { block, quiet, rate: larger(s[0][1], s[1][1]) }
-            })
-            .collect()
+        let sizes: [&[f64]; 5] = core::array::from_fn(|k| &sizes[k..k + chunks]);
+        let rates: [&[f64]; 2] = core::array::from_fn(|k| &rates[k..k + chunks]);
+        let window = |i: usize| {
+            let block = greatest(sizes[0][i], sizes[1][i]);
+            let next = greatest(sizes[3][i], sizes[4][i]);
+            let quiet = greatest(greatest(block, sizes[2][i]), next);
+            Window { block, quiet, rate: greatest(rates[0][i], rates[1][i]) }
+        };
+        (0..chunks).map(window).collect()
     }
 
     /// The window of the blocks that begin at a sample.
@@ -82,6 +79,14 @@ impl Windows {
     pub(super) fn at(&self, sample: usize) -> Window {
         self.largest[sample / BLOCK]
     }
+}
+
+/// The largest lane of each of eight vectors.
+#[inline(always)]
+fn most<S: Simd>(x: [f64x8<S>; BLOCK]) -> f64x8<S> {
+    let pair = |a: f64x8<S>, b: f64x8<S>| larger(a.unzip_low(b), a.unzip_high(b));
+    let left = pair(pair(x[0], x[1]), pair(x[2], x[3]));
+    pair(left, pair(pair(x[4], x[5]), pair(x[6], x[7])))
 }
 
 #[cfg(test)]
