@@ -16,6 +16,7 @@ mod step;
 mod tables;
 #[cfg(test)]
 mod tests;
+mod view;
 mod walk;
 mod windows;
 
@@ -24,7 +25,8 @@ use fearless_simd::{Level, dispatch};
 use self::walk::Walk;
 use crate::error::SolveError;
 
-pub(super) use tables::{ACCELERATION, DISPLACEMENT, Tables};
+pub(super) use tables::Tables;
+pub(super) use view::{ACCELERATION, DISPLACEMENT};
 pub(super) use walk::{Carry, Ground, Host};
 pub(super) use windows::Windows;
 

@@ -5,7 +5,8 @@ use fearless_simd::{f64x4, f64x8};
 
 use super::lanes::{BLOCK, Four, combine4, eight, four, greatest, larger4, least, times4};
 use super::peaks::Block;
-use super::tables::{ACCELERATION, DISPLACEMENT, QUIET};
+use super::tables::QUIET;
+use super::view::{ACCELERATION, DISPLACEMENT};
 use super::walk::Walk;
 use crate::friction::Direction;
 use crate::solver::extremes::tracked;

@@ -5,7 +5,8 @@ use fearless_simd::{f64x4, f64x8, mask64x4};
 
 use super::lanes::{BLOCK, Four, combine4, combine8, four, larger, times4, times8};
 use super::peaks::Candidates;
-use super::tables::{ACCELERATION, DISPLACEMENT, Phase, Row, Tables};
+use super::tables::{Phase, Row, Tables};
+use super::view::{ACCELERATION, DISPLACEMENT};
 use super::windows::Windows;
 use crate::error::SolveError;
 use crate::friction::Direction;
@@ -17,7 +18,7 @@ use crate::solver::extremes::tracked;
 pub(in crate::solver) struct Carry {
     /// `s, ṡ, η, η̇`, with zeros for the structure of a rigid block.
     pub(in crate::solver) x: [f64; 4],
-    /// Peaks attained so far, in the order of [`View`](super::tables::View).
+    /// Peaks attained so far, in the order of [`View`](super::view::View).
     pub(in crate::solver) peak: [f64; 8],
     pub(in crate::solver) mode: Mode,
     pub(in crate::solver) start: Option<Start>,
