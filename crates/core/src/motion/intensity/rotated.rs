@@ -140,7 +140,7 @@ mod tests {
         let rotated = RotD::of(&Measure::Pga, &x, &y).unwrap();
         assert_eq!(median.ordinates[0].psa_m_per_s2, rotated.median());
         assert_eq!(largest.ordinates[0].psa_m_per_s2, rotated.largest());
-        for (i, name) in [(1, "Sa(0.3 s)"), (2, "Sa(1 s)")] {
+        for (i, name) in [(1, "PSa(0.3 s)"), (2, "PSa(1 s)")] {
             let rotated = RotD::of(&Measure::parse(name).unwrap(), &x, &y).unwrap();
             let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
             assert!(close(median.ordinates[i].psa_m_per_s2, rotated.median()), "{name}");
