@@ -128,13 +128,17 @@ def as_one_table(out, runs):
     return {"duckdb": duckdb.__version__, "rows": found[0], "ok": found[4]}
 
 
+def thousands(number):
+    return f"{number:,.0f}".replace(",", "\u202f")
+
+
 def markdown(result):
     whole, mem = result["whole"], result["memory"]
     one, two = result["threads"]["1"], result["threads"]["2"]
     peers_ = result["peers"]
     runs = result["runs"]
     lines = [
-        f"Written by `cargo xtask bench-study` on {result['machine']}.",
+        f"Written by `cargo xtask bench-study --write` on {result['machine']}.",
         "",
         f"The far-field example, {runs} runs (44 records, 20 levels, {runs // 880} designs), with "
         "its rows written, every thousandth run again and certified, and summarised:",
@@ -142,7 +146,9 @@ def markdown(result):
         "| | |",
         "|---|--:|",
         f"| time on {whole['jobs']} threads | {whole['seconds']:.1f} s |",
-        f"| runs a second | {runs / whole['seconds']:,.0f} |".replace(",", "\u202f"),
+        f"| runs a second | {thousands(runs / whole['seconds'])} |",
+        f"| each run beyond the first {result['part']}, on {whole['jobs']} threads | "
+        f"{1e6 * result['seconds_a_further_run']:.0f} µs |",
         f"| {result['part']} runs, one thread over two | {one / two:.2f} × |",
         f"| numba's loop, the same runs on one thread, scaled from {peers_['numba_runs']} | "
         f"{peers_['numba_seconds'] * runs:.0f} s |",
@@ -152,8 +158,7 @@ def markdown(result):
         f"| numba over Slipstick, both on one thread | "
         f"{peers_['numba_seconds'] / result['seconds_a_run_on_one_thread']:.1f} × |",
         f"| OpenSeesPy over Slipstick, both on one thread | "
-        f"{peers_['opensees_seconds'] / result['seconds_a_run_on_one_thread']:,.0f} × |"
-        .replace(",", "\u202f"),
+        f"{thousands(peers_['opensees_seconds'] / result['seconds_a_run_on_one_thread'])} × |",
         "",
         "Peak memory of the whole process:",
         "",
@@ -184,12 +189,13 @@ def main():
         for jobs in seconds:
             seconds[jobs].append(run(options.slipstick, part, out, jobs)[0])
     threads = {str(jobs): min(each) for jobs, each in seconds.items()}
-    memory = []
+    memory, by_count = [], {}
     for count in counts:
         note(f"{880 * count} runs")
         jobs = min(2, os.cpu_count() or 1)
         took, size, _ = run(options.slipstick, with_count(plan, count), out, jobs)
         memory.append((880 * count, size))
+        by_count[880 * count] = took
     runs = 880 * counts[-1]
     note("peers")
     result = {
@@ -199,6 +205,7 @@ def main():
         "whole": {"jobs": jobs, "seconds": took},
         "threads": threads,
         "seconds_a_run_on_one_thread": threads["1"] / (880 * counts[1]),
+        "seconds_a_further_run": (took - by_count[880 * counts[1]]) / max(runs - 880 * counts[1], 1),
         "memory": memory,
         "table": as_one_table(out, runs),
         "peers": peers(out, options.folder, runs, options.quick),
