@@ -39,7 +39,8 @@ pub fn write(doc: &mut Doc, paper: &Paper) {
     } else {
         format!(
             " Those that did not settle lie at tables of {} m/s² and {} Hz; of them the peaks of the \
-             last six periods are shown.",
+             last six periods are shown. Small differences grow in them without end, those of \
+             rounding too, so that another order of the same sums gives other peaks.",
             ends(unsettled.iter().map(|(w, _)| w.amplitude_m_per_s2).collect()),
             ends(unsettled.iter().map(|(_, hz)| *hz).collect()),
         )
