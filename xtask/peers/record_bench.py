@@ -88,7 +88,7 @@ def files(folder, values):
         ("AT2", write("taft.AT2", at2 + body + "\n"), (),
          {"NumPy fromstring": lambda: split((at2 + body).split("\n", 4)[4])}),
         ("CSV, two columns", write("taft.csv", head + csv), (),
-         {"NumPy fromstring": lambda: split((head + csv).split("\n", 1)[1].replace(",", " ")),
+         {"NumPy fromstring": lambda: split((head + csv).split("\n", 1)[1].replace(",", " ")).reshape(-1, 2),
           "NumPy loadtxt": lambda: np.loadtxt(io.StringIO(head + csv), delimiter=",", skiprows=1)}),
         ("one column", write("taft.txt", column), (dt, "g"),
          {"NumPy fromstring": lambda: split(column),
