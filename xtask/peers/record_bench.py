@@ -170,7 +170,7 @@ def markdown(result):
         "|---|---|--:|--:|--:|",
     ]
     for row in result["reading"]:
-        lines.append(f"| {row['file']} | {row['program']} | {1e3 * row['seconds']:.3g} ms | "
+        lines.append(f"| {row['file']} | {row['program']} | {1e3 * row['seconds']:.4g} ms | "
                      f"{row['bytes'] / row['seconds'] / 1e6:.0f} | {row['times_slipstick']:.3g} |")
     lines += [
         "",
@@ -184,7 +184,7 @@ def markdown(result):
     for row in result["spectra"]:
         differs = [row["difference_median"], row["difference_largest"]]
         cells = ["" if d is None else f"{d:.1e}" for d in differs]
-        lines.append(f"| {row['program']} | {1e3 * row['seconds']:.3g} ms | "
+        lines.append(f"| {row['program']} | {1e3 * row['seconds']:.4g} ms | "
                      f"{row['times_slipstick']:.3g} | {cells[0]} | {cells[1]} |")
     return "\n".join(lines) + "\n"
 
