@@ -138,7 +138,9 @@ def markdown(result):
     peers_ = result["peers"]
     runs = result["runs"]
     lines = [
-        f"Written by `cargo xtask bench-study --write` on {result['machine']}.",
+        "<!-- Written by `cargo xtask bench-study --write`. -->",
+        "",
+        f"One run: {result['machine']}.",
         "",
         f"The far-field example, {runs} runs (44 records, 20 levels, {runs // 880} designs), with "
         "its rows written, every thousandth run again and certified, and summarised:",
