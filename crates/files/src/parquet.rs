@@ -6,14 +6,16 @@
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type};
 use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch};
 use arrow_schema::{DataType, Field, Schema, SchemaRef};
-use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use parquet::arrow::arrow_reader::{
+    ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder,
+};
 use parquet::arrow::{ArrowWriter, ProjectionMask};
 use parquet::basic::Compression;
 use parquet::errors::ParquetError;
@@ -106,6 +108,31 @@ pub(crate) fn open(path: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>,
         return Err(FileError::IsFolder { path: path.to_owned() });
     }
     ParquetRecordBatchReaderBuilder::try_new(file).map_err(at(path))
+}
+
+/// A table that is read more than once: what stands about its columns is read once.
+pub(crate) struct Table {
+    pub(crate) path: PathBuf,
+    metadata: ArrowReaderMetadata,
+}
+
+impl Table {
+    /// # Errors
+    /// As [`open`].
+    pub(crate) fn of(path: &Path) -> Result<Self, FileError> {
+        let failed = |source| FileError::Read { path: path.to_owned(), source };
+        let file = File::open(path).map_err(failed)?;
+        let metadata = ArrowReaderMetadata::load(&file, ArrowReaderOptions::default());
+        Ok(Self { path: path.to_owned(), metadata: metadata.map_err(at(path))? })
+    }
+
+    /// # Errors
+    /// [`FileError::Read`].
+    pub(crate) fn open(&self) -> Result<ParquetRecordBatchReaderBuilder<File>, FileError> {
+        let failed = |source| FileError::Read { path: self.path.clone(), source };
+        let file = File::open(&self.path).map_err(failed)?;
+        Ok(ParquetRecordBatchReaderBuilder::new_with_metadata(file, self.metadata.clone()))
+    }
 }
 
 /// A note in the metadata of a file.

@@ -72,7 +72,8 @@ fn run(args: &StudyArgs, study: &OpenStudy, shard: Shard, out: &Path) -> Result<
     }
     let bar = Steps::new(study.shard_runs(shard), args.quiet);
     let progress = |runs: u64| bar.advance(runs);
-    let options = ShardOptions { jobs: args.jobs.map(usize::from), progress: Some(&progress) };
+    let jobs = args.jobs.map(usize::from);
+    let options = ShardOptions { jobs, progress: Some(&progress) };
     let outcome = study.run_shard(shard, out, &options);
     bar.finish();
     let outcome = match outcome {
@@ -83,7 +84,7 @@ fn run(args: &StudyArgs, study: &OpenStudy, shard: Shard, out: &Path) -> Result<
         }
         Err(error) => return Err(error.into()),
     };
-    let summary = watched("summarising", args.quiet, || conclude(study, out))?;
+    let summary = watched("summarising", args.quiet, || conclude(study, out, jobs))?;
     print(&summary.to_table(args.display_units.into()))?;
     if !args.quiet {
         let checks = outcome.checks;

@@ -10,6 +10,7 @@ use slipstick_report::json::Json;
 
 use super::part::{self, Checks, Notes, PartFile};
 use super::parts::{MANIFEST, SUMMARY, parts, refuse_foreign};
+use super::shard::on_threads;
 use super::summary;
 use super::{OpenStudy, StudyError};
 use crate::error::FileError;
@@ -27,15 +28,20 @@ pub struct Merged {
     pub checks: Checks,
 }
 
-/// Writes `manifest.json` and `summary.csv` of the parts in a folder, and gives the summary.
+/// Writes `manifest.json` and `summary.csv` of the parts in a folder, on so many threads (all where
+/// nothing is said), and gives the summary.
 ///
 /// # Errors
 /// [`StudyError`] for parts that are damaged or belong to another study, and files that cannot be
 /// written.
-pub fn conclude(study: &OpenStudy, folder: &Path) -> Result<StudySummary, StudyError> {
+pub fn conclude(
+    study: &OpenStudy,
+    folder: &Path,
+    jobs: Option<usize>,
+) -> Result<StudySummary, StudyError> {
     let files = parts(folder)?;
     refuse_foreign(&files, &study.id)?;
-    let summary = summary::of(study, &files)?;
+    let summary = on_threads(jobs, || Ok(summary::of(study, &files)?))?;
     summary::write(&folder.join(SUMMARY), &summary)?;
     write_whole(&folder.join(MANIFEST), manifest(study, &files).to_pretty().as_bytes())?;
     Ok(summary)

@@ -217,7 +217,7 @@ fn verdicts(study: &OpenStudy, rows: &[&Row]) -> Vec<Verdict> {
 }
 
 #[cfg(feature = "parallel")]
-fn on_threads<T: Send>(
+pub(super) fn on_threads<T: Send>(
     jobs: Option<usize>,
     work: impl FnOnce() -> Result<T, StudyError> + Send,
 ) -> Result<T, StudyError> {
@@ -227,7 +227,7 @@ fn on_threads<T: Send>(
 }
 
 #[cfg(not(feature = "parallel"))]
-fn on_threads<T: Send>(
+pub(super) fn on_threads<T: Send>(
     _jobs: Option<usize>,
     work: impl FnOnce() -> Result<T, StudyError> + Send,
 ) -> Result<T, StudyError> {

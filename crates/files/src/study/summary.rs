@@ -5,14 +5,14 @@ use std::path::Path;
 use arrow_array::ArrayRef;
 use arrow_array::cast::AsArray;
 use slipstick::input::plan::Levels;
-use slipstick::study::{ColumnKind, Study};
+use slipstick::study::{Column, ColumnKind, Study};
 use slipstick_report::{LevelSummary, StudySummary};
 
 use super::OpenStudy;
 
 use super::part::{Layout, PartFile};
 use crate::error::FileError;
-use crate::parquet::{each_batch, extend, open};
+use crate::parquet::{Table, each_batch, extend};
 
 /// Probabilities of the quantiles.
 const QUANTILES: [f64; 3] = [0.16, 0.5, 0.84];
@@ -25,22 +25,25 @@ pub(super) fn of(open: &OpenStudy, files: &[PartFile]) -> Result<StudySummary, F
     let study = &open.study;
     let layout = Layout::new(study);
     let levels = study.cases().levels as usize;
-    let counts = counts(study, &layout, files)?;
-    let mut rows = Vec::new();
-    for (index, column) in layout.demands().iter().enumerate() {
-        if column.kind == ColumnKind::Flag {
-            continue;
-        }
-        let source = Source { study, files, column: layout.first_demand + index };
+    let parts = files
+        .iter()
+        .map(|file| Ok((file.notes.first, Table::of(&file.path)?)))
+        .collect::<Result<Vec<_>, FileError>>()?;
+    let counts = counts(study, &layout, &parts)?;
+    let demands = layout.demands().iter().enumerate();
+    let demands: Vec<_> = demands.filter(|(_, column)| column.kind != ColumnKind::Flag).collect();
+    let of_demand = |&(index, column): &(usize, &Column)| -> Result<Vec<LevelSummary>, FileError> {
+        let source = Source { study, parts: &parts, column: layout.first_demand + index };
         let figures = figures(&source, levels)?;
         let quantiles = quantiles(&source, &figures)?;
-        for (level, (figures, quantiles)) in figures.iter().zip(quantiles).enumerate() {
+        let each = figures.iter().zip(quantiles).enumerate();
+        let rows = each.map(|(level, (figures, quantiles))| {
             let record = figures
                 .max_run
                 .and_then(|run| study.records().get(study.cases().case(run).record as usize));
             let (runs, failures) = counts[level];
             let value = study.level(level as u64);
-            rows.push(LevelSummary {
+            LevelSummary {
                 level: level as u64,
                 value,
                 scale: value.is_none().then(|| study.level_factor(level as u64)),
@@ -54,9 +57,11 @@ pub(super) fn of(open: &OpenStudy, files: &[PartFile]) -> Result<StudySummary, F
                 max_run: figures.max_run,
                 max_record: record
                     .map_or_else(|| study.made_motion().to_owned(), |record| record.name.clone()),
-            });
-        }
-    }
+            }
+        });
+        Ok(rows.collect())
+    };
+    let mut rows: Vec<LevelSummary> = map(&demands, of_demand)?.concat();
     rows.sort_by_key(|row| row.level);
     let measure = match study.levels() {
         Levels::Measure { measure, .. } => Some((measure.to_string(), measure.unit())),
@@ -64,6 +69,21 @@ pub(super) fn of(open: &OpenStudy, files: &[PartFile]) -> Result<StudySummary, F
     };
     let name = open.plan.name.clone().unwrap_or_else(|| stem(&open.plan_path));
     Ok(StudySummary { name, measure, rows })
+}
+
+/// The same of every demand, on as many threads as there are.
+#[cfg(feature = "parallel")]
+fn map<T: Sync, R: Send>(
+    items: &[T],
+    work: impl Fn(&T) -> Result<R, FileError> + Sync + Send,
+) -> Result<Vec<R>, FileError> {
+    use rayon::prelude::*;
+    items.par_iter().map(work).collect()
+}
+
+#[cfg(not(feature = "parallel"))]
+fn map<T, R>(items: &[T], work: impl Fn(&T) -> Result<R, FileError>) -> Result<Vec<R>, FileError> {
+    items.iter().map(work).collect()
 }
 
 fn stem(path: &Path) -> String {
@@ -74,13 +94,13 @@ fn stem(path: &Path) -> String {
 fn counts(
     study: &Study,
     layout: &Layout,
-    files: &[PartFile],
+    parts: &[(u64, Table)],
 ) -> Result<Vec<(u64, u64)>, FileError> {
     let mut counts = vec![(0, 0); study.cases().levels as usize];
     let status = layout.schema.fields().len() - 1;
-    for file in files {
-        let mut run = file.notes.first;
-        each_batch(&file.path, open(&file.path)?, &[status], |columns| {
+    for (first, table) in parts {
+        let mut run = *first;
+        each_batch(&table.path, table.open()?, &[status], |columns| {
             for status in columns.iter().flat_map(|column| column.as_string::<i32>().iter()) {
                 let (runs, failures) = &mut counts[study.cases().case(run).level as usize];
                 *runs += 1;
@@ -95,7 +115,8 @@ fn counts(
 /// One column of all parts.
 struct Source<'a> {
     study: &'a Study,
-    files: &'a [PartFile],
+    /// First run and table of each.
+    parts: &'a [(u64, Table)],
     column: usize,
 }
 
@@ -103,9 +124,9 @@ impl Source<'_> {
     /// Hands over every value that is one, with its run and level, in order.
     fn each(&self, mut take: impl FnMut(u64, usize, f64)) -> Result<(), FileError> {
         let mut values = Vec::new();
-        for file in self.files {
-            let mut run = file.notes.first;
-            each_batch(&file.path, open(&file.path)?, &[self.column], |columns: &[ArrayRef]| {
+        for (first, table) in self.parts {
+            let mut run = *first;
+            each_batch(&table.path, table.open()?, &[self.column], |columns: &[ArrayRef]| {
                 for column in columns {
                     values.clear();
                     extend(&mut values, column);
