@@ -9,7 +9,6 @@ its matrix exponentials out.
 import argparse
 import json
 import statistics
-import subprocess
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -21,7 +20,7 @@ import numba_loop
 import opensees
 import reference
 import scipy_events
-from machine import machine, note
+from machine import Process, machine, note
 
 LABELS = {
     "slipstick": "Slipstick",
@@ -40,19 +39,12 @@ LABELS = {
 OPENSEES = [("opensees-1e-5", 1e-5, 1), ("opensees-1e-6", 1e-6, 1), ("opensees-1e-6-fine", 1e-6, 5)]
 
 
-class Helper:
-    """The example `peer_bench`: one process, told over a pipe what to load and to time."""
+class Helper(Process):
+    """The example `peer_bench`, told what to load and to time."""
 
     def __init__(self, program, folder):
+        super().__init__(program)
         self.folder = folder
-        self.process = subprocess.Popen(
-            [program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-        )
-
-    def ask(self, *words):
-        self.process.stdin.write(" ".join(map(str, words)) + "\n")
-        self.process.stdin.flush()
-        return self.process.stdout.readline().split()
 
     def load(self, case):
         file = self.folder / "case.bin"

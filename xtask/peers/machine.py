@@ -1,7 +1,8 @@
-"""Where a benchmark ran, in words, and notes to the person who waits for it."""
+"""Where a benchmark ran, in words, notes to the person who waits for it, and the process it times."""
 
 import os
 import platform
+import subprocess
 import sys
 from importlib.metadata import version
 from pathlib import Path
@@ -22,3 +23,18 @@ def machine(*programs):
 
 def note(text):
     print(text, file=sys.stderr, flush=True)
+
+
+class Process:
+    """One of the examples of the library, told over a pipe what to do."""
+
+    def __init__(self, program):
+        self.process = subprocess.Popen(
+            [program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        )
+
+    def ask(self, *words):
+        """The words of its answer."""
+        self.process.stdin.write(" ".join(map(str, words)) + "\n")
+        self.process.stdin.flush()
+        return self.process.stdout.readline().split()

@@ -9,10 +9,8 @@ import argparse
 import io
 import json
 import statistics
-import subprocess
 import time
 import warnings
-from importlib.metadata import version
 from pathlib import Path
 
 import eqsig
@@ -21,43 +19,24 @@ import obspy
 import pyrotd
 
 import cases
-from machine import machine, note
+from machine import Process, machine, note
 
-G = 9.80665
+G = cases.RECORD_G
 DAMPINGS = [0.01, 0.02, 0.05, 0.1, 0.2]
 PERIODS = 0.02 * np.exp(np.arange(200) / 199 * np.log(500))
 
 
-class Helper:
-    """The example `record_bench`: one process, told over a pipe what to time."""
-
-    def __init__(self, program):
-        self.process = subprocess.Popen(
-            [program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-        )
-
-    def ask(self, *words):
-        """Seconds of each turn, and the count that ends the answer."""
-        self.process.stdin.write(" ".join(map(str, words)) + "\n")
-        self.process.stdin.flush()
-        *times, count = self.process.stdout.readline().split()
-        return [int(ns) * 1e-9 for ns in times], int(count)
+def seconds_of(answer):
+    """Seconds of each turn, and the count that ends the answer."""
+    *times, count = answer
+    return [int(ns) * 1e-9 for ns in times], int(count)
 
 
-def by_call(function):
-    """A timer of one call and what it returns."""
-
-    def timed():
-        start = time.perf_counter()
-        out = function()
-        return time.perf_counter() - start, out
-
-    return timed
-
-
-def taft():
-    lines = (cases.ROOT / "examples/records/taft-111.txt").read_text().splitlines()
-    return np.array([float(line) for line in lines if line.strip() and not line.startswith("#")])
+def timed(function):
+    """Seconds of one call, and what it returns."""
+    start = time.perf_counter()
+    out = function()
+    return time.perf_counter() - start, out
 
 
 def files(folder, values):
@@ -103,17 +82,17 @@ def files(folder, values):
 
 def reading(helper, folder, rounds):
     rows = []
-    values = np.tile(taft(), 20)
+    values = np.tile(cases.taft()[1], 20)
     for name, path, given, others in files(folder, values):
         note(f"  {name}")
         times = {"Slipstick": []} | {other: [] for other in others}
         for _ in range(rounds):
-            took, count = helper.ask("read", path, 5, *given)
+            took, count = seconds_of(helper.ask("read", path, 5, *given))
             if count != len(values):
                 raise SystemExit(f"bench-records: {count} values of {len(values)} in {path}")
             times["Slipstick"] += took
             for other, function in others.items():
-                seconds, found = by_call(function)()
+                seconds, found = timed(function)
                 if len(np.asarray(found)) != len(values):
                     raise SystemExit(f"bench-records: {other} finds {len(found)} values in {path}")
                 times[other].append(seconds)
@@ -126,7 +105,7 @@ def reading(helper, folder, rounds):
 
 def spectra(helper, folder, rounds, quick):
     """200 periods by five damping ratios of 60 s at 200 Hz."""
-    values = taft()
+    values = cases.taft()[1]
     fine = np.interp(np.arange(2 * len(values) - 1) / 2, np.arange(len(values)), values) * G
     fine = np.concatenate([fine, np.zeros(12001)])[:12001]
     source, out = folder / "spectrum.bin", folder / "psa.bin"
@@ -140,10 +119,10 @@ def spectra(helper, folder, rounds, quick):
     times = {"Slipstick": []} | {other: [] for other in others}
     found = {}
     for _ in range(1 if quick else rounds):
-        times["Slipstick"] += helper.ask("spectrum", source, 0.005, 5, out)[0]
+        times["Slipstick"] += seconds_of(helper.ask("spectrum", source, 0.005, 5, out))[0]
         for other, function in others.items():
             note(f"  {other}")
-            seconds, found[other] = by_call(function)()
+            seconds, found[other] = timed(function)
             times[other].append(seconds)
     ours = np.fromfile(out, "<f8").reshape(len(DAMPINGS), len(PERIODS))
     median = {other: statistics.median(each) for other, each in times.items()}
@@ -197,7 +176,7 @@ def main():
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     warnings.simplefilter("ignore", DeprecationWarning)
-    helper = Helper(options.helper)
+    helper = Process(options.helper)
     rounds = 3 if options.quick else 15
     note("reading")
     rows = reading(helper, options.folder, rounds)

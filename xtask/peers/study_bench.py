@@ -191,23 +191,22 @@ def main():
         for jobs in seconds:
             seconds[jobs].append(run(options.slipstick, part, out, jobs)[0])
     threads = {str(jobs): min(each) for jobs, each in seconds.items()}
-    memory, by_count = [], {}
+    took, memory = {}, []
     for count in counts:
         note(f"{880 * count} runs")
         jobs = min(2, os.cpu_count() or 1)
-        took, size, _ = run(options.slipstick, with_count(plan, count), out, jobs)
+        took[count], size, _ = run(options.slipstick, with_count(plan, count), out, jobs)
         memory.append((880 * count, size))
-        by_count[880 * count] = took
     runs = 880 * counts[-1]
     note("peers")
     result = {
         "machine": machine("openseespy", "numba"),
         "runs": runs,
         "part": 880 * counts[1],
-        "whole": {"jobs": jobs, "seconds": took},
+        "whole": {"jobs": jobs, "seconds": took[counts[2]]},
         "threads": threads,
         "seconds_a_run_on_one_thread": threads["1"] / (880 * counts[1]),
-        "seconds_a_further_run": (took - by_count[880 * counts[1]]) / max(runs - 880 * counts[1], 1),
+        "seconds_a_further_run": (took[counts[2]] - took[counts[1]]) / (runs - 880 * counts[1]),
         "memory": memory,
         "table": as_one_table(out, runs),
         "peers": peers(out, options.folder, runs, options.quick),

@@ -2,6 +2,7 @@
 
 mod ci;
 mod console;
+mod dist;
 mod paper;
 mod peers;
 mod reference;
@@ -38,6 +39,8 @@ Usage: cargo xtask TASK
   coverage                       how often intervals of identify cover the truth, 200 tests a
                                  parameter, and that silent tests are refused
   deny                           licences, advisories, doubles (installs cargo-deny)
+  dist                           the best binary (static where the musl target is installed),
+                                 manual pages, completions, checksums: into target/dist
   man                            the manual pages, into the target folder
   book                           the manual, into book/build (installs mdbook)
   figures                        the figures of the README and the manual, into book/src/figures
@@ -58,6 +61,7 @@ fn main() -> ExitCode {
         ["fuzz", options @ ..] => tools::fuzz(options),
         ["coverage"] => tools::coverage(),
         ["deny"] => tools::deny(),
+        ["dist"] => dist::dist(),
         ["man"] => tools::man(),
         ["book"] => tools::book(),
         ["figures"] => tools::figures(),

@@ -2,98 +2,89 @@
 
 use crate::shell::{self, Outcome};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 
-/// Makes a Python environment, builds the helper, runs `peers/bench.py` and prints its table.
+/// Analyses in numba, SciPy and OpenSeesPy, by `peers/bench.py`.
 pub fn bench_peers(options: &[&str]) -> Outcome {
-    const OPTIONS: &[&str] = &["--json", "--quick", "--write"];
-    if let Some(option) = options.iter().find(|option| !OPTIONS.contains(option)) {
-        return Err(format!("bench-peers: expected {}, found {option}", OPTIONS.join(", ")));
-    }
-    let has = |option| options.contains(&option);
-    let python = environment()?;
-    let target = shell::target_folder()?;
+    let bench = Bench::new("peers", options, &["--json", "--quick", "--write"])?;
     let build = "build --release -p slipstick --example peer_bench";
     shell::run(&mut shell::cargo(build))?;
-    let folder = target.join("peers");
-    let mut bench = shell::command(&python);
-    bench.env("PYTHONDONTWRITEBYTECODE", "1").arg("xtask/peers/bench.py");
-    bench.arg("--folder").arg(&folder).arg("--helper").arg(helper(&target));
     // A second build with all that this processor can do, in a folder of its own.
-    let native = target.join("native");
-    let mut build = shell::cargo(build);
-    build.env("RUSTFLAGS", "-C target-cpu=native").arg("--target-dir").arg(&native);
-    shell::run(&mut build)?;
-    bench.arg("--native-helper").arg(helper(&native));
-    if has("--quick") {
-        bench.arg("--quick");
-    }
-    // OpenSees prints a banner to standard output; the results are in files.
-    shell::run(bench.stdout(Stdio::null()))?;
-    let read = |name: &str| {
-        let path = folder.join(name);
-        std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))
-    };
-    print!("{}", read(if has("--json") { "peers.json" } else { "peers.md" })?);
-    if has("--write") {
-        shell::write(&shell::root().join("book/src/generated/peers.md"), &read("peers.md")?)?;
-    }
-    Ok(())
-}
-
-fn helper(target: &Path) -> PathBuf {
-    target.join(format!("release/examples/peer_bench{}", std::env::consts::EXE_SUFFIX))
+    let native = bench.target.join("native");
+    let mut again = shell::cargo(build);
+    again.env("RUSTFLAGS", "-C target-cpu=native").arg("--target-dir").arg(&native);
+    shell::run(&mut again)?;
+    let [helper, native] = [&bench.target, &native].map(|t| built(t, "examples/peer_bench"));
+    bench.run("bench.py", &[("--helper", helper), ("--native-helper", native)])
 }
 
 /// The far-field study timed, on one thread and two, beside numba and OpenSeesPy; its folder opened
 /// by DuckDB.
 pub fn bench_study(options: &[&str]) -> Outcome {
-    const OPTIONS: &[&str] = &["--quick", "--write"];
-    if let Some(option) = options.iter().find(|option| !OPTIONS.contains(option)) {
-        return Err(format!("bench-study: expected {}, found {option}", OPTIONS.join(", ")));
-    }
-    let python = environment()?;
-    let target = shell::target_folder()?;
+    let bench = Bench::new("studies", options, &["--quick", "--write"])?;
     shell::run(&mut shell::cargo("build --release -p slipstick-cli"))?;
-    let folder = target.join("bench-study");
-    let slipstick = target.join(format!("release/slipstick{}", std::env::consts::EXE_SUFFIX));
-    let mut bench = shell::command(&python);
-    bench.env("PYTHONDONTWRITEBYTECODE", "1").arg("xtask/peers/study_bench.py");
-    bench.arg("--folder").arg(&folder).arg("--slipstick").arg(slipstick);
-    written(bench, options, &folder.join("studies.md"), "studies.md")
+    let slipstick = built(&bench.target, "slipstick");
+    bench.run("study_bench.py", &[("--slipstick", slipstick)])
 }
 
 /// Reading and response spectra timed beside NumPy, ObsPy, eqsig and pyrotd.
 pub fn bench_records(options: &[&str]) -> Outcome {
-    const OPTIONS: &[&str] = &["--quick", "--write"];
-    if let Some(option) = options.iter().find(|option| !OPTIONS.contains(option)) {
-        return Err(format!("bench-records: expected {}, found {option}", OPTIONS.join(", ")));
-    }
-    let python = environment()?;
-    let target = shell::target_folder()?;
+    let bench = Bench::new("records", options, &["--quick", "--write"])?;
     shell::run(&mut shell::cargo("build --release -p slipstick --example record_bench"))?;
-    let helper =
-        target.join(format!("release/examples/record_bench{}", std::env::consts::EXE_SUFFIX));
-    let mut bench = shell::command(&python);
-    bench.env("PYTHONDONTWRITEBYTECODE", "1").arg("xtask/peers/record_bench.py");
-    let folder = target.join("bench-records");
-    bench.arg("--folder").arg(&folder).arg("--helper").arg(helper);
-    written(bench, options, &folder.join("records.md"), "records.md")
+    let helper = built(&bench.target, "examples/record_bench");
+    bench.run("record_bench.py", &[("--helper", helper)])
 }
 
-/// Runs a bench, prints the page that it wrote and, with `--write`, puts it into the book.
-fn written(mut bench: Command, options: &[&str], page: &Path, name: &str) -> Outcome {
-    if options.contains(&"--quick") {
-        bench.arg("--quick");
+/// A release build in a target folder.
+fn built(target: &Path, program: &str) -> PathBuf {
+    target.join(format!("release/{program}{}", std::env::consts::EXE_SUFFIX))
+}
+
+/// A bench whose page in the book has its name.
+struct Bench<'a> {
+    name: &'a str,
+    options: &'a [&'a str],
+    python: PathBuf,
+    target: PathBuf,
+}
+
+impl<'a> Bench<'a> {
+    /// Refuses unknown options and makes the Python environment.
+    fn new(name: &'a str, options: &'a [&'a str], known: &[&str]) -> Result<Self, String> {
+        if let Some(option) = options.iter().find(|option| !known.contains(option)) {
+            return Err(format!("bench-{name}: expected {}, found {option}", known.join(", ")));
+        }
+        Ok(Self { name, options, python: environment()?, target: shell::target_folder()? })
     }
-    shell::run(bench.stdout(Stdio::null()))?;
-    let text =
-        std::fs::read_to_string(page).map_err(|error| format!("{}: {error}", page.display()))?;
-    print!("{text}");
-    if options.contains(&"--write") {
-        shell::write(&shell::root().join("book/src/generated").join(name), &text)?;
+
+    /// Runs a script, which leaves NAME.md and NAME.json in its folder; prints one of them and, with
+    /// `--write`, puts the page into the book.
+    fn run(&self, script: &str, programs: &[(&str, PathBuf)]) -> Outcome {
+        let has = |option| self.options.contains(&option);
+        let folder = self.target.join(format!("bench-{}", self.name));
+        let mut python = shell::command(&self.python);
+        python.env("PYTHONDONTWRITEBYTECODE", "1").arg(format!("xtask/peers/{script}"));
+        python.arg("--folder").arg(&folder);
+        for (option, program) in programs {
+            python.arg(option).arg(program);
+        }
+        if has("--quick") {
+            python.arg("--quick");
+        }
+        // OpenSees prints a banner to standard output; the results are in files.
+        shell::run(python.stdout(Stdio::null()))?;
+        let page = format!("{}.md", self.name);
+        let read = |name: &str| {
+            let path = folder.join(name);
+            std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))
+        };
+        let shown = if has("--json") { format!("{}.json", self.name) } else { page.clone() };
+        print!("{}", read(&shown)?);
+        if has("--write") {
+            shell::write(&shell::root().join("book/src/generated").join(&page), &read(&page)?)?;
+        }
+        Ok(())
     }
-    Ok(())
 }
 
 /// Python of the environment in `.venv` with the programs of `peers/requirements.txt` in it.

@@ -12,8 +12,13 @@ pub use laboratory::{
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use slipstick::record::{Quantity, Units};
+use slipstick::units::{Dimension, Unit, parse_quantity};
+use slipstick_files::RecordOptions;
 use slipstick_report::DisplayUnits;
 use std::path::PathBuf;
+
+use crate::failure::Failure;
 
 const ABOUT: &str = "Exact stick-slip response of structures on sliding bearings";
 
@@ -152,16 +157,9 @@ pub struct RunArgs {
     /// Record to use instead of the model's [motion]; its format is recognised
     #[arg(long, value_name = "FILE", help_heading = "Ground motion")]
     pub motion: Option<PathBuf>,
-    /// Unit of the record's values, where its file does not state it: g, gal, m/s2, …; of counts the
-    /// value of one: "4.67e-6 m/s2"
-    #[arg(long, value_name = "UNIT", requires = "motion", help_heading = "Ground motion")]
-    pub units: Option<String>,
-    /// Time step of the record, where its file does not state it: "0.01 s"
-    #[arg(long, value_name = "TIME", requires = "motion", help_heading = "Ground motion")]
-    pub dt: Option<String>,
-    /// Channel of the record, by name or by number from 1
-    #[arg(long, value_name = "NAME", requires = "motion", help_heading = "Ground motion")]
-    pub channel: Option<String>,
+    /// What its file does not say
+    #[command(flatten)]
+    pub record: RecordArgs,
     /// Factor on the record; may be negative
     #[arg(
         long,
@@ -203,6 +201,64 @@ pub struct RunArgs {
     /// No messages and no progress on standard error, errors excepted
     #[arg(short, long, help_heading = "Output")]
     pub quiet: bool,
+}
+
+/// What files of records do not say themselves: wherever one is read.
+#[derive(Debug, Args)]
+pub struct RecordArgs {
+    /// Unit of the values, where a file does not state it: g, gal, m/s2, …; of counts the value of
+    /// one: "4.67e-6 m/s2"
+    #[arg(long, value_name = "UNIT", help_heading = "Ground motion")]
+    pub units: Option<String>,
+    /// Time step, where a file does not state it: "0.01 s"
+    #[arg(long, value_name = "TIME", help_heading = "Ground motion")]
+    pub dt: Option<String>,
+    /// Channel, by name or by number from 1
+    #[arg(long, value_name = "NAME", help_heading = "Ground motion")]
+    pub channel: Option<String>,
+}
+
+impl RecordArgs {
+    /// The values of the options, whose unit is one of acceleration where `acceleration` says so.
+    pub fn options(&self, acceleration: bool) -> Result<RecordOptions, Failure> {
+        let refuse = |option: &str, expected: &str, found: &str| {
+            Failure::Message(format!("{option}: expected {expected}, found {found:?}"))
+        };
+        let units = self.units.as_deref().map(|text| {
+            let units = Units::parse(text)
+                .filter(|units| !acceleration || units.quantity() == Quantity::Acceleration);
+            units.ok_or_else(|| {
+                let known: Vec<_> =
+                    Dimension::Acceleration.units().iter().map(Unit::name).collect();
+                let known = format!("a unit of acceleration ({})", known.join(", "));
+                let any =
+                    "a unit of acceleration, velocity or displacement, such as g, cm/s2 or m/s";
+                refuse("--units", if acceleration { &known } else { any }, text)
+            })
+        });
+        let dt_s = self.dt.as_deref().map(|text| {
+            let dt_s = parse_quantity(text, Dimension::Time)
+                .map_err(|error| Failure::Message(format!("--dt: {error}")))?;
+            if dt_s > 0.0 { Ok(dt_s) } else { Err(refuse("--dt", "a time step > 0", text)) }
+        });
+        Ok(RecordOptions {
+            format: None,
+            units: units.transpose()?,
+            dt_s: dt_s.transpose()?,
+            channel: self.channel.clone(),
+        })
+    }
+
+    /// Refuses them where there is no record that they could speak of.
+    pub fn only_with(&self, option: &str, given: bool) -> Result<(), Failure> {
+        let said = [("--units", &self.units), ("--dt", &self.dt), ("--channel", &self.channel)];
+        match said.iter().find(|(_, value)| value.is_some()) {
+            Some((name, _)) if !given => {
+                Err(Failure::Message(format!("{name}: expected {option} beside it, found none")))
+            }
+            _ => Ok(()),
+        }
+    }
 }
 
 /// `slipstick study`.

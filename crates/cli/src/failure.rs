@@ -68,7 +68,8 @@ pub fn say(line: fmt::Arguments<'_>) {
 /// The line that an error points to, underlined; nothing where the error lies outside the text.
 fn excerpt(error: &InputError, text: &str) -> Option<String> {
     let place = &error.place;
-    if place.source_name.starts_with("--set") || text.get(place.span.clone()).is_none() {
+    let name = &place.source_name;
+    if name.is_empty() || name.starts_with("--set") || text.get(place.span.clone()).is_none() {
         return None;
     }
     let renderer = match std::env::var_os("NO_COLOR") {

@@ -3,7 +3,7 @@
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
-use crate::args::UnitSystem;
+use crate::args::{RecordArgs, UnitSystem};
 
 /// Below the help of `slipstick record`.
 pub const EXAMPLES: &str = "\
@@ -48,22 +48,15 @@ pub enum RecordCommand {
     Plot(PlotArgs),
 }
 
-/// What files do not say themselves.
+/// How files are read.
 #[derive(Debug, Args)]
-#[command(next_help_heading = "Reading")]
 pub struct ReadArgs {
     /// Format, where it is not to be recognised from the content
-    #[arg(long, value_name = "FORMAT")]
+    #[arg(long, value_name = "FORMAT", help_heading = "Ground motion")]
     pub format: Option<String>,
-    /// Unit of the values, where a file does not state it: g, gal, m/s2, …
-    #[arg(long, value_name = "UNIT")]
-    pub units: Option<String>,
-    /// Time step, where a file does not state it: "0.01 s"
-    #[arg(long, value_name = "TIME")]
-    pub dt: Option<String>,
-    /// Channel, by name or by number from 1
-    #[arg(long, value_name = "NAME")]
-    pub channel: Option<String>,
+    /// What files do not say
+    #[command(flatten)]
+    pub record: RecordArgs,
 }
 
 /// `slipstick record info`.

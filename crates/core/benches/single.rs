@@ -8,10 +8,11 @@
 #![allow(clippy::disallowed_methods, clippy::unwrap_used, reason = "a bench may read and panic")]
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use slipstick::check::check;
 use slipstick::friction::{Coulomb, Friction};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::GroundMotion;
-use slipstick::solver::{self, PreparedModel, PreparedMotion};
+use slipstick::solver::{self, Prepared, PreparedMotion};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 use std::hint::black_box;
 
@@ -31,18 +32,17 @@ fn single(c: &mut Criterion) {
         group.bench_function(format!("{name}/{events} events"), |b| {
             b.iter(|| solver::exact_demands(black_box(model), black_box(motion)));
         });
-        group.bench_function(format!("{name}/plain way"), |b| {
-            b.iter(|| solver::exact_demands_plain(black_box(model), black_box(motion)));
-        });
-        let prepared = PreparedMotion::new(motion);
-        group.bench_function(format!("{name}/prepared motion"), |b| {
-            b.iter(|| {
-                let model = PreparedModel::new(black_box(model), &prepared);
-                solver::demands(&model, black_box(&prepared))
-            });
+        let prepared_motion = PreparedMotion::new(motion.clone());
+        let prepared = Prepared::new(model.clone(), prepared_motion.dt_s());
+        group.bench_function(format!("{name}/prepared"), |b| {
+            b.iter(|| black_box(&prepared).demands(black_box(&prepared_motion)));
         });
         group.bench_function(format!("{name}/with history"), |b| {
             b.iter(|| solver::exact(black_box(model), black_box(motion)));
+        });
+        let response = solver::exact(model, motion).unwrap();
+        group.bench_function(format!("{name}/certificate"), |b| {
+            b.iter(|| check(black_box(model), black_box(motion), black_box(&response)));
         });
     }
     // Two samples of a table at rest: nothing but the set-up.
@@ -51,9 +51,8 @@ fn single(c: &mut Criterion) {
     group.bench_function("set_up", |b| {
         b.iter(|| solver::exact_demands(black_box(&model(0.06, 0.05, 143e3)), &still));
     });
-    let prepared = PreparedMotion::new(&still);
     group.bench_function("tables", |b| {
-        b.iter(|| black_box(PreparedModel::new(black_box(&pendulum), &prepared)));
+        b.iter(|| black_box(Prepared::new(black_box(&pendulum).clone(), Some(0.01))));
     });
     group.finish();
 }
@@ -96,6 +95,7 @@ fn model(mu_static: f64, mu_kinetic: f64, stiffness_n_per_m: f64) -> Model {
             damper_n_s_per_m: 0.0,
             tilt_rad: 0.0,
             gap_m: None,
+            stop: None,
         },
         Frame {
             masses_kg: vec![201.0],

@@ -110,6 +110,7 @@ fn model(storeys: usize, stiffness_n_per_m: f64) -> Result<Model, Box<dyn std::e
             damper_n_s_per_m: 0.0,
             tilt_rad: 0.001,
             gap_m: None,
+            stop: None,
         },
         frame,
         9.81,

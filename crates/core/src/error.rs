@@ -23,6 +23,14 @@ pub enum ModelError {
         /// Length of the list given.
         found: usize,
     },
+    /// A quantity of which nothing was given.
+    #[error("{quantity}: expected {expected}, found none")]
+    Missing {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// What it takes.
+        expected: &'static str,
+    },
 }
 
 /// A channel that a format of records cannot hold.
@@ -142,6 +150,14 @@ pub enum SolveError {
         /// When it was noticed, in s.
         time_s: f64,
     },
+    /// A model that a method does not take.
+    #[error("{method}: expected a model without {what}")]
+    NotTaken {
+        /// The method.
+        method: &'static str,
+        /// What of the model it does not take.
+        what: &'static str,
+    },
     /// The iteration of the stepwise method did not converge.
     #[error(
         "stepwise method: {iterations} iterations did not converge at {time_s} s: it converges only \
@@ -156,6 +172,56 @@ pub enum SolveError {
         /// Largest rate of the system times the step.
         omega_dt: f64,
     },
+}
+
+/// A run that has no answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RunError {
+    /// Values that make no model.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// A motion that cannot be made or scaled.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// A model that is to move the table itself and does not.
+    #[error("the model makes no motion")]
+    NoMotion,
+    /// The analysis itself.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+}
+
+/// What ended because the callback that followed it said so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("stopped before the end")]
+pub struct Stopped;
+
+/// A choice that cannot be: which, what was expected, what was found.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what}: expected {expected}, found {found}{}", nearest_suffix(nearest.as_deref()))]
+pub struct ChoiceError {
+    /// What was chosen: `demand`, `measure`, a path of the model.
+    pub what: String,
+    /// What was expected.
+    pub expected: String,
+    /// What was found.
+    pub found: String,
+    /// The word that was probably meant.
+    pub nearest: Option<String>,
+}
+
+/// A cell of a table that is not what it must be.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("row {row}, column {column}: expected {expected}, found {found}")]
+pub struct CellError {
+    /// The row, from 0.
+    pub row: usize,
+    /// Name of the column.
+    pub column: String,
+    /// What was expected.
+    pub expected: String,
+    /// What was found.
+    pub found: String,
 }
 
 /// Data from which a statistic cannot be told.
@@ -289,7 +355,8 @@ pub struct MeasureError {
 /// A place in a text, which an editor can jump to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
-    /// The caller's name for the text: a path, or the option that set a key.
+    /// The caller's name for the text: a path, or the option that set a key; empty where the value
+    /// was not in a text, and its key says all.
     pub source_name: String,
     /// Line of its first character, counted from 1.
     pub line: usize,
@@ -319,7 +386,9 @@ impl std::error::Error for InputError {}
 impl std::fmt::Display for InputError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Place { source_name, line, column, .. } = &*self.place;
-        write!(f, "{source_name}:{line}:{column}: ")?;
+        if !source_name.is_empty() {
+            write!(f, "{source_name}:{line}:{column}: ")?;
+        }
         if !self.path.is_empty() {
             write!(f, "{}: ", self.path)?;
         }

@@ -14,6 +14,7 @@ mod frame;
 mod json;
 mod json_schema;
 mod keys;
+pub mod loaded;
 mod mapping;
 mod motion;
 mod overrides;
@@ -33,7 +34,7 @@ pub use json_schema::{json_schema, plan_json_schema};
 pub use keys::MAX_STOREYS;
 pub use mapping::{Channel, ColumnRef, MappedColumn, Mapping};
 pub use motion::{MotionSource, RecordSource, Scale};
-pub use overrides::{Override, dimension_of};
+pub use overrides::{InputValue, Override, dimension_of};
 pub use plan_keys::MAX_RUNS;
 pub use variation::Variation;
 
@@ -121,6 +122,49 @@ pub fn parse(
     }
     let values = reader::Values::read(sources, &root, &keys::MODEL)?;
     build::analysis(values)
+}
+
+/// A model from the values of its keys, without a text: paths are keys joined by dots, storeys counted
+/// from 1 and given in their order.
+///
+/// # Errors
+/// [`InputError`] for the first fault found, as [`parse`]; it names the key, not a place.
+///
+/// # Examples
+/// ```
+/// use slipstick::input::{InputValue::{Number, Text}, from_values};
+///
+/// let analysis = from_values(&[
+///     ("block.mass", Number(325.0)),
+///     ("slider.static_friction", Number(0.02)),
+///     ("slider.kinetic_friction", Number(0.012)),
+///     ("slider.radius", Text("2.2 m")),
+///     ("storey.1.mass", Text("45 kg")),
+///     ("storey.1.period", Number(0.6)),
+///     ("storey.1.damping_ratio", Number(0.01)),
+/// ])?;
+/// assert_eq!((analysis.model.block().mass_kg, analysis.model.storeys()), (325.0, 1));
+///
+/// let error = from_values(&[("block.mass", Number(-1.0))]).unwrap_err();
+/// assert_eq!(
+///     error.to_string(),
+///     "block.mass: expected a finite mass > 0, found \"-1.0 kg\""
+/// );
+/// # Ok::<(), slipstick::error::InputError>(())
+/// ```
+pub fn from_values(values: &[(&str, InputValue<'_>)]) -> Result<Analysis, InputError> {
+    let mut sources = tree::Sources::default();
+    // Where something is missing there is no place.
+    sources.add("", "");
+    let mut root = tree::Table(Vec::new());
+    for &(path, value) in values {
+        let set = match value {
+            InputValue::Number(number) => Override::number(path, number)?,
+            InputValue::Text(text) => Override::text_value(path, text)?,
+        };
+        set.add(&mut sources, &mut root)?;
+    }
+    build::analysis(reader::Values::read(sources, &root, &keys::MODEL)?)
 }
 
 /// As [`parse`], for the bytes of a file.

@@ -3,7 +3,6 @@
 //!
 //! Everything here works on slices in SI and on bytes that the caller has read.
 
-pub mod algebra;
 pub mod anderson;
 pub mod compare;
 pub mod cyclic;
@@ -13,8 +12,6 @@ pub mod fitted;
 pub mod free_vibration;
 pub mod measured;
 pub mod metrics;
-pub mod paper;
-pub mod quantile;
 pub mod shaking_table;
 
 /// Prints how many of 200 intervals cover the truth and how many of 200 silent records are refused,

@@ -1,7 +1,7 @@
 //! Masses, springs, dampers, storeys: inert, checked data without an algorithm.
 
 use crate::error::ModelError;
-use crate::friction::{Direction, Friction};
+use crate::friction::{Direction, ElasticStop, Friction, Law, Restraint};
 use crate::units::STANDARD_GRAVITY_M_PER_S2;
 
 /// The rigid block that slides, `M1`.
@@ -26,8 +26,44 @@ pub struct Slider {
     pub damper_n_s_per_m: f64,
     /// Tilt θ of the surface in rad, positive uphill towards +x.
     pub tilt_rad: f64,
-    /// Sliding displacement that the detailing allows, in m.
+    /// Sliding displacement that the detailing allows, in m; reported only, nothing is struck.
     pub gap_m: Option<f64>,
+    /// What the block strikes at the end of its travel; excludes `gap_m`.
+    pub stop: Option<Stop>,
+}
+
+/// A stop at the end of the slider's travel, on one side or on both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stop {
+    /// Distance from `s = 0` towards +x and −x in m; `None`: no stop on that side.
+    pub gap_m: [Option<f64>; 2],
+    /// How it pushes back.
+    pub kind: StopKind,
+}
+
+/// How a stop pushes back.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StopKind {
+    /// A spring and a damper side by side, which cannot pull: at a penetration δ > 0 the force
+    /// `max(0, k δ + c δ̇)` on the block against δ, for δ ≤ 0 none.
+    Elastic {
+        /// `k` in N/m.
+        stiffness_n_per_m: f64,
+        /// `c` in N s/m.
+        damper_n_s_per_m: f64,
+    },
+}
+
+impl Stop {
+    /// Distance from `s = 0` to the stop on a side, in m.
+    #[must_use]
+    pub fn gap_towards(&self, side: Direction) -> Option<f64> {
+        let [positive, negative] = self.gap_m;
+        match side {
+            Direction::Positive => positive,
+            Direction::Negative => negative,
+        }
+    }
 }
 
 /// Damping of the storeys.
@@ -108,7 +144,8 @@ impl Model {
     /// # Errors
     /// [`ModelError`] names the first quantity that is not finite or out of range: masses and
     /// storey stiffnesses must be > 0, `K1`, `C1`, dampers and damping ratios ≥ 0, |θ| < π/2,
-    /// gravity, gap, width and heights > 0, one value a storey.
+    /// gravity, gap, width and heights > 0, one value a storey. A stop needs a gap on one side at
+    /// least and a stiffness > 0, and excludes the slider's `gap_m`.
     pub fn new(
         block: Block,
         slider: Slider,
@@ -123,6 +160,9 @@ impl Model {
         not_negative("slider stiffness_n_per_m", slider.stiffness_n_per_m)?;
         not_negative("slider damper_n_s_per_m", slider.damper_n_s_per_m)?;
         optional_positive("slider gap_m", slider.gap_m)?;
+        if let Some(stop) = &slider.stop {
+            check_stop(stop, slider.gap_m)?;
+        }
         if !(slider.tilt_rad.abs() < core::f64::consts::FRAC_PI_2) {
             return Err(ModelError::OutOfRange {
                 quantity: "slider tilt_rad",
@@ -164,6 +204,7 @@ impl Model {
                 damper_n_s_per_m: 0.0,
                 tilt_rad: 0.0,
                 gap_m: None,
+                stop: None,
             },
             Frame::none(),
             STANDARD_GRAVITY_M_PER_S2,
@@ -181,6 +222,12 @@ impl Model {
     #[must_use]
     pub fn slider(&self) -> &Slider {
         &self.slider
+    }
+
+    /// The stop at the end of the slider's travel.
+    #[must_use]
+    pub fn stop(&self) -> Option<&Stop> {
+        self.slider.stop.as_ref()
     }
 
     /// The structure on the block.
@@ -239,6 +286,21 @@ impl Model {
         model
     }
 
+    /// The law of the one force between ground and block.
+    #[must_use]
+    pub fn law(&self) -> Law {
+        let slider = &self.slider;
+        let restraint = Restraint {
+            stiffness_n_per_m: slider.stiffness_n_per_m,
+            damper_n_s_per_m: slider.damper_n_s_per_m,
+        };
+        let stop = slider.stop.map(|stop| {
+            let StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } = stop.kind;
+            ElasticStop { gap_m: stop.gap_m, stiffness_n_per_m, damper_n_s_per_m }
+        });
+        Law::new(slider.friction, restraint, stop)
+    }
+
     /// Static friction coefficients for sliding towards +x and −x.
     #[must_use]
     pub fn static_friction(&self) -> [f64; 2] {
@@ -280,6 +342,21 @@ impl Model {
     }
 }
 
+fn check_stop(stop: &Stop, reported_gap_m: Option<f64>) -> Result<(), ModelError> {
+    if let Some(found) = reported_gap_m {
+        let expected = "no gap beside a stop, which has its own";
+        return Err(ModelError::OutOfRange { quantity: "slider gap_m", expected, found });
+    }
+    if stop.gap_m == [None; 2] {
+        let expected = "a gap on one side at least";
+        return Err(ModelError::Missing { quantity: "stop gap_m", expected });
+    }
+    stop.gap_m.into_iter().try_for_each(|gap_m| optional_positive("stop gap_m", gap_m))?;
+    let StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } = stop.kind;
+    positive("stop stiffness_n_per_m", stiffness_n_per_m)?;
+    not_negative("stop damper_n_s_per_m", damper_n_s_per_m)
+}
+
 fn finite(quantity: &'static str, found: f64) -> Result<(), ModelError> {
     in_range(quantity, "a finite number", found, found.is_finite())
 }
@@ -315,4 +392,41 @@ fn each(
         return Err(ModelError::WrongCount { quantity, expected, found: values.len() });
     }
     values.iter().try_for_each(|&value| check(quantity, value))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::friction::Coulomb;
+
+    fn with(gap_m: Option<f64>, stop: Stop) -> Result<Model, ModelError> {
+        let friction = Friction::Coulomb(Coulomb::new([0.2; 2], [0.1; 2]).unwrap());
+        let plain = Model::rigid_block(10.0, friction).unwrap();
+        let slider = Slider { gap_m, stop: Some(stop), ..*plain.slider() };
+        Model::new(*plain.block(), slider, Frame::none(), 9.81, InitialState::rest())
+    }
+
+    #[test]
+    fn exact_stops_are_checked() {
+        let stop = |gap_m, stiffness_n_per_m, damper_n_s_per_m| Stop {
+            gap_m,
+            kind: StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m },
+        };
+        let good = stop([Some(0.1), None], 1e5, 0.0);
+        let model = with(None, good).unwrap();
+        assert_eq!(model.stop(), Some(&good));
+        assert_eq!(good.gap_towards(Direction::Positive), Some(0.1));
+        assert_eq!(good.gap_towards(Direction::Negative), None);
+        for (gap_m, stop, quantity) in [
+            (Some(0.1), good, "slider gap_m"),
+            (None, stop([None; 2], 1e5, 0.0), "stop gap_m"),
+            (None, stop([Some(0.1), Some(0.0)], 1e5, 0.0), "stop gap_m"),
+            (None, stop([Some(f64::NAN), None], 1e5, 0.0), "stop gap_m"),
+            (None, stop([Some(0.1); 2], 0.0, 0.0), "stop stiffness_n_per_m"),
+            (None, stop([Some(0.1); 2], 1e5, -1.0), "stop damper_n_s_per_m"),
+        ] {
+            let error = with(gap_m, stop).unwrap_err().to_string();
+            assert!(error.starts_with(quantity), "{error}");
+        }
+    }
 }

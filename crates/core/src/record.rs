@@ -44,6 +44,7 @@ use std::collections::BTreeMap;
 use crate::error::{MotionError, RecordError};
 use crate::motion::{GroundMotion, Series};
 
+pub(crate) use delimited::bracket;
 pub use delimited::{Column, Columns};
 pub use quality::{REST_KINDS, rest};
 pub(crate) use sampling::of_times;
@@ -251,8 +252,7 @@ impl Record {
         let named = self.channels.iter().find(|c| c.name.eq_ignore_ascii_case(name));
         let bare = || {
             let mut alike = self.channels.iter().filter(|channel| {
-                let mut bare = channel.name.split(['[', '(']);
-                bare.next().is_some_and(|bare| bare.trim().eq_ignore_ascii_case(name))
+                bracket(&channel.name).is_some_and(|(bare, _)| bare.eq_ignore_ascii_case(name))
             });
             alike.next().filter(|_| alike.next().is_none())
         };

@@ -1,6 +1,14 @@
 //! What an analysis returns: peaks and counts, events, histories, warnings.
 
+mod registry;
+
+pub use registry::{
+    DEMANDS, Demand, DemandColumn, DemandKind, DemandOf, DemandShape, PrintedRow, demand_values,
+};
+
 use crate::friction::Direction;
+
+pub use crate::friction::Contact;
 
 /// Whether the block is held by friction or slides, and which way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,9 +48,33 @@ pub enum EventKind {
     Stick,
     /// From sliding one way to sliding the other, without a stick between.
     Reversal,
+    /// The block reaches the stop: from free to pressed.
+    Contact,
+    /// The force of the stop falls to 0 beyond the gap: from pressed to separated.
+    Separation,
+    /// The stop takes force again beyond the gap: from separated to pressed.
+    Press,
+    /// The block leaves the stop: back within its gap.
+    Leave,
 }
 
-/// A change between stick and slip, or of the direction of sliding.
+impl EventKind {
+    /// Its name in files and tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Slip => "slip",
+            Self::Stick => "stick",
+            Self::Reversal => "reversal",
+            Self::Contact => "contact",
+            Self::Separation => "separation",
+            Self::Press => "press",
+            Self::Leave => "leave",
+        }
+    }
+}
+
+/// A change between stick and slip, of the direction of sliding, or of the contact with a stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event {
     /// When, in s.
@@ -57,17 +89,21 @@ pub struct Event {
 
 /// States at *knots*: every sample and both sides of every event, in order of time.
 ///
-/// Between two neighbouring knots with different times the table acceleration is linear and the
-/// mode constant (and stored at both). Knots with the same time are the two sides of an event or a
-/// jump. Storey values are stored knot by knot, `storeys` values each.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// Between two neighbouring knots with different times the table acceleration is linear, and modes
+/// and contact are constant (and stored at both). Knots with the same time are the two sides of an
+/// event or a jump. Storey values are stored knot by knot, `storeys` values each.
+#[derive(Clone, Debug, PartialEq)]
 pub struct History {
     /// Number of storeys.
     pub storeys: usize,
+    /// Number of sliding interfaces: 1, the slider.
+    pub interfaces: usize,
     /// Times in s.
     pub time_s: Vec<f64>,
-    /// Modes; at an event first the one before it, then the one after.
+    /// Modes knot by knot, `interfaces` each; at an event first those before it, then those after.
     pub mode: Vec<Mode>,
+    /// Contact with the stop; empty where the model has none.
+    pub contact: Vec<Contact>,
     /// Table acceleration `Ü` in m/s², on the knot's side of a jump.
     pub table_acceleration_m_per_s2: Vec<f64>,
     /// `s` in m.
@@ -89,6 +125,27 @@ pub struct History {
     pub rows: Vec<usize>,
 }
 
+impl Default for History {
+    fn default() -> Self {
+        Self {
+            storeys: 0,
+            interfaces: 1,
+            time_s: Vec::new(),
+            mode: Vec::new(),
+            contact: Vec::new(),
+            table_acceleration_m_per_s2: Vec::new(),
+            sliding_displacement_m: Vec::new(),
+            sliding_velocity_m_per_s: Vec::new(),
+            block_acceleration_m_per_s2: Vec::new(),
+            friction_force_n: Vec::new(),
+            storey_displacement_m: Vec::new(),
+            storey_velocity_m_per_s: Vec::new(),
+            storey_acceleration_m_per_s2: Vec::new(),
+            rows: Vec::new(),
+        }
+    }
+}
+
 impl History {
     /// Number of knots.
     #[must_use]
@@ -100,6 +157,12 @@ impl History {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.time_s.is_empty()
+    }
+
+    /// Modes at a knot, one an interface, the slider first.
+    #[must_use]
+    pub fn modes(&self, knot: usize) -> &[Mode] {
+        &self.mode[knot * self.interfaces..(knot + 1) * self.interfaces]
     }
 
     /// Storey displacements at a knot, in m.
@@ -132,6 +195,21 @@ pub struct StoreyDemands {
     pub peak_drift_m: f64,
     /// Drift over the storey's height, where heights are given.
     pub peak_drift_ratio: Option<f64>,
+}
+
+/// What the response asks of the stop.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StopDemands {
+    /// Times the block reached the stop, on either side; a start beyond the gap is none.
+    pub contact_count: u64,
+    /// Impacts on a rigid stop; 0 for an elastic one.
+    pub impact_count: u64,
+    /// Largest force between stop and block in N.
+    pub peak_force_n: f64,
+    /// Largest |ṡ| at which the block reached the stop in m/s, 0 where it did not.
+    pub peak_impact_speed_m_per_s: f64,
+    /// Time with a force between stop and block in s.
+    pub contact_time_s: f64,
 }
 
 /// What the response asks of the structure: peaks of the continuous motion, residuals, counts.
@@ -173,7 +251,8 @@ pub struct Demands {
     pub peak_base_shear_n: f64,
     /// Largest |T| in N, stuck or sliding.
     pub peak_friction_force_n: f64,
-    /// Largest |T − K1 s − C1 ṡ| in N.
+    /// Largest |T − K1 s − C1 ṡ| in N, the force of a stop included: all that passes from the table
+    /// to the block.
     pub peak_slider_force_n: f64,
     /// Peak base shear over the weight.
     pub base_shear_coefficient: f64,
@@ -189,6 +268,8 @@ pub struct Demands {
     /// Largest overturning moment about the sliding surface over `M_tot g width/2`, where width and
     /// heights are given.
     pub overturning_ratio: Option<f64>,
+    /// Of the stop, where the model has one.
+    pub stop: Option<StopDemands>,
 }
 
 /// Iterations a step of the stepwise method took.

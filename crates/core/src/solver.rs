@@ -1,23 +1,24 @@
 //! Solves the equations of motion: exactly, or by the paper's stepwise program.
 
-mod blocks;
-mod ensemble;
-mod exact;
-mod excitation;
-mod extremes;
+mod event;
+mod ground;
+mod outputs;
+mod peaks;
 mod prepared;
 mod recorder;
+mod run;
+mod screen;
 mod stepwise;
 mod summary;
+mod tables;
 
 use crate::error::SolveError;
 use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::response::{Method, Response};
 
-pub use ensemble::ensemble;
-pub use exact::EVENTS_PER_INTERVAL_LIMIT;
-pub use prepared::{InstructionSet, PreparedModel, PreparedMotion, demands, demands_by};
+pub use event::EVENTS_PER_INTERVAL_LIMIT;
+pub use prepared::{InstructionSet, Prepared, PreparedMotion};
 
 /// Exact response with its history.
 ///
@@ -45,9 +46,7 @@ pub use prepared::{InstructionSet, PreparedModel, PreparedMotion, demands, deman
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn exact(model: &Model, motion: &GroundMotion) -> Result<Response, SolveError> {
-    let motion = PreparedMotion::new(motion);
-    let model = PreparedModel::new(model, &motion);
-    prepared::solve(InstructionSet::best(), &model, &motion, true)
+    prepared::solve_once(model, motion, true)
 }
 
 /// Exact response without a history: peaks, counts and events only.
@@ -55,25 +54,7 @@ pub fn exact(model: &Model, motion: &GroundMotion) -> Result<Response, SolveErro
 /// # Errors
 /// [`SolveError`] with time and cause.
 pub fn exact_demands(model: &Model, motion: &GroundMotion) -> Result<Response, SolveError> {
-    let motion = PreparedMotion::new(motion);
-    demands(&PreparedModel::new(model, &motion), &motion)
-}
-
-/// [`exact`] by the plain way: sample by sample, without blocks. Slower, and the measure of the
-/// other: both agree to 1e-11 of each peak wherever the last digit of the input does not decide.
-///
-/// # Errors
-/// [`SolveError`] with time and cause.
-pub fn exact_plain(model: &Model, motion: &GroundMotion) -> Result<Response, SolveError> {
-    exact::solve(model, motion, true, exact::Way::Plain)
-}
-
-/// [`exact_demands`] by the plain way.
-///
-/// # Errors
-/// [`SolveError`] with time and cause.
-pub fn exact_demands_plain(model: &Model, motion: &GroundMotion) -> Result<Response, SolveError> {
-    exact::solve(model, motion, false, exact::Way::Plain)
+    prepared::solve_once(model, motion, false)
 }
 
 /// Response by the paper's own program (eqs 5, 6, 15–18), with history and iteration counts.

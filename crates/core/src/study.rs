@@ -8,29 +8,28 @@
 mod cases;
 mod columns;
 mod design;
-mod directions;
-mod hash;
-mod latin;
-pub(crate) mod normal;
-mod parallel;
+pub mod engine;
 mod rows;
-mod sobol;
+pub mod summary;
 mod verify;
 
 pub use cases::{Case, Cases};
-pub use columns::{Column, ColumnKind, demand_columns, demand_values};
 pub use design::Design;
 pub use rows::Row;
-pub use sobol::{MAX_DIMENSIONS, unit_points};
+pub use summary::{LevelSummary, StudySummary};
 pub use verify::Verdict;
 
 use std::sync::OnceLock;
 
-use crate::error::InputError;
+use engine::Engine;
+
+use crate::error::{InputError, RunError, Stopped};
 use crate::input::plan::{Levels, Plan};
-use crate::input::{MAX_RUNS, MotionSource, Parts, Variation};
+use crate::input::{MAX_RUNS, Parts, Variation};
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{IntensityMeasures, Measure};
+use crate::numerics::random::{GOLDEN, mix};
+use crate::response::DemandShape;
 
 /// Most samples whose models are kept for the next record: beyond, they are made anew.
 const MODELS_KEPT: u64 = 10_000;
@@ -58,7 +57,9 @@ pub struct Study {
     /// Factors of each record's levels, record by record.
     factors: Vec<f64>,
     cases: Cases,
-    storeys: usize,
+    shape: DemandShape,
+    /// Number of demands.
+    demands: usize,
     samples: OnceLock<Vec<Sample>>,
     /// What rows say of their motion.
     measures: Vec<Measure>,
@@ -70,7 +71,7 @@ pub struct Study {
 #[derive(Clone, Debug)]
 struct Sample {
     values: Vec<f64>,
-    parts: Result<Parts, String>,
+    parts: Result<Parts, RunError>,
 }
 
 impl Study {
@@ -135,7 +136,7 @@ impl Study {
             return Err(plan.error_at("sampling.count", expected, found));
         }
         let factors = factors(plan, &levels, &records)?;
-        let storeys = variation.storeys();
+        let shape = variation.shape();
         let measures = if records.is_empty() {
             // A made motion may be another in every run, and spectra cost more than the run.
             vec![Measure::Pga, Measure::Pgv, Measure::Pgd]
@@ -150,7 +151,8 @@ impl Study {
             levels,
             factors,
             cases,
-            storeys,
+            shape,
+            demands: shape.columns().len(),
             samples: OnceLock::new(),
             measures,
         })
@@ -186,10 +188,10 @@ impl Study {
         &self.levels
     }
 
-    /// Number of storeys.
+    /// What the structure has that demands are asked of.
     #[must_use]
-    pub fn storeys(&self) -> usize {
-        self.storeys
+    pub fn shape(&self) -> DemandShape {
+        self.shape
     }
 
     /// The value of the measure at a level, in SI; `None` where levels are factors.
@@ -248,27 +250,52 @@ impl Study {
         Ok(overrides.into_iter().map(|set| set.text().to_owned()).collect())
     }
 
-    fn sample(&self, index: u64, variation: &mut Variation) -> Sample {
+    fn sample(&self, index: u64) -> Sample {
         let values = self.design.values(index);
-        let parts = variation.parts(&values).map_err(|error| error.to_string());
+        let parts = self.variation.parts(&values).map_err(RunError::from);
         Sample { values, parts }
     }
 
     /// The samples in a range: from the store, where they are few enough to be kept.
-    fn samples(&self, range: std::ops::Range<u64>) -> std::borrow::Cow<'_, [Sample]> {
-        let made = |range: std::ops::Range<u64>| -> Vec<Sample> {
+    fn samples(
+        &self,
+        range: std::ops::Range<u64>,
+        engine: &Engine<'_>,
+    ) -> Result<std::borrow::Cow<'_, [Sample]>, Stopped> {
+        let made = |range: std::ops::Range<u64>| -> Result<Vec<Sample>, Stopped> {
             let chunks: Vec<_> = chunks(range).collect();
-            let of_chunk = |chunk: &std::ops::Range<u64>| -> Vec<Sample> {
-                let mut variation = self.variation.clone();
-                chunk.clone().map(|index| self.sample(index, &mut variation)).collect()
+            let of_chunk = |i: usize| -> Result<Vec<Sample>, Stopped> {
+                Ok(chunks[i].clone().map(|index| self.sample(index)).collect())
             };
-            parallel::map(&chunks, of_chunk).into_iter().flatten().collect()
+            Ok(engine.map(chunks.len(), of_chunk)?.into_iter().flatten().collect())
         };
         if self.cases.samples > MODELS_KEPT {
-            return made(range).into();
+            return Ok(made(range)?.into());
         }
-        let kept = self.samples.get_or_init(|| made(0..self.cases.samples));
-        kept.get(range.start as usize..range.end as usize).unwrap_or_default().into()
+        let kept = match self.samples.get() {
+            Some(kept) => kept,
+            None => {
+                let all = made(0..self.cases.samples)?;
+                self.samples.get_or_init(|| all)
+            }
+        };
+        Ok(kept.get(range.start as usize..range.end as usize).unwrap_or_default().into())
+    }
+
+    /// Whether a run is one of those that are run again alone and judged: one of every thousand of
+    /// the whole study, wherever it stands among them, and at least one.
+    #[must_use]
+    pub fn is_checked(&self, run: u64) -> bool {
+        const EVERY: u64 = 1000;
+        let first = run - run % EVERY;
+        let length = EVERY.min(self.runs().saturating_sub(first)).max(1);
+        run == first + mix(mix(first.wrapping_add(GOLDEN))) % length
+    }
+
+    /// What rows say of their motion, in the order of [`Row::measures`].
+    #[must_use]
+    pub fn measures(&self) -> &[Measure] {
+        &self.measures
     }
 }
 
@@ -294,20 +321,11 @@ fn factors(plan: &Plan, levels: &Levels, records: &[Record]) -> Result<Vec<f64>,
         }
         Ok(levels.iter().map(|level| level / unscaled).collect())
     };
-    let all = parallel::map(records, of_record);
+    // Nothing stops an engine that nobody follows.
+    let all = Engine::unwatched().map(records.len(), |i| Ok(of_record(&records[i])));
     let mut factors = Vec::with_capacity(records.len() * levels.len());
-    for of_record in all {
+    for of_record in all.unwrap_or_default() {
         factors.extend(of_record?);
     }
     Ok(factors)
-}
-
-/// The motion that a source makes.
-fn made(source: &MotionSource) -> Option<Result<GroundMotion, crate::error::MotionError>> {
-    match source {
-        MotionSource::Record(_) => None,
-        MotionSource::Sine(sine) => Some(sine.motion()),
-        MotionSource::Sweep(sweep) => Some(sweep.motion()),
-        MotionSource::Pulse(pulse) => Some(pulse.motion()),
-    }
 }

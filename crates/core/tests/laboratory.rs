@@ -13,8 +13,9 @@ use slipstick::laboratory::cyclic::{CyclicTest, cyclic, estimates};
 use slipstick::laboratory::free_vibration::free_vibration;
 use slipstick::laboratory::measured::Measured;
 use slipstick::laboratory::metrics;
-use slipstick::laboratory::quantile::student_quantile;
 use slipstick::laboratory::shaking_table::{Builder, Parameter, TableTest, shaking_table};
+use slipstick::numerics::distribution::student_quantile;
+use slipstick::study::engine::Engine;
 
 /// The folder, or `None` and a line that says so.
 #[allow(clippy::disallowed_macros, reason = "tests say what they skip on their own output")]
@@ -172,15 +173,15 @@ fn file_isolated_building_on_a_shaking_table() {
     let parameters: Vec<Parameter> =
         names.iter().map(|n| Parameter::parse(n, &analysis, &names).unwrap()).collect();
     let builder = Builder::new("start.toml", start, &[], &parameters);
-    let found = shaking_table(&TableTest {
+    let test = TableTest {
         measured: &measured,
         parameters: &parameters,
         build: &|values: &[f64]| builder.model(values),
         start: None,
         using: Some(vec![Channel::SlidingDisplacement]),
         seed: 1,
-    })
-    .unwrap();
+    };
+    let found = shaking_table(&test, &Engine::unwatched()).unwrap();
     let sliding = found.comparison.get(Channel::SlidingDisplacement).unwrap();
     assert!(sliding.metrics.correlation.unwrap() > 0.95, "{:?}", sliding.metrics);
     // Period of the isolated building, 2π √(M/K): the record shows 0.40 Hz.
@@ -194,7 +195,7 @@ fn file_isolated_building_on_a_shaking_table() {
 #[test]
 fn prop_any_text_ends_well() {
     use slipstick::laboratory::compare::{Within, compare};
-    use slipstick::random::Random;
+    use slipstick::numerics::random::Random;
     use slipstick::response::Method;
 
     let model =

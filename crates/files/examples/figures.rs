@@ -6,7 +6,7 @@ use std::error::Error;
 use std::path::Path;
 
 use slipstick::input;
-use slipstick_files::{Job, read_bytes, write_whole};
+use slipstick_files::{OpenJob, read_bytes, write_whole};
 use slipstick_report::{DisplayUnits, Report, figures};
 
 /// Figures that the README and the manual show.
@@ -16,17 +16,18 @@ const SHOWN: [&str; 4] =
 fn main() -> Result<(), Box<dyn Error>> {
     let path = Path::new("examples/taft.toml");
     let analysis = input::from_bytes(&path.display().to_string(), &read_bytes(path)?, &[])?;
-    let job = Job::new(path, analysis, None)?;
-    let outcome = job.run(true)?;
+    let open = OpenJob::new(path, analysis, None)?;
+    let (outcome, summary) = open.run(true)?;
+    let (job, nominal) = (&open.job, &outcome.nominal);
     let report = Report {
-        summary: &outcome.summary,
+        summary: &summary,
         model: &job.analysis.model,
         motion: &job.motion,
         record: "",
-        response: &outcome.response,
-        certificate: &outcome.certificate,
+        response: &nominal.response,
+        certificate: &nominal.certificate,
         bounds: None,
-        floor_spectra: outcome.summary.floor_spectra.as_ref(),
+        floor_spectra: summary.floor_spectra.as_ref(),
         inputs: &[],
         files: &[],
         command_line: "",

@@ -9,10 +9,11 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use slipstick::input;
+use slipstick::input::Scale;
 use slipstick::motion::GroundMotion;
-use slipstick::random::Random;
+use slipstick::numerics::random::Random;
 use slipstick::solver;
-use slipstick_files::{RecordRequest, Scale, load_record, write_whole};
+use slipstick_files::{RecordRequest, load_record, write_whole};
 
 /// The mock-up as it "is": the block of section 3 of the paper, on a surface that is not quite level.
 const TRUTH: &str = r#"
@@ -88,10 +89,10 @@ fn shaking_table() -> Result<String, Box<dyn Error>> {
         path: "examples/records/taft-111.txt".into(),
         units: slipstick::record::Units::parse("g"),
         dt_s: Some(0.01),
-        scale: Scale::ToPeak(0.4 * GRAVITY),
+        scale: Some(Scale::Peak(0.4 * GRAVITY)),
         ..RecordRequest::default()
     };
-    let record = load_record(&request)?.motion;
+    let record = load_record(&request)?.loaded.motion;
     let table = record.horizontal_m_per_s2()[..3000].to_vec();
     let motion = GroundMotion::evenly_spaced(0.01, table, None)?;
     let model = input::parse("truth", TRUTH, &[])?.model;

@@ -86,6 +86,20 @@ pub enum FileError {
         /// What the library says.
         reason: String,
     },
+    /// A cell of a table in text that is not what it must be.
+    #[error("{}:{line}:{column}: expected {expected}, found {found}", path.display())]
+    Cell {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// Column in characters, from 1.
+        column: usize,
+        /// What was expected.
+        expected: String,
+        /// What was found.
+        found: String,
+    },
     /// A result that cannot be written.
     #[error("{}: cannot be written: {}", path.display(), reason(source))]
     Write {

@@ -37,7 +37,7 @@ pub fn folder_records(folder: &Path) -> Result<FolderRecords, FileError> {
             Ok(loaded) => {
                 let relative = path.strip_prefix(folder).unwrap_or(&path);
                 let name = relative.to_string_lossy().replace('\\', "/");
-                found.records.push((name, loaded.motion));
+                found.records.push((name, loaded.loaded.motion));
             }
             Err(error) => found.skipped.push(error.to_string()),
         }

@@ -6,10 +6,11 @@ use slipstick::error::InputError;
 use slipstick::input::{MAX_TEXT_BYTES, Mapping};
 use slipstick::laboratory::measured::{Measured, MeasuredError};
 use slipstick::record::{Column, Columns};
+use slipstick::table;
 
 use crate::error::FileError;
 use crate::load::SourceFile;
-use crate::parquet::{NumberColumn, read_columns};
+use crate::parquet;
 use crate::read::{read_at_most, read_bytes, sha256_hex};
 
 /// Why a measured file is of no use.
@@ -62,7 +63,8 @@ pub fn read_measured(
     let bytes = read_bytes(path)?;
     let name = path.display().to_string();
     let measured = if bytes.starts_with(b"PAR1") {
-        let columns = read_columns(path)?.into_iter().map(measured_column).collect();
+        let columns = parquet::read_columns(path)?;
+        let columns = columns.into_iter().filter_map(measured_column).collect();
         let columns = Columns::new(&name, columns).map_err(MeasuredError::from)?;
         Measured::of_columns(columns, mapping)?
     } else {
@@ -71,13 +73,14 @@ pub fn read_measured(
     Ok((measured, SourceFile { path: path.to_owned(), sha256: sha256_hex(&bytes) }))
 }
 
-/// A column whose name states its unit, which in Parquet may stand beside it.
-fn measured_column(column: NumberColumn) -> Column {
-    let NumberColumn { name, unit, values } = column;
+/// A column of numbers whose name states its unit, which in Parquet may stand beside it.
+fn measured_column(column: table::Column) -> Option<Column> {
+    let values = column.cells.to_numbers()?;
+    let table::Column { name, unit, .. } = column;
     let suffix = format!("_{}", unit.replace('/', "_per_").replace(' ', "_"));
     let states_unit = unit.is_empty() || name.ends_with(']') || name.ends_with(&suffix);
     let name = if states_unit { name } else { format!("{name} [{unit}]") };
-    Column { is_time: false, name, values }
+    Some(Column { is_time: false, name, values })
 }
 
 #[cfg(test)]
@@ -96,15 +99,12 @@ mod tests {
             "time_s,A0 [g],sliding_displacement [mm]\n0,0,1\n0.01,0.5,2\n0.02,-0.25,1.5\n",
         )
         .unwrap();
-        let column = |name: &str, unit: &str, values: [f64; 3]| NumberColumn {
-            name: name.to_owned(),
-            unit: unit.to_owned(),
-            values: values.to_vec(),
-        };
+        let numbers = table::Column::numbers;
         let mut columns = vec![
-            column("time_s", "s", [0.0, 0.01, 0.02]),
-            column("A0", "g", [0.0, 0.5, -0.25]),
-            column("sliding_displacement [mm]", "", [1.0, 2.0, 1.5]),
+            numbers("time_s", "s", vec![0.0, 0.01, 0.02]),
+            numbers("A0", "g", vec![0.0, 0.5, -0.25]),
+            numbers("sliding_displacement [mm]", "", vec![1.0, 2.0, 1.5]),
+            table::Column::texts("remark", vec![String::new(); 3]),
         ];
         write_columns(&table, &columns).unwrap();
         let mapping = Mapping::parse(None, &["table_acceleration=A0".to_owned()]).unwrap();
@@ -113,7 +113,7 @@ mod tests {
         assert_eq!(found.series, expected.series);
         assert_eq!(source.sha256, sha256_hex(&std::fs::read(&table).unwrap()));
 
-        columns[1].values[2] = f64::NAN;
+        columns[1] = numbers("A0", "g", vec![0.0, 0.5, f64::NAN]);
         write_columns(&table, &columns).unwrap();
         let error = read_measured(&table, &mapping).unwrap_err().to_string();
         assert!(error.contains("a.parquet:3:2: expected a number in \"A0 [g]\", found"), "{error}");

@@ -4,36 +4,39 @@
 //! the target, which is renamed when it is complete; whatever fails leaves no file behind, and a
 //! handler of Ctrl-C may call [`remove_temporaries`].
 
-pub mod assessment;
 mod error;
 mod folder;
 mod globs;
 mod laboratory;
 mod load;
-mod paper;
 mod parquet;
 mod read;
 mod records;
 mod run;
 mod study;
+mod suite;
+mod table;
 mod tables;
+mod threads;
 mod write;
 
 pub use error::FileError;
 pub use folder::{FolderRecords, folder_records};
 pub use globs::{expand, expand_all};
 pub use laboratory::{LaboratoryError, TextFile, read_mapping, read_measured};
-pub use load::{LoadedMotion, RecordRequest, Scale, SourceFile, VerticalRequest, load_record};
-pub use paper::paper_library;
-pub use parquet::{NumberColumn, UNIT_KEY, columns_to_bytes, read_columns, write_columns};
+pub use load::{LoadedMotion, RecordRequest, SourceFile, VerticalRequest, load_record};
+pub use parquet::{UNIT_KEY, columns_to_bytes, read_columns, write_columns};
 pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve, sha256_hex};
 pub use records::{
     FileNames, RecordOptions, Wanted, WrittenFormat, channels, one_channel, open_record,
 };
-pub use run::{Job, JobError, Outcome};
+pub use run::{JobError, OpenJob};
 pub use study::{
-    Checks, Merged, OpenStudy, Shard, ShardOptions, ShardOutcome, StudyError, clear, conclude,
-    estimate, has_parts, merge, part_rows, run_shard,
+    Checks, Merged, OpenStudy, Shard, ShardOutcome, StudyError, clear, conclude, estimate,
+    has_parts, merge, part_rows, run_shard,
 };
+pub use suite::{OpenSuite, SuiteError, SuiteRequest};
+pub use table::{ReadTable, read_table, to_csv, to_parquet};
 pub use tables::{events_csv, history_csv};
+pub use threads::on_threads;
 pub use write::{OutputFolder, refuse_inputs, remove_temporaries, write_whole};

@@ -1,29 +1,14 @@
 //! From the path of a record to a motion that can be analysed.
 
+use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
-use slipstick::error::MotionError;
-use slipstick::motion::{Figures, GroundMotion};
-use slipstick::record::{self, Channel, Format, Options, Quantity, Record, Units};
-use slipstick::response::Warning;
+use slipstick::input::Scale;
+use slipstick::input::loaded::{LoadError, Loaded, Wanted};
+use slipstick::record::{self, Format, Options, Record, Units};
 
 use crate::error::FileError;
 use crate::read::{read_bytes, sha256_hex};
-
-/// The column that becomes the vertical component of its neighbour without being asked for.
-const VERTICAL_COLUMN: &str = "vertical_acceleration_m_per_s2";
-
-/// How the acceleration of a record is scaled, the vertical component with it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Scale {
-    /// As it stands.
-    #[default]
-    None,
-    /// Times a factor, which may be negative.
-    Factor(f64),
-    /// To a largest horizontal acceleration in m/s².
-    ToPeak(f64),
-}
 
 /// A record to be opened, and what it may not say itself.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -38,8 +23,8 @@ pub struct RecordRequest {
     pub dt_s: Option<f64>,
     /// Name or number (from 1) of the channel; not needed where one is acceleration.
     pub channel: Option<String>,
-    /// Scale.
-    pub scale: Scale,
+    /// Scale; as it stands where `None`.
+    pub scale: Option<Scale>,
     /// The file with the vertical component.
     pub vertical: Option<VerticalRequest>,
 }
@@ -64,31 +49,20 @@ pub struct SourceFile {
     pub sha256: String,
 }
 
-/// A motion ready for analysis, and what is to be said of it.
+/// A motion ready for analysis, and the files that it came from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadedMotion {
-    /// The motion, scaled, with its vertical component.
-    pub motion: GroundMotion,
-    /// Name of the horizontal channel; empty for a made motion.
-    pub channel: String,
-    /// What was understood, one line a file: `PEER AT2, 2800 values, 0.005 s, g`.
-    pub description: Vec<String>,
-    /// Figures of the horizontal component as analysed.
-    pub figures: Figures,
-    /// What the reader should know.
-    pub warnings: Vec<Warning>,
+    /// The motion, and what is to be said of it.
+    pub loaded: Loaded,
     /// Files read; none for a made motion.
     pub sources: Vec<SourceFile>,
 }
 
-impl LoadedMotion {
-    /// A made motion, which comes from no file.
-    #[must_use]
-    pub fn made(motion: GroundMotion, description: String) -> Self {
-        let figures = motion.figures();
-        let description = vec![description];
-        let channel = String::new();
-        Self { motion, channel, description, figures, warnings: vec![], sources: vec![] }
+impl Deref for LoadedMotion {
+    type Target = Loaded;
+
+    fn deref(&self) -> &Loaded {
+        &self.loaded
     }
 }
 
@@ -99,41 +73,35 @@ impl LoadedMotion {
 /// be told, and where scaling has no answer.
 pub fn load_record(request: &RecordRequest) -> Result<LoadedMotion, FileError> {
     let mut sources = Vec::new();
-    let mut warnings = Vec::new();
-    let mut description = Vec::new();
-
     let path = &request.path;
     let record = open(path, request, &mut sources)?;
-    let horizontal = choose(path, &record, request.channel.as_deref())?;
-    description.push(record.describe(horizontal));
-    warnings.extend(of_reader(&record, horizontal));
-    let mut motion = motion(path, horizontal)?;
-
-    let mut lengths_differ = false;
-    if let Some(vertical) = &request.vertical {
-        let up = open(&vertical.path, request, &mut sources)?;
-        let channel = choose(&vertical.path, &up, vertical.channel.as_deref())?;
-        description.push(format!("vertical: {}", up.describe(channel)));
-        warnings.extend(of_reader(&up, channel));
-        let up = self::motion(&vertical.path, channel)?;
-        (motion, lengths_differ) =
-            motion.with_vertical(&up, vertical.factor).map_err(at(&vertical.path))?;
-    } else if let Some(channel) = record.channels.iter().find(|c| c.name == VERTICAL_COLUMN)
-        && channel.name != horizontal.name
-    {
-        let up = self::motion(path, channel)?;
-        (motion, _) = motion.with_vertical(&up, 1.0).map_err(at(path))?;
-        description.push(format!("vertical: column {VERTICAL_COLUMN}"));
-    }
-    let motion = match request.scale {
-        Scale::None => motion,
-        Scale::Factor(factor) => motion.scaled(factor).map_err(at(path))?,
-        Scale::ToPeak(peak) => motion.scaled_to_peak(peak).map_err(at(path))?,
+    let up = match &request.vertical {
+        Some(vertical) => Some((open(&vertical.path, request, &mut sources)?, vertical)),
+        None => None,
     };
-    let figures = motion.figures();
-    warnings.extend(of_motion(&motion, &figures, lengths_differ));
-    let channel = horizontal.name.clone();
-    Ok(LoadedMotion { motion, channel, description, figures, warnings, sources })
+    let horizontal = Wanted { record: &record, channel: request.channel.as_deref() };
+    let vertical = up.as_ref().map(|(record, vertical)| {
+        (Wanted { record, channel: vertical.channel.as_deref() }, vertical.factor)
+    });
+    let of = |is_vertical: bool| match &request.vertical {
+        Some(vertical) if is_vertical => vertical.path.clone(),
+        _ => path.clone(),
+    };
+    let loaded = Loaded::recorded(horizontal, vertical, request.scale);
+    let loaded = loaded.map_err(|error| match error {
+        LoadError::Channel { expected, key, channels, vertical } => {
+            let option = key.map_or_else(String::new, |key| format!(" (or --{key})"));
+            FileError::Channel {
+                path: of(vertical),
+                expected: format!("{expected}{option}"),
+                channels,
+            }
+        }
+        LoadError::Motion { error, vertical } => {
+            FileError::Motion { path: of(vertical), source: error }
+        }
+    })?;
+    Ok(LoadedMotion { loaded, sources })
 }
 
 fn open(
@@ -145,82 +113,6 @@ fn open(
     sources.push(SourceFile { path: path.to_owned(), sha256: sha256_hex(&bytes) });
     let options = Options { format: request.format, units: request.units, dt_s: request.dt_s };
     Ok(record::read(&path.display().to_string(), &bytes, &options)?)
-}
-
-/// The channel asked for, else the only one that is acceleration along the surface.
-fn choose<'a>(
-    path: &Path,
-    record: &'a Record,
-    name: Option<&str>,
-) -> Result<&'a Channel, FileError> {
-    let is_acceleration = |c: &&Channel| c.units.quantity() == Quantity::Acceleration;
-    let error = |expected: String| {
-        let describe = |(i, c): (usize, &Channel)| {
-            format!("{} {:?} ({})", i + 1, c.name, c.units.quantity().name())
-        };
-        let channels: Vec<_> = record.channels.iter().enumerate().map(describe).collect();
-        FileError::Channel { path: path.to_owned(), expected, channels: channels.join(", ") }
-    };
-    if let Some(name) = name {
-        let channel = record.channel(name).filter(is_acceleration);
-        return channel.ok_or_else(|| error(format!("an acceleration channel {name:?}")));
-    }
-    let mut candidates = record.channels.iter().filter(is_acceleration);
-    let mut along = candidates.clone().filter(|c| c.name != VERTICAL_COLUMN);
-    match (along.next(), along.next(), candidates.next()) {
-        (Some(channel), None, _) | (None, _, Some(channel)) => Ok(channel),
-        (None, ..) if record.channels.iter().any(|c| c.units.quantity() == Quantity::Counts) => {
-            Err(error(
-                "the value of one count: add units = \"4.67e-6 m/s2\" to [motion] (or --units)"
-                    .to_owned(),
-            ))
-        }
-        (None, ..) => Err(error("a channel of acceleration".to_owned())),
-        (Some(first), Some(_), _) => Err(error(format!(
-            "one channel of acceleration: add channel = {:?} to [motion] (or --channel)",
-            first.name
-        ))),
-    }
-}
-
-fn motion(path: &Path, channel: &Channel) -> Result<GroundMotion, FileError> {
-    match channel.motion() {
-        Some(motion) => motion.map_err(at(path)),
-        None => Err(FileError::Channel {
-            path: path.to_owned(),
-            expected: "a channel of acceleration".to_owned(),
-            channels: channel.name.clone(),
-        }),
-    }
-}
-
-fn at(path: &Path) -> impl Fn(MotionError) -> FileError + '_ {
-    |source| FileError::Motion { path: path.to_owned(), source }
-}
-
-/// What the reader says; how the motion starts and ends is said of it as it is used.
-fn of_reader(file: &Record, channel: &Channel) -> Vec<Warning> {
-    let all = file.warnings.iter().chain(&channel.warnings);
-    let of_file = all.filter(|w| !record::REST_KINDS.contains(&w.kind));
-    of_file.map(|w| Warning { kind: w.kind, time_s: None, message: w.message.clone() }).collect()
-}
-
-/// What an engineer asks first of a record: does it start from rest, and does it drift.
-fn of_motion(motion: &GroundMotion, figures: &Figures, lengths_differ: bool) -> Vec<Warning> {
-    let mut warnings = Vec::new();
-    let mut warn = |kind, time_s, message| warnings.push(Warning { kind, time_s, message });
-    let first = motion.horizontal_m_per_s2()[0];
-    let Figures { pgv_m_per_s, end_velocity_m_per_s, .. } = *figures;
-    for w in record::rest(first, end_velocity_m_per_s, pgv_m_per_s) {
-        let at_start = w.kind == record::REST_KINDS[0];
-        warn(w.kind, Some(if at_start { 0.0 } else { motion.duration_s() }), w.message);
-    }
-    if lengths_differ {
-        let message = "the vertical component and the horizontal one differ in length: the \
-                       shorter is zero after its end";
-        warn("lengths_differ", None, message.to_owned());
-    }
-    warnings
 }
 
 #[cfg(test)]
@@ -252,9 +144,9 @@ mod tests {
         assert_eq!(kinds(&loaded), ["first_sample_not_zero", "record_drift"]);
         let sha256 = sha256_hex(b"0.1\n-0.4\n0.1\n");
         assert_eq!(loaded.sources, [SourceFile { path: path.clone(), sha256 }]);
-        let scaled = RecordRequest { scale: Scale::ToPeak(2.0), ..g(path.clone()) };
+        let scaled = RecordRequest { scale: Some(Scale::Peak(2.0)), ..g(path.clone()) };
         assert!((load_record(&scaled).unwrap().figures.pga_m_per_s2 - 2.0).abs() < 1e-15);
-        let scaled = RecordRequest { scale: Scale::Factor(-2.0), ..g(path) };
+        let scaled = RecordRequest { scale: Some(Scale::Factor(-2.0)), ..g(path) };
         let peak = load_record(&scaled).unwrap().motion.horizontal_m_per_s2()[1];
         assert!((peak - 0.8 * 9.80665).abs() < 1e-14);
     }
@@ -265,7 +157,7 @@ mod tests {
         let up = write("up.txt", "0\n1\n0\n");
         let vertical = VerticalRequest { path: up, channel: None, factor: 3.0 };
         let request =
-            RecordRequest { scale: Scale::Factor(2.0), vertical: Some(vertical), ..g(path) };
+            RecordRequest { scale: Some(Scale::Factor(2.0)), vertical: Some(vertical), ..g(path) };
         let loaded = load_record(&request).unwrap();
         let up = loaded.motion.vertical_m_per_s2().unwrap();
         assert!((up[1] - 6.0 * 9.80665).abs() < 1e-13 && up[3] == 0.0);
@@ -307,7 +199,7 @@ mod tests {
     #[test]
     fn exact_zero_record_cannot_be_scaled_to_a_peak() {
         let path = write("zero.txt", "0\n0\n0\n");
-        let request = RecordRequest { scale: Scale::ToPeak(1.0), ..g(path.clone()) };
+        let request = RecordRequest { scale: Some(Scale::Peak(1.0)), ..g(path.clone()) };
         let error = load_record(&request).unwrap_err().to_string();
         let end = "scale_to: expected a motion that is not zero throughout, its peak is 0 m/s²";
         assert_eq!(error, format!("{}: {end}", path.display()));

@@ -1,90 +1,126 @@
 //! Tables in Parquet: columns with their units in, columns out.
 //!
 //! The same values give the same bytes: nothing in a file says when, where or by which machine it
-//! was written. Compression is snappy, which every reader of Parquet knows.
+//! was written. Compression is snappy, which every reader of Parquet knows. The unit of a column
+//! `NAME` stands in the metadata of the file under `unit.NAME`.
 
-use std::collections::HashMap;
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, Int64Type};
-use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch};
-use arrow_schema::{DataType, Field, Schema, SchemaRef};
-use parquet::arrow::arrow_reader::{
-    ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder,
-};
-use parquet::arrow::{ArrowWriter, ProjectionMask};
-use parquet::basic::Compression;
+use parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, SortOrder, Type};
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
+use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
-use parquet::file::metadata::KeyValue;
+use parquet::file::metadata::{KeyValue, ParquetMetaData, ParquetMetaDataReader};
 use parquet::file::properties::WriterProperties;
+use parquet::file::serialized_reader::SerializedPageReader;
+use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
+use parquet::schema::types::{ColumnDescriptor, Type as SchemaType};
+
+use slipstick::table::{Cells, Column, Field, Kind};
 
 use crate::error::FileError;
 use crate::write::write_whole;
 
-/// Key of a column's unit in the metadata of its Arrow field.
-pub const UNIT_KEY: &str = "unit";
+/// What stands before a column's name in the key of its unit.
+pub const UNIT_KEY: &str = "unit.";
 
-/// A column of numbers of a table.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NumberColumn {
-    /// Its name.
-    pub name: String,
-    /// Its unit; empty where it has none, or the file does not say.
-    pub unit: String,
-    /// Its values; NaN where there is none.
-    pub values: Vec<f64>,
-}
-
-/// A field of a table, with its unit.
-pub(crate) fn field(name: &str, unit: &str, kind: DataType, nullable: bool) -> Field {
-    let field = Field::new(name, kind, nullable);
-    if unit.is_empty() {
-        return field;
-    }
-    field.with_metadata(HashMap::from([(UNIT_KEY.to_owned(), unit.to_owned())]))
-}
-
-/// Numbers as an Arrow array; NaN is null.
-pub(crate) fn numbers(values: impl Iterator<Item = f64>) -> ArrayRef {
-    let nullable = values.map(|value| (!value.is_nan()).then_some(value));
-    Arc::new(nullable.collect::<Float64Array>())
+fn schema(field: &Field) -> Result<SchemaType, ParquetError> {
+    let (physical, logical) = match field.kind {
+        Kind::Number => (Type::DOUBLE, None),
+        Kind::Count => (Type::INT64, None),
+        Kind::Flag => (Type::BOOLEAN, None),
+        Kind::Text => (Type::BYTE_ARRAY, Some(LogicalType::String)),
+    };
+    let repetition = if field.optional { Repetition::OPTIONAL } else { Repetition::REQUIRED };
+    SchemaType::primitive_type_builder(&field.name, physical)
+        .with_repetition(repetition)
+        .with_logical_type(logical)
+        .build()
 }
 
 /// A file of row groups in the making.
 pub(crate) struct TableWriter<W: Write + Send> {
-    writer: ArrowWriter<W>,
+    writer: SerializedFileWriter<W>,
 }
 
 impl<W: Write + Send> TableWriter<W> {
     /// A table without rows; `notes` become metadata of the file.
     pub(crate) fn new(
         to: W,
-        schema: SchemaRef,
+        fields: &[Field],
         notes: &[(&str, String)],
     ) -> Result<Self, ParquetError> {
+        let units = fields.iter().filter(|field| !field.unit.is_empty());
+        let units = units.map(|f| KeyValue::new(format!("{UNIT_KEY}{}", f.name), f.unit.clone()));
         let notes = notes.iter().map(|(key, text)| KeyValue::new((*key).to_owned(), text.clone()));
         let properties = WriterProperties::builder()
             .set_created_by(concat!("slipstick ", env!("CARGO_PKG_VERSION")).to_owned())
             .set_compression(Compression::SNAPPY)
-            .set_key_value_metadata(Some(notes.collect()))
+            .set_key_value_metadata(Some(notes.chain(units).collect()))
             .build();
-        Ok(Self { writer: ArrowWriter::try_new(to, schema, Some(properties))? })
+        let columns = fields.iter().map(|field| Ok(Arc::new(schema(field)?)));
+        let columns = columns.collect::<Result<Vec<_>, ParquetError>>()?;
+        let schema = SchemaType::group_type_builder("table").with_fields(columns).build()?;
+        let writer = SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties))?;
+        Ok(Self { writer })
     }
 
     /// Adds rows as a row group of their own.
-    pub(crate) fn row_group(&mut self, batch: &RecordBatch) -> Result<(), ParquetError> {
-        self.writer.write(batch)?;
-        self.writer.flush()
+    pub(crate) fn row_group<'a>(
+        &mut self,
+        columns: impl IntoIterator<Item = &'a Cells>,
+    ) -> Result<(), ParquetError> {
+        let mut group = self.writer.next_row_group()?;
+        for cells in columns {
+            let Some(mut column) = group.next_column()? else {
+                return Err(ParquetError::General("more columns than the schema has".to_owned()));
+            };
+            match cells {
+                Cells::Numbers(cells) => {
+                    let number = |value: &f64| (!value.is_nan()).then_some(*value);
+                    write::<DoubleType>(&mut column, cells.iter().map(number))?;
+                }
+                Cells::Counts(cells) => write::<Int64Type>(&mut column, cells.iter().copied())?,
+                Cells::Flags(cells) => write::<BoolType>(&mut column, cells.iter().copied())?,
+                Cells::Texts(cells) => {
+                    let bytes = |text: &String| Some(ByteArray::from(text.as_str()));
+                    write::<ByteArrayType>(&mut column, cells.iter().map(bytes))?;
+                }
+            }
+            column.close()?;
+        }
+        group.close()?;
+        Ok(())
     }
 
     /// Ends the file and gives back what it was written to.
     pub(crate) fn finish(self) -> Result<W, ParquetError> {
         self.writer.into_inner()
     }
+}
+
+/// Writes all cells of a column.
+fn write<T: DataType>(
+    column: &mut SerializedColumnWriter<'_>,
+    cells: impl ExactSizeIterator<Item = Option<T::T>>,
+) -> Result<(), ParquetError> {
+    let rows = cells.len();
+    let mut levels = Vec::with_capacity(rows);
+    let mut values = Vec::with_capacity(rows);
+    for cell in cells {
+        levels.push(i16::from(cell.is_some()));
+        values.extend(cell);
+    }
+    let column = column.typed::<T>();
+    let optional = column.get_descriptor().max_def_level() > 0;
+    if !optional && values.len() < rows {
+        return Err(ParquetError::General("an empty cell where there must be a value".to_owned()));
+    }
+    column.write_batch(&values, optional.then_some(&levels[..]), None)?;
+    Ok(())
 }
 
 /// What is wrong with a file, in the words of the Parquet library.
@@ -97,58 +133,183 @@ pub(crate) fn at(path: &Path) -> impl Fn(ParquetError) -> FileError + '_ {
     }
 }
 
-/// Opens a table.
-///
-/// # Errors
-/// [`FileError::Read`], and [`FileError::Table`] for what is no Parquet file.
-pub(crate) fn open(path: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>, FileError> {
-    let failed = |source| FileError::Read { path: path.to_owned(), source };
-    let file = File::open(path).map_err(failed)?;
-    if file.metadata().map_err(failed)?.is_dir() {
-        return Err(FileError::IsFolder { path: path.to_owned() });
-    }
-    ParquetRecordBatchReaderBuilder::try_new(file).map_err(at(path))
-}
-
-/// A table that is read more than once: what stands about its columns is read once.
+/// A table in a file, with what stands about its columns and rows: that is read once.
+#[derive(Clone, Debug)]
 pub(crate) struct Table {
     pub(crate) path: PathBuf,
-    metadata: ArrowReaderMetadata,
+    metadata: Arc<ParquetMetaData>,
+    /// The columns that are numbers or texts, and where they stand among all.
+    fields: Vec<Field>,
+    places: Vec<usize>,
 }
 
 impl Table {
     /// # Errors
-    /// As [`open`].
+    /// [`FileError::Read`], and [`FileError::Table`] for what is no Parquet file.
     pub(crate) fn of(path: &Path) -> Result<Self, FileError> {
         let failed = |source| FileError::Read { path: path.to_owned(), source };
         let file = File::open(path).map_err(failed)?;
-        let metadata = ArrowReaderMetadata::load(&file, ArrowReaderOptions::default());
-        Ok(Self { path: path.to_owned(), metadata: metadata.map_err(at(path))? })
+        if file.metadata().map_err(failed)?.is_dir() {
+            return Err(FileError::IsFolder { path: path.to_owned() });
+        }
+        let metadata = ParquetMetaDataReader::new().parse_and_finish(&file).map_err(at(path))?;
+        let mut table = Self {
+            path: path.to_owned(),
+            metadata: Arc::new(metadata),
+            fields: Vec::new(),
+            places: Vec::new(),
+        };
+        let metadata = table.metadata.clone();
+        for (place, column) in metadata.file_metadata().schema_descr().columns().iter().enumerate()
+        {
+            let Some(kind) = kind_of(column) else { continue };
+            let name = column.name().to_owned();
+            let unit = table.note(&format!("{UNIT_KEY}{name}")).unwrap_or_default().to_owned();
+            let optional = column.max_def_level() > 0;
+            table.fields.push(Field { name, unit, kind, optional });
+            table.places.push(place);
+        }
+        Ok(table)
     }
 
+    /// The columns of numbers and texts; others are left out.
+    pub(crate) fn fields(&self) -> &[Field] {
+        &self.fields
+    }
+
+    /// A note in the metadata of the file.
+    pub(crate) fn note(&self, key: &str) -> Option<&str> {
+        let notes = self.metadata.file_metadata().key_value_metadata()?;
+        notes.iter().find(|note| note.key == key)?.value.as_deref()
+    }
+
+    /// All cells of one of [`Table::fields`].
+    ///
     /// # Errors
-    /// [`FileError::Read`].
-    pub(crate) fn open(&self) -> Result<ParquetRecordBatchReaderBuilder<File>, FileError> {
+    /// [`FileError::Read`], and [`FileError::Table`] for a column that is damaged.
+    pub(crate) fn cells(&self, index: usize) -> Result<Cells, FileError> {
         let failed = |source| FileError::Read { path: self.path.clone(), source };
-        let file = File::open(&self.path).map_err(failed)?;
-        Ok(ParquetRecordBatchReaderBuilder::new_with_metadata(file, self.metadata.clone()))
+        let file = Arc::new(File::open(&self.path).map_err(failed)?);
+        let (Some(field), Some(&place)) = (self.fields.get(index), self.places.get(index)) else {
+            let reason = format!("it has {} columns of numbers and texts", self.fields.len());
+            return Err(FileError::Table { path: self.path.clone(), reason });
+        };
+        let mut cells = match field.kind {
+            Kind::Number => Cells::Numbers(Vec::new()),
+            Kind::Count => Cells::Counts(Vec::new()),
+            Kind::Flag => Cells::Flags(Vec::new()),
+            Kind::Text => Cells::Texts(Vec::new()),
+        };
+        for group in self.metadata.row_groups() {
+            let rows = usize::try_from(group.num_rows()).unwrap_or(0);
+            let mut read = || {
+                let chunk = group.column(place);
+                let pages = SerializedPageReader::new(file.clone(), chunk, rows, None)?;
+                let reader = get_column_reader(chunk.column_descr_ptr(), Box::new(pages));
+                read_into(&mut cells, reader, chunk.column_descr(), rows)
+            };
+            read().map_err(at(&self.path))?;
+        }
+        Ok(cells)
     }
 }
 
-/// A note in the metadata of a file.
-pub(crate) fn note<'a>(
-    table: &'a ParquetRecordBatchReaderBuilder<File>,
-    key: &str,
-) -> Option<&'a str> {
-    let notes = table.metadata().file_metadata().key_value_metadata()?;
-    notes.iter().find(|note| note.key == key)?.value.as_deref()
+/// What a column holds; `None` for what is neither a number nor text, and for lists and groups.
+fn kind_of(column: &ColumnDescriptor) -> Option<Kind> {
+    use ConvertedType as C;
+    if column.max_rep_level() > 0 || column.path().parts().len() > 1 {
+        return None;
+    }
+    let is_text = matches!(column.converted_type(), C::UTF8 | C::ENUM | C::JSON);
+    let is_plain = matches!(column.logical_type_ref(), None | Some(LogicalType::Integer(_)))
+        && matches!(
+            column.converted_type(),
+            C::NONE
+                | C::INT_8
+                | C::INT_16
+                | C::INT_32
+                | C::INT_64
+                | C::UINT_8
+                | C::UINT_16
+                | C::UINT_32
+                | C::UINT_64
+        );
+    match column.physical_type() {
+        Type::BOOLEAN => Some(Kind::Flag),
+        Type::FLOAT | Type::DOUBLE => Some(Kind::Number),
+        // Unsigned words of 64 bits may be larger than any count.
+        Type::INT64 if is_plain && column.sort_order() == SortOrder::UNSIGNED => Some(Kind::Number),
+        Type::INT32 | Type::INT64 if is_plain => Some(Kind::Count),
+        Type::BYTE_ARRAY if is_text => Some(Kind::Text),
+        _ => None,
+    }
+}
+
+/// Appends the cells of one row group.
+fn read_into(
+    cells: &mut Cells,
+    reader: ColumnReader,
+    column: &ColumnDescriptor,
+    rows: usize,
+) -> Result<(), ParquetError> {
+    use ColumnReader as R;
+    let unsigned = column.sort_order() == SortOrder::UNSIGNED;
+    let optional = column.max_def_level() > 0;
+    match (cells, reader) {
+        (Cells::Numbers(cells), R::DoubleColumnReader(reader)) => {
+            read(reader, optional, rows, |value| cells.push(value.unwrap_or(f64::NAN)))
+        }
+        (Cells::Numbers(cells), R::FloatColumnReader(reader)) => {
+            read(reader, optional, rows, |value| cells.push(value.map_or(f64::NAN, f64::from)))
+        }
+        (Cells::Numbers(cells), R::Int64ColumnReader(reader)) => {
+            let number = |value: Option<i64>| value.map_or(f64::NAN, |v| v.cast_unsigned() as f64);
+            read(reader, optional, rows, |value| cells.push(number(value)))
+        }
+        (Cells::Counts(cells), R::Int64ColumnReader(reader)) => {
+            read(reader, optional, rows, |value| cells.push(value))
+        }
+        (Cells::Counts(cells), R::Int32ColumnReader(reader)) => {
+            let count = |v: i32| if unsigned { v.cast_unsigned().into() } else { v.into() };
+            read(reader, optional, rows, |value| cells.push(value.map(count)))
+        }
+        (Cells::Flags(cells), R::BoolColumnReader(reader)) => {
+            read(reader, optional, rows, |value| cells.push(value))
+        }
+        (Cells::Texts(cells), R::ByteArrayColumnReader(reader)) => {
+            let text = |bytes: ByteArray| String::from_utf8_lossy(bytes.data()).into_owned();
+            read(reader, optional, rows, |value| cells.push(value.map(text).unwrap_or_default()))
+        }
+        _ => Err(ParquetError::General("its columns are of another kind than it says".to_owned())),
+    }
+}
+
+/// Hands over so many cells, one by one.
+fn read<T: DataType>(
+    mut reader: ColumnReaderImpl<T>,
+    optional: bool,
+    rows: usize,
+    mut take: impl FnMut(Option<T::T>),
+) -> Result<(), ParquetError> {
+    let (mut values, mut levels) = (Vec::new(), Vec::new());
+    let (found, ..) = reader.read_records(rows, Some(&mut levels), None, &mut values)?;
+    if found != rows {
+        return Err(ParquetError::General(format!("{rows} rows announced, {found} found")));
+    }
+    if optional {
+        let mut values = values.into_iter();
+        levels.iter().for_each(|level| take(if *level > 0 { values.next() } else { None }));
+    } else {
+        values.into_iter().for_each(|value| take(Some(value)));
+    }
+    Ok(())
 }
 
 /// Columns of equal length as the bytes of a Parquet file.
 ///
 /// # Errors
 /// [`FileError::Table`] for columns of different lengths; `path` is for the message.
-pub fn columns_to_bytes(path: &Path, columns: &[NumberColumn]) -> Result<Vec<u8>, FileError> {
+pub fn columns_to_bytes(path: &Path, columns: &[Column]) -> Result<Vec<u8>, FileError> {
     columns_with_notes(path, columns, &[])
 }
 
@@ -158,16 +319,13 @@ pub fn columns_to_bytes(path: &Path, columns: &[NumberColumn]) -> Result<Vec<u8>
 /// As [`columns_to_bytes`].
 pub(crate) fn columns_with_notes(
     path: &Path,
-    columns: &[NumberColumn],
+    columns: &[Column],
     notes: &[(&str, String)],
 ) -> Result<Vec<u8>, FileError> {
-    let fields = columns.iter().map(|c| field(&c.name, &c.unit, DataType::Float64, true));
-    let schema: SchemaRef = Arc::new(Schema::new(fields.collect::<Vec<_>>()));
-    let arrays = columns.iter().map(|column| numbers(column.values.iter().copied())).collect();
+    let fields: Vec<Field> = columns.iter().map(Column::field).collect();
     let bytes = || -> Result<Vec<u8>, ParquetError> {
-        let batch = RecordBatch::try_new(schema.clone(), arrays)?;
-        let mut table = TableWriter::new(Vec::new(), schema, notes)?;
-        table.row_group(&batch)?;
+        let mut table = TableWriter::new(Vec::new(), &fields, notes)?;
+        table.row_group(columns.iter().map(|column| &column.cells))?;
         table.finish()
     };
     bytes().map_err(at(path))
@@ -177,92 +335,21 @@ pub(crate) fn columns_with_notes(
 ///
 /// # Errors
 /// As [`columns_to_bytes`] and [`write_whole`].
-pub fn write_columns(path: &Path, columns: &[NumberColumn]) -> Result<(), FileError> {
+pub fn write_columns(path: &Path, columns: &[Column]) -> Result<(), FileError> {
     write_whole(path, &columns_to_bytes(path, columns)?)
 }
 
-/// The columns of numbers of a Parquet file, in its order; columns of another kind are left out.
+/// The columns of numbers and texts of a Parquet file, in its order; others are left out.
 ///
 /// # Errors
 /// [`FileError::Read`], and [`FileError::Table`] for what is no Parquet file.
-pub fn read_columns(path: &Path) -> Result<Vec<NumberColumn>, FileError> {
-    let table = open(path)?;
-    let schema = table.schema().clone();
-    let wanted: Vec<usize> =
-        (0..schema.fields().len()).filter(|&i| is_number(schema.field(i).data_type())).collect();
-    let mut columns: Vec<NumberColumn> = wanted
-        .iter()
-        .map(|&i| NumberColumn {
-            name: schema.field(i).name().clone(),
-            unit: schema.field(i).metadata().get(UNIT_KEY).cloned().unwrap_or_default(),
-            values: Vec::new(),
-        })
-        .collect();
-    each_batch(path, table, &wanted, |arrays| {
-        for (column, array) in columns.iter_mut().zip(arrays) {
-            extend(&mut column.values, array);
-        }
-    })?;
-    Ok(columns)
-}
-
-fn is_number(kind: &DataType) -> bool {
-    matches!(
-        kind,
-        DataType::Float64
-            | DataType::Float32
-            | DataType::Int64
-            | DataType::Int32
-            | DataType::UInt64
-            | DataType::UInt32
-            | DataType::Boolean
-    )
-}
-
-/// Hands over some columns of a table, batch by batch, in the order of `wanted`, which rises.
-pub(crate) fn each_batch(
-    path: &Path,
-    table: ParquetRecordBatchReaderBuilder<File>,
-    wanted: &[usize],
-    mut take: impl FnMut(&[ArrayRef]),
-) -> Result<(), FileError> {
-    let mask = ProjectionMask::roots(table.parquet_schema(), wanted.iter().copied());
-    let reader = table.with_projection(mask).build().map_err(at(path))?;
-    for batch in reader {
-        let batch = batch.map_err(|error| at(path)(ParquetError::ArrowError(error.to_string())))?;
-        take(batch.columns());
-    }
-    Ok(())
-}
-
-/// Appends the numbers of an array; null is NaN, a truth value 0 or 1.
-pub(crate) fn extend(values: &mut Vec<f64>, array: &ArrayRef) {
-    use arrow_array::types::{Float32Type, Int32Type, UInt32Type, UInt64Type};
-    macro_rules! primitive {
-        ($kind:ty) => {
-            values.extend(
-                array
-                    .as_primitive::<$kind>()
-                    .iter()
-                    .map(|value| value.map_or(f64::NAN, |value| value as f64)),
-            )
-        };
-    }
-    match array.data_type() {
-        DataType::Float64 => primitive!(Float64Type),
-        DataType::Float32 => primitive!(Float32Type),
-        DataType::Int64 => primitive!(Int64Type),
-        DataType::Int32 => primitive!(Int32Type),
-        DataType::UInt64 => primitive!(UInt64Type),
-        DataType::UInt32 => primitive!(UInt32Type),
-        DataType::Boolean => values.extend(
-            array
-                .as_boolean()
-                .iter()
-                .map(|value| value.map_or(f64::NAN, |value| f64::from(u8::from(value)))),
-        ),
-        _ => values.extend(std::iter::repeat_n(f64::NAN, array.len())),
-    }
+pub fn read_columns(path: &Path) -> Result<Vec<Column>, FileError> {
+    let table = Table::of(path)?;
+    let column = |(index, field): (usize, &Field)| {
+        let (name, unit) = (field.name.clone(), field.unit.clone());
+        Ok(Column { name, unit, cells: table.cells(index)? })
+    };
+    table.fields().iter().enumerate().map(column).collect()
 }
 
 #[cfg(test)]
@@ -274,24 +361,43 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("slipstick-parquet-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         let path = folder.join("columns.parquet");
-        let column = |name: &str, unit: &str, values: &[f64]| NumberColumn {
-            name: name.to_owned(),
-            unit: unit.to_owned(),
-            values: values.to_vec(),
-        };
-        let columns =
-            [column("time_s", "s", &[0.0, 0.1, 0.2]), column("x", "", &[-0.0, 1.0 / 3.0, 1e-300])];
+        let column =
+            |name: &str, cells| Column { name: name.to_owned(), unit: String::new(), cells };
+        let columns = [
+            Column::numbers("time_s", "s", vec![0.0, 0.1, 0.2]),
+            Column::numbers("x", "", vec![-0.0, 1.0 / 3.0, 1e-300]),
+            Column::texts("record", vec!["a".to_owned(), String::new(), "Ω, \"b\"".to_owned()]),
+            column("count", Cells::Counts(vec![Some(-1), None, Some(i64::MAX)])),
+            column("flag", Cells::Flags(vec![None, Some(true), Some(false)])),
+        ];
         write_columns(&path, &columns).unwrap();
         let read = read_columns(&path).unwrap();
         assert_eq!(read, columns);
-        assert!(read[1].values[0].is_sign_negative());
+        let Cells::Numbers(x) = &read[1].cells else { panic!("numbers") };
+        assert!(x[0].is_sign_negative());
+        assert_eq!(read[4].cells.to_numbers().unwrap()[1..], [1.0, 0.0]);
         assert_eq!(columns_to_bytes(&path, &columns).unwrap(), std::fs::read(&path).unwrap());
 
-        let unequal = [column("a", "", &[1.0]), column("b", "", &[1.0, 2.0])];
+        let unequal =
+            [Column::numbers("a", "", vec![1.0]), Column::numbers("b", "", vec![1.0, 2.0])];
         assert!(matches!(columns_to_bytes(&path, &unequal), Err(FileError::Table { .. })));
         std::fs::write(&path, b"PAR1 and no more").unwrap();
         let error = read_columns(&path).unwrap_err().to_string();
         assert!(error.contains("columns.parquet: expected a Parquet file: "), "{error}");
         assert!(matches!(read_columns(&folder), Err(FileError::IsFolder { .. })));
+    }
+
+    /// Missing numbers are empty cells, as other readers show them.
+    #[test]
+    fn exact_numbers_may_be_missing() {
+        let path =
+            std::env::temp_dir().join(format!("slipstick-nan-{}.parquet", std::process::id()));
+        let numbers: Vec<f64> =
+            (0..5000).map(|i| if i % 7 == 0 { f64::NAN } else { f64::from(i).sqrt() }).collect();
+        write_columns(&path, &[Column::numbers("x", "m", numbers.clone())]).unwrap();
+        let read = read_columns(&path).unwrap();
+        std::fs::remove_file(&path).unwrap();
+        let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(&read[0].cells.to_numbers().unwrap()), bits(&numbers));
     }
 }

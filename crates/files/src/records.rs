@@ -7,9 +7,10 @@ use slipstick::record::{
     self, Channel, Format, Options, Quantity, Record, Sampling, Units, write_at2, write_csv,
     write_smc,
 };
+use slipstick::table::Column;
 
 use crate::error::FileError;
-use crate::parquet::{NumberColumn, columns_with_notes};
+use crate::parquet::columns_with_notes;
 use crate::read::read_bytes;
 
 /// What the caller says of files that do not say it themselves.
@@ -172,13 +173,10 @@ fn table(path: &Path, channel: &Channel, title: &str) -> Result<Vec<u8>, FileErr
         Sampling::Dt(dt_s) => (0..channel.values.len()).map(|i| i as f64 * dt_s).collect(),
         Sampling::Times(times_s) => times_s.clone(),
     };
-    let column = |name: &str, unit: &str, values| NumberColumn {
-        name: name.to_owned(),
-        unit: unit.to_owned(),
-        values,
-    };
-    let columns =
-        [column("time_s", "s", times_s), column(quantity.column(), unit, channel.values.clone())];
+    let columns = [
+        Column::numbers("time_s", "s", times_s),
+        Column::numbers(quantity.column(), unit, channel.values.clone()),
+    ];
     let known = [
         ("event", channel.event.clone()),
         ("station", channel.station.clone()),

@@ -17,11 +17,11 @@ pub use merge::{Merged, conclude, merge};
 pub use open::OpenStudy;
 pub use part::{Checks, part_rows};
 pub use parts::{clear, has_parts};
-pub use shard::{Shard, ShardOptions, ShardOutcome, estimate, run_shard};
+pub use shard::{Shard, ShardOutcome, estimate, run_shard};
 
 use std::path::PathBuf;
 
-use slipstick::error::InputError;
+use slipstick::error::{InputError, Stopped};
 
 use crate::error::FileError;
 
@@ -80,12 +80,9 @@ pub enum StudyError {
         /// What was asked for.
         found: String,
     },
-    /// Threads that cannot be started.
-    #[error("{reason}")]
-    Threads {
-        /// Why.
-        reason: String,
-    },
+    /// The callback that followed it stopped it.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
 }
 
 impl StudyError {

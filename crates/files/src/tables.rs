@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use slipstick::response::{Event, EventKind, History};
+use slipstick::response::{Event, History};
 
 /// Writes the history: a header, then a row a sample with 17 significant digits, ended by LF.
 ///
@@ -14,69 +14,88 @@ use slipstick::response::{Event, EventKind, History};
 /// # Errors
 /// Those of the writer.
 pub fn history_csv(history: &History, to: &mut impl Write) -> io::Result<()> {
-    let mut header = "time_s,table_acceleration_m_per_s2,sliding_displacement_m,\
-                      sliding_velocity_m_per_s,block_acceleration_m_per_s2,friction_force_n"
-        .to_owned();
+    let mut rows = csv::Writer::from_writer(to);
+    let mut header: Vec<String> = [
+        "time_s",
+        "table_acceleration_m_per_s2",
+        "sliding_displacement_m",
+        "sliding_velocity_m_per_s",
+        "block_acceleration_m_per_s2",
+        "friction_force_n",
+    ]
+    .map(str::to_owned)
+    .to_vec();
     for storey in 1..=history.storeys {
         for column in ["displacement_m", "velocity_m_per_s", "acceleration_m_per_s2"] {
-            header.push_str(&format!(",storey{storey}_{column}"));
+            header.push(format!("storey{storey}_{column}"));
         }
     }
-    writeln!(to, "{header}")?;
+    rows.write_record(&header).map_err(of_file)?;
     for &knot in &history.rows {
-        write!(to, "{:.16e}", history.time_s[knot])?;
-        let columns = [
-            &history.table_acceleration_m_per_s2,
-            &history.sliding_displacement_m,
-            &history.sliding_velocity_m_per_s,
-            &history.block_acceleration_m_per_s2,
-            &history.friction_force_n,
+        let mut row = vec![
+            history.time_s[knot],
+            history.table_acceleration_m_per_s2[knot],
+            history.sliding_displacement_m[knot],
+            history.sliding_velocity_m_per_s[knot],
+            history.block_acceleration_m_per_s2[knot],
+            history.friction_force_n[knot],
         ];
-        for column in columns {
-            write!(to, ",{:.16e}", column[knot])?;
-        }
         let displacements = history.storey_displacements(knot);
         let velocities = history.storey_velocities(knot);
         let accelerations = history.storey_accelerations(knot);
         for ((q, v), a) in displacements.iter().zip(velocities).zip(accelerations) {
-            write!(to, ",{q:.16e},{v:.16e},{a:.16e}")?;
+            row.extend([q, v, a]);
         }
-        writeln!(to)?;
+        rows.write_record(row.into_iter().map(digits)).map_err(of_file)?;
     }
-    Ok(())
+    rows.flush()
+}
+
+/// The error of the file itself, whose kind the messages know.
+fn of_file(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
+    }
+}
+
+/// 17 significant digits.
+fn digits(value: f64) -> String {
+    format!("{value:.16e}")
 }
 
 /// Writes the events: `direction` is that of the sliding after it, 1 towards +x, −1 towards −x, 0
-/// stuck.
+/// stuck; `interface` is where it happened.
 ///
 /// # Errors
 /// Those of the writer.
 pub fn events_csv(events: &[Event], to: &mut impl Write) -> io::Result<()> {
-    writeln!(to, "time_s,kind,direction,sliding_displacement_m")?;
+    let mut rows = csv::Writer::from_writer(to);
+    let header = ["time_s", "kind", "direction", "sliding_displacement_m", "interface"];
+    rows.write_record(header).map_err(of_file)?;
     for event in events {
-        let kind = match event.kind {
-            EventKind::Slip => "slip",
-            EventKind::Stick => "stick",
-            EventKind::Reversal => "reversal",
-        };
-        let (time_s, direction) = (event.time_s, event.mode.sign());
-        writeln!(to, "{time_s:.16e},{kind},{direction},{:.16e}", event.sliding_displacement_m)?;
+        let direction = event.mode.sign().to_string();
+        let (time, s) = (digits(event.time_s), digits(event.sliding_displacement_m));
+        let row = [&time, event.kind.name(), &direction, &s, "slider"];
+        rows.write_record(row).map_err(of_file)?;
     }
-    Ok(())
+    rows.flush()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use slipstick::friction::Direction;
-    use slipstick::response::Mode;
+    use slipstick::response::{EventKind, Mode};
 
     #[test]
     fn exact_history_has_its_rows_and_columns() {
         let history = History {
             storeys: 1,
+            interfaces: 1,
             time_s: vec![0.0, 0.05, 0.1],
             mode: vec![Mode::Stick; 3],
+            contact: Vec::new(),
             table_acceleration_m_per_s2: vec![1.0, 2.0, 3.0],
             sliding_displacement_m: vec![0.0, 0.0, -0.001],
             sliding_velocity_m_per_s: vec![0.0; 3],
@@ -109,17 +128,25 @@ mod tests {
         let event = |kind, mode| Event { time_s: 0.5, kind, mode, sliding_displacement_m: 0.25 };
         let events = [
             event(EventKind::Slip, Mode::Slip(Direction::Negative)),
+            event(EventKind::Contact, Mode::Slip(Direction::Negative)),
             event(EventKind::Reversal, Mode::Slip(Direction::Positive)),
+            event(EventKind::Separation, Mode::Slip(Direction::Positive)),
+            event(EventKind::Press, Mode::Slip(Direction::Positive)),
+            event(EventKind::Leave, Mode::Slip(Direction::Positive)),
             event(EventKind::Stick, Mode::Stick),
         ];
         let mut text = Vec::new();
         events_csv(&events, &mut text).unwrap();
         assert_eq!(
             String::from_utf8(text).unwrap(),
-            "time_s,kind,direction,sliding_displacement_m\n\
-             5.0000000000000000e-1,slip,-1,2.5000000000000000e-1\n\
-             5.0000000000000000e-1,reversal,1,2.5000000000000000e-1\n\
-             5.0000000000000000e-1,stick,0,2.5000000000000000e-1\n"
+            "time_s,kind,direction,sliding_displacement_m,interface\n\
+             5.0000000000000000e-1,slip,-1,2.5000000000000000e-1,slider\n\
+             5.0000000000000000e-1,contact,-1,2.5000000000000000e-1,slider\n\
+             5.0000000000000000e-1,reversal,1,2.5000000000000000e-1,slider\n\
+             5.0000000000000000e-1,separation,1,2.5000000000000000e-1,slider\n\
+             5.0000000000000000e-1,press,1,2.5000000000000000e-1,slider\n\
+             5.0000000000000000e-1,leave,1,2.5000000000000000e-1,slider\n\
+             5.0000000000000000e-1,stick,0,2.5000000000000000e-1,slider\n"
         );
     }
 }

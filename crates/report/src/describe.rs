@@ -2,8 +2,8 @@
 
 use core::f64::consts::TAU;
 
-use slipstick::model::{Damping, Model};
-use slipstick::response::{Event, EventKind, Mode};
+use slipstick::model::{Damping, Model, Stop, StopKind};
+use slipstick::response::{Event, Mode};
 
 use crate::display::{DisplayUnits, Quantity};
 use crate::number::{compact, significant};
@@ -49,7 +49,26 @@ pub fn model_line(model: &Model, display: DisplayUnits) -> String {
     if let Some(gap_m) = slider.gap_m {
         parts.push(format!("gap {}", value(display, Quantity::Length, gap_m)));
     }
+    if let Some(stop) = &slider.stop {
+        parts.push(format!("stop {}", stop_gap(stop, display)));
+    }
     parts.join(", ")
+}
+
+/// Where a stop stands.
+fn stop_gap(stop: &Stop, display: DisplayUnits) -> String {
+    let show = |gap_m| value(display, Quantity::Length, gap_m);
+    match stop.gap_m {
+        [Some(positive), Some(negative)] if positive == negative => {
+            format!("at ±{}", show(positive))
+        }
+        [Some(positive), Some(negative)] => {
+            format!("at {} (+x) and {} (-x)", show(positive), show(negative))
+        }
+        [Some(positive), None] => format!("at {} (+x only)", show(positive)),
+        [None, Some(negative)] => format!("at {} (-x only)", show(negative)),
+        [None, None] => "nowhere".to_owned(),
+    }
 }
 
 /// A coefficient, or both where the directions differ.
@@ -104,7 +123,20 @@ pub fn model_rows(model: &Model, display: DisplayUnits) -> Vec<(&'static str, St
             tilt_rad => format!("{} mrad", compact(1e3 * tilt_rad)),
         },
     ));
-    rows.push(("Gap", slider.gap_m.map_or("not given".into(), |gap| show(Quantity::Length, gap))));
+    match &slider.stop {
+        None => {
+            let gap = slider.gap_m.map_or("not given".into(), |gap| show(Quantity::Length, gap));
+            rows.push(("Gap", gap));
+        }
+        Some(stop) => {
+            let StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } = stop.kind;
+            rows.push(("Stop", stop_gap(stop, display)));
+            rows.push(("  stiffness k", show(Quantity::Stiffness, stiffness_n_per_m)));
+            if damper_n_s_per_m > 0.0 {
+                rows.push(("  damper C", show(Quantity::Damping, damper_n_s_per_m)));
+            }
+        }
+    }
     if let Some(width) = block.width_m {
         rows.push(("Width of the block", show(Quantity::Length, width)));
     }
@@ -165,16 +197,6 @@ pub fn storey_rows(
     }
     rows.reverse();
     (n > 0).then_some((header, rows))
-}
-
-/// The name that files and tables give a kind of event.
-#[must_use]
-pub fn event_kind(kind: EventKind) -> &'static str {
-    match kind {
-        EventKind::Slip => "slip",
-        EventKind::Stick => "stick",
-        EventKind::Reversal => "reversal",
-    }
 }
 
 /// Which way the block slides after an event.

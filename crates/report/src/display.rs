@@ -1,6 +1,6 @@
 //! The units in which results are shown; inside, everything is SI.
 
-use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
+use slipstick::units::{Dimension, STANDARD_GRAVITY_M_PER_S2};
 
 /// A system of units to show results in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -37,6 +37,23 @@ pub enum Quantity {
     Time,
     /// A ratio: no unit.
     Ratio,
+}
+
+impl From<Option<Dimension>> for Quantity {
+    /// Of a dimension that results have; of another, and of none, a ratio.
+    fn from(dimension: Option<Dimension>) -> Self {
+        match dimension {
+            Some(Dimension::Length) => Self::Length,
+            Some(Dimension::Velocity) => Self::Velocity,
+            Some(Dimension::Acceleration) => Self::Acceleration,
+            Some(Dimension::Force) => Self::Force,
+            Some(Dimension::Mass) => Self::Mass,
+            Some(Dimension::Stiffness) => Self::Stiffness,
+            Some(Dimension::Damper) => Self::Damping,
+            Some(Dimension::Time) => Self::Time,
+            _ => Self::Ratio,
+        }
+    }
 }
 
 /// A unit: what one of it is in SI, and its symbol (empty for a ratio).

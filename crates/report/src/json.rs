@@ -2,6 +2,11 @@
 //!
 //! Numbers that are not finite become `null`: JSON has no others.
 
+use std::io::{self, Write};
+
+use serde::{Serialize, Serializer};
+use serde_json::ser::{Formatter, PrettyFormatter};
+
 /// A JSON value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Json {
@@ -51,79 +56,65 @@ impl From<&str> for Json {
     }
 }
 
+impl Serialize for Json {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Null => to.serialize_unit(),
+            Self::Bool(value) => to.serialize_bool(*value),
+            Self::Count(value) => to.serialize_u64(*value),
+            // Adding 0 takes the sign off a negative zero.
+            Self::Number(value) if value.is_finite() => to.serialize_f64(value + 0.0),
+            Self::Number(_) => to.serialize_unit(),
+            Self::Text(text) => to.serialize_str(text),
+            Self::List(items) => to.collect_seq(items),
+            Self::Object(members) => {
+                to.collect_map(members.iter().map(|(key, value)| (key, value)))
+            }
+        }
+    }
+}
+
 impl Json {
     /// The value as text, indented by two spaces, with a line feed at the end.
     #[must_use]
     pub fn to_pretty(&self) -> String {
-        let mut out = String::new();
-        self.write(&mut out, 0);
-        out.push('\n');
-        out
-    }
-
-    fn write(&self, out: &mut String, depth: usize) {
-        match self {
-            Self::Null => out.push_str("null"),
-            Self::Bool(value) => out.push_str(if *value { "true" } else { "false" }),
-            Self::Count(value) => out.push_str(&value.to_string()),
-            // Adding 0 takes the sign off a negative zero; `{:?}` is the shortest round trip.
-            Self::Number(value) if value.is_finite() => out.push_str(&format!("{:?}", value + 0.0)),
-            Self::Number(_) => out.push_str("null"),
-            Self::Text(text) => quoted(out, text),
-            Self::List(items) => {
-                let items = items.iter().map(|item| (None, item));
-                write_items(out, depth, ['[', ']'], items);
-            }
-            Self::Object(members) => {
-                let items = members.iter().map(|(key, value)| (Some(*key), value));
-                write_items(out, depth, ['{', '}'], items);
-            }
-        }
+        let mut bytes = Vec::new();
+        let layout = Layout(PrettyFormatter::new());
+        // Neither a vector of bytes nor a value of ours can fail.
+        let _ = self.serialize(&mut serde_json::Serializer::with_formatter(&mut bytes, layout));
+        bytes.push(b'\n');
+        String::from_utf8(bytes).unwrap_or_default()
     }
 }
 
-fn write_items<'a>(
-    out: &mut String,
-    depth: usize,
-    [open, close]: [char; 2],
-    items: impl ExactSizeIterator<Item = (Option<&'static str>, &'a Json)>,
-) {
-    out.push(open);
-    let empty = items.len() == 0;
-    for (i, (key, value)) in items.enumerate() {
-        out.push_str(if i == 0 { "\n" } else { ",\n" });
-        indent(out, depth + 1);
-        if let Some(key) = key {
-            quoted(out, key);
-            out.push_str(": ");
+/// The usual layout, but numbers as Rust writes them: small ones as `1e-5`.
+struct Layout(PrettyFormatter<'static>);
+
+/// Methods that are those of the usual layout.
+macro_rules! usual {
+    ($($name:ident($($flag:ident)?),)*) => {$(
+        fn $name<W: ?Sized + Write>(&mut self, to: &mut W $(, $flag: bool)?) -> io::Result<()> {
+            self.0.$name(to $(, $flag)?)
         }
-        value.write(out, depth + 1);
-    }
-    if !empty {
-        out.push('\n');
-        indent(out, depth);
-    }
-    out.push(close);
+    )*};
 }
 
-fn indent(out: &mut String, depth: usize) {
-    out.extend(std::iter::repeat_n("  ", depth));
-}
-
-fn quoted(out: &mut String, text: &str) {
-    out.push('"');
-    for character in text.chars() {
-        match character {
-            '"' => out.push_str("\\\""),
-            '\\' => out.push_str("\\\\"),
-            '\n' => out.push_str("\\n"),
-            '\r' => out.push_str("\\r"),
-            '\t' => out.push_str("\\t"),
-            c if c.is_control() => out.push_str(&format!("\\u{:04x}", c as u32)),
-            c => out.push(c),
-        }
+impl Formatter for Layout {
+    fn write_f64<W: ?Sized + Write>(&mut self, to: &mut W, value: f64) -> io::Result<()> {
+        write!(to, "{value:?}")
     }
-    out.push('"');
+
+    usual! {
+        begin_array(),
+        end_array(),
+        begin_array_value(first),
+        end_array_value(),
+        begin_object(),
+        end_object(),
+        begin_object_key(first),
+        begin_object_value(),
+        end_object_value(),
+    }
 }
 
 #[cfg(test)]

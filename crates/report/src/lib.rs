@@ -13,8 +13,7 @@
 //! let model = Model::rigid_block(124.0, friction)?;
 //! let motion = GroundMotion::evenly_spaced(0.5, vec![0.0, 4.0, -4.0, 0.0, 0.0], None)?;
 //! let response = solver::exact(&model, &motion)?;
-//! let history = response.history.as_ref().ok_or("no history")?;
-//! let certificate = check(&model, &motion, history);
+//! let certificate = check(&model, &motion, &response);
 //! let summary = Summary::new(&SummaryInputs {
 //!     name: "Block",
 //!     model: &model,
@@ -46,7 +45,6 @@ pub mod json;
 pub mod laboratory;
 pub mod markup;
 pub mod number;
-pub mod paper;
 pub mod peaks;
 pub mod plot;
 pub mod records;
@@ -57,6 +55,5 @@ pub mod table;
 
 pub use display::DisplayUnits;
 pub use laboratory::{CompareReport, IdentifyReport};
-pub use report::{FileNote, FloorSpectra, InputText, Report};
-pub use study::{LevelSummary, StudySummary};
+pub use report::{FileNote, InputText, Report};
 pub use summary::{Summary, SummaryInputs};

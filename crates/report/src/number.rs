@@ -66,10 +66,20 @@ pub fn rounded(value: f64, digits: usize) -> String {
 /// A number with only the decimals it needs, at most `decimals`: coordinates in path data.
 #[must_use]
 pub fn trimmed(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
+    let text = fixed(value, decimals);
     let text =
         if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+    text.to_owned()
+}
+
+/// A number with so many decimals; what rounds to zero has no sign.
+#[must_use]
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(size) if size.bytes().all(|b| matches!(b, b'0' | b'.')) => size.to_owned(),
+        _ => text,
+    }
 }
 
 /// Plain characters of a number set as in print: a true minus sign, powers of ten as such.

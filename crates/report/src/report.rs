@@ -1,5 +1,6 @@
 //! What a report is made from.
 
+use slipstick::assessment::single::FloorSpectra;
 use slipstick::check::Certificate;
 use slipstick::model::Model;
 use slipstick::motion::GroundMotion;
@@ -56,21 +57,6 @@ pub struct FileNote<'a> {
     pub sha256: &'a str,
     /// What it is: `model`, `record, PEER AT2, 2800 values`.
     pub description: &'a str,
-}
-
-/// Absolute-acceleration response spectra of table, block and floors.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct FloorSpectra {
-    /// Damping ratio ξ of the oscillators, such as 0.05.
-    pub damping_ratio: f64,
-    /// Periods in s, increasing, > 0.
-    pub periods_s: Vec<f64>,
-    /// Of the table, one value a period, in m/s²; may be empty.
-    pub table_m_per_s2: Vec<f64>,
-    /// Of the block, one value a period, in m/s².
-    pub block_m_per_s2: Vec<f64>,
-    /// Of each floor from the block up, one value a period, in m/s².
-    pub storeys_m_per_s2: Vec<Vec<f64>>,
 }
 
 impl Report<'_> {

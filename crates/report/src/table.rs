@@ -27,7 +27,7 @@ pub fn table(summary: &Summary, model: &Model, record: &str, display: DisplayUni
     out.field("Model", &model_line(model, display));
     out.line("");
     let mut rows = peaks::rows(summary, display);
-    rows.extend(count_rows(summary));
+    rows.extend(peaks::count_rows(summary));
     rows.extend(check_rows(summary));
     grid(&mut out, summary, &rows);
     out.line("");
@@ -88,19 +88,6 @@ fn grid(out: &mut Lines, summary: &Summary, rows: &[Row]) {
     }
 }
 
-fn count_rows(summary: &Summary) -> Vec<Row> {
-    vec![
-        plain_row(summary, "Slips (stick to slip)", |run| run.demands.slip_count.to_string()),
-        plain_row(summary, "Reversals without a stick", |run| {
-            run.demands.reversal_count.to_string()
-        }),
-        plain_row(summary, "Sticks (slip to stick)", |run| run.demands.stick_count.to_string()),
-        plain_row(summary, "Sliding at the end", |run| {
-            if run.demands.sliding_at_end { "yes" } else { "no" }.to_owned()
-        }),
-    ]
-}
-
 fn check_rows(summary: &Summary) -> Vec<Row> {
     let figure = |value| significant(value, 2);
     let mut rows = vec![
@@ -111,6 +98,7 @@ fn check_rows(summary: &Summary) -> Vec<Row> {
         plain_row(summary, "Check: energy balance error", |run| {
             figure(run.checks.energy_balance_error)
         }),
+        plain_row(summary, "Check: demands error", |run| figure(run.checks.demands_error)),
     ];
     if summary.method == Method::Exact {
         rows.push(plain_row(summary, "Closest call: margin", |run| {

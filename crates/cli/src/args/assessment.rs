@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::ResultArgs;
+use super::{RecordArgs, ResultArgs};
 
 pub const SPECTRUM_EXAMPLES: &str = "\
 Examples:
@@ -79,15 +79,9 @@ pub struct SuiteArgs {
     /// Vertical components, as many and in the same order; repeatable
     #[arg(long, value_name = "PATTERN", num_args = 1.., requires = "records", help_heading = "Ground motion")]
     pub vertical: Vec<String>,
-    /// Unit of the records' values, where their files do not state it: g, gal, m/s2, …
-    #[arg(long, value_name = "UNIT", requires = "records", help_heading = "Ground motion")]
-    pub units: Option<String>,
-    /// Time step of the records, where their files do not state it: "0.01 s"
-    #[arg(long, value_name = "TIME", requires = "records", help_heading = "Ground motion")]
-    pub dt: Option<String>,
-    /// Channel of the records, by name or by number from 1
-    #[arg(long, value_name = "NAME", requires = "records", help_heading = "Ground motion")]
-    pub channel: Option<String>,
+    /// What their files do not say
+    #[command(flatten)]
+    pub record: RecordArgs,
     /// Set a key of the model by its path, such as slider.gap="150 mm"; repeatable, the last holds
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,

@@ -2,15 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
+use slipstick::assessment::grid::levels;
+use slipstick::assessment::models::Models;
+use slipstick::assessment::suite::{Scaling, Suite};
+use slipstick::assessment::{AssessmentError, ChoiceError};
 use slipstick::input::{self, Analysis, Override};
 use slipstick::motion::intensity::Measure;
-use slipstick::record::{self, Quantity as RecordQuantity};
-use slipstick::response::Method;
+use slipstick::response::{Method, Warning};
+use slipstick::study::engine::Engine;
+use slipstick::table::Table;
 use slipstick::units::{Dimension, parse_quantity};
-use slipstick_files::assessment::{
-    AssessmentError, Models, Scaling, Suite, SuiteRequest, Table, levels, on_threads,
+use slipstick_files::{
+    OpenJob, OpenSuite, OutputFolder, SuiteError, SuiteRequest, on_threads, sha256_hex, to_csv,
+    to_parquet,
 };
-use slipstick_files::{Job, OutputFolder, sha256_hex};
 use slipstick_report::assessment::{Sheet, Went, key};
 use slipstick_report::display::Quantity;
 use slipstick_report::{FileNote, InputText};
@@ -19,7 +24,7 @@ use super::compare::name as model_name;
 use super::run::{ModelFile, command_line, overrides, read_model};
 use crate::args::{ResultArgs, ScaleArgs, SuiteArgs};
 use crate::failure::{Failure, print, say};
-use crate::progress::watched;
+use crate::progress::{counted, watched};
 
 /// A model and its suite, read.
 pub struct Opened {
@@ -28,6 +33,9 @@ pub struct Opened {
     pub analysis: Analysis,
     overrides: Vec<Override>,
     pub suite: Suite,
+    /// What reading the records gave notice of.
+    pub warnings: Vec<Warning>,
+    sources: Vec<(String, String, String)>,
 }
 
 impl Opened {
@@ -43,23 +51,27 @@ impl Opened {
             return Err(Failure::input(error, &file.text()));
         }
         let name = model_name(&file, analysis.name.as_deref());
-        let suite = if args.records.is_empty() {
-            let job = Job::new(&file.path, analysis.clone(), None)
+        let open = if args.records.is_empty() {
+            let job = OpenJob::new(&file.path, analysis.clone(), None)
                 .map_err(|error| Failure::job(error, &file.name, &file.text()))?;
             let made = job.loaded.sources.is_empty();
             let record = job.loaded.description.join("; ");
-            Suite::single(&record, job.loaded, made)
+            OpenSuite::single(&record, job.loaded, made)
         } else {
             let request = suite_request(args)?;
-            watched("reading", args.result.quiet, || Suite::open(&request))
-                .map_err(|error| Failure::Message(error.to_string()))?
+            let read = || on_threads(jobs(args), || OpenSuite::open(&request));
+            watched("reading", args.result.quiet, read).map_err(|error| match error {
+                SuiteError::Choice(error) => choice(&error),
+                SuiteError::File(error) => error.into(),
+            })?
         };
-        Ok(Self { file, name, analysis, overrides, suite })
+        let OpenSuite { suite, sources, warnings } = open;
+        Ok(Self { file, name, analysis, overrides, suite, warnings, sources })
     }
 
-    /// The models of a grid, from options `(option, PATH=VALUES)`.
+    /// The models of a grid, from options `(name, PATH=VALUES)`.
     pub fn models(&self, options: &[(&str, String)]) -> Result<Models, Failure> {
-        let coupled = options.iter().any(|(option, _)| *option == "--friction");
+        let coupled = options.iter().any(|(option, _)| *option == "friction");
         let text = self.file.text();
         Models::new(&self.file.name, &text, &self.overrides, options, coupled)
             .map_err(|error| self.failure(error))
@@ -69,7 +81,7 @@ impl Opened {
     pub fn failure(&self, error: AssessmentError) -> Failure {
         match error {
             AssessmentError::Input(error) => Failure::input(error, &self.file.text()),
-            other => Failure::Message(other.to_string()),
+            other => failure(other),
         }
     }
 
@@ -77,16 +89,16 @@ impl Opened {
     pub fn compute<T: Send>(
         &self,
         args: &SuiteArgs,
-        work: impl FnOnce() -> Result<T, AssessmentError> + Send,
+        work: impl FnOnce(&Engine<'_>) -> Result<T, AssessmentError> + Send,
     ) -> Result<T, Failure> {
-        watched("computing", args.result.quiet, || on_threads(args.jobs.map(usize::from), work))
-            .map_err(|error| self.failure(error))
+        let work = |engine: &Engine<'_>| on_threads(jobs(args), || work(engine));
+        counted("computing", args.result.quiet, work).map_err(|error| self.failure(error))
     }
 
     /// Files that went in, model first.
     pub fn sources(&self) -> Vec<(String, String, String)> {
         let model = (self.file.name.clone(), sha256_hex(&self.file.bytes), "model".to_owned());
-        std::iter::once(model).chain(self.suite.sources.iter().cloned()).collect()
+        std::iter::once(model).chain(self.sources.iter().cloned()).collect()
     }
 
     /// The folder for the results, refused where it would replace an input.
@@ -102,30 +114,42 @@ impl Opened {
     }
 }
 
+/// The number of threads asked for.
+fn jobs(args: &SuiteArgs) -> Option<usize> {
+    args.jobs.map(usize::from)
+}
+
+/// An error of an analysis that has no model text to point into.
+pub fn failure(error: AssessmentError) -> Failure {
+    match error {
+        AssessmentError::Choice(error) => choice(&error),
+        other => Failure::Message(other.to_string()),
+    }
+}
+
+/// What was chosen wrongly is an option of the command: only here does it get its dashes.
+pub fn choice(error: &ChoiceError) -> Failure {
+    let dashes = if error.what == SOURCE { "" } else { "--" };
+    Failure::Message(format!("{dashes}{error}"))
+}
+
+/// The one choice that is no option.
+const SOURCE: &str = "SOURCE";
+
 /// The folder for results, made before any work is done.
 pub fn folder(args: &ResultArgs, inputs: &[PathBuf]) -> Result<Option<OutputFolder>, Failure> {
     Ok(args.out.as_deref().map(|out| OutputFolder::create(out, inputs)).transpose()?)
 }
 
 fn suite_request(args: &SuiteArgs) -> Result<SuiteRequest, Failure> {
-    let units = args.units.as_deref().map(|units| {
-        let of_record = record::Units::parse(units);
-        of_record.filter(|u| u.quantity() == RecordQuantity::Acceleration).ok_or_else(|| {
-            let known = Dimension::Acceleration.units().iter().map(|unit| unit.name());
-            let known = known.collect::<Vec<_>>().join(", ");
-            message("--units", &format!("a unit of acceleration ({known})"), units)
-        })
-    });
-    let dt_s = args.dt.as_deref().map(|dt| {
-        let dt_s = quantity("--dt", dt, Dimension::Time)?;
-        if dt_s > 0.0 { Ok(dt_s) } else { Err(message("--dt", "a time step > 0", dt)) }
-    });
+    args.record.only_with("--records <PATTERN>", !args.records.is_empty())?;
+    let options = args.record.options(true)?;
     Ok(SuiteRequest {
         patterns: args.records.clone(),
         vertical: args.vertical.clone(),
-        units: units.transpose()?,
-        dt_s: dt_s.transpose()?,
-        channel: args.channel.clone(),
+        units: options.units,
+        dt_s: options.dt_s,
+        channel: options.channel,
     })
 }
 
@@ -140,7 +164,7 @@ pub fn scaling(args: &ScaleArgs) -> Result<(Scaling, String), Failure> {
         return Ok((Scaling::Factor(factor), words));
     };
     let measure = measure(&args.measure)?;
-    let values = levels("--level", level, &measure).map_err(|e| Failure::Message(e.to_string()))?;
+    let values = levels("level", level, &measure).map_err(failure)?;
     let [value] = values[..] else {
         return Err(message("--level", "one level", level));
     };
@@ -205,8 +229,8 @@ pub fn conclude(
     if let Some(mut folder) = folder {
         for (name, table) in tables {
             match name.rsplit_once('.') {
-                Some((_, "parquet")) => folder.write(name, &table.to_parquet(Path::new(name))?)?,
-                _ => folder.write(name, table.to_csv().as_bytes())?,
+                Some((_, "parquet")) => folder.write(name, &to_parquet(Path::new(name), table)?)?,
+                _ => folder.write(name, to_csv(table).as_bytes())?,
             }
         }
         for figure in &sheet.figures {

@@ -2,8 +2,7 @@
 
 use std::process::ExitCode;
 
-use slipstick::assessment::design::Target;
-use slipstick_files::assessment::{DesignRequest, run_design};
+use slipstick::assessment::design::{DesignRequest, Target, run_design};
 use slipstick_report::assessment::design::DesignReport;
 
 use super::assessment::{Opened, conclude, limit, message, scaling, share};
@@ -15,9 +14,9 @@ pub fn design(args: &DesignArgs) -> Result<ExitCode, Failure> {
     let opened = Opened::open(&args.suite)?;
     let mut options: Vec<(&str, String)> = Vec::new();
     if let Some(values) = &args.friction {
-        options.push(("--friction", format!("slider.kinetic_friction={values}")));
+        options.push(("friction", format!("slider.kinetic_friction={values}")));
     }
-    options.extend(args.vary.iter().map(|text| ("--vary", text.clone())));
+    options.extend(args.vary.iter().map(|text| ("vary", text.clone())));
     if options.is_empty() {
         let expected = "something to vary, --friction or --vary slider.radius=1..5m:50";
         return Err(message("--vary", expected, "nothing"));
@@ -44,7 +43,7 @@ pub fn design(args: &DesignArgs) -> Result<ExitCode, Failure> {
         seed: args.seed,
         confidence,
     };
-    let run = opened.compute(&args.suite, || run_design(&request))?;
+    let run = opened.compute(&args.suite, |engine| run_design(&request, engine))?;
     let sheet = DesignReport {
         version: env!("CARGO_PKG_VERSION"),
         name: &opened.name,
@@ -58,7 +57,7 @@ pub fn design(args: &DesignArgs) -> Result<ExitCode, Failure> {
         sensitivity: run.sensitivity.as_ref(),
         confidence,
         failures: &run.failures,
-        warnings: &opened.suite.warnings,
+        warnings: &opened.warnings,
         display: args.suite.result.display_units.into(),
     }
     .sheet();

@@ -1,12 +1,15 @@
 //! `slipstick fragility`: a lognormal fragility with its certainty.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use slipstick_files::assessment::{FitTo, FragilityRequest, Table, run_fragility};
+use slipstick::assessment::AssessmentError;
+use slipstick::assessment::observed::{FitTo, FragilityRequest, run_fragility};
+use slipstick::table::Table;
+use slipstick_files::{ReadTable, expand, read_bytes, read_table, sha256_hex};
 use slipstick_report::assessment::fragility::FragilityReport;
 
-use super::assessment::{conclude, folder, limit, share};
+use super::assessment::{conclude, failure, folder, limit, share};
 use crate::args::{FitToName, FragilityArgs};
 use crate::failure::Failure;
 use crate::progress::watched;
@@ -18,8 +21,12 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
     };
     let bound = of("--limit", &args.limit)?;
     let confidence = share("--confidence", args.confidence)?;
+    let read = || read(&args.source);
+    let (mut sources, read) = watched("reading", args.result.quiet, read)?;
+    let name = args.source.display().to_string();
     let request = FragilityRequest {
-        source: &args.source,
+        table: &read.table,
+        source_name: &read.path.display().to_string(),
         demand: &args.demand,
         limit: bound,
         measure: args.measure.as_deref(),
@@ -31,11 +38,21 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
         floor: of("--floor", &args.floor)?,
         cap: of("--cap", &args.cap)?,
     };
-    let run = watched("fitting", args.result.quiet, || run_fragility(&request))
-        .map_err(|error| Failure::Message(error.to_string()))?;
-    let inputs: Vec<PathBuf> = run.sources.iter().map(|(path, ..)| path.into()).collect();
+    let mut run =
+        watched("fitting", args.result.quiet, || run_fragility(&request)).map_err(|error| {
+            match error {
+                AssessmentError::Cell(error) => read.cell_error(&error).into(),
+                other => failure(other),
+            }
+        })?;
+    if let Some((.., kind)) = sources.first_mut() {
+        run.kind.clone_into(kind);
+    }
+    for warning in run.warnings.iter_mut().filter(|warning| warning.kind == "fitted_to") {
+        warning.message.push_str("; --fit-to chooses otherwise");
+    }
+    let inputs: Vec<PathBuf> = sources.iter().map(|(path, ..)| path.into()).collect();
     let folder = folder(&args.result, &inputs)?;
-    let name = args.source.display().to_string();
     let report = FragilityReport {
         version: env!("CARGO_PKG_VERSION"),
         name: &name,
@@ -58,6 +75,30 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
         .numbers("band_low", "", column(2))
         .numbers("band_high", "", column(3));
     let tables = [("fragility.csv", &table), ("fragility.parquet", &table)];
-    conclude(&args.result, folder, &report.sheet(), &tables, &run.sources, &[])?;
+    conclude(&args.result, folder, &report.sheet(), &tables, &sources, &[])?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// A file that was read: its path, its hash, what it is.
+type Source = (String, String, String);
+
+/// The table of a file, or of the parts of a study's folder, and the files with their hashes.
+fn read(source: &Path) -> Result<(Vec<Source>, ReadTable), Failure> {
+    let files = if source.is_dir() {
+        expand(source, "part-*.parquet").map_err(|_| {
+            let expected = "a file, or the folder of a study with its part-*.parquet";
+            Failure::Message(format!(
+                "SOURCE: expected {expected}, found the folder {}",
+                source.display()
+            ))
+        })?
+    } else {
+        vec![source.to_owned()]
+    };
+    let mut sources = Vec::with_capacity(files.len());
+    for path in &files {
+        let sha256 = sha256_hex(&read_bytes(path)?);
+        sources.push((path.display().to_string(), sha256, "runs".to_owned()));
+    }
+    Ok((sources, read_table(&files)?))
 }

@@ -2,11 +2,13 @@
 
 use std::process::ExitCode;
 
+use slipstick::assessment::grid::levels;
+use slipstick::assessment::ida::{IdaLevels, IdaRequest, run_ida};
 use slipstick::motion::intensity::Measure;
-use slipstick_files::assessment::{IdaLevels, IdaRequest, levels, run_ida};
+use slipstick::study::engine::Engine;
 use slipstick_report::assessment::ida::IdaReport;
 
-use super::assessment::{Opened, conclude, limit, measure, message};
+use super::assessment::{Opened, conclude, failure, limit, measure, message};
 use crate::args::IdaArgs;
 use crate::failure::Failure;
 
@@ -30,7 +32,7 @@ pub fn ida(args: &IdaArgs) -> Result<ExitCode, Failure> {
         limit,
         levels,
     };
-    let run = opened.compute(&args.suite, || run_ida(&request))?;
+    let run = opened.compute(&args.suite, |engine| run_ida(&request, engine))?;
     let names = opened.suite.names();
     let sheet = IdaReport {
         version: env!("CARGO_PKG_VERSION"),
@@ -44,7 +46,7 @@ pub fn ida(args: &IdaArgs) -> Result<ExitCode, Failure> {
         fixed_levels: !args.hunt,
         fit: run.fit.as_ref(),
         failures: &run.failures,
-        warnings: &opened.suite.warnings,
+        warnings: &opened.warnings,
         display: args.suite.result.display_units.into(),
     }
     .sheet();
@@ -72,16 +74,15 @@ fn the_limit(args: &IdaArgs, opened: &Opened) -> Result<Option<f64>, Failure> {
 }
 
 fn the_levels(args: &IdaArgs, opened: &Opened, measure: &Measure) -> Result<IdaLevels, Failure> {
-    let told =
-        |error: slipstick_files::assessment::AssessmentError| Failure::Message(error.to_string());
     if let Some(text) = &args.levels {
-        return Ok(IdaLevels::Fixed(levels("--levels", text, measure).map_err(told)?));
+        return Ok(IdaLevels::Fixed(levels("levels", text, measure).map_err(failure)?));
     }
     if let Some(text) = &args.between {
-        let both = levels("--between", &format!("{text}:2"), measure).map_err(told)?;
+        let both = levels("between", &format!("{text}:2"), measure).map_err(failure)?;
         return Ok(IdaLevels::Hunt { start: both[0], top: both[1] });
     }
-    let mut values = opened.suite.measure(measure).map_err(told)?;
+    let engine = Engine::unwatched();
+    let mut values = opened.suite.measure(measure, &engine).map_err(failure)?;
     values.sort_by(f64::total_cmp);
     let median = values[values.len() / 2];
     Ok(IdaLevels::Hunt { start: HUNTED[0] * median, top: HUNTED[1] * median })

@@ -1,12 +1,13 @@
 //! `slipstick paper`: the paper, reproduced.
 
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::ExitCode;
 
-use slipstick::laboratory::paper::{Grid, Paper, PaperError, reproduce};
 use slipstick::motion::GroundMotion;
-use slipstick_files::{FileError, OutputFolder, folder_records, paper_library};
-use slipstick_report::paper;
+use slipstick_files::{FileError, OutputFolder, folder_records};
+use slipstick_paper::chapter::{chapter, claims_json, listing};
+use slipstick_paper::{Grid, Paper, PaperError, paper_library, reproduce};
 
 use crate::args::PaperArgs;
 use crate::failure::{Failure, print, say};
@@ -19,6 +20,7 @@ pub fn paper(args: &PaperArgs) -> Result<ExitCode, Failure> {
         if !args.quiet {
             say(format_args!("computing: {what}"));
         }
+        ControlFlow::Continue(())
     };
     let failed = |error: PaperError| Failure::Message(error.to_string());
     let mut library = paper_library().map_err(failed)?;
@@ -30,9 +32,9 @@ pub fn paper(args: &PaperArgs) -> Result<ExitCode, Failure> {
         write(&result, out, figures)?;
     }
     if args.json {
-        print(&paper::claims_json(&result))?;
+        print(&claims_json(&result))?;
     } else {
-        print(&paper::listing(&result))?;
+        print(&listing(&result))?;
     }
     if let (Some(out), false) = (&args.out, args.quiet) {
         say(format_args!("wrote {}", out.join("chapter.md").display()));
@@ -68,9 +70,9 @@ fn write(
     mut out: OutputFolder,
     mut figures: OutputFolder,
 ) -> Result<(), FileError> {
-    let chapter = paper::chapter(result);
+    let chapter = chapter(result);
     out.write("chapter.md", chapter.markdown.as_bytes())?;
-    out.write("claims.json", paper::claims_json(result).as_bytes())?;
+    out.write("claims.json", claims_json(result).as_bytes())?;
     for (name, svg) in &chapter.figures {
         figures.write(name, svg.as_str().as_bytes())?;
     }

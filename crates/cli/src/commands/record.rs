@@ -9,7 +9,7 @@ mod spectrum;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use slipstick::record::{Format, Units};
+use slipstick::record::Format;
 use slipstick::units::{Dimension, parse_quantity};
 use slipstick_files::{RecordOptions, expand};
 
@@ -35,26 +35,7 @@ fn read_options(args: &ReadArgs) -> Result<RecordOptions, Failure> {
             refuse("--format", &format!("expected one of {known}, found {word:?}"))
         })
     });
-    let units = args.units.as_deref().map(|text| {
-        Units::parse(text).ok_or_else(|| {
-            let reason = format!(
-                "expected a unit of acceleration, velocity or displacement, such as g, cm/s2 or \
-                 m/s, found {text:?}"
-            );
-            refuse("--units", &reason)
-        })
-    });
-    let dt_s = args.dt.as_deref().map(|text| {
-        let dt_s = quantity("--dt", text, Dimension::Time)?;
-        let expected = || refuse("--dt", &format!("expected a time step > 0, found {text:?}"));
-        if dt_s > 0.0 { Ok(dt_s) } else { Err(expected()) }
-    });
-    Ok(RecordOptions {
-        format: format.transpose()?,
-        units: units.transpose()?,
-        dt_s: dt_s.transpose()?,
-        channel: args.channel.clone(),
-    })
+    Ok(RecordOptions { format: format.transpose()?, ..args.record.options(false)? })
 }
 
 fn refuse(option: &str, reason: &str) -> Failure {

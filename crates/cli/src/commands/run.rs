@@ -4,13 +4,13 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use slipstick::input::{self, Override};
-use slipstick::record::{self, Quantity};
+use slipstick::assessment::single::Outcome;
+use slipstick::input::{self, Override, Scale};
 use slipstick::response::History;
 use slipstick::units::{Dimension, parse_quantity};
 use slipstick_files::{
-    FileError, Job, Outcome, OutputFolder, RecordRequest, Scale, events_csv, history_csv,
-    read_at_most, sha256_hex,
+    FileError, OpenJob, OutputFolder, RecordRequest, events_csv, history_csv, read_at_most,
+    sha256_hex,
 };
 use slipstick_report::{FileNote, InputText, Report, Summary, table};
 
@@ -24,10 +24,12 @@ pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let overrides = overrides(&args.set, args.method)?;
     let analysis = input::from_bytes(&model.name, &model.bytes, &overrides)
         .map_err(|error| Failure::input(error, &model.text()))?;
+    args.record.only_with("--motion <FILE>", args.motion.is_some())?;
     let record = args.motion.as_deref().map(|path| record_request(args, path)).transpose()?;
     let in_model = |error| Failure::job(error, &model.name, &model.text());
-    let job = watched("reading", args.quiet, || Job::new(&model.path, analysis, record.as_ref()))
-        .map_err(in_model)?;
+    let job =
+        watched("reading", args.quiet, || OpenJob::new(&model.path, analysis, record.as_ref()))
+            .map_err(in_model)?;
     // An output folder that cannot be written is told before the work, not after it.
     let folder = args
         .out
@@ -38,13 +40,14 @@ pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
             OutputFolder::create(out, &inputs)
         })
         .transpose()?;
-    let outcome =
+    let (outcome, summary) =
         watched("computing", args.quiet, || job.run(args.floor_spectrum)).map_err(in_model)?;
     if let Some(folder) = folder {
-        watched("writing", args.quiet, || write_files(folder, args, &model, &job, &outcome))?;
+        let write = || write_files(folder, args, &model, &job, &outcome, &summary);
+        watched("writing", args.quiet, write)?;
     }
-    show(args, &job, &outcome)?;
-    Ok(ExitCode::from(status(&outcome.summary)))
+    show(args, &job, &summary)?;
+    Ok(ExitCode::from(status(&summary)))
 }
 
 /// 1 where the check of a run, or of one of its bounds, failed.
@@ -97,8 +100,10 @@ pub(super) fn overrides(
         MethodName::Stepwise => "analysis.method=stepwise".to_owned(),
     });
     let set = set.iter().cloned().chain(method);
-    set.map(|text| Override::parse(&text).map_err(|error| Failure::Message(error.to_string())))
-        .collect()
+    set.map(|text| {
+        Override::of_option("--set", &text).map_err(|error| Failure::Message(error.to_string()))
+    })
+    .collect()
 }
 
 /// The record of `--motion`, completed by the options beside it.
@@ -111,39 +116,24 @@ fn record_request(args: &RunArgs, path: &Path) -> Result<RecordRequest, Failure>
         (Some(factor), _) => {
             let value = factor.trim().parse::<f64>().ok().filter(|factor| factor.is_finite());
             let expected = || refuse("--scale", format!("expected a factor, found {factor:?}"));
-            Scale::Factor(value.ok_or_else(expected)?)
+            Some(Scale::Factor(value.ok_or_else(expected)?))
         }
         (None, Some(peak)) => {
             let peak_m_per_s2 = quantity("--scale-to", peak, Dimension::Acceleration)?;
             if !(peak_m_per_s2 > 0.0) {
                 return Err(refuse("--scale-to", format!("expected a peak > 0, found {peak:?}")));
             }
-            Scale::ToPeak(peak_m_per_s2)
+            Some(Scale::Peak(peak_m_per_s2))
         }
-        (None, None) => Scale::None,
+        (None, None) => None,
     };
-    let units = args.units.as_deref().map(|units| {
-        let of_record = record::Units::parse(units);
-        of_record.filter(|units| units.quantity() == Quantity::Acceleration).ok_or_else(|| {
-            let known = Dimension::Acceleration.units().iter().map(|unit| unit.name());
-            let known = known.collect::<Vec<_>>().join(", ");
-            refuse("--units", format!("expected a unit of acceleration ({known}), found {units:?}"))
-        })
-    });
-    let dt_s = args.dt.as_deref().map(|dt| {
-        let dt_s = quantity("--dt", dt, Dimension::Time)?;
-        if dt_s > 0.0 {
-            Ok(dt_s)
-        } else {
-            Err(refuse("--dt", format!("expected a time step > 0, found {dt:?}")))
-        }
-    });
+    let options = args.record.options(true)?;
     Ok(RecordRequest {
         path: path.to_owned(),
         format: None,
-        units: units.transpose()?,
-        dt_s: dt_s.transpose()?,
-        channel: args.channel.clone(),
+        units: options.units,
+        dt_s: options.dt_s,
+        channel: options.channel,
         scale,
         vertical: None,
     })
@@ -151,19 +141,19 @@ fn record_request(args: &RunArgs, path: &Path) -> Result<RecordRequest, Failure>
 
 /// The result on standard output; what was noticed, on standard error, where the table has not
 /// said it already.
-fn show(args: &RunArgs, job: &Job, outcome: &Outcome) -> Result<(), Failure> {
+fn show(args: &RunArgs, job: &OpenJob, summary: &Summary) -> Result<(), Failure> {
     if args.json {
-        print(&outcome.summary.to_json())?;
+        print(&summary.to_json())?;
     } else {
         let record = job.loaded.description.join("; ");
         let display = args.display_units.into();
-        print(&table::table(&outcome.summary, &job.analysis.model, &record, display))?;
+        print(&table::table(summary, &job.job.analysis.model, &record, display))?;
     }
     if args.quiet {
         return Ok(());
     }
     if args.json {
-        for (run, warning) in outcome.summary.all_warnings() {
+        for (run, warning) in summary.all_warnings() {
             let run = run.map_or(String::new(), |run| format!(" ({run} friction)"));
             say(format_args!("warning: {}{run}: {}", warning.kind, warning.message));
         }
@@ -178,8 +168,9 @@ fn write_files(
     mut folder: OutputFolder,
     args: &RunArgs,
     model: &ModelFile,
-    job: &Job,
+    job: &OpenJob,
     outcome: &Outcome,
+    summary: &Summary,
 ) -> Result<(), FileError> {
     let record = job.loaded.description.join("; ");
     let (text, sha256) = (model.text(), sha256_hex(&model.bytes));
@@ -199,24 +190,24 @@ fn write_files(
     }));
     let command_line = command_line();
     let report = Report {
-        summary: &outcome.summary,
-        model: &job.analysis.model,
-        motion: &job.motion,
+        summary,
+        model: &job.job.analysis.model,
+        motion: &job.job.motion,
         record: &record,
-        response: &outcome.response,
-        certificate: &outcome.certificate,
-        bounds: outcome.bounds.as_ref().map(|[lower, upper]| [lower, upper]),
-        floor_spectra: outcome.summary.floor_spectra.as_ref(),
+        response: &outcome.nominal.response,
+        certificate: &outcome.nominal.certificate,
+        bounds: outcome.bounds.as_ref().map(|[lower, upper]| [&lower.response, &upper.response]),
+        floor_spectra: summary.floor_spectra.as_ref(),
         inputs: &inputs,
         files: &files,
         command_line: &command_line,
         display: args.display_units.into(),
     };
-    folder.write("summary.json", outcome.summary.to_json().as_bytes())?;
+    folder.write("summary.json", summary.to_json().as_bytes())?;
     let empty = History::default();
-    let history = outcome.response.history.as_ref().unwrap_or(&empty);
+    let history = outcome.nominal.response.history.as_ref().unwrap_or(&empty);
     folder.write_with("history.csv", |to| history_csv(history, to))?;
-    folder.write_with("events.csv", |to| events_csv(&outcome.response.events, to))?;
+    folder.write_with("events.csv", |to| events_csv(&outcome.nominal.response.events, to))?;
     folder.write("report.html", report.to_html().as_bytes())?;
     folder.commit()
 }
@@ -247,8 +238,8 @@ mod tests {
                     sine = { frequency = \"1 Hz\", amplitude = \"3 m/s2\", duration = \"2 s\", \
                     dt = \"0.1 s\" }\n";
         let analysis = input::parse("model.toml", text, &[]).unwrap();
-        let job = Job::new(Path::new("model.toml"), analysis, None).unwrap();
-        let summary = job.run(false).unwrap().summary;
+        let job = OpenJob::new(Path::new("model.toml"), analysis, None).unwrap();
+        let (_, summary) = job.run(false).unwrap();
         assert_eq!(status(&summary), 0);
         let failed = |run: &Summary| {
             let mut run = run.clone();

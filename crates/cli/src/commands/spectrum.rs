@@ -2,8 +2,8 @@
 
 use std::process::ExitCode;
 
-use slipstick_files::assessment::{SpectrumRequest, run_spectrum};
-use slipstick_report::assessment::spectrum::SpectrumReport;
+use slipstick::assessment::spectrum::{SpectrumRequest, run_spectrum};
+use slipstick_report::assessment::spectrum::{SpectrumReport, group_names};
 
 use super::assessment::{Opened, conclude, scaling};
 use crate::args::SpectrumArgs;
@@ -13,17 +13,17 @@ use crate::failure::Failure;
 pub fn spectrum(args: &SpectrumArgs) -> Result<ExitCode, Failure> {
     let opened = Opened::open(&args.suite)?;
     let mut options: Vec<(&str, String)> =
-        args.vary.iter().map(|text| ("--vary", text.clone())).collect();
+        args.vary.iter().map(|text| ("vary", text.clone())).collect();
     if let Some(values) = &args.friction {
-        options.push(("--friction", format!("slider.kinetic_friction={values}")));
+        options.push(("friction", format!("slider.kinetic_friction={values}")));
     }
-    options.push(("--over", args.over.clone()));
+    options.push(("over", args.over.clone()));
     let models = opened.models(&options)?;
     let (scaling, scaled) = scaling(&args.scale)?;
     let folder = opened.folder(&args.suite.result)?;
     let request =
         SpectrumRequest { models: &models, suite: &opened.suite, scaling, demands: &args.demand };
-    let run = opened.compute(&args.suite, || run_spectrum(&request))?;
+    let run = opened.compute(&args.suite, |engine| run_spectrum(&request, engine))?;
     let scaled = if opened.suite.made { "" } else { &scaled };
     let names = opened.suite.names();
     let sheet = SpectrumReport {
@@ -32,14 +32,14 @@ pub fn spectrum(args: &SpectrumArgs) -> Result<ExitCode, Failure> {
         over: &run.over,
         unit: &run.unit,
         values: &run.values,
-        groups: &run.groups,
+        groups: &group_names(&run),
         records: &names,
         scaled,
         curves: &run.curves,
         windows: Some((&run.window_key, &run.windows)),
         failures: &run.failures,
         runs: run.runs,
-        warnings: &opened.suite.warnings,
+        warnings: &opened.warnings,
         display: args.suite.result.display_units.into(),
     }
     .sheet();

@@ -1,14 +1,17 @@
 //! `slipstick study`: many analyses of one plan.
 
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Duration;
 
+use slipstick::study::engine::Engine;
 use slipstick_files::{
-    FileError, OpenStudy, Shard, ShardOptions, StudyError, clear, conclude, estimate, has_parts,
-    merge, part_rows,
+    FileError, OpenStudy, Shard, StudyError, clear, conclude, estimate, has_parts, merge,
+    on_threads, part_rows,
 };
 use slipstick_report::number::count;
+use slipstick_report::study::table;
 
 use crate::args::{StudyArgs, StudyCommand};
 use crate::failure::{Failure, print, say};
@@ -28,6 +31,11 @@ pub fn study(args: &StudyArgs) -> Result<ExitCode, Failure> {
         return Err(Failure::Message("expected a study plan, found none".to_owned()));
     };
     let shard = shard(args)?;
+    on_threads(args.jobs.map(usize::from), || planned(args, plan, shard))
+}
+
+/// What is asked of a plan, in the pool of its threads.
+fn planned(args: &StudyArgs, plan: &Path, shard: Shard) -> Result<ExitCode, Failure> {
     let study = watched("reading", args.quiet, || OpenStudy::open(plan))?;
     if let Some(run) = args.repeat {
         print(&study.repeat(run)?)?;
@@ -71,10 +79,11 @@ fn run(args: &StudyArgs, study: &OpenStudy, shard: Shard, out: &Path) -> Result<
         )));
     }
     let bar = Steps::new(study.shard_runs(shard), args.quiet);
-    let progress = |runs: u64| bar.advance(runs);
-    let jobs = args.jobs.map(usize::from);
-    let options = ShardOptions { jobs, progress: Some(&progress) };
-    let outcome = study.run_shard(shard, out, &options);
+    let follow = |runs: u64| {
+        bar.advance(runs);
+        ControlFlow::Continue(())
+    };
+    let outcome = study.run_shard(shard, out, &Engine::new(&follow));
     bar.finish();
     let outcome = match outcome {
         Ok(outcome) => outcome,
@@ -84,8 +93,8 @@ fn run(args: &StudyArgs, study: &OpenStudy, shard: Shard, out: &Path) -> Result<
         }
         Err(error) => return Err(error.into()),
     };
-    let summary = watched("summarising", args.quiet, || conclude(study, out, jobs))?;
-    print(&summary.to_table(args.display_units.into()))?;
+    let summary = watched("summarising", args.quiet, || conclude(study, out))?;
+    print(&table(&summary, args.display_units.into()))?;
     if !args.quiet {
         let checks = outcome.checks;
         say(format_args!(
@@ -102,8 +111,7 @@ fn run(args: &StudyArgs, study: &OpenStudy, shard: Shard, out: &Path) -> Result<
 
 /// Counts, and the time that the runs may take.
 fn dry_run(args: &StudyArgs, study: &OpenStudy, shard: Shard) -> Result<ExitCode, Failure> {
-    let jobs = args.jobs.map(usize::from);
-    let (runs, time) = watched("timing", args.quiet, || estimate(study, shard, jobs, TRIAL))?;
+    let (runs, time) = watched("timing", args.quiet, || estimate(study, shard, TRIAL))?;
     let cases = study.study.cases();
     let total = study.study.runs();
     let mut text = format!(

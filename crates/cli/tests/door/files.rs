@@ -95,7 +95,10 @@ fn exact_events_are_those_that_were_counted() {
     let folder = Folder::with_model("events", BLOCK);
     let json = folder.json(&["model.toml", "--out", "out"]);
     let csv = folder.read("out/events.csv");
-    assert_eq!(csv.lines().next().unwrap(), "time_s,kind,direction,sliding_displacement_m");
+    assert_eq!(
+        csv.lines().next().unwrap(),
+        "time_s,kind,direction,sliding_displacement_m,interface"
+    );
     let kinds = cells(&csv, "kind");
     for (kind, key) in
         [("slip", "slip_count"), ("reversal", "reversal_count"), ("stick", "stick_count")]

@@ -59,6 +59,12 @@ fn exact_fragility_of_a_study_counts_its_rows() {
     assert_eq!(of_study["stripes"], of_ida["stripes"]);
     assert_eq!(of_study["median"], of_ida["median"]);
     assert_eq!(of("ida/ida.parquet")["median"], of_ida["median"]);
+    // First crossings need the names of the records, which Parquet has too.
+    let crossings = |source: &str| {
+        json(&folder, &[&["fragility", source, "--fit-to", "capacities"], &limit[..]].concat())
+    };
+    assert_eq!(crossings("ida/ida.parquet")["median"], crossings("ida/ida.csv")["median"]);
+    assert!(number(&crossings("study")["median"]) > 0.0);
     let csv = folder.read("ida/ida.csv");
     let (levels, demands) = (column(&csv, "level"), column(&csv, "peak_sliding_displacement_m"));
     for stripe in of_study["stripes"].as_array().unwrap() {

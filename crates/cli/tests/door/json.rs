@@ -16,7 +16,7 @@ enum Kind {
 use Kind::{Bool, Count, List, Number, NumberOrNull, Text};
 
 /// Every key that any run has, dots as slashes.
-const KEYS: [(&str, Kind); 37] = [
+const KEYS: [(&str, Kind); 38] = [
     ("/slipstick", Text),
     ("/model", Text),
     ("/method", Text),
@@ -54,6 +54,7 @@ const KEYS: [(&str, Kind); 37] = [
     ("/checks/equilibrium_residual", Number),
     ("/checks/friction_excess", Number),
     ("/checks/energy_balance_error", Number),
+    ("/checks/demands_error", Number),
 ];
 
 fn check(value: &Value, path: &str, kind: Kind) {

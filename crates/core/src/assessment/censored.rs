@@ -13,10 +13,10 @@
 //! capacities without bounds are the ordinary fit of a normal distribution; regression with
 //! censoring is Tobin's.
 
-use super::distribution::{
+use crate::error::FitError;
+use crate::numerics::distribution::{
     bisect, ln_normal_cdf, ln_normal_density, normal_hazard, normal_quantile,
 };
-use crate::error::FitError;
 
 /// What is known of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 //! floor acceleration.
 //!
 //! Every design is judged by two figures over the suite, both counted
-//! ([`fractile::held_by`](super::fractile::held_by)): the sliding displacement that a share
+//! ([`fractile::held_by`](crate::numerics::fractile::held_by)): the sliding displacement that a share
 //! `probability` of the records does not exceed, and the floor acceleration that a share
 //! `acceleration_share` of them does not. A design is *feasible* where the first is within the gap.
 //! The *front* is the feasible designs that no other feasible design beats: none is at least as good in
@@ -13,9 +13,20 @@
 //! is dropped when its bound of displacement is beyond the gap, or when a design of the front is
 //! better than both bounds. So the front equals that of the full grid, run for run.
 
-use super::fractile::{held_by, needed, sorted};
+use super::grid::Axis;
+use super::models::Models;
 use super::proportion::Proportion;
-use crate::error::FitError;
+use super::sensitivity::{self, Index};
+use super::suite::{Scaling, Suite};
+use super::{AssessmentError, FailedRun};
+use crate::error::{FitError, MotionError, RunError, Stopped};
+use crate::input::Parts;
+use crate::motion::GroundMotion;
+use crate::numerics::fractile::{held_by, needed, sorted};
+use crate::numerics::unit_points;
+use crate::response::demand_values;
+use crate::study::engine::{Engine, Running, Shaking};
+use crate::table::Table;
 
 /// What is asked of a design.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -247,4 +258,304 @@ fn spread(n: usize) -> Vec<usize> {
 
 fn gcd(a: usize, b: usize) -> usize {
     if b == 0 { a } else { gcd(b, a % b) }
+}
+
+/// A design to be searched for.
+#[derive(Clone, Copy, Debug)]
+pub struct DesignRequest<'a> {
+    /// The models; their grid is what is searched.
+    pub models: &'a Models,
+    /// The records.
+    pub suite: &'a Suite,
+    /// How they are scaled.
+    pub scaling: Scaling,
+    /// What is asked for.
+    pub target: Target,
+    /// Key of the acceleration to be made least.
+    pub acceleration: &'a str,
+    /// Factors on friction of the lower and the upper bound, where the front is to be run with them.
+    pub bounds: Option<[f64; 2]>,
+    /// Sample points of the sensitivity; 0 for none.
+    pub sensitivity: u32,
+    /// Seed of those points.
+    pub seed: u64,
+    /// Confidence of intervals.
+    pub confidence: f64,
+}
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct DesignRun {
+    /// What was varied, the last fastest.
+    pub variables: Vec<Axis>,
+    /// The front, and how many runs it took.
+    pub found: Found,
+    /// The front (or the nearest design) with lower and upper friction.
+    pub bounded: Option<Vec<Bounded>>,
+    /// Sensitivity, or why there is none.
+    pub sensitivity: Option<Result<Sensitivity, SensitivityError>>,
+    /// Runs of the search without an answer.
+    pub failures: Vec<FailedRun>,
+    /// The front, a row a design.
+    pub front: Table,
+}
+
+/// A design with friction at its lower and upper bound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounded {
+    /// Number of the design.
+    pub design: usize,
+    /// Its figures with lower friction.
+    pub lower: Figures,
+    /// Its figures with upper friction.
+    pub upper: Figures,
+}
+
+/// Indices of every variable for displacement and acceleration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensitivity {
+    /// Number of sample points `N`.
+    pub points: usize,
+    /// For the displacement that the asked share keeps.
+    pub displacement: Vec<Index>,
+    /// For the acceleration.
+    pub acceleration: Vec<Index>,
+}
+
+/// Why there is no sensitivity.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SensitivityError {
+    /// Too few points, or outputs that do not vary.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// A run of it failed.
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
+
+/// Searches for a design; the engine is told of every run.
+///
+/// # Errors
+/// [`AssessmentError`] for a demand that is none, a target out of range, scaling without an answer,
+/// and where it is stopped. A run that fails counts as beyond everything.
+pub fn run_design(
+    request: &DesignRequest<'_>,
+    engine: &Engine<'_>,
+) -> Result<DesignRun, AssessmentError> {
+    let DesignRequest { models, suite, target, .. } = *request;
+    target.check()?;
+    let runner = Runner::new(request, engine)?;
+    let records = suite.records.len();
+    let grid = models.grid();
+    let parts = models.all(records, engine)?;
+    let mut failures: Vec<FailedRun> = Vec::new();
+    let found = search(&target, grid.len(), records, |pairs: &[(usize, usize)]| {
+        let runs = runner.pairs(pairs, &parts)?;
+        let demand = |(run, (_, record)): (Result<Demand, RunError>, &(usize, usize))| {
+            run.unwrap_or_else(|error| {
+                failures.push(FailedRun { record: suite.records[*record].name.clone(), error });
+                FAILED
+            })
+        };
+        Ok::<_, AssessmentError>(runs.into_iter().zip(pairs).map(demand).collect())
+    })?;
+    let bounded = match request.bounds {
+        None => None,
+        Some(factors) => {
+            let designs: Vec<usize> =
+                found.front.iter().chain(&found.nearest).map(|point| point.design).collect();
+            Some(runner.bounded(&designs, &parts, factors, &target)?)
+        }
+    };
+    let sensitivity = if request.sensitivity > 0 { runner.sensitivity(request)? } else { None };
+    let variables = grid.axes().to_vec();
+    let front = table(request, &variables, &found, bounded.as_deref());
+    Ok(DesignRun { variables, found, bounded, sensitivity, failures, front })
+}
+
+/// A run without an answer.
+const FAILED: Demand = Demand { displacement_m: f64::NAN, acceleration_m_per_s2: f64::NAN };
+
+/// What all runs of a search share.
+struct Runner<'a> {
+    models: &'a Models,
+    suite: &'a Suite,
+    engine: &'a Engine<'a>,
+    factors: Vec<f64>,
+    tail_s: f64,
+    /// Scaled records with that tail; none for a made motion.
+    motions: Vec<Result<GroundMotion, MotionError>>,
+    displacement: usize,
+    acceleration: usize,
+}
+
+impl<'a> Runner<'a> {
+    fn new(request: &DesignRequest<'a>, engine: &'a Engine<'a>) -> Result<Self, AssessmentError> {
+        let (models, suite) = (request.models, request.suite);
+        let factors = suite.factors(&request.scaling, engine)?;
+        let first = models.parts(&models.grid().values(0));
+        let tail_s = first.map_or(0.0, |parts| parts.tail_s);
+        let shared = if suite.made { 0 } else { suite.records.len() };
+        let motions = engine.map(shared, |i| Ok(suite.motion(i, factors[i], tail_s)))?;
+        Ok(Self {
+            displacement: models.column("peak_sliding_displacement_m")?,
+            acceleration: models.column(request.acceleration)?,
+            models,
+            suite,
+            engine,
+            factors,
+            tail_s,
+            motions,
+        })
+    }
+
+    /// One run of a model, which has the motion of these parts.
+    fn run(
+        &self,
+        parts: &Parts,
+        running: &mut Running<'_>,
+        record: usize,
+    ) -> Result<Demand, RunError> {
+        let own;
+        let motion = match self.motions.get(record) {
+            Some(motion) if parts.tail_s == self.tail_s => motion.as_ref().map_err(Clone::clone)?,
+            _ => {
+                own = self.suite.motion_of(record, self.factors[record], parts)?;
+                &own
+            }
+        };
+        let values = demand_values(&running.on(&Shaking::new(motion))?.demands);
+        Ok(Demand {
+            displacement_m: values[self.displacement],
+            acceleration_m_per_s2: values[self.acceleration],
+        })
+    }
+
+    /// Runs of pairs (design, record), in their order; those of one design stand together.
+    fn pairs(
+        &self,
+        pairs: &[(usize, usize)],
+        parts: &[Result<Parts, RunError>],
+    ) -> Result<Vec<Result<Demand, RunError>>, Stopped> {
+        let groups: Vec<&[(usize, usize)]> = pairs.chunk_by(|a, b| a.0 == b.0).collect();
+        let runs = self.engine.map(groups.len(), |i| {
+            let runs: Vec<Result<Demand, RunError>> = match &parts[groups[i][0].0] {
+                Err(error) => groups[i].iter().map(|_| Err(error.clone())).collect(),
+                Ok(parts) => {
+                    let mut running = Running::new(&parts.model);
+                    let of = |(_, record): &(usize, usize)| self.run(parts, &mut running, *record);
+                    groups[i].iter().map(of).collect()
+                }
+            };
+            self.engine.done(runs.len() as u64)?;
+            Ok(runs)
+        })?;
+        Ok(runs.into_iter().flatten().collect())
+    }
+
+    /// Figures of designs with friction times the lower and the upper factor.
+    fn bounded(
+        &self,
+        designs: &[usize],
+        parts: &[Result<Parts, RunError>],
+        factors: [f64; 2],
+        target: &Target,
+    ) -> Result<Vec<Bounded>, AssessmentError> {
+        let records = self.suite.records.len();
+        let demands = self.engine.map(designs.len() * 2, |i| {
+            let (design, factor) = (designs[i / 2], factors[i % 2]);
+            let failed = vec![FAILED; records];
+            let Ok(parts) = &parts[design] else { return Ok(failed) };
+            let Ok(friction) = parts.model.slider().friction.scaled(factor) else {
+                return Ok(failed);
+            };
+            let model = parts.model.with_friction(friction);
+            let mut running = Running::new(&model);
+            let of = |record| self.run(parts, &mut running, record).unwrap_or(FAILED);
+            let demands: Vec<Demand> = (0..records).map(of).collect();
+            self.engine.done(records as u64)?;
+            Ok(demands)
+        })?;
+        let bounded = |(pair, &design): (&[Vec<Demand>], &usize)| {
+            let (lower, upper) = (target.figures(&pair[0])?, target.figures(&pair[1])?);
+            Ok(Bounded { design, lower, upper })
+        };
+        demands.chunks(2).zip(designs).map(bounded).collect()
+    }
+
+    /// Sobol' indices of both figures, the variables uniform between their ends.
+    fn sensitivity(
+        &self,
+        request: &DesignRequest<'_>,
+    ) -> Result<Option<Result<Sensitivity, SensitivityError>>, Stopped> {
+        let axes = self.models.grid().axes();
+        let inputs = axes.len();
+        let points = unit_points(2 * inputs, request.sensitivity, request.seed);
+        let rows = match sensitivity::design(&points, inputs) {
+            Ok(rows) => rows,
+            Err(error) => return Ok(Some(Err(error.into()))),
+        };
+        let records = self.suite.records.len();
+        let figures = self.engine.map(rows.len(), |i| {
+            let value = |(axis, u): (&Axis, &f64)| {
+                let [low, high] = axis.ends();
+                (low + u * (high - low)).clamp(low, high)
+            };
+            let values: Vec<f64> = axes.iter().zip(&rows[i]).map(value).collect();
+            let figures = || -> Result<[f64; 2], SensitivityError> {
+                let parts = self.models.parts(&values).map_err(RunError::from)?;
+                let mut running = Running::new(&parts.model);
+                let demands = (0..records).map(|record| self.run(&parts, &mut running, record));
+                let figures = request.target.figures(&demands.collect::<Result<Vec<_>, _>>()?)?;
+                Ok([figures.displacement_m, figures.acceleration_m_per_s2])
+            };
+            let figures = figures();
+            self.engine.done(records as u64)?;
+            Ok(figures)
+        })?;
+        let indices = || -> Result<Sensitivity, SensitivityError> {
+            let figures = figures.into_iter().collect::<Result<Vec<_>, _>>()?;
+            let of = |which: usize| {
+                let outputs: Vec<f64> = figures.iter().map(|pair| pair[which]).collect();
+                sensitivity::indices(&outputs, inputs, request.confidence)
+            };
+            Ok(Sensitivity { points: points.len(), displacement: of(0)?, acceleration: of(1)? })
+        };
+        Ok(Some(indices()))
+    }
+}
+
+fn table(
+    request: &DesignRequest,
+    variables: &[Axis],
+    found: &Found,
+    bounded: Option<&[Bounded]>,
+) -> Table {
+    let points = &found.front;
+    let mut table = Table::default();
+    for (i, variable) in variables.iter().enumerate() {
+        let of = |design: usize| request.models.grid().values(design)[i];
+        let cells = points.iter().map(|point| of(point.design)).collect();
+        table.numbers(&variable.path, &variable.unit, cells);
+    }
+    let mut figures = |suffix: &str, all: Vec<Figures>| {
+        let name = |name: &str| format!("{name}{suffix}");
+        let column = |pick: &dyn Fn(&Figures) -> f64| all.iter().map(pick).collect::<Vec<_>>();
+        table.numbers(&name("displacement_m"), "m", column(&|f| f.displacement_m));
+        table.numbers(&name("acceleration_m_per_s2"), "m/s2", column(&|f| f.acceleration_m_per_s2));
+        table.numbers(&name("probability_within_gap"), "", column(&|f| f.within.estimate()));
+        let confidence = request.confidence;
+        table.numbers(&name("wilson_low"), "", column(&|f| f.within.wilson(confidence)[0]));
+        table.numbers(&name("wilson_high"), "", column(&|f| f.within.wilson(confidence)[1]));
+    };
+    figures("", points.iter().map(|point| point.figures).collect());
+    if let Some(bounded) = bounded {
+        let of = |pick: fn(&Bounded) -> Figures| {
+            let find = |design: usize| bounded.iter().find(|b| b.design == design).map(pick);
+            points.iter().filter_map(|point| find(point.design)).collect::<Vec<_>>()
+        };
+        figures("_lower_friction", of(|b| b.lower));
+        figures("_upper_friction", of(|b| b.upper));
+    }
+    table
 }

@@ -15,8 +15,8 @@
 //!   likelihood).
 
 use super::censored::{Fit, Known, Observation, Parameters};
-use super::distribution::{chi_squared_tail, normal_cdf, normal_quantile};
 use crate::error::FitError;
+use crate::numerics::distribution::{chi_squared_tail, normal_cdf, normal_quantile};
 
 /// A lognormal curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -361,8 +361,8 @@ pub fn test_normality(values: &[f64]) -> Option<NormalityTest> {
     for i in 0..n {
         let rank = (2 * i + 1) as f64;
         sum += rank
-            * (super::distribution::ln_normal_cdf(z[i])
-                + super::distribution::ln_normal_cdf(-z[n - 1 - i]));
+            * (crate::numerics::distribution::ln_normal_cdf(z[i])
+                + crate::numerics::distribution::ln_normal_cdf(-z[n - 1 - i]));
         let p = normal_cdf(z[i]);
         let (below, above) = (p - i as f64 / count, (i + 1) as f64 / count - p);
         largest_difference = largest_difference.max(below).max(above);

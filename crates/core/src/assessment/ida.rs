@@ -5,8 +5,17 @@
 //! intensity: a curve may cross the limit, come back below it (they call it resurrection) and cross
 //! again. The capacity of a record is its **first** crossing; what comes back is told, not used.
 
-use super::fractile;
-use crate::error::FitError;
+use super::fragility::{Capacity, Fragility};
+use super::models::Models;
+use super::spectrum::status;
+use super::suite::Suite;
+use super::{AssessmentError, FailedRun, refuse};
+use crate::error::{FitError, RunError, Stopped};
+use crate::motion::intensity::Measure;
+use crate::numerics::fractile;
+use crate::response::demand_values;
+use crate::study::engine::{Engine, Running, Shaking};
+use crate::table::Table;
 
 /// Demands of one record at rising intensities.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -119,23 +128,34 @@ impl Hunt {
     /// `resolution`; what crosses earlier is found there. *Close*: the gap around the first crossing
     /// is halved to `tolerance`. Two crossings within one gap of the fill cancel unseen.
     pub fn run(&self, mut demand: impl FnMut(f64) -> f64) -> Curve {
+        match self.try_run(|level| Ok::<_, core::convert::Infallible>(demand(level))) {
+            Ok(curve) => curve,
+            Err(never) => match never {},
+        }
+    }
+
+    /// As [`Hunt::run`], for runs that may be stopped.
+    ///
+    /// # Errors
+    /// The first of `demand`.
+    pub fn try_run<E>(&self, mut demand: impl FnMut(f64) -> Result<f64, E>) -> Result<Curve, E> {
         let mut curve = Curve::default();
-        let mut try_at = |curve: &mut Curve, level: f64| {
-            let found = demand(level);
+        let mut try_at = |curve: &mut Curve, level: f64| -> Result<bool, E> {
+            let found = demand(level)?;
             curve.insert(level, found);
-            !(found < self.limit)
+            Ok(!(found < self.limit))
         };
         let mut level = self.start;
-        let mut reached = try_at(&mut curve, level);
+        let mut reached = try_at(&mut curve, level)?;
         if reached {
             let mut below = level / GROWTH;
-            while below > self.start * 1e-6 && try_at(&mut curve, below) {
+            while below > self.start * 1e-6 && try_at(&mut curve, below)? {
                 below /= GROWTH;
             }
         }
         while !reached && level < self.top {
             level = (level * GROWTH).min(self.top);
-            reached = try_at(&mut curve, level);
+            reached = try_at(&mut curve, level)?;
         }
         let first = curve.first_crossing(self.limit);
         let from = if first.reached { first.between[1] } else { self.start } / SEARCHED_SPAN;
@@ -149,7 +169,7 @@ impl Hunt {
                 continue;
             }
             let middle = (low.max(from / widest) * high).sqrt();
-            try_at(&mut curve, middle);
+            try_at(&mut curve, middle)?;
         }
         if first.reached {
             for _ in 0..200 {
@@ -158,10 +178,10 @@ impl Hunt {
                 if high - low <= self.tolerance * high {
                     break;
                 }
-                try_at(&mut curve, 0.5 * (low + high));
+                try_at(&mut curve, 0.5 * (low + high))?;
             }
         }
-        curve
+        Ok(curve)
     }
 }
 
@@ -180,4 +200,189 @@ pub fn level_fractiles(curves: &[Curve], limit: f64) -> [f64; 3] {
         if crossing.reached { crossing.level } else { f64::INFINITY }
     };
     fractile::fractiles(&curves.iter().map(of).collect::<Vec<_>>())
+}
+
+/// How levels are chosen.
+#[derive(Clone, Debug, PartialEq)]
+pub enum IdaLevels {
+    /// The same for all records, in SI, rising.
+    Fixed(Vec<f64>),
+    /// Sought for each record, between these two.
+    Hunt {
+        /// First level tried.
+        start: f64,
+        /// Highest level tried.
+        top: f64,
+    },
+}
+
+/// An incremental dynamic analysis to be run.
+#[derive(Clone, Debug)]
+pub struct IdaRequest<'a> {
+    /// The model: a grid of one.
+    pub models: &'a Models,
+    /// The records.
+    pub suite: &'a Suite,
+    /// The measure.
+    pub measure: Measure,
+    /// Key of the demand.
+    pub demand: &'a str,
+    /// The limit on it, SI; a hunt needs one.
+    pub limit: Option<f64>,
+    /// The levels.
+    pub levels: IdaLevels,
+}
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct IdaRun {
+    /// The records' curves of the demand.
+    pub curves: Vec<Curve>,
+    /// A lognormal fit of the capacities, where there is a limit.
+    pub fit: Option<Result<Fragility, FitError>>,
+    /// Runs without an answer.
+    pub failures: Vec<FailedRun>,
+    /// A row a run: record, level, scale, all demands.
+    pub rows: Table,
+    /// A row a record, where there is a limit.
+    pub capacities: Option<Table>,
+}
+
+/// A run of a record: its level and factor, demands or the reason why there are none.
+struct Run {
+    level: f64,
+    scale: f64,
+    demands: Result<Vec<f64>, RunError>,
+}
+
+/// Runs an incremental dynamic analysis.
+///
+/// # Errors
+/// [`AssessmentError`] for a demand that is none, levels that do not rise, a hunt without a limit,
+/// records that cannot be scaled, and where it is stopped. A run that fails counts as above any limit.
+pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, AssessmentError> {
+    let IdaRequest { models, suite, measure, .. } = request;
+    let column = models.column(request.demand)?;
+    let hunt = match &request.levels {
+        IdaLevels::Fixed(levels) => {
+            let rise = levels.windows(2).all(|pair| pair[0] < pair[1]);
+            if levels.is_empty() || !rise || !(levels[0] > 0.0) {
+                return Err(refuse("levels", "levels > 0 that rise", format!("{levels:?}")));
+            }
+            None
+        }
+        IdaLevels::Hunt { start, top } => {
+            let Some(limit) = request.limit else {
+                return Err(refuse("to", "the limit to hunt for, or slider.gap", "nothing"));
+            };
+            Some(Hunt::new(limit, *start, *top)?)
+        }
+    };
+    let unscaled = suite.measure(measure, engine)?;
+    let parts = models.parts(&[])?;
+    let one = |running: &mut Running<'_>, record: usize, level: f64| -> Run {
+        let scale = level / unscaled[record];
+        let motion = suite.motion_of(record, scale, &parts);
+        let demands = motion.and_then(|motion| {
+            let response = running.on(&Shaking::new(&motion))?;
+            Ok(demand_values(&response.demands))
+        });
+        Run { level, scale, demands }
+    };
+    let records = suite.records.len();
+    let all: Vec<Vec<Run>> = match (&request.levels, &hunt) {
+        (IdaLevels::Fixed(levels), _) => {
+            let n = levels.len();
+            let mut runs = engine
+                .runs(records * n, |i| one(&mut Running::new(&parts.model), i / n, levels[i % n]))?
+                .into_iter();
+            (0..records).map(|_| runs.by_ref().take(n).collect()).collect()
+        }
+        (_, Some(hunt)) => engine.map(records, |record| {
+            let mut runs: Vec<Run> = Vec::new();
+            let mut running = Running::new(&parts.model);
+            hunt.try_run(|level| {
+                let run = one(&mut running, record, level);
+                let demand = run.demands.as_ref().map_or(f64::NAN, |values| values[column]);
+                runs.push(run);
+                engine.done(1)?;
+                Ok::<_, Stopped>(demand.abs())
+            })?;
+            runs.sort_by(|a, b| a.level.total_cmp(&b.level));
+            Ok(runs)
+        })?,
+        (IdaLevels::Hunt { .. }, None) => Vec::new(),
+    };
+    let curves: Vec<Curve> = all
+        .iter()
+        .map(|runs| {
+            let demand = |run: &Run| run.demands.as_ref().map_or(f64::NAN, |v| v[column].abs());
+            Curve {
+                levels: runs.iter().map(|run| run.level).collect(),
+                demands: runs.iter().map(demand).collect(),
+            }
+        })
+        .collect();
+    let names = suite.names();
+    let failures = all
+        .iter()
+        .zip(&names)
+        .flat_map(|(runs, name)| {
+            let failed = |run: &Run| {
+                let error = run.demands.as_ref().err()?.clone();
+                Some(FailedRun { record: name.clone(), error })
+            };
+            runs.iter().filter_map(failed).collect::<Vec<_>>()
+        })
+        .collect();
+    let (fit, capacities) = match request.limit {
+        None => (None, None),
+        Some(limit) => {
+            let (fit, table) = capacities(&curves, limit, &names, measure);
+            (Some(fit), Some(table))
+        }
+    };
+    let flat: Vec<(&String, &Run)> = all
+        .iter()
+        .zip(&names)
+        .flat_map(|(runs, name)| runs.iter().map(move |run| (name, run)))
+        .collect();
+    let mut rows = Table::default();
+    rows.texts("record", flat.iter().map(|(name, _)| (*name).clone()).collect());
+    rows.texts("measure", vec![measure.to_string(); flat.len()]);
+    rows.numbers("level", measure.unit(), flat.iter().map(|(_, run)| run.level).collect());
+    rows.numbers("scale", "", flat.iter().map(|(_, run)| run.scale).collect());
+    for (i, column) in models.columns().iter().enumerate() {
+        let of = |(_, run): &(&String, &Run)| run.demands.as_ref().map_or(f64::NAN, |v| v[i]);
+        rows.numbers(&column.name(), column.unit(), flat.iter().map(of).collect());
+    }
+    rows.texts("status", flat.iter().map(|(_, run)| status(&run.demands)).collect());
+    Ok(IdaRun { curves, fit, failures, rows, capacities })
+}
+
+/// The lognormal fit of the first crossings, and their table.
+fn capacities(
+    curves: &[Curve],
+    limit: f64,
+    names: &[String],
+    measure: &Measure,
+) -> (Result<Fragility, FitError>, Table) {
+    let crossings: Vec<_> = curves.iter().map(|curve| curve.first_crossing(limit)).collect();
+    let of = |c: &Crossing| Capacity { level: c.level, reached: c.reached };
+    let fit = Fragility::of_capacities(&crossings.iter().map(of).collect::<Vec<_>>());
+    let unit = measure.unit();
+    let mut table = Table::default();
+    table
+        .texts("record", names.to_vec())
+        .texts("measure", vec![measure.to_string(); names.len()])
+        .numbers("capacity", unit, crossings.iter().map(|c| c.level).collect())
+        .numbers("reached", "", crossings.iter().map(|c| f64::from(u8::from(c.reached))).collect())
+        .numbers("below", unit, crossings.iter().map(|c| c.between[0]).collect())
+        .numbers("above", unit, crossings.iter().map(|c| c.between[1]).collect())
+        .numbers(
+            "returns",
+            unit,
+            crossings.iter().map(|c| c.returns.unwrap_or(f64::NAN)).collect(),
+        );
+    (fit, table)
 }

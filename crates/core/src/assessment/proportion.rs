@@ -1,7 +1,7 @@
 //! A probability from counts, with its interval.
 
-use super::distribution::{beta_quantile, normal_quantile};
 use crate::error::FitError;
+use crate::numerics::distribution::{beta_quantile, normal_quantile};
 
 /// `count` successes of `runs`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,9 +11,9 @@
 //! where V is the variance of `f` over both samples, `f` taken less its mean. `N (k + 2)` runs for `k` inputs. Intervals
 //! are those of the bootstrap over the rows, with a generator of its own and a fixed seed.
 
-use super::fractile::{fractile, sorted};
 use crate::error::FitError;
-use crate::random::Random;
+use crate::numerics::fractile::{fractile, sorted};
+use crate::numerics::random::Random;
 
 /// Indices of one input.
 #[derive(Clone, Copy, Debug, PartialEq)]

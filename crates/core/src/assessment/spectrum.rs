@@ -1,10 +1,18 @@
-//! Sliding spectra and frequency response: the fixed-base model beside the sliding one, and the window
-//! of frequencies in which a structure amplifies.
+//! Sliding spectra and frequency response: the sliding model beside the one on a fixed base, and the
+//! window of frequencies in which a structure amplifies.
 
-use crate::error::{ModelError, MotionError};
+use super::models::Models;
+use super::suite::{Scaling, Suite};
+use super::{AssessmentError, FailedRun, refuse};
+use crate::error::{ModelError, MotionError, RunError, Stopped};
 use crate::friction::{Coulomb, Friction};
+use crate::input::Parts;
 use crate::model::{InitialState, Model};
 use crate::motion::GroundMotion;
+use crate::numerics::fractile::fractiles;
+use crate::response::{DemandColumn, demand_values};
+use crate::study::engine::{Engine, Running, Shaking};
+use crate::table::Table;
 
 /// A friction that nothing overcomes: a million times what any motion on Earth asks.
 const HELD: f64 = 1e9;
@@ -66,4 +74,315 @@ pub fn intervals_above(x: &[f64], y: &[f64], threshold: f64) -> Vec<[f64; 2]> {
         intervals.push([from, x[n - 1]]);
     }
     intervals
+}
+
+/// A spectrum to be run: the last path of the models' grid runs along the axis, those before it make
+/// groups of curves.
+#[derive(Clone, Copy, Debug)]
+pub struct SpectrumRequest<'a> {
+    /// The models.
+    pub models: &'a Models,
+    /// The records.
+    pub suite: &'a Suite,
+    /// How they are scaled.
+    pub scaling: Scaling,
+    /// Keys of demands besides those that are always told.
+    pub demands: &'a [String],
+}
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct SpectrumRun {
+    /// The path along the axis.
+    pub over: String,
+    /// Its SI unit.
+    pub unit: String,
+    /// Its values.
+    pub values: Vec<f64>,
+    /// The paths that make groups of curves, with their SI units.
+    pub group_paths: Vec<(String, String)>,
+    /// Their values, a list a group, in SI.
+    pub groups: Vec<Vec<f64>>,
+    /// Fractiles of each demand.
+    pub curves: Vec<DemandCurves>,
+    /// Intervals in which the median amplification of each group is above 1.
+    pub windows: Vec<Vec<[f64; 2]>>,
+    /// The key whose intervals they are.
+    pub window_key: String,
+    /// Runs without an answer.
+    pub failures: Vec<FailedRun>,
+    /// Number of runs, those of the fixed-base models apart.
+    pub runs: usize,
+    /// Fractiles, a row a value and group.
+    pub table: Table,
+    /// Demands, a row a run.
+    pub rows: Table,
+}
+
+/// Fractiles of one demand over the records.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DemandCurves {
+    /// Name of the demand, or of a ratio of two.
+    pub key: String,
+    /// Fractiles of 16, 50 and 84 %, SI: group by group, one entry a value along the axis.
+    pub fractiles: Vec<Vec<[f64; 3]>>,
+}
+
+/// Demands that are always told, besides those of the roof.
+const TOLD: [&str; 3] =
+    ["peak_sliding_displacement_m", "residual_sliding_displacement_m", "sliding_path_m"];
+
+/// One run: demands, and the peaks of the roof on a fixed base and of the table in m/s².
+struct Run {
+    demands: Vec<f64>,
+    fixed: f64,
+    table: f64,
+}
+
+impl SpectrumRequest<'_> {
+    /// Number of runs, those of the fixed-base models apart.
+    #[must_use]
+    pub fn runs(&self) -> u64 {
+        (self.models.grid().len() as u64).saturating_mul(self.suite.records.len() as u64)
+    }
+}
+
+/// Runs a spectrum; the engine is told of every run but those of the fixed-base models.
+///
+/// # Errors
+/// [`AssessmentError`] for an axis that does not rise, a demand that is none, scaling without an
+/// answer, and where it is stopped. A run that fails is counted as above all.
+pub fn run_spectrum(
+    request: &SpectrumRequest<'_>,
+    engine: &Engine<'_>,
+) -> Result<SpectrumRun, AssessmentError> {
+    let SpectrumRequest { models, suite, .. } = *request;
+    let grid = models.grid();
+    let Some((axis, groups_of)) = grid.axes().split_last() else {
+        return Err(refuse("over", "PATH=VALUES", "nothing"));
+    };
+    if !axis.rises() {
+        let found = "values that do not rise";
+        return Err(refuse(&format!("over {}", axis.path), "values that rise", found));
+    }
+    let roof = models.roof_acceleration();
+    let mut keys: Vec<String> = TOLD.iter().map(|key| (*key).to_owned()).collect();
+    keys.push(roof.clone());
+    keys.extend(request.demands.iter().filter(|key| !TOLD.contains(&key.as_str())).cloned());
+    keys.dedup();
+    let columns = keys.iter().map(|key| models.column(key)).collect::<Result<Vec<_>, _>>()?;
+    let factors = suite.factors(&request.scaling, engine)?;
+    let records = suite.records.len();
+    let parts = models.all(records, engine)?;
+    let runs = run_all(&parts, suite, &factors, models.shape().storeys > 0, engine)?;
+
+    let stem = roof
+        .trim_end_matches("_peak_acceleration_m_per_s2")
+        .trim_end_matches(".peak_acceleration_m_per_s2");
+    let ratio_keys = if models.shape().storeys > 0 {
+        vec![format!("{stem}_fixed_base_ratio"), format!("{stem}_amplification")]
+    } else {
+        vec![format!("{stem}_amplification")]
+    };
+    let roof_column = models.column(&roof)?;
+    let nothing = f64::NAN;
+    let value = |run: &Result<Run, RunError>, key: usize| -> f64 {
+        let Ok(run) = run else { return nothing };
+        if let Some(&column) = columns.get(key) {
+            let value = run.demands[column];
+            return if keys[key] == TOLD[1] { value.abs() } else { value };
+        }
+        let roof = run.demands[roof_column];
+        let over =
+            if ratio_keys[key - columns.len()].ends_with("ratio") { run.fixed } else { run.table };
+        // 0/0: nothing moves, and nothing is amplified.
+        if roof == 0.0 && over == 0.0 { 0.0 } else { roof / over }
+    };
+    let all_keys: Vec<String> = keys.iter().chain(&ratio_keys).cloned().collect();
+    let (length, group_count) = (axis.values.len(), grid.len() / axis.values.len());
+    let at = |group: usize, i: usize| (group * length + i) * records;
+    let curves: Vec<DemandCurves> = all_keys
+        .iter()
+        .enumerate()
+        .map(|(k, key)| {
+            let of = |group: usize, i: usize| {
+                let from = at(group, i);
+                fractiles(
+                    &runs[from..from + records].iter().map(|run| value(run, k)).collect::<Vec<_>>(),
+                )
+            };
+            let of_group = |group: usize| (0..length).map(|i| of(group, i)).collect();
+            DemandCurves { key: key.clone(), fractiles: (0..group_count).map(of_group).collect() }
+        })
+        .collect();
+    let groups = (0..group_count)
+        .map(|group| grid.values(group * length)[..groups_of.len()].to_vec())
+        .collect();
+    let group_paths = groups_of.iter().map(|axis| (axis.path.clone(), axis.unit.clone()));
+    let window = curves.last().map_or(&[][..], |curves| &curves.fractiles[..]);
+    let windows = window
+        .iter()
+        .map(|group| {
+            let median: Vec<f64> = group.iter().map(|f| f[1]).collect();
+            intervals_above(&axis.values, &median, 1.0)
+        })
+        .collect();
+    let failures = runs
+        .iter()
+        .enumerate()
+        .filter_map(|(i, run)| {
+            let error = run.as_ref().err()?.clone();
+            Some(FailedRun { record: suite.records[i % records].name.clone(), error })
+        })
+        .collect();
+
+    let mut table = Table::default();
+    let coordinates = |table: &mut Table, repeat: usize| {
+        for (i, axis) in grid.axes().iter().enumerate() {
+            let of = |n: usize| grid.values(n / repeat)[i];
+            let cells = (0..grid.len() * repeat).map(of).collect();
+            table.numbers(&axis.path, &axis.unit, cells);
+        }
+    };
+    coordinates(&mut table, 1);
+    let unit = |key: &str| DemandColumn::of_name(key).map_or("", |column| column.unit());
+    for of_key in &curves {
+        for (i, share) in ["p16", "p50", "p84"].into_iter().enumerate() {
+            let cells = of_key.fractiles.iter().flatten().map(|f| f[i]).collect();
+            table.numbers(&format!("{}_{share}", of_key.key), unit(&of_key.key), cells);
+        }
+    }
+    let mut rows = Table::default();
+    rows.texts(
+        "record",
+        (0..runs.len()).map(|i| suite.records[i % records].name.clone()).collect(),
+    );
+    rows.numbers("scale", "", (0..runs.len()).map(|i| factors[i % records]).collect());
+    coordinates(&mut rows, records);
+    for (i, column) in models.columns().iter().enumerate() {
+        let of = |run: &Result<Run, RunError>| run.as_ref().map_or(f64::NAN, |run| run.demands[i]);
+        rows.numbers(&column.name(), column.unit(), runs.iter().map(of).collect());
+    }
+    for (k, key) in ratio_keys.iter().enumerate() {
+        rows.numbers(key, "", runs.iter().map(|run| value(run, columns.len() + k)).collect());
+    }
+    rows.texts("status", runs.iter().map(status).collect());
+    Ok(SpectrumRun {
+        over: axis.path.clone(),
+        unit: axis.unit.clone(),
+        values: axis.values.clone(),
+        group_paths: group_paths.collect(),
+        groups,
+        window_key: all_keys.last().cloned().unwrap_or_default(),
+        curves,
+        windows,
+        failures,
+        runs: runs.len(),
+        table,
+        rows,
+    })
+}
+
+/// What the column of that name says of a run: `ok`, or why it has no answer.
+pub(super) fn status<T>(run: &Result<T, RunError>) -> String {
+    run.as_ref().err().map_or_else(|| "ok".to_owned(), RunError::to_string)
+}
+
+fn run_all(
+    parts: &[Result<Parts, RunError>],
+    suite: &Suite,
+    factors: &[f64],
+    with_fixed_base: bool,
+    engine: &Engine<'_>,
+) -> Result<Vec<Result<Run, RunError>>, Stopped> {
+    let records = suite.records.len();
+    // One structure on a fixed base serves all designs that share it.
+    let mut structures: Vec<Model> = Vec::new();
+    let mut of_design: Vec<Option<usize>> = Vec::with_capacity(parts.len());
+    const LOOKED_BACK: usize = 256;
+    for parts in parts {
+        let Some(model) = parts.as_ref().ok().filter(|_| with_fixed_base) else {
+            of_design.push(None);
+            continue;
+        };
+        let Ok(held) = fixed_base(&model.model) else {
+            of_design.push(None);
+            continue;
+        };
+        let from = structures.len().saturating_sub(LOOKED_BACK);
+        let known = structures[from..].iter().position(|other| same_structure(other, &held));
+        of_design.push(Some(known.map_or(structures.len(), |i| from + i)));
+        if known.is_none() {
+            structures.push(held);
+        }
+    }
+    // A made motion may differ from design to design, and with it the table's part of the ratio.
+    let shared_motion = !suite.made;
+    let held = |structure: &Model, motion: &GroundMotion| -> Result<f64, RunError> {
+        let along = without_vertical(motion)?;
+        let demands = Running::new(structure).on(&Shaking::new(&along))?.demands;
+        Ok(demands.shape().roof_acceleration().value(&demands).unwrap_or(f64::NAN))
+    };
+    let tail_s =
+        parts.iter().find_map(|parts| parts.as_ref().ok()).map_or(0.0, |parts| parts.tail_s);
+    let shared = |count: usize| if shared_motion { count } else { 0 };
+    let motions: Vec<Result<GroundMotion, MotionError>> =
+        engine.map(shared(records), |i| Ok(suite.motion(i, factors[i], tail_s)))?;
+    let fixed: Vec<f64> = engine.map(shared(structures.len() * records), |i| {
+        let motion = motions[i % records].as_ref().ok();
+        let peak = motion.and_then(|motion| held(&structures[i / records], motion).ok());
+        Ok(peak.unwrap_or(f64::NAN))
+    })?;
+    let shaking: Vec<Option<Shaking<'_>>> =
+        engine.map(motions.len(), |i| Ok(motions[i].as_ref().ok().map(Shaking::new)))?;
+    let run = |parts: &Parts, running: &mut Running<'_>, design: usize, record: usize| {
+        let (own, own_shaking);
+        let shaking = match shaking.get(record) {
+            Some(Some(shaking)) if parts.tail_s == tail_s => shaking,
+            Some(None) if parts.tail_s == tail_s => {
+                return Err(motions[record].clone().err().map_or(RunError::NoMotion, Into::into));
+            }
+            _ => {
+                own = suite.motion_of(record, factors[record], parts)?;
+                own_shaking = Shaking::new(&own);
+                &own_shaking
+            }
+        };
+        let motion = shaking.motion();
+        let demands = demand_values(&running.on(shaking)?.demands);
+        let fixed = match of_design[design] {
+            None => f64::NAN,
+            Some(structure) if shared_motion => fixed[structure * records + record],
+            Some(structure) => held(&structures[structure], motion)?,
+        };
+        let table = motion.horizontal_m_per_s2().iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
+        Ok(Run { demands, fixed, table })
+    };
+    // A piece is one design on some records: its model is prepared once for all of them.
+    let pieces = records.div_ceil(PIECE);
+    let runs = engine.map(parts.len() * pieces, |i| {
+        let (design, first) = (i / pieces, i % pieces * PIECE);
+        let these = first..(first + PIECE).min(records);
+        let runs: Vec<Result<Run, RunError>> = match &parts[design] {
+            Err(error) => these.map(|_| Err(error.clone())).collect(),
+            Ok(parts) => {
+                let mut running = Running::new(&parts.model);
+                these.map(|record| run(parts, &mut running, design, record)).collect()
+            }
+        };
+        engine.done(runs.len() as u64)?;
+        Ok(runs)
+    })?;
+    Ok(runs.into_iter().flatten().collect())
+}
+
+/// Records that one model is run on in one piece of work.
+const PIECE: usize = 16;
+
+/// Whether two models on a fixed base answer alike: all but the block and its slider is the same.
+fn same_structure(a: &Model, b: &Model) -> bool {
+    a.frame() == b.frame()
+        && a.gravity_m_per_s2() == b.gravity_m_per_s2()
+        && a.slider().tilt_rad == b.slider().tilt_rad
+        && a.initial() == b.initial()
 }

@@ -1,3 +1,4 @@
 mod choice;
 mod fits;
 mod hunts;
+mod runs;

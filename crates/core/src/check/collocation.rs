@@ -12,6 +12,8 @@
 //! order is 8, it is below 2e-10 (λh)⁹. Steps with λh ≤ [`MAX_TURN`] = 1/2 keep the two below 1e-23
 //! and 4e-13 of the amplitude.
 
+use std::sync::LazyLock;
+
 use super::structure::{Phase, Structure};
 
 /// Nodes of the rule.
@@ -22,23 +24,33 @@ pub(super) const POINTS: usize = NODES + 2;
 pub(super) const MAX_TURN: f64 = 0.5;
 /// Inputs of a step beside the state: `a` and `T` at its two ends.
 const LOADS: usize = 4;
+/// Most passes of the iteration.
+pub(super) const MOST_PASSES: usize = 100;
 /// Most intervals that are kept.
 const KEPT: usize = 16;
 
 /// Nodes, weights and integrals of the rule, and what interpolates between its points.
 pub(super) struct Rule {
-    c: [f64; NODES],
+    /// Nodes.
+    pub(super) c: [f64; NODES],
     /// Weights `b`.
     pub(super) weights: [f64; NODES],
-    a: [[f64; NODES]; NODES],
-    aa: [[f64; NODES]; NODES],
+    /// `A` and its square.
+    pub(super) a: [[f64; NODES]; NODES],
+    pub(super) aa: [[f64; NODES]; NODES],
     /// 0, the nodes, 1.
     pub(super) points: [f64; POINTS],
     barycentric: [f64; POINTS],
 }
 
 impl Rule {
-    pub(super) fn new() -> Self {
+    /// The rule, made once.
+    pub(super) fn get() -> &'static Self {
+        static RULE: LazyLock<Rule> = LazyLock::new(Rule::new);
+        &RULE
+    }
+
+    fn new() -> Self {
         let mut c = [0.0; NODES];
         let mut weights = [0.0; NODES];
         for i in 0..NODES {
@@ -103,12 +115,14 @@ impl Rule {
     ) -> (f64, f64) {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
         let at = |t: f64| cost(t, self.interpolate(values, t));
-        let (mut low, mut high) = (self.points[middle - 1], self.points[middle + 1]);
+        let mut low = self.points[middle.saturating_sub(1)];
+        let mut high = self.points[(middle + 1).min(POINTS - 1)];
         let mut left = high - GOLDEN * (high - low);
         let mut right = low + GOLDEN * (high - low);
         let (mut at_left, mut at_right) = (at(left), at(right));
-        // Forty sections leave 4e-9 of the bracket; the value at a minimum errs by its square.
-        for _ in 0..40 {
+        // Sixteen sections leave 5e-4 of the bracket, three parabolas through the best three points
+        // its square again and again.
+        for _ in 0..16 {
             if at_left <= at_right {
                 (high, right, at_right) = (right, left, at_left);
                 left = high - GOLDEN * (high - low);
@@ -119,7 +133,23 @@ impl Rule {
                 at_right = at(right);
             }
         }
-        let found = if at_left <= at_right { (left, at_left) } else { (right, at_right) };
+        let mut found = if at_left <= at_right { (left, at_left) } else { (right, at_right) };
+        let mut width = 0.5 * (high - low);
+        for _ in 0..3 {
+            let t = found.0;
+            let (below, above) = (at(t - width), at(t + width));
+            let bend = below - 2.0 * found.1 + above;
+            let shift = 0.5 * width * (below - above) / bend;
+            if !(bend > 0.0 && shift.abs() <= width) {
+                break;
+            }
+            let inside = (t + shift).clamp(low, high);
+            let there = (inside, at(inside));
+            if there.1 <= found.1 {
+                found = there;
+            }
+            width *= 0.1;
+        }
         let node = (self.points[middle], cost(self.points[middle], values[middle]));
         if node.1 <= found.1 { node } else { found }
     }
@@ -162,11 +192,13 @@ struct Kept {
 
 /// Integrates the equations of motion of a structure.
 pub(super) struct Scheme<'a> {
-    pub(super) rule: Rule,
+    pub(super) rule: &'static Rule,
     structure: &'a Structure,
-    rates: [f64; 2],
+    rates: [f64; 3],
     kept: Vec<Kept>,
     same_s: f64,
+    /// Whether the last step was solved, and not taken from its columns.
+    solved: bool,
     /// The interval under way: where it is kept, and its step.
     slot: usize,
     step_s: f64,
@@ -175,6 +207,8 @@ pub(super) struct Scheme<'a> {
     x: Vec<f64>,
     v: Vec<f64>,
     next: Vec<f64>,
+    /// `x` at the nodes of a traced step.
+    places: Vec<f64>,
     path: Path,
 }
 
@@ -183,11 +217,12 @@ impl<'a> Scheme<'a> {
     pub(super) fn new(structure: &'a Structure, same_s: f64) -> Self {
         let d = structure.degrees();
         Self {
-            rule: Rule::new(),
+            rule: Rule::get(),
             structure,
-            rates: [structure.rate(Phase::Stick), structure.rate(Phase::Slip)],
+            rates: [Phase::Stick, Phase::Slip, Phase::Pressed].map(|phase| structure.rate(phase)),
             kept: Vec::new(),
             same_s,
+            solved: false,
             slot: 0,
             step_s: 0.0,
             input: vec![0.0; 2 * d + LOADS],
@@ -195,13 +230,19 @@ impl<'a> Scheme<'a> {
             x: vec![0.0; d],
             v: vec![0.0; d],
             next: vec![0.0; d],
+            places: vec![0.0; NODES * d],
             path: Path { values: vec![0.0; (NODES + 2) * d + NODES], degrees: d },
         }
     }
 
+    /// Bound on the fastest rate of a phase, in 1/s.
+    pub(super) fn rate(&self, phase: Phase) -> f64 {
+        self.rates[phase as usize]
+    }
+
     /// Prepares an interval and returns how many equal steps it takes.
     pub(super) fn begin(&mut self, phase: Phase, duration_s: f64) -> usize {
-        let rate = self.rates[if phase == Phase::Stick { 0 } else { 1 }];
+        let rate = self.rate(phase);
         let steps = libm::ceil(rate * duration_s / MAX_TURN).max(1.0) as usize;
         self.step_s = duration_s / steps as f64;
         self.slot = self.find(phase, duration_s, steps);
@@ -219,10 +260,12 @@ impl<'a> Scheme<'a> {
             if solved < self.input.len() {
                 self.kept[self.slot].solved += 1;
                 self.solve(phase, self.step_s);
+                self.solved = true;
                 return &self.path;
             }
             self.kept[self.slot].columns = self.columns(phase, duration_s / steps as f64);
         }
+        self.solved = false;
         let out = &mut self.path.values;
         out.fill(0.0);
         let columns = self.kept[self.slot].columns.chunks_exact(out.len());
@@ -236,9 +279,37 @@ impl<'a> Scheme<'a> {
         &self.path
     }
 
+    /// The phase under way.
+    pub(super) fn phase(&self) -> Phase {
+        self.kept[self.slot].phase
+    }
+
     /// What the last step found.
     pub(super) fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// `x`, `v` and `ẍ` at the nodes of the last step, node by node.
+    pub(super) fn trace(&mut self) -> [&[f64]; 3] {
+        let (phase, step_s) = (self.kept[self.slot].phase, self.step_s);
+        if !self.solved {
+            self.solve(phase, step_s);
+            self.solved = true;
+        }
+        let d = self.path.degrees;
+        for i in 0..NODES {
+            self.node(step_s, i);
+            self.places[i * d..(i + 1) * d].copy_from_slice(&self.x);
+        }
+        [&self.places, &self.path.values[..NODES * d], &self.forces]
+    }
+
+    /// Keeps the columns of a step that is an interval.
+    pub(super) fn keep(&mut self, phase: Phase, duration_s: f64, columns: Vec<f64>) {
+        self.slot = self.find(phase, duration_s, 1);
+        self.kept[self.slot].columns = columns;
+        // Not the one to make room.
+        self.kept[self.slot].solved = usize::MAX;
     }
 
     /// Where an interval is kept; the least used makes room.
@@ -286,7 +357,7 @@ impl<'a> Scheme<'a> {
         self.forces.fill(0.0);
         let mut last = f64::INFINITY;
         // A pass gains a factor of about ten; at rounding the change no longer shrinks.
-        for pass in 0..100 {
+        for pass in 0..MOST_PASSES {
             let (mut change, mut size) = (0.0_f64, 0.0_f64);
             for i in 0..NODES {
                 self.node(h, i);
@@ -329,7 +400,7 @@ impl<'a> Scheme<'a> {
     /// `x` and `v` at a node from the accelerations at all nodes.
     fn node(&mut self, h: f64, i: usize) {
         let d = self.path.degrees;
-        let rule = &self.rule;
+        let rule = self.rule;
         for k in 0..d {
             let (x0, v0) = (self.input[k], self.input[d + k]);
             let (mut dx, mut dv) = (0.0, 0.0);

@@ -3,7 +3,7 @@
 use super::EnergyHistory;
 use super::structure::larger;
 
-/// A sum that keeps what rounding drops (Neumaier's), so that a long record costs no digits.
+/// A sum that keeps what rounding drops, so that a long record costs no digits.
 #[derive(Clone, Copy, Default)]
 struct Sum {
     total: f64,
@@ -12,12 +12,10 @@ struct Sum {
 
 impl Sum {
     fn add(&mut self, value: f64) {
+        // Knuth's sum of two: what `total` lacks, exactly.
         let total = self.total + value;
-        self.dropped += if self.total.abs() >= value.abs() {
-            (self.total - total) + value
-        } else {
-            (value - total) + self.total
-        };
+        let taken = total - self.total;
+        self.dropped += (self.total - (total - taken)) + (value - taken);
         self.total = total;
     }
 
@@ -41,7 +39,11 @@ pub(super) struct Energy {
 impl Energy {
     /// Begins with the initial energy `E₀`; `rounding_j` is what the rounding of times makes of a
     /// system at rest. Both in J.
-    pub(super) fn start(&mut self, initial_j: f64, rounding_j: f64) {
+    pub(super) fn start(&mut self, initial_j: f64, rounding_j: f64, knots: usize) {
+        let history = &mut self.history;
+        for list in [&mut history.input_j, &mut history.damping_j, &mut history.friction_j] {
+            list.reserve(knots);
+        }
         self.input.add(initial_j);
         self.size.add(initial_j);
         self.scale = rounding_j;
@@ -63,8 +65,6 @@ impl Energy {
         self.scale =
             larger(self.scale, self.size.value() + kinetic + strain + damping + friction.abs());
         self.history.input_j.push(input);
-        self.history.kinetic_j.push(kinetic);
-        self.history.strain_j.push(strain);
         self.history.damping_j.push(damping);
         self.history.friction_j.push(friction);
     }

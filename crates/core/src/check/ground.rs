@@ -48,15 +48,24 @@ impl<'a> Ground<'a> {
     }
 
     /// The piece from `from_s` on, no longer than to `end_s`; ends where contact is lost or found.
-    /// The times asked for do not decrease.
+    /// Quick where the times asked for do not decrease.
     pub(super) fn piece(&mut self, from_s: f64, end_s: f64) -> Piece {
         let times = self.times_s;
+        if times[self.cursor] > from_s {
+            self.cursor = times.partition_point(|&t| t <= from_s).saturating_sub(1);
+        }
         while self.cursor + 1 < times.len() && times[self.cursor + 1] <= from_s {
             self.cursor += 1;
         }
         let i = self.cursor;
         if i + 1 == times.len() {
             return Piece { to_s: end_s, loads: [self.at_rest(); 2] };
+        }
+        if from_s == times[i] && end_s == times[i + 1] && self.press(i) * self.press(i + 1) >= 0.0 {
+            let [from, to] = [i, i + 1].map(|i| (self.horizontal[i], self.press(i)));
+            let slope = (to.0 - from.0) / (end_s - from_s);
+            let loads = [from, to].map(|(table, press)| self.load(table, press, slope));
+            return Piece { to_s: end_s, loads };
         }
         let mut to_s = end_s.min(times[i + 1]);
         let [from, to] = [from_s, to_s].map(|t| self.between(i, t));

@@ -1,15 +1,20 @@
 //! Goes through the knots of a history and keeps the worst of everything.
 
-use super::collocation::Scheme;
+use fearless_simd::{Level, dispatch};
+
+use super::collocation::{MAX_TURN, Scheme};
+use super::demands::{self, Outputs, Peaks, Rounding, Totals};
 use super::energy::Energy;
 use super::ground::{Ground, Load};
+use super::lanes::{Bench, Brief, Group, Interval, Knots, Map, Reach, Sizes, Work, Worst};
 use super::law::{Dips, Law};
+use super::step::{Look, Spread};
 use super::structure::{Phase, Structure, excess, larger};
 use super::{Certificate, ClosestCall};
 use crate::friction::Direction;
 use crate::model::Model;
 use crate::motion::GroundMotion;
-use crate::response::{History, Mode};
+use crate::response::{Contact, History, Mode, Response};
 
 /// A sliding velocity below this part of its peak has no sign: the depth of a dip through zero that
 /// the exact method may miss.
@@ -25,6 +30,21 @@ pub(super) struct Figures {
     pub(super) excess: f64,
 }
 
+impl Figures {
+    /// Takes the worst of all lanes.
+    fn take(&mut self, worst: &Worst) {
+        for (figure, lanes) in [
+            (&mut self.displacement, &worst.displacement),
+            (&mut self.velocity, &worst.velocity),
+            (&mut self.force, &worst.force),
+        ] {
+            *figure = [0, 1].map(|i| larger(figure[i], lanes[i].largest()));
+        }
+        self.table[0] = larger(self.table[0], worst.table.largest());
+        self.excess = larger(self.excess, worst.excess.largest());
+    }
+}
+
 /// The largest defect over its scale, where `pair` is `[defect, scale]`.
 fn relative(pair: [f64; 2]) -> f64 {
     if pair[0] == 0.0 { 0.0 } else { pair[0] / pair[1] }
@@ -32,6 +52,7 @@ fn relative(pair: [f64; 2]) -> f64 {
 
 pub(super) struct Judge<'a> {
     model: &'a Model,
+    response: &'a Response,
     history: &'a History,
     pub(super) structure: &'a Structure,
     ground: Ground<'a>,
@@ -42,7 +63,7 @@ pub(super) struct Judge<'a> {
     /// Rounding of a time.
     pub(super) instant_s: f64,
     /// Velocity that the largest acceleration gives in that time.
-    jolt: f64,
+    pub(super) jolt: f64,
     /// Within an interval: the largest velocity of the wrong sign, the largest excess by such.
     pub(super) astray: [f64; 2],
     /// Within an interval: the largest size of each velocity.
@@ -52,25 +73,36 @@ pub(super) struct Judge<'a> {
     /// Near decisions of the phase under way.
     pub(super) dips: Dips,
     closest: Option<ClosestCall>,
-    /// `(x, v)` along an interval.
+    pub(super) peaks: Peaks<'a>,
+    pub(super) totals: Totals,
+    /// How far outputs may leave the chord of a step, by phase, and the longest step.
+    pub(super) spreads: [Option<Spread>; 3],
+    longest_s: f64,
+    /// Step of the motion, where it is even.
+    even_s: f64,
+    level: Level,
+    /// The knot up to which near decisions were looked at.
+    fed: usize,
+    /// `(x, v)` along an interval, and at the start of a step.
     pub(super) state: Vec<f64>,
+    pub(super) before: Vec<f64>,
     /// `(x, v)` of the knot last looked at.
     stored: Vec<f64>,
-    scratch: Vec<f64>,
 }
 
 impl<'a> Judge<'a> {
     pub(super) fn new(
         model: &'a Model,
         motion: &'a GroundMotion,
-        history: &'a History,
+        (response, history): (&'a Response, &'a History),
         structure: &'a Structure,
     ) -> Self {
         let d = structure.degrees();
         let end_s = history.time_s.last().copied().unwrap_or(0.0);
         let instant_s = 8.0 * f64::EPSILON * end_s;
-        let mut judge = Self {
+        Self {
             model,
+            response,
             history,
             structure,
             ground: Ground::new(model, motion),
@@ -85,63 +117,270 @@ impl<'a> Judge<'a> {
             energy: Energy::default(),
             dips: Dips::new(0.0),
             closest: None,
+            peaks: Peaks::new(Outputs::new(model, structure)),
+            totals: Totals::default(),
+            spreads: [const { None }; 3],
+            longest_s: history.time_s.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max),
+            even_s: motion.dt_s().unwrap_or(f64::NAN),
+            level: Level::new(),
+            fed: 0,
             state: vec![0.0; 2 * d],
+            before: vec![0.0; 2 * d],
             stored: vec![0.0; 2 * d],
-            scratch: vec![0.0; 2 * d],
-        };
-        judge.measure();
-        judge
+        }
     }
 
-    /// Scales of displacement and velocity from the stored knots, and what counts as rest.
-    fn measure(&mut self) {
+    /// Looks at every knot by itself: the balance of forces, scales, energies and outputs. `None`
+    /// where something stored is not finite.
+    fn knots(&mut self) -> Option<Knots> {
         let h = self.history;
-        let peak = |values: &[f64]| values.iter().fold(0.0, |p, &v| larger(p, v));
-        let storey = peak(&h.storey_displacement_m);
-        let sliding = peak(&h.sliding_velocity_m_per_s);
-        let speed = larger(sliding, peak(&h.storey_velocity_m_per_s));
+        let mut stop = Vec::new();
+        if self.model.stop().is_some() {
+            let at = |k: usize| (h.sliding_displacement_m[k], h.sliding_velocity_m_per_s[k]);
+            let force = |k: usize| self.law.push(self.contact(k)).force(at(k).0, at(k).1);
+            stop.extend((0..h.len()).map(force));
+        }
+        let mut worst = Worst::NONE;
+        let mut knots = Knots::new(h.len(), self.peaks.outputs.len());
+        let (bench, outputs) = (self.bench(&stop), &self.peaks.outputs);
+        dispatch!(self.level, simd => bench.knots(simd, outputs, &mut worst, &mut knots));
+        if worst.broken.0.iter().any(|x| x.is_nan()) {
+            return None;
+        }
+        self.peaks.attained.copy_from_slice(&knots.attained);
+        let Sizes { place, storey, rate, table } = worst.sizes;
+        let [place, storey, rate, table] = [place, storey, rate, table].map(|all| all.largest());
+        let (sliding, block) = (self.peaks.speed(), self.peaks.block_acceleration());
+        let speed = sliding.max(rate);
         // A frame held at rest by its weight on a slope moves by rounding alone: its velocities
         // are measured by the static displacement, not by themselves.
         let rest = 1e-4 * self.structure.frame_frequency() * storey;
         // What the rounding of a time makes of the largest acceleration is no motion either.
-        let acceleration =
-            larger(peak(&h.block_acceleration_m_per_s2), peak(&h.table_acceleration_m_per_s2));
-        self.jolt = self.instant_s * acceleration;
-        let distance = larger(storey, peak(&h.sliding_displacement_m));
-        self.figures.displacement[1] = larger(distance, self.instant_s * self.jolt);
-        self.figures.velocity[1] = larger(larger(speed, rest), self.jolt);
+        self.jolt = self.instant_s * block.max(table);
+        let f = &mut self.figures;
+        f.displacement[1] = storey.max(place).max(self.instant_s * self.jolt);
+        f.velocity[1] = speed.max(rest).max(self.jolt);
         self.still = STILL * sliding + 64.0 * f64::EPSILON * speed;
+        f.take(&worst);
+        if self.model.stop().is_some() {
+            for k in 0..h.len() {
+                let at = (h.sliding_displacement_m[k], h.sliding_velocity_m_per_s[k]);
+                let slack = self.contact_slack(at.1);
+                let broken = self.law.contact_excess(self.contact(k), at, slack);
+                self.figures.excess = larger(self.figures.excess, broken);
+            }
+        }
+        Some(knots)
     }
 
-    /// Judges everything.
-    pub(super) fn run(mut self, bound: f64) -> Certificate {
-        let times = &self.history.time_s;
-        let knots = times.len();
+    /// What the lanes need.
+    pub(super) fn bench<'b>(&self, stop: &'b [f64]) -> Bench<'b>
+    where
+        'a: 'b,
+    {
+        Bench {
+            structure: self.structure,
+            rule: self.scheme.rule,
+            history: self.history,
+            slope: self.model.slope_m_per_s2(),
+            instant_s: self.instant_s,
+            stop,
+            fixed: self.law.fixed(),
+        }
+    }
+
+    /// Judges everything; `None` where something stored is not finite.
+    pub(super) fn run(mut self, bound: f64) -> Option<Certificate> {
+        let mut all = self.knots()?;
+        let h = self.history;
+        let (times, knots) = (&h.time_s, h.len());
         self.load_state(0);
         self.start();
         let initial_j = self.structure.kinetic(self.v()) + self.structure.strain(self.x());
-        self.energy.start(initial_j, self.model.total_mass_kg() * self.jolt * self.jolt);
+        self.energy.start(initial_j, self.model.total_mass_kg() * self.jolt * self.jolt, knots);
+        let briefs = self.side_by_side(&all);
         self.dips = self.fresh_dips(0);
-        let mut arriving = None;
+        let mut arrives = false;
         for k in 0..knots {
             if k > 0 {
-                self.join(k, arriving.is_none());
+                self.join(k, !arrives);
             }
-            self.load_state(k);
-            self.energy.knot(self.structure.kinetic(self.v()), self.structure.strain(self.x()));
+            self.energy.knot(all.kinetic_j[k], all.strain_j[k]);
             let leaves = k + 1 < knots && times[k + 1] > times[k];
-            let (departing, next) = if leaves {
-                let (from, to) = self.interval(k);
-                (Some(from), Some(to))
-            } else {
-                (None, None)
-            };
-            self.load_state(k);
-            self.knot(k, [arriving, departing]);
-            arriving = next;
+            if leaves {
+                match &briefs[k] {
+                    Some(brief) => self.recall(k, brief),
+                    None => self.interval(k, Look::All),
+                }
+            } else if !arrives {
+                self.alone(k);
+            }
+            arrives = leaves;
         }
-        self.close(self.history.mode[knots - 1]);
-        self.certificate(bound)
+        self.close(h.mode[knots - 1]);
+        all.kinetic_j.truncate(knots);
+        all.strain_j.truncate(knots);
+        self.energy.history.kinetic_j = all.kinetic_j;
+        self.energy.history.strain_j = all.strain_j;
+        Some(self.certificate(bound))
+    }
+
+    /// Judges side by side all intervals of one step in which no stop acts and the loads are linear;
+    /// looks for peaks where there may be some.
+    fn side_by_side(&mut self, knots: &Knots) -> Vec<Option<Brief>> {
+        let h = self.history;
+        let mut briefs = vec![None; h.len()];
+        let mut worst = Worst::NONE;
+        let mut work = Work::new(self.structure.degrees());
+        let mut groups =
+            [Phase::Stick, Phase::Slip].map(|phase| [Group::new(phase), Group::new(phase)]);
+        let mut maps = [None, None];
+        let even_s = self.even_s;
+        for k in 0..h.len().saturating_sub(1) {
+            let length_s = h.time_s[k + 1] - h.time_s[k];
+            if !(length_s > 0.0) {
+                continue;
+            }
+            let Some((phase, interval)) = self.single(k, length_s) else { continue };
+            let which = phase as usize;
+            let even = (length_s - even_s).abs() <= 2.0 * self.instant_s;
+            if self.spreads[which].is_none() {
+                maps[which] = self.prepare(phase);
+            }
+            let even = even && maps[which].is_some();
+            let group = &mut groups[which][usize::from(even)];
+            if group.push(&interval) {
+                let map = maps[which].as_ref().filter(|_| even);
+                self.flush(group, map, knots, (&mut work, &mut worst), &mut briefs);
+            }
+        }
+        for group in groups.iter_mut().flatten().filter(|group| group.count > 0) {
+            self.flush(group, None, knots, (&mut work, &mut worst), &mut briefs);
+        }
+        self.figures.take(&worst);
+        self.still = (STILL * worst.sliding.largest()).max(self.still);
+        briefs
+    }
+
+    /// The interval from a knot if it is one step under a linear load, and no stop acts in it.
+    fn single(&mut self, k: usize, length_s: f64) -> Option<(Phase, Interval)> {
+        let h = self.history;
+        let phase = if h.mode[k] == Mode::Stick { Phase::Stick } else { Phase::Slip };
+        if self.contact(k) != Contact::Free || self.scheme.rate(phase) * length_s > MAX_TURN {
+            return None;
+        }
+        let piece = self.ground.piece(h.time_s[k], h.time_s[k + 1]);
+        if piece.to_s < h.time_s[k + 1] {
+            return None;
+        }
+        let [from, to] = piece.loads;
+        let force = match h.mode[k] {
+            Mode::Stick => {
+                let bound =
+                    self.law.fixed()[0].min(self.law.fixed()[1]) * from.normal.min(to.normal);
+                if !(bound > 0.0) {
+                    return None;
+                }
+                [0.0; 2]
+            }
+            Mode::Slip(direction) => {
+                [from, to].map(|load| self.law.sliding_force(direction, load.normal))
+            }
+        };
+        let interval = Interval {
+            knot: k,
+            length_s,
+            table: [from.table, to.table],
+            normal: [from.normal, to.normal],
+            drift: from.slope,
+            sign: h.mode[k].sign(),
+            force,
+        };
+        Some((phase, interval))
+    }
+
+    /// Bounds the outputs of a phase; the map of the even step, if it is one of this phase.
+    fn prepare(&mut self, phase: Phase) -> Option<Map> {
+        let rate = self.scheme.rate(phase);
+        let longest_s = if rate > 0.0 { MAX_TURN / rate } else { f64::INFINITY };
+        let longest_s = longest_s.min(self.longest_s);
+        let columns = self.spread(phase, longest_s);
+        let same = (longest_s - self.even_s).abs() <= 2.0 * self.instant_s;
+        let map = same.then(|| Map::new(phase, self.structure.degrees(), &columns));
+        if map.is_some() {
+            self.scheme.keep(phase, longest_s, columns);
+        }
+        map
+    }
+
+    /// Judges a group and empties it.
+    fn flush(
+        &mut self,
+        group: &mut Group,
+        map: Option<&Map>,
+        knots: &Knots,
+        (work, worst): (&mut Work, &mut Worst),
+        briefs: &mut [Option<Brief>],
+    ) {
+        let Some(spread) = &self.spreads[group.phase as usize] else { return };
+        group.fill();
+        let (bounds, longest_s) = (&spread.leaving[..], spread.longest_s);
+        let reach = Reach { bounds, longest_s, attained: &self.peaks.attained, knots };
+        let bench = self.bench(&[]);
+        let lanes: &Group = group;
+        dispatch!(self.level, simd => bench.group(simd, lanes, map, &reach, work, worst));
+        for lane in 0..group.count {
+            let k = group.knot(lane);
+            briefs[k] = Some(work.told.brief(lane));
+            if work.told.passes.0[lane] > 0.0 {
+                self.interval(k, Look::Peaks);
+            }
+        }
+        group.count = 0;
+    }
+
+    /// Takes up what was told of an interval; looks again where a decision may have been close.
+    fn recall(&mut self, k: usize, brief: &Brief) {
+        let h = self.history;
+        let (mode, from_s, to_s) = (h.mode[k], h.time_s[k], h.time_s[k + 1]);
+        self.energy.spend(brief.work, brief.size, brief.damping, brief.friction);
+        self.totals.add(mode, Contact::Free, to_s - from_s);
+        let near = self.closest.map_or(f64::INFINITY, |call| call.margin);
+        let (floor, wrong) = match mode {
+            Mode::Stick => (near.min(self.dips.so_far()).max(0.0), brief.least < 0.0),
+            Mode::Slip(direction) => {
+                let s = &h.sliding_displacement_m;
+                self.totals.path_m += (s[k + 1] - s[k]).abs();
+                let wrong = brief.least.min(brief.low) < -self.still;
+                let drops = self.law.drops(direction);
+                let near = (near * self.peaks.speed()).min(self.dips.so_far());
+                (if drops { near } else { f64::NEG_INFINITY }, wrong)
+            }
+        };
+        if wrong || brief.low < floor {
+            self.interval(k, Look::Law);
+            return;
+        }
+        let [first, last] = brief.ends;
+        if first.min(last) < floor {
+            self.resume(k);
+            self.dips.feed(from_s, first);
+            self.dips.feed(to_s, last);
+        }
+        self.dips.see(brief.fastest);
+    }
+
+    /// Decisions are looked at from the knot `k` to the next, and perhaps were not before.
+    fn resume(&mut self, k: usize) {
+        if self.fed != k {
+            self.dips.interrupt();
+        }
+        self.fed = k + 1;
+    }
+
+    /// Contact with the stop at a knot.
+    fn contact(&self, k: usize) -> Contact {
+        self.history.contact.get(k).copied().unwrap_or(Contact::Free)
     }
 
     fn certificate(self, bound: f64) -> Certificate {
@@ -151,10 +390,21 @@ impl<'a> Judge<'a> {
         let f = &self.figures;
         let equilibrium = [f.displacement, f.velocity, f.force, [f.table[0], table]].map(relative);
         let energy_balance_error = self.energy.error();
+        // 64 ε of what a difference is made of is rounding.
+        let near = |scale: f64| 64.0 * f64::EPSILON * scale;
+        let rounding = Rounding {
+            instant_s: self.instant_s,
+            displacement_m: near(f.displacement[1]),
+            velocity_m_per_s: near(f.velocity[1]),
+            force_n: near(f.force[1]),
+        };
+        let own = (&self.peaks, &self.totals);
+        let demands_error = demands::error(self.model, self.response, self.history, own, &rounding);
         Certificate {
             equilibrium_residual: equilibrium.into_iter().fold(0.0, larger),
             friction_excess: relative([f.excess, self.law.scale(normal, weight)]),
             energy_balance_error,
+            demands_error,
             closest_call: self.closest,
             bound,
             energy: self.energy.history,
@@ -258,16 +508,24 @@ impl<'a> Judge<'a> {
         let loads = self.ground.instant(h.time_s[k]);
         let nearest =
             loads.iter().map(|load| (load.table - table).abs()).fold(f64::INFINITY, f64::min);
+        let stop = self.law.push(self.contact(k)).force(self.x()[0], 0.0);
         let judged = |load: &Load| {
-            let demand = self.structure.demand(self.x(), self.v(), load.a);
-            (self.law.forbids(after, demand, load.normal), self.law.margin(demand, load.normal))
+            let demand = self.structure.demand(self.x(), self.v(), load.a) + stop;
+            let bound = self.law.bound(demand, load.normal);
+            let drift = self.model.block().mass_kg * load.slope.abs() * self.instant_s / bound;
+            let margin = self.law.margin(demand, load.normal).map(|margin| (margin, drift));
+            (self.law.forbids(after, demand, load.normal), margin)
         };
         let candidates = loads.iter().filter(|load| (load.table - table).abs() <= nearest);
         let best = candidates.map(judged).reduce(|a, b| if b.0 < a.0 { b } else { a });
         // Distances that are not numbers leave no candidate.
         let (excess, margin) = best.unwrap_or((f64::INFINITY, None));
         self.figures.excess = larger(self.figures.excess, excess);
-        if let (true, Some(margin)) = (before != Mode::Stick, margin) {
+        if let (true, Some((margin, drift))) = (before != Mode::Stick, margin) {
+            if self.totals.closest_stop.is_none_or(|least| margin.abs() < least) {
+                self.totals.closest_stop = Some(margin.abs());
+                self.totals.stop_rounding = drift + 1e3 * f64::EPSILON;
+            }
             self.nearest(ClosestCall { margin, time_s: h.time_s[k], kind: "stop" });
         }
     }
@@ -296,61 +554,60 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Judges the stored values of a knot with the loads of the intervals that end and begin there.
-    fn knot(&mut self, k: usize, sides: [Option<Load>; 2]) {
+    /// How far the stored table acceleration and force of sliding at a knot are off those of a load.
+    fn off(&self, k: usize, load: &Load) -> [f64; 2] {
         let h = self.history;
-        let (table, block) = (h.table_acceleration_m_per_s2[k], h.block_acceleration_m_per_s2[k]);
-        let force = h.friction_force_n[k];
-        let slope = self.model.slope_m_per_s2();
-        let storeys = h.storey_accelerations(k).iter().map(|a| a + slope);
-        let split = self.structure.degrees();
-        let (x, v) = self.stored.split_at(split);
-        let (defect, term) =
-            self.structure.imbalance((x, v), block + slope, storeys, force, &mut self.scratch);
-        self.figures.force =
-            [larger(self.figures.force[0], defect), larger(self.figures.force[1], term)];
-
-        let off = |load: &Load| {
-            // The stored time is rounded, the acceleration stored with it need not be.
-            ((load.table - table).abs() - self.instant_s * load.slope.abs()).max(0.0)
-        };
-        let beyond = |load: &Load| match h.mode[k] {
+        // The stored time is rounded, the acceleration stored with it need not be.
+        let table = (load.table - h.table_acceleration_m_per_s2[k]).abs();
+        let w = h.sliding_velocity_m_per_s[k];
+        let beyond = match h.mode[k] {
             Mode::Stick => 0.0,
             Mode::Slip(claimed) => {
-                let direction = if v[0].abs() <= self.still {
+                let direction = if w.abs() <= self.still {
                     claimed
-                } else if v[0] > 0.0 {
+                } else if w > 0.0 {
                     Direction::Positive
                 } else {
                     Direction::Negative
                 };
-                self.law.sliding_excess(force, direction, load.normal)
+                self.law.sliding_excess(h.friction_force_n[k], direction, load.normal)
             }
         };
-        let (off, beyond) = if sides == [None, None] {
-            let loads = self.ground.instant(h.time_s[k]);
-            let least =
-                |f: &dyn Fn(&Load) -> f64| loads.iter().map(f).fold(f64::INFINITY, f64::min);
-            (least(&off), least(&beyond))
-        } else {
-            let worst = |f: &dyn Fn(&Load) -> f64| sides.iter().flatten().map(f).fold(0.0, larger);
-            (worst(&off), worst(&beyond))
-        };
-        self.figures.table[0] =
-            larger(self.figures.table[0], if table.is_nan() { table } else { off });
-        self.figures.excess = larger(self.figures.excess, beyond);
-        if h.mode[k] == Mode::Stick {
-            let split_force = self.model.block().mass_kg * (block - table);
-            self.figures.velocity[0] = larger(self.figures.velocity[0], v[0]);
-            self.figures.force[0] = larger(self.figures.force[0], split_force);
-        }
+        [(table - self.instant_s * load.slope.abs()).max(0.0), beyond]
     }
 
-    /// Integrates from the knot `k` to the next and returns the loads at both ends.
-    fn interval(&mut self, k: usize) -> (Load, Load) {
+    /// Judges the stored values of a knot with the load of an interval that ends or begins there.
+    fn side(&mut self, k: usize, load: &Load) {
+        let [table, beyond] = self.off(k, load);
+        self.figures.table[0] = larger(self.figures.table[0], table);
+        self.figures.excess = larger(self.figures.excess, beyond);
+    }
+
+    /// Judges a knot at which no interval ends or begins by the load that suits it best.
+    fn alone(&mut self, k: usize) {
+        let offs = self.ground.instant(self.history.time_s[k]).map(|load| self.off(k, &load));
+        let least = |i: usize| offs.iter().map(|off| off[i]).fold(f64::INFINITY, f64::min);
+        self.figures.table[0] = larger(self.figures.table[0], least(0));
+        self.figures.excess = larger(self.figures.excess, least(1));
+    }
+
+    /// What the rounding of times makes of a position at this speed, and of the force of the stop.
+    pub(super) fn contact_slack(&self, w: f64) -> [f64; 2] {
+        let slack_m = self.instant_s * w.abs() + 8.0 * f64::EPSILON * self.figures.displacement[1];
+        [slack_m, self.structure.stop_damper() * self.jolt]
+    }
+
+    /// Integrates from the knot `k` to the next.
+    fn interval(&mut self, k: usize, look: Look) {
         let mode = self.history.mode[k];
-        let phase = if mode == Mode::Stick { Phase::Stick } else { Phase::Slip };
+        let contact = self.contact(k);
+        let phase = match (mode, contact) {
+            (Mode::Stick, _) => Phase::Stick,
+            (_, Contact::Pressed(_)) => Phase::Pressed,
+            _ => Phase::Slip,
+        };
         let d = self.structure.degrees();
+        self.load_state(k);
         self.state.copy_from_slice(&self.stored);
         if phase == Phase::Stick {
             self.state[d] = 0.0;
@@ -358,6 +615,15 @@ impl<'a> Judge<'a> {
         let (mut from_s, end_s) = (self.history.time_s[k], self.history.time_s[k + 1]);
         self.astray = [0.0; 2];
         self.fastest.fill(0.0);
+        if look == Look::All {
+            self.totals.add(mode, contact, end_s - from_s);
+        }
+        if look != Look::Peaks {
+            self.resume(k);
+        }
+        if self.spreads[phase as usize].is_none() {
+            self.prepare(phase);
+        }
         let mut first = None;
         loop {
             let piece = self.ground.piece(from_s, end_s);
@@ -365,24 +631,32 @@ impl<'a> Judge<'a> {
             let step_s = (piece.to_s - from_s) / steps as f64;
             for j in 0..steps {
                 let loads = [j, j + 1].map(|j| between(piece.loads, j as f64 / steps as f64));
-                self.step(mode, from_s + j as f64 * step_s, step_s, loads);
+                self.step((mode, contact), from_s + j as f64 * step_s, step_s, loads, look);
             }
             let first = *first.get_or_insert(piece.loads[0]);
             from_s = piece.to_s;
-            if from_s >= end_s {
-                self.load_state(k + 1);
-                let end = core::mem::take(&mut self.state);
-                self.arrive(k, &end);
-                // What the knot's own defect and the rounding of times explain is no sign.
-                let defect = (self.stored[d] - end[d]).abs();
-                let jerked = [k, k + 1].map(|k| self.stored_acceleration(k, 0).abs());
-                let blur = defect + self.instant_s * jerked[0].max(jerked[1]);
-                if self.astray[0] > self.still + blur {
-                    self.figures.excess = larger(self.figures.excess, self.astray[1]);
-                }
-                self.state = end;
-                return (first, piece.loads[1]);
+            if from_s < end_s {
+                continue;
             }
+            if look == Look::Peaks {
+                return;
+            }
+            self.load_state(k + 1);
+            let end = core::mem::take(&mut self.state);
+            if look == Look::All {
+                self.arrive(k, &end);
+                self.side(k, &first);
+                self.side(k + 1, &piece.loads[1]);
+            }
+            // What the knot's own defect and the rounding of times explain is no sign.
+            let defect = (self.stored[d] - end[d]).abs();
+            let jerked = [k, k + 1].map(|k| self.stored_acceleration(k, 0).abs());
+            let blur = defect + self.instant_s * jerked[0].max(jerked[1]);
+            if self.astray[0] > self.still + blur {
+                self.figures.excess = larger(self.figures.excess, self.astray[1]);
+            }
+            self.state = end;
+            return;
         }
     }
 }
@@ -395,5 +669,87 @@ pub(super) fn between([from, to]: [Load; 2], t: f64) -> Load {
         a: linear(from.a, to.a),
         normal: linear(from.normal, to.normal),
         slope: from.slope,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::friction::{Coulomb, Friction};
+    use crate::model::{Block, Damping, Frame, InitialState, Slider};
+    use crate::response::{Demands, Method};
+
+    /// A motion that is none of the model's, with its figures of every size.
+    fn wrong(n: usize) -> (Model, GroundMotion, Response) {
+        let friction = Friction::Coulomb(Coulomb::new([0.1; 2], [0.08; 2]).unwrap());
+        let rigid = Model::rigid_block(300.0, friction).unwrap();
+        let frame = Frame {
+            masses_kg: vec![200.0; n],
+            stiffnesses_n_per_m: vec![4e4; n],
+            damping: Damping::Ratio(0.02),
+            heights_m: Some(vec![3.0; n]),
+        };
+        let slider = Slider { stiffness_n_per_m: 5e3, ..*rigid.slider() };
+        let block = Block { width_m: Some(1.0), ..*rigid.block() };
+        let model = Model::new(block, slider, frame, 9.81, InitialState::rest()).unwrap();
+        let wave = |k: usize, rate: f64| libm::sin(rate * k as f64);
+        let motion = (0..99).map(|k| 2.0 * wave(k, 0.3)).collect();
+        let motion = GroundMotion::evenly_spaced(0.01, motion, None).unwrap();
+        let mut h = History { storeys: n, ..History::default() };
+        for k in 0..99 {
+            h.time_s.push(motion.times_s()[k]);
+            h.mode.push(match k / 11 % 3 {
+                0 => Mode::Stick,
+                1 => Mode::Slip(Direction::Positive),
+                _ => Mode::Slip(Direction::Negative),
+            });
+            h.table_acceleration_m_per_s2.push(motion.horizontal_m_per_s2()[k]);
+            h.sliding_displacement_m.push(0.01 * wave(k, 0.2));
+            h.sliding_velocity_m_per_s.push(0.2 * wave(k, 0.25));
+            h.block_acceleration_m_per_s2.push(wave(k, 0.37));
+            h.friction_force_n.push(200.0 * wave(k, 0.31));
+            for i in 0..n {
+                h.storey_displacement_m.push(0.01 * wave(k + i, 0.21));
+                h.storey_velocity_m_per_s.push(0.1 * wave(k + i, 0.23));
+                h.storey_acceleration_m_per_s2.push(wave(k + i, 0.29));
+            }
+        }
+        let response = Response {
+            method: Method::Exact,
+            demands: Demands::default(),
+            events: Vec::new(),
+            history: Some(h),
+            contact_loss_s: Vec::new(),
+            iterations: None,
+            warnings: Vec::new(),
+        };
+        (model, motion, response)
+    }
+
+    #[test]
+    fn exact_same_bits_by_every_instruction_set() {
+        let mut levels = vec![Level::new()];
+        #[cfg(target_arch = "x86_64")]
+        {
+            let best = Level::new();
+            levels.extend(best.as_avx2().map(Level::Avx2));
+            levels.extend(best.as_sse4_2().map(Level::Sse4_2));
+            levels.extend(best.as_sse2().map(Level::Sse2));
+        }
+        for n in [0, 1, 3] {
+            let (model, motion, response) = wrong(n);
+            let structure = Structure::new(&model);
+            let of = |level| {
+                let history = response.history.as_ref().unwrap();
+                let mut judge = Judge::new(&model, &motion, (&response, history), &structure);
+                judge.level = level;
+                judge.run(1e-10).unwrap()
+            };
+            let first = of(levels[0]);
+            assert!(first.equilibrium_residual > 0.01 && first.equilibrium_residual.is_finite());
+            for &level in &levels {
+                assert_eq!(of(level), first, "{n} storeys, {level:?}");
+            }
+        }
     }
 }

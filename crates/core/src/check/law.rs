@@ -1,20 +1,91 @@
 //! The friction law as a judge reads it, and the decisions that came close.
 
 use super::ClosestCall;
-use super::structure::excess;
+use super::structure::{excess, larger};
 use crate::friction::Direction;
-use crate::model::Model;
-use crate::response::Mode;
+use crate::model::{Model, Stop, StopKind};
+use crate::response::{Contact, EventKind, Mode};
 
 /// Bounds and kinetic forces from the coefficients, for each direction.
 pub(super) struct Law {
     fixed: [f64; 2],
     kinetic: [f64; 2],
+    stop: Option<Stop>,
+}
+
+/// What a stop does while it acts: the block pushes it with `k s + c ṡ − shift` towards +x.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Push {
+    stiffness: f64,
+    damper: f64,
+    pub(super) shift: f64,
+}
+
+impl Push {
+    /// Force of the block on the stop towards +x.
+    pub(super) fn force(&self, s: f64, w: f64) -> f64 {
+        self.stiffness * s + self.damper * w - self.shift
+    }
 }
 
 impl Law {
+    /// Static coefficients towards +x and −x.
+    pub(super) fn fixed(&self) -> [f64; 2] {
+        self.fixed
+    }
+
     pub(super) fn new(model: &Model) -> Self {
-        Self { fixed: model.static_friction(), kinetic: model.kinetic_friction() }
+        Self {
+            fixed: model.static_friction(),
+            kinetic: model.kinetic_friction(),
+            stop: model.stop().copied(),
+        }
+    }
+
+    /// What the stop does, zero where it does not act.
+    pub(super) fn push(&self, contact: Contact) -> Push {
+        let (Contact::Pressed(side), Some(stop)) = (contact, &self.stop) else {
+            return Push::default();
+        };
+        let StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } = stop.kind;
+        let gap_m = stop.gap_towards(side).unwrap_or(f64::NAN);
+        let shift = side.sign() * stiffness_n_per_m * gap_m;
+        Push { stiffness: stiffness_n_per_m, damper: damper_n_s_per_m, shift }
+    }
+
+    /// By how much a claimed contact breaks the law of the stop, as the force that should or should
+    /// not act, in N. `slack_m` and `slack_n` are what the rounding of times makes of position and
+    /// force.
+    pub(super) fn contact_excess(
+        &self,
+        claimed: Contact,
+        (s, w): (f64, f64),
+        [slack_m, slack_n]: [f64; 2],
+    ) -> f64 {
+        let Some(stop) = &self.stop else { return 0.0 };
+        let StopKind::Elastic { stiffness_n_per_m: k, damper_n_s_per_m: c } = stop.kind;
+        let of = |side: Direction| {
+            let delta = side.sign() * s - stop.gap_towards(side)?;
+            Some((delta, k * delta + c * side.sign() * w))
+        };
+        let beyond = |force: f64| excess(force - slack_n - k * slack_m);
+        match claimed {
+            Contact::Free => [Direction::Positive, Direction::Negative]
+                .into_iter()
+                .filter_map(of)
+                .filter(|(delta, _)| !(*delta <= slack_m))
+                .fold(0.0, |worst, (_, force)| beyond(force).max(worst)),
+            Contact::Pressed(side) => match of(side) {
+                None => f64::INFINITY,
+                Some((delta, force)) if delta < -slack_m => larger(0.0, force),
+                Some((_, force)) => beyond(-force),
+            },
+            Contact::Separated(side) => match of(side) {
+                None => f64::INFINITY,
+                Some((delta, _)) if delta < -slack_m => larger(0.0, k * delta),
+                Some((_, force)) => beyond(force),
+            },
+        }
     }
 
     /// Largest `μ_s N`, or the weight where that is 0: the scale of [`super::Certificate::friction_excess`].
@@ -73,6 +144,17 @@ impl Law {
     }
 }
 
+/// What a change of contact is called.
+pub(super) fn contact_event(before: Contact, after: Contact) -> Option<EventKind> {
+    match (before, after) {
+        (Contact::Free, Contact::Pressed(_) | Contact::Separated(_)) => Some(EventKind::Contact),
+        (Contact::Pressed(_), Contact::Separated(_)) => Some(EventKind::Separation),
+        (Contact::Separated(_), Contact::Pressed(_)) => Some(EventKind::Press),
+        (Contact::Pressed(_) | Contact::Separated(_), Contact::Free) => Some(EventKind::Leave),
+        _ => None,
+    }
+}
+
 fn index(direction: Direction) -> usize {
     match direction {
         Direction::Positive => 0,
@@ -105,6 +187,16 @@ pub(super) struct Dips {
 impl Dips {
     pub(super) fn new(slack: f64) -> Self {
         Self { slack, falling: false, turn: f64::NAN, turn_s: 0.0, peak: 0.0, least: None }
+    }
+
+    /// Takes a value that is no minimum.
+    pub(super) fn see(&mut self, value: f64) {
+        self.peak = self.peak.max(value);
+    }
+
+    /// The least minimum so far, or ∞.
+    pub(super) fn so_far(&self) -> f64 {
+        self.least.map_or(f64::INFINITY, |(least, _)| least)
     }
 
     /// Takes the next value.

@@ -2,14 +2,17 @@
 //!
 //! From the model, the motion, and the states and modes stored at knots, [`check`] integrates the
 //! equations of motion (9)–(12) from every knot to the next by Gauss collocation, and compares:
-//! states, forces, the friction law at every instant, and energy. It shares nothing with the solver:
-//! neither matrices nor modes nor propagators.
+//! states, forces, the laws of friction and stop at every instant, and energy; then the demands and
+//! events that this path has with those of the response. It shares nothing with the solver: neither
+//! matrices nor modes nor propagators.
 
 mod collocation;
 mod damping;
+mod demands;
 mod energy;
 mod ground;
 mod judge;
+mod lanes;
 mod law;
 mod step;
 mod structure;
@@ -18,7 +21,7 @@ use self::judge::Judge;
 use self::structure::{Phase, Structure};
 use crate::model::Model;
 use crate::motion::GroundMotion;
-use crate::response::History;
+use crate::response::{History, Response};
 
 /// Radians beyond which the phase of the fastest mode says nothing: every interval is divided into
 /// steps of half a radian, so this also bounds the work.
@@ -53,9 +56,14 @@ pub struct Certificate {
     /// Largest imbalance of energy at a knot, over the largest sum of `E₀`, the integral of the size
     /// of the table's power, and the four kinds of energy.
     pub energy_balance_error: f64,
+    /// Largest difference of a printed demand from the one recomputed from the check's own path, over
+    /// the peak of its quantity, 0/0 = 0; 1 where a count or the time of an event differs. Peaks are
+    /// those of the collocation polynomials, between knots too; rounding (64 ε of the largest terms,
+    /// 8 ε of the end for times) is no difference.
+    pub demands_error: f64,
     /// The nearest decision; `None` where nothing was decided.
     pub closest_call: Option<ClosestCall>,
-    /// What the first three must stay below: max(1e-10, 100 ε ω_max t_end), with Gershgorin's upper
+    /// What the first four must stay below: max(1e-10, 100 ε ω_max t_end), with Gershgorin's upper
     /// bound on the fastest rate, sliding or not, as `ω_max`.
     pub bound: f64,
     /// Energy by kind at every knot.
@@ -63,12 +71,13 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// Whether the first three figures stay within the bound.
+    /// Whether the first four figures stay within the bound.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.equilibrium_residual <= self.bound
             && self.friction_excess <= self.bound
             && self.energy_balance_error <= self.bound
+            && self.demands_error <= self.bound
     }
 }
 
@@ -81,34 +90,37 @@ pub struct EnergyHistory {
     pub kinetic_j: Vec<f64>,
     /// Strain of spring and storeys.
     pub strain_j: Vec<f64>,
-    /// Spent in dampers so far.
+    /// Spent in dampers so far, and what a stop has taken.
     pub damping_j: Vec<f64>,
     /// Spent in friction so far.
     pub friction_j: Vec<f64>,
 }
 
-/// Judges the states at knots of a response to a motion.
+/// Judges a response to a motion: the states at the knots of its history, and its demands and events
+/// by what these states tell.
 ///
-/// A history that cannot be judged (lists of different lengths, times that run backwards, do not
+/// No history, or one that cannot be judged (lists of different lengths, times that run backwards, do not
 /// start at 0 or end before the motion, values that are not finite where steps depend on them)
 /// gets infinite figures.
 #[must_use]
-pub fn check(model: &Model, motion: &GroundMotion, history: &History) -> Certificate {
+pub fn check(model: &Model, motion: &GroundMotion, response: &Response) -> Certificate {
     let structure = Structure::new(model);
-    let end_s = history.time_s.last().copied().unwrap_or(0.0);
-    let radians = structure.rate(Phase::Slip) * end_s;
+    let history = response.history.as_ref();
+    let end_s = history.and_then(|h| h.time_s.last().copied()).unwrap_or(0.0);
+    let fastest = if model.stop().is_some() { Phase::Pressed } else { Phase::Slip };
+    let radians = structure.rate(fastest) * end_s;
     let bound = (100.0 * f64::EPSILON * radians).max(1e-10);
-    if !(radians <= MAX_RADIANS && well_formed(model, motion, history)) {
-        return Certificate {
-            equilibrium_residual: f64::INFINITY,
-            friction_excess: f64::INFINITY,
-            energy_balance_error: f64::INFINITY,
-            closest_call: None,
-            bound,
-            energy: EnergyHistory::default(),
-        };
-    }
-    Judge::new(model, motion, history, &structure).run(bound)
+    let judged = history.filter(|h| radians <= MAX_RADIANS && well_formed(model, motion, h));
+    let run = |history| Judge::new(model, motion, (response, history), &structure).run(bound);
+    judged.and_then(run).unwrap_or_else(|| Certificate {
+        equilibrium_residual: f64::INFINITY,
+        friction_excess: f64::INFINITY,
+        energy_balance_error: f64::INFINITY,
+        demands_error: f64::INFINITY,
+        closest_call: None,
+        bound,
+        energy: EnergyHistory::default(),
+    })
 }
 
 /// Whether a history has the shape that its documentation promises.
@@ -127,8 +139,11 @@ fn well_formed(model: &Model, motion: &GroundMotion, history: &History) -> bool 
         &history.storey_velocity_m_per_s,
         &history.storey_acceleration_m_per_s2,
     ];
+    let contacts = if model.stop().is_some() { knots } else { 0 };
     history.storeys == n
+        && history.interfaces == 1
         && history.mode.len() == knots
+        && history.contact.len() == contacts
         && knot_lists.iter().all(|list| list.len() == knots)
         && storey_lists.iter().all(|list| list.len() == knots * n)
         && history.time_s.first() == Some(&0.0)

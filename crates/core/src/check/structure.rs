@@ -5,17 +5,19 @@
 //! acceleration with the slope, `s̈ + a`.
 
 use super::damping::modal_damping;
-use crate::model::{Damping, Model};
+use crate::model::{Damping, Model, StopKind};
 
 /// Which equations hold: the block rests on the table, or slides over it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Phase {
     Stick,
     Slip,
+    /// Sliding against the stop, which is one more spring and damper.
+    Pressed,
 }
 
 /// Damping matrix `C` of the storeys, relative to the block.
-enum StoreyDamping {
+pub(super) enum StoreyDamping {
     /// Dampers between neighbouring floors, from the block up.
     Chain(Vec<f64>),
     /// Rows of a full matrix.
@@ -24,15 +26,17 @@ enum StoreyDamping {
 
 /// The mechanical part of a model.
 pub(super) struct Structure {
-    block_kg: f64,
-    total_kg: f64,
-    masses_kg: Vec<f64>,
-    spring: f64,
-    damper: f64,
-    stiffnesses: Vec<f64>,
-    damping: StoreyDamping,
+    pub(super) block_kg: f64,
+    pub(super) total_kg: f64,
+    pub(super) masses_kg: Vec<f64>,
+    pub(super) spring: f64,
+    pub(super) damper: f64,
+    /// Stiffness and damper of the stop.
+    stop: [f64; 2],
+    pub(super) stiffnesses: Vec<f64>,
+    pub(super) damping: StoreyDamping,
     /// `1ᵀ C`: what the storeys' dampers pass on to the block.
-    base_damping: Vec<f64>,
+    pub(super) base_damping: Vec<f64>,
 }
 
 impl Structure {
@@ -61,6 +65,10 @@ impl Structure {
             masses_kg: m.clone(),
             spring: model.slider().stiffness_n_per_m,
             damper: model.slider().damper_n_s_per_m,
+            stop: model.stop().map_or([0.0; 2], |stop| {
+                let StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } = stop.kind;
+                [stiffness_n_per_m, damper_n_s_per_m]
+            }),
             stiffnesses: k.clone(),
             damping,
             base_damping,
@@ -89,8 +97,26 @@ impl Structure {
         }
     }
 
+    /// Spring and damper between table and block in a phase.
+    pub(super) fn slider(&self, phase: Phase) -> [f64; 2] {
+        match phase {
+            Phase::Stick | Phase::Slip => [self.spring, self.damper],
+            Phase::Pressed => [self.spring + self.stop[0], self.damper + self.stop[1]],
+        }
+    }
+
+    /// Damper of the stop in N s/m.
+    pub(super) fn stop_damper(&self) -> f64 {
+        self.stop[1]
+    }
+
+    /// `K1 s + C1 ṡ`.
+    pub(super) fn slider_force(&self, s: f64, w: f64) -> f64 {
+        self.spring * s + self.damper * w
+    }
+
     /// `1ᵀ (C q̇ + K q)`: the force of the lowest storey on the block.
-    fn base_force(&self, q: &[f64], rates: &[f64]) -> f64 {
+    pub(super) fn base_force(&self, q: &[f64], rates: &[f64]) -> f64 {
         let elastic = if q.is_empty() { 0.0 } else { self.stiffnesses[0] * q[0] };
         elastic + dot(&self.base_damping, rates)
     }
@@ -101,7 +127,8 @@ impl Structure {
         self.block_kg * a + self.spring * x[0] - self.base_force(&x[1..], &v[1..])
     }
 
-    /// `ẍ` from eqs (9)–(12); in stick `force` is not used.
+    /// `ẍ` from eqs (9)–(12); in stick `force` is not used. Against the stop it is `T` with what the
+    /// stop's spring would give back at `s = 0`.
     pub(super) fn accelerate(
         &self,
         phase: Phase,
@@ -112,8 +139,9 @@ impl Structure {
         let (q, rates) = (&x[1..], &v[1..]);
         let block = match phase {
             Phase::Stick => a,
-            Phase::Slip => {
-                let slider = force - self.damper * v[0] - self.spring * x[0];
+            Phase::Slip | Phase::Pressed => {
+                let [spring, damper] = self.slider(phase);
+                let slider = force - damper * v[0] - spring * x[0];
                 (slider + self.base_force(q, rates)) / self.block_kg
             }
         };
@@ -124,49 +152,6 @@ impl Structure {
             *o = -*o / m - block;
         }
         out[0] = block - a;
-    }
-
-    /// Left minus right side of eqs (9) and (10) for total accelerations (with the slope's share)
-    /// and a force of friction: the largest defect and the largest single term, in N.
-    pub(super) fn imbalance(
-        &self,
-        (x, v): (&[f64], &[f64]),
-        block: f64,
-        storeys: impl Iterator<Item = f64>,
-        force: f64,
-        scratch: &mut [f64],
-    ) -> (f64, f64) {
-        let (elastic, viscous) = scratch.split_at_mut(self.masses_kg.len());
-        elastic.fill(0.0);
-        viscous.fill(0.0);
-        self.add_elastic(&x[1..], elastic);
-        self.add_viscous(&v[1..], viscous);
-        let spring = self.spring * x[0];
-        let damper = self.damper * v[0];
-        let inertia = self.block_kg * block;
-        let mut sum = inertia + damper + spring - force;
-        let mut defect = 0.0;
-        let mut term = chain_term(&self.stiffnesses, &x[1..]).max(self.viscous_term(&v[1..]));
-        term = [spring, damper, inertia, force].into_iter().fold(term, larger);
-        for (i, acceleration) in storeys.enumerate() {
-            let inertia = self.masses_kg[i] * acceleration;
-            sum += inertia;
-            defect = larger(defect, inertia + viscous[i] + elastic[i]);
-            term = larger(term, inertia);
-        }
-        (larger(defect, sum), term)
-    }
-
-    /// Largest single term of `C q̇`, in N.
-    fn viscous_term(&self, rates: &[f64]) -> f64 {
-        match &self.damping {
-            StoreyDamping::Chain(c) => chain_term(c, rates),
-            StoreyDamping::Full(c) => {
-                let rows = c.chunks_exact(rates.len());
-                let terms = rows.flat_map(|row| row.iter().zip(rates).map(|(c, rate)| c * rate));
-                terms.fold(0.0, larger)
-            }
-        }
     }
 
     /// `M1 ṡ + Σ m_i (ṡ + q̇_i)`.
@@ -226,10 +211,11 @@ impl Structure {
         };
         let mut frequency = self.frame_frequency();
         let mut decay = storey_damping.iter().zip(m).map(|(row, m)| row / m).fold(0.0, f64::max);
-        if phase == Phase::Slip {
-            let stiffness = self.spring + 2.0 * self.stiffnesses.first().unwrap_or(&0.0);
+        if phase != Phase::Stick {
+            let [spring, damper] = self.slider(phase);
+            let stiffness = spring + 2.0 * self.stiffnesses.first().unwrap_or(&0.0);
             frequency = frequency.max(libm::sqrt(stiffness / self.block_kg));
-            decay = decay.max((self.damper + base) / self.block_kg);
+            decay = decay.max((damper + base) / self.block_kg);
         }
         frequency.max(decay)
     }
@@ -273,17 +259,6 @@ fn add_chain(chain: &[f64], q: &[f64], out: &mut [f64]) {
         }
         below = q[i];
     }
-}
-
-/// Largest single term of such a chain's matrix times `q`.
-fn chain_term(chain: &[f64], q: &[f64]) -> f64 {
-    let mut below = 0.0;
-    let mut term = 0.0;
-    for (k, &q) in chain.iter().zip(q) {
-        term = larger(larger(term, k * q), k * below);
-        below = q;
-    }
-    term
 }
 
 /// `qᵀ K q` of such a chain.

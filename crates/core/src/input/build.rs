@@ -6,7 +6,7 @@ use super::reader::Values;
 use super::{Analysis, FrictionBounds};
 use crate::error::{InputError, ModelError};
 use crate::friction::{Coulomb, Friction};
-use crate::model::{Block, Frame, InitialState, Model, Slider};
+use crate::model::{Block, Frame, InitialState, Model, Slider, Stop, StopKind};
 use crate::response::Method;
 use crate::units::STANDARD_GRAVITY_M_PER_S2;
 
@@ -86,7 +86,28 @@ fn slider(
         damper_n_s_per_m,
         tilt_rad: values.number("slider.tilt").unwrap_or(0.0),
         gap_m: values.number("slider.gap"),
+        stop: stop(values, block)?,
     })
+}
+
+fn stop(values: &Values, block: &Block) -> Result<Option<Stop>, InputError> {
+    if !values.has("slider.stop") {
+        return Ok(None);
+    }
+    let side = |side: &str| values.number(&format!("slider.stop.gap.{side}"));
+    let gap_m = match values.number("slider.stop.gap") {
+        Some(gap_m) => [Some(gap_m); 2],
+        None => [side("positive"), side("negative")],
+    };
+    let stiffness_n_per_m = values.required("slider.stop.stiffness")?;
+    let damper_n_s_per_m = match values.number("slider.stop.damping_ratio") {
+        Some(ratio) => {
+            let damper = 2.0 * ratio * (stiffness_n_per_m * block.mass_kg).sqrt();
+            derived(values, "slider.stop.damping_ratio", "damper 2 ξ √(k M1)", damper)?
+        }
+        None => values.number("slider.stop.damper").unwrap_or(0.0),
+    };
+    Ok(Some(Stop { gap_m, kind: StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } }))
 }
 
 /// A number computed from keys, which rounding may have driven out of range.
@@ -170,13 +191,16 @@ fn initial(values: &Values, storeys: usize) -> Result<InitialState, InputError> 
 /// The model's objection at the key that caused it.
 fn model_error(values: &Values, error: &ModelError) -> InputError {
     // What the constructors call a quantity, and the keys that it may come from.
-    const KEYS: [(&str, &[&str]); 19] = [
+    const KEYS: [(&str, &[&str]); 22] = [
         ("block mass_kg", &["block.mass"]),
         ("block width_m", &["block.width"]),
         ("block height_m", &["block.height"]),
         ("slider stiffness_n_per_m", &["slider.spring", "slider.radius"]),
         ("slider damper_n_s_per_m", &["slider.damper", "slider.damping_ratio"]),
         ("slider gap_m", &["slider.gap"]),
+        ("stop gap_m", &["slider.stop.gap"]),
+        ("stop stiffness_n_per_m", &["slider.stop.stiffness"]),
+        ("stop damper_n_s_per_m", &["slider.stop.damper", "slider.stop.damping_ratio"]),
         ("slider tilt_rad", &["slider.tilt"]),
         ("gravity_m_per_s2", &["analysis.gravity"]),
         ("storey masses_kg", &["storey"]),
@@ -194,6 +218,9 @@ fn model_error(values: &Values, error: &ModelError) -> InputError {
     let (quantity, expected, found) = match error {
         ModelError::OutOfRange { quantity, expected, found } => {
             (*quantity, (*expected).to_owned(), found.to_string())
+        }
+        ModelError::Missing { quantity, expected } => {
+            (*quantity, (*expected).to_owned(), "none".to_owned())
         }
         ModelError::WrongCount { quantity, expected, found } => {
             (*quantity, format!("{expected} values, one a storey"), found.to_string())

@@ -106,6 +106,14 @@ fn key(key: &Key) -> Json {
             entries.push(("anyOf", Json::List(either)));
         }
         Kind::Quantity(dimension, _) => entries.extend(quantity(*dimension)),
+        Kind::QuantityOr(dimension, _, sides) => {
+            let mut sides = section(sides);
+            if let Json::Object(entries) = &mut sides {
+                entries.push(("minProperties", Json::Number(1.0)));
+            }
+            let either = vec![Json::Object(quantity(*dimension)), sides];
+            entries.push(("anyOf", Json::List(either)));
+        }
         Kind::QuantityOrRatio(dimension, range) => {
             let either = vec![Json::Object(quantity(*dimension)), Json::Object(number(*range))];
             entries.push(("anyOf", Json::List(either)));

@@ -105,6 +105,11 @@ static SLIDER: Section = Section {
              warning.",
         ),
         Key::optional(
+            "stop",
+            Kind::Section(&STOP),
+            "What the block strikes at the end of its travel; excludes gap, which only reports.",
+        ),
+        Key::optional(
             "bounds",
             Kind::Section(&BOUNDS),
             "Run also with both coefficients of friction times these factors.",
@@ -115,7 +120,42 @@ static SLIDER: Section = Section {
         Exclusive::at_most(&["damper", "damping_ratio"]),
         Exclusive::at_most(&["asymmetry", "static_friction.*"]),
         Exclusive::at_most(&["asymmetry", "kinetic_friction.*"]),
+        Exclusive::at_most(&["gap", "stop"]),
     ],
+};
+
+static STOP: Section = Section {
+    keys: &[
+        Key::required(
+            "gap",
+            Kind::QuantityOr(Length, Range::Positive, &SIDES),
+            "Sliding displacement at which the block reaches the stop.",
+        ),
+        Key::required(
+            "stiffness",
+            Kind::Quantity(Stiffness, Range::Positive),
+            "Stiffness k of the stop.",
+        ),
+        Key::optional(
+            "damper",
+            Kind::Quantity(Damper, Range::NotNegative),
+            "Damper C beside the stop's spring; default none. The stop pushes, it never pulls.",
+        ),
+        Key::optional(
+            "damping_ratio",
+            Kind::Number(Range::NotNegative),
+            "Damper as a ratio ξ of critical damping of the block on the stop: C = 2 ξ √(k M1).",
+        ),
+    ],
+    choices: &[Exclusive::at_most(&["damper", "damping_ratio"])],
+};
+
+static SIDES: Section = Section {
+    keys: &[
+        Key::optional("positive", Kind::Quantity(Length, Range::Positive), "Towards +x."),
+        Key::optional("negative", Kind::Quantity(Length, Range::Positive), "Towards -x."),
+    ],
+    choices: &[],
 };
 
 static BY_DIRECTION: Section = Section {

@@ -8,12 +8,25 @@ use crate::error::{InputError, cut};
 use crate::units::Dimension;
 
 /// A key set to a value.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Override {
-    /// `PATH=VALUE` as it was given.
+    /// `PATH=VALUE` as it was given, or as it would be.
     text: String,
     /// Where the value starts in it.
     value_at: usize,
+    /// The value where it was given as a number, in SI where the key has a unit.
+    number: Option<f64>,
+    /// The option that gave it, for errors; empty where none did.
+    option: String,
+}
+
+/// A value of a key: a number in SI, or text as a person writes it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum InputValue<'a> {
+    /// A number, in SI where the key has a unit.
+    Number(f64),
+    /// Text, of a quantity with its unit: `"150 mm"`.
+    Text(&'a str),
 }
 
 impl Override {
@@ -21,15 +34,28 @@ impl Override {
     /// value is TOML if it reads as TOML, else text: `slider.gap=150 mm` needs no quotes.
     ///
     /// # Errors
-    /// [`InputError`] for text without `=`, and for a path that no model has.
+    /// [`InputError`] for text without `=`, and for a path that no model has; it names the key alone.
     pub fn parse(text: &str) -> Result<Self, InputError> {
+        Self::of_option("", text)
+    }
+
+    /// As [`Override::parse`], for an option of a command, which errors then name with its place.
+    ///
+    /// # Errors
+    /// As [`Override::parse`].
+    pub fn of_option(option: &str, text: &str) -> Result<Self, InputError> {
+        let named = |what: String| match option {
+            "" => what,
+            option => format!("{option} {what}"),
+        };
         let Some(equals) = text.find('=') else {
             let mut sources = Sources::default();
-            let source = sources.add(&format!("--set {}", cut(text)), text);
+            let source = sources.add(&named(cut(text)), text);
             let spot = Spot { source, span: text.len()..text.len() };
             return Err(sources.error(&spot, "", "PATH=VALUE", "no \"=\""));
         };
-        let this = Self { text: text.to_owned(), value_at: equals + 1 };
+        let (text, option) = (text.to_owned(), option.to_owned());
+        let this = Self { text, value_at: equals + 1, number: None, option };
         this.check_path()?;
         Ok(this)
     }
@@ -39,15 +65,25 @@ impl Override {
     /// # Errors
     /// [`InputError`] for a path that no model has.
     pub fn number(path: &str, si_value: f64) -> Result<Self, InputError> {
-        let unit = match kind_of(path) {
-            Some(Kind::Quantity(dimension, _) | Kind::QuantityOrRatio(dimension, _)) => {
-                dimension.si_unit()
-            }
-            Some(Kind::Quantities(dimension, _)) => dimension.si_unit(),
-            _ => "",
-        };
+        let unit = si_unit(path);
+        let space = if unit.is_empty() { "" } else { " " };
         // `{:?}` is the shortest text that reads back as the same number.
-        Self::parse(&format!("{path}={si_value:?} {unit}"))
+        let text = format!("{path}={si_value:?}{space}{unit}");
+        Self::given(path, text, Some(si_value))
+    }
+
+    /// Sets the key at a path to text as a person writes it.
+    ///
+    /// # Errors
+    /// [`InputError`] for a path that no model has.
+    pub fn text_value(path: &str, text: &str) -> Result<Self, InputError> {
+        Self::given(path, format!("{path}={text}"), None)
+    }
+
+    fn given(path: &str, text: String, number: Option<f64>) -> Result<Self, InputError> {
+        let this = Self { text, value_at: path.len() + 1, number, option: String::new() };
+        this.check_path()?;
+        Ok(this)
     }
 
     /// The path that it sets.
@@ -68,8 +104,13 @@ impl Override {
         sources
     }
 
+    /// What errors call the text: nothing where it is not an option's, so that they name the key
+    /// alone.
     fn source_name(&self) -> String {
-        format!("--set {}=…", cut(self.path()))
+        match self.option.as_str() {
+            "" => String::new(),
+            option => format!("{option} {}=…", cut(self.path())),
+        }
     }
 
     fn path_spot(&self, source: usize) -> Spot {
@@ -86,16 +127,58 @@ impl Override {
 
     /// Sets the key in a tree; what excludes it is removed.
     pub(super) fn apply(&self, sources: &mut Sources, root: &mut Table) -> Result<(), InputError> {
+        self.put(sources, root, Put::Replace)
+    }
+
+    /// Adds the key to a tree, in which nothing may exclude it.
+    pub(super) fn add(&self, sources: &mut Sources, root: &mut Table) -> Result<(), InputError> {
+        self.put(sources, root, Put::Add)
+    }
+
+    fn put(&self, sources: &mut Sources, root: &mut Table, put: Put) -> Result<(), InputError> {
         self.check_path()?;
         let source = sources.add(&self.source_name(), &self.text);
         let value = self.text.get(self.value_at..).unwrap_or("");
         let value_at = self.value_at + (value.len() - value.trim_start().len());
-        let node = tree::parse_value(value.trim(), source, value_at);
+        let node = match self.number {
+            None => tree::parse_value(value.trim(), source, value_at),
+            Some(number) => {
+                let written = value.trim().to_owned();
+                let spot = Spot { source, span: value_at..value_at + written.len() };
+                let value = match si_unit(self.path()) {
+                    "" => Value::Number(number, written),
+                    _ => Value::Si(number, written),
+                };
+                Node { spot, value }
+            }
+        };
         let spot = self.path_spot(source);
         let keys: Vec<&str> = self.path().split('.').collect();
-        set(root, &MODEL, &keys, &spot, node)
+        set(root, &MODEL, &keys, &spot, node, put)
             .map_err(|(expected, found)| sources.error(&spot, self.path(), expected, found))
     }
+}
+
+/// The SI unit of a number at a path; empty where it has none.
+fn si_unit(path: &str) -> &'static str {
+    match kind_of(path) {
+        Some(
+            Kind::Quantity(dimension, _)
+            | Kind::QuantityOr(dimension, ..)
+            | Kind::QuantityOrRatio(dimension, _)
+            | Kind::Quantities(dimension, _),
+        ) => dimension.si_unit(),
+        _ => "",
+    }
+}
+
+/// How a key is set.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Put {
+    /// What excludes it is removed; lists keep their length.
+    Replace,
+    /// Nothing is removed; the next item of a list is made.
+    Add,
 }
 
 /// What the number at a path measures; `None` for a ratio.
@@ -104,13 +187,14 @@ impl Override {
 /// [`InputError`] for a path that no model has, and for one whose value is no number.
 pub fn dimension_of(path: &str) -> Result<Option<Dimension>, InputError> {
     match find_kind(path) {
-        Ok(Kind::Quantity(dimension, _) | Kind::QuantityOrRatio(dimension, _)) => {
-            Ok(Some(*dimension))
-        }
+        Ok(
+            Kind::Quantity(dimension, _)
+            | Kind::QuantityOr(dimension, ..)
+            | Kind::QuantityOrRatio(dimension, _),
+        ) => Ok(Some(*dimension)),
         Ok(Kind::Number(_) | Kind::NumberOr(..)) => Ok(None),
         found => {
-            let set = Override { text: format!("{path}="), value_at: path.len() + 1 };
-            set.check_path()?;
+            let set = Override::given(path, format!("{path}="), None)?;
             let expected = found.map_or(String::new(), |_| "a path to a number".to_owned());
             let place = set.path_spot(0);
             Err(set.sources().error(&place, "", expected, format!("\"{}\"", cut(path))))
@@ -128,11 +212,14 @@ fn set(
     path: &[&str],
     spot: &Spot,
     value: Node,
+    put: Put,
 ) -> Result<(), Mismatch> {
     let [name, rest @ ..] = path else { return Ok(()) };
     let Some(key) = section.key(name) else { return Ok(()) };
     let as_table = !rest.is_empty() || matches!(value.value, Value::Table(_));
-    remove_excluded(table, section, name, as_table);
+    if put == Put::Replace {
+        remove_excluded(table, section, name, as_table);
+    }
     let index = table.0.iter().position(|entry| entry.name == *name);
     if rest.is_empty() {
         let entry = Entry { name: (*name).to_owned(), key: spot.clone(), node: value };
@@ -152,8 +239,11 @@ fn set(
         table.0.len() - 1
     });
     let Some(entry) = table.0.get_mut(index) else { return Ok(()) };
-    // A number for both directions becomes a table of two before one of them is set.
-    if let (Kind::NumberOr(_, both), Value::Number(..)) = (&key.kind, &entry.node.value) {
+    // A value for both directions becomes a table of two before one of them is set.
+    if let (Kind::NumberOr(_, both), Value::Number(..))
+    | (Kind::QuantityOr(_, _, both), Value::Text(_) | Value::Si(..)) =
+        (&key.kind, &entry.node.value)
+    {
         let same = entry.node.clone();
         let each = both.keys.iter().map(|key| Entry {
             name: key.name.to_owned(),
@@ -163,9 +253,13 @@ fn set(
         entry.node.value = Value::Table(Table(each.collect()));
     }
     match (&mut entry.node.value, key.kind.section()) {
-        (Value::Table(inner), Some(section)) => set(inner, section, rest, spot, value),
+        (Value::Table(inner), Some(section)) => set(inner, section, rest, spot, value, put),
         (Value::List(items), inner) => {
             let [number, rest @ ..] = rest else { return Ok(()) };
+            if put == Put::Add && *number == (items.len() + 1).to_string() {
+                let empty = Value::Table(Table(Vec::new()));
+                items.push(Node { spot: spot.clone(), value: empty });
+            }
             let count = items.len();
             let item = number.parse::<usize>().ok().and_then(|n| items.get_mut(n.wrapping_sub(1)));
             match (item, inner) {
@@ -175,7 +269,7 @@ fn set(
                     Ok(())
                 }
                 (Some(Node { value: Value::Table(inner), .. }), Some(section)) => {
-                    set(inner, section, rest, spot, value)
+                    set(inner, section, rest, spot, value, put)
                 }
                 (Some(item), _) => Err(("a table".to_owned(), item.found())),
             }

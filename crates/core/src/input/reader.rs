@@ -1,6 +1,7 @@
 //! Checks a tree against its description and gives its values by path.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::paths::{NearestKey, join, matching, nearest_key};
 use super::schema::{Key, Kind, Range, Section};
@@ -32,13 +33,15 @@ pub(super) struct Leaf {
 /// The checked values of a text by path, in the order of its description.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Values {
-    pub leaves: Vec<Leaf>,
-    sources: Sources,
-    leaf_of_path: BTreeMap<String, usize>,
+    pub leaves: Arc<Vec<Leaf>>,
+    sources: Arc<Sources>,
+    leaf_of_path: Arc<BTreeMap<String, usize>>,
     /// Tables and lists: where they stand and how many items a list has.
-    tables: BTreeMap<String, (Spot, usize)>,
+    tables: Arc<BTreeMap<String, (Spot, usize)>>,
     /// What other readers are to judge, as it stands.
-    specials: BTreeMap<String, Node>,
+    specials: Arc<BTreeMap<String, Node>>,
+    /// Numbers that took the place of those of leaves, by their index.
+    replaced: Vec<(usize, f64)>,
     root: Root,
 }
 
@@ -65,6 +68,7 @@ impl Values {
         root: &Table,
         section: &'static Section,
     ) -> Result<Self, InputError> {
+        let sources = Arc::new(sources);
         let mut values = Self { sources, root: Root(section), ..Self::default() };
         values.read_table("", &Spot { source: 0, span: 0..0 }, root, section)?;
         Ok(values)
@@ -72,7 +76,11 @@ impl Values {
 
     /// The number at a path, in SI.
     pub fn number(&self, path: &str) -> Option<f64> {
-        match self.leaf(path)?.given {
+        let index = *self.leaf_of_path.get(path)?;
+        if let Some((_, number)) = self.replaced.iter().find(|(of, _)| *of == index) {
+            return Some(*number);
+        }
+        match self.leaves.get(index)?.given {
             Given::Number(value) => Some(value),
             _ => None,
         }
@@ -130,19 +138,20 @@ impl Values {
 
     /// Tells errors where a path stands that its own reader has found.
     pub fn mark(&mut self, path: &str, spot: &Spot) {
-        self.tables.insert(path.to_owned(), (spot.clone(), 0));
+        Arc::make_mut(&mut self.tables).insert(path.to_owned(), (spot.clone(), 0));
     }
 
     /// Replaces the number at a path; `false` where there is none.
     pub fn set_number(&mut self, path: &str, value: f64) -> bool {
-        let leaf = self.leaf_of_path.get(path).and_then(|index| self.leaves.get_mut(*index));
-        match leaf {
-            Some(Leaf { given: given @ Given::Number(_), .. }) => {
-                *given = Given::Number(value);
-                true
-            }
-            _ => false,
+        let Some(&index) = self.leaf_of_path.get(path) else { return false };
+        if !matches!(self.leaves.get(index), Some(Leaf { given: Given::Number(_), .. })) {
+            return false;
         }
+        match self.replaced.iter_mut().find(|(of, _)| *of == index) {
+            Some((_, number)) => *number = value,
+            None => self.replaced.push((index, value)),
+        }
+        true
     }
 
     /// An error at the value of a path or, where there is none, at the table that lacks it.
@@ -194,7 +203,7 @@ impl Values {
         table: &Table,
         section: &'static Section,
     ) -> Result<(), InputError> {
-        self.tables.insert(path.to_owned(), (spot.clone(), 0));
+        Arc::make_mut(&mut self.tables).insert(path.to_owned(), (spot.clone(), 0));
         for entry in &table.0 {
             if section.key(&entry.name).is_none() {
                 return Err(self.unknown_key(path, entry, section));
@@ -231,8 +240,18 @@ impl Values {
             (Kind::Section(section) | Kind::NumberOr(_, section), Value::Table(table)) => {
                 self.read_table(path, &node.spot, table, section)
             }
+            (Kind::QuantityOr(_, _, section), Value::Table(table)) => {
+                self.read_table(path, &node.spot, table, section)?;
+                if table.0.is_empty() {
+                    let expected =
+                        format!("one of the keys {} or both", section.names().join(", "));
+                    return Err(self.sources.error(&node.spot, path, expected, "an empty table"));
+                }
+                Ok(())
+            }
             (Kind::Sections(section), Value::List(nodes)) => {
-                self.tables.insert(path.to_owned(), (node.spot.clone(), nodes.len()));
+                Arc::make_mut(&mut self.tables)
+                    .insert(path.to_owned(), (node.spot.clone(), nodes.len()));
                 for (index, item) in nodes.iter().enumerate() {
                     let path = join(path, &(index + 1).to_string());
                     let Value::Table(table) = &item.value else {
@@ -243,7 +262,8 @@ impl Values {
                 Ok(())
             }
             (Kind::Quantities(dimension, range), Value::List(nodes)) => {
-                self.tables.insert(path.to_owned(), (node.spot.clone(), nodes.len()));
+                Arc::make_mut(&mut self.tables)
+                    .insert(path.to_owned(), (node.spot.clone(), nodes.len()));
                 for (index, item) in nodes.iter().enumerate() {
                     let path = join(path, &(index + 1).to_string());
                     let given = self.quantity(&path, item, *dimension, *range)?;
@@ -252,7 +272,8 @@ impl Values {
                 Ok(())
             }
             (Kind::Texts(_), Value::List(nodes)) => {
-                self.tables.insert(path.to_owned(), (node.spot.clone(), nodes.len()));
+                Arc::make_mut(&mut self.tables)
+                    .insert(path.to_owned(), (node.spot.clone(), nodes.len()));
                 for (index, item) in nodes.iter().enumerate() {
                     let path = join(path, &(index + 1).to_string());
                     match &item.value {
@@ -265,7 +286,8 @@ impl Values {
                 Ok(())
             }
             (Kind::Numbers(range), Value::List(nodes)) => {
-                self.tables.insert(path.to_owned(), (node.spot.clone(), nodes.len()));
+                Arc::make_mut(&mut self.tables)
+                    .insert(path.to_owned(), (node.spot.clone(), nodes.len()));
                 for (index, item) in nodes.iter().enumerate() {
                     let path = join(path, &(index + 1).to_string());
                     let given = self.bare_number(&path, item, *range)?;
@@ -275,7 +297,7 @@ impl Values {
             }
             (Kind::Special(_), _) => {
                 self.mark(path, &node.spot);
-                self.specials.insert(path.to_owned(), node.clone());
+                Arc::make_mut(&mut self.specials).insert(path.to_owned(), node.clone());
                 Ok(())
             }
             _ => self.read_leaf(path, node, kind),
@@ -316,7 +338,8 @@ impl Values {
                 Kind::Number(range) | Kind::NumberOr(range, _) | Kind::QuantityOrRatio(_, range),
                 Value::Number(value, _),
             ) => self.number_in_range(path, node, *value, *range)?,
-            (Kind::Quantity(dimension, range) | Kind::QuantityOrRatio(dimension, range), _) => {
+            (Kind::QuantityOr(dimension, range, _), Value::Text(_) | Value::Si(..))
+            | (Kind::Quantity(dimension, range) | Kind::QuantityOrRatio(dimension, range), _) => {
                 unit = dimension.si_unit();
                 self.quantity(path, node, *dimension, *range)?
             }
@@ -329,11 +352,17 @@ impl Values {
     fn insert(&mut self, path: String, node: &Node, given: Given, unit: &'static str) {
         let written = match &node.value {
             Value::Text(text) => text.clone(),
-            Value::Number(_, written) => written.clone(),
+            Value::Number(_, written) | Value::Si(_, written) => written.clone(),
             _ => String::new(),
         };
-        self.leaf_of_path.insert(path.clone(), self.leaves.len());
-        self.leaves.push(Leaf { path, given, written, unit, spot: node.spot.clone() });
+        Arc::make_mut(&mut self.leaf_of_path).insert(path.clone(), self.leaves.len());
+        Arc::make_mut(&mut self.leaves).push(Leaf {
+            path,
+            given,
+            written,
+            unit,
+            spot: node.spot.clone(),
+        });
     }
 
     /// A number with its unit, in SI.
@@ -344,11 +373,14 @@ impl Values {
         dimension: units::Dimension,
         range: Range,
     ) -> Result<Given, InputError> {
-        let Value::Text(text) = &node.value else {
-            return Err(self.mistyped(path, node, Kind::Quantity(dimension, range).expected()));
+        let value = match &node.value {
+            Value::Text(text) => units::parse_quantity(text, dimension)
+                .map_err(|error| self.bad_unit(path, node, error))?,
+            Value::Si(value, _) => *value,
+            _ => {
+                return Err(self.mistyped(path, node, Kind::Quantity(dimension, range).expected()));
+            }
         };
-        let value = units::parse_quantity(text, dimension)
-            .map_err(|error| self.bad_unit(path, node, error))?;
         if range.contains(value) {
             return Ok(Given::Number(value));
         }
@@ -387,9 +419,8 @@ impl Values {
     }
 
     fn unknown_key(&self, path: &str, entry: &Entry, section: &'static Section) -> InputError {
-        let names: Vec<_> = section.keys.iter().map(|key| key.name).collect();
         let path = join(path, &cut(&entry.name));
-        let expected = format!("one of the keys {}", names.join(", "));
+        let expected = format!("one of the keys {}", section.names().join(", "));
         let found = format!("\"{}\"", cut(&entry.name));
         let error = self.sources.error(&entry.key, &path, expected, found);
         let nearest = nearest_key(&entry.name, section, self.root.0).map(|nearest| match nearest {

@@ -55,6 +55,9 @@ pub enum Kind {
     NumberOr(Range, &'static Section),
     /// A number with its unit.
     Quantity(Dimension, Range),
+    /// A number with its unit for both directions of sliding, or a section with one for each or
+    /// for one of them.
+    QuantityOr(Dimension, Range, &'static Section),
     /// A number with its unit, or a bare number where only ratios count.
     QuantityOrRatio(Dimension, Range),
     /// A list of numbers with their units.
@@ -110,6 +113,12 @@ impl Section {
     pub fn key(&self, name: &str) -> Option<&'static Key> {
         self.keys.iter().find(|key| key.name == name)
     }
+
+    /// The names of its keys.
+    #[must_use]
+    pub fn names(&self) -> Vec<&'static str> {
+        self.keys.iter().map(|key| key.name).collect()
+    }
 }
 
 impl Exclusive {
@@ -141,9 +150,10 @@ impl Kind {
     #[must_use]
     pub fn section(&self) -> Option<&'static Section> {
         match self {
-            Self::NumberOr(_, section) | Self::Section(section) | Self::Sections(section) => {
-                Some(section)
-            }
+            Self::NumberOr(_, section)
+            | Self::QuantityOr(_, _, section)
+            | Self::Section(section)
+            | Self::Sections(section) => Some(section),
             _ => None,
         }
     }
@@ -166,10 +176,17 @@ impl Kind {
             Self::NameOrIndex => "a name in quotes or a number from 1".to_owned(),
             Self::Number(range) => range.expected("number"),
             Self::NumberOr(range, section) => {
-                let names: Vec<_> = section.keys.iter().map(|key| key.name).collect();
-                format!("{} or a table of {}", range.expected("number"), names.join(" and "))
+                let names = section.names().join(" and ");
+                format!("{} or a table of {names}", range.expected("number"))
             }
             Self::Quantity(dimension, _) => with_unit(dimension),
+            Self::QuantityOr(dimension, _, section) => {
+                let names = section.names().join(" and ");
+                format!(
+                    "{} or a table of {names}, of which one may be missing",
+                    with_unit(dimension)
+                )
+            }
             Self::QuantityOrRatio(dimension, _) => {
                 format!("{} (or a ratio, where a period is given)", with_unit(dimension))
             }

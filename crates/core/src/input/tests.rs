@@ -24,7 +24,8 @@ fn with(more: &str) -> Result<Analysis, String> {
 
 /// Reads a model named `m.toml`, with keys set from outside.
 fn read(text: &str, set: &[&str]) -> Result<Analysis, String> {
-    let set: Result<Vec<_>, _> = set.iter().map(|text| Override::parse(text)).collect();
+    let set: Result<Vec<_>, _> =
+        set.iter().map(|text| Override::of_option("--set", text)).collect();
     let set = set.map_err(|error| error.to_string())?;
     parse("m.toml", text, &set).map_err(|error| error.to_string())
 }

@@ -45,6 +45,8 @@ pub(super) enum Value {
     Text(String),
     /// A number and how it was written.
     Number(f64, String),
+    /// A number in the SI unit of its key, and how it would be written with that.
+    Si(f64, String),
     /// A truth value or a date: no key takes one.
     Other(String),
     List(Vec<Node>),
@@ -140,7 +142,7 @@ impl Node {
     /// What stands here, for a message.
     pub fn found(&self) -> String {
         match &self.value {
-            Value::Text(text) => format!("\"{}\"", cut(text)),
+            Value::Text(text) | Value::Si(_, text) => format!("\"{}\"", cut(text)),
             Value::Number(_, written) | Value::Other(written) => cut(written),
             Value::List(_) => "a list".to_owned(),
             Value::Table(_) => "a table".to_owned(),

@@ -1,24 +1,26 @@
 //! One model with many values: what a study sets anew for every sample.
 
+use std::sync::Arc;
+
 use super::build::{self, Parts};
 use super::keys::MODEL;
-use super::overrides::kind_of;
 use super::plan::Varied;
 use super::reader::Values;
 use super::schema::Range;
 use super::{Analysis, MAX_TEXT_BYTES, Override, parse, tree};
 use crate::error::InputError;
+use crate::response::DemandShape;
 
 /// A model text in which numbers at some paths take the place of what stands there.
 ///
 /// A sample is checked as `--set` checks it, and gives the same bits; only the text is read once.
 #[derive(Clone, Debug)]
 pub struct Variation {
-    name: String,
-    text: String,
+    name: Arc<str>,
+    text: Arc<str>,
     /// Keys set once, before those of a sample.
-    set: Vec<Override>,
-    paths: Vec<Path>,
+    set: Arc<[Override]>,
+    paths: Arc<[Path]>,
     /// The text with every path set, to numbers that do not matter.
     values: Values,
 }
@@ -75,9 +77,9 @@ impl Variation {
             path.set(0.5)?.apply(&mut sources, &mut root)?;
         }
         let values = Values::read(sources, &root, &MODEL)?;
-        let set = set.to_vec();
-        let this = Self { name: name.to_owned(), text: text.to_owned(), set, paths, values };
-        for path in &this.paths {
+        let (name, text) = (name.into(), text.into());
+        let this = Self { name, text, set: set.into(), paths: paths.into(), values };
+        for path in this.paths.iter() {
             if this.values.number(&path.path).is_none() {
                 let expected = "no other varied path that takes its place";
                 let found = format!("\"{}\" removed by another", path.path);
@@ -91,12 +93,14 @@ impl Variation {
     ///
     /// # Errors
     /// [`InputError`], the one that `slipstick run` gives for the same values.
-    pub fn parts(&mut self, numbers: &[f64]) -> Result<Parts, InputError> {
+    pub fn parts(&self, numbers: &[f64]) -> Result<Parts, InputError> {
+        // What was read is shared by all samples; only their numbers are their own.
+        let mut values = self.values.clone();
         let mut in_range = true;
         for (path, &number) in self.paths.iter().zip(numbers) {
-            in_range &= path.range.contains(number) && self.values.set_number(&path.path, number);
+            in_range &= path.range.contains(number) && values.set_number(&path.path, number);
         }
-        if in_range && let Ok(parts) = build::parts(&self.values) {
+        if in_range && let Ok(parts) = build::parts(&values) {
             return Ok(parts);
         }
         // The long way, for its message.
@@ -143,10 +147,10 @@ impl Variation {
         self.values.has(path)
     }
 
-    /// Number of storeys.
+    /// What the model has that demands are asked of.
     #[must_use]
-    pub fn storeys(&self) -> usize {
-        self.values.count("storey")
+    pub fn shape(&self) -> DemandShape {
+        DemandShape { storeys: self.values.count("storey"), stop: self.has("slider.stop") }
     }
 
     /// The text at a path.
@@ -157,11 +161,11 @@ impl Variation {
 }
 
 impl Path {
-    /// `{:?}` is the shortest text that reads back as the same number.
     fn set(&self, number: f64) -> Result<Override, InputError> {
-        debug_assert!(kind_of(&self.path).is_some());
-        let Self { path, unit, .. } = self;
-        let space = if unit.is_empty() { "" } else { " " };
-        Override::parse(&format!("{path}={number:?}{space}{unit}"))
+        if self.unit.is_empty() {
+            // A ratio where a quantity could stand as well: as it is written.
+            return Override::text_value(&self.path, &format!("{number:?}"));
+        }
+        Override::number(&self.path, number)
     }
 }

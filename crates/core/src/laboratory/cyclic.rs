@@ -15,8 +15,9 @@
 
 mod stroke;
 
-use super::algebra::linear_fit;
 use super::estimate::{Estimate, mean_interval};
+use crate::numerics::algebra::linear_fit;
+use crate::numerics::fractile::upper_median;
 use stroke::{Breakaway, Stroke, strokes};
 
 /// Fewest cycles that give an interval.
@@ -193,8 +194,7 @@ pub fn cyclic(test: &CyclicTest) -> Result<CyclicFit, CyclicError> {
     if cycles.len() < LEAST_CYCLES {
         return Err(CyclicError::TooFewCycles { found: cycles.len() });
     }
-    sampling.sort_by(f64::total_cmp);
-    let sampling_n = sampling.get(sampling.len() / 2).copied().unwrap_or(0.0);
+    let sampling_n = upper_median(sampling).unwrap_or(0.0);
     let damper_sought = test.damper;
     Ok(CyclicFit { cycles, slack_m, strokes_left_out, fitted_n, damper_sought, sampling_n })
 }
@@ -349,7 +349,7 @@ fn not_sliding(widths: &[f64], largest_force_n: f64) -> Option<String> {
     if !(width > 0.02 * largest_force_n) {
         return Some("the loop of force over displacement has no width: nothing slid".to_owned());
     }
-    let t = super::quantile::student_quantile(0.95, widths.len() as f64 - 1.0);
+    let t = crate::numerics::distribution::student_quantile(0.95, widths.len() as f64 - 1.0);
     let error = (width - low) / t;
     (!(width > CLEAR_WIDTH * error)).then(|| {
         format!(
@@ -375,7 +375,7 @@ fn per_hz(cycles: &[&Cycle], over_n: f64, unit: &'static str) -> Option<Estimate
         .collect();
     let fit = linear_fit(&rows)?;
     let freedom = rows.len() as f64 - 2.0;
-    let half = super::quantile::student_quantile(0.95, freedom)
+    let half = crate::numerics::distribution::student_quantile(0.95, freedom)
         * (fit.sse / freedom * fit.covariance[1][1]).sqrt();
     let slope = fit.coefficients[1];
     let unit = if unit.is_empty() { "1/Hz" } else { "N/Hz" };

@@ -83,7 +83,8 @@ pub fn mean_interval(values: &[f64], floor: f64) -> Option<(f64, [f64; 2])> {
     let mean = values.iter().sum::<f64>() / n;
     let squares: f64 = values.iter().map(|v| (v - mean) * (v - mean)).sum();
     let deviation = (squares / (n - 1.0)).sqrt().max(floor);
-    let half = super::quantile::student_quantile(0.95, n - 1.0) * deviation / n.sqrt();
+    let half =
+        crate::numerics::distribution::student_quantile(0.95, n - 1.0) * deviation / n.sqrt();
     Some((mean, [mean - half, mean + half]))
 }
 
@@ -127,7 +128,7 @@ mod tests {
     /// A process `r_k = φ r_{k−1} + noise` has `ρ_k = φᵏ`, so a length of `(1 + φ)/(1 − φ)`.
     #[test]
     fn exact_length_of_a_process_with_memory() {
-        let mut random = crate::random::Random::new(4);
+        let mut random = crate::numerics::random::Random::new(4);
         let mut r = 0.0;
         let mut process = |phi: f64| -> Vec<f64> {
             let next = |_| {

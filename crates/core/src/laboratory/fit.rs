@@ -12,7 +12,7 @@ mod simplex;
 
 pub use profile::{Interval, Profile, profile};
 
-use crate::random::Random;
+use crate::numerics::random::Random;
 
 /// Residuals as a function of parameters inside bounds.
 pub struct Problem<'a> {

@@ -10,10 +10,10 @@
 use core::cell::Cell;
 use core::f64::consts::TAU;
 
-use super::algebra::linear_fit;
 use super::estimate::{Estimate, correlation_length};
 use super::fit::{Minimum, Problem, Profile, profile, refine};
-use super::quantile::student_quantile;
+use crate::numerics::algebra::linear_fit;
+use crate::numerics::distribution::student_quantile;
 
 /// Least number of cycles.
 pub const LEAST_CYCLES: f64 = 3.0;
@@ -229,7 +229,7 @@ fn strongest_frequency(times_s: &[f64], values: &[f64], mean: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
+    use crate::numerics::random::Random;
 
     fn record(f: f64, xi: f64, noise: f64, seconds: f64, seed: u64) -> (Vec<f64>, Vec<f64>) {
         let mut random = Random::new(seed);

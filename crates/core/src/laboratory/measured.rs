@@ -2,7 +2,8 @@
 
 use crate::error::{InputError, RecordError, similar};
 use crate::input::{Channel, ColumnRef, MappedColumn, Mapping};
-use crate::record::{self, Column, Columns, Sampling};
+use crate::numerics::fractile::upper_median;
+use crate::record::{self, Column, Columns, Sampling, bracket};
 use crate::response::Warning;
 use crate::units::{Dimension, Unit};
 
@@ -261,12 +262,6 @@ fn stated_unit(name: &str, dimension: Dimension) -> Stated {
     units.next().map_or(Stated::None, Stated::Unit)
 }
 
-/// `name (unit)` or `name [unit]`, in two.
-fn bracket(name: &str) -> Option<(&str, &str)> {
-    let (start, unit) = name.trim().strip_suffix([')', ']'])?.rsplit_once(['(', '['])?;
-    Some((start.trim(), unit.trim()))
-}
-
 /// The unit of a word, capital letters or not where that is plain.
 fn unit_of(word: &str, dimension: Dimension) -> Option<&'static Unit> {
     let spelt = word.replace("_per_", "/").replace('_', " ").replace("sec", "s");
@@ -366,15 +361,13 @@ fn clock(
 /// The row after the first gap, and the usual step: where nine of ten steps agree to a hundredth
 /// (or to the last decimal of the times), one that is half as long again is a gap.
 fn gap(times_s: &[f64]) -> Option<(usize, f64)> {
-    let mut steps: Vec<f64> = times_s.windows(2).map(|t| t[1] - t[0]).collect();
-    let unsorted = steps.clone();
-    steps.sort_by(f64::total_cmp);
-    let usual_s = steps[steps.len() / 2];
+    let steps: Vec<f64> = times_s.windows(2).map(|t| t[1] - t[0]).collect();
+    let usual_s = upper_median(steps.iter().copied())?;
     let agree = steps.iter().filter(|step| (*step - usual_s).abs() <= 0.1 * usual_s).count();
     if usual_s <= 0.0 || 10 * agree < 9 * steps.len() {
         return None;
     }
-    unsorted.iter().position(|step| *step > 1.5 * usual_s).map(|row| (row + 1, usual_s))
+    steps.iter().position(|step| *step > 1.5 * usual_s).map(|row| (row + 1, usual_s))
 }
 
 #[cfg(test)]

@@ -18,14 +18,15 @@ use super::estimate::{Estimate, correlation_length};
 use super::fit::{Interval, Minimum, Problem, Profile, global, profile, refine};
 use super::measured::Measured;
 use super::metrics::rms;
-use super::quantile::student_quantile;
-use crate::error::RecordError;
+use crate::error::{RecordError, Stopped};
 use crate::friction::{Coulomb, Friction};
 use crate::input::Channel;
 use crate::model::Model;
 use crate::motion::GroundMotion;
+use crate::numerics::distribution::student_quantile;
 use crate::response::Method;
 use crate::solver;
+use crate::study::engine::Engine;
 
 /// How much better than stuck a sliding response must fit before anything is said of the slider, in
 /// variances.
@@ -95,17 +96,27 @@ pub enum TableError {
         /// Values found.
         found: usize,
     },
+    /// The callback that followed it stopped it.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
 }
 
-/// Fits a record.
+/// Fits a record; the engine is told of every run of the model.
 ///
 /// # Errors
-/// [`TableError`] where table acceleration or measured quantities are missing or too short, or
-/// nothing inside the ranges has a response.
-pub fn shaking_table(test: &TableTest) -> Result<TableFit, TableError> {
+/// [`TableError`] where table acceleration or measured quantities are missing or too short, nothing
+/// inside the ranges has a response, or the engine is stopped.
+pub fn shaking_table(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
+    // A model that is stopped has no response, which ends every search at once.
+    let fit = fit(test, engine);
+    engine.check()?;
+    fit
+}
+
+fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
     let (motion, start_s) = compare::table_motion(test.measured)?;
     let chosen = chosen(test)?;
-    let data = Data { motion: &motion, start_s, measured: &chosen, build: test.build };
+    let data = Data { motion: &motion, start_s, measured: &chosen, build: test.build, engine };
     let names = || {
         let names: Vec<&str> = test.parameters.iter().map(|p| p.path.as_str()).collect();
         names.join(", ")
@@ -210,11 +221,13 @@ struct Data<'a> {
     start_s: f64,
     measured: &'a Measured,
     build: &'a dyn Fn(&[f64]) -> Option<Model>,
+    engine: &'a Engine<'a>,
 }
 
 impl Data<'_> {
     /// Predicted less measured values, a list a quantity, in SI.
     fn of_model(&self, model: &Model) -> Option<Vec<Vec<f64>>> {
+        self.engine.done(1).ok()?;
         let response = solver::exact(model, self.motion).ok()?;
         let pairs = compare::pairs(self.measured, self.start_s, response.history.as_ref()?);
         let all = pairs.len() == self.measured.series.len();

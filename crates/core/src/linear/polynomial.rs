@@ -5,7 +5,7 @@
 //! `k (k − 1) |c_k|`. An interval is dismissed only by that bound, else halved.
 
 /// Degree of the Taylor polynomials.
-pub const DEGREE: usize = 12;
+pub const DEGREE: usize = 16;
 
 /// Coefficients, constant first.
 pub type Polynomial = [f64; DEGREE + 1];
@@ -22,7 +22,8 @@ pub fn value(c: &Polynomial, x: f64) -> f64 {
     let p0 = (c[0] + c[1] * x) + (c[2] + c[3] * x) * x2;
     let p1 = (c[4] + c[5] * x) + (c[6] + c[7] * x) * x2;
     let p2 = (c[8] + c[9] * x) + (c[10] + c[11] * x) * x2;
-    p0 + (p1 + (p2 + c[12] * x4) * x4) * x4
+    let p3 = (c[12] + c[13] * x) + (c[14] + c[15] * x) * x2;
+    (p0 + p1 * x4) + (p2 + (p3 + c[16] * x4) * x4) * (x4 * x4)
 }
 
 /// Derivative.
@@ -40,12 +41,12 @@ pub fn derivative(c: &Polynomial) -> Polynomial {
 #[inline(always)]
 #[must_use]
 pub fn curvature_bound(c: &Polynomial) -> f64 {
-    // Two sums, that neither has to wait for the other.
-    let mut bound = [0.0; 2];
+    // Four sums, that none has to wait for another.
+    let mut bound = [0.0; 4];
     for k in 2..=DEGREE {
-        bound[k % 2] += (k * (k - 1)) as f64 * c[k].abs();
+        bound[k % 4] += (k * (k - 1)) as f64 * c[k].abs();
     }
-    bound[0] + bound[1]
+    (bound[0] + bound[1]) + (bound[2] + bound[3])
 }
 
 /// [`curvature_bound`] over [0, `b`]: near 0 a polynomial without low powers is far flatter than
@@ -67,32 +68,38 @@ pub fn deflated(c: &Polynomial, order: usize) -> Polynomial {
     d
 }
 
-/// First point of [0, 1] after which the polynomial is negative, `None` if there is none.
+/// First point of [0, `end`] after which the polynomial is negative, `None` if there is none.
 ///
-/// The polynomial is taken to be ≥ 0 at 0. A dip below zero is missed only if it is shallower than
+/// `end` is at most 1. The polynomial is taken to be ≥ 0 at 0. A dip below zero is missed only if it is shallower than
 /// 3e-17 of the bound on the second derivative; a root is located to the last few bits.
 #[inline]
 #[must_use]
-pub fn first_root(c: &Polynomial) -> Option<f64> {
+pub fn first_root(c: &Polynomial, end: f64) -> Option<f64> {
     let curvature = curvature_bound(c);
-    let (start, end) = (c[0], value(c, 1.0));
-    if start.min(end) > 0.125 * curvature {
+    let (start, last) = (c[0], value(c, end));
+    if start.min(last) > 0.125 * curvature * (end * end) {
         return None;
     }
+    if start < 0.0 {
+        return Some(0.0);
+    }
     let slope = derivative(c);
-    Search { c, slope: &slope, curvature }.first([0.0, start], [1.0, end])
+    Search { c, slope: &slope, curvature, end }.first([0.0, start], [end, last])
 }
 
 struct Search<'a> {
     c: &'a Polynomial,
     slope: &'a Polynomial,
+    /// Over all of [0, 1].
     curvature: f64,
+    /// Where the search ends.
+    end: f64,
 }
 
 impl Search<'_> {
     fn first(&self, [a, ga]: [f64; 2], [b, gb]: [f64; 2]) -> Option<f64> {
         let width = b - a;
-        let curvature = if b == 1.0 { self.curvature } else { curvature_up_to(self.c, b) };
+        let curvature = if b == self.end { self.curvature } else { curvature_up_to(self.c, b) };
         if ga.min(gb) > 0.125 * curvature * width * width {
             return None;
         }
@@ -157,10 +164,11 @@ impl Search<'_> {
     }
 }
 
-/// The larger of `attained` and the polynomial's largest value on [0, 1], to a few ulp.
+/// The larger of `attained` and the polynomial's largest value on [0, `to`], to a few ulp; `to` is at
+/// most 1.
 #[must_use]
-pub fn largest(c: &Polynomial, attained: f64) -> f64 {
-    let (start, end) = (c[0], value(c, 1.0));
+pub fn largest(c: &Polynomial, to: f64, attained: f64) -> f64 {
+    let (start, end) = (c[0], value(c, to));
     let slope = derivative(c);
     let mut peak = Peak {
         c,
@@ -170,7 +178,7 @@ pub fn largest(c: &Polynomial, attained: f64) -> f64 {
         third: curvature_bound(&slope),
         attained: attained.max(start).max(end),
     };
-    peak.search([0.0, start], [1.0, end]);
+    peak.search([0.0, start], [to, end]);
     peak.attained
 }
 
@@ -200,7 +208,8 @@ impl Peak<'_> {
         }
         if value(&self.bend, middle) + 0.5 * third * width < 0.0 {
             if value(self.slope, a) > 0.0 && value(self.slope, b) < 0.0 {
-                let search = Search { c: self.slope, slope: &self.bend, curvature: self.third };
+                let (c, slope, curvature) = (self.slope, &self.bend, self.third);
+                let search = Search { c, slope, curvature, end: b };
                 let top = search.bracketed([a, value(self.slope, a)], [b, value(self.slope, b)]);
                 self.attained = self.attained.max(value(self.c, top));
             }
@@ -232,7 +241,7 @@ mod tests {
     #[test]
     fn exact_first_of_several_roots() {
         let c = from_roots(&[0.3, 0.4, 0.9], -1.0);
-        let x = first_root(&c).expect("three roots");
+        let x = first_root(&c, 1.0).expect("three roots");
         assert!((x - 0.3).abs() < 1e-15, "{x}");
     }
 
@@ -241,7 +250,7 @@ mod tests {
         let dip = |depth: f64| {
             let mut c = from_roots(&[0.37, 0.37], 1.0);
             c[0] -= depth;
-            first_root(&c)
+            first_root(&c, 1.0)
         };
         for depth in [1e-4, 1e-8, 1e-12, 1e-14] {
             let x = dip(depth).expect("dip");
@@ -254,7 +263,7 @@ mod tests {
     #[test]
     fn exact_root_at_a_start_on_zero_is_deflated_away() {
         let c = from_roots(&[0.0, 0.0, 0.6], -1.0);
-        let x = first_root(&deflated(&c, 2)).expect("one root");
+        let x = first_root(&deflated(&c, 2), 1.0).expect("one root");
         assert!((x - 0.6).abs() < 2e-16);
     }
 
@@ -262,8 +271,8 @@ mod tests {
     fn exact_largest_value_between_the_ends() {
         let mut c = from_roots(&[0.2, 0.8], -1.0);
         c[0] += 1.0;
-        assert!((largest(&c, f64::MIN) - 1.09).abs() < 1e-15);
-        assert_eq!(largest(&c, 2.0), 2.0);
+        assert!((largest(&c, 1.0, f64::MIN) - 1.09).abs() < 1e-15);
+        assert_eq!(largest(&c, 1.0, 2.0), 2.0);
     }
 
     /// A frame at rest: its upper storeys follow the block by a high power of time.
@@ -271,9 +280,9 @@ mod tests {
     fn exact_high_power_alone_is_searched_in_few_steps() {
         let mut c = [0.0; DEGREE + 1];
         c[11] = -1.0;
-        assert_eq!(largest(&c, f64::MIN), 0.0);
+        assert_eq!(largest(&c, 1.0, f64::MIN), 0.0);
         (c[0], c[12]) = (1e-30, 1.0);
-        let x = first_root(&c).expect("falls below zero");
+        let x = first_root(&c, 1.0).expect("falls below zero");
         assert!((x / libm::pow(1e-30, 1.0 / 11.0) - 1.0).abs() < 1e-3, "{x}");
     }
 
@@ -285,8 +294,8 @@ mod tests {
             (c[0], c[1], c[2]) = (0.25 + gap, -1.0, 1.0);
             c
         };
-        assert_eq!(first_root(&touching(1e-15)), None);
-        let x = first_root(&touching(-1e-12)).expect("dips by 1e-12");
+        assert_eq!(first_root(&touching(1e-15), 1.0), None);
+        let x = first_root(&touching(-1e-12), 1.0).expect("dips by 1e-12");
         assert!((x - (0.5 - 1e-6)).abs() < 1e-9);
     }
 }

@@ -1,203 +1,264 @@
 //! Taylor series of the motion in stick and in slip.
 
-use super::polynomial::{DEGREE, Polynomial, value};
-use super::system::{PerStorey, System};
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x4, f64x8};
 
-/// State of block and structure: `s`, `ṡ`, then all `η`, then all `η̇`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct State<V: PerStorey>(pub V::Flat);
+use super::lanes::{Eight, Width, dot, eight, four};
+use super::polynomial::{DEGREE, Polynomial};
+use super::system::System;
 
-impl<V: PerStorey> State<V> {
-    /// All zeros for `n` storeys.
-    #[must_use]
-    pub fn zeros(n: usize) -> Self {
-        Self(V::flat_zeros(n))
-    }
+/// Longest interval for one series, times the rate: 0.8^17 / 17! = 6.3e-17.
+pub const MAX_RATE_STEP: f64 = 0.8;
 
-    /// Sliding displacement `s` in m.
-    #[inline(always)]
-    #[must_use]
-    pub fn s(&self) -> f64 {
-        self.0.as_ref()[0]
-    }
+/// Pairs of orders.
+const PAIRS: usize = DEGREE / 2;
 
-    /// Sliding velocity `ṡ` in m/s.
-    #[inline(always)]
-    #[must_use]
-    pub fn w(&self) -> f64 {
-        self.0.as_ref()[1]
-    }
-
-    /// Sets the sliding velocity.
-    #[inline(always)]
-    pub fn set_w(&mut self, w: f64) {
-        self.0.as_mut()[1] = w;
-    }
-
-    /// Storey coordinates `η` in kg^(1/2) m.
-    #[inline(always)]
-    #[must_use]
-    pub fn eta(&self) -> &[f64] {
-        let x = self.0.as_ref();
-        &x[2..1 + x.len() / 2]
-    }
-
-    /// Their velocities `η̇`.
-    #[inline(always)]
-    #[must_use]
-    pub fn eta_dot(&self) -> &[f64] {
-        let x = self.0.as_ref();
-        &x[1 + x.len() / 2..]
-    }
-}
-
-/// Load over an interval: the table's acceleration and the friction force, both linear.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Loads over an interval, linear in time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Load {
     /// `a = Ü + g sin θ` at the start in m/s².
     pub acceleration: f64,
     /// Its change over the interval.
     pub acceleration_change: f64,
-    /// Friction force `T` at the start in N; of no effect in stick.
-    pub friction: f64,
+    /// Force on the block at the start in N; of no effect in stick.
+    pub force: f64,
     /// Its change over the interval.
-    pub friction_change: f64,
+    pub force_change: f64,
 }
 
-/// Taylor coefficients over an interval, in time over the interval's length.
+/// What a unit of each of `s, ṡ, η, η̇` and of the four numbers of a [`Load`] adds to the state of a
+/// system of one storey: coefficients from the first order on, an odd order and the even one after it
+/// side by side.
+pub type SeriesTable = [[Eight; 8]; PAIRS];
+
+/// Taylor coefficients of a state over an interval, in time over the interval's length.
 ///
-/// With `rate × length ≤ MAX_RATE_STEP` the first term left out is below 3e-17 of the largest.
+/// Order after order, each as many numbers as a padded state has. With `rate × length ≤ MAX_RATE_STEP`
+/// the first term left out is below 7e-17 of the largest.
 #[derive(Clone, Debug)]
-pub struct Series<V: PerStorey> {
-    /// `s`.
-    pub s: Polynomial,
-    /// `ṡ`.
-    pub w: Polynomial,
-    /// `η`, one entry a coefficient.
-    pub eta: [V; DEGREE + 1],
-    /// `η̇`.
-    pub eta_dot: [V; DEGREE + 1],
-    /// `f = D η̇ + Ω η`.
-    pub f: [V; DEGREE + 1],
+pub struct Series {
+    stride: usize,
+    c: Vec<f64>,
+    f: Vec<f64>,
 }
 
-/// Longest interval for one series, times the rate: 0.3^13 / 13! = 2.6e-17.
-pub const MAX_RATE_STEP: f64 = 0.3;
-
-impl<V: PerStorey> Series<V> {
-    /// Room for the series of a system with `n` storeys.
-    #[must_use]
-    pub fn zeros(n: usize) -> Self {
-        let room = || core::array::from_fn(|_| V::zeros(n));
-        let zero = [0.0; DEGREE + 1];
-        Self { s: zero, w: zero, eta: room(), eta_dot: room(), f: room() }
-    }
-
-    /// Motion in slip from `state` over `length_s`.
-    pub fn slip(&mut self, system: &System<V>, state: &State<V>, load: &Load, length_s: f64) {
-        self.start(state, state.w());
-        let per_mass = system.per_block_mass;
-        self.step::<true>(system, 0, length_s, load.acceleration, load.friction * per_mass);
-        let (a, friction) = (load.acceleration_change, load.friction_change);
-        self.step::<true>(system, 1, length_s, a, friction * per_mass);
-        for k in 2..DEGREE {
-            self.step::<true>(system, k, length_s, 0.0, 0.0);
-        }
-        self.restore(system, DEGREE);
-    }
-
-    /// Motion in stick from `state` (whose `ṡ` is taken as 0) over `length_s`.
-    pub fn stick(&mut self, system: &System<V>, state: &State<V>, load: &Load, length_s: f64) {
-        (self.s, self.w) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
-        self.start(state, 0.0);
-        self.step::<false>(system, 0, length_s, load.acceleration, 0.0);
-        self.step::<false>(system, 1, length_s, load.acceleration_change, 0.0);
-        for k in 2..DEGREE {
-            self.step::<false>(system, k, length_s, 0.0, 0.0);
-        }
-        self.restore(system, DEGREE);
-    }
-
-    #[inline(always)]
-    fn start(&mut self, state: &State<V>, w: f64) {
-        (self.s[0], self.w[0]) = (state.s(), w);
-        self.eta[0].as_mut().copy_from_slice(state.eta());
-        self.eta_dot[0].as_mut().copy_from_slice(state.eta_dot());
-    }
-
-    /// Coefficients of order `k + 1` from those of order `k` under a table acceleration and, in
-    /// slip, a friction force over `M1`. Products that can go ahead of the block's acceleration
-    /// do, as each order has to wait for it.
-    #[inline(always)]
-    fn step<const SLIP: bool>(
-        &mut self,
-        system: &System<V>,
-        k: usize,
-        length_s: f64,
-        a: f64,
-        friction: f64,
-    ) {
-        let step = length_s * RECIPROCAL[k + 1];
-        self.restore(system, k);
-        let mut u = a;
-        if SLIP {
-            let (eta, eta_dot) = (self.eta[k].as_ref(), self.eta_dot[k].as_ref());
-            u = system.block_response(self.s[k], self.w[k], eta, eta_dot, friction);
-            self.w[k + 1] = step * (u - a);
-            self.s[k + 1] = step * self.w[k];
-        }
-        let (l, f) = (system.participation.as_ref(), self.f[k].as_ref());
-        let (now, next) = self.eta_dot.split_at_mut(k + 1);
-        for (j, next) in next[0].as_mut().iter_mut().enumerate() {
-            *next = -step * f[j] - (step * l[j]) * u;
-        }
-        for (next, now) in self.eta[k + 1].as_mut().iter_mut().zip(now[k].as_ref()) {
-            *next = step * now;
-        }
-    }
-
-    /// `f` of order `k`.
-    #[inline(always)]
-    fn restore(&mut self, system: &System<V>, k: usize) {
-        let (eta, eta_dot) = (self.eta[k].as_ref(), self.eta_dot[k].as_ref());
-        system.restoring_into(eta, eta_dot, self.f[k].as_mut());
-    }
-
-    /// The demand `T = M1 a + K1 s − L·f` of stick under a load.
-    #[inline(always)]
-    #[must_use]
-    pub fn demand(&self, system: &System<V>, load: &Load) -> Polynomial {
-        let mut demand = [0.0; DEGREE + 1];
-        for (k, demand) in demand.iter_mut().enumerate() {
-            *demand = -system.base_shear_n(self.f[k].as_ref());
-        }
-        demand[0] +=
-            system.block_mass_kg * load.acceleration + system.stiffness_n_per_m * self.s[0];
-        demand[1] += system.block_mass_kg * load.acceleration_change;
-        demand
-    }
-
-    /// State at `x` in [0, 1].
-    #[inline(always)]
-    pub fn state_at(&self, x: f64, state: &mut State<V>) {
-        let out = state.0.as_mut();
-        out[0] = value(&self.s, x);
-        out[1] = value(&self.w, x);
-        let n = out.len() / 2 - 1;
-        for j in 0..n {
-            out[2 + j] = value(&core::array::from_fn(|k| self.eta[k].as_ref()[j]), x);
-            out[2 + n + j] = value(&core::array::from_fn(|k| self.eta_dot[k].as_ref()[j]), x);
-        }
-    }
-}
-
-/// 1 / k.
-const RECIPROCAL: [f64; DEGREE + 1] = {
-    let mut table = [0.0; DEGREE + 1];
-    let mut k = 1;
-    while k <= DEGREE {
-        table[k] = 1.0 / k as f64;
+/// 1 / (k + 1).
+const RECIPROCAL: [f64; DEGREE] = {
+    let mut table = [0.0; DEGREE];
+    let mut k = 0;
+    while k < DEGREE {
+        table[k] = 1.0 / (k + 1) as f64;
         k += 1;
     }
     table
 };
+
+impl Series {
+    /// Room for the series of a system.
+    #[must_use]
+    pub fn new(system: &System) -> Self {
+        let n = system.modes();
+        let stride = (2 + 2 * n).div_ceil(4) * 4;
+        Self { stride, c: vec![0.0; stride * (DEGREE + 1)], f: vec![0.0; n] }
+    }
+
+    /// Motion from a padded state over `length_s`, order by order from the equations of motion.
+    #[inline(always)]
+    pub fn expand(&mut self, system: &System, slip: bool, x: &[f64], load: &Load, length_s: f64) {
+        let (n, stride) = (self.f.len(), self.stride);
+        let (l, f) = (&system.participation[..n], &mut self.f[..n]);
+        self.c[..stride].copy_from_slice(x);
+        if !slip {
+            self.c[1] = 0.0;
+        }
+        for k in 0..DEGREE {
+            let (before, after) = self.c.split_at_mut((k + 1) * stride);
+            let (now, next) = (&before[k * stride..], &mut after[..stride]);
+            let (a, force) = match k {
+                0 => (load.acceleration, load.force),
+                1 => (load.acceleration_change, load.force_change),
+                _ => (0.0, 0.0),
+            };
+            let step = length_s * RECIPROCAL[k];
+            let (eta, rate) = (&now[2..2 + n], &now[2 + n..2 + 2 * n]);
+            system.restoring(eta, rate, f);
+            let (block, rest) = next[..2 + 2 * n].split_at_mut(2);
+            let (next_eta, next_rate) = rest.split_at_mut(n);
+            let mut u = a;
+            if slip {
+                u = system.block_acceleration(now[0], now[1], dot(l, f), force);
+                (block[0], block[1]) = (step * now[1], step * (u - a));
+            } else {
+                (block[0], block[1]) = (0.0, 0.0);
+            }
+            for j in 0..n {
+                next_eta[j] = step * rate[j];
+                next_rate[j] = -step * (f[j] + l[j] * u);
+            }
+        }
+    }
+
+    /// The same by a table for this length, of one storey at most.
+    #[inline(always)]
+    pub fn expand_by_table<S: Simd, const SLIP: bool>(
+        &mut self,
+        simd: S,
+        table: &SeriesTable,
+        x: &[f64],
+        load: &Load,
+    ) {
+        let Some((start, orders)) = self.c.split_first_chunk_mut::<4>() else { return };
+        let Some(x) = x.first_chunk::<4>() else { return };
+        *start = *x;
+        if !SLIP {
+            start[1] = 0.0;
+        }
+        for (columns, out) in table.iter().zip(orders.chunks_exact_mut(8)) {
+            let structure = of(simd, columns, 2, x[2]) + of(simd, columns, 3, x[3]);
+            let ground = of(simd, columns, 4, load.acceleration)
+                + of(simd, columns, 5, load.acceleration_change);
+            let c = if SLIP {
+                let force =
+                    of(simd, columns, 6, load.force) + of(simd, columns, 7, load.force_change);
+                let block = of(simd, columns, 0, x[0]) + of(simd, columns, 1, x[1]);
+                (ground + force) + (block + structure)
+            } else {
+                ground + structure
+            };
+            c.store_slice(out);
+        }
+    }
+
+    /// Four components of an order.
+    #[inline(always)]
+    fn four<S: Simd>(simd: S, c: &[f64], stride: usize, k: usize, i: usize) -> f64x4<S> {
+        f64x4::from_slice(simd, &c[k * stride + 4 * i..][..4])
+    }
+
+    /// State at `t` in [0, 1], padded.
+    #[inline(always)]
+    pub fn state_at<S: Simd>(&self, simd: S, t: f64, out: &mut [f64]) {
+        let (t2, stride) = (t * t, out.len());
+        let c = &self.c[..stride * (DEGREE + 1)];
+        let t4 = four(simd, t2 * t2);
+        for (i, out) in out.chunks_exact_mut(4).enumerate() {
+            // Four sums, of the orders that leave the same rest on division by four.
+            let mut sums = [Self::four(simd, c, stride, DEGREE, i); 4];
+            for (r, sum) in sums.iter_mut().enumerate() {
+                let mut k = 12 + r;
+                *sum = if r == 0 {
+                    Self::four(simd, c, stride, k, i) + *sum * t4
+                } else {
+                    Self::four(simd, c, stride, k, i)
+                };
+                while k >= 4 {
+                    k -= 4;
+                    *sum = Self::four(simd, c, stride, k, i) + *sum * t4;
+                }
+            }
+            let even = sums[0] + sums[2] * four(simd, t2);
+            let odd = sums[1] + sums[3] * four(simd, t2);
+            (even + odd * four(simd, t)).store_slice(out);
+        }
+    }
+
+    /// The coefficients of one component of the state.
+    #[inline(always)]
+    #[must_use]
+    pub fn component<W: Width>(&self, width: W, i: usize) -> Polynomial {
+        let stride = 4 * width.fours();
+        let c = &self.c[..stride * (DEGREE + 1)];
+        let mut p = [0.0; DEGREE + 1];
+        for k in 0..=DEGREE {
+            p[k] = c[k * stride + i];
+        }
+        p
+    }
+
+    /// The coefficients of a padded row times the state.
+    #[inline(always)]
+    #[must_use]
+    pub fn row<W: Width>(&self, width: W, row: &[f64]) -> Polynomial {
+        let stride = 4 * width.fours();
+        let (row, c) = (&row[..stride], &self.c[..stride * (DEGREE + 1)]);
+        let mut p = [0.0; DEGREE + 1];
+        for k in 0..=DEGREE {
+            p[k] = dot(row, &c[k * stride..][..stride]);
+        }
+        p
+    }
+
+    /// The coefficients of an order.
+    #[inline(always)]
+    #[must_use]
+    pub fn order(&self, k: usize) -> &[f64] {
+        &self.c[k * self.stride..][..self.stride]
+    }
+}
+
+#[inline(always)]
+fn of<S: Simd>(simd: S, columns: &[Eight; 8], j: usize, x: f64) -> f64x8<S> {
+    columns[j].load(simd) * eight(simd, x)
+}
+
+/// The table of a system of one storey at most for intervals of `length_s`.
+#[must_use]
+pub fn series_table(system: &System, slip: bool, length_s: f64) -> Box<SeriesTable> {
+    let mut table = Box::new([[Eight::ZERO; 8]; PAIRS]);
+    let mut series = Series::new(system);
+    for input in 0..8 {
+        let mut x = [0.0; 4];
+        if let Some(x) = x.get_mut(input) {
+            *x = 1.0;
+        }
+        let of = |i: usize| f64::from(u8::from(input == i));
+        let load = Load {
+            acceleration: of(4),
+            acceleration_change: of(5),
+            force: of(6),
+            force_change: of(7),
+        };
+        if slip || (2..6).contains(&input) {
+            series.expand(system, slip, &x, &load, length_s);
+            for k in 1..=DEGREE {
+                let half = (k - 1) % 2 * 4;
+                table[(k - 1) / 2][input].0[half..half + 4].copy_from_slice(series.order(k));
+            }
+        }
+    }
+    table
+}
+
+/// Moves a padded state over `length_s` under loads that are linear in it, by as many series as the
+/// length needs.
+#[inline(always)]
+pub fn advance<S: Simd>(
+    simd: S,
+    system: &System,
+    slip: bool,
+    length_s: f64,
+    load: &Load,
+    series: &mut Series,
+    x: &mut [f64],
+) {
+    let rate = if slip { system.slip_rate_rad_per_s } else { system.stick_rate_rad_per_s };
+    let pieces = (rate * length_s / MAX_RATE_STEP).ceil().max(1.0);
+    let part = Load {
+        acceleration_change: load.acceleration_change / pieces,
+        force_change: load.force_change / pieces,
+        ..*load
+    };
+    for piece in 0..pieces as usize {
+        let load = Load {
+            acceleration: load.acceleration + part.acceleration_change * piece as f64,
+            force: load.force + part.force_change * piece as f64,
+            ..part
+        };
+        let s = x[0];
+        series.expand(system, slip, x, &load, length_s / pieces);
+        series.state_at(simd, 1.0, x);
+        if !slip {
+            x[0] = s;
+        }
+    }
+}

@@ -1,159 +1,53 @@
-//! The equations of motion in coordinates in which they are cheap.
+//! The equations of motion in modal coordinates.
 
 use super::frame::shear_frame_modes;
+use super::lanes::dot;
 
-/// One value a storey: an array where their number is known when compiling, else a vector.
-///
-/// The same source then serves the rigid block, one storey (both held in registers) and frames.
-pub trait PerStorey: Clone + core::fmt::Debug + AsRef<[f64]> + AsMut<[f64]> {
-    /// Storage of [`Tracked`](Self::Tracked) quantities: six of the system and three a storey.
-    type Tracked: Clone + core::fmt::Debug + AsRef<[f64]> + AsMut<[f64]>;
-
-    /// Storage of a [`State`](super::State): two values of the block and two a storey.
-    type Flat: Clone + core::fmt::Debug + PartialEq + AsRef<[f64]> + AsMut<[f64]>;
-
-    /// Storage of a matrix over the storeys.
-    type Square: Clone + core::fmt::Debug + AsRef<[f64]> + AsMut<[f64]>;
-
-    /// Storage of a matrix over states, column by column.
-    type Columns: Clone + core::fmt::Debug + AsRef<[Self::Flat]> + AsMut<[Self::Flat]>;
-
-    /// Zeros for `n` storeys.
-    fn zeros(n: usize) -> Self;
-
-    /// Zeros for the state of `n` storeys.
-    fn flat_zeros(n: usize) -> Self::Flat;
-
-    /// The same value for all tracked quantities of `n` storeys.
-    fn tracked(n: usize, value: f64) -> Self::Tracked;
-
-    /// A matrix of zeros over `n` storeys.
-    fn square_zeros(n: usize) -> Self::Square;
-
-    /// A matrix of zeros over the states of `n` storeys.
-    fn columns_zeros(n: usize) -> Self::Columns;
-}
-
-impl PerStorey for [f64; 0] {
-    type Tracked = [f64; 6];
-    type Flat = [f64; 2];
-    type Square = [f64; 0];
-    type Columns = [[f64; 2]; 2];
-
-    fn zeros(_: usize) -> Self {
-        []
-    }
-
-    fn flat_zeros(_: usize) -> Self::Flat {
-        [0.0; 2]
-    }
-
-    fn tracked(_: usize, value: f64) -> Self::Tracked {
-        [value; 6]
-    }
-
-    fn square_zeros(_: usize) -> Self::Square {
-        []
-    }
-
-    fn columns_zeros(_: usize) -> Self::Columns {
-        [[0.0; 2]; 2]
-    }
-}
-
-impl PerStorey for [f64; 1] {
-    type Tracked = [f64; 9];
-    type Flat = [f64; 4];
-    type Square = [f64; 1];
-    type Columns = [[f64; 4]; 4];
-
-    fn zeros(_: usize) -> Self {
-        [0.0]
-    }
-
-    fn flat_zeros(_: usize) -> Self::Flat {
-        [0.0; 4]
-    }
-
-    fn tracked(_: usize, value: f64) -> Self::Tracked {
-        [value; 9]
-    }
-
-    fn square_zeros(_: usize) -> Self::Square {
-        [0.0]
-    }
-
-    fn columns_zeros(_: usize) -> Self::Columns {
-        [[0.0; 4]; 4]
-    }
-}
-
-impl PerStorey for Vec<f64> {
-    type Tracked = Self;
-    type Flat = Self;
-    type Square = Self;
-    type Columns = Vec<Self>;
-
-    fn zeros(n: usize) -> Self {
-        vec![0.0; n]
-    }
-
-    fn flat_zeros(n: usize) -> Self::Flat {
-        vec![0.0; 2 + 2 * n]
-    }
-
-    fn tracked(n: usize, value: f64) -> Self::Tracked {
-        vec![value; 6 + 3 * n]
-    }
-
-    fn square_zeros(n: usize) -> Self::Square {
-        vec![0.0; n * n]
-    }
-
-    fn columns_zeros(n: usize) -> Self::Columns {
-        vec![vec![0.0; 2 + 2 * n]; 2 + 2 * n]
-    }
-}
-
-/// Block, spring, damper and structure in mass-normalised storey coordinates `η`, `q = Φ η`.
+/// Block, spring, damper and structure in the structure's fixed-base modes `η`, `q = Φ η`.
 ///
 /// With `L = Φᵀ M 1`, `f = D η̇ + Ω η` and `u = s̈ + a` eqs (9)–(12) read
 ///
 /// ```text
 /// structure   η̈ = −f − L u              (so floor i accelerates by −Φ_i f)
-/// slip        u = (T − C1 ṡ − K1 s + L·f) / M1
-/// stick       u = a,  T = M1 a + K1 s − L·f
+/// slip        u = (T − c ṡ − k s + L·f) / M1
+/// stick       u = a,  T = M1 a + k s − L·f
 /// ```
 ///
-/// `η` are the fixed-base modes where damping is a ratio (Ω and D diagonal), else the floors
-/// themselves (Ω and D tridiagonal): either way neighbours couple at most.
-#[derive(Clone, Debug)]
-pub struct System<V: PerStorey> {
+/// Ω is diagonal, and so is D where damping is a ratio. A rigid block has one coordinate that nothing
+/// moves and that moves nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct System {
+    /// Number of storeys.
+    pub storeys: usize,
     /// Mass of the block `M1` in kg.
     pub block_mass_kg: f64,
     /// `1 / M1`: a product is cheaper than a division.
     pub per_block_mass: f64,
-    /// Stiffness `K1` in N/m.
+    /// `1/√M1`, the energy norm of what a unit of force on the block does.
+    pub per_root_block: f64,
+    /// `√M_tot`, the energy norm of what a unit of acceleration does.
+    pub root_total_mass: f64,
+    /// `√Σ m_i`, the same of the structure alone.
+    pub root_storey_mass: f64,
+    /// Stiffness between ground and block in N/m.
     pub stiffness_n_per_m: f64,
-    /// Damper `C1` in N s/m.
+    /// Damper between ground and block in N s/m.
     pub damper_n_s_per_m: f64,
     /// `L` in kg^(1/2).
-    pub participation: V,
-    /// `Ω L / M1` and `D L / M1`: what `η` and `η̇` do to the block's acceleration.
-    block_rows: [V; 2],
-    /// `K1 / M1` and `C1 / M1`: what `s` and `ṡ` take from it.
-    block_own: [f64; 2],
-    /// `Φ` in kg^(−1/2), column by column: floor `i`, coordinate `j` at `i + j * n`.
-    pub shapes: V::Square,
+    pub participation: Vec<f64>,
+    /// `Ω = ω²` in s⁻².
+    pub omega2: Vec<f64>,
+    /// `D` in s⁻¹, row by row where the modes are coupled, else its diagonal.
+    damping: Vec<f64>,
+    coupled: bool,
+    /// `Φ` in kg^(−1/2), row by row: floor `i`, mode `j` at `i * n + j`.
+    shapes: Vec<f64>,
+    /// Drift of storey `i` in mode `j`, in the same way.
+    drifts: Vec<f64>,
     /// Bound on the rates of stick in rad/s: of `‖A x‖` over `‖x‖` in the energy norm.
     pub stick_rate_rad_per_s: f64,
     /// Bound on the rates of slip in rad/s, not below that of stick.
     pub slip_rate_rad_per_s: f64,
-    stiffness: V,
-    stiffness_next: V,
-    damping: V,
-    damping_next: V,
-    coupled: bool,
 }
 
 /// Damping of the storeys, as [`System::new`] takes it.
@@ -165,7 +59,7 @@ pub enum StoreyDamping<'a> {
     Dampers(&'a [f64]),
 }
 
-impl<V: PerStorey> System<V> {
+impl System {
     /// The system of a block of `block_mass_kg` on a spring and damper, with a shear frame whose
     /// floors and storeys are listed from the block up.
     #[must_use]
@@ -178,278 +72,278 @@ impl<V: PerStorey> System<V> {
         damping: StoreyDamping<'_>,
     ) -> Self {
         let n = masses_kg.len();
+        let total_kg = masses_kg.iter().fold(block_mass_kg, |sum, m| sum + m);
         let mut system = Self {
+            storeys: n,
             block_mass_kg,
             per_block_mass: 1.0 / block_mass_kg,
+            per_root_block: 1.0 / block_mass_kg.sqrt(),
+            root_total_mass: total_kg.sqrt(),
+            root_storey_mass: masses_kg.iter().sum::<f64>().sqrt(),
             stiffness_n_per_m,
             damper_n_s_per_m,
-            participation: V::zeros(n),
-            block_rows: [V::zeros(n), V::zeros(n)],
-            block_own: [0.0; 2],
-            shapes: V::square_zeros(n),
+            participation: vec![0.0],
+            omega2: vec![1.0],
+            damping: vec![0.0],
+            coupled: false,
+            shapes: Vec::new(),
+            drifts: Vec::new(),
             stick_rate_rad_per_s: 0.0,
             slip_rate_rad_per_s: 0.0,
-            stiffness: V::zeros(n),
-            stiffness_next: V::zeros(n),
-            damping: V::zeros(n),
-            damping_next: V::zeros(n),
-            coupled: false,
         };
-        match damping {
-            StoreyDamping::Ratio(ratio) => {
-                system.in_modes(masses_kg, stiffnesses_n_per_m, ratio);
-            }
-            StoreyDamping::Dampers(dampers) => {
-                system.in_floors(masses_kg, stiffnesses_n_per_m, dampers);
-            }
-        }
-        let (participation, shapes) = (system.participation.as_mut(), system.shapes.as_ref());
-        for (j, l) in participation.iter_mut().enumerate() {
-            *l = dot(&shapes[j * n..(j + 1) * n], masses_kg);
-        }
-        let (l, zero) = (system.participation.clone(), V::zeros(n));
-        let pull = system.restoring(l.as_ref(), zero.as_ref());
-        let drag = system.restoring(zero.as_ref(), l.as_ref());
-        for (row, force) in system.block_rows.iter_mut().zip([&pull, &drag]) {
-            for (row, force) in row.as_mut().iter_mut().zip(force.as_ref()) {
-                *row = force * system.per_block_mass;
-            }
+        if n > 0 {
+            system.set_modes(masses_kg, stiffnesses_n_per_m);
+            system.set_damping(damping);
         }
         system.set_rates();
         system
     }
 
-    /// Fixed-base modes as coordinates: Ω = diag ω², D = diag 2 ξ ω.
-    fn in_modes(&mut self, masses_kg: &[f64], stiffnesses_n_per_m: &[f64], ratio: f64) {
+    /// The same structure on another spring and damper.
+    #[must_use]
+    pub fn restrained(&self, stiffness_n_per_m: f64, damper_n_s_per_m: f64) -> Self {
+        let mut system = Self { stiffness_n_per_m, damper_n_s_per_m, ..self.clone() };
+        system.set_rates();
+        system
+    }
+
+    fn set_modes(&mut self, masses_kg: &[f64], stiffnesses_n_per_m: &[f64]) {
         let n = masses_kg.len();
         if n == 1 {
             // Without the detour through the frequency, which costs two roundings.
-            self.stiffness.as_mut()[0] = stiffnesses_n_per_m[0] / masses_kg[0];
-            self.damping.as_mut()[0] = 2.0 * ratio * (stiffnesses_n_per_m[0] / masses_kg[0]).sqrt();
-            self.shapes.as_mut()[0] = 1.0 / masses_kg[0].sqrt();
-            return;
-        }
-        let modes = shear_frame_modes(masses_kg, stiffnesses_n_per_m);
-        for (j, omega) in modes.frequencies_rad_per_s.iter().enumerate() {
-            self.stiffness.as_mut()[j] = omega * omega;
-            self.damping.as_mut()[j] = 2.0 * ratio * omega;
-        }
-        let shapes = self.shapes.as_mut();
-        for i in 0..n {
+            self.omega2 = vec![stiffnesses_n_per_m[0] / masses_kg[0]];
+            self.shapes = vec![1.0 / masses_kg[0].sqrt()];
+            self.drifts = self.shapes.clone();
+        } else {
+            let modes = shear_frame_modes(masses_kg, stiffnesses_n_per_m);
+            self.omega2 = modes.frequencies_rad_per_s.iter().map(|omega| omega * omega).collect();
+            self.shapes = modes.shapes;
+            // A storey carries the inertia above it: k_i (Φ_i − Φ_{i−1}) = ω² Σ_{l ≥ i} m_l Φ_l,
+            // without the cancellation of the difference.
+            self.drifts = vec![0.0; n * n];
             for j in 0..n {
-                shapes[i + j * n] = modes.shapes[i * n + j];
-            }
-        }
-    }
-
-    /// Mass-weighted floors as coordinates: Ω and D tridiagonal.
-    fn in_floors(&mut self, masses_kg: &[f64], stiffnesses_n_per_m: &[f64], dampers: &[f64]) {
-        let n = masses_kg.len();
-        self.coupled = n > 1;
-        for (values, diagonal, next) in [
-            (stiffnesses_n_per_m, &mut self.stiffness, &mut self.stiffness_next),
-            (dampers, &mut self.damping, &mut self.damping_next),
-        ] {
-            for i in 0..n {
-                let above = values.get(i + 1).copied().unwrap_or(0.0);
-                diagonal.as_mut()[i] = (values[i] + above) / masses_kg[i];
-                if i + 1 < n {
-                    next.as_mut()[i] = -above / (masses_kg[i] * masses_kg[i + 1]).sqrt();
+                let mut carried = 0.0;
+                for i in (0..n).rev() {
+                    carried += masses_kg[i] * self.shapes[i * n + j];
+                    self.drifts[i * n + j] = self.omega2[j] * carried / stiffnesses_n_per_m[i];
                 }
             }
         }
-        for i in 0..n {
-            self.shapes.as_mut()[i * n + i] = 1.0 / masses_kg[i].sqrt();
+        self.participation = (0..n)
+            .map(|j| (0..n).fold(0.0, |sum, i| sum + self.shapes[i * n + j] * masses_kg[i]))
+            .collect();
+    }
+
+    fn set_damping(&mut self, damping: StoreyDamping<'_>) {
+        let n = self.storeys;
+        match damping {
+            StoreyDamping::Ratio(ratio) => {
+                self.damping =
+                    self.omega2.iter().map(|omega2| 2.0 * ratio * omega2.sqrt()).collect();
+            }
+            StoreyDamping::Dampers(dampers) => {
+                self.coupled = n > 1;
+                self.damping = vec![0.0; n * n];
+                for (c, drift) in dampers.iter().zip(self.drifts.chunks_exact(n)) {
+                    for (row, of_row) in self.damping.chunks_exact_mut(n).zip(drift) {
+                        for (entry, of_column) in row.iter_mut().zip(drift) {
+                            *entry += c * of_row * of_column;
+                        }
+                    }
+                }
+            }
         }
     }
 
     /// Bounds on the rates. With the mass matrix `[[M_tot, Lᵀ], [L, 1]]` the largest eigenvalue of
-    /// the slip system is at most that of Ω plus `(K1 + Lᵀ Ω L) / M1` (Weyl), likewise for D; Ω and
-    /// D are bounded by their largest row sums (Gershgorin).
+    /// the slip system is at most that of Ω plus `(k + Lᵀ Ω L) / M1` (Weyl), likewise for D, which
+    /// is bounded by its largest row sum (Gershgorin).
     fn set_rates(&mut self) {
-        let n = self.participation.as_ref().len();
-        let row_sum = |diagonal: &V, next: &V| {
-            let (d, e) = (diagonal.as_ref(), next.as_ref());
-            (0..n).fold(0.0_f64, |largest, i| {
-                let below = if i > 0 { e[i - 1].abs() } else { 0.0 };
-                largest.max(d[i] + below + e[i].abs())
-            })
-        };
-        let omega2 = row_sum(&self.stiffness, &self.stiffness_next);
-        let decay = row_sum(&self.damping, &self.damping_next);
-        let l = self.participation.as_ref();
-        let [pull, drag] = self.block_rows.each_ref().map(|row| dot(l, row.as_ref()));
-        let [spring, damper] =
-            [self.stiffness_n_per_m, self.damper_n_s_per_m].map(|c| c * self.per_block_mass);
-        self.block_own = [spring, damper];
+        let (l, n) = (&self.participation, self.participation.len());
+        let rigid = self.storeys == 0;
+        let omega2 = if rigid { 0.0 } else { self.omega2.iter().fold(0.0, |a: f64, b| a.max(*b)) };
+        let width = if self.coupled { n } else { 1 };
+        let row_sum = |row: &[f64]| row.iter().fold(0.0, |sum, d| sum + d.abs());
+        let decay = self.damping.chunks_exact(width).map(row_sum).fold(0.0, f64::max);
+        let zeros = vec![0.0; n];
+        let [mut elastic, mut drag] = [zeros.clone(), zeros.clone()];
+        self.restoring(l, &zeros, &mut elastic);
+        self.restoring(&zeros, l, &mut drag);
+        let per_mass = self.per_block_mass;
+        let [pull, drag] = [dot(l, &elastic), dot(l, &drag)].map(|x| x * per_mass);
+        let (spring, damper) =
+            (self.stiffness_n_per_m * per_mass, self.damper_n_s_per_m * per_mass);
         self.stick_rate_rad_per_s = omega2.sqrt() + decay;
         self.slip_rate_rad_per_s = (omega2 + (spring + pull)).sqrt() + decay + (damper + drag);
     }
 
-    /// Number of storeys.
+    /// Coordinates of the structure, one at least.
+    #[inline(always)]
     #[must_use]
-    pub fn storeys(&self) -> usize {
-        self.participation.as_ref().len()
+    pub fn modes(&self) -> usize {
+        self.participation.len()
+    }
+
+    /// Row of `Φ`: what the coordinates do to one floor.
+    #[must_use]
+    pub fn floor(&self, floor: usize) -> &[f64] {
+        &self.shapes[floor * self.storeys..][..self.storeys]
+    }
+
+    /// What the coordinates do to the drift of one storey.
+    #[must_use]
+    pub fn drift(&self, storey: usize) -> &[f64] {
+        &self.drifts[storey * self.storeys..][..self.storeys]
     }
 
     /// `f = D η̇ + Ω η`: what springs and dampers of the structure do to each coordinate.
     #[inline(always)]
-    #[must_use]
-    pub fn restoring(&self, x: &[f64], v: &[f64]) -> V {
-        let mut f = V::zeros(x.len());
-        self.restoring_into(x, v, f.as_mut());
-        f
-    }
-
-    /// [`System::restoring`] into a slice.
-    #[inline(always)]
-    pub fn restoring_into(&self, x: &[f64], v: &[f64], f: &mut [f64]) {
-        let (k, d) = (self.stiffness.as_ref(), self.damping.as_ref());
-        for (j, f) in f.iter_mut().enumerate() {
-            *f = k[j] * x[j] + d[j] * v[j];
-        }
+    pub fn restoring(&self, x: &[f64], v: &[f64], f: &mut [f64]) {
+        let n = f.len();
+        let (x, v, k) = (&x[..n], &v[..n], &self.omega2[..n]);
         if self.coupled {
-            let (k, d) = (self.stiffness_next.as_ref(), self.damping_next.as_ref());
-            for j in 0..f.len() - 1 {
-                f[j] += k[j] * x[j + 1] + d[j] * v[j + 1];
-                f[j + 1] += k[j] * x[j] + d[j] * v[j];
+            for (j, (f, row)) in f.iter_mut().zip(self.damping.chunks_exact(n)).enumerate() {
+                *f = k[j] * x[j] + dot(row, v);
             }
-        }
-    }
-
-    /// `L·f` in N: the base shear.
-    #[inline(always)]
-    #[must_use]
-    pub fn base_shear_n(&self, f: &[f64]) -> f64 {
-        dot(self.participation.as_ref(), f)
-    }
-
-    /// Acceleration `u` of the block in slip under a friction force and a base shear.
-    #[inline(always)]
-    #[must_use]
-    pub fn block_acceleration(&self, s: f64, w: f64, shear_n: f64, friction_n: f64) -> f64 {
-        ((friction_n - self.damper_n_s_per_m * w) + (shear_n - self.stiffness_n_per_m * s))
-            * self.per_block_mass
-    }
-
-    /// The force `M1 a + K1 s − L·f` that keeps the block stuck, eqs (8), (14).
-    #[inline(always)]
-    #[must_use]
-    pub fn demand_n(&self, s: f64, shear_n: f64, a: f64) -> f64 {
-        (self.block_mass_kg * a + self.stiffness_n_per_m * s) - shear_n
-    }
-
-    /// The same, coefficient by coefficient in a series, under a friction force over `M1`.
-    #[inline(always)]
-    #[must_use]
-    pub fn block_response(
-        &self,
-        s: f64,
-        w: f64,
-        eta: &[f64],
-        eta_dot: &[f64],
-        friction: f64,
-    ) -> f64 {
-        let [of_eta, of_eta_dot] = self.block_rows.each_ref().map(AsRef::as_ref);
-        let [of_s, of_w] = self.block_own;
-        ((friction - of_s * s) + dot(of_eta, eta)) + (dot(of_eta_dot, eta_dot) - of_w * w)
-    }
-
-    /// `ẍ`'s size: the energy norm of the second derivative of the state, in N^(1/2) m^(1/2) s⁻².
-    ///
-    /// `‖x‖² = K1 s² + M1 ṡ² + ηᵀ Ω η + |η̇ + L ṡ|²`, twice the energy. While the loads are linear
-    /// in time `ẍ` follows the unloaded system, whose energy dampers can only spend: the norm at the
-    /// start of an interval bounds it throughout, and with it the second derivative of every
-    /// linear function of the state by that function's [dual norm](System::dual_norm).
-    #[inline(always)]
-    #[must_use]
-    pub fn energy_norm(&self, s: f64, w: f64, eta: &[f64], eta_dot: &[f64]) -> f64 {
-        let l = self.participation.as_ref();
-        let mut f = V::zeros(eta.len());
-        self.elastic_into(eta, f.as_mut());
-        let mut twice = self.stiffness_n_per_m * s * s + self.block_mass_kg * w * w;
-        for (j, f) in f.as_ref().iter().enumerate() {
-            let momentum = eta_dot[j] + l[j] * w;
-            twice += f * eta[j] + momentum * momentum;
-        }
-        // Rounding can leave a hair below zero where floors are the coordinates.
-        twice.max(0.0).sqrt()
-    }
-
-    /// Largest value on states of energy norm 1 of
-    /// the row `s · s + w · ṡ + yᵀ Ω η + eta_dot · η̇`.
-    #[must_use]
-    pub fn dual_norm(&self, s: f64, w: f64, y: &[f64], eta_dot: &[f64]) -> f64 {
-        let mut square = if s == 0.0 { 0.0 } else { s * s / self.stiffness_n_per_m };
-        let momentum = w - dot(eta_dot, self.participation.as_ref());
-        square += momentum * momentum / self.block_mass_kg + dot(eta_dot, eta_dot);
-        let mut elastic = V::zeros(y.len());
-        self.elastic_into(y, elastic.as_mut());
-        square += dot(y, elastic.as_ref()).max(0.0);
-        square.sqrt()
-    }
-
-    /// `Ω η`.
-    #[inline(always)]
-    fn elastic_into(&self, eta: &[f64], f: &mut [f64]) {
-        let k = self.stiffness.as_ref();
-        for (j, f) in f.iter_mut().enumerate() {
-            *f = k[j] * eta[j];
-        }
-        if self.coupled {
-            let k = self.stiffness_next.as_ref();
-            for j in 0..f.len() - 1 {
-                f[j] += k[j] * eta[j + 1];
-                f[j + 1] += k[j] * eta[j];
+        } else {
+            let d = &self.damping[..n];
+            for j in 0..n {
+                f[j] = k[j] * x[j] + d[j] * v[j];
             }
         }
     }
 
     /// `D v`.
     #[must_use]
-    pub fn drag(&self, v: &[f64]) -> V {
-        self.restoring(V::zeros(v.len()).as_ref(), v)
+    pub fn drag(&self, v: &[f64]) -> Vec<f64> {
+        let mut f = vec![0.0; v.len()];
+        self.restoring(&vec![0.0; v.len()], v, &mut f);
+        f
+    }
+
+    /// Acceleration `u` of the block in slip under a force on it and a base shear `L·f`.
+    #[inline(always)]
+    #[must_use]
+    pub fn block_acceleration(&self, s: f64, w: f64, shear_n: f64, force_n: f64) -> f64 {
+        ((force_n - self.damper_n_s_per_m * w) + (shear_n - self.stiffness_n_per_m * s))
+            * self.per_block_mass
+    }
+
+    /// Energy norm of a state `s, ṡ, η, η̇`, in N^(1/2) m^(1/2).
+    ///
+    /// `‖x‖² = k s² + M1 ṡ² + ηᵀ Ω η + |η̇ + L ṡ|²`, twice the energy.
+    #[inline(always)]
+    #[must_use]
+    pub fn energy_norm(&self, x: &[f64]) -> f64 {
+        let n = x.len() / 2 - 1;
+        let (s, w, eta, rest) = (x[0], x[1], &x[2..2 + n], &x[2 + n..2 + 2 * n]);
+        let (l, k) = (&self.participation[..n], &self.omega2[..n]);
+        let mut sums = [0.0; 4];
+        for j in 0..n {
+            let momentum = rest[j] + l[j] * w;
+            sums[j % 4] += k[j] * (eta[j] * eta[j]) + momentum * momentum;
+        }
+        let of_block = self.stiffness_n_per_m * (s * s) + self.block_mass_kg * (w * w);
+        (of_block + ((sums[0] + sums[1]) + (sums[2] + sums[3]))).sqrt()
+    }
+
+    /// Largest value on states of energy norm 1 of the row `c`, in stick on those at `s = ṡ = 0`.
+    /// Infinite where a row asks for `s` that nothing restrains.
+    #[must_use]
+    pub fn dual_norm(&self, slip: bool, c: &[f64]) -> f64 {
+        let n = self.modes();
+        let (of_eta, of_rate) = (&c[2..2 + n], &c[2 + n..2 + 2 * n]);
+        let mut square = dot(of_rate, of_rate);
+        for (c, omega2) in of_eta.iter().zip(&self.omega2) {
+            square += c * c / omega2;
+        }
+        if slip {
+            square += if c[0] == 0.0 { 0.0 } else { c[0] * c[0] / self.stiffness_n_per_m };
+            let momentum = c[1] - dot(of_rate, &self.participation);
+            square += momentum * momentum * self.per_block_mass;
+        }
+        square.sqrt()
+    }
+
+    /// Energy norms of `ẋ` and `ẍ` in a state under an acceleration and a force on the block, each
+    /// with its rate.
+    ///
+    /// While the loads are linear in time `ẍ` follows the unloaded system, whose energy dampers can
+    /// only spend: the norm at the start bounds it throughout, and with it the second derivative of
+    /// every linear function of the state by that function's [dual norm](System::dual_norm).
+    #[inline(always)]
+    #[must_use]
+    pub fn derivative_norms(
+        &self,
+        slip: bool,
+        x: &[f64],
+        [a, jerk]: [f64; 2],
+        [force_n, force_rate]: [f64; 2],
+        [f, eta2]: [&mut [f64]; 2],
+    ) -> [f64; 2] {
+        let n = f.len();
+        let (eta, rate) = (&x[2..2 + n], &x[2 + n..2 + 2 * n]);
+        let (l, k) = (&self.participation[..n], &self.omega2[..n]);
+        let (mut first, mut second) = ([0.0; 4], [0.0; 4]);
+        self.restoring(eta, rate, f);
+        let u = if slip { self.block_acceleration(x[0], x[1], dot(l, f), force_n) } else { a };
+        for j in 0..n {
+            eta2[j] = -(f[j] + l[j] * u);
+            // η̈ + L s̈ = −f − L a
+            let momentum = f[j] + l[j] * a;
+            first[j % 4] += k[j] * (rate[j] * rate[j]) + momentum * momentum;
+        }
+        self.restoring(rate, eta2, f);
+        for j in 0..n {
+            // η‴ + L s‴ = −f′ − L ȧ
+            let momentum = f[j] + l[j] * jerk;
+            second[j % 4] += k[j] * (eta2[j] * eta2[j]) + momentum * momentum;
+        }
+        let [mut first, mut second] =
+            [first, second].map(|sums| (sums[0] + sums[1]) + (sums[2] + sums[3]));
+        if slip {
+            let (w, s2) = (x[1], u - a);
+            let s3 = self.block_acceleration(w, s2, dot(l, f), force_rate) - jerk;
+            first += self.stiffness_n_per_m * (w * w) + self.block_mass_kg * (s2 * s2);
+            second += self.stiffness_n_per_m * (s2 * s2) + self.block_mass_kg * (s3 * s3);
+        }
+        [first.sqrt(), second.sqrt()]
     }
 
     /// Floor values `Φ η` of coordinates `η`.
     #[inline(always)]
     pub fn floors(&self, eta: &[f64], out: &mut [f64]) {
-        let (n, shapes) = (eta.len(), self.shapes.as_ref());
-        for (j, eta) in eta.iter().enumerate() {
-            for (out, shape) in out.iter_mut().zip(&shapes[j * n..(j + 1) * n]) {
-                *out = if j == 0 { shape * eta } else { *out + shape * eta };
-            }
+        let n = self.storeys;
+        for (out, row) in out[..n].iter_mut().zip(self.shapes.chunks_exact(n.max(1))) {
+            *out = dot(row, &eta[..n]);
         }
-    }
-
-    /// Row of `Φ`: what the coordinates do to one floor.
-    #[must_use]
-    pub fn floor(&self, floor: usize) -> V {
-        let n = self.storeys();
-        let mut row = V::zeros(n);
-        for (j, row) in row.as_mut().iter_mut().enumerate() {
-            *row = self.shapes.as_ref()[floor + j * n];
-        }
-        row
     }
 
     /// Coordinates `η = Φᵀ M q` of floor values `q`.
     #[must_use]
-    pub fn coordinates(&self, masses_kg: &[f64], floors: &[f64]) -> V {
-        let n = self.storeys();
-        let mut eta = V::zeros(n);
-        for (j, eta) in eta.as_mut().iter_mut().enumerate() {
-            let shape = &self.shapes.as_ref()[j * n..(j + 1) * n];
-            *eta = (0..n).fold(0.0, |sum, i| sum + shape[i] * masses_kg[i] * floors[i]);
+    pub fn coordinates(&self, masses_kg: &[f64], floors: &[f64]) -> Vec<f64> {
+        let n = self.storeys;
+        let mut eta = vec![0.0; self.modes()];
+        for (j, eta) in eta[..n].iter_mut().enumerate() {
+            *eta =
+                (0..n).fold(0.0, |sum, i| sum + self.shapes[i * n + j] * masses_kg[i] * floors[i]);
         }
         eta
     }
-}
 
-/// Sum of products in order, from the first.
-#[inline(always)]
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut products = a.iter().zip(b).map(|(x, y)| x * y);
-    let Some(first) = products.next() else { return 0.0 };
-    products.fold(first, |sum, product| sum + product)
+    /// Derivative of a state under an acceleration and a force on the block.
+    #[inline(always)]
+    pub fn derivative(&self, slip: bool, x: &[f64], a: f64, force_n: f64, out: &mut [f64]) {
+        let n = self.modes();
+        let (head, tail) = out[..2 + 2 * n].split_at_mut(2 + n);
+        let (eta, rate) = (&x[2..2 + n], &x[2 + n..2 + 2 * n]);
+        self.restoring(eta, rate, tail);
+        let l = &self.participation[..n];
+        let u = if slip { self.block_acceleration(x[0], x[1], dot(l, tail), force_n) } else { a };
+        (head[0], head[1]) = if slip { (x[1], u - a) } else { (0.0, 0.0) };
+        head[2..].copy_from_slice(rate);
+        for j in 0..n {
+            tail[j] = -(tail[j] + l[j] * u);
+        }
+    }
 }

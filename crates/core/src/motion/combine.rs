@@ -3,6 +3,7 @@
 use super::figures::peak;
 use super::{GroundMotion, MAX_SAMPLES};
 use crate::error::MotionError;
+use crate::numerics::fractile::upper_median;
 
 impl GroundMotion {
     /// The same motion with both components times `factor`, which may be negative.
@@ -184,10 +185,8 @@ pub(super) fn steps(duration_s: f64, dt_s: f64, others: usize) -> Result<usize, 
 }
 
 fn median_interval(times_s: &[f64]) -> f64 {
-    let mut intervals: Vec<f64> =
-        times_s.windows(2).map(|t| t[1] - t[0]).filter(|&h| h > 0.0).collect();
-    let middle = intervals.len() / 2;
-    *intervals.select_nth_unstable_by(middle, f64::total_cmp).1
+    let intervals = times_s.windows(2).map(|t| t[1] - t[0]).filter(|&h| h > 0.0);
+    upper_median(intervals).unwrap_or(f64::NAN)
 }
 
 /// The earlier of two times; where they are one but for rounding, the first.

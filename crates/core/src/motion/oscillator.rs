@@ -295,10 +295,10 @@ impl Line {
             let at = |k: u64| f0 + (f1 - f0) * (k as f64 / parts);
             let c = taylor(theta, self.xi, y, slope, [at(part), at(part + 1)]);
             if above {
-                *peak = polynomial::largest(&c, *peak);
+                *peak = polynomial::largest(&c, 1.0, *peak);
             }
             if below {
-                *peak = polynomial::largest(&c.map(|c| -c), *peak);
+                *peak = polynomial::largest(&c.map(|c| -c), 1.0, *peak);
             }
             y = polynomial::value(&c, 1.0);
             slope = polynomial::value(&polynomial::derivative(&c), 1.0) / theta;

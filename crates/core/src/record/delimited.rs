@@ -19,6 +19,7 @@ use super::{
 };
 pub(super) use columns::read as read_columns;
 pub use columns::{Column, Columns};
+pub(crate) use header::bracket;
 use header::{Header, Unit};
 use layout::Layout;
 use table::Table;

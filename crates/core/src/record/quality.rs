@@ -1,6 +1,8 @@
 //! What is looked for in every channel, whatever its format: a start that is not at rest, drift,
 //! clipped peaks, gaps and repeated rows.
 
+use crate::numerics::fractile::upper_median;
+
 use super::{Channel, Quantity, RecordWarning, Sampling, Units};
 
 /// Values at a peak that follow one another unchanged: fewer happen by rounding.
@@ -131,15 +133,14 @@ fn clipped(values: &[f64], si: f64) -> Option<RecordWarning> {
 /// One step far longer than the others, which are alike.
 fn gap(times_s: &[f64]) -> Option<RecordWarning> {
     let steps = || times_s.windows(2).map(|t| t[1] - t[0]);
-    let mut sorted: Vec<f64> = steps().collect();
-    sorted.sort_unstable_by(f64::total_cmp);
-    let usual = *sorted.get(sorted.len() / 2)?;
+    let usual = upper_median(steps())?;
     let long = |step: &f64| *step > 1.5 * usual;
     let alike = steps().filter(|step| (step - usual).abs() <= 0.2 * usual).count();
     let gaps = steps().filter(long).count();
     // Digitised film has steps of all lengths: no gaps there.
     let (at, step) = steps().enumerate().find(|(_, step)| long(step))?;
-    (usual > 0.0 && alike + gaps >= sorted.len() && gaps * 10 <= sorted.len()).then(|| {
+    let count = times_s.len() - 1;
+    (usual > 0.0 && alike + gaps >= count && gaps * 10 <= count).then(|| {
         let message = format!(
             "{gaps} gap(s) in the times, the first after {} s: a step of {} s where {} s is usual; \
              the motion is taken as linear across it",

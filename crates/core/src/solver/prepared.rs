@@ -3,140 +3,328 @@
 use std::sync::Arc;
 
 use fearless_simd::Level;
+use fearless_simd::prelude::*;
 
-use super::blocks::{Tables, Windows};
-use super::exact::{self, Way};
+use super::ground::{Ground, Normal, Windows, contact_loss_s};
+use super::recorder::Recorder;
+use super::run::{Outcome, Run};
+use super::summary;
+use super::tables::Tables;
 use crate::error::SolveError;
+use crate::friction::Law;
+use crate::linear::lanes::{Many, One, Width};
 use crate::model::Model;
 use crate::motion::GroundMotion;
-use crate::response::Response;
+use crate::response::{Method, Response};
 
-/// A ground motion with what the solver needs to know of it, for any number of models.
-#[derive(Debug)]
-pub struct PreparedMotion<'a> {
-    motion: &'a GroundMotion,
-    windows: Windows,
+/// Most radians that the fastest mode may turn: beyond, its phase is lost to rounding.
+const RADIANS_LIMIT: f64 = 1e9;
+
+/// A ground motion with what the solver needs to know of it, for any number of models. Copies share
+/// both.
+#[derive(Clone, Debug)]
+pub struct PreparedMotion {
+    motion: Arc<GroundMotion>,
+    windows: Arc<Windows>,
 }
 
-impl<'a> PreparedMotion<'a> {
+impl PreparedMotion {
     /// Looks through the motion once.
     #[must_use]
-    pub fn new(motion: &'a GroundMotion) -> Self {
-        Self { motion, windows: Windows::new(motion) }
+    pub fn new(motion: impl Into<Arc<GroundMotion>>) -> Self {
+        let motion = motion.into();
+        let windows = Arc::new(Windows::new(&motion));
+        Self { motion, windows }
     }
 
     /// The motion itself.
     #[must_use]
-    pub fn motion(&self) -> &'a GroundMotion {
-        self.motion
+    pub fn motion(&self) -> &GroundMotion {
+        &self.motion
+    }
+
+    /// The step that all but a few intervals have, in s; none where the sampling is uneven.
+    #[must_use]
+    pub fn dt_s(&self) -> Option<f64> {
+        self.windows.dt_s
     }
 }
 
-/// A model with its propagators for one time step.
+/// A model with its modes, series and maps for one time step. Copies share them.
 ///
-/// They depend neither on friction nor on the motion's values: one prepared model serves all
-/// levels of a record, and [`PreparedModel::sharing`] all coefficients of friction.
-#[derive(Debug)]
-pub struct PreparedModel<'a> {
-    model: &'a Model,
+/// They depend neither on friction nor on the motion's values: one prepared model serves all levels
+/// of a record, and [`Prepared::with_model`] all coefficients of friction.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    model: Arc<Model>,
     dt_s: Option<f64>,
-    /// None where the model goes the plain way.
-    tables: Option<Arc<Tables>>,
+    tables: Arc<Tables>,
 }
 
-impl<'a> PreparedModel<'a> {
-    /// Prepares a model for motions with the sampling of this one.
+impl Prepared {
+    /// Prepares a model for motions of one step in s, or of none.
     #[must_use]
-    pub fn new(model: &'a Model, motion: &PreparedMotion<'_>) -> Self {
-        let dt_s = motion.windows.dt_s;
-        let tables = dt_s.and_then(|dt_s| exact::tables(model, dt_s));
+    pub fn new(model: impl Into<Arc<Model>>, dt_s: Option<f64>) -> Self {
+        let model = model.into();
+        let tables = Arc::new(tables_of(&model, dt_s));
         Self { model, dt_s, tables }
     }
 
-    /// Another model, with the propagators of this one where the two differ in friction alone.
+    /// Another model for the same step, with the tables of this one where the two differ in friction
+    /// alone.
     #[must_use]
-    pub fn sharing<'b>(&self, model: &'b Model) -> PreparedModel<'b> {
-        let same = self.model.with_friction(model.slider().friction) == *model;
-        let tables = if same {
-            self.tables.clone()
+    pub fn with_model(&self, model: impl Into<Arc<Model>>) -> Self {
+        let model = model.into();
+        if self.model.with_friction(model.slider().friction) == *model {
+            Self { model, ..self.clone() }
         } else {
-            self.dt_s.and_then(|dt_s| exact::tables(model, dt_s))
-        };
-        PreparedModel { model, dt_s: self.dt_s, tables }
+            Self::new(model, self.dt_s)
+        }
     }
 
     /// The model itself.
     #[must_use]
-    pub fn model(&self) -> &'a Model {
-        self.model
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// Exact response without a history: peaks, counts and events, bit for bit those of
+    /// [`exact`](super::exact) and of [`exact_demands`](super::exact_demands).
+    ///
+    /// A motion whose step is not the one the model was prepared for costs a new preparation.
+    ///
+    /// # Errors
+    /// [`SolveError`] with time and cause.
+    pub fn demands(&self, motion: &PreparedMotion) -> Result<Response, SolveError> {
+        self.demands_by(InstructionSet::best(), motion)
+    }
+
+    /// [`Prepared::demands`] by a given instruction set: the bits are the same by all.
+    ///
+    /// # Errors
+    /// [`SolveError`] with time and cause.
+    pub fn demands_by(
+        &self,
+        instructions: InstructionSet,
+        motion: &PreparedMotion,
+    ) -> Result<Response, SolveError> {
+        self.solve(instructions, motion, false)
+    }
+
+    /// Exact response with its history.
+    ///
+    /// # Errors
+    /// [`SolveError`] with time and cause.
+    pub fn response(&self, motion: &PreparedMotion) -> Result<Response, SolveError> {
+        self.solve(InstructionSet::best(), motion, true)
+    }
+
+    fn solve(
+        &self,
+        instructions: InstructionSet,
+        motion: &PreparedMotion,
+        with_history: bool,
+    ) -> Result<Response, SolveError> {
+        let own;
+        let tables = if self.dt_s == motion.dt_s() {
+            &self.tables
+        } else {
+            own = tables_of(&self.model, motion.dt_s());
+            &own
+        };
+        let ground = (motion.motion(), &*motion.windows);
+        solve(instructions, &self.model, tables, ground, with_history)
     }
 }
 
-/// Exact response without a history: peaks, counts and events, bit for bit those of
-/// [`exact`](super::exact) and of [`exact_demands`](super::exact_demands).
-///
-/// A motion whose sampling is not the one the model was prepared for costs a new preparation.
-///
-/// # Errors
-/// [`SolveError`] with time and cause.
-pub fn demands(
-    model: &PreparedModel<'_>,
-    motion: &PreparedMotion<'_>,
-) -> Result<Response, SolveError> {
-    demands_by(InstructionSet::best(), model, motion)
-}
-
-/// [`demands`] by a given instruction set: the bits are the same by all.
-///
-/// # Errors
-/// [`SolveError`] with time and cause.
-pub fn demands_by(
-    instructions: InstructionSet,
-    model: &PreparedModel<'_>,
-    motion: &PreparedMotion<'_>,
-) -> Result<Response, SolveError> {
-    solve(instructions, model, motion, false)
-}
-
-pub(super) fn solve(
-    instructions: InstructionSet,
-    model: &PreparedModel<'_>,
-    motion: &PreparedMotion<'_>,
+/// Response of a model to a motion, neither prepared.
+pub(super) fn solve_once(
+    model: &Model,
+    motion: &GroundMotion,
     with_history: bool,
 ) -> Result<Response, SolveError> {
-    let tables = model.tables.as_deref().filter(|_| model.dt_s == motion.windows.dt_s);
-    let way = Way::Blocks { windows: &motion.windows, tables, level: instructions.0 };
-    exact::solve(model.model, motion.motion, with_history, way)
+    let windows = Windows::new(motion);
+    let tables = tables_of(model, windows.dt_s);
+    solve(InstructionSet::best(), model, &tables, (motion, &windows), with_history)
 }
 
-/// Vector instructions of the processor, as found when the program runs.
+fn tables_of(model: &Model, dt_s: Option<f64>) -> Tables {
+    let law = model.law();
+    InstructionSet::best().run(TablesOf { model, law: &law, dt_s })
+}
+
+struct TablesOf<'a> {
+    model: &'a Model,
+    law: &'a Law,
+    dt_s: Option<f64>,
+}
+
+impl Job for TablesOf<'_> {
+    type Output = Tables;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Tables {
+        Tables::new(simd, self.model, self.law, self.dt_s)
+    }
+}
+
+fn solve(
+    instructions: InstructionSet,
+    model: &Model,
+    tables: &Tables,
+    (motion, windows): (&GroundMotion, &Windows),
+    with_history: bool,
+) -> Result<Response, SolveError> {
+    let rate = tables.slip.iter().fold(0.0, |rate: f64, p| rate.max(p.system.slip_rate_rad_per_s));
+    let (duration_s, limit) = (motion.duration_s(), RADIANS_LIMIT);
+    let radians = rate * duration_s;
+    if !(radians <= limit) {
+        return Err(SolveError::TooStiff { radians, duration_s, limit });
+    }
+    let slope = tables.slope;
+    let (mass_kg, gravity) = (model.total_mass_kg(), model.normal_gravity_m_per_s2());
+    let sloped: Vec<f64>;
+    let acceleration = if slope == 0.0 {
+        motion.horizontal_m_per_s2()
+    } else {
+        sloped = motion.horizontal_m_per_s2().iter().map(|a| a + slope).collect();
+        &sloped
+    };
+    let varying: Vec<f64>;
+    let normal = match motion.vertical_m_per_s2() {
+        None => Normal::Constant(mass_kg * gravity),
+        Some(vertical) => {
+            varying = vertical.iter().map(|a| mass_kg * (gravity + a)).collect();
+            Normal::Varying(&varying)
+        }
+    };
+    let ground = Ground {
+        times_s: motion.times_s(),
+        table: motion.horizontal_m_per_s2(),
+        acceleration,
+        normal,
+        windows,
+        slope_size: slope.abs(),
+        mass_kg,
+        weight_n: mass_kg * gravity,
+    };
+    let law = model.law();
+    let recorder = with_history
+        .then(|| Recorder::new(&tables.stick.system, motion.len(), slope, law.has_stop()));
+    let (outcome, recorder) =
+        instructions.run(Analysis { model, tables, law: &law, ground, recorder })?;
+    let contact_loss_s = contact_loss_s(motion.times_s(), normal);
+    let warnings = summary::warnings(model, &outcome.events, &contact_loss_s);
+    Ok(Response {
+        method: Method::Exact,
+        demands: summary::demands(model, &outcome),
+        events: outcome.events,
+        history: recorder.map(|recorder| recorder.history),
+        contact_loss_s,
+        iterations: None,
+        warnings,
+    })
+}
+
+struct Analysis<'a> {
+    model: &'a Model,
+    tables: &'a Tables,
+    law: &'a Law,
+    ground: Ground<'a>,
+    recorder: Option<Recorder>,
+}
+
+impl Job for Analysis<'_> {
+    type Output = Result<(Outcome, Option<Recorder>), SolveError>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Self::Output {
+        #[inline(always)]
+        fn of<S: Simd, W: Width>(
+            simd: S,
+            width: W,
+            job: Analysis<'_>,
+        ) -> Result<(Outcome, Option<Recorder>), SolveError> {
+            let Analysis { model, tables, law, ground, recorder } = job;
+            let mut run = Run::new((simd, width), model, (tables, law), ground, recorder);
+            run.go()?;
+            Ok(run.outcome())
+        }
+        match self.model.storeys() {
+            0 | 1 => of(simd, One, self),
+            n => of(simd, Many(n), self),
+        }
+    }
+}
+
+/// Vector instructions of the processor, as found when the program runs: AVX2, or those that every
+/// processor of its kind has.
 #[derive(Clone, Copy, Debug)]
 pub struct InstructionSet(Level);
+
+/// Work that an instruction set does.
+trait Job {
+    type Output;
+
+    fn run<S: Simd>(self, simd: S) -> Self::Output;
+}
 
 impl InstructionSet {
     /// The best of this machine.
     #[must_use]
     pub fn best() -> Self {
-        Self(Level::new())
+        let level = Level::new();
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        if let Some(avx2) = level.as_avx2() {
+            return Self(Level::Avx2(avx2));
+        }
+        Self(portable(level))
     }
 
     /// All of this machine that a response can be computed by; with the feature `scalar` also no
     /// vector instructions at all.
     #[must_use]
     pub fn all() -> Vec<Self> {
-        let best = Level::new();
-        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        let found = [
-            best.as_avx512().map(Level::Avx512),
-            best.as_avx2().map(Level::Avx2),
-            best.as_sse4_2().map(Level::Sse4_2),
-            best.as_sse2().map(Level::Sse2),
-        ];
-        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-        let found = [Some(best)];
-        let all = found.into_iter().flatten();
+        let all = [Self::best(), Self(portable(Level::new()))];
         #[cfg(feature = "scalar")]
-        let all = all.chain([Level::fallback()]);
-        all.map(Self).collect()
+        let all = all.into_iter().chain([Self(Level::fallback())]);
+        all.into_iter().collect()
     }
+
+    #[inline(always)]
+    fn run<J: Job>(self, job: J) -> J::Output {
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        {
+            #[cfg(feature = "scalar")]
+            if let Level::Fallback(simd) = self.0 {
+                return job.run(simd);
+            }
+            if let Level::Avx2(simd) = self.0 {
+                return simd.vectorize(
+                    #[inline(always)]
+                    || job.run(simd),
+                );
+            }
+            if let Some(simd) = self.0.as_sse2() {
+                return simd.vectorize(
+                    #[inline(always)]
+                    || job.run(simd),
+                );
+            }
+            unreachable!("every processor that this is built for has SSE2")
+        }
+        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+        {
+            fearless_simd::dispatch!(self.0, simd => job.run(simd))
+        }
+    }
+}
+
+/// What every processor of this kind has.
+fn portable(level: Level) -> Level {
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    if let Some(sse2) = level.as_sse2() {
+        return Level::Sse2(sse2);
+    }
+    level
 }

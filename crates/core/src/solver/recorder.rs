@@ -1,48 +1,39 @@
-//! Keeps the history of a response, or nothing.
+//! Keeps the history of a response.
 
-use crate::linear::{PerStorey, State, System};
+use crate::friction::Contact;
+use crate::linear::System;
+use crate::linear::lanes::dot;
 use crate::response::{History, Mode};
 
 /// What is known at a knot.
-pub(super) struct Knot<'a, V: PerStorey> {
+pub(super) struct Knot<'a> {
     pub(super) time_s: f64,
     pub(super) mode: Mode,
+    pub(super) contact: Contact,
     /// `Ü`.
     pub(super) table: f64,
-    pub(super) state: &'a State<V>,
-    /// `u = s̈ + a`.
-    pub(super) u: f64,
-    /// `f = D η̇ + Ω η`.
-    pub(super) f: &'a [f64],
+    /// `a`.
+    pub(super) acceleration: f64,
+    /// `s, ṡ, η, η̇`.
+    pub(super) state: &'a [f64],
+    /// Friction force in slip, in N.
     pub(super) friction_n: f64,
-}
-
-/// Takes knots as the solver passes them.
-pub(super) trait Recorder<V: PerStorey> {
-    /// Whether knots are wanted at all.
-    const WANTED: bool;
-
-    /// A knot; `row` if it is also a row of the sampled history.
-    fn knot(&mut self, system: &System<V>, knot: &Knot<'_, V>, row: bool);
-}
-
-/// Keeps nothing.
-pub(super) struct Nothing;
-
-impl<V: PerStorey> Recorder<V> for Nothing {
-    const WANTED: bool = false;
-
-    fn knot(&mut self, _: &System<V>, _: &Knot<'_, V>, _: bool) {}
+    /// In slip the constant force of the stop on the ground's side, in stick that of springs and stop.
+    pub(super) force_n: f64,
 }
 
 /// Keeps every knot.
-pub(super) struct Everything {
+pub(super) struct Recorder {
     pub(super) history: History,
     slope_m_per_s2: f64,
+    stop: bool,
+    f: Vec<f64>,
+    floors: Vec<f64>,
 }
 
-impl Everything {
-    pub(super) fn new(storeys: usize, samples: usize, slope_m_per_s2: f64) -> Self {
+impl Recorder {
+    pub(super) fn new(system: &System, samples: usize, slope_m_per_s2: f64, stop: bool) -> Self {
+        let storeys = system.storeys;
         let mut history = History { storeys, ..History::default() };
         let room = samples + samples / 8;
         for column in [
@@ -64,40 +55,77 @@ impl Everything {
         }
         history.mode.reserve(room);
         history.rows.reserve(samples);
-        Self { history, slope_m_per_s2 }
+        let (f, floors) = (vec![0.0; system.modes()], vec![0.0; storeys]);
+        Self { history, slope_m_per_s2, stop, f, floors }
     }
 }
 
-impl<V: PerStorey> Recorder<V> for Everything {
-    const WANTED: bool = true;
+/// What is stored at a knot.
+pub(super) struct Stored<'a> {
+    pub(super) time_s: f64,
+    pub(super) mode: Mode,
+    pub(super) contact: Contact,
+    /// `Ü`.
+    pub(super) table: f64,
+    /// `s, ṡ, η, η̇`.
+    pub(super) state: &'a [f64],
+    /// Total acceleration of the block.
+    pub(super) block: f64,
+    pub(super) friction_n: f64,
+    /// `f = D η̇ + Ω η`.
+    pub(super) f: &'a [f64],
+}
 
+impl Recorder {
+    /// Stores a knot; `row` if it is also a row of the sampled history.
     #[inline]
-    fn knot(&mut self, system: &System<V>, knot: &Knot<'_, V>, row: bool) {
-        let (h, slope) = (&mut self.history, self.slope_m_per_s2);
+    pub(super) fn store(&mut self, system: &System, knot: &Stored<'_>, row: bool) {
+        let (n, modes) = (system.storeys, system.modes());
+        let (h, slope, x) = (&mut self.history, self.slope_m_per_s2, knot.state);
         if row {
             h.rows.push(h.time_s.len());
         }
         h.time_s.push(knot.time_s);
         h.mode.push(knot.mode);
-        h.table_acceleration_m_per_s2.push(knot.table);
-        h.sliding_displacement_m.push(knot.state.s());
-        h.sliding_velocity_m_per_s.push(knot.state.w());
-        h.block_acceleration_m_per_s2.push(match knot.mode {
-            Mode::Stick => knot.table,
-            Mode::Slip(_) => knot.u - slope,
-        });
-        h.friction_force_n.push(knot.friction_n);
-        let floors = |coordinates: &[f64]| {
-            let mut values = V::zeros(coordinates.len());
-            system.floors(coordinates, values.as_mut());
-            values
-        };
-        let mut accelerations = floors(knot.f);
-        for a in accelerations.as_mut() {
-            *a = -*a - slope;
+        if self.stop {
+            h.contact.push(knot.contact);
         }
-        h.storey_displacement_m.extend_from_slice(floors(knot.state.eta()).as_ref());
-        h.storey_velocity_m_per_s.extend_from_slice(floors(knot.state.eta_dot()).as_ref());
-        h.storey_acceleration_m_per_s2.extend_from_slice(accelerations.as_ref());
+        h.table_acceleration_m_per_s2.push(knot.table);
+        h.sliding_displacement_m.push(x[0]);
+        h.sliding_velocity_m_per_s.push(x[1]);
+        h.block_acceleration_m_per_s2.push(knot.block);
+        h.friction_force_n.push(knot.friction_n);
+        if n == 0 {
+            return;
+        }
+        system.floors(&x[2..2 + modes], &mut self.floors);
+        h.storey_displacement_m.extend_from_slice(&self.floors);
+        system.floors(&x[2 + modes..2 + 2 * modes], &mut self.floors);
+        h.storey_velocity_m_per_s.extend_from_slice(&self.floors);
+        system.floors(knot.f, &mut self.floors);
+        h.storey_acceleration_m_per_s2.extend(self.floors.iter().map(|f| -f - slope));
+    }
+
+    /// A knot; `row` if it is also a row of the sampled history.
+    pub(super) fn knot(&mut self, system: &System, knot: &Knot<'_>, row: bool) {
+        let (modes, x) = (system.modes(), knot.state);
+        let mut f = core::mem::take(&mut self.f);
+        system.restoring(&x[2..2 + modes], &x[2 + modes..2 + 2 * modes], &mut f);
+        let shear_n = dot(&system.participation, &f);
+        let (block, friction_n) = match knot.mode {
+            Mode::Stick => {
+                let inertia = system.block_mass_kg * knot.acceleration;
+                (knot.table, (inertia + knot.force_n) - shear_n)
+            }
+            Mode::Slip(_) => {
+                let force_n = knot.friction_n - knot.force_n;
+                let u = system.block_acceleration(x[0], x[1], shear_n, force_n);
+                (u - self.slope_m_per_s2, knot.friction_n)
+            }
+        };
+        let Knot { time_s, mode, contact, table, state, .. } = *knot;
+        let stored = Stored { time_s, mode, contact, table, state, block, friction_n, f: &f };
+        self.store(system, &stored, row);
+        self.f = f;
     }
 }

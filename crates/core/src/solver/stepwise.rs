@@ -1,13 +1,15 @@
 //! The paper's own program, eqs (5), (6), (15)–(18): what it computed, errors included.
 
-use super::exact::{Outcome, Sliding, system_of};
-use super::excitation::Excitation;
-use super::extremes::Extremes;
-use super::recorder::{Everything, Knot, Recorder};
+use super::ground::{Normal, contact_loss_s};
+use super::outputs::{self, output};
+use super::recorder::{Recorder, Stored};
+use super::run::{Outcome, Sliding};
 use super::summary;
+use super::tables::system_of;
 use crate::error::SolveError;
-use crate::friction::Direction;
-use crate::linear::{State, System};
+use crate::friction::{Contact, Direction, Law};
+use crate::linear::System;
+use crate::linear::lanes::{dot, greatest};
 use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::response::{Event, EventKind, Iterations, Method, Mode, Response};
@@ -18,20 +20,18 @@ pub(super) const TOLERANCE_M_PER_S2: f64 = 1e-5;
 /// Most iterations in a step.
 const ITERATIONS_LIMIT: u32 = 200;
 
-type Frame = Vec<f64>;
-
 /// State at a sample with the accelerations that belong to it.
 #[derive(Clone)]
 struct Step {
     mode: Mode,
     s: f64,
     w: f64,
-    eta: Frame,
-    eta_dot: Frame,
+    eta: Vec<f64>,
+    eta_dot: Vec<f64>,
     /// `u = s̈ + a`, the block's acceleration.
     u: f64,
     /// `f = D η̇ + Ω η`: minus the floors' accelerations.
-    f: Frame,
+    f: Vec<f64>,
 }
 
 pub(super) fn solve(
@@ -39,34 +39,62 @@ pub(super) fn solve(
     motion: &GroundMotion,
     tolerance_m_per_s2: f64,
 ) -> Result<Response, SolveError> {
-    let system = system_of::<Frame>(model);
-    let excitation = Excitation::new(model, motion);
-    let program = Program { system: &system, excitation: &excitation, tolerance_m_per_s2 };
-    let mut recorder = Everything::new(model.storeys(), motion.len(), model.slope_m_per_s2());
-    let mut extremes = Extremes::new(model, &system);
+    if model.stop().is_some() {
+        return Err(SolveError::NotTaken { method: "stepwise method", what: "a stop" });
+    }
+    let (system, law) = (system_of(model), model.law());
+    let slope = model.slope_m_per_s2();
+    let (mass_kg, gravity) = (model.total_mass_kg(), model.normal_gravity_m_per_s2());
+    let table = motion.horizontal_m_per_s2();
+    let normal_n = |sample: usize| {
+        let vertical = motion.vertical_m_per_s2().map_or(0.0, |a| a[sample]);
+        greatest(0.0, mass_kg * (gravity + vertical))
+    };
+    let program = Program {
+        system: &system,
+        law: &law,
+        times_s: motion.times_s(),
+        acceleration: table.iter().map(|a| a + slope).collect(),
+        normal_n: (0..motion.len()).map(normal_n).collect(),
+        tolerance_m_per_s2,
+    };
+    let n = system.storeys;
+    let overturning = outputs::overturning(model, &system);
+    let mut recorder = Recorder::new(&system, motion.len(), slope, false);
+    let mut peaks = vec![0.0; output::drift(n, n.max(1)).max(output::STOREYS + 3 * n)];
     let mut step = program.start(model);
     let mut sliding = Sliding::new(step.s);
     let mut events = Vec::new();
     let (mut total, mut most) = (0_u64, 0);
-    let table = motion.horizontal_m_per_s2();
     let mut note = |sample: usize, step: &Step, mode: Mode, row: bool| {
         let friction_n = program.friction_n(step, sample);
+        let shear_n = dot(&system.participation, &step.f);
+        let mut attain = |j: usize, value: f64| peaks[j] = greatest(peaks[j], f64::abs(value));
+        attain(output::VELOCITY, step.w);
+        attain(output::BLOCK, step.u - slope);
+        let spring_n = system.stiffness_n_per_m * step.s + system.damper_n_s_per_m * step.w;
+        attain(output::SLIDER, friction_n - spring_n);
+        attain(output::FRICTION, friction_n);
+        attain(output::BASE_SHEAR, shear_n);
+        let moment = overturning.as_ref().map_or(0.0, |o| o.moment(&step.f, step.u));
+        attain(output::OVERTURNING, moment);
+        for i in 0..n {
+            attain(output::displacement(i), dot(system.floor(i), &step.eta));
+            attain(output::acceleration(n, i), -dot(system.floor(i), &step.f) - slope);
+            attain(output::drift(n, i), dot(system.drift(i), &step.eta));
+        }
         let state = step.state();
-        let values = extremes.values(
-            &system,
-            step.s,
-            step.w,
-            &step.eta,
-            &step.f,
-            system.base_shear_n(&step.f),
-            step.u,
+        let stored = Stored {
+            time_s: program.times_s[sample],
+            mode,
+            contact: Contact::Free,
+            table: table[sample],
+            state: &state,
+            block: step.u - slope,
             friction_n,
-        );
-        extremes.attain(&values);
-        let time_s = excitation.times_s[sample];
-        let (u, f, table) = (step.u, step.f.as_slice(), table[sample]);
-        let knot = Knot { time_s, mode, table, state: &state, u, f, friction_n };
-        recorder.knot(&system, &knot, row);
+            f: &step.f,
+        };
+        recorder.store(&system, &stored, row);
     };
     if step.mode != Mode::Stick && model.initial().sliding_velocity_m_per_s == 0.0 {
         events.push(event(EventKind::Slip, &step, 0.0));
@@ -76,9 +104,9 @@ pub(super) fn solve(
         let (next, iterations) = program.advance(&step, sample)?;
         total += u64::from(iterations);
         most = most.max(iterations);
-        let time_s = excitation.times_s[sample];
+        let time_s = program.times_s[sample];
         if step.mode != Mode::Stick || next.mode != Mode::Stick {
-            sliding.begin(excitation.times_s[sample - 1], step.s);
+            sliding.begin(program.times_s[sample - 1], step.s);
             sliding.end(time_s, next.s);
         }
         let kind = match (step.mode, next.mode) {
@@ -94,13 +122,22 @@ pub(super) fn solve(
         note(sample, &next, next.mode, true);
         step = next;
     }
-    let contact_loss_s = excitation.contact_loss_s();
+    let unclamped: Vec<f64>;
+    let normal = match motion.vertical_m_per_s2() {
+        None => Normal::Constant(mass_kg * gravity),
+        Some(vertical) => {
+            unclamped = vertical.iter().map(|a| mass_kg * (gravity + a)).collect();
+            Normal::Varying(&unclamped)
+        }
+    };
+    let contact_loss_s = contact_loss_s(motion.times_s(), normal);
     let warnings = summary::warnings(model, &events, &contact_loss_s);
     let outcome = Outcome {
         events,
-        peaks: extremes.peak.clone(),
-        overturns: extremes.overturns(),
+        peaks,
+        overturns: overturning.is_some(),
         sliding,
+        stop: None,
         residual_m: step.s,
         sliding_at_end: step.mode != Mode::Stick,
     };
@@ -120,17 +157,22 @@ fn event(kind: EventKind, step: &Step, time_s: f64) -> Event {
 }
 
 impl Step {
-    fn state(&self) -> State<Frame> {
+    fn state(&self) -> Vec<f64> {
         let mut x = vec![self.s, self.w];
         x.extend_from_slice(&self.eta);
         x.extend_from_slice(&self.eta_dot);
-        State(x)
+        x
     }
 }
 
 struct Program<'a> {
-    system: &'a System<Frame>,
-    excitation: &'a Excitation<'a>,
+    system: &'a System,
+    law: &'a Law,
+    times_s: &'a [f64],
+    /// `a = Ü + g sin θ` at the samples.
+    acceleration: Vec<f64>,
+    /// `N ≥ 0` at the samples.
+    normal_n: Vec<f64>,
     /// `δ` of eqs (17), (18).
     tolerance_m_per_s2: f64,
 }
@@ -140,7 +182,8 @@ impl Program<'_> {
         let masses_kg = &model.frame().masses_kg;
         let eta = self.system.coordinates(masses_kg, &model.initial_storey_displacement_m());
         let eta_dot = self.system.coordinates(masses_kg, &model.initial_storey_velocity_m_per_s());
-        let f = self.system.restoring(&eta, &eta_dot);
+        let mut f = vec![0.0; eta.len()];
+        self.system.restoring(&eta, &eta_dot, &mut f);
         let w = model.initial().sliding_velocity_m_per_s;
         let s = model.initial().sliding_displacement_m;
         let mut step = Step { mode: Mode::Stick, s, w, eta, eta_dot, u: 0.0, f };
@@ -157,8 +200,7 @@ impl Program<'_> {
 
     /// One step of eqs (15), (16), iterated until (17), (18) hold; the step and its iterations.
     fn advance(&self, last: &Step, sample: usize) -> Result<(Step, u32), SolveError> {
-        let times_s = self.excitation.times_s;
-        let a = &self.excitation.acceleration;
+        let (times_s, a) = (self.times_s, &self.acceleration);
         let (a0, a1) = (a[sample - 1], a[sample]);
         let half_s = 0.5 * (times_s[sample] - times_s[sample - 1]);
         let l = &self.system.participation;
@@ -176,7 +218,7 @@ impl Program<'_> {
                 next.eta_dot[j] = last.eta_dot[j] + acceleration * half_s;
                 next.eta[j] = last.eta[j] + (last.eta_dot[j] + next.eta_dot[j]) * half_s;
             }
-            next.f = self.system.restoring(&next.eta, &next.eta_dot);
+            self.system.restoring(&next.eta, &next.eta_dot, &mut next.f);
             self.test_stick(last, &mut next, sample);
             next.u = self.block_acceleration(&next, sample);
             let change = self.largest_change(u, &f, &next);
@@ -206,30 +248,22 @@ impl Program<'_> {
     }
 
     fn held_or_not(&self, step: &Step, sample: usize) -> Mode {
-        let demand = self.demand_n(step, sample);
-        let normal = self.excitation.normal_at_sample(sample).max(0.0);
-        let [low, high] = self.excitation.bounds().map(|bound| bound * normal);
-        if demand > high {
-            Mode::Slip(Direction::Negative)
-        } else if demand < low {
-            Mode::Slip(Direction::Positive)
-        } else {
-            Mode::Stick
-        }
+        let hold = self.law.hold(Contact::Free, step.s);
+        hold.gives_way(self.demand_n(step, sample), self.normal_n[sample])
+            .map_or(Mode::Stick, Mode::Slip)
     }
 
     fn demand_n(&self, step: &Step, sample: usize) -> f64 {
-        self.system.block_mass_kg * self.excitation.acceleration[sample]
+        self.system.block_mass_kg * self.acceleration[sample]
             + self.system.stiffness_n_per_m * step.s
-            - self.system.base_shear_n(&step.f)
+            - dot(&self.system.participation, &step.f)
     }
 
     fn friction_n(&self, step: &Step, sample: usize) -> f64 {
         match step.mode {
             Mode::Stick => self.demand_n(step, sample),
             Mode::Slip(direction) => {
-                self.excitation.kinetic(direction)
-                    * self.excitation.normal_at_sample(sample).max(0.0)
+                -self.law.branch(Contact::Free, direction).coefficient * self.normal_n[sample]
             }
         }
     }
@@ -238,10 +272,10 @@ impl Program<'_> {
     fn block_acceleration(&self, step: &Step, sample: usize) -> f64 {
         let system = self.system;
         match step.mode {
-            Mode::Stick => self.excitation.acceleration[sample],
+            Mode::Stick => self.acceleration[sample],
             Mode::Slip(_) => {
                 (self.friction_n(step, sample) - system.damper_n_s_per_m * step.w
-                    + system.base_shear_n(&step.f)
+                    + dot(&system.participation, &step.f)
                     - system.stiffness_n_per_m * step.s)
                     / system.block_mass_kg
             }
@@ -250,9 +284,8 @@ impl Program<'_> {
 
     /// Largest change of the block's and the floors' accelerations; NaN counts as infinite.
     fn largest_change(&self, u: f64, f: &[f64], next: &Step) -> f64 {
-        let n = f.len();
         let difference: Vec<f64> = next.f.iter().zip(f).map(|(new, old)| new - old).collect();
-        let mut floors = vec![0.0; n];
+        let mut floors = vec![0.0; self.system.storeys];
         self.system.floors(&difference, &mut floors);
         floors.into_iter().chain([next.u - u]).fold(0.0, |largest: f64, change| {
             if change.abs() <= largest {

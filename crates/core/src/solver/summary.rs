@@ -1,7 +1,7 @@
 //! Peaks and counts in the words of the result, and what the reader must be told.
 
-use super::exact::Outcome;
-use super::extremes::tracked;
+use super::outputs::output;
+use super::run::Outcome;
 use crate::friction::Direction;
 use crate::model::Model;
 use crate::response::{Demands, Event, EventKind, StoreyDemands, Warning};
@@ -11,23 +11,22 @@ pub(super) fn demands(model: &Model, outcome: &Outcome) -> Demands {
     let n = model.storeys();
     let weight_n = model.weight_n();
     let peak = |j: usize| outcome.peaks[j];
-    let group = |k: usize, i: usize| tracked::STOREYS + k * n + i;
     let storeys: Vec<StoreyDemands> = (0..n)
         .map(|i| StoreyDemands {
-            peak_acceleration_m_per_s2: peak(group(2, i)),
-            peak_displacement_m: peak(group(0, i)),
-            peak_drift_m: peak(group(1, i)),
+            peak_acceleration_m_per_s2: peak(output::acceleration(n, i)),
+            peak_displacement_m: peak(output::displacement(i)),
+            peak_drift_m: peak(output::drift(n, i)),
             peak_drift_ratio: model
                 .frame()
                 .heights_m
                 .as_ref()
-                .map(|heights_m| peak(group(1, i)) / heights_m[i]),
+                .map(|heights_m| peak(output::drift(n, i)) / heights_m[i]),
         })
         .collect();
     let count = |kind| outcome.events.iter().filter(|e| e.kind == kind).count() as u64;
     let sliding = &outcome.sliding;
     let peak_sliding_displacement_m = sliding.max_m.max(-sliding.min_m);
-    let peak_base_shear_n = if n == 0 { 0.0 } else { peak(tracked::BASE_SHEAR) };
+    let peak_base_shear_n = if n == 0 { 0.0 } else { peak(output::BASE_SHEAR) };
     Demands {
         peak_sliding_displacement_m,
         peak_sliding_displacement_time_s: sliding.peak_time_s,
@@ -36,26 +35,27 @@ pub(super) fn demands(model: &Model, outcome: &Outcome) -> Demands {
         residual_sliding_displacement_m: outcome.residual_m,
         sliding_at_end: outcome.sliding_at_end,
         sliding_path_m: sliding.path_m,
-        peak_sliding_velocity_m_per_s: peak(tracked::VELOCITY),
+        peak_sliding_velocity_m_per_s: peak(output::VELOCITY),
         sliding_time_s: sliding.time_s,
         slip_count: count(EventKind::Slip),
         reversal_count: count(EventKind::Reversal),
         stick_count: count(EventKind::Stick),
-        peak_block_acceleration_m_per_s2: peak(tracked::BLOCK),
+        peak_block_acceleration_m_per_s2: peak(output::BLOCK),
         storeys,
         peak_base_shear_n,
-        peak_friction_force_n: peak(tracked::FRICTION),
-        peak_slider_force_n: peak(tracked::SLIDER),
+        peak_friction_force_n: peak(output::FRICTION),
+        peak_slider_force_n: peak(output::SLIDER),
         base_shear_coefficient: peak_base_shear_n / weight_n,
-        friction_coefficient_used: peak(tracked::FRICTION) / weight_n,
-        slider_force_coefficient: peak(tracked::SLIDER) / weight_n,
+        friction_coefficient_used: peak(output::FRICTION) / weight_n,
+        slider_force_coefficient: peak(output::SLIDER) / weight_n,
         closest_stop: Some(sliding.closest_stop).filter(|margin| margin.is_finite()),
         gap_ratio: model.slider().gap_m.map(|gap_m| peak_sliding_displacement_m / gap_m),
         overturning_ratio: model
             .block()
             .width_m
             .filter(|_| outcome.overturns)
-            .map(|width_m| peak(tracked::OVERTURNING) / (0.5 * width_m * weight_n)),
+            .map(|width_m| peak(output::OVERTURNING) / (0.5 * width_m * weight_n)),
+        stop: outcome.stop,
     }
 }
 

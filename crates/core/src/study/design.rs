@@ -1,11 +1,10 @@
 //! Samples of the varied values: points of the unit cube and what they stand for.
 
-use super::hash::Stream;
-use super::sobol::Coordinate;
-use super::{latin, normal};
 use crate::error::InputError;
 use crate::input::Variation;
 use crate::input::plan::{Distribution, Method, Plan, Varied};
+use crate::numerics::distribution::{normal_cdf, normal_quantile, normal_quantile_between};
+use crate::numerics::{Coordinate, Stream, latin_coordinate};
 
 /// What random numbers are used for; each use has its own.
 mod purpose {
@@ -158,7 +157,7 @@ impl Design {
                 .map(|dimension| {
                     let order = Stream::new(*seed, purpose::ORDER, dimension);
                     let jitter = Stream::new(*seed, purpose::JITTER, dimension);
-                    latin::coordinate(index, self.count, order, jitter)
+                    latin_coordinate(index, self.count, order, jitter)
                 })
                 .collect(),
             Points::Sobol { seed, coordinates } => coordinates
@@ -176,7 +175,7 @@ impl Design {
     fn correlated(&self, point: Vec<f64>) -> Vec<f64> {
         let Some(lower) = &self.correlation else { return point };
         let n = point.len();
-        let scores: Vec<f64> = point.iter().map(|&u| normal::inverse(u)).collect();
+        let scores: Vec<f64> = point.iter().map(|&u| normal_quantile(u)).collect();
         let of_row = |(i, &u): (usize, &f64)| {
             let row = &lower[i * n..i * n + i];
             if row.iter().all(|l| *l == 0.0) {
@@ -184,7 +183,7 @@ impl Design {
                 return u;
             }
             let score: f64 = row.iter().zip(&scores).map(|(l, z)| l * z).sum();
-            let u = normal::probability(score + lower[i * n + i] * scores[i]);
+            let u = normal_cdf(score + lower[i * n + i] * scores[i]);
             u.clamp(f64::EPSILON / 4.0, 1.0 - f64::EPSILON / 2.0)
         };
         point.iter().enumerate().map(of_row).collect()
@@ -194,8 +193,8 @@ impl Design {
 /// The value of a distribution at a probability, 0 < u < 1; NaN where none is left.
 fn drawn(distribution: &Distribution, u: f64) -> f64 {
     let score = |limits: Option<[f64; 2]>| match limits {
-        None => Some(normal::inverse(u)),
-        Some(limits) => normal::inverse_between(u, limits),
+        None => Some(normal_quantile(u)),
+        Some(limits) => normal_quantile_between(u, limits),
     };
     match distribution {
         Distribution::List(list) => list.get((u * list.len() as f64) as u64),

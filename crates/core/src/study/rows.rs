@@ -3,12 +3,13 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::{Case, Column, Sample, Study, chunks, demand_columns, demand_values, parallel};
-use crate::input::MotionSource;
+use super::engine::{Engine, Running, Shaking, made_motion};
+use super::{Case, Sample, Study, chunks};
+use crate::error::{RunError, Stopped};
+use crate::input::{MotionSource, Parts};
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{IntensityMeasures, Measure};
-use crate::response::Response;
-use crate::solver::{self, PreparedModel, PreparedMotion};
+use crate::response::{Response, demand_values};
 
 /// Most samples of scaled copies of a record that are held at a time.
 const SAMPLES_AT_ONCE: usize = 4_000_000;
@@ -23,17 +24,17 @@ pub struct Row {
     /// The factor on the record; 1 for a made motion.
     pub scale: f64,
     /// Intensity measures of the motion as it was run, without its tail; NaN where there is no
-    /// motion. In the order of [`Study::measure_columns`].
+    /// motion. In the order of [`Study::measures`].
     pub measures: Arc<[f64]>,
     /// Values at the varied paths, in SI.
     pub values: Vec<f64>,
-    /// Demands in the order of [`Study::demand_columns`]; NaN where one does not exist, all of them
+    /// Demands in the order of the columns of [`Study::shape`]; NaN where one does not exist, all of them
     /// where the run failed.
     pub demands: Vec<f64>,
     /// Kinds of warnings, each once.
     pub warnings: Vec<&'static str>,
     /// Why the run failed, where it did.
-    pub error: Option<String>,
+    pub error: Option<RunError>,
 }
 
 /// A motion as it is solved, and what rows say of it.
@@ -45,46 +46,28 @@ struct Prepared {
 
 /// The same with what the solver needs to know of it.
 struct Ready<'a> {
-    motion: PreparedMotion<'a>,
+    motion: Shaking<'a>,
     measures: Arc<[f64]>,
 }
 
-fn ready(prepared: &Result<Prepared, String>) -> Result<Ready<'_>, String> {
+fn ready(prepared: &Result<Prepared, RunError>) -> Result<Ready<'_>, RunError> {
     let Prepared { motion, measures } = prepared.as_ref().map_err(Clone::clone)?;
-    Ok(Ready { motion: PreparedMotion::new(motion), measures: measures.clone() })
+    Ok(Ready { motion: Shaking::new(motion), measures: measures.clone() })
 }
 
 /// What a prepared motion was made from: it serves for all samples that agree on it.
-#[derive(Clone, Debug, PartialEq)]
-struct Made {
-    source: Option<MotionSource>,
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Made<'a> {
+    source: Option<&'a MotionSource>,
     tail_s: f64,
 }
 
 impl Study {
-    /// Columns of [`Row::measures`].
-    #[must_use]
-    pub fn measure_columns(&self) -> Vec<Column> {
-        let all = self.measures.iter();
-        all.map(|measure| Column::number(measure.column(), measure.unit())).collect()
-    }
-
-    /// Columns of [`Row::values`]: the varied paths.
-    #[must_use]
-    pub fn value_columns(&self) -> Vec<Column> {
-        let vary = self.design.vary().iter();
-        vary.map(|varied| Column::number(varied.path.clone(), varied.unit)).collect()
-    }
-
-    /// Columns of [`Row::demands`].
-    #[must_use]
-    pub fn demand_columns(&self) -> Vec<Column> {
-        demand_columns(self.storeys)
-    }
-
-    /// The rows of a range of runs, in order. `done` is told now and then how many more are.
-    #[must_use]
-    pub fn rows(&self, runs: Range<u64>, done: &(dyn Fn(u64) + Sync)) -> Vec<Row> {
+    /// The rows of a range of runs, in order; the engine is told of every run.
+    ///
+    /// # Errors
+    /// [`Stopped`].
+    pub fn rows(&self, runs: Range<u64>, engine: &Engine<'_>) -> Result<Vec<Row>, Stopped> {
         let samples = self.cases.samples;
         let mut blocks: Vec<Vec<Range<u64>>> = Vec::new();
         let mut at = runs.start;
@@ -103,7 +86,8 @@ impl Study {
             }
             at = end;
         }
-        parallel::map(&blocks, |block| self.block(block, done)).into_iter().flatten().collect()
+        let rows = engine.map(blocks.len(), |i| self.block(&blocks[i], engine))?;
+        Ok(rows.into_iter().flatten().collect())
     }
 
     /// How many scaled copies of a record are held at a time.
@@ -113,20 +97,24 @@ impl Study {
     }
 
     /// Runs of one record at some levels, each a range: a model is prepared once for all of them.
-    fn block(&self, levels: &[Range<u64>], done: &(dyn Fn(u64) + Sync)) -> Vec<Row> {
+    fn block(&self, levels: &[Range<u64>], engine: &Engine<'_>) -> Result<Vec<Row>, Stopped> {
         let cases: Vec<Case> = levels.iter().map(|runs| self.cases.case(runs.start)).collect();
-        let scaled: Vec<Option<Result<Prepared, String>>> =
-            parallel::map(&cases, |case| self.scaled(case));
+        let scaled: Vec<Option<Result<Prepared, RunError>>> =
+            engine.map(cases.len(), |i| Ok(self.scaled(&cases[i])))?;
         let ready: Vec<_> = scaled.iter().map(|scaled| scaled.as_ref().map(ready)).collect();
         let sample = |run: u64| run % self.cases.samples;
         let first = levels.iter().map(|runs| sample(runs.start)).min().unwrap_or(0);
         let last = levels.iter().map(|runs| sample(runs.end - 1)).max().unwrap_or(0);
-        let samples = self.samples(first..last + 1);
+        let samples = self.samples(first..last + 1, engine)?;
         let chunks: Vec<_> = chunks(first..last + 1).collect();
-        let of_chunk = |chunk: &Range<u64>| -> Vec<Vec<Row>> {
+        let of_chunk = |i: usize| -> Result<Vec<Vec<Row>>, Stopped> {
+            let chunk = &chunks[i];
             let own = |index: u64| (index - first) as usize;
             let samples = &samples[own(chunk.start)..own(chunk.end)];
-            let mut models: Vec<Option<PreparedModel<'_>>> = samples.iter().map(|_| None).collect();
+            let mut models: Vec<Option<Running<'_>>> = Vec::with_capacity(samples.len());
+            for sample in samples {
+                models.push(sample.parts.as_ref().ok().map(|parts| Running::new(&parts.model)));
+            }
             let of_level = |(runs, ready): (&Range<u64>, _)| {
                 let start = sample(runs.start).max(chunk.start);
                 let end = (sample(runs.end - 1) + 1).min(chunk.end);
@@ -139,23 +127,23 @@ impl Study {
                 self.chunk(case, samples, models, Option::as_ref(ready))
             };
             let rows: Vec<Vec<Row>> = levels.iter().zip(&ready).map(of_level).collect();
-            done(rows.iter().map(|rows| rows.len() as u64).sum());
-            rows
+            engine.done(rows.iter().map(|rows| rows.len() as u64).sum())?;
+            Ok(rows)
         };
         let mut of_levels: Vec<Vec<Row>> = levels.iter().map(|_| Vec::new()).collect();
-        for of_chunk in parallel::map(&chunks, of_chunk) {
+        for of_chunk in engine.map(chunks.len(), of_chunk)? {
             for (rows, more) in of_levels.iter_mut().zip(of_chunk) {
                 rows.extend(more);
             }
         }
-        of_levels.into_iter().flatten().collect()
+        Ok(of_levels.into_iter().flatten().collect())
     }
 
     /// The record of a case at its level; `None` where the model makes its own motion.
-    fn scaled(&self, case: &Case) -> Option<Result<Prepared, String>> {
+    fn scaled(&self, case: &Case) -> Option<Result<Prepared, RunError>> {
         let record = self.records.get(case.record as usize)?;
         let scale = self.factor(*case);
-        let motion = record.motion.scaled(scale).map_err(|error| error.to_string());
+        let motion = record.motion.scaled(scale).map_err(RunError::from);
         Some(motion.map(|motion| {
             let measures = self.measures_of(case.record, scale, &motion);
             Prepared { motion, measures }
@@ -167,15 +155,15 @@ impl Study {
         &self,
         first: Case,
         samples: &'s [Sample],
-        models: &mut [Option<PreparedModel<'s>>],
-        scaled: Option<&Result<Ready<'_>, String>>,
+        models: &mut [Option<Running<'s>>],
+        scaled: Option<&Result<Ready<'_>, RunError>>,
     ) -> Vec<Row> {
-        let made = |sample: &Sample| {
-            let parts = sample.parts.as_ref().ok()?;
-            let source = if scaled.is_some() { None } else { parts.motion.clone() };
-            Some(Made { source, tail_s: parts.tail_s })
+        let made = |parts: &'s Parts| {
+            let source = if scaled.is_some() { None } else { parts.motion.as_ref() };
+            Made { source, tail_s: parts.tail_s }
         };
-        let none = Err("the model makes no motion".to_owned());
+        let made = |sample: &'s Sample| sample.parts.as_ref().ok().map(made);
+        let none = Err(RunError::NoMotion);
         let mut rows = Vec::with_capacity(samples.len());
         while let Some(sample) = samples.get(rows.len()) {
             let alike = made(sample);
@@ -185,7 +173,7 @@ impl Study {
                 (Some(scaled), None | Some(Made { tail_s: 0.0, .. })) => scaled,
                 (None, None) => &none,
                 (_, Some(made)) => {
-                    own = self.with_tail(made, scaled);
+                    own = self.with_tail(*made, scaled);
                     own_ready = ready(&own);
                     &own_ready
                 }
@@ -200,12 +188,12 @@ impl Study {
         rows
     }
 
-    fn run<'s>(
+    fn run(
         &self,
         case: Case,
-        sample: &'s Sample,
-        model: &mut Option<PreparedModel<'s>>,
-        motion: &Result<Ready<'_>, String>,
+        sample: &Sample,
+        model: &mut Option<Running<'_>>,
+        motion: &Result<Ready<'_>, RunError>,
     ) -> Row {
         let measures = match motion {
             Ok(ready) => ready.measures.clone(),
@@ -213,38 +201,36 @@ impl Study {
         };
         let (run, values) = (self.cases.run(case), sample.values.clone());
         let scale = self.factor(case);
-        let outcome = sample.parts.as_ref().map_err(Clone::clone).and_then(|parts| {
-            let motion = &motion.as_ref().map_err(Clone::clone)?.motion;
-            let model = model.get_or_insert_with(|| PreparedModel::new(&parts.model, motion));
-            solver::demands(model, motion).map_err(|error| error.to_string())
-        });
+        let outcome = match (&sample.parts, model, motion) {
+            (Err(error), ..) | (.., Err(error)) => Err(error.clone()),
+            (Ok(_), Some(model), Ok(ready)) => model.on(&ready.motion).map_err(RunError::from),
+            (Ok(parts), None, Ok(ready)) => {
+                Running::new(&parts.model).on(&ready.motion).map_err(RunError::from)
+            }
+        };
         let (demands, warnings, error) = match outcome {
             Ok(response) => {
                 let record = self.records.get(case.record as usize);
                 let of_record = record.map_or(&[][..], |record| &record.warnings);
                 (demand_values(&response.demands), warnings(of_record, &response), None)
             }
-            Err(error) => {
-                (vec![f64::NAN; demand_columns(self.storeys).len()], Vec::new(), Some(error))
-            }
+            Err(error) => (vec![f64::NAN; self.demands], Vec::new(), Some(error)),
         };
         Row { run, case, scale, measures, values, demands, warnings, error }
     }
 
     fn with_tail(
         &self,
-        made: &Made,
-        scaled: Option<&Result<Ready<'_>, String>>,
-    ) -> Result<Prepared, String> {
-        let bare = match (scaled, &made.source) {
-            (Some(scaled), _) => {
+        made: Made<'_>,
+        scaled: Option<&Result<Ready<'_>, RunError>>,
+    ) -> Result<Prepared, RunError> {
+        let bare = match scaled {
+            Some(scaled) => {
                 let Ready { motion, measures } = scaled.as_ref().map_err(Clone::clone)?;
                 Prepared { motion: motion.motion().clone(), measures: measures.clone() }
             }
-            (None, source) => {
-                let motion = source.as_ref().and_then(super::made);
-                let motion = motion.ok_or("the model makes no motion")?;
-                let motion = motion.map_err(|error| error.to_string())?;
+            None => {
+                let motion = made_motion(made.source)?;
                 let measures = self.measures.iter().map(|measure| measure.of(&motion)).collect();
                 Prepared { motion, measures }
             }
@@ -252,8 +238,7 @@ impl Study {
         if made.tail_s == 0.0 {
             return Ok(bare);
         }
-        let motion = bare.motion.with_tail(made.tail_s).map_err(|error| error.to_string())?;
-        Ok(Prepared { motion, ..bare })
+        Ok(Prepared { motion: bare.motion.with_tail(made.tail_s)?, ..bare })
     }
 
     /// The measures of a record at a level. Spectra are taken once a record: most measures of a
@@ -298,6 +283,7 @@ mod tests {
     use crate::friction::{Coulomb, Friction};
     use crate::input::plan::Plan;
     use crate::model::Model;
+    use crate::solver;
     use crate::study::Record;
 
     /// A block that slides under 0.4 g for half a second and stops under −0.1 g: friction of 0.2 is
@@ -344,6 +330,10 @@ mod tests {
         Study::new(&plan, "m.toml", MODEL, records).unwrap()
     }
 
+    fn rows(study: &Study, runs: Range<u64>) -> Vec<Row> {
+        study.rows(runs, &Engine::unwatched()).unwrap()
+    }
+
     /// Any range of runs gives the rows that the whole study has there, and each row is that of the
     /// run alone, from the model's text and with its history.
     #[test]
@@ -354,12 +344,12 @@ mod tests {
         for vary in [vary, &with_tail] {
             let study = study(vary, 70);
             assert_eq!(study.runs(), 420);
-            let whole = study.rows(0..420, &|_| {});
+            let whole = rows(&study, 0..420);
             let bits = |rows: &[Row]| -> Vec<String> {
                 rows.iter().map(|row| format!("{row:?}")).collect()
             };
             for range in [0..1, 5..140, 69..71, 200..420, 139..141, 419..420] {
-                let part = study.rows(range.clone(), &|_| {});
+                let part = rows(&study, range.clone());
                 let these = &whole[range.start as usize..range.end as usize];
                 assert_eq!(bits(&part), bits(these), "{range:?}");
             }
@@ -382,9 +372,31 @@ mod tests {
     fn exact_many_samples_are_as_few() {
         let vary = "slider.kinetic_friction = { uniform = [0.02, 0.19] }";
         let study = study(vary, 20_000);
-        let rows = study.rows(19_990..20_003, &|_| {});
+        let rows = rows(&study, 19_990..20_003);
         assert_eq!(rows.len(), 13);
         assert_eq!(rows[12].case, Case { record: 0, level: 1, sample: 2 });
         assert!(rows.iter().all(|row| study.verify(row).holds()));
+    }
+
+    /// The follower stops a study between two pieces of it.
+    #[test]
+    fn exact_a_study_is_stopped() {
+        let study = study("slider.kinetic_friction = { uniform = [0.02, 0.19] }", 200);
+        let follow = |_| core::ops::ControlFlow::Break(());
+        assert_eq!(study.rows(0..study.runs(), &Engine::new(&follow)), Err(Stopped));
+    }
+
+    /// One run of every thousand is checked, wherever parts are cut, and at least one of all.
+    #[test]
+    fn exact_one_run_of_a_thousand_is_checked() {
+        for (count, checked) in [(70, 1), (500, 3), (3000, 18)] {
+            let study = study("slider.kinetic_friction = { uniform = [0.02, 0.19] }", count);
+            let of_block = |block: u64| {
+                let end = (block + 1000).min(study.runs());
+                (block..end).filter(|run| study.is_checked(*run)).count()
+            };
+            let counts: Vec<usize> = (0..study.runs()).step_by(1000).map(of_block).collect();
+            assert!(counts.len() == checked && counts.iter().all(|n| *n == 1), "{counts:?}");
+        }
     }
 }

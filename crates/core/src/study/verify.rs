@@ -1,10 +1,13 @@
 //! Rows under test: run again alone, from the model's text, with history and certificate.
 
+use super::engine::{made_motion, scaled_with_tail};
 use super::rows::warnings;
-use super::{Row, Study, demand_values, made};
+use super::{Row, Study};
 use crate::check::{self, Certificate};
+use crate::error::RunError;
 use crate::input::Analysis;
 use crate::motion::GroundMotion;
+use crate::response::demand_values;
 use crate::solver;
 
 /// What became of running a row again.
@@ -21,6 +24,8 @@ pub struct Verdict {
     pub friction_excess: f64,
     /// Its largest imbalance of energy.
     pub energy_balance_error: f64,
+    /// Its largest difference of a demand from the one recomputed.
+    pub demands_error: f64,
 }
 
 impl Verdict {
@@ -41,11 +46,9 @@ impl Study {
         };
         let response = match solver::exact(&analysis.model, &motion) {
             Ok(response) => response,
-            Err(error) => return failed_again(row, &error.to_string()),
+            Err(error) => return failed_again(row, &error.into()),
         };
-        let history = response.history.as_ref();
-        let Some(history) = history else { return Verdict::default() };
-        let certificate = check::check(&analysis.model, &motion, history);
+        let certificate = check::check(&analysis.model, &motion, &response);
         let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
         let record = self.records.get(row.case.record as usize);
         let of_record = record.map_or(&[][..], |record| &record.warnings);
@@ -53,29 +56,41 @@ impl Study {
             && bits(&demand_values(&response.demands)) == bits(&row.demands)
             && warnings(of_record, &response) == row.warnings;
         let holds = certificate.holds();
-        let Certificate { equilibrium_residual, friction_excess, energy_balance_error, .. } =
-            certificate;
-        Verdict { same, holds, equilibrium_residual, friction_excess, energy_balance_error }
+        let Certificate {
+            equilibrium_residual,
+            friction_excess,
+            energy_balance_error,
+            demands_error,
+            ..
+        } = certificate;
+        Verdict {
+            same,
+            holds,
+            equilibrium_residual,
+            friction_excess,
+            energy_balance_error,
+            demands_error,
+        }
     }
 
     /// The analysis and the motion of a row, made from the text and the record.
-    fn alone(&self, row: &Row) -> Result<(Analysis, GroundMotion), String> {
+    fn alone(&self, row: &Row) -> Result<(Analysis, GroundMotion), RunError> {
         let values = self.design.values(row.case.sample);
-        let analysis = self.variation.analysis(&values).map_err(|error| error.to_string())?;
+        let analysis = self.variation.analysis(&values)?;
         let motion = match self.records.get(row.case.record as usize) {
-            Some(record) => record.motion.scaled(self.factor(row.case)),
-            None => analysis.motion.as_ref().and_then(made).ok_or("the model makes no motion")?,
+            Some(record) => {
+                scaled_with_tail(&record.motion, self.factor(row.case), analysis.tail_s)?
+            }
+            None => {
+                let made = made_motion(analysis.motion.as_ref())?;
+                scaled_with_tail(&made, 1.0, analysis.tail_s)?
+            }
         };
-        let tail = |motion: GroundMotion| match analysis.tail_s {
-            0.0 => Ok(motion),
-            tail_s => motion.with_tail(tail_s),
-        };
-        let motion = motion.and_then(tail).map_err(|error| error.to_string())?;
         Ok((analysis, motion))
     }
 }
 
-fn failed_again(row: &Row, error: &str) -> Verdict {
-    let same = row.error.as_deref() == Some(error);
+fn failed_again(row: &Row, error: &RunError) -> Verdict {
+    let same = row.error.as_ref() == Some(error);
     Verdict { same, holds: same, ..Verdict::default() }
 }

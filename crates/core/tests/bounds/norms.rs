@@ -1,10 +1,11 @@
 //! (b) the norm of the second derivative, (c) kinks and (d) dual norms.
 
 use crate::systems::{
-    Rates, SYSTEMS, System, assert_near, bend, dot, norm, rate, series, state, streams, system,
+    Rates, SYSTEMS, State, System, assert_near, bend, dot, norm, rate, restoring, row, series,
+    state, streams, system,
 };
+use slipstick::linear::MAX_RATE_STEP;
 use slipstick::linear::polynomial::value;
-use slipstick::linear::{MAX_RATE_STEP, State};
 
 /// (b) Under loads that are linear in time the norm of `ẍ` does not grow, and without dampers it
 /// stays; past a zero of the sliding velocity too, the friction force going on as it was.
@@ -66,7 +67,7 @@ fn prop_kink_adds_at_most_its_bound_and_from_rest_the_whole() {
             let allowed = from + of_acceleration(kink.acceleration[1]) + friction;
             assert!(to <= allowed * (1.0 + 1e-12), "{from:e} to {to:e}, {allowed:e} allowed");
         }
-        let rest = State(vec![0.0; 2 * made.masses_kg.len() + 2]);
+        let rest = State(vec![0.0; 2 * system.modes() + 2]);
         let jerk = kink.acceleration[1];
         let only_jerk = Rates { acceleration: [0.0, jerk], ..Rates::NONE };
         let reached = bend(system, true, &rest, &only_jerk, 0.0);
@@ -89,16 +90,16 @@ struct Row {
 
 impl Row {
     fn dual_norm(&self, system: &System) -> f64 {
-        system.dual_norm(self.s, self.w, &self.y, &self.e)
+        system.dual_norm(true, &row(system, [self.s, self.w], &self.y, &self.e))
     }
 
-    fn of(&self, system: &System, x: &State<Vec<f64>>) -> f64 {
-        let elastic = system.restoring(x.eta(), &vec![0.0; x.eta().len()]);
+    fn of(&self, system: &System, x: &State) -> f64 {
+        let elastic = restoring(system, x.eta(), &vec![0.0; x.eta().len()]);
         self.s * x.s() + self.w * x.w() + dot(&self.y, &elastic) + dot(&self.e, x.eta_dot())
     }
 
     /// The state in which Cauchy and Schwarz hold with equality.
-    fn largest(&self, system: &System) -> State<Vec<f64>> {
+    fn largest(&self, system: &System) -> State {
         let l = &system.participation;
         let s = if self.s == 0.0 { 0.0 } else { self.s / system.stiffness_n_per_m };
         let w = (self.w - dot(&self.e, l)) / system.block_mass_kg;
@@ -116,7 +117,7 @@ fn prop_dual_norms_hold_and_are_reached() {
     for (mut random, damped) in streams() {
         let made = system(&mut random, damped);
         let system = &made.system;
-        let n = made.masses_kg.len();
+        let n = system.modes();
         let l = system.participation.clone();
         let over_mass =
             |x: &[f64]| -> Vec<f64> { x.iter().map(|x| x / system.block_mass_kg).collect() };
@@ -131,8 +132,8 @@ fn prop_dual_norms_hold_and_are_reached() {
                 e: over_mass(&drag),
             },
         ];
-        for i in 0..n {
-            let floor = system.floor(i);
+        for i in 0..system.storeys {
+            let floor = system.floor(i).to_vec();
             rows.push(Row { s: 0.0, w: 0.0, e: system.drag(&floor), y: floor });
         }
         let mut any = || -> Vec<f64> { (0..n).map(|_| random.between(-1.0, 1.0)).collect() };
@@ -168,7 +169,12 @@ fn exact_dual_norms_of_drift_and_displacement_are_reached() {
         let (k, n) = (&made.stiffnesses_n_per_m, made.masses_kg.len());
         let size = |q: &[f64]| {
             let x = made.system.coordinates(&made.masses_kg, q);
-            made.system.energy_norm(0.0, 0.0, &x, &vec![0.0; n])
+            {
+                let mut state = vec![0.0; 2];
+                state.extend_from_slice(&x);
+                state.resize(2 + 2 * x.len(), 0.0);
+                made.system.energy_norm(&state)
+            }
         };
         for i in 0..n {
             // One storey drifts by 1 m, and all above it move along.
@@ -190,17 +196,21 @@ fn prop_samples_stay_within_reach_of_their_chords() {
     for (mut random, damped) in streams() {
         let made = system(&mut random, damped);
         let system = &made.system;
-        let n = made.masses_kg.len();
-        let demand_norm =
-            system.dual_norm(0.0, 0.0, &system.participation, &system.drag(&system.participation));
-        let velocity_norm = system.dual_norm(0.0, 1.0, &vec![0.0; n], &vec![0.0; n]);
+        let none = vec![0.0; system.modes()];
+        let l = &system.participation;
+        let shear = row(system, [0.0; 2], l, &system.drag(l));
+        let demand_norm = system.dual_norm(true, &shear);
+        let velocity_norm = system.dual_norm(true, &row(system, [0.0, 1.0], &none, &none));
         for slip in [false, true] {
             let length_s = MAX_RATE_STEP / rate(system, slip).max(1.0);
             let (x, rates) = (state(&mut random, &made, slip), Rates::random(&mut random));
             let load = rates.load(0.0, length_s);
             let run = series(system, slip, &x, &load, length_s);
-            let demand = run.demand(system, &load);
-            let (c, dual) = if slip { (run.w, velocity_norm) } else { (demand, demand_norm) };
+            let mut demand = run.row(&shear).map(|c| -c);
+            demand[0] +=
+                system.block_mass_kg * load.acceleration + system.stiffness_n_per_m * x.s();
+            demand[1] += system.block_mass_kg * load.acceleration_change;
+            let (c, dual) = if slip { (run.w(), velocity_norm) } else { (demand, demand_norm) };
             let reach = 0.125 * length_s * length_s * dual * bend(system, slip, &x, &rates, 0.0);
             let size = c.iter().fold(0.0_f64, |size, c| size.max(c.abs()));
             for i in 0..=20 {
@@ -241,7 +251,7 @@ fn prop_several_samples_stay_within_reach_of_one_chord() {
             let run = series(system, true, &x, &rates.load(0.0, length_s), length_s);
             for i in 1..=10 {
                 let part = f64::from(i) / 10.0;
-                points.push((sample as f64 + part, value(&run.w, part)));
+                points.push((sample as f64 + part, value(&run.w(), part)));
             }
             run.state_at(1.0, &mut x);
             let [a, jerk] = rates.acceleration;

@@ -58,7 +58,7 @@ fn prop_no_dip_is_missed() {
         }
         let depth = 1e-12;
         c[0] -= depth;
-        let root = first_root(&c).expect("a dip below zero");
+        let root = first_root(&c, 1.0).expect("a dip below zero");
         assert!(root < at + 1e-12, "found at {root}, the dip is before {at}");
         assert!(value(&c, root).abs() < 0.1 * depth, "{:e} at {root}", value(&c, root));
         for i in 0..1000 {
@@ -77,9 +77,9 @@ fn prop_largest_value_is_the_largest() {
         let seen = (0..=POINTS)
             .map(|i| value(&c, f64::from(i) / f64::from(POINTS)))
             .fold(f64::NEG_INFINITY, f64::max);
-        let found = largest(&c, f64::NEG_INFINITY);
+        let found = largest(&c, 1.0, f64::NEG_INFINITY);
         let between = 0.125 * curvature_bound(&c) / f64::from(POINTS * POINTS);
         assert!(seen - 1e-15 <= found && found <= seen + between, "{found} where {seen} was seen");
-        assert_eq!(largest(&c, found + 1e-3), found + 1e-3);
+        assert_eq!(largest(&c, 1.0, found + 1e-3), found + 1e-3);
     }
 }

@@ -1,9 +1,68 @@
 //! Random systems, states and loads, and what is asked of them.
 
 use crate::random::Random;
-use slipstick::linear::{Load, Series, State, StoreyDamping};
+use slipstick::linear::lanes::Many;
+use slipstick::linear::polynomial::{DEGREE, Polynomial, value};
+use slipstick::linear::{Load, StoreyDamping};
 
-pub type System = slipstick::linear::System<Vec<f64>>;
+pub use slipstick::linear::System;
+
+/// `s, ṡ, η, η̇`.
+#[derive(Clone)]
+pub struct State(pub Vec<f64>);
+
+impl State {
+    pub fn s(&self) -> f64 {
+        self.0[0]
+    }
+
+    pub fn w(&self) -> f64 {
+        self.0[1]
+    }
+
+    pub fn eta(&self) -> &[f64] {
+        &self.0[2..1 + self.0.len() / 2]
+    }
+
+    pub fn eta_dot(&self) -> &[f64] {
+        &self.0[1 + self.0.len() / 2..]
+    }
+}
+
+/// The series of each component of a state.
+pub struct Series(pub Vec<Polynomial>);
+
+impl Series {
+    pub fn w(&self) -> Polynomial {
+        self.0[1]
+    }
+
+    pub fn state_at(&self, part: f64, state: &mut State) {
+        for (x, c) in state.0.iter_mut().zip(&self.0) {
+            *x = value(c, part);
+        }
+    }
+
+    /// The series of a row times the state.
+    pub fn row(&self, row: &[f64]) -> Polynomial {
+        core::array::from_fn(|k| row.iter().zip(&self.0).map(|(r, c)| r * c[k]).sum())
+    }
+}
+
+/// The row `s · s + w · ṡ + yᵀ Ω η + e · η̇`.
+pub fn row(system: &System, [s, w]: [f64; 2], y: &[f64], e: &[f64]) -> Vec<f64> {
+    let mut row = vec![s, w];
+    row.extend(y.iter().zip(&system.omega2).map(|(y, omega2)| y * omega2));
+    row.extend_from_slice(e);
+    row
+}
+
+/// `f = D η̇ + Ω η`.
+pub fn restoring(system: &System, eta: &[f64], eta_dot: &[f64]) -> Vec<f64> {
+    let mut f = vec![0.0; eta.len()];
+    system.restoring(eta, eta_dot, &mut f);
+    f
+}
 
 /// Random systems a test looks at.
 pub const SYSTEMS: u64 = 300;
@@ -41,7 +100,7 @@ pub fn streams() -> impl Iterator<Item = (Random, bool)> {
 }
 
 /// Displacements about 10 mm, velocities about 100 mm/s, in the coordinates of the system.
-pub fn state(random: &mut Random, made: &Made, slip: bool) -> State<Vec<f64>> {
+pub fn state(random: &mut Random, made: &Made, slip: bool) -> State {
     let n = made.masses_kg.len();
     let mut draw = |size: f64| size * random.between(-1.0, 1.0);
     let q: Vec<f64> = (0..n).map(|_| draw(0.01)).collect();
@@ -71,46 +130,38 @@ impl Rates {
         let at = |[value, rate]: [f64; 2]| (value + rate * from_s, rate * length_s);
         let ((acceleration, acceleration_change), (friction, friction_change)) =
             (at(self.acceleration), at(self.friction));
-        Load { acceleration, acceleration_change, friction, friction_change }
+        Load { acceleration, acceleration_change, force: friction, force_change: friction_change }
     }
 }
 
-pub fn series(
-    system: &System,
-    slip: bool,
-    state: &State<Vec<f64>>,
-    load: &Load,
-    length_s: f64,
-) -> Series<Vec<f64>> {
-    let mut series = Series::zeros(system.storeys());
-    if slip {
-        series.slip(system, state, load, length_s);
-    } else {
-        series.stick(system, state, load, length_s);
-    }
-    series
+pub fn series(system: &System, slip: bool, state: &State, load: &Load, length_s: f64) -> Series {
+    let mut series = slipstick::linear::Series::new(system);
+    let mut x = state.0.clone();
+    let components = x.len();
+    x.resize(components.div_ceil(4) * 4, 0.0);
+    series.expand(system, slip, &x, load, length_s);
+    let width = Many(system.modes());
+    Series((0..components).map(|i| series.component(width, i)).collect())
 }
 
 /// A coefficient of a series as a state.
-pub fn coefficient(series: &Series<Vec<f64>>, k: usize) -> State<Vec<f64>> {
-    let mut x = vec![series.s[k], series.w[k]];
-    x.extend_from_slice(&series.eta[k]);
-    x.extend_from_slice(&series.eta_dot[k]);
-    State(x)
+pub fn coefficient(series: &Series, k: usize) -> State {
+    assert!(k <= DEGREE);
+    State(series.0.iter().map(|c| c[k]).collect())
 }
 
-pub fn norm(system: &System, x: &State<Vec<f64>>) -> f64 {
-    system.energy_norm(x.s(), x.w(), x.eta(), x.eta_dot())
+pub fn norm(system: &System, x: &State) -> f64 {
+    system.energy_norm(&x.0)
 }
 
 /// Norm of `ẍ` in a state under loads.
-pub fn bend(system: &System, slip: bool, state: &State<Vec<f64>>, rates: &Rates, at_s: f64) -> f64 {
+pub fn bend(system: &System, slip: bool, state: &State, rates: &Rates, at_s: f64) -> f64 {
     // Over one second the second coefficient is half the second derivative.
     2.0 * norm(system, &coefficient(&series(system, slip, state, &rates.load(at_s, 1.0), 1.0), 2))
 }
 
 /// `ẋ` of the unloaded system: the row of equations that the rates bound.
-pub fn derivative(system: &System, slip: bool, x: &State<Vec<f64>>) -> State<Vec<f64>> {
+pub fn derivative(system: &System, slip: bool, x: &State) -> State {
     coefficient(&series(system, slip, x, &Rates::NONE.load(0.0, 1.0), 1.0), 1)
 }
 

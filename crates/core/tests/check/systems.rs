@@ -4,7 +4,7 @@ use slipstick::check::{Certificate, check};
 use slipstick::friction::{Coulomb, Friction};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::GroundMotion;
-use slipstick::response::{History, Mode};
+use slipstick::response::{Demands, History, Method, Mode, Response};
 use slipstick::solver;
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2 as G;
 
@@ -17,7 +17,14 @@ pub fn block(mass_kg: f64) -> Block {
 }
 
 pub fn slider(friction: Friction) -> Slider {
-    Slider { friction, stiffness_n_per_m: 0.0, damper_n_s_per_m: 0.0, tilt_rad: 0.0, gap_m: None }
+    Slider {
+        friction,
+        stiffness_n_per_m: 0.0,
+        damper_n_s_per_m: 0.0,
+        tilt_rad: 0.0,
+        gap_m: None,
+        stop: None,
+    }
 }
 
 pub fn frame(masses_kg: &[f64], stiffnesses_n_per_m: &[f64], damping: Damping) -> Frame {
@@ -127,14 +134,34 @@ pub fn systems() -> Vec<System> {
     ]
 }
 
+pub fn response_of(system: &System) -> Response {
+    solver::exact(&system.model, &system.motion).unwrap()
+}
+
 pub fn history_of(system: &System) -> History {
-    solver::exact(&system.model, &system.motion).unwrap().history.unwrap()
+    response_of(system).history.unwrap()
 }
 
+/// Judges a history; of a response that is all of it but the demands.
 pub fn judge(system: &System, history: &History) -> Certificate {
-    check(&system.model, &system.motion, history)
+    let response = Response {
+        method: Method::Exact,
+        demands: Demands::default(),
+        events: Vec::new(),
+        history: Some(history.clone()),
+        contact_loss_s: Vec::new(),
+        iterations: None,
+        warnings: Vec::new(),
+    };
+    check(&system.model, &system.motion, &response)
 }
 
+/// Whether the figures of a history are within the bound.
+pub fn holds(c: &Certificate) -> bool {
+    worst(c) <= c.bound
+}
+
+/// The worst of the figures that judge the history.
 pub fn worst(c: &Certificate) -> f64 {
     c.equilibrium_residual.max(c.friction_excess).max(c.energy_balance_error)
 }
@@ -177,7 +204,8 @@ pub fn coarse_systems() -> Vec<System> {
 
 pub fn figures(c: &Certificate) -> String {
     let [r, f, e] = [c.equilibrium_residual, c.friction_excess, c.energy_balance_error];
-    format!("equilibrium {r:e}, friction {f:e}, energy {e:e}, {:?}", c.closest_call)
+    let (d, call) = (c.demands_error, &c.closest_call);
+    format!("equilibrium {r:e}, friction {f:e}, energy {e:e}, demands {d:e}, {call:?}")
 }
 
 /// Appends a knot: `[s, ṡ, block acceleration]`, friction force, storeys' `q`, `q̇`, accelerations.

@@ -1,9 +1,10 @@
 //! Tampered histories: each must push a figure above 1e-9.
 
 use crate::systems::*;
+use slipstick::check::check;
 use slipstick::friction::Direction;
-use slipstick::model::Damping;
-use slipstick::response::{History, Mode};
+use slipstick::model::{Block, Damping, Frame, Model, Slider};
+use slipstick::response::{Demands, EventKind, History, Mode, Response};
 
 /// A tampered figure must stand above this.
 const SHOWS: f64 = 1e-9;
@@ -194,6 +195,131 @@ fn exact_broken_histories_are_refused() {
         let mut broken = history.clone();
         damage(&mut broken);
         let c = judge(system, &broken);
-        assert!(!c.holds() && worst(&c) == f64::INFINITY, "{i}: {}", figures(&c));
+        assert!(!holds(&c) && worst(&c) == f64::INFINITY, "{i}: {}", figures(&c));
+    }
+}
+
+/// The systems with a width, heights and a gap, so that every demand is there.
+fn complete_systems() -> Vec<System> {
+    let complete = |system: System| {
+        let (m, n) = (&system.model, system.model.storeys());
+        let block = Block { width_m: Some(0.5), height_m: Some(0.3), ..*m.block() };
+        let slider = Slider { gap_m: Some(0.1), ..*m.slider() };
+        let frame = Frame { heights_m: Some(vec![0.7; n]), ..m.frame().clone() };
+        let model = Model::new(block, slider, frame, m.gravity_m_per_s2(), m.initial().clone());
+        System { model: model.unwrap(), ..system }
+    };
+    systems().into_iter().chain(coarse_systems()).map(complete).collect()
+}
+
+/// Judges a response whose demands or events were tampered with.
+fn demands_must_show(system: &System, response: &Response, what: &str) {
+    let c = check(&system.model, &system.motion, response);
+    let (name, error) = (system.name, c.demands_error);
+    assert!(error > SHOWS && !c.holds(), "{name}: {what} went unnoticed: {error:e}");
+}
+
+#[test]
+fn exact_true_demands_pass() {
+    for system in complete_systems() {
+        let c = check(&system.model, &system.motion, &response_of(&system));
+        assert!(c.demands_error < 1e-11, "{}: {}", system.name, figures(&c));
+        assert!(c.holds(), "{}: {}", system.name, figures(&c));
+    }
+}
+
+#[test]
+fn exact_every_changed_demand_shows() {
+    type Number = fn(&mut Demands) -> &mut f64;
+    let numbers: [Number; 16] = [
+        |d| &mut d.peak_sliding_displacement_m,
+        |d| &mut d.peak_sliding_displacement_time_s,
+        |d| &mut d.max_sliding_displacement_m,
+        |d| &mut d.min_sliding_displacement_m,
+        |d| &mut d.residual_sliding_displacement_m,
+        |d| &mut d.sliding_path_m,
+        |d| &mut d.peak_sliding_velocity_m_per_s,
+        |d| &mut d.sliding_time_s,
+        |d| &mut d.peak_block_acceleration_m_per_s2,
+        |d| &mut d.peak_base_shear_n,
+        |d| &mut d.peak_friction_force_n,
+        |d| &mut d.peak_slider_force_n,
+        |d| &mut d.base_shear_coefficient,
+        |d| &mut d.friction_coefficient_used,
+        |d| &mut d.slider_force_coefficient,
+        |d| d.closest_stop.as_mut().unwrap(),
+    ];
+    let ratios: [fn(&mut Demands) -> &mut Option<f64>; 3] =
+        [|d| &mut d.gap_ratio, |d| &mut d.overturning_ratio, |d| &mut d.closest_stop];
+    let flips: [fn(&mut Demands); 8] = [
+        |d| d.sliding_at_end = !d.sliding_at_end,
+        |d| d.slip_count += 1,
+        |d| d.reversal_count += 1,
+        |d| d.stick_count -= 1,
+        |d| d.storeys.push(d.storeys.last().copied().unwrap_or_default()),
+        |d| d.stop = Some(Default::default()),
+        |d| d.peak_slider_force_n = f64::NAN,
+        |d| d.sliding_time_s = 0.0,
+    ];
+    for system in complete_systems() {
+        let response = response_of(&system);
+        let changed = |change: &dyn Fn(&mut Demands), what: &str| {
+            let mut tampered = response.clone();
+            change(&mut tampered.demands);
+            demands_must_show(&system, &tampered, what);
+        };
+        for (i, number) in numbers.iter().enumerate() {
+            // No storey, no base shear: 0 is what stays 0.
+            for part in [1.0 + 1e-7, 1.0 - 1e-7] {
+                let value = *number(&mut response.demands.clone());
+                if value != 0.0 && value.abs() > 1e-3 * 1e-9 {
+                    let scale = if i == 15 { 1.0 } else { value };
+                    changed(&|d| *number(d) = value + scale * (part - 1.0), &format!("number {i}"));
+                }
+            }
+        }
+        for (i, ratio) in ratios.iter().enumerate() {
+            changed(&|d| *ratio(d) = None, &format!("ratio {i} left out"));
+            changed(&|d| *ratio(d) = ratio(d).map(|r| r + 1e-7), &format!("ratio {i}"));
+        }
+        for (i, flip) in flips.iter().enumerate() {
+            changed(flip, &format!("flip {i}"));
+        }
+        for i in 0..system.model.storeys() {
+            changed(&|d| d.storeys[i].peak_displacement_m *= 1.0 + 1e-7, "a displacement");
+            changed(&|d| d.storeys[i].peak_drift_m *= 1.0 - 1e-7, "a drift");
+            changed(&|d| d.storeys[i].peak_acceleration_m_per_s2 *= 1.0 + 1e-7, "an acceleration");
+            changed(&|d| d.storeys[i].peak_drift_ratio = None, "no drift ratio");
+            let ratio = |d: &mut Demands| d.storeys[i].peak_drift_ratio.as_mut().map(|r| *r *= 1.1);
+            changed(&|d| _ = ratio(d), "a drift ratio");
+        }
+    }
+}
+
+#[test]
+fn exact_every_changed_event_shows() {
+    for system in complete_systems() {
+        let response = response_of(&system);
+        let changed = |change: &dyn Fn(&mut Response), what: &str| {
+            let mut tampered = response.clone();
+            change(&mut tampered);
+            demands_must_show(&system, &tampered, what);
+        };
+        let events = response.events.len();
+        for i in (0..events).step_by(3) {
+            changed(&|r| _ = r.events.remove(i), "an event left out");
+            changed(&|r| r.events.insert(i, r.events[i]), "an event twice");
+            changed(&|r| r.events[i].time_s += 1e-9, "another time");
+            changed(&|r| r.events[i].sliding_displacement_m += 1e-6, "another place");
+            let other = |kind| {
+                if kind == EventKind::Reversal { EventKind::Slip } else { EventKind::Reversal }
+            };
+            changed(&|r| r.events[i].kind = other(r.events[i].kind), "another kind");
+            let turned = |mode| match mode {
+                Mode::Slip(Direction::Positive) => Mode::Slip(Direction::Negative),
+                _ => Mode::Slip(Direction::Positive),
+            };
+            changed(&|r| r.events[i].mode = turned(r.events[i].mode), "another direction");
+        }
     }
 }

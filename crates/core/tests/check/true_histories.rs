@@ -1,21 +1,25 @@
 //! True histories pass, and so does what only rounding moves.
 
 use crate::systems::*;
+use slipstick::check::check;
 use slipstick::friction::Direction;
-use slipstick::model::{Damping, Frame, InitialState, Model, Slider};
+use slipstick::model::{Damping, Frame, InitialState, Model, Slider, Stop, StopKind};
 use slipstick::motion::GroundMotion;
-use slipstick::response::{History, Mode};
+use slipstick::response::{
+    Contact, Demands, Event, EventKind, History, Method, Mode, Response, StopDemands,
+};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2 as G;
 
 #[test]
 fn exact_true_histories_pass() {
     for system in systems().into_iter().chain(coarse_systems()) {
-        let history = history_of(&system);
-        let c = judge(&system, &history);
-        assert!(worst(&c) < 1e-11, "{}: {}", system.name, figures(&c));
+        let response = response_of(&system);
+        let history = response.history.as_ref().unwrap();
+        let c = check(&system.model, &system.motion, &response);
+        assert!(worst(&c).max(c.demands_error) < 1e-11, "{}: {}", system.name, figures(&c));
         assert!(c.holds());
         assert_eq!(c.energy.input_j.len(), history.len());
-        let slid = changes(&history, |a, b| a == Mode::Stick && slips(b)).len();
+        let slid = changes(history, |a, b| a == Mode::Stick && slips(b)).len();
         assert!(slid >= 3, "{}: {slid} slips are too few to test anything", system.name);
     }
 }
@@ -285,7 +289,7 @@ fn exact_touch_by_rounding_passes() {
             motion: GroundMotion::evenly_spaced(0.005, values.clone(), None).unwrap(),
         };
         let c = judge(&system, &history_of(&system));
-        assert!(c.holds(), "{part}: {}", figures(&c));
+        assert!(holds(&c), "{part}: {}", figures(&c));
         assert!(c.closest_call.unwrap().margin < 1e-6 || part < 1.0 - 1e-11, "{}", figures(&c));
     }
 }
@@ -379,4 +383,184 @@ fn exact_dip_of_velocity_between_knots_counts() {
         assert!((below.friction_excess - expected).abs() < 1e-14, "{}", figures(&below));
         assert!(below.equilibrium_residual < 1e-14, "{}", figures(&below));
     }
+}
+
+/// 1 t slides at 0.8 m/s into an undamped stop of 200 kN/m at 0.1 m, is thrown back and comes to
+/// rest: Newmark's decelerations outside, `s̈ = −(k/M)(s − d ± μ M g/k)` against the stop.
+fn struck() -> (System, Response) {
+    let (m, mu, w0, d, k) = (1000.0, 0.04, 0.8, 0.1, 2e5);
+    let friction = coulomb([0.05; 2], [mu; 2]);
+    let kind = StopKind::Elastic { stiffness_n_per_m: k, damper_n_s_per_m: 0.0 };
+    let stop = Some(Stop { gap_m: [Some(d), None], kind });
+    let initial = InitialState { sliding_velocity_m_per_s: w0, ..InitialState::rest() };
+    let slider = Slider { stop, ..slider(friction) };
+    let model = Model::new(block(m), slider, Frame::none(), G, initial).unwrap();
+    let motion = GroundMotion::evenly_spaced(4.0, vec![0.0; 2], None).unwrap();
+    let (drag, rate) = (mu * G, (k / m).sqrt());
+    let offset = drag / (rate * rate);
+    let w1 = (w0 * w0 - 2.0 * drag * d).sqrt();
+    let t1 = (w0 - w1) / drag;
+    // Towards the stop about d − offset, back about d + offset.
+    let turn = libm::atan2(w1, rate * offset) / rate;
+    let reach = (offset * offset + w1 * w1 / (rate * rate)).sqrt();
+    let (t2, top) = (t1 + turn, d - offset + reach);
+    let back = reach - 2.0 * offset;
+    let leave = libm::acos(-offset / back) / rate;
+    let t3 = t2 + leave;
+    let w3 = -rate * (back * back - offset * offset).sqrt();
+    let t4 = t3 - w3 / drag;
+    let state = |t: f64| -> (f64, f64) {
+        if t <= t1 {
+            (w0 * t - 0.5 * drag * t * t, w0 - drag * t)
+        } else if t <= t2 {
+            let (sin, cos) = (libm::sin(rate * (t2 - t)), libm::cos(rate * (t2 - t)));
+            (d - offset + reach * cos, rate * reach * sin)
+        } else if t <= t3 {
+            let (sin, cos) = (libm::sin(rate * (t - t2)), libm::cos(rate * (t - t2)));
+            (d + offset + back * cos, -rate * back * sin)
+        } else {
+            let t = t.min(t4) - t3;
+            (d + w3 * t + 0.5 * drag * t * t, w3 + drag * t)
+        }
+    };
+    let (towards, away) = (Mode::Slip(Direction::Positive), Mode::Slip(Direction::Negative));
+    let pressed = Contact::Pressed(Direction::Positive);
+    let phases = [
+        (0.0, t1, towards, Contact::Free),
+        (t1, t2, towards, pressed),
+        (t2, t3, away, pressed),
+        (t3, t4, away, Contact::Free),
+        (t4, 4.0, Mode::Stick, Contact::Free),
+    ];
+    let mut h = History::default();
+    for (from, to, mode, contact) in phases {
+        for i in 0..=8 {
+            let t = if i == 8 { to } else { from + (to - from) * f64::from(i) / 8.0 };
+            let (s, w) = state(t);
+            let w = if mode == Mode::Stick || t == t2 || t == t4 { 0.0 } else { w };
+            let push = if contact == pressed { k * (s - d) } else { 0.0 };
+            let force = -mode.sign() * mu * m * G;
+            let block = if mode == Mode::Stick { 0.0 } else { (force - push) / m };
+            knot(&mut h, t, mode, 0.0, [s, w, block], force, [&[]; 3]);
+            h.contact.push(contact);
+        }
+    }
+    let event = |time_s: f64, kind, mode| Event {
+        time_s,
+        kind,
+        mode,
+        sliding_displacement_m: state(time_s).0,
+    };
+    let events = vec![
+        event(t1, EventKind::Contact, towards),
+        event(t2, EventKind::Reversal, away),
+        event(t3, EventKind::Leave, away),
+        event(t4, EventKind::Stick, Mode::Stick),
+    ];
+    let end = state(4.0).0;
+    let peak_force_n = k * (top - d);
+    let demands = Demands {
+        peak_sliding_displacement_m: end.abs(),
+        peak_sliding_displacement_time_s: t4,
+        max_sliding_displacement_m: top,
+        min_sliding_displacement_m: end,
+        residual_sliding_displacement_m: end,
+        sliding_path_m: 2.0 * top - end,
+        peak_sliding_velocity_m_per_s: w0,
+        sliding_time_s: t4,
+        reversal_count: 1,
+        stick_count: 1,
+        peak_block_acceleration_m_per_s2: drag + peak_force_n / m,
+        peak_friction_force_n: mu * m * G,
+        peak_slider_force_n: mu * m * G + peak_force_n,
+        friction_coefficient_used: mu,
+        slider_force_coefficient: mu + peak_force_n / (m * G),
+        // At the turn the stop pushes far beyond what friction holds; at rest nothing does.
+        closest_stop: Some(1.0_f64.min((1.0 - peak_force_n / (0.05 * m * G)).abs())),
+        stop: Some(StopDemands {
+            contact_count: 1,
+            impact_count: 0,
+            peak_force_n,
+            peak_impact_speed_m_per_s: w1,
+            contact_time_s: t3 - t1,
+        }),
+        ..Demands::default()
+    };
+    let response = Response {
+        method: Method::Exact,
+        demands,
+        events,
+        history: Some(h),
+        contact_loss_s: Vec::new(),
+        iterations: None,
+        warnings: Vec::new(),
+    };
+    (System { name: "block against a stop", model, motion }, response)
+}
+
+#[test]
+fn exact_elastic_stop_passes() {
+    let (system, response) = struck();
+    // The reference to 16 digits: contact, turn, leave, rest.
+    let reference = [
+        0.129_085_202_660_775_53,
+        0.237_541_145_209_035_05,
+        0.351_438_455_520_997,
+        2.120_259_730_878_303,
+    ];
+    for (event, t) in response.events.iter().zip(reference) {
+        assert!((event.time_s - t).abs() < 1e-14, "{event:?} {t}");
+    }
+    let c = check(&system.model, &system.motion, &response);
+    assert!(worst(&c).max(c.demands_error) < 1e-12, "{}", figures(&c));
+}
+
+#[test]
+fn exact_wrong_stops_show() {
+    let (system, response) = struck();
+    let must_show = |model: &Model, change: &dyn Fn(&mut Response), what: &str| {
+        let mut tampered = response.clone();
+        change(&mut tampered);
+        let c = check(model, &system.motion, &tampered);
+        assert!(!c.holds() && worst(&c).max(c.demands_error) > 1e-9, "{what}: {}", figures(&c));
+    };
+    let kind = StopKind::Elastic { stiffness_n_per_m: 2e5 * (1.0 + 1e-7), damper_n_s_per_m: 0.0 };
+    let damped = StopKind::Elastic { stiffness_n_per_m: 2e5, damper_n_s_per_m: 0.1 };
+    let right = *system.model.stop().unwrap();
+    let gap = |gap_m: f64| Stop { gap_m: [Some(gap_m), None], ..right };
+    let stops = [
+        Stop { kind, ..right },
+        Stop { kind: damped, ..right },
+        gap(0.1 + 1e-8),
+        gap(0.1 - 1e-8),
+        Stop { gap_m: [Some(0.1); 2], ..right },
+    ];
+    for (i, stop) in stops.into_iter().enumerate() {
+        let model = with(&system.model, |slider, _| slider.stop = Some(stop));
+        must_show(&model, &|_| (), &format!("stop {i}"));
+    }
+    let contact = |from: usize, to: usize, contact: Contact| {
+        move |r: &mut Response| r.history.as_mut().unwrap().contact[from..to].fill(contact)
+    };
+    let side = Direction::Positive;
+    let model = &system.model;
+    must_show(model, &contact(9, 27, Contact::Free), "no contact");
+    must_show(model, &contact(9, 27, Contact::Separated(side)), "separated");
+    must_show(model, &contact(9, 27, Contact::Pressed(Direction::Negative)), "the other side");
+    must_show(model, &contact(0, 27, Contact::Pressed(side)), "pressed too early");
+    must_show(model, &contact(27, 36, Contact::Separated(side)), "separated within the gap");
+    must_show(model, &contact(27, 36, Contact::Pressed(side)), "pressed too long");
+    must_show(model, &|r| r.history.as_mut().unwrap().contact.clear(), "no contacts");
+    let stop: [fn(&mut StopDemands); 5] = [
+        |s| s.contact_count += 1,
+        |s| s.impact_count += 1,
+        |s| s.peak_force_n *= 1.0 + 1e-8,
+        |s| s.peak_impact_speed_m_per_s *= 1.0 - 1e-8,
+        |s| s.contact_time_s *= 1.0 + 1e-8,
+    ];
+    for (i, change) in stop.into_iter().enumerate() {
+        must_show(model, &|r| change(r.demands.stop.as_mut().unwrap()), &format!("demand {i}"));
+    }
+    must_show(model, &|r| r.demands.stop = None, "no demands");
+    must_show(model, &|r| _ = r.events.remove(2), "no leave");
 }

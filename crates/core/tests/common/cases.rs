@@ -110,6 +110,7 @@ impl Case {
                 damper_n_s_per_m: p("C1"),
                 tilt_rad: p("tilt"),
                 gap_m: None,
+                stop: None,
             },
             Frame { masses_kg: masses, stiffnesses_n_per_m: stiffnesses, damping, heights_m: None },
             self.parameter("g", 9.81),

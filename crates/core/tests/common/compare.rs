@@ -298,11 +298,7 @@ fn closed_form(case: &Case, outcome: &Outcome, dense: &Outcome, name: &str) -> O
 }
 
 fn kind(kind: EventKind) -> Value {
-    Value::from(match kind {
-        EventKind::Slip => "slip",
-        EventKind::Stick => "stick",
-        EventKind::Reversal => "reversal",
-    })
+    Value::from(kind.name())
 }
 
 fn mode(mode: Mode) -> Value {

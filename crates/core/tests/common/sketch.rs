@@ -197,6 +197,7 @@ impl Sketch {
                 damper_n_s_per_m: self.damper,
                 tilt_rad: self.tilt,
                 gap_m: None,
+                stop: None,
             },
             Frame {
                 masses_kg: self.masses.clone(),

@@ -227,6 +227,7 @@ fn fixed_base(case: &Case, solve: Solve, n: usize) -> Numbers {
         damper_n_s_per_m: 0.0,
         tilt_rad: 0.0,
         gap_m: None,
+        stop: None,
     };
     let block = Block { mass_kg: p("M1"), width_m: None, height_m: None };
     // The steady state of the undisturbed sine, H = q/Ü; what sampling leaves of a transient is of

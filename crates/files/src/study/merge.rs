@@ -2,19 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
-use arrow_array::RecordBatch;
-use parquet::errors::ParquetError;
 use slipstick::input::plan::Method;
-use slipstick_report::StudySummary;
+use slipstick::study::StudySummary;
+use slipstick::study::engine::Engine;
+use slipstick::table::Cells;
 use slipstick_report::json::Json;
 
 use super::part::{self, Checks, Notes, PartFile};
 use super::parts::{MANIFEST, SUMMARY, parts, refuse_foreign};
-use super::shard::on_threads;
 use super::summary;
 use super::{OpenStudy, StudyError};
 use crate::error::FileError;
-use crate::parquet::{at, open};
+use crate::parquet::at;
 use crate::write::{refuse_inputs, write_whole, write_whole_with};
 
 /// What was joined to one file.
@@ -28,20 +27,16 @@ pub struct Merged {
     pub checks: Checks,
 }
 
-/// Writes `manifest.json` and `summary.csv` of the parts in a folder, on so many threads (all where
-/// nothing is said), and gives the summary.
+/// Writes `manifest.json` and `summary.csv` of the parts in a folder and gives the summary; the
+/// threads are those of the pool that it is called in.
 ///
 /// # Errors
 /// [`StudyError`] for parts that are damaged or belong to another study, and files that cannot be
 /// written.
-pub fn conclude(
-    study: &OpenStudy,
-    folder: &Path,
-    jobs: Option<usize>,
-) -> Result<StudySummary, StudyError> {
+pub fn conclude(study: &OpenStudy, folder: &Path) -> Result<StudySummary, StudyError> {
     let files = parts(folder)?;
     refuse_foreign(&files, &study.id)?;
-    let summary = on_threads(jobs, || Ok(summary::of(study, &files)?))?;
+    let summary = summary::of(study, &files, &Engine::unwatched())?;
     summary::write(&folder.join(SUMMARY), &summary)?;
     write_whole(&folder.join(MANIFEST), manifest(study, &files).to_pretty().as_bytes())?;
     Ok(summary)
@@ -87,6 +82,7 @@ fn checks(checks: &Checks) -> Json {
         ("equilibrium_residual", checks.equilibrium_residual.into()),
         ("friction_excess", checks.friction_excess.into()),
         ("energy_balance_error", checks.energy_balance_error.into()),
+        ("demands_error", checks.demands_error.into()),
     ])
 }
 
@@ -136,7 +132,7 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, StudyError> {
         let last = runs.saturating_sub(1);
         return Err(StudyError::Incomplete { last, missing: next, folders: named });
     }
-    let inputs: Vec<PathBuf> = files.iter().map(|file| file.path.clone()).collect();
+    let inputs: Vec<PathBuf> = files.iter().map(|file| file.table.path.clone()).collect();
     refuse_inputs(out, &inputs)?;
     let total = totals(&files);
     let notes = Notes {
@@ -146,33 +142,20 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, StudyError> {
         checks: total.checks,
         ..first.notes
     };
-    let schema = open(&first.path)?.schema().clone();
+    let fields = first.table.fields();
     write_whole_with(out, |to| {
-        let mut table = part::table(to, schema, &notes).map_err(at(out))?;
+        let mut table = part::table(to, fields, &notes).map_err(at(out))?;
         for file in &files {
-            table.row_group(&whole(&file.path)?).map_err(at(out))?;
+            if file.table.fields() != fields {
+                let reason = "its columns are not those of the other parts".to_owned();
+                return Err(FileError::Table { path: file.table.path.clone(), reason });
+            }
+            let columns = (0..fields.len()).map(|column| file.table.cells(column));
+            let columns = columns.collect::<Result<Vec<Cells>, FileError>>()?;
+            table.row_group(&columns).map_err(at(out))?;
         }
         table.finish().map_err(at(out))?;
         Ok(())
     })?;
     Ok(total)
-}
-
-/// All rows of a part.
-fn whole(path: &Path) -> Result<RecordBatch, FileError> {
-    let table = open(path)?;
-    let schema = table.schema().clone();
-    let rows = table.metadata().file_metadata().num_rows().max(1) as usize;
-    let reader = table.with_batch_size(rows).build().map_err(at(path))?;
-    let failed =
-        |error: arrow_schema::ArrowError| at(path)(ParquetError::ArrowError(error.to_string()));
-    let mut batches = reader.collect::<Result<Vec<_>, _>>().map_err(failed)?;
-    match (batches.pop(), batches.is_empty()) {
-        (Some(batch), true) => Ok(batch),
-        (None, _) => Ok(RecordBatch::new_empty(schema)),
-        (Some(_), false) => {
-            let reason = "its rows do not come in one piece".to_owned();
-            Err(FileError::Table { path: path.to_owned(), reason })
-        }
-    }
 }

@@ -80,8 +80,8 @@ impl OpenStudy {
             inputs.extend(names.zip(loaded.sources.iter().map(|source| source.sha256.clone())));
             records.push(Record {
                 name,
-                channel: loaded.channel,
-                motion: loaded.motion,
+                channel: loaded.channel.clone(),
+                motion: loaded.motion.clone(),
                 warnings: loaded.warnings.iter().map(|warning| warning.kind).collect(),
             });
             record_paths.push(paths);

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::StudyError;
 use super::part::{Notes, PartFile, part_of_name};
 use crate::error::FileError;
+use crate::parquet::Table;
 
 /// What a study writes besides its parts.
 pub(super) const MANIFEST: &str = "manifest.json";
@@ -88,8 +89,8 @@ pub(super) fn remove_leftovers(
 pub(super) fn parts(folder: &Path) -> Result<Vec<PartFile>, FileError> {
     let mut parts = Vec::new();
     for name in names(folder)?.into_iter().filter(|name| part_of_name(name).is_some()) {
-        let path = folder.join(name);
-        parts.push(PartFile { notes: Notes::read(&path)?, path });
+        let table = Table::of(&folder.join(name))?;
+        parts.push(PartFile { notes: Notes::of(&table)?, table });
     }
     parts.sort_by_key(|part| part.notes.first);
     Ok(parts)
@@ -98,7 +99,7 @@ pub(super) fn parts(folder: &Path) -> Result<Vec<PartFile>, FileError> {
 /// Refuses parts of another study.
 pub(super) fn refuse_foreign(parts: &[PartFile], id: &str) -> Result<(), StudyError> {
     match parts.iter().find(|part| part.notes.id != id) {
-        Some(part) => Err(StudyError::Foreign { path: part.path.clone() }),
+        Some(part) => Err(StudyError::Foreign { path: part.table.path.clone() }),
         None => Ok(()),
     }
 }

@@ -2,12 +2,13 @@
 
 use std::ops::Range;
 use std::path::Path;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
+use slipstick::error::Stopped;
+use slipstick::study::engine::Engine;
 use slipstick::study::{Row, Verdict};
 
-use super::part::{self, Checks, Layout, Notes, is_checked, part_count, part_name, part_rows};
+use super::part::{self, Checks, Notes, part_count, part_name, part_rows};
 use super::parts::{parts, refuse_foreign, remove_leftovers};
 use super::{OpenStudy, StudyError};
 use crate::parquet::at;
@@ -48,15 +49,6 @@ impl Shard {
     }
 }
 
-/// How a shard is run.
-#[derive(Clone, Copy, Default)]
-pub struct ShardOptions<'a> {
-    /// Number of threads; as many as the machine has where `None`.
-    pub jobs: Option<usize>,
-    /// Told how many more runs are done, from any thread.
-    pub progress: Option<&'a (dyn Fn(u64) + Sync)>,
-}
-
 /// What a shard came to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ShardOutcome {
@@ -74,18 +66,20 @@ pub struct ShardOutcome {
 ///
 /// The rows of a part, and so the bytes of its file, follow from the plan and its inputs alone:
 /// they are the same whatever the shard, the number of threads and what was there before. A part
-/// appears whole or not at all. Called again with the same plan it does what is left to do.
+/// appears whole or not at all, and is written while the next is computed. Called again with the same
+/// plan it does what is left to do. The threads are those of the pool that it is called in.
 ///
 /// # Errors
 /// [`StudyError`] for inputs that cannot be used, a folder that cannot be written or that holds
-/// parts of another study, and a run that fails its check. A run that cannot be solved is a row.
+/// parts of another study, a run that fails its check, and where the engine is stopped. A run that
+/// cannot be solved is a row.
 pub fn run_shard(
     plan: &Path,
     shard: Shard,
     folder: &Path,
-    options: &ShardOptions<'_>,
+    engine: &Engine<'_>,
 ) -> Result<ShardOutcome, StudyError> {
-    OpenStudy::open(plan)?.run_shard(shard, folder, options)
+    OpenStudy::open(plan)?.run_shard(shard, folder, engine)
 }
 
 impl OpenStudy {
@@ -97,7 +91,7 @@ impl OpenStudy {
         &self,
         shard: Shard,
         folder: &Path,
-        options: &ShardOptions<'_>,
+        engine: &Engine<'_>,
     ) -> Result<ShardOutcome, StudyError> {
         OutputFolder::create(folder, &[])?.commit()?;
         let runs = self.study.runs();
@@ -110,7 +104,7 @@ impl OpenStudy {
         for part in wanted {
             let rows = rows_of(part, runs);
             outcome.runs += rows.end - rows.start;
-            match present.iter().find(|file| file.path.ends_with(part_name(part))) {
+            match present.iter().find(|file| file.table.path.ends_with(part_name(part))) {
                 Some(file) => {
                     outcome.kept += file.notes.rows;
                     outcome.failures += file.notes.failures;
@@ -119,18 +113,21 @@ impl OpenStudy {
                 None => to_do.push(part),
             }
         }
-        let none: &(dyn Fn(u64) + Sync) = &|_| {};
-        let progress = options.progress.unwrap_or(none);
-        progress(outcome.kept);
-        let layout = Layout::new(&self.study);
-        on_threads(options.jobs, || {
-            for part in to_do {
-                let notes = self.run_part(part, folder, &layout, progress)?;
+        engine.done(outcome.kept)?;
+        let mut computed: Option<(u64, Vec<Row>)> = None;
+        for part in to_do.into_iter().map(Some).chain([None]) {
+            // One part is judged, encoded and written while the next is computed.
+            let next = || part.map(|part| self.compute(part, engine)).transpose();
+            let last =
+                || computed.take().map(|(part, rows)| self.finish(part, &rows, folder, engine));
+            let (next, last) = engine.both(next, last);
+            if let Some(notes) = last.transpose()? {
                 outcome.failures += notes.failures;
                 outcome.checks.join(&notes.checks);
             }
-            Ok(outcome)
-        })
+            computed = next?;
+        }
+        Ok(outcome)
     }
 
     /// Number of runs of a shard.
@@ -141,41 +138,43 @@ impl OpenStudy {
         parts.map(|part| rows_of(part, runs)).map(|rows| rows.end - rows.start).sum()
     }
 
-    /// Runs one part and writes it.
-    fn run_part(
+    fn compute(&self, part: u64, engine: &Engine<'_>) -> Result<(u64, Vec<Row>), Stopped> {
+        Ok((part, self.study.rows(rows_of(part, self.study.runs()), engine)?))
+    }
+
+    /// Judges some rows of a part and writes it.
+    fn finish(
         &self,
         part: u64,
+        rows: &[Row],
         folder: &Path,
-        layout: &Layout,
-        progress: &(dyn Fn(u64) + Sync),
+        engine: &Engine<'_>,
     ) -> Result<Notes, StudyError> {
         let runs = self.study.runs();
-        let range = rows_of(part, runs);
-        let rows = self.study.rows(range.clone(), progress);
-        let checks = self.check(&rows, &range)?;
         let notes = Notes {
             id: self.id.clone(),
             runs,
-            first: range.start,
+            first: rows_of(part, runs).start,
             rows: rows.len() as u64,
             failures: rows.iter().filter(|row| row.error.is_some()).count() as u64,
-            checks,
+            checks: self.check(rows, engine)?,
         };
         let path = folder.join(part_name(part));
         let bytes = || {
-            let mut table = part::table(Vec::new(), layout.schema.clone(), &notes)?;
-            table.row_group(&layout.batch(&self.study, &rows)?)?;
+            let mut table = part::table(Vec::new(), &self.study.fields(), &notes)?;
+            table.row_group(&self.study.cells(rows))?;
             table.finish()
         };
         write_whole(&path, &bytes().map_err(at(&path))?)?;
         Ok(notes)
     }
 
-    /// Runs some rows of a part again, alone and with their histories.
-    fn check(&self, rows: &[Row], range: &Range<u64>) -> Result<Checks, StudyError> {
-        let checked: Vec<&Row> = rows.iter().filter(|row| is_checked(row.run, range)).collect();
+    /// Runs some rows again, alone and with their histories.
+    fn check(&self, rows: &[Row], engine: &Engine<'_>) -> Result<Checks, StudyError> {
+        let checked: Vec<&Row> = rows.iter().filter(|row| self.study.is_checked(row.run)).collect();
         let mut checks = Checks::default();
-        for (row, verdict) in checked.iter().zip(verdicts(self, &checked)) {
+        let verdicts = engine.map(checked.len(), |i| Ok(self.study.verify(checked[i])))?;
+        for (row, verdict) in checked.iter().zip(verdicts) {
             checks.add(&verdict);
             if !verdict.holds() {
                 return Err(StudyError::CheckFailed {
@@ -194,8 +193,12 @@ fn what_failed(verdict: &Verdict) -> String {
         return "run again alone it came out differently".to_owned();
     }
     format!(
-        "equilibrium residual {:e}, friction excess {:e}, energy balance error {:e}",
-        verdict.equilibrium_residual, verdict.friction_excess, verdict.energy_balance_error
+        "equilibrium residual {:e}, friction excess {:e}, energy balance error {:e}, demands error \
+         {:e}",
+        verdict.equilibrium_residual,
+        verdict.friction_excess,
+        verdict.energy_balance_error,
+        verdict.demands_error
     )
 }
 
@@ -205,43 +208,14 @@ pub(super) fn rows_of(part: u64, runs: u64) -> Range<u64> {
     part * size..((part + 1) * size).min(runs)
 }
 
-#[cfg(feature = "parallel")]
-fn verdicts(study: &OpenStudy, rows: &[&Row]) -> Vec<Verdict> {
-    use rayon::prelude::*;
-    rows.par_iter().map(|row| study.study.verify(row)).collect()
-}
-
-#[cfg(not(feature = "parallel"))]
-fn verdicts(study: &OpenStudy, rows: &[&Row]) -> Vec<Verdict> {
-    rows.iter().map(|row| study.study.verify(row)).collect()
-}
-
-#[cfg(feature = "parallel")]
-pub(super) fn on_threads<T: Send>(
-    jobs: Option<usize>,
-    work: impl FnOnce() -> Result<T, StudyError> + Send,
-) -> Result<T, StudyError> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs.unwrap_or(0)).build();
-    let pool = pool.map_err(|error| StudyError::Threads { reason: error.to_string() })?;
-    pool.install(work)
-}
-
-#[cfg(not(feature = "parallel"))]
-pub(super) fn on_threads<T: Send>(
-    _jobs: Option<usize>,
-    work: impl FnOnce() -> Result<T, StudyError> + Send,
-) -> Result<T, StudyError> {
-    work()
-}
-
-/// Time that a shard may take, from runs spread over it that are timed for about `budget`.
+/// Time that a shard may take in the pool that this is called in, from runs spread over it that are
+/// timed for about `budget`.
 ///
 /// # Errors
-/// [`StudyError::Threads`].
+/// None: nothing stops it.
 pub fn estimate(
     study: &OpenStudy,
     shard: Shard,
-    jobs: Option<usize>,
     budget: Duration,
 ) -> Result<(u64, Duration), StudyError> {
     let total = study.study.runs();
@@ -255,24 +229,21 @@ pub fn estimate(
     if count == 0 {
         return Ok((0, Duration::ZERO));
     }
-    let timed = AtomicU64::new(0);
-    let spent = on_threads(jobs, || {
-        let start = Instant::now();
-        // A few runs at a time from all over the shard, as long as time is left.
-        let steps = 64_u64;
-        let block = (count / steps).clamp(1, 64);
-        for step in 0..steps {
-            // An odd stride visits every step once, the far ones early.
-            let at = runs.start + (count - block) * (step * 37 % steps) / steps;
-            let rows = study.study.rows(at..at + block, &|_| {});
-            timed.fetch_add(rows.len() as u64, Ordering::Relaxed);
-            if start.elapsed() > budget {
-                break;
-            }
+    let engine = Engine::unwatched();
+    let mut timed = 0_u64;
+    let start = Instant::now();
+    // A few runs at a time from all over the shard, as long as time is left.
+    let steps = 64_u64;
+    let block = (count / steps).clamp(1, 64);
+    for step in 0..steps {
+        // An odd stride visits every step once, the far ones early.
+        let at = runs.start + (count - block) * (step * 37 % steps) / steps;
+        timed += study.study.rows(at..at + block, &engine)?.len() as u64;
+        if start.elapsed() > budget {
+            break;
         }
-        Ok(start.elapsed())
-    })?;
-    let per_run = spent.as_secs_f64() / timed.load(Ordering::Relaxed).max(1) as f64;
+    }
+    let per_run = start.elapsed().as_secs_f64() / timed.max(1) as f64;
     Ok((count, Duration::from_secs_f64(per_run * count as f64)))
 }
 

@@ -2,7 +2,11 @@
 
 mod figures;
 
-use slipstick::assessment::design::{Figures, Found, Point, Target};
+use slipstick::assessment::FailedRun;
+use slipstick::assessment::design::{
+    Bounded, Figures, Found, Point, Sensitivity, SensitivityError, Target,
+};
+use slipstick::assessment::grid::Axis;
 use slipstick::assessment::sensitivity::Index;
 use slipstick::response::Warning;
 
@@ -11,39 +15,6 @@ use super::sheet::{Sheet, cell, counted};
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::json::Json;
 use crate::number::compact;
-
-/// A varied path.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Variable {
-    /// The path.
-    pub path: String,
-    /// Its SI unit; empty where it has none.
-    pub unit: String,
-    /// Its values on the grid, SI.
-    pub values: Vec<f64>,
-}
-
-/// A design with friction at its lower and upper bound.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounded {
-    /// Number of the design.
-    pub design: usize,
-    /// Its figures with lower friction.
-    pub lower: Figures,
-    /// Its figures with upper friction.
-    pub upper: Figures,
-}
-
-/// Indices of every variable for displacement and acceleration.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sensitivity {
-    /// Number of sample points `N`.
-    pub points: usize,
-    /// For the displacement that the asked share keeps.
-    pub displacement: Vec<Index>,
-    /// For the acceleration.
-    pub acceleration: Vec<Index>,
-}
 
 /// What a design is told from.
 #[derive(Clone, Debug)]
@@ -59,7 +30,7 @@ pub struct DesignReport<'a> {
     /// What was asked.
     pub target: Target,
     /// What was varied, the last fastest.
-    pub variables: &'a [Variable],
+    pub variables: &'a [Axis],
     /// Key of the acceleration, such as `storey1_peak_acceleration_m_per_s2`.
     pub acceleration: &'a str,
     /// What was found.
@@ -67,11 +38,11 @@ pub struct DesignReport<'a> {
     /// Factors on friction and the designs of the front (or the nearest) with them.
     pub bounds: Option<([f64; 2], &'a [Bounded])>,
     /// Sensitivity, where asked for, or why there is none.
-    pub sensitivity: Option<&'a Result<Sensitivity, String>>,
+    pub sensitivity: Option<&'a Result<Sensitivity, SensitivityError>>,
     /// Confidence of intervals.
     pub confidence: f64,
-    /// Messages of failed runs.
-    pub failures: &'a [String],
+    /// Runs without an answer.
+    pub failures: &'a [FailedRun],
     /// What reading the records gave notice of.
     pub warnings: &'a [Warning],
     /// Units to show results in.
@@ -298,7 +269,7 @@ impl DesignReport<'_> {
                 ("displacement", &sensitivity.displacement),
                 ("acceleration", &sensitivity.acceleration),
             ] {
-                let row = |(v, i): (&Variable, &Index)| {
+                let row = |(v, i): (&Axis, &Index)| {
                     let numbers = [
                         i.first,
                         i.first_interval[0],
@@ -393,14 +364,14 @@ impl DesignReport<'_> {
             ])
         };
         let optional = |p: Option<Point>| p.map_or(Json::Null, |p| point(&p));
-        let variable = |v: &Variable| {
+        let variable = |v: &Axis| {
             Json::Object(vec![
                 ("path", v.path.as_str().into()),
                 ("unit", v.unit.as_str().into()),
                 ("values", Json::List(v.values.iter().map(|x| Json::from(*x)).collect())),
             ])
         };
-        let index = |(v, i): (&Variable, &Index)| {
+        let index = |(v, i): (&Axis, &Index)| {
             Json::Object(vec![
                 ("path", v.path.as_str().into()),
                 ("first", i.first.into()),
@@ -444,7 +415,7 @@ impl DesignReport<'_> {
 }
 
 /// The last words of a path that say enough, with the unit: `kinetic friction`, `radius (m)`.
-fn label(variable: &Variable) -> String {
+fn label(variable: &Axis) -> String {
     let name = match variable.path.split_once('.') {
         Some(("slider", key)) => key.replace('_', " "),
         _ => variable.path.clone(),

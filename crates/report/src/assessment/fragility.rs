@@ -6,6 +6,7 @@ use slipstick::assessment::censored::Known;
 use slipstick::assessment::fragility::{
     Capacity, CloudPoint, Fragility, Stripe, test_counts, test_normality,
 };
+use slipstick::assessment::observed::Data;
 use slipstick::response::Warning;
 
 use super::key::{of_measure, quantity, title};
@@ -13,17 +14,6 @@ use super::sheet::{Sheet, cell};
 use crate::display::{DisplayUnits, Unit};
 use crate::json::Json;
 use crate::number::compact;
-
-/// What a curve was fitted to.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Data {
-    /// Counts of exceedances at levels.
-    Stripes(Vec<Stripe>),
-    /// Levels at which records reach the limit.
-    Capacities(Vec<Capacity>),
-    /// Intensities and demands of single runs.
-    Cloud(Vec<CloudPoint>),
-}
 
 /// What a fragility is told from.
 #[derive(Clone, Debug)]

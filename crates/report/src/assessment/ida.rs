@@ -1,8 +1,9 @@
 //! Incremental dynamic analysis.
 
-use slipstick::assessment::fractile::SHARES;
+use slipstick::assessment::FailedRun;
 use slipstick::assessment::fragility::Fragility;
 use slipstick::assessment::ida::{Crossing, Curve, demand_fractiles, level_fractiles};
+use slipstick::numerics::fractile::SHARES;
 use slipstick::response::Warning;
 
 use super::key::{of_measure, quantity, title};
@@ -36,8 +37,8 @@ pub struct IdaReport<'a> {
     pub fixed_levels: bool,
     /// A lognormal fit of the capacities, or why there is none.
     pub fit: Option<&'a Result<Fragility, slipstick::error::FitError>>,
-    /// Messages of failed runs.
-    pub failures: &'a [String],
+    /// Runs without an answer.
+    pub failures: &'a [FailedRun],
     /// What reading the records gave notice of.
     pub warnings: &'a [Warning],
     /// Units to show results in.

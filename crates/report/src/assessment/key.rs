@@ -1,10 +1,12 @@
 //! Keys of demands and measures as people read them.
 
+use slipstick::response::DemandColumn;
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
 use crate::display::{DisplayUnits, Quantity, Unit};
 
-/// Endings of keys with the quantity that they mean, the longer before the shorter.
+/// Endings of keys that are no demand of the registry (ratios of two demands, columns of other
+/// programs' tables), with the quantity that they mean, the longer before the shorter.
 const ENDINGS: [(&str, Quantity); 5] = [
     ("_m_per_s2", Quantity::Acceleration),
     ("_m_per_s", Quantity::Velocity),
@@ -13,9 +15,12 @@ const ENDINGS: [(&str, Quantity); 5] = [
     ("_s", Quantity::Time),
 ];
 
-/// What a key measures, by its ending.
+/// What a key measures.
 #[must_use]
 pub fn quantity(key: &str) -> Quantity {
+    if let Some(column) = DemandColumn::of_name(key) {
+        return column.dimension().into();
+    }
     let found = ENDINGS.iter().find(|(ending, _)| key.ends_with(ending));
     found.map_or(Quantity::Ratio, |(_, quantity)| *quantity)
 }
@@ -23,6 +28,9 @@ pub fn quantity(key: &str) -> Quantity {
 /// `Peak sliding displacement` of `peak_sliding_displacement_m`.
 #[must_use]
 pub fn title(key: &str) -> String {
+    if let Some(column) = DemandColumn::of_name(key) {
+        return column.title();
+    }
     let found = ENDINGS.iter().find_map(|(ending, _)| key.strip_suffix(ending));
     let plain = found.unwrap_or(key).replace(['_', '.'], " ").replace("storey", "storey ");
     let mut letters = plain.chars();

@@ -1,5 +1,7 @@
 //! A result laid out: tables, figures, notes.
 
+use std::fmt::Display;
+
 use slipstick::response::Warning;
 
 use crate::figures::Drawn;
@@ -116,7 +118,7 @@ pub(super) fn cell(value: f64) -> String {
 }
 
 /// A heading for a list of warnings from the messages of runs: each message once, with its count.
-pub(super) fn counted(kind: &'static str, messages: &[String]) -> Option<Warning> {
+pub(super) fn counted(kind: &'static str, messages: &[impl Display]) -> Option<Warning> {
     let first = messages.first()?;
     let more = match messages.len() - 1 {
         0 => String::new(),

@@ -1,5 +1,7 @@
 //! Sliding spectra and frequency response curves.
 
+use slipstick::assessment::FailedRun;
+use slipstick::assessment::spectrum::{DemandCurves, SpectrumRun};
 use slipstick::response::Warning;
 
 use super::key::{quantity, title};
@@ -30,11 +32,11 @@ pub struct SpectrumReport<'a> {
     /// How the records were scaled, in words.
     pub scaled: &'a str,
     /// The demands.
-    pub curves: &'a [Curves],
+    pub curves: &'a [DemandCurves],
     /// Of the key that they belong to: intervals in which the median of the group is above 1.
     pub windows: Option<(&'a str, &'a [Vec<[f64; 2]>])>,
-    /// Messages of failed runs.
-    pub failures: &'a [String],
+    /// Runs without an answer.
+    pub failures: &'a [FailedRun],
     /// Number of runs.
     pub runs: usize,
     /// What reading the records gave notice of.
@@ -43,13 +45,22 @@ pub struct SpectrumReport<'a> {
     pub display: DisplayUnits,
 }
 
-/// Fractiles of one demand over the records.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Curves {
-    /// Key of the demand, its unit at the end.
-    pub key: String,
-    /// Fractiles of 16, 50 and 84 %, SI: group by group, one entry a value along the axis.
-    pub fractiles: Vec<Vec<[f64; 3]>>,
+/// Names of the groups of a spectrum, such as `kinetic friction 0.05`; an empty one where nothing
+/// makes groups.
+#[must_use]
+pub fn group_names(run: &SpectrumRun) -> Vec<String> {
+    let name = |values: &Vec<f64>| {
+        let of = |((path, unit), value): (&(String, String), &f64)| {
+            format!("{} {} {unit}", short(path), compact(*value)).trim_end().to_owned()
+        };
+        run.group_paths.iter().zip(values).map(of).collect::<Vec<_>>().join(", ")
+    };
+    run.groups.iter().map(name).collect()
+}
+
+/// The last word of a path, which says enough in a legend.
+fn short(path: &str) -> String {
+    path.rsplit('.').next().unwrap_or(path).replace('_', " ")
 }
 
 impl<'s> SpectrumReport<'s> {
@@ -90,7 +101,7 @@ impl<'s> SpectrumReport<'s> {
         shown
     }
 
-    fn unit_of(&self, curves: &Curves) -> Unit {
+    fn unit_of(&self, curves: &DemandCurves) -> Unit {
         let largest = curves.fractiles.iter().flatten().map(|f| f[2]).filter(|v| v.is_finite());
         self.display.unit(quantity(&curves.key), largest.fold(0.0, f64::max))
     }
@@ -104,10 +115,10 @@ impl<'s> SpectrumReport<'s> {
     /// Several groups: a table a demand with their medians.
     fn tables(&self) -> Vec<(String, Vec<Vec<String>>)> {
         let (single, many) = (self.records.len() == 1, self.groups.len() > 1);
-        let named = |curves: &Curves| self.unit_of(curves).label(&title(&curves.key));
+        let named = |curves: &DemandCurves| self.unit_of(curves).label(&title(&curves.key));
         let column = |head: String, curves, group, which| Column { head, curves, group, which };
         let tables: Vec<(String, Vec<Column>)> = if many {
-            let of = |curves: &'s Curves| {
+            let of = |curves: &'s DemandCurves| {
                 let of_group =
                     |(g, name): (usize, &String)| column(name.clone(), curves, g, MEDIAN);
                 let after = if single { "" } else { ", median" };
@@ -116,13 +127,13 @@ impl<'s> SpectrumReport<'s> {
             };
             self.curves.iter().map(of).collect()
         } else if single {
-            let of = |part: &'s [Curves]| {
+            let of = |part: &'s [DemandCurves]| {
                 let columns = part.iter().map(|curves| column(named(curves), curves, 0, MEDIAN));
                 ("Demands".to_owned(), columns.collect())
             };
             self.curves.chunks(3).map(of).collect()
         } else {
-            let of = |curves: &'s Curves| {
+            let of = |curves: &'s DemandCurves| {
                 let names = share_names().into_iter().enumerate();
                 let columns = names.map(|(which, name)| column(name, curves, 0, which)).collect();
                 (named(curves), columns)
@@ -166,7 +177,7 @@ impl<'s> SpectrumReport<'s> {
         notes
     }
 
-    fn figure(&self, curves: &Curves) -> crate::figures::Drawn {
+    fn figure(&self, curves: &DemandCurves) -> crate::figures::Drawn {
         let unit = self.unit_of(curves);
         let x = self.values;
         let ends = (x.first().copied().unwrap_or(0.0), x.last().copied().unwrap_or(1.0));
@@ -296,7 +307,7 @@ impl<'s> SpectrumReport<'s> {
 /// A column of a table: its head, and which fractile of which group it is.
 struct Column<'a> {
     head: String,
-    curves: &'a Curves,
+    curves: &'a DemandCurves,
     group: usize,
     which: usize,
 }

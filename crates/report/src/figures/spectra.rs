@@ -4,7 +4,9 @@ use super::{Drawn, drawn, shown_note, shown_storeys};
 use crate::display::Quantity;
 use crate::number::printed;
 use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
-use crate::report::{FloorSpectra, Report};
+use slipstick::assessment::single::FloorSpectra;
+
+use crate::report::Report;
 
 /// Spectra of table, block and floors over a logarithmic period; none without two periods.
 pub fn floors(report: &Report, spectra: &FloorSpectra) -> Option<Drawn> {

@@ -3,7 +3,7 @@
 use slipstick::response::Event;
 
 use super::table_head;
-use crate::describe::{event_direction, event_kind};
+use crate::describe::event_direction;
 use crate::display::{Quantity, Unit};
 use crate::markup::Markup;
 use crate::number::{compact, count, decimals, printed, rounded, significant, typeset};
@@ -144,7 +144,7 @@ fn event_row(out: &mut Markup, event: &Event, unit: Unit, places: usize) {
     out.raw("<tr><td class=\"number\">")
         .text(format!("{:.6}", event.time_s))
         .raw("</td><td>")
-        .raw(event_kind(event.kind))
+        .raw(event.kind.name())
         .raw("</td><td>")
         .raw(event_direction(event))
         .raw("</td><td class=\"number\">")
@@ -174,7 +174,7 @@ pub fn certificate(out: &mut Markup, report: &Report) {
     heads.push(("What it means".to_owned(), false));
     table_head(out, &heads);
     type Pick = fn(&Summary) -> f64;
-    let figures: [(&str, Pick, &str); 3] = [
+    let figures: [(&str, Pick, &str); 4] = [
         (
             "Equilibrium residual",
             |run| run.checks.equilibrium_residual,
@@ -192,6 +192,12 @@ pub fn certificate(out: &mut Markup, report: &Report) {
             |run| run.checks.energy_balance_error,
             "Largest difference between the energy put in and the energy accounted for, relative \
              to all energy moved.",
+        ),
+        (
+            "Demands error",
+            |run| run.checks.demands_error,
+            "Largest difference of a peak, path, time or residual above from the one computed \
+             anew, relative to its peak; 1 where a count or the time of an event differs.",
         ),
     ];
     for (name, pick, meaning) in figures {

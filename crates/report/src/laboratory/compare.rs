@@ -388,7 +388,8 @@ impl CompareReport<'_> {
 fn sliding(comparison: &Comparison) -> Vec<[f64; 2]> {
     let Some(history) = &comparison.response.history else { return Vec::new() };
     let mut intervals: Vec<[f64; 2]> = Vec::new();
-    for (times, mode) in history.time_s.windows(2).zip(&history.mode) {
+    let sliders = history.mode.iter().step_by(history.interfaces);
+    for (times, mode) in history.time_s.windows(2).zip(sliders) {
         if *mode == Mode::Stick || times[1] <= times[0] {
             continue;
         }

@@ -10,7 +10,7 @@ use crate::figures::Drawn;
 use crate::html::{self, Frame, inputs, name_table, warning_list};
 use crate::json::Json;
 use crate::markup::Markup;
-use crate::number::significant;
+use crate::number::{fixed, significant};
 use crate::report::{FileNote, InputText};
 
 /// What was identified, and from what.
@@ -74,9 +74,7 @@ fn shown(display: DisplayUnits, unit: &'static str, values: [f64; 3]) -> ([Strin
         }
         let decimals = (1.0 - libm::floor(libm::log10(width))).max(0.0) as usize;
         if decimals <= 9 && value.abs() < 1e6 {
-            let text = format!("{value:.decimals$}");
-            let is_zero = !text.bytes().any(|b| b.is_ascii_digit() && b != b'0');
-            if is_zero { text.trim_start_matches('-').to_owned() } else { text }
+            fixed(value, decimals)
         } else {
             significant(value, 4)
         }

@@ -40,22 +40,22 @@ const COLUMNS: [Column; 5] = [
 /// CSV: file, channel, damping ratio, period and ordinates, one row a period.
 #[must_use]
 pub fn spectra_csv(spectra: &[ChannelSpectrum]) -> String {
-    let names = COLUMNS.map(|(name, _)| name).join(",");
-    let mut out = format!("file,channel,damping_ratio,period_s,{names}\n");
+    let names = COLUMNS.map(|(name, _)| name);
+    let mut rows =
+        vec![["file", "channel", "damping_ratio", "period_s"].map(str::to_owned).to_vec()];
+    rows[0].extend(names.map(str::to_owned));
     for one in spectra {
-        let (file, channel) = (field(&one.file), field(&one.channel));
         for (index, damping) in one.spectrum.damping_ratios.iter().enumerate() {
             let ordinates = one.spectrum.of_damping(index);
             for (period, ordinates) in one.spectrum.periods_s.iter().zip(ordinates) {
-                out.push_str(&format!("{file},{channel},{damping:?},{period:?}"));
-                for (_, value) in COLUMNS {
-                    out.push_str(&format!(",{:.16e}", value(ordinates)));
-                }
-                out.push('\n');
+                let of = [one.file.clone(), one.channel.clone()].into_iter();
+                let at = [damping, period].map(|value| format!("{value:?}"));
+                let values = COLUMNS.map(|(_, value)| format!("{:.16e}", value(ordinates)));
+                rows.push(of.chain(at).chain(values).collect());
             }
         }
     }
-    out
+    text(&rows)
 }
 
 /// One JSON array with an object a channel: its periods, and the ordinates of each damping ratio.
@@ -85,21 +85,23 @@ pub fn spectra_json(spectra: &[ChannelSpectrum]) -> String {
 /// CSV: file, channel, frequency and amplitude, one row a frequency.
 #[must_use]
 pub fn fourier_csv(spectra: &[ChannelFourier]) -> String {
-    let mut out = "file,channel,frequency_hz,fourier_amplitude_m_per_s\n".to_owned();
+    let header = ["file", "channel", "frequency_hz", "fourier_amplitude_m_per_s"];
+    let mut rows = vec![header.map(str::to_owned).to_vec()];
     for one in spectra {
-        let (file, channel) = (field(&one.file), field(&one.channel));
         for (f, amplitude) in one.spectrum.frequencies_hz().zip(&one.spectrum.amplitudes_m_per_s) {
-            out.push_str(&format!("{file},{channel},{f:?},{amplitude:.16e}\n"));
+            let of = [one.file.clone(), one.channel.clone()];
+            rows.push([of, [format!("{f:?}"), format!("{amplitude:.16e}")]].concat());
         }
     }
-    out
+    text(&rows)
 }
 
-/// A field of CSV, in quotes where it needs them.
-fn field(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
+/// Rows of one length as CSV.
+fn text(rows: &[Vec<String>]) -> String {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        // Into a vector of bytes it cannot fail.
+        let _ = writer.write_record(row);
     }
+    String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
 }

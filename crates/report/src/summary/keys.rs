@@ -1,15 +1,14 @@
 //! The keys of the `--json` object, which are a promise to other programs.
 
+use slipstick::assessment::single::FloorSpectra;
 use slipstick::motion::Figures;
-use slipstick::response::{StoreyDemands, Warning};
+use slipstick::response::{DEMANDS, DemandColumn, DemandKind, DemandOf, Demands, Warning};
 
 use super::{Checks, Summary, method_name};
 use crate::json::Json;
-use crate::report::FloorSpectra;
 
-/// The object; `iterations`, `floor_spectrum` and `bounds` only where there are any.
+/// The object; `stop`, `iterations`, `floor_spectrum` and `bounds` only where there are any.
 pub fn object(summary: &Summary) -> Json {
-    let d = &summary.demands;
     let mut keys = vec![
         ("slipstick", summary.slipstick.into()),
         ("model", summary.model.as_str().into()),
@@ -19,34 +18,9 @@ pub fn object(summary: &Summary) -> Json {
         ("duration_s", summary.duration_s.into()),
         ("friction_factor", summary.friction_factor.into()),
         ("record", record(&summary.record)),
-        ("peak_sliding_displacement_m", d.peak_sliding_displacement_m.into()),
-        ("peak_sliding_displacement_time_s", d.peak_sliding_displacement_time_s.into()),
-        ("max_sliding_displacement_m", d.max_sliding_displacement_m.into()),
-        ("min_sliding_displacement_m", d.min_sliding_displacement_m.into()),
-        ("residual_sliding_displacement_m", d.residual_sliding_displacement_m.into()),
-        ("sliding_at_end", d.sliding_at_end.into()),
-        ("sliding_path_m", d.sliding_path_m.into()),
-        ("peak_sliding_velocity_m_per_s", d.peak_sliding_velocity_m_per_s.into()),
-        ("sliding_time_s", d.sliding_time_s.into()),
-        ("slip_count", d.slip_count.into()),
-        ("reversal_count", d.reversal_count.into()),
-        ("stick_count", d.stick_count.into()),
-        (
-            "block",
-            Json::Object(vec![(
-                "peak_acceleration_m_per_s2",
-                d.peak_block_acceleration_m_per_s2.into(),
-            )]),
-        ),
-        ("storeys", Json::List(d.storeys.iter().map(storey).collect())),
-        ("peak_base_shear_n", d.peak_base_shear_n.into()),
-        ("peak_friction_force_n", d.peak_friction_force_n.into()),
-        ("peak_slider_force_n", d.peak_slider_force_n.into()),
-        ("base_shear_coefficient", d.base_shear_coefficient.into()),
-        ("friction_coefficient_used", d.friction_coefficient_used.into()),
-        ("slider_force_coefficient", d.slider_force_coefficient.into()),
-        ("gap_ratio", d.gap_ratio.into()),
-        ("overturning_ratio", d.overturning_ratio.into()),
+    ];
+    keys.extend(demands(&summary.demands));
+    keys.extend([
         (
             "contact_loss_s",
             Json::List(
@@ -59,7 +33,7 @@ pub fn object(summary: &Summary) -> Json {
         ),
         ("warnings", Json::List(summary.warnings.iter().map(warning).collect())),
         ("checks", checks(&summary.checks)),
-    ];
+    ]);
     if let Some(iterations) = summary.iterations {
         let max = u64::from(iterations.max);
         keys.push((
@@ -102,13 +76,43 @@ fn floor_spectrum(spectra: &FloorSpectra) -> Json {
     ])
 }
 
-fn storey(demands: &StoreyDemands) -> Json {
-    Json::Object(vec![
-        ("peak_acceleration_m_per_s2", demands.peak_acceleration_m_per_s2.into()),
-        ("peak_displacement_m", demands.peak_displacement_m.into()),
-        ("peak_drift_m", demands.peak_drift_m.into()),
-        ("peak_drift_ratio", demands.peak_drift_ratio.into()),
-    ])
+/// The demands in the order of the registry; `block.x` is `x` in the object `block`.
+fn demands(demands: &Demands) -> Vec<(&'static str, Json)> {
+    let json = |column: DemandColumn| json(column.demand.kind, column.value(demands));
+    let of_storey = |storey: usize| {
+        let own = DEMANDS.iter().filter(|demand| demand.of == DemandOf::Storey);
+        let own = own.map(|demand| (demand.key, json(DemandColumn { demand, storey })));
+        Json::Object(own.collect())
+    };
+    let mut keys: Vec<(&'static str, Json)> = Vec::new();
+    for demand in DEMANDS.iter().filter(|demand| demand.in_summary) {
+        let value = match demand.of {
+            DemandOf::Storey if keys.iter().any(|(key, _)| *key == "storeys") => continue,
+            DemandOf::Storey => {
+                let storeys = (1..=demands.storeys.len()).map(of_storey);
+                keys.push(("storeys", Json::List(storeys.collect())));
+                continue;
+            }
+            DemandOf::Stop if demands.stop.is_none() => continue,
+            DemandOf::Run | DemandOf::Stop => json(DemandColumn { demand, storey: 0 }),
+        };
+        match (demand.key.split_once('.'), keys.last_mut()) {
+            (None, _) => keys.push((demand.key, value)),
+            (Some((group, key)), Some((last, Json::Object(members)))) if *last == group => {
+                members.push((key, value));
+            }
+            (Some((group, key)), _) => keys.push((group, Json::Object(vec![(key, value)]))),
+        }
+    }
+    keys
+}
+
+fn json(kind: DemandKind, value: Option<f64>) -> Json {
+    match (kind, value) {
+        (DemandKind::Count, Some(value)) => Json::Count(value as u64),
+        (DemandKind::Flag, Some(value)) => Json::Bool(value != 0.0),
+        (_, value) => value.into(),
+    }
 }
 
 fn warning(warning: &Warning) -> Json {
@@ -131,6 +135,7 @@ fn checks(checks: &Checks) -> Json {
         ("equilibrium_residual", checks.equilibrium_residual.into()),
         ("friction_excess", checks.friction_excess.into()),
         ("energy_balance_error", checks.energy_balance_error.into()),
+        ("demands_error", checks.demands_error.into()),
         ("closest_call", closest),
         ("bound", checks.bound.into()),
         ("holds", checks.holds.map_or(Json::Null, Json::Bool)),

@@ -39,6 +39,7 @@ fn check_failed(response: &Response, certificate: &Certificate) -> Option<Warnin
         ("equilibrium residual", certificate.equilibrium_residual),
         ("friction excess", certificate.friction_excess),
         ("energy balance error", certificate.energy_balance_error),
+        ("demands error", certificate.demands_error),
     ]
     .into_iter()
     .filter(|(_, figure)| exceeds(*figure, certificate.bound))

@@ -1,9 +1,10 @@
 //! The drawings: the drawn peak is the tabled peak, labels stay inside, nothing grows without bound.
 
 use crate::support::{Case, floor_spectra, frame_model, report, rough_motion, run};
+use slipstick::assessment::single::FloorSpectra;
 use slipstick::motion::GroundMotion;
+use slipstick_report::DisplayUnits;
 use slipstick_report::figures::{self, Drawn};
-use slipstick_report::{DisplayUnits, FloorSpectra};
 
 /// One text element: place, size, anchor, content.
 struct Text {

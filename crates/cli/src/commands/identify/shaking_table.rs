@@ -17,7 +17,7 @@ use crate::args::ShakingTableArgs;
 use crate::commands::compare::WentIn;
 use crate::commands::run::{command_line, overrides, read_model};
 use crate::failure::Failure;
-use crate::progress::watched;
+use crate::progress::{counted, watched};
 
 /// Fits chosen keys of a model to measured histories.
 pub fn shaking_table(args: &ShakingTableArgs) -> Result<ExitCode, Failure> {
@@ -42,16 +42,17 @@ pub fn shaking_table(args: &ShakingTableArgs) -> Result<ExitCode, Failure> {
     let text = model.text();
     let builder = Builder::new(&model.name, &text, &set, &parameters);
     let start: Option<Vec<f64>> = parameters.iter().map(|p| analysis.value(&p.path)).collect();
-    let fit = watched("fitting", args.result.quiet, || {
+    let fit = counted("fitting", args.result.quiet, |engine| {
         let build = |values: &[f64]| builder.model(values);
-        fit_table(&TableTest {
+        let test = TableTest {
             measured: &measured,
             parameters: &parameters,
             build: &build,
             start,
             using,
             seed: args.seed,
-        })
+        };
+        fit_table(&test, engine)
     });
     let fit = fit.map_err(|error| message(&error))?;
     let (fitted, decided) = fitted_model(&model, &set, &fit.estimates)?;

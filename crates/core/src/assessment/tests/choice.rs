@@ -226,6 +226,7 @@ fn exact_fixed_base_is_the_elastic_spectrum() {
         damper_n_s_per_m: 3.0,
         tilt_rad: 0.0,
         gap_m: Some(0.1),
+        stop: None,
     };
     let block = Block { mass_kg: 3.0, width_m: None, height_m: None };
     let model = Model::new(block, slider, frame, 9.81, InitialState::rest()).unwrap();

@@ -3,15 +3,15 @@
 use serde_json::Value;
 
 use crate::assessment::censored::{Fit, Known, Observation};
-use crate::assessment::distribution::{
-    beta_quantile, chi_squared_tail, ln_normal_cdf, normal_cdf, normal_hazard, normal_quantile,
-};
-use crate::assessment::fractile::{fractile, fractiles, held_by, needed, sorted};
 use crate::assessment::fragility::{
     Capacity, CloudPoint, Fragility, Lognormal, Stripe, test_counts, test_normality,
 };
 use crate::assessment::proportion::Proportion;
 use crate::error::FitError;
+use crate::numerics::distribution::{
+    beta_quantile, chi_squared_tail, ln_normal_cdf, normal_cdf, normal_hazard, normal_quantile,
+};
+use crate::numerics::fractile::{fractile, fractiles, held_by, needed, sorted};
 
 fn reference() -> Value {
     let text = include_str!("../../../../../data/reference/fragility.json");

@@ -6,7 +6,7 @@ use crate::input::plan_keys::MAX_RUNS;
 use crate::input::reader::Values;
 use crate::input::schema::Range;
 use crate::input::tree::{Node, Value};
-use crate::linear::cholesky;
+use crate::numerics::cholesky;
 
 /// Reads `[sampling]`; it is there where something is varied.
 pub(super) fn read(values: &mut Values, vary: &[Varied]) -> Result<Option<Sampling>, InputError> {

@@ -11,7 +11,7 @@ use crate::input::tree::{Entry, Node, Spot, Table, Value};
 use crate::units::Dimension;
 
 /// Most paths that may be varied: there are Sobol' directions for as many.
-pub(super) const MAX_PATHS: usize = 64;
+pub(super) const MAX_PATHS: usize = crate::numerics::MAX_DIMENSIONS;
 
 /// What a path of the model takes.
 #[derive(Clone, Copy)]
@@ -74,7 +74,9 @@ fn goes_deeper(path: &str, table: &Table) -> bool {
         Ok(Kind::Section(_) | Kind::Sections(_) | Kind::Quantities(..)) => {
             table.0.iter().all(|entry| DISTRIBUTION.key(&entry.name).is_none())
         }
-        Ok(Kind::NumberOr(_, both)) => table.0.iter().any(|entry| both.key(&entry.name).is_some()),
+        Ok(Kind::NumberOr(_, both) | Kind::QuantityOr(_, _, both)) => {
+            table.0.iter().any(|entry| both.key(&entry.name).is_some())
+        }
         Ok(_) => false,
         // `storey` alone is a path of the model, `storey.x` is none.
         Err(_) => false,
@@ -122,7 +124,9 @@ fn takes(values: &Values, path: &str, key: &Spot) -> Result<Takes, InputError> {
     let numbered = path.rsplit('.').next().is_some_and(|last| last.parse::<usize>().is_ok());
     let (dimension, or_ratio, range) = match kind {
         Kind::Number(range) | Kind::NumberOr(range, _) => (None, false, *range),
-        Kind::Quantity(dimension, range) => (Some(*dimension), false, *range),
+        Kind::Quantity(dimension, range) | Kind::QuantityOr(dimension, range, _) => {
+            (Some(*dimension), false, *range)
+        }
         Kind::QuantityOrRatio(dimension, range) => (Some(*dimension), true, *range),
         Kind::Quantities(dimension, range) if numbered => (Some(*dimension), false, *range),
         _ => return Err(refuse("the path of a number", None)),

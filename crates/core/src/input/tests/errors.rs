@@ -25,7 +25,7 @@ fn exact_unknown_keys_at_any_depth() {
     assert_eq!(
         changed("spring = ", "sprng = "),
         "m.toml:10:1: slider.sprng: expected one of the keys static_friction, kinetic_friction, \
-         spring, radius, damper, damping_ratio, tilt, asymmetry, gap, bounds, found \"sprng\"; \
+         spring, radius, damper, damping_ratio, tilt, asymmetry, gap, stop, bounds, found \"sprng\"; \
          nearest is \"spring\""
     );
     assert_eq!(
@@ -437,5 +437,68 @@ fn exact_motions_that_cannot_be_made() {
         record.motion_error(&short).to_string(),
         "m.toml:7:10: motion.record: expected a ground motion, found expected at least two samples \
          with one value each, found 1"
+    );
+}
+
+#[test]
+fn exact_stops_that_cannot_be() {
+    let stop = |text: &str| with(&format!("[slider.stop]\n{text}")).unwrap_err();
+    let gap = "gap = \"0.1 m\"\n";
+    let stiff = "stiffness = \"1 MN/m\"\n";
+    assert_eq!(
+        with("gap = \"0.1 m\"\nstop = { gap = \"0.1 m\", stiffness = \"1 MN/m\" }\n").unwrap_err(),
+        "m.toml:7:1: slider.stop: expected only one of gap, stop, found \"stop\" besides \"gap\""
+    );
+    assert_eq!(
+        stop(gap),
+        "m.toml:6:1: slider.stop.stiffness: expected a stiffness with its unit, such as \
+         \"143 kN/m\", found nothing"
+    );
+    assert_eq!(
+        stop(stiff),
+        "m.toml:6:1: slider.stop.gap: expected a length with its unit, such as \"150 mm\" or a table \
+         of positive and negative, of which one may be missing, found nothing"
+    );
+    assert_eq!(
+        stop(&format!("{gap}{stiff}restitution = 0.5\n")),
+        "m.toml:9:1: slider.stop.restitution: expected one of the keys gap, stiffness, damper, \
+         damping_ratio, found \"restitution\"; nearest is \"stiffness\""
+    );
+    assert_eq!(
+        stop(&format!("{gap}{stiff}damper = \"1 kN s/m\"\ndamping_ratio = 0.1\n")),
+        "m.toml:10:1: slider.stop.damping_ratio: expected only one of damper, damping_ratio, found \
+         \"damping_ratio\" besides \"damper\""
+    );
+    assert_eq!(
+        stop(&format!("gap = {{}}\n{stiff}")),
+        "m.toml:7:7: slider.stop.gap: expected one of the keys positive, negative or both, found an \
+         empty table"
+    );
+    assert_eq!(
+        stop(&format!("gap = {{ postive = \"1 m\" }}\n{stiff}")),
+        "m.toml:7:9: slider.stop.gap.postive: expected one of the keys positive, negative, found \
+         \"postive\"; nearest is \"positive\""
+    );
+    assert_eq!(
+        stop(&format!("gap = 0.1\n{stiff}")),
+        "m.toml:7:7: slider.stop.gap: expected a length with its unit, such as \"150 mm\" or a table \
+         of positive and negative, of which one may be missing, found 0.1"
+    );
+    assert_eq!(
+        stop(&format!("gap = \"0 m\"\n{stiff}")),
+        "m.toml:7:7: slider.stop.gap: expected a finite length > 0, found \"0 m\""
+    );
+    assert_eq!(
+        stop(&format!("{gap}stiffness = \"0 N/m\"\n")),
+        "m.toml:8:13: slider.stop.stiffness: expected a finite stiffness > 0, found \"0 N/m\""
+    );
+    assert_eq!(
+        stop(&format!("{gap}{stiff}damper = \"-1 N s/m\"\n")),
+        "m.toml:9:10: slider.stop.damper: expected a finite damper constant ≥ 0, found \"-1 N s/m\""
+    );
+    assert_eq!(
+        stop(&format!("{gap}stiffness = \"1e308 N/m\"\ndamping_ratio = 1e200\n")),
+        "m.toml:9:17: slider.stop.damping_ratio: expected a value whose damper 2 ξ √(k M1) is a \
+         finite number, found 1e200"
     );
 }

@@ -1,7 +1,7 @@
 //! Keys set from outside the file.
 
 use super::{FULL, SMALLEST, read};
-use crate::input::{MotionSource, Override, parse};
+use crate::input::{InputValue, MotionSource, Override, from_values, parse};
 use crate::model::Damping;
 
 /// The value in use at a path after keys were set.
@@ -130,4 +130,79 @@ fn exact_messages_point_into_the_option() {
         "--set motion.sine.frequency=…:1:1: motion.sine.amplitude: expected an acceleration with \
          its unit, such as \"0.3 g\", found nothing"
     );
+}
+
+#[test]
+fn exact_stops_are_set_by_path() {
+    let stop = ["slider.stop.gap=150 mm", "slider.stop.stiffness=40 kN/mm"];
+    assert!(read(FULL, &stop[..1]).unwrap_err().contains("slider.stop.stiffness: expected"));
+    let analysis = read(FULL, &stop).unwrap();
+    assert_eq!((analysis.model.slider().gap_m, analysis.value("slider.gap")), (None, None));
+    let gap_m = |set: &[&str]| read(FULL, set).unwrap().model.stop().unwrap().gap_m;
+    let side = "slider.stop.gap.negative=0.1 m";
+    assert_eq!(gap_m(&[stop[0], stop[1], side]), [Some(0.15), Some(0.1)]);
+    assert_eq!(gap_m(&[side, stop[1]]), [None, Some(0.1)]);
+    let back = read(FULL, &[stop[0], stop[1], "slider.gap=1 m"]).unwrap();
+    assert_eq!((back.model.stop(), back.model.slider().gap_m), (None, Some(1.0)));
+    let damped = [stop[0], stop[1], "slider.stop.damper=1 kN s/m", "slider.stop.damping_ratio=0"];
+    assert_eq!(read(FULL, &damped).unwrap().value("slider.stop.damper"), None);
+    let written = read(FULL, &[stop[1], side]).unwrap().to_toml(None);
+    assert!(read(&written, &[]).unwrap().model.stop().is_some(), "{written}");
+}
+
+/// Where no option gave a value, its error names the key alone.
+#[test]
+fn exact_messages_of_values_name_the_key() {
+    let message = |set: Override| parse("m.toml", FULL, &[set]).unwrap_err().to_string();
+    assert_eq!(
+        message(Override::number("slider.gap", -0.1).unwrap()),
+        "slider.gap: expected a finite length > 0, found \"-0.1 m\""
+    );
+    assert_eq!(
+        message(Override::number("slider.kinetic_friction", 0.03).unwrap()),
+        "slider.kinetic_friction: expected at most the static friction 0.02, found 0.03"
+    );
+    assert_eq!(
+        message(Override::text_value("slider.gap", "150").unwrap()),
+        "slider.gap: expected a length with its unit, such as \"150 mm\", found 150"
+    );
+    assert_eq!(
+        Override::number("slider.gpa", 1.0).unwrap_err().to_string(),
+        "expected a path of the model, found \"slider.gpa\"; nearest is \"slider.gap\""
+    );
+}
+
+/// The values of a model file, as numbers in SI or as their texts, make the same model without it.
+#[test]
+fn exact_models_are_made_of_values() {
+    let whole = parse("m.toml", FULL, &[]).unwrap();
+    let as_texts: Vec<_> =
+        whole.inputs().map(|input| (input.path, InputValue::Text(input.text))).collect();
+    let as_numbers: Vec<_> = whole
+        .inputs()
+        .map(|input| match input.value {
+            Some(number) => (input.path, InputValue::Number(number)),
+            None => (input.path, InputValue::Text(input.text)),
+        })
+        .collect();
+    for values in [as_texts, as_numbers] {
+        let made = from_values(&values).unwrap();
+        assert_eq!((&made.model, &made.motion), (&whole.model, &whole.motion));
+        assert_eq!((made.tail_s, made.name), (whole.tail_s, whole.name.clone()));
+    }
+    let refused = |values: &[(&str, InputValue<'_>)]| from_values(values).unwrap_err().to_string();
+    let found = refused(&[("storey.2.mass", InputValue::Number(1.0))]);
+    assert_eq!(found, "storey.2.mass: expected a number from 1 to 0, found \"2\"");
+    let both = [
+        ("block.mass", InputValue::Number(1.0)),
+        ("slider.static_friction", InputValue::Number(0.2)),
+        ("slider.kinetic_friction", InputValue::Number(0.1)),
+        ("slider.radius", InputValue::Number(2.0)),
+        ("slider.spring", InputValue::Text("1 kN/m")),
+    ];
+    assert_eq!(
+        refused(&both),
+        "slider.spring: expected only one of spring, radius, found \"spring\" besides \"radius\""
+    );
+    assert_eq!(refused(&both[..1]), "slider: expected a table [slider], found nothing");
 }

@@ -298,7 +298,7 @@ fn exact_variation_is_what_set_does() {
          slider.radius = {{ uniform = [\"1 m\", \"2 m\"] }}\n{SAMPLING}"
     );
     let plan = plan(&text).unwrap();
-    let mut variation = Variation::new("m.toml", model, &plan.vary).unwrap();
+    let variation = Variation::new("m.toml", model, &plan.vary).unwrap();
     let parts = variation.parts(&[0.1, 1.5]).unwrap();
     let analysis = variation.analysis(&[0.1, 1.5]).unwrap();
     assert_eq!(parts.model, analysis.model);

@@ -7,7 +7,7 @@ use crate::input::{
     FrictionBounds, MotionSource, RecordSource, Scale, from_bytes, json_schema, parse,
 };
 use crate::linear::shear_frame_frequencies;
-use crate::model::{Block, Damping, Frame, InitialState};
+use crate::model::{Block, Damping, Frame, InitialState, Stop, StopKind};
 use crate::motion::{Pulse, PulseShape, Sine, Sweep, SweepKind};
 use crate::record::Units;
 use crate::response::Method;
@@ -304,4 +304,28 @@ fn exact_json_schema_is_json_and_describes_every_key() {
     assert_eq!(schema["properties"]["block"]["required"][0], "mass");
     let pattern = schema["properties"]["analysis"]["properties"]["gravity"]["pattern"].as_str();
     assert!(pattern.unwrap().contains(r"m/s(\^?2|²)"), "{pattern:?}");
+}
+
+#[test]
+fn exact_stops_by_side_with_damper_or_ratio() {
+    let stop =
+        |text: &str| with(&format!("[slider.stop]\n{text}")).map(|a| *a.model.stop().unwrap());
+    let elastic = |c| StopKind::Elastic { stiffness_n_per_m: 4e7, damper_n_s_per_m: c };
+    assert_eq!(
+        stop("gap = \"150 mm\"\nstiffness = \"40 kN/mm\"\n"),
+        Ok(Stop { gap_m: [Some(0.15); 2], kind: elastic(0.0) })
+    );
+    assert_eq!(
+        stop("gap = { negative = \"0.1 m\" }\nstiffness = \"40 kN/mm\"\ndamper = \"3 kN s/m\"\n"),
+        Ok(Stop { gap_m: [None, Some(0.1)], kind: elastic(3e3) })
+    );
+    // C = 2 ξ √(k M1) with the block's own mass.
+    assert_eq!(
+        stop(
+            "gap = { positive = \"0.1 m\", negative = \"0.2 m\" }\nstiffness = \"40 kN/mm\"\n\
+              damping_ratio = 0.05\n"
+        ),
+        Ok(Stop { gap_m: [Some(0.1), Some(0.2)], kind: elastic(0.1 * (4e7_f64 * 325.0).sqrt()) })
+    );
+    assert_eq!(with("").unwrap().model.stop(), None);
 }

@@ -1,6 +1,7 @@
 //! Strokes of a cyclic test: from one reversal of the displacement to the next.
 
 use super::{Cycle, CyclicError, CyclicTest};
+use crate::numerics::fractile::upper_median;
 
 /// From one reversal to the next.
 #[derive(Clone, Debug)]
@@ -48,10 +49,8 @@ pub(super) fn strokes(test: &CyclicTest) -> Result<(Vec<Stroke>, usize), CyclicE
         return Err(CyclicError::NoSliding { range_m, noise_m });
     }
     let turns = reversals(x, 0.1 * range_m);
-    let mut lengths: Vec<f64> = turns.windows(2).map(|t| (x[t[1]] - x[t[0]]).abs()).collect();
-    let all = lengths.clone();
-    lengths.sort_by(f64::total_cmp);
-    let usual_m = lengths.get(lengths.len() / 2).copied().unwrap_or(0.0);
+    let all: Vec<f64> = turns.windows(2).map(|t| (x[t[1]] - x[t[0]]).abs()).collect();
+    let usual_m = upper_median(all.iter().copied()).unwrap_or(0.0);
     let mut durations: Vec<usize> = turns.windows(2).map(|t| t[1] - t[0]).collect();
     durations.sort_unstable();
     let smoothing = (durations.get(durations.len() / 2).copied().unwrap_or(0) / 20).max(2);
@@ -80,11 +79,9 @@ pub(super) fn strokes(test: &CyclicTest) -> Result<(Vec<Stroke>, usize), CyclicE
 
 /// Standard deviation of the noise of a smooth history: from the median of its third differences.
 pub(super) fn noise(values: &[f64]) -> f64 {
-    let mut thirds: Vec<f64> =
-        values.windows(4).map(|v| (v[3] - 3.0 * v[2] + 3.0 * v[1] - v[0]).abs()).collect();
-    thirds.sort_by(f64::total_cmp);
+    let thirds = values.windows(4).map(|v| (v[3] - 3.0 * v[2] + 3.0 * v[1] - v[0]).abs());
     // The variance of the difference is 20 times that of a value; 0.6745 is the median of |N(0, 1)|.
-    thirds.get(thirds.len() / 2).map_or(0.0, |median| median / (0.6745 * 20.0_f64.sqrt()))
+    upper_median(thirds).map_or(0.0, |median| median / (0.6745 * 20.0_f64.sqrt()))
 }
 
 /// Samples at which the history turns by more than a threshold.

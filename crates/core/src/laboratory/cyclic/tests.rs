@@ -1,7 +1,7 @@
 use core::f64::consts::TAU;
 
 use super::*;
-use crate::random::Random;
+use crate::numerics::random::Random;
 
 /// A cyclic test: an actuator of finite stiffness drags the block against friction, spring and
 /// damper, without inertia. It sticks while the force of the actuator is below static friction.

@@ -1,7 +1,7 @@
 //! Steps by derivatives, damped until they help.
 
 use super::{Free, Minimum, Problem, sum_of_squares};
-use crate::laboratory::algebra::{inverse, times};
+use crate::numerics::algebra::{inverse, times};
 
 /// Step of the finite differences in the unit cube.
 const DIFFERENCE: f64 = 1e-6;

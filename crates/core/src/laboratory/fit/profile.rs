@@ -2,7 +2,7 @@
 //! again, is worse than chance allows.
 
 use super::{Minimum, Problem, levenberg, simplex};
-use crate::laboratory::algebra::inverse;
+use crate::numerics::algebra::inverse;
 
 /// Where beyond an end a second valley is looked for, in its distance from the minimum or, if that is
 /// larger, in what derivatives at the minimum make of it.

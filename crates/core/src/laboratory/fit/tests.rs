@@ -1,6 +1,6 @@
 use super::*;
-use crate::laboratory::quantile::student_quantile;
-use crate::random::Random;
+use crate::numerics::distribution::student_quantile;
+use crate::numerics::random::Random;
 
 fn interval(problem: &Problem, minimum: &Minimum, index: usize, variance: f64) -> Interval {
     let freedom = (minimum.count - problem.bounds.len()) as f64;
@@ -25,7 +25,7 @@ fn exact_line_has_the_interval_of_the_textbook() {
     let problem = Problem { bounds: vec![[-5.0, 5.0], [-9.0, 9.0]], residuals: &residuals };
     let minimum = global(&problem, None, 1).unwrap();
     let rows: Vec<([f64; 2], f64)> = data.iter().map(|[x, y]| ([1.0, *x], *y)).collect();
-    let line = super::super::algebra::linear_fit(&rows).unwrap();
+    let line = crate::numerics::algebra::linear_fit(&rows).unwrap();
     let parameters = problem.parameters(&minimum.unit);
     let variance = line.sse / 28.0;
     for k in 0..2 {

@@ -2,7 +2,7 @@ use core::f64::consts::TAU;
 
 use super::*;
 use crate::input::{Mapping, parse};
-use crate::random::Random;
+use crate::numerics::random::Random;
 
 pub const BLOCK: &str = "[block]\nmass = \"124 kg\"\n[slider]\nstatic_friction = 0.12\n\
                          kinetic_friction = 0.1\nspring = \"20 kN/m\"\n";
@@ -42,6 +42,16 @@ fn made(text: &str, amplitude: f64, noise: [f64; 2], seed: u64) -> Measured {
 }
 
 fn fitted(measured: &Measured, start: &str, fit: &[&str], seed: u64) -> TableFit {
+    fitted_by(&Engine::unwatched(), measured, start, fit, seed).unwrap()
+}
+
+fn fitted_by(
+    engine: &Engine<'_>,
+    measured: &Measured,
+    start: &str,
+    fit: &[&str],
+    seed: u64,
+) -> Result<TableFit, TableError> {
     let analysis = parse("start.toml", start, &[]).unwrap();
     let parameters: Vec<Parameter> =
         fit.iter().map(|text| Parameter::parse(text, &analysis, fit).unwrap()).collect();
@@ -55,7 +65,22 @@ fn fitted(measured: &Measured, start: &str, fit: &[&str], seed: u64) -> TableFit
         using: None,
         seed,
     };
-    shaking_table(&test).unwrap()
+    shaking_table(&test, engine)
+}
+
+/// The follower stops a fit after so many runs.
+#[test]
+fn exact_a_fit_is_stopped() {
+    let runs = core::sync::atomic::AtomicU64::new(0);
+    let follow = |more| match runs.fetch_add(more, core::sync::atomic::Ordering::Relaxed) {
+        10.. => core::ops::ControlFlow::Break(()),
+        _ => core::ops::ControlFlow::Continue(()),
+    };
+    let engine = Engine::new(&follow);
+    let measured = made(BLOCK, 3.0, [0.0; 2], 1);
+    let found = fitted_by(&engine, &measured, BLOCK, &STATIC_KINETIC, 1);
+    assert_eq!(found, Err(TableError::Stopped(Stopped)));
+    assert_eq!(runs.into_inner(), 11);
 }
 
 const STATIC_KINETIC: [&str; 2] = ["slider.static_friction", "slider.kinetic_friction"];

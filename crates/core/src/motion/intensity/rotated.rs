@@ -3,6 +3,7 @@
 use super::Measure;
 use crate::error::MotionError;
 use crate::motion::{GroundMotion, Ordinates, Spectrum, spectrum};
+use crate::numerics::fractile::median;
 
 /// A measure of the component at every whole degree from 0 to 179 between two components.
 ///
@@ -23,24 +24,19 @@ impl RotD {
     /// # Errors
     /// [`MotionError`] where the union has too many samples.
     pub fn of(measure: &Measure, x: &GroundMotion, y: &GroundMotion) -> Result<Self, MotionError> {
-        let (pair, _) = x.with_vertical(y, 1.0)?;
-        let values = (0..180).map(|degrees| {
-            let motion = pair.in_direction(f64::from(degrees))?;
-            Ok(measure.of(&motion))
-        });
-        Ok(Self { values: values.collect::<Result<_, MotionError>>()? })
+        Ok(Self { values: in_all_directions(x, y, |motion| Ok(measure.of(motion)))? })
     }
 
     /// RotD50: the median over the directions, the mean of the two middle values.
     #[must_use]
     pub fn median(&self) -> f64 {
-        median(&mut self.values.clone())
+        median(&self.values)
     }
 
     /// RotD100: the largest over the directions.
     #[must_use]
     pub fn largest(&self) -> f64 {
-        self.values.iter().copied().fold(0.0, f64::max)
+        largest(&self.values)
     }
 
     /// RotD00: the smallest over the directions.
@@ -62,19 +58,16 @@ pub fn rotated_spectra(
     periods_s: &[f64],
     damping_ratios: &[f64],
 ) -> Result<[Spectrum; 2], MotionError> {
-    let (pair, _) = x.with_vertical(y, 1.0)?;
-    let all = (0..180).map(|degrees| {
-        let motion = pair.in_direction(f64::from(degrees))?;
+    let all: Vec<Spectrum> = in_all_directions(x, y, |motion| {
         spectrum(motion.times_s(), motion.horizontal_m_per_s2(), periods_s, damping_ratios)
-    });
-    let all: Vec<Spectrum> = all.collect::<Result<_, MotionError>>()?;
-    let over_directions = |fold: &dyn Fn(&mut [f64]) -> f64| Spectrum {
+    })?;
+    let over_directions = |fold: fn(&[f64]) -> f64| Spectrum {
         periods_s: periods_s.to_vec(),
         damping_ratios: damping_ratios.to_vec(),
         ordinates: (0..periods_s.len() * damping_ratios.len())
             .map(|i| {
                 let of = |value: fn(&Ordinates) -> f64| {
-                    fold(&mut all.iter().map(|one| value(&one.ordinates[i])).collect::<Vec<f64>>())
+                    fold(&all.iter().map(|one| value(&one.ordinates[i])).collect::<Vec<f64>>())
                 };
                 Ordinates {
                     sd_m: of(|o| o.sd_m),
@@ -86,15 +79,21 @@ pub fn rotated_spectra(
             })
             .collect(),
     };
-    let largest = |values: &mut [f64]| values.iter().copied().fold(0.0, f64::max);
-    Ok([over_directions(&median), over_directions(&largest)])
+    Ok([over_directions(median), over_directions(largest)])
 }
 
-/// The mean of the two middle values.
-fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let n = values.len();
-    0.5 * (values[(n - 1) / 2] + values[n / 2])
+/// What becomes of `x cos φ + y sin φ` at every whole degree from 0 to 179.
+fn in_all_directions<T>(
+    x: &GroundMotion,
+    y: &GroundMotion,
+    of: impl Fn(&GroundMotion) -> Result<T, MotionError>,
+) -> Result<Vec<T>, MotionError> {
+    let (pair, _) = x.with_vertical(y, 1.0)?;
+    (0..180).map(|degrees| of(&pair.in_direction(f64::from(degrees))?)).collect()
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
 }
 
 #[cfg(test)]

@@ -171,14 +171,19 @@ impl Name {
     }
 }
 
+/// `name (unit)` or `name [unit]`, in two.
+pub(crate) fn bracket(name: &str) -> Option<(&str, &str)> {
+    let (start, unit) = name.trim().strip_suffix([')', ']'])?.rsplit_once(['(', '['])?;
+    Some((start.trim(), unit.trim()))
+}
+
 /// The unit in a column's name: in brackets, or after an underscore (`_m_per_s2`).
 fn unit(name: &str) -> Option<Unit> {
     let known = |word: &str| {
         let time = || seconds(word).map(Unit::Time);
         Units::parse(word).map(Unit::Motion).or_else(time)
     };
-    let bracket = name.strip_suffix([')', ']']).and_then(|name| name.rsplit_once(['(', '[']));
-    if let Some((_, word)) = bracket {
+    if let Some((_, word)) = bracket(name) {
         return Some(known(word).unwrap_or(Unit::Other));
     }
     let suffixes = name.match_indices('_').map(|(at, _)| &name[at + 1..]);

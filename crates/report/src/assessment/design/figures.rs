@@ -2,7 +2,10 @@
 
 use slipstick::assessment::design::{Figures, Point};
 
-use super::{Bounded, DesignReport, Variable, label};
+use slipstick::assessment::design::Bounded;
+use slipstick::assessment::grid::Axis as Variable;
+
+use super::{DesignReport, label};
 use crate::assessment::lines::{line, panel, single};
 use crate::figures::Drawn;
 use crate::number::compact;

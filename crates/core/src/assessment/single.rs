@@ -1,0 +1,204 @@
+//! One analysis in full: its motion with the tail, its certificate, lower- and upper-bound friction,
+//! floor spectra, and what an engineer must be told.
+
+use crate::check::{self, Certificate};
+use crate::error::{InputError, MotionError, SolveError};
+use crate::input::{Analysis, MotionSource};
+use crate::linear::shear_frame_frequencies;
+use crate::model::Model;
+use crate::motion::{GroundMotion, spectrum};
+use crate::response::{History, Response, Warning};
+use crate::solver;
+
+/// Damping ratio of floor spectra.
+const FLOOR_SPECTRUM_DAMPING: f64 = 0.05;
+
+/// An analysis with its motion, ready to be solved.
+#[derive(Clone, Debug)]
+pub struct Job {
+    /// What is to be analysed.
+    pub analysis: Analysis,
+    /// The motion without its tail.
+    pub bare: GroundMotion,
+    /// The motion with its tail: what is solved.
+    pub motion: GroundMotion,
+    /// What was noticed of model and motion.
+    pub warnings: Vec<Warning>,
+}
+
+/// A response with its certificate.
+#[derive(Clone, Debug)]
+pub struct Judged {
+    /// Factor on both coefficients of friction.
+    pub friction_factor: f64,
+    /// The model with that friction.
+    pub model: Model,
+    /// The response, with its history.
+    pub response: Response,
+    /// Its certificate.
+    pub certificate: Certificate,
+}
+
+/// What came of a job.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// With the friction of the model.
+    pub nominal: Judged,
+    /// With lower- and upper-bound friction, where the model gives bounds.
+    pub bounds: Option<[Judged; 2]>,
+    /// Floor spectra of the nominal response, where they were asked for.
+    pub floor_spectra: Option<FloorSpectra>,
+}
+
+/// Absolute-acceleration response spectra of table, block and floors.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FloorSpectra {
+    /// Damping ratio ξ of the oscillators, such as 0.05.
+    pub damping_ratio: f64,
+    /// Periods in s, increasing, > 0.
+    pub periods_s: Vec<f64>,
+    /// Of the table, one value a period, in m/s²; may be empty.
+    pub table_m_per_s2: Vec<f64>,
+    /// Of the block, one value a period, in m/s².
+    pub block_m_per_s2: Vec<f64>,
+    /// Of each floor from the block up, one value a period, in m/s².
+    pub storeys_m_per_s2: Vec<Vec<f64>>,
+}
+
+impl Job {
+    /// An analysis on a motion, of which something was noticed already.
+    ///
+    /// # Errors
+    /// [`InputError`] for a tail that cannot be.
+    pub fn new(
+        analysis: Analysis,
+        bare: GroundMotion,
+        noticed: Vec<Warning>,
+    ) -> Result<Self, InputError> {
+        let motion = match analysis.tail_s {
+            0.0 => bare.clone(),
+            tail_s => bare.with_tail(tail_s).map_err(|error| of_tail(&analysis, &error))?,
+        };
+        let mut warnings = noticed;
+        warnings.extend(coarse_sampling(&analysis.model, &bare));
+        warnings.extend(pendulum_under_vertical_motion(&analysis, &bare));
+        Ok(Self { analysis, bare, motion, warnings })
+    }
+
+    /// Solves and judges, with lower- and upper-bound friction where bounds are given.
+    ///
+    /// # Errors
+    /// [`SolveError`] with time and cause.
+    pub fn run(&self, floor_spectra: bool) -> Result<Outcome, SolveError> {
+        let model = &self.analysis.model;
+        let nominal = self.judged(model.clone(), 1.0)?;
+        let bounds = match self.analysis.friction_bounds {
+            None => None,
+            Some(factors) => {
+                let with = |factor: f64| {
+                    let friction = model.slider().friction.scaled(factor);
+                    let friction = friction.unwrap_or(model.slider().friction);
+                    self.judged(model.with_friction(friction), factor)
+                };
+                Some([with(factors.lower)?, with(factors.upper)?])
+            }
+        };
+        let history = nominal.response.history.as_ref().filter(|_| floor_spectra);
+        let floor_spectra = history.map(|history| self::floor_spectra(&self.bare, history));
+        Ok(Outcome { nominal, bounds, floor_spectra })
+    }
+
+    fn judged(&self, model: Model, friction_factor: f64) -> Result<Judged, SolveError> {
+        let response = solver::solve(&model, &self.motion, self.analysis.method)?;
+        let certificate = check::check(&model, &self.motion, &response);
+        Ok(Judged { friction_factor, model, response, certificate })
+    }
+}
+
+/// A motion that is made, and what it is in a line; `None` for a record.
+///
+/// # Errors
+/// [`MotionError`] for one that cannot be.
+pub fn described(source: &MotionSource) -> Result<Option<(GroundMotion, String)>, MotionError> {
+    Ok(Some(match source {
+        MotionSource::Record(_) => return Ok(None),
+        MotionSource::Sine(sine) => (
+            sine.motion()?,
+            format!("sine, {} Hz, {} m/s²", sine.frequency_hz, sine.amplitude_m_per_s2),
+        ),
+        MotionSource::Sweep(sweep) => (
+            sweep.motion()?,
+            format!(
+                "sweep, {} to {} Hz, {} m/s²",
+                sweep.from_hz, sweep.to_hz, sweep.amplitude_m_per_s2
+            ),
+        ),
+        MotionSource::Pulse(pulse) => {
+            (pulse.motion()?, format!("pulse, {} m/s²", pulse.amplitude_m_per_s2))
+        }
+    }))
+}
+
+/// What is wrong with a tail, at its key.
+fn of_tail(analysis: &Analysis, error: &MotionError) -> InputError {
+    match error {
+        MotionError::TooLong { found } => {
+            let expected = "at most 100 000 000 samples, those of the motion among them";
+            analysis.error_at("analysis.tail", expected, format!("{found:.1e}"))
+        }
+        other => analysis.motion_error(other),
+    }
+}
+
+/// Samples further apart than a tenth of the shortest period say little of the highest mode.
+fn coarse_sampling(model: &Model, motion: &GroundMotion) -> Option<Warning> {
+    let times_s = motion.times_s();
+    let longest_s = times_s.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
+    let nyquist_hz = 0.5 / longest_s;
+    let frame = model.frame();
+    let of_frame = shear_frame_frequencies(&frame.masses_kg, &frame.stiffnesses_n_per_m);
+    let of_slider = (model.slider().stiffness_n_per_m / model.total_mass_kg()).sqrt();
+    let highest_hz = of_frame.into_iter().fold(of_slider, f64::max) / (2.0 * std::f64::consts::PI);
+    (nyquist_hz < 5.0 * highest_hz).then(|| Warning {
+        kind: "coarse_sampling",
+        time_s: None,
+        message: format!(
+            "the Nyquist frequency of the motion, {nyquist_hz:.4} Hz, is below 5 times the highest \
+             mode, {highest_hz:.4} Hz: the motion may lack what excites that mode"
+        ),
+    })
+}
+
+fn pendulum_under_vertical_motion(analysis: &Analysis, motion: &GroundMotion) -> Option<Warning> {
+    let pendulum = analysis.value("slider.radius").is_some();
+    (pendulum && motion.vertical_m_per_s2().is_some()).then(|| Warning {
+        kind: "pendulum_under_vertical_motion",
+        time_s: None,
+        message: "the pendulum slider is a spring M_tot g / R; its true force would follow the \
+                  normal force N(t)"
+            .to_owned(),
+    })
+}
+
+/// Spectra of table, block and floors; what the knots keep is taken as linear between them, with
+/// both sides of every jump.
+fn floor_spectra(motion: &GroundMotion, history: &History) -> FloorSpectra {
+    let periods_s: Vec<f64> =
+        (0..120).map(|i| 0.02 * libm::pow(200.0, f64::from(i) / 119.0)).collect();
+    let of = |times_s: &[f64], acceleration: &[f64]| -> Vec<f64> {
+        let spectrum = spectrum(times_s, acceleration, &periods_s, &[FLOOR_SPECTRUM_DAMPING]);
+        let Ok(spectrum) = spectrum else { return Vec::new() };
+        spectrum.of_damping(0).iter().map(|ordinates| ordinates.sa_m_per_s2).collect()
+    };
+    let n = history.storeys;
+    let storey = |i: usize| -> Vec<f64> {
+        history.storey_acceleration_m_per_s2.iter().skip(i).step_by(n).copied().collect()
+    };
+    FloorSpectra {
+        damping_ratio: FLOOR_SPECTRUM_DAMPING,
+        table_m_per_s2: of(motion.times_s(), motion.horizontal_m_per_s2()),
+        block_m_per_s2: of(&history.time_s, &history.block_acceleration_m_per_s2),
+        storeys_m_per_s2: (0..n).map(|i| of(&history.time_s, &storey(i))).collect(),
+        periods_s,
+    }
+}

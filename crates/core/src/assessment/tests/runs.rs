@@ -1,0 +1,192 @@
+//! Spectra, incremental dynamic analyses, fragilities and designs without a file: each run is that of
+//! its model and record alone, on any threads, and the follower stops them.
+
+use core::ops::ControlFlow;
+use core::sync::atomic::{AtomicU64, Ordering};
+
+use crate::assessment::AssessmentError;
+use crate::assessment::design::{DesignRequest, Target, run_design};
+use crate::assessment::ida::{IdaLevels, IdaRequest, run_ida};
+use crate::assessment::models::Models;
+use crate::assessment::observed::{Data, FitTo, FragilityRequest, run_fragility};
+use crate::assessment::spectrum::{SpectrumRequest, run_spectrum};
+use crate::assessment::suite::{Scaling, Suite, SuiteRecord};
+use crate::error::Stopped;
+use crate::motion::GroundMotion;
+use crate::motion::intensity::Measure;
+use crate::response::demand_values;
+use crate::solver;
+use crate::study::engine::Engine;
+use crate::table::Cells;
+
+const MODEL: &str = "[block]\nmass = \"10 t\"\n[slider]\nstatic_friction = 0.06\n\
+                     kinetic_friction = 0.05\nradius = \"2 m\"\n[[storey]]\nmass = \"5 t\"\n\
+                     period = \"0.5 s\"\ndamping_ratio = 0.05\n[analysis]\ntail = \"1 s\"\n";
+
+fn suite() -> Suite {
+    let record = |i: u32| {
+        let wave = |k: u32| {
+            let t = 0.01 * f64::from(k);
+            3.0 * libm::sin((5.0 + f64::from(i)) * t) * libm::sin(19.0 * t) * libm::exp(-0.3 * t)
+        };
+        let motion = GroundMotion::evenly_spaced(0.01, (0..500).map(wave).collect(), None);
+        SuiteRecord { name: format!("r{i}"), motion: motion.unwrap() }
+    };
+    Suite { records: (0..5).map(record).collect(), made: false }
+}
+
+fn models(varied: &[(&str, &str)]) -> Models {
+    let varied: Vec<_> = varied.iter().map(|(what, text)| (*what, (*text).to_owned())).collect();
+    Models::new("m.toml", MODEL, &[], &varied, true).unwrap()
+}
+
+/// A follower that stops after so many runs.
+fn after(limit: u64, work: impl FnOnce(&Engine<'_>) -> AssessmentError) {
+    let runs = AtomicU64::new(0);
+    let follow = |more| match runs.fetch_add(more, Ordering::Relaxed) + more {
+        runs if runs >= limit => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    };
+    assert_eq!(work(&Engine::new(&follow)), AssessmentError::Stopped(Stopped));
+}
+
+#[test]
+fn exact_runs_of_a_spectrum_are_those_of_each_model_alone() {
+    let varied =
+        [("friction", "slider.kinetic_friction=0.02,0.05"), ("over", "storey.1.period=0.2..1s:4")];
+    let (models, suite) = (models(&varied), suite());
+    let scaling = Scaling::Level(Measure::Pga, 3.0);
+    let request = SpectrumRequest { models: &models, suite: &suite, scaling, demands: &[] };
+    let run = run_spectrum(&request, &Engine::unwatched()).unwrap();
+    assert_eq!((run.runs, request.runs(), run.failures.len()), (40, 40, 0));
+    let column = |name: &str| match &run.rows.find(name).unwrap().cells {
+        Cells::Numbers(cells) => cells.clone(),
+        _ => panic!("{name} holds no numbers"),
+    };
+    let factors = suite.factors(&scaling, &Engine::unwatched()).unwrap();
+    for (name, index) in [("peak_sliding_displacement_m", 0), ("storey1_peak_drift_m", 15)] {
+        let found = column(name);
+        assert_eq!(models.columns()[index].name(), name);
+        for (i, found) in found.iter().enumerate() {
+            let (design, record) = (i / 5, i % 5);
+            let parts = models.parts(&models.grid().values(design)).unwrap();
+            let motion = suite.motion(record, factors[record], 1.0).unwrap();
+            let alone = solver::exact_demands(&parts.model, &motion).unwrap().demands;
+            assert_eq!(found.to_bits(), demand_values(&alone)[index].to_bits(), "{name} {i}");
+        }
+    }
+    // The model on a fixed base feels what it would without sliders: a ratio of 1 where all sticks.
+    let ratios = column("storey1_fixed_base_ratio");
+    assert!(ratios.iter().all(|ratio| *ratio > 0.0 && ratio.is_finite()));
+    after(7, |engine| run_spectrum(&request, engine).unwrap_err());
+}
+
+#[test]
+fn exact_a_fragility_comes_of_an_ida_without_a_file() {
+    let (models, suite) = (models(&[]), suite());
+    let levels = IdaLevels::Fixed(vec![0.5, 1.0, 2.0, 4.0, 8.0]);
+    let demand = "peak_sliding_displacement_m";
+    let request = IdaRequest {
+        models: &models,
+        suite: &suite,
+        measure: Measure::Pga,
+        demand,
+        limit: Some(0.02),
+        levels,
+    };
+    let run = run_ida(&request, &Engine::unwatched()).unwrap();
+    assert_eq!((run.curves.len(), run.rows.rows()), (5, 25));
+    let fragility = run_fragility(&FragilityRequest {
+        table: &run.rows,
+        source_name: "ida",
+        demand,
+        limit: Some(0.02),
+        measure: None,
+        fit_to: Some(FitTo::Capacities),
+        floor: None,
+        cap: None,
+    });
+    let fragility = fragility.unwrap();
+    assert_eq!((fragility.measure.as_str(), fragility.measure_unit.as_str()), ("PGA", "m/s2"));
+    let Data::Capacities(capacities) = &fragility.data else { panic!("{:?}", fragility.data) };
+    let of_curves = run.curves.iter().map(|curve| curve.first_crossing(0.02).level);
+    assert!(capacities.iter().map(|c| c.level).eq(of_curves));
+
+    let hunt = IdaRequest { levels: IdaLevels::Hunt { start: 0.1, top: 20.0 }, ..request };
+    let run = run_ida(&hunt, &Engine::unwatched()).unwrap();
+    for (curve, fixed) in run.curves.iter().zip(capacities) {
+        let crossing = curve.first_crossing(0.02);
+        let [low, high] = crossing.between;
+        assert!(crossing.reached && high - low <= 0.01 * high, "{crossing:?} {fixed:?}");
+    }
+    after(30, |engine| run_ida(&hunt, engine).unwrap_err());
+}
+
+#[test]
+fn exact_the_front_of_a_design_is_that_of_all_runs() {
+    let varied =
+        [("friction", "slider.kinetic_friction=0.02..0.1:5"), ("vary", "slider.radius=1..4m:4")];
+    let (models, suite) = (models(&varied), suite());
+    let target = Target { gap_m: 0.04, probability: 0.8, acceleration_share: 0.5 };
+    let acceleration = models.roof_acceleration();
+    let request = DesignRequest {
+        models: &models,
+        suite: &suite,
+        scaling: Scaling::Factor(1.0),
+        target,
+        acceleration: &acceleration,
+        bounds: Some([0.8, 1.3]),
+        sensitivity: 16,
+        seed: 1,
+        confidence: 0.9,
+    };
+    let run = run_design(&request, &Engine::unwatched()).unwrap();
+    assert!(run.failures.is_empty() && !run.found.front.is_empty(), "{:?}", run.found);
+    let column = models.column(&acceleration).unwrap();
+    for point in &run.found.front {
+        let parts = models.parts(&models.grid().values(point.design)).unwrap();
+        let mut demands: Vec<[f64; 2]> = (0..5)
+            .map(|record| {
+                let motion = suite.motion(record, 1.0, 1.0).unwrap();
+                let values =
+                    demand_values(&solver::exact_demands(&parts.model, &motion).unwrap().demands);
+                [values[0], values[column]]
+            })
+            .collect();
+        // Four of five records keep the displacement, three of five the acceleration.
+        demands.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        assert_eq!(point.figures.displacement_m, demands[3][0]);
+        demands.sort_by(|a, b| a[1].total_cmp(&b[1]));
+        assert_eq!(point.figures.acceleration_m_per_s2, demands[2][1]);
+    }
+    assert_eq!(run.bounded.unwrap().len(), run.found.front.len());
+    assert!(run.sensitivity.unwrap().is_ok());
+    after(3, |engine| run_design(&request, engine).unwrap_err());
+}
+
+/// What is asked for wrongly is named without the dashes of an option.
+#[test]
+fn exact_choices_are_named() {
+    let (models, suite) = (models(&[]), suite());
+    let error = models.column("peak_slidng_displacement_m").unwrap_err().to_string();
+    assert!(error.starts_with("demand: expected the key of a demand"), "{error}");
+    assert!(error.ends_with("nearest is \"peak_sliding_displacement_m\""), "{error}");
+    let error = suite.measure(&Measure::Arias, &Engine::unwatched()).unwrap_err().to_string();
+    assert!(error.starts_with("measure: expected a measure that grows"), "{error}");
+}
+
+/// The same numbers on the caller's pool of any size.
+#[cfg(feature = "parallel")]
+#[test]
+fn exact_runs_do_not_depend_on_threads() {
+    let varied = [("over", "storey.1.period=0.2..1s:6")];
+    let (models, suite) = (models(&varied), suite());
+    let scaling = Scaling::Factor(1.5);
+    let request = SpectrumRequest { models: &models, suite: &suite, scaling, demands: &[] };
+    let run = || format!("{:?}", run_spectrum(&request, &Engine::unwatched()).unwrap().rows);
+    let alone = run();
+    for threads in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert_eq!(pool.install(run), alone, "{threads} threads");
+    }
+}

@@ -1,0 +1,116 @@
+//! The elastic stop at the end of the gap.
+//!
+//! With `δ = s − d` the pad pushes the block back by `max(0, k δ + c ṡ)` while `δ > 0`, and never
+//! pulls; left behind, it has recovered. Mirrored on the other side.
+
+use super::Direction;
+use super::law::{Contact, Exit, Restraint};
+
+/// Pads at the ends of the gap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElasticStop {
+    /// Distances from `s = 0` to the pads towards +x and −x in m; none where there is no pad.
+    pub gap_m: [Option<f64>; 2],
+    /// `k` of a pad in N/m.
+    pub stiffness_n_per_m: f64,
+    /// `c` of a pad in N s/m.
+    pub damper_n_s_per_m: f64,
+}
+
+impl ElasticStop {
+    /// `s` at the pad on a side.
+    fn place(&self, side: Direction) -> Option<f64> {
+        let [positive, negative] = self.gap_m;
+        match side {
+            Direction::Positive => positive,
+            Direction::Negative => negative.map(|gap_m| -gap_m),
+        }
+    }
+
+    /// Spring and damper of slider and pad.
+    pub(super) fn beside(&self, restraint: Restraint) -> Restraint {
+        Restraint {
+            stiffness_n_per_m: restraint.stiffness_n_per_m + self.stiffness_n_per_m,
+            damper_n_s_per_m: restraint.damper_n_s_per_m + self.damper_n_s_per_m,
+        }
+    }
+
+    /// `−k d`: what a pressed pad adds to `k s + c ṡ`.
+    pub(super) fn constant_n(&self, side: Direction) -> f64 {
+        -self.stiffness_n_per_m * self.place(side).unwrap_or(0.0)
+    }
+
+    /// Force of the ground's pad against the block, positive against sliding towards +x, in N.
+    pub(super) fn force_n(&self, contact: Contact, s: f64, w: f64) -> f64 {
+        let Contact::Pressed(side) = contact else { return 0.0 };
+        let depth = s - self.place(side).unwrap_or(s);
+        self.stiffness_n_per_m * depth + self.damper_n_s_per_m * w
+    }
+
+    /// Free: `s = ±d`. Pressed and moving out: `k δ + c ṡ = 0`, which without a damper is `s = d`.
+    /// Separated: `s = d`, or the pad catches up.
+    pub(super) fn exits(&self, contact: Contact, direction: Direction) -> [Option<Exit>; 2] {
+        let level = |side: Direction, inward: bool, to: Contact| {
+            let place = self.place(side)?;
+            let of_s = if inward { -side.sign() } else { side.sign() };
+            let constant = -of_s * place;
+            Some(Exit { of_s, of_w: 0.0, constant, level_m: Some(place), to })
+        };
+        // ±(k δ + c ṡ)
+        let force = |side: Direction, sign: f64, to: Contact| {
+            let (k, c) = (self.stiffness_n_per_m, self.damper_n_s_per_m);
+            let sign = sign * side.sign();
+            Some(Exit {
+                of_s: sign * k,
+                of_w: sign * c,
+                constant: sign * self.constant_n(side),
+                level_m: None,
+                to,
+            })
+        };
+        match contact {
+            Contact::Free => [level(direction, true, Contact::Pressed(direction)), None],
+            Contact::Pressed(side) if side == direction => [None; 2],
+            Contact::Pressed(side) if self.damper_n_s_per_m == 0.0 => {
+                [level(side, false, Contact::Free), None]
+            }
+            Contact::Pressed(side) => [force(side, 1.0, Contact::Separated(side)), None],
+            Contact::Separated(side) => {
+                [level(side, false, Contact::Free), force(side, -1.0, Contact::Pressed(side))]
+            }
+        }
+    }
+
+    /// At the pad itself the block is pressed against it when it sets out towards it, and free when
+    /// it sets out the other way.
+    pub(super) fn begin(&self, contact: Contact, s: f64, direction: Direction) -> Contact {
+        let side = match contact {
+            Contact::Free => direction,
+            Contact::Pressed(side) | Contact::Separated(side) => side,
+        };
+        let Some(place) = self.place(side) else { return Contact::Free };
+        let depth = side.sign() * (s - place);
+        if depth > 0.0 || (depth == 0.0 && direction == side) {
+            Contact::Pressed(side)
+        } else {
+            Contact::Free
+        }
+    }
+
+    /// Beyond the gap the pad pushes unless the block runs ahead of it.
+    pub(super) fn initial(&self, s: f64, w: f64) -> Contact {
+        for side in [Direction::Positive, Direction::Negative] {
+            let Some(place) = self.place(side) else { continue };
+            let (depth, speed) = (side.sign() * (s - place), side.sign() * w);
+            let force = self.stiffness_n_per_m * depth + self.damper_n_s_per_m * speed;
+            if depth > 0.0 {
+                let pressed = force >= 0.0;
+                return if pressed { Contact::Pressed(side) } else { Contact::Separated(side) };
+            }
+            if depth == 0.0 && speed > 0.0 {
+                return Contact::Pressed(side);
+            }
+        }
+        Contact::Free
+    }
+}

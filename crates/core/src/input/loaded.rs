@@ -1,0 +1,174 @@
+//! From records that were read to the motion that is analysed: the choice of channel, the vertical
+//! component, the scale, and what is to be said of all that.
+
+use super::Scale;
+use crate::error::MotionError;
+use crate::motion::{Figures, GroundMotion};
+use crate::record::{self, Channel, Quantity, Record};
+use crate::response::Warning;
+
+/// The column that becomes the vertical component of its neighbour without being asked for.
+const VERTICAL_COLUMN: &str = "vertical_acceleration_m_per_s2";
+
+/// A record, and which of its channels is wanted.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted<'a> {
+    /// The record.
+    pub record: &'a Record,
+    /// Name or number (from 1) of the channel; not needed where one is acceleration.
+    pub channel: Option<&'a str>,
+}
+
+/// A motion ready for analysis, and what is to be said of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loaded {
+    /// The motion, scaled, with its vertical component.
+    pub motion: GroundMotion,
+    /// Name of the horizontal channel; empty for a made motion.
+    pub channel: String,
+    /// What was understood, one line a record: `PEER AT2, 2800 values, 0.005 s, g`.
+    pub description: Vec<String>,
+    /// Figures of the horizontal component as analysed.
+    pub figures: Figures,
+    /// What the reader should know.
+    pub warnings: Vec<Warning>,
+}
+
+/// Why records make no motion.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LoadError {
+    /// Several channels, or none of the name that was asked for.
+    #[error("expected {expected} (channels: {channels})")]
+    Channel {
+        /// What was expected.
+        expected: String,
+        /// The key of the model that tells which, where one would help.
+        key: Option<&'static str>,
+        /// The channels there are.
+        channels: String,
+        /// Whether it is the vertical record.
+        vertical: bool,
+    },
+    /// Samples that are no ground motion, or that cannot be scaled.
+    #[error("{error}")]
+    Motion {
+        /// Why.
+        error: MotionError,
+        /// Whether it is the vertical record.
+        vertical: bool,
+    },
+}
+
+impl Loaded {
+    /// A made motion, which comes from no record.
+    #[must_use]
+    pub fn made(motion: GroundMotion, description: String) -> Self {
+        let figures = motion.figures();
+        let description = vec![description];
+        let channel = String::new();
+        Self { motion, channel, description, figures, warnings: vec![] }
+    }
+
+    /// A record along the surface, perhaps one normal to it times a factor, both scaled as one.
+    ///
+    /// # Errors
+    /// [`LoadError`] where the channel is not one that can be told, and where scaling has no answer.
+    pub fn recorded(
+        horizontal: Wanted<'_>,
+        vertical: Option<(Wanted<'_>, f64)>,
+        scale: Option<Scale>,
+    ) -> Result<Self, LoadError> {
+        let of_vertical = |vertical| move |error| LoadError::Motion { error, vertical };
+        let (record, channel) = (horizontal.record, choose(horizontal, false)?);
+        let mut description = vec![record.describe(channel)];
+        let mut warnings = of_reader(record, channel);
+        let mut motion = motion(channel).map_err(of_vertical(false))?;
+        let mut lengths_differ = false;
+        if let Some((up, factor)) = vertical {
+            let channel = choose(up, true)?;
+            description.push(format!("vertical: {}", up.record.describe(channel)));
+            warnings.extend(of_reader(up.record, channel));
+            let up = self::motion(channel).map_err(of_vertical(true))?;
+            (motion, lengths_differ) =
+                motion.with_vertical(&up, factor).map_err(of_vertical(true))?;
+        } else if let Some(up) = record.channels.iter().find(|c| c.name == VERTICAL_COLUMN)
+            && up.name != channel.name
+        {
+            let up = self::motion(up).map_err(of_vertical(false))?;
+            (motion, _) = motion.with_vertical(&up, 1.0).map_err(of_vertical(false))?;
+            description.push(format!("vertical: column {VERTICAL_COLUMN}"));
+        }
+        let motion = match scale {
+            None => Ok(motion),
+            Some(Scale::Factor(factor)) => motion.scaled(factor),
+            Some(Scale::Peak(peak)) => motion.scaled_to_peak(peak),
+        };
+        let motion = motion.map_err(of_vertical(false))?;
+        let figures = motion.figures();
+        warnings.extend(of_motion(&motion, &figures, lengths_differ));
+        Ok(Self { motion, channel: channel.name.clone(), description, figures, warnings })
+    }
+}
+
+/// The channel asked for, else the only one that is acceleration along the surface.
+fn choose(wanted: Wanted<'_>, vertical: bool) -> Result<&Channel, LoadError> {
+    let record = wanted.record;
+    let is_acceleration = |c: &&Channel| c.units.quantity() == Quantity::Acceleration;
+    let error = |expected: String, key| {
+        let describe = |(i, c): (usize, &Channel)| {
+            format!("{} {:?} ({})", i + 1, c.name, c.units.quantity().name())
+        };
+        let channels: Vec<_> = record.channels.iter().enumerate().map(describe).collect();
+        LoadError::Channel { expected, key, channels: channels.join(", "), vertical }
+    };
+    if let Some(name) = wanted.channel {
+        let channel = record.channel(name).filter(is_acceleration);
+        return channel.ok_or_else(|| error(format!("an acceleration channel {name:?}"), None));
+    }
+    let mut candidates = record.channels.iter().filter(is_acceleration);
+    let mut along = candidates.clone().filter(|c| c.name != VERTICAL_COLUMN);
+    match (along.next(), along.next(), candidates.next()) {
+        (Some(channel), None, _) | (None, _, Some(channel)) => Ok(channel),
+        (None, ..) if record.channels.iter().any(|c| c.units.quantity() == Quantity::Counts) => {
+            let expected = "the value of one count: add units = \"4.67e-6 m/s2\" to [motion]";
+            Err(error(expected.to_owned(), Some("units")))
+        }
+        (None, ..) => Err(error("a channel of acceleration".to_owned(), None)),
+        (Some(first), Some(_), _) => {
+            let name = &first.name;
+            let expected =
+                format!("one channel of acceleration: add channel = {name:?} to [motion]");
+            Err(error(expected, Some("channel")))
+        }
+    }
+}
+
+/// The motion of a channel of acceleration.
+fn motion(channel: &Channel) -> Result<GroundMotion, MotionError> {
+    channel.motion().unwrap_or(Err(MotionError::Counts))
+}
+
+/// What the reader says; how the motion starts and ends is said of it as it is used.
+fn of_reader(file: &Record, channel: &Channel) -> Vec<Warning> {
+    let all = file.warnings.iter().chain(&channel.warnings);
+    let of_file = all.filter(|w| !record::REST_KINDS.contains(&w.kind));
+    of_file.map(|w| Warning { kind: w.kind, time_s: None, message: w.message.clone() }).collect()
+}
+
+/// What an engineer asks first of a record: does it start from rest, and does it drift.
+fn of_motion(motion: &GroundMotion, figures: &Figures, lengths_differ: bool) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let mut warn = |kind, time_s, message| warnings.push(Warning { kind, time_s, message });
+    let first = motion.horizontal_m_per_s2()[0];
+    let Figures { pgv_m_per_s, end_velocity_m_per_s, .. } = *figures;
+    for w in record::rest(first, end_velocity_m_per_s, pgv_m_per_s) {
+        let at_start = w.kind == record::REST_KINDS[0];
+        warn(w.kind, Some(if at_start { 0.0 } else { motion.duration_s() }), w.message);
+    }
+    if lengths_differ {
+        let message = "the vertical component and the horizontal one differ in length: the \
+                       shorter is zero after its end";
+        warn("lengths_differ", None, message.to_owned());
+    }
+    warnings
+}

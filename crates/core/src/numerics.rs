@@ -1,0 +1,18 @@
+//! What is mathematics and no mechanics: distributions, small algebra, fractiles, random numbers and
+//! points spread over a cube. The same bits on every machine.
+
+pub mod algebra;
+mod cholesky;
+mod directions;
+pub mod distribution;
+pub mod fractile;
+mod hash;
+mod latin;
+pub mod random;
+mod sobol;
+
+pub use cholesky::cholesky;
+pub(crate) use hash::Stream;
+pub(crate) use latin::coordinate as latin_coordinate;
+pub(crate) use sobol::Coordinate;
+pub use sobol::{MAX_DIMENSIONS, unit_points};

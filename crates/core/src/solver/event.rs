@@ -1,0 +1,448 @@
+//! Event stepping: a sample by its Taylor series, from event to event.
+//!
+//! This is the one place that decides what follows an event. The roots are those of
+//! [`polynomial`](crate::linear::polynomial), which dismisses an interval only by a bound.
+
+use fearless_simd::prelude::*;
+
+use super::ground::Stretch;
+use super::outputs::output;
+use super::run::{Run, Start};
+use super::tables::Phase;
+use crate::error::SolveError;
+use crate::friction::{Contact, Direction, Exit};
+use crate::linear::lanes::{Width, least};
+use crate::linear::polynomial::{DEGREE, Polynomial, curvature_bound, deflated, first_root, value};
+use crate::linear::{Load, Series};
+use crate::response::{EventKind, Mode};
+
+/// Most events in one sample interval before an analysis is given up.
+pub const EVENTS_PER_INTERVAL_LIMIT: u32 = 1_000_000;
+
+/// A segment of a stretch: one series long at most.
+#[derive(Clone, Copy)]
+pub(super) struct Segment {
+    pub(super) from_s: f64,
+    pub(super) to_s: f64,
+    /// Its length over the unit of the phase.
+    pub(super) part: f64,
+}
+
+impl Segment {
+    /// Its first part, in units of a length.
+    #[inline(always)]
+    fn up_to(self, part: f64, unit_s: f64) -> Self {
+        Self { to_s: least(self.from_s + part * unit_s, self.to_s), part, ..self }
+    }
+}
+
+impl<S: Simd, W: Width> Run<'_, S, W> {
+    /// Goes through one sample interval.
+    #[inline(never)]
+    pub(super) fn step_events(&mut self, sample: usize) -> Result<(), SolveError> {
+        let simd = self.simd;
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                self.events_in_interval = 0;
+                let length_s = self.ground.times_s[sample + 1] - self.ground.times_s[sample];
+                let change_s = self.ground.contact_change(sample).map(|part| part * length_s);
+                let mut from_s = 0.0;
+                for to_s in [change_s.unwrap_or(0.0), length_s] {
+                    if to_s > from_s {
+                        let stretch = self.ground.stretch(sample, from_s, to_s);
+                        self.step_stretch(&stretch)?;
+                        from_s = to_s;
+                    }
+                }
+                Ok(())
+            },
+        )
+    }
+
+    #[inline(always)]
+    fn step_stretch(&mut self, stretch: &Stretch) -> Result<(), SolveError> {
+        let mut at_s = stretch.from_s;
+        let mut first = at_s == 0.0;
+        loop {
+            // Whatever is due at this instant: a stop on a sample, a release by a jump.
+            let before = self.events.len();
+            if matches!(self.mode, Mode::Slip(_)) && self.start.is_none() && self.x[1] == 0.0 {
+                self.note_before_event(stretch, at_s, first);
+                self.stop(stretch, at_s);
+            }
+            if self.mode == Mode::Stick {
+                self.release_if_due(stretch, at_s, first && before == self.events.len());
+            }
+            if first || self.events.len() > before {
+                self.record(stretch, at_s, first);
+            }
+            first = false;
+            let time_s = self.ground.times_s[stretch.interval] + at_s;
+            if self.events_in_interval > EVENTS_PER_INTERVAL_LIMIT {
+                let limit = EVENTS_PER_INTERVAL_LIMIT;
+                return Err(SolveError::TooManyEvents { time_s, limit });
+            }
+            if !(self.x[0].is_finite() && self.x[1].is_finite()) {
+                return Err(SolveError::NotFinite { time_s });
+            }
+            at_s = match self.mode {
+                Mode::Stick => self.stick_segment(stretch, at_s),
+                Mode::Slip(direction) => self.slip_segment(stretch, direction, at_s),
+            };
+            if at_s >= stretch.to_s {
+                return Ok(());
+            }
+        }
+    }
+
+    /// The segment of a phase that begins at a time.
+    #[inline(always)]
+    fn segment(phase: &Phase, stretch: &Stretch, from_s: f64) -> Segment {
+        let part = (stretch.to_s - from_s) / phase.unit_s;
+        // A hair beyond is the rounding of the times.
+        if part <= 1.0 + 1e-9 {
+            let part = if part < 1.0 { part } else { 1.0 };
+            Segment { from_s, to_s: stretch.to_s, part }
+        } else {
+            Segment { from_s, to_s: from_s + phase.unit_s, part: 1.0 }
+        }
+    }
+
+    /// Loads over one unit of a phase from a time; the force is that of friction alone.
+    #[inline(always)]
+    pub(super) fn load(
+        &self,
+        phase: &Phase,
+        stretch: &Stretch,
+        at_s: f64,
+        coefficient: f64,
+    ) -> Load {
+        Load {
+            acceleration: stretch.acceleration_at(at_s),
+            acceleration_change: stretch.acceleration_rate * phase.unit_s,
+            force: coefficient * stretch.normal_at(at_s),
+            force_change: coefficient * (stretch.normal_rate * phase.unit_s),
+        }
+    }
+
+    /// Moves the state to a part of the series; `next` holds the state before.
+    #[inline(always)]
+    fn move_to(&mut self, part: f64) {
+        core::mem::swap(&mut self.x, &mut self.next);
+        let stride = 4 * self.width.fours();
+        self.series.state_at(self.simd, part, &mut self.x[..stride]);
+        if self.mode == Mode::Stick {
+            (self.x[0], self.x[1]) = (self.next[0], 0.0);
+        }
+    }
+
+    /// One segment of stick, up to its end or the release in it; the time reached.
+    #[inline(always)]
+    fn stick_segment(&mut self, stretch: &Stretch, from_s: f64) -> f64 {
+        let phase = &self.tables.stick;
+        let segment = Self::segment(phase, stretch, from_s);
+        let load = self.load(phase, stretch, from_s, 0.0);
+        Self::expand(self.simd, self.width, phase, &self.x, &load, &mut self.series);
+        let stop_n = self.stop_input(Mode::Stick, self.contact, self.x[0]);
+        let demand =
+            output_series(self.width, phase, output::FRICTION, &self.series, &load, stop_n);
+        let curvature = curvature_bound(&demand) * (segment.part * segment.part);
+        let demand_end = value(&demand, segment.part);
+        let hold = self.law.hold(self.contact, self.x[0]);
+        let [low, high] = hold.bounds;
+        let (normal, rise) = (stretch.normal_at(from_s), stretch.normal_rate * phase.unit_s);
+        let mut release: Option<(f64, Direction)> = None;
+        for (sign, bound, direction) in
+            [(1.0, high, Direction::Negative), (-1.0, low, Direction::Positive)]
+        {
+            // Distance from the bound, positive where friction holds.
+            let start = sign * (bound * normal - demand[0]);
+            let end = sign * (bound * (normal + rise * segment.part) - demand_end);
+            if start.min(end) > 0.125 * curvature {
+                continue;
+            }
+            let mut distance = demand.map(|c| -sign * c);
+            distance[0] += sign * (bound * normal);
+            distance[1] += sign * (bound * rise);
+            if let Some(part) = first_crossing(&distance, segment.part)
+                && release.is_none_or(|(first, _)| part < first)
+            {
+                release = Some((part, direction));
+            }
+        }
+        let segment = match release {
+            Some((part, _)) => segment.up_to(part, phase.unit_s),
+            None => segment,
+        };
+        self.move_to(segment.part);
+        self.look(phase, stretch, &segment);
+        let at_s = segment.to_s;
+        let Some((_, direction)) = release else { return at_s };
+        self.record(stretch, at_s, false);
+        let acceleration = self.drop_at_release(stretch, at_s, direction);
+        let order = if acceleration > 0.0 { 1 } else { 2 };
+        self.slip_from_stick(stretch, at_s, direction, Start { order, acceleration });
+        self.record(stretch, at_s, false);
+        at_s
+    }
+
+    /// One segment of slip, up to its end or the first of its exits in it; the time reached.
+    #[inline(always)]
+    fn slip_segment(&mut self, stretch: &Stretch, direction: Direction, from_s: f64) -> f64 {
+        let branch = self.law.branch(self.contact, direction);
+        let phase = &self.tables.slip[branch.restraint];
+        let segment = Self::segment(phase, stretch, from_s);
+        let mut load = self.load(phase, stretch, from_s, -branch.coefficient);
+        load.force -= branch.force_n;
+        Self::expand(self.simd, self.width, phase, &self.x, &load, &mut self.series);
+        let sign = direction.sign();
+        let mut speed = self.series.component(self.width, 1).map(|c| sign * c);
+        if let Some(start) = self.start.take() {
+            if start.order == 1 {
+                speed[1] = start.acceleration * phase.unit_s;
+            }
+            speed = deflated(&speed, start.order);
+        }
+        let mut first = first_root(&speed, segment.part).map(|part| (part, None));
+        if self.law.has_stop() {
+            let at_zero = core::mem::take(&mut self.at_zero_force);
+            for exit in self.law.exits(self.contact, direction).into_iter().flatten() {
+                let to = first.map_or(segment.part, |(part, _)| part);
+                if let Some(part) = first_exit(self.width, &exit, &self.series, to, at_zero) {
+                    first = Some((part, Some(exit)));
+                }
+            }
+        }
+        let segment = match first {
+            Some((part, _)) => segment.up_to(part, phase.unit_s),
+            None => segment,
+        };
+        self.move_to(segment.part);
+        match first {
+            None if sign * self.x[1] <= 0.0 => self.x[1] = 0.0,
+            None => {}
+            Some((_, None)) => self.x[1] = 0.0,
+            Some((_, Some(exit))) => self.x[0] = exit.level_m.unwrap_or(self.x[0]),
+        }
+        self.look(phase, stretch, &segment);
+        let at_s = segment.to_s;
+        let Some((_, exit)) = first else { return at_s };
+        if let Some(exit) = exit {
+            self.leave_branch(stretch, at_s, &exit);
+        } else if at_s < stretch.to_s {
+            self.record(stretch, at_s, false);
+            self.stop(stretch, at_s);
+            self.record(stretch, at_s, false);
+        }
+        at_s
+    }
+
+    /// What follows an exit other than a stop.
+    fn leave_branch(&mut self, stretch: &Stretch, at_s: f64, exit: &Exit) {
+        self.record(stretch, at_s, false);
+        self.change_contact(stretch, at_s, exit.to);
+        self.at_zero_force = exit.level_m.is_none();
+        self.record(stretch, at_s, false);
+    }
+
+    /// Changes the contact, which is an event.
+    fn change_contact(&mut self, stretch: &Stretch, at_s: f64, to: Contact) {
+        let from = self.contact;
+        let kind = match (from, to) {
+            (Contact::Free, Contact::Pressed(_)) => EventKind::Contact,
+            (_, Contact::Pressed(_)) => EventKind::Press,
+            (_, Contact::Separated(_)) => EventKind::Separation,
+            (_, Contact::Free) => EventKind::Leave,
+        };
+        let time_s = self.ground.times_s[stretch.interval] + at_s;
+        self.stopping.change(time_s, self.x[1].abs(), from, to);
+        self.contact = to;
+        self.push_event(time_s, kind);
+    }
+
+    /// The sliding velocity is zero: stick if friction holds, eq. (4), else slip on, eq. (3).
+    pub(super) fn stop(&mut self, stretch: &Stretch, at_s: f64) {
+        let demand = self.demand(stretch.acceleration_at(at_s));
+        let normal = stretch.normal_at(at_s);
+        let hold = self.law.hold(self.contact, self.x[0]);
+        self.sliding.decide(demand, &hold, normal);
+        let time_s = self.ground.times_s[stretch.interval] + at_s;
+        let Some(direction) = hold.gives_way(demand, normal) else {
+            self.sliding.end(time_s, self.x[0]);
+            self.mode = Mode::Stick;
+            self.push_event(time_s, EventKind::Stick);
+            self.set_limits();
+            return;
+        };
+        let kinetic_n = self.law.branch(self.contact, direction).coefficient.abs() * normal;
+        let mass_kg = self.tables.stick.system.block_mass_kg;
+        let acceleration = (demand.abs() - kinetic_n) / mass_kg;
+        self.start = Some(Start { order: 1, acceleration });
+        if self.mode != Mode::Slip(direction) {
+            self.sliding.end(time_s, self.x[0]);
+            self.begin_slip(stretch, at_s, direction, EventKind::Reversal);
+        }
+    }
+
+    /// In stick: slip if the demand is beyond its bound (a jump), or on it and about to pass it.
+    #[inline(always)]
+    fn release_if_due(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) {
+        let demand = self.demand(stretch.acceleration_at(at_s));
+        let normal = stretch.normal_at(at_s);
+        let hold = self.law.hold(self.contact, self.x[0]);
+        let [low, high] = hold.bounds.map(|bound| bound * normal);
+        if low < demand && demand < high {
+            return;
+        }
+        let (direction, start) = if let Some(direction) = hold.gives_way(demand, normal) {
+            let kinetic_n = self.law.branch(self.contact, direction).coefficient.abs() * normal;
+            let mass_kg = self.tables.stick.system.block_mass_kg;
+            (direction, Start { order: 1, acceleration: (demand.abs() - kinetic_n) / mass_kg })
+        } else {
+            let ways = [(high, Direction::Negative), (low, Direction::Positive)];
+            let due = ways.into_iter().filter(|(bound, _)| demand == *bound).find_map(
+                |(_, direction)| {
+                    self.leaving_order(stretch, at_s, direction).map(|k| (direction, k))
+                },
+            );
+            let Some((direction, order)) = due else { return };
+            let acceleration = self.drop_at_release(stretch, at_s, direction);
+            let order = if acceleration > 0.0 { 1 } else { order + 1 };
+            (direction, Start { order, acceleration })
+        };
+        self.note_before_event(stretch, at_s, at_sample);
+        self.slip_from_stick(stretch, at_s, direction, start);
+    }
+
+    /// With the demand on its bound: order of the first derivative of (|T| − bound) that does not
+    /// vanish, if that is positive.
+    fn leaving_order(
+        &mut self,
+        stretch: &Stretch,
+        at_s: f64,
+        direction: Direction,
+    ) -> Option<usize> {
+        let phase = &self.tables.stick;
+        let load = self.load(phase, stretch, at_s, 0.0);
+        Self::expand(self.simd, self.width, phase, &self.x, &load, &mut self.series);
+        let demand = output_series(self.width, phase, output::FRICTION, &self.series, &load, 0.0);
+        let hold = self.law.hold(self.contact, self.x[0]);
+        let [low, high] = hold.bounds.map(|b| b * (stretch.normal_rate * phase.unit_s));
+        let sign = -direction.sign();
+        let bound = if sign > 0.0 { high } else { low };
+        (1..=DEGREE)
+            .map(|k| (k, sign * (demand[k] - if k == 1 { bound } else { 0.0 })))
+            .find(|(_, rise)| *rise != 0.0)
+            .and_then(|(k, rise)| (rise > 0.0).then_some(k))
+    }
+
+    fn slip_from_stick(
+        &mut self,
+        stretch: &Stretch,
+        at_s: f64,
+        direction: Direction,
+        start: Start,
+    ) {
+        self.start = Some(start);
+        self.begin_slip(stretch, at_s, direction, EventKind::Slip);
+    }
+
+    /// `|s̈|` just after a release on the bound: `(μ_s − μ_k) N / M1`.
+    fn drop_at_release(&self, stretch: &Stretch, at_s: f64, direction: Direction) -> f64 {
+        let bounds = self.law.hold(self.contact, self.x[0]).bounds;
+        let bound = bounds[if direction == Direction::Positive { 0 } else { 1 }];
+        let kinetic = self.law.branch(self.contact, direction).coefficient;
+        (bound.abs() - kinetic.abs()) * stretch.normal_at(at_s)
+            / self.tables.stick.system.block_mass_kg
+    }
+
+    fn begin_slip(&mut self, stretch: &Stretch, at_s: f64, direction: Direction, kind: EventKind) {
+        let time_s = self.ground.times_s[stretch.interval] + at_s;
+        self.mode = Mode::Slip(direction);
+        self.sliding.begin(time_s, self.x[0]);
+        self.push_event(time_s, kind);
+        let contact = self.law.begin(self.contact, self.x[0], direction);
+        if contact != self.contact {
+            self.change_contact(stretch, at_s, contact);
+        }
+        self.set_limits();
+    }
+
+    /// Records the knot before an event at an instant that no segment has led to.
+    fn note_before_event(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) {
+        // At t = 0 nothing was before; before a jump the left side stands recorded already.
+        let (interval, times_s) = (stretch.interval, self.ground.times_s);
+        let after_jump = interval == 0 || times_s[interval - 1] == times_s[interval];
+        if !(at_sample && after_jump) {
+            self.record(stretch, at_s, false);
+        }
+    }
+
+    /// Records the present state as a knot.
+    #[inline(always)]
+    pub(super) fn record(&mut self, stretch: &Stretch, at_s: f64, row: bool) {
+        if self.recorder.is_none() {
+            return;
+        }
+        let (interval, times_s) = (stretch.interval, self.ground.times_s);
+        if at_s == 0.0 {
+            self.record_sample(interval, row);
+            return;
+        }
+        let length_s = times_s[interval + 1] - times_s[interval];
+        let [from, to] = [self.ground.table[interval], self.ground.table[interval + 1]];
+        let table = from + (to - from) * (at_s / length_s);
+        let (a, normal) = (stretch.acceleration_at(at_s), stretch.normal_at(at_s));
+        let x = core::mem::take(&mut self.x);
+        self.record_knot(times_s[interval] + at_s, &x, [table, a, normal], row);
+        self.x = x;
+    }
+}
+
+/// The series of an output from that of the state; the load's force contains no constant force of a
+/// stop but what `stop` says in the output's own way.
+#[inline(always)]
+pub(super) fn output_series<W: Width>(
+    width: W,
+    phase: &Phase,
+    j: usize,
+    series: &Series,
+    load: &Load,
+    stop: f64,
+) -> Polynomial {
+    let row = &phase.outputs.rows[j];
+    let mut p = series.row(width, &row.state);
+    p[0] += (row.of_a * load.acceleration + row.of_friction * load.force)
+        + (row.of_stop * stop + row.constant);
+    p[1] += row.of_a * load.acceleration_change + row.of_friction * load.force_change;
+    p
+}
+
+/// First part of a segment after which the distance from a bound is negative; a distance that is
+/// zero at the start has been found not to go that way.
+fn first_crossing(distance: &Polynomial, to: f64) -> Option<f64> {
+    if distance[0] > 0.0 {
+        return first_root(distance, to);
+    }
+    let order = (1..=DEGREE).find(|&k| distance[k] != 0.0)?;
+    first_root(&deflated(distance, order), to)
+}
+
+/// First part of a segment at which an exit is reached; one that has just been passed the other way
+/// starts at its zero.
+fn first_exit<W: Width>(
+    width: W,
+    exit: &Exit,
+    series: &Series,
+    to: f64,
+    at_zero: bool,
+) -> Option<f64> {
+    let (s, w) = (series.component(width, 0), series.component(width, 1));
+    let mut p: Polynomial = core::array::from_fn(|k| exit.of_s * s[k] + exit.of_w * w[k]);
+    p[0] += exit.constant;
+    if at_zero && exit.level_m.is_none() {
+        return first_root(&deflated(&p, 1), to);
+    }
+    first_root(&p, to)
+}

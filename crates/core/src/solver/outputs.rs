@@ -1,0 +1,264 @@
+//! The tracked outputs: every number of which the analysis reports a peak, as a row.
+//!
+//! Each is a linear function of the state, the acceleration `a = Ü + g sin θ` and the friction force
+//! `T`, with other coefficients in stick than in slip. [`rows`] is the one place that lists them: a
+//! new peak is a row here and a field in [`Demands`](crate::response::Demands). They are looked at
+//! eight at a time.
+
+use crate::linear::System;
+use crate::linear::lanes::{Eight, dot};
+use crate::model::Model;
+
+/// Places of the outputs of the block; those of the storeys follow.
+pub(super) mod output {
+    /// `ṡ` in m/s.
+    pub(in crate::solver) const VELOCITY: usize = 0;
+    /// `u = s̈ + a` less the slope's pull in m/s².
+    pub(in crate::solver) const BLOCK: usize = 1;
+    /// All that passes from the table to the block, `M1 u − L·f`, in N.
+    pub(in crate::solver) const SLIDER: usize = 2;
+    /// `T` in N.
+    pub(in crate::solver) const FRICTION: usize = 3;
+    /// `L·f` in N.
+    pub(in crate::solver) const BASE_SHEAR: usize = 4;
+    /// Overturning moment about the sliding surface in N m.
+    pub(in crate::solver) const OVERTURNING: usize = 5;
+    /// Displacements of the storeys, then their accelerations `−Φ_i f` less the slope's pull, then
+    /// drifts from the second storey on: that of the first is its displacement.
+    pub(in crate::solver) const STOREYS: usize = 6;
+
+    /// Displacement of storey `i` of `n`.
+    pub(in crate::solver) fn displacement(i: usize) -> usize {
+        STOREYS + i
+    }
+
+    /// Acceleration of floor `i` of `n`.
+    pub(in crate::solver) fn acceleration(n: usize, i: usize) -> usize {
+        STOREYS + n + i
+    }
+
+    /// Drift of storey `i` of `n`.
+    pub(in crate::solver) fn drift(n: usize, i: usize) -> usize {
+        if i == 0 { displacement(0) } else { STOREYS + 2 * n + i - 1 }
+    }
+}
+
+/// An output as a row.
+#[derive(Clone, Debug)]
+pub(super) struct OutputRow {
+    /// Factors of `s, ṡ, η, η̇`, padded.
+    pub(super) state: Vec<f64>,
+    /// Factor of `a`.
+    pub(super) of_a: f64,
+    /// Factor of the friction force.
+    pub(super) of_friction: f64,
+    /// Factor of what the stop does: in slip its constant force, in stick its force.
+    pub(super) of_stop: f64,
+    /// Constant part.
+    pub(super) constant: f64,
+}
+
+/// What the model adds to the system for its outputs.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Overturning {
+    /// Masses of the floors times their heights, `Φᵀ z`.
+    arm: Vec<f64>,
+    /// Half the block's mass times its height.
+    block: f64,
+}
+
+impl Overturning {
+    /// The moment of the inertia of floors and block about the sliding surface, in N m.
+    pub(super) fn moment(&self, f: &[f64], u: f64) -> f64 {
+        self.block * u - dot(&self.arm, f)
+    }
+}
+
+/// Moment arms of the floors' and the block's inertia, where width and heights are given.
+pub(super) fn overturning(model: &Model, system: &System) -> Option<Overturning> {
+    let (block, frame) = (model.block(), model.frame());
+    block.width_m?;
+    let n = system.storeys;
+    let block_height_m = block.height_m.unwrap_or(0.0);
+    let heights_m = match &frame.heights_m {
+        Some(heights_m) => heights_m.as_slice(),
+        None if n == 0 && block.height_m.is_some() => &[],
+        None => return None,
+    };
+    let mut arm = vec![0.0; system.modes()];
+    let mut above_m = block_height_m;
+    for (i, height_m) in heights_m.iter().enumerate() {
+        above_m += height_m;
+        for (arm, shape) in arm.iter_mut().zip(system.floor(i)) {
+            *arm += frame.masses_kg[i] * above_m * shape;
+        }
+    }
+    Some(Overturning { arm, block: 0.5 * block_height_m * block.mass_kg })
+}
+
+/// All outputs of a phase in their order.
+pub(super) fn rows(
+    system: &System,
+    slip: bool,
+    overturning: Option<&Overturning>,
+    slope: f64,
+) -> Vec<OutputRow> {
+    let n = system.modes();
+    let stride = (2 + 2 * n).div_ceil(4) * 4;
+    let none = || OutputRow {
+        state: vec![0.0; stride],
+        of_a: 0.0,
+        of_friction: 0.0,
+        of_stop: 0.0,
+        constant: 0.0,
+    };
+    // y·η, or y·f by Ω and D, times a factor.
+    let of_eta = |y: &[f64]| {
+        let mut row = none();
+        row.state[2..2 + y.len()].copy_from_slice(y);
+        row
+    };
+    let of_f = |y: &[f64], factor: f64| {
+        let mut row = none();
+        let drag = system.drag(y);
+        for j in 0..n {
+            row.state[2 + j] = factor * (system.omega2[j] * y[j]);
+            row.state[2 + n + j] = factor * drag[j];
+        }
+        row
+    };
+    let l = &system.participation;
+    let (mass, per_mass) = (system.block_mass_kg, system.per_block_mass);
+    // u, of which slip has u = (T − stop − c ṡ − k s + L·f) / M1 and stick u = a.
+    let mut u = none();
+    if slip {
+        u = of_f(l, per_mass);
+        u.state[0] = -system.stiffness_n_per_m * per_mass;
+        u.state[1] = -system.damper_n_s_per_m * per_mass;
+        (u.of_friction, u.of_stop) = (per_mass, -per_mass);
+    } else {
+        u.of_a = 1.0;
+    }
+    let mut velocity = none();
+    let mut slider = none();
+    let mut friction = none();
+    if slip {
+        velocity.state[1] = 1.0;
+        (slider.state[0], slider.state[1]) = (-system.stiffness_n_per_m, -system.damper_n_s_per_m);
+        (slider.of_friction, slider.of_stop) = (1.0, -1.0);
+        friction.of_friction = 1.0;
+    } else {
+        slider = of_f(l, -1.0);
+        slider.of_a = mass;
+        friction = slider.clone();
+        friction.state[0] = system.stiffness_n_per_m;
+        friction.of_stop = 1.0;
+    }
+    let moment = overturning.map_or_else(none, |moment| {
+        let mut row = of_f(&moment.arm, -1.0);
+        for (row, u) in row.state.iter_mut().zip(&u.state) {
+            *row += moment.block * u;
+        }
+        row.of_a = moment.block * u.of_a;
+        row.of_friction = moment.block * u.of_friction;
+        row.of_stop = moment.block * u.of_stop;
+        row
+    });
+    let block = OutputRow { constant: -slope, ..u };
+    let mut all = vec![velocity, block, slider, friction, of_f(l, 1.0), moment];
+    let storeys = 0..system.storeys;
+    all.extend(storeys.clone().map(|i| of_eta(system.floor(i))));
+    all.extend(
+        storeys.clone().map(|i| OutputRow { constant: -slope, ..of_f(system.floor(i), -1.0) }),
+    );
+    all.extend(storeys.skip(1).map(|i| of_eta(system.drift(i))));
+    all
+}
+
+/// The outputs of a phase, eight side by side.
+#[derive(Debug)]
+pub(super) struct Outputs {
+    pub(super) rows: Vec<OutputRow>,
+    /// Group by group: friction force and acceleration, then the state.
+    pub(super) columns: Vec<Eight>,
+    pub(super) of_stop: Vec<Eight>,
+    pub(super) constant: Vec<Eight>,
+    /// Largest values on states of energy norm 1.
+    pub(super) norm: Vec<Eight>,
+    /// The same of their rates `c A`, and what rates of acceleration and friction force add to their
+    /// second derivatives, `|c b|`.
+    pub(super) norm_of_rate: Vec<Eight>,
+    pub(super) of_jerk: Vec<Eight>,
+    pub(super) of_force_rate: Vec<Eight>,
+    /// Factors of `s`, and those of the acceleration and of the friction force as sizes.
+    pub(super) of_s: Vec<Eight>,
+    pub(super) size_of_a: Vec<Eight>,
+    pub(super) size_of_friction: Vec<Eight>,
+    /// Lanes whose value has kinks where the acceleration, or the normal force, has.
+    pub(super) kinked_by_a: Vec<u64>,
+    pub(super) kinked_by_normal: Vec<u64>,
+}
+
+impl Outputs {
+    pub(super) fn new(system: &System, slip: bool, rows: Vec<OutputRow>) -> Self {
+        let stride = rows[0].state.len();
+        let norms: Vec<f64> = rows.iter().map(|row| system.dual_norm(slip, &row.state)).collect();
+        let groups = rows.len().div_ceil(8);
+        let mut unit = vec![0.0; stride];
+        let mut end = vec![0.0; stride];
+        let mut on = |j: Option<usize>, a: f64, force: f64| {
+            j.into_iter().for_each(|j| unit[j] = 1.0);
+            system.derivative(slip, &unit, a, force, &mut end);
+            j.into_iter().for_each(|j| unit[j] = 0.0);
+            rows.iter().map(|row| dot(&row.state, &end)).collect::<Vec<f64>>()
+        };
+        let mut rates = vec![vec![0.0; stride]; rows.len()];
+        for j in 0..2 + 2 * system.modes() {
+            for (rate, value) in rates.iter_mut().zip(on(Some(j), 0.0, 0.0)) {
+                rate[j] = value;
+            }
+        }
+        let (of_jerk, of_force_rate) = (on(None, 1.0, 0.0), on(None, 0.0, 1.0));
+        let rate_norms: Vec<f64> = rates.iter().map(|row| system.dual_norm(slip, row)).collect();
+        let lanes = |g: usize, of: &dyn Fn(usize) -> f64| {
+            Eight(core::array::from_fn(
+                |i| if 8 * g + i < rows.len() { of(8 * g + i) } else { 0.0 },
+            ))
+        };
+        let each = |of: &dyn Fn(usize) -> f64| (0..groups).map(|g| lanes(g, of)).collect();
+        let mut columns = Vec::with_capacity(groups * (2 + stride));
+        for g in 0..groups {
+            columns.push(lanes(g, &|j| rows[j].of_friction));
+            columns.push(lanes(g, &|j| rows[j].of_a));
+            columns.extend((0..stride).map(|i| lanes(g, &|j| rows[j].state[i])));
+        }
+        let bits = |of: &dyn Fn(&OutputRow) -> bool| {
+            rows.chunks(8)
+                .map(|rows| {
+                    rows.iter().enumerate().fold(0, |bits, (i, row)| bits | u64::from(of(row)) << i)
+                })
+                .collect()
+        };
+        Self {
+            columns,
+            of_stop: each(&|j| rows[j].of_stop),
+            constant: each(&|j| rows[j].constant),
+            norm: each(&|j| norms[j]),
+            norm_of_rate: each(&|j| rate_norms[j]),
+            of_jerk: each(&|j| of_jerk[j].abs()),
+            of_force_rate: each(&|j| of_force_rate[j].abs()),
+            of_s: each(&|j| rows[j].state[0]),
+            size_of_a: each(&|j| rows[j].of_a.abs()),
+            size_of_friction: each(&|j| rows[j].of_friction.abs()),
+            kinked_by_a: bits(&|row| row.of_a != 0.0),
+            kinked_by_normal: bits(&|row| row.of_friction != 0.0),
+            rows,
+        }
+    }
+
+    /// Groups of eight.
+    #[inline(always)]
+    pub(super) fn groups(&self) -> usize {
+        self.constant.len()
+    }
+}

@@ -1,0 +1,525 @@
+//! One analysis: its state, and the way through the motion.
+//!
+//! Evenly spaced samples go by screened propagation (`screen`), eight at a time, as far as a bound
+//! shows that nothing happens in them. Every other sample goes by event stepping (`event`), which
+//! knows the Taylor series of the motion and misses nothing. Peaks are looked for in `peaks`.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::ground::{Ground, Normal};
+use super::outputs::output;
+use super::peaks::Peaks;
+use super::recorder::{Knot, Recorder};
+use super::tables::{Phase, Tables};
+use crate::error::SolveError;
+use crate::friction::{Contact, Direction, Hold, Law};
+use crate::linear::lanes::{Eight, Width, combine8, dot, eight};
+use crate::linear::{Force, Load, Series};
+use crate::model::Model;
+use crate::response::{Event, EventKind, Mode, StopDemands};
+
+/// Extremes, path and duration of sliding; `s` is monotone between two events.
+#[derive(Clone, Copy)]
+pub(super) struct Sliding {
+    pub(super) max_m: f64,
+    pub(super) min_m: f64,
+    pub(super) peak_time_s: f64,
+    pub(super) path_m: f64,
+    pub(super) time_s: f64,
+    /// Least margin of the decisions at stops so far; infinite where there was none.
+    pub(super) closest_stop: f64,
+    phase_start: [f64; 2],
+}
+
+impl Sliding {
+    pub(super) fn new(s: f64) -> Self {
+        Self {
+            max_m: s,
+            min_m: s,
+            peak_time_s: 0.0,
+            path_m: 0.0,
+            time_s: 0.0,
+            closest_stop: f64::INFINITY,
+            phase_start: [0.0, s],
+        }
+    }
+
+    /// A stop is decided: friction is asked for `demand`. Without a bound there is nothing to decide.
+    pub(super) fn decide(&mut self, demand: f64, hold: &Hold, normal: f64) {
+        let [low, high] = hold.bounds;
+        let bound = normal * if demand < 0.0 { -low } else { high };
+        if bound > 0.0 {
+            self.closest_stop = self.closest_stop.min((1.0 - demand.abs() / bound).abs());
+        }
+    }
+
+    /// The block starts to slide, one way or the other.
+    pub(super) fn begin(&mut self, time_s: f64, s: f64) {
+        self.phase_start = [time_s, s];
+    }
+
+    /// It stops, turns round, or the motion ends.
+    pub(super) fn end(&mut self, time_s: f64, s: f64) {
+        if s.abs() > self.max_m.max(-self.min_m) {
+            self.peak_time_s = time_s;
+        }
+        self.max_m = self.max_m.max(s);
+        self.min_m = self.min_m.min(s);
+        let [start_s, start_m] = self.phase_start;
+        self.path_m += (s - start_m).abs();
+        self.time_s += time_s - start_s;
+    }
+}
+
+/// What the block does at the stops.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Stopping {
+    pub(super) demands: StopDemands,
+    pressed_since_s: f64,
+}
+
+impl Stopping {
+    /// Contact changes.
+    pub(super) fn change(&mut self, time_s: f64, speed: f64, from: Contact, to: Contact) {
+        if matches!(from, Contact::Pressed(_)) {
+            self.demands.contact_time_s += time_s - self.pressed_since_s;
+        }
+        if matches!(to, Contact::Pressed(_)) {
+            self.pressed_since_s = time_s;
+            if from == Contact::Free {
+                self.demands.contact_count += 1;
+                let peak = self.demands.peak_impact_speed_m_per_s.max(speed);
+                self.demands.peak_impact_speed_m_per_s = peak;
+            }
+        }
+    }
+}
+
+/// How a slip starts: `ṡ = 0`, and the leading coefficients of `|ṡ|` that are known to vanish.
+#[derive(Clone, Copy)]
+pub(super) struct Start {
+    /// Number of vanishing coefficients, the constant one included.
+    pub(super) order: usize,
+    /// `|s̈|` at the start where `order` is 1.
+    pub(super) acceleration: f64,
+}
+
+/// What an analysis leaves behind.
+pub(super) struct Outcome {
+    pub(super) events: Vec<Event>,
+    /// Peaks in the order of [`super::outputs::rows`].
+    pub(super) peaks: Vec<f64>,
+    pub(super) overturns: bool,
+    pub(super) sliding: Sliding,
+    pub(super) stop: Option<StopDemands>,
+    pub(super) residual_m: f64,
+    pub(super) sliding_at_end: bool,
+}
+
+/// Bounds over a batch: on `‖ẋ‖` and `‖ẍ‖`, on `|ȧ|` and `|Ṫ|`.
+#[derive(Clone, Copy)]
+pub(super) struct Curvature {
+    first: f64,
+    second: f64,
+    jerk: f64,
+    force_rate: f64,
+}
+
+impl Curvature {
+    /// How far outputs of a group depart from a chord of length `h`, `reach` being `h²/8`: for
+    /// `y = c·x + …`, `|ÿ| ≤ min(|c|* ‖ẍ‖, |c A|* ‖ẋ‖ + |c b| |ȧ| + …)`.
+    #[inline(always)]
+    pub(super) fn slack<S: Simd>(&self, simd: S, phase: &Phase, g: usize, reach: f64) -> f64x8<S> {
+        let outputs = &phase.outputs;
+        let by_second = outputs.norm[g].load(simd) * eight(simd, self.second);
+        let by_first = outputs.norm_of_rate[g].load(simd) * eight(simd, self.first)
+            + (outputs.of_jerk[g].load(simd) * eight(simd, self.jerk)
+                + outputs.of_force_rate[g].load(simd) * eight(simd, self.force_rate));
+        by_first.simd_lt(by_second).select(by_first, by_second) * eight(simd, reach)
+    }
+}
+
+/// An analysis under way.
+pub(super) struct Run<'a, S, W> {
+    pub(super) simd: S,
+    pub(super) width: W,
+    pub(super) tables: &'a Tables,
+    pub(super) law: &'a Law,
+    pub(super) ground: Ground<'a>,
+    /// Where a history is wanted.
+    pub(super) recorder: Option<Recorder>,
+    /// `s, ṡ, η, η̇`, padded.
+    pub(super) x: Vec<f64>,
+    /// A state ahead.
+    pub(super) next: Vec<f64>,
+    /// Outputs in both.
+    pub(super) values: Vec<Eight>,
+    pub(super) next_values: Vec<Eight>,
+    /// Outputs that a bound leaves open, as bits of each group.
+    pub(super) open: Vec<u64>,
+    pub(super) series: Series,
+    /// Room for two lists of storey coordinates.
+    pub(super) spare: [Vec<f64>; 2],
+    pub(super) peaks: Peaks,
+    pub(super) mode: Mode,
+    pub(super) contact: Contact,
+    /// Set while a slip has just started.
+    pub(super) start: Option<Start>,
+    /// The stop's force has just passed zero: an exit that waits for that starts at its zero.
+    pub(super) at_zero_force: bool,
+    pub(super) events: Vec<Event>,
+    pub(super) sliding: Sliding,
+    pub(super) stopping: Stopping,
+    pub(super) events_in_interval: u32,
+}
+
+impl<'a, S: Simd, W: Width> Run<'a, S, W> {
+    pub(super) fn new(
+        (simd, width): (S, W),
+        model: &Model,
+        (tables, law): (&'a Tables, &'a Law),
+        ground: Ground<'a>,
+        recorder: Option<Recorder>,
+    ) -> Self {
+        let system = &tables.stick.system;
+        let initial = model.initial();
+        let masses_kg = &model.frame().masses_kg;
+        let stride = 4 * width.fours();
+        let n = width.modes();
+        let mut x = vec![0.0; stride];
+        let (s, w) = (initial.sliding_displacement_m, initial.sliding_velocity_m_per_s);
+        (x[0], x[1]) = (s, w);
+        let eta = system.coordinates(masses_kg, &model.initial_storey_displacement_m());
+        let rate = system.coordinates(masses_kg, &model.initial_storey_velocity_m_per_s());
+        x[2..2 + n].copy_from_slice(&eta);
+        x[2 + n..2 + 2 * n].copy_from_slice(&rate);
+        let mode = match w {
+            w if w > 0.0 => Mode::Slip(Direction::Positive),
+            w if w < 0.0 => Mode::Slip(Direction::Negative),
+            _ => Mode::Stick,
+        };
+        let groups = tables.stick.outputs.groups();
+        Self {
+            simd,
+            width,
+            tables,
+            law,
+            ground,
+            recorder,
+            next: vec![0.0; stride],
+            values: vec![Eight::ZERO; groups],
+            next_values: vec![Eight::ZERO; groups],
+            open: vec![0; groups],
+            series: Series::new(system),
+            spare: [vec![0.0; n], vec![0.0; n]],
+            peaks: Peaks::new(groups, tables.stick.outputs.rows.len(), stride),
+            mode,
+            contact: law.initial(s, w),
+            start: None,
+            at_zero_force: false,
+            events: Vec::new(),
+            sliding: Sliding::new(s),
+            stopping: Stopping::default(),
+            events_in_interval: 0,
+            x,
+        }
+    }
+
+    /// Goes through all sample intervals.
+    #[inline(always)]
+    pub(super) fn go(&mut self) -> Result<(), SolveError> {
+        let times_s = self.ground.times_s;
+        let last = times_s.len() - 1;
+        let mut sample = 0;
+        self.set_limits();
+        while sample < last {
+            if times_s[sample + 1] == times_s[sample] {
+                // The left side of a jump; the right side decides, as the next sample does.
+                self.record_sample(sample, true);
+                sample += 1;
+                continue;
+            }
+            let end = self.ground.windows.regular_end(sample, last);
+            sample = self.screened(sample, end);
+            if sample < last && times_s[sample + 1] > times_s[sample] {
+                self.step_events(sample)?;
+                sample += 1;
+            }
+        }
+        self.finish(last)
+    }
+
+    fn finish(&mut self, last: usize) -> Result<(), SolveError> {
+        let end_s = self.ground.times_s[last];
+        if !self.x.iter().all(|x| x.is_finite()) {
+            return Err(SolveError::NotFinite { time_s: end_s });
+        }
+        if matches!(self.mode, Mode::Slip(_)) && self.start.is_none() && self.x[1] == 0.0 {
+            // A stop at the very end is decided by the limit from the left.
+            let interval = (0..last).rev().find(|&i| self.ground.times_s[i] < end_s);
+            if let Some(interval) = interval {
+                let length_s = end_s - self.ground.times_s[interval];
+                let stretch = self.ground.stretch(interval, 0.0, length_s);
+                self.record(&stretch, length_s, false);
+                self.stop(&stretch, length_s);
+            }
+        }
+        self.record_sample(last, true);
+        if matches!(self.mode, Mode::Slip(_)) {
+            self.sliding.end(end_s, self.x[0]);
+        }
+        if self.law.has_stop() {
+            self.stopping.change(end_s, 0.0, self.contact, Contact::Free);
+        }
+        self.settle_peaks();
+        Ok(())
+    }
+
+    /// What the analysis leaves behind, and its recorder.
+    pub(super) fn outcome(self) -> (Outcome, Option<Recorder>) {
+        let outcome = Outcome {
+            peaks: self.peaks.attained(),
+            events: self.events,
+            overturns: self.tables.overturns,
+            sliding: self.sliding,
+            stop: self.law.has_stop().then_some(self.stopping.demands),
+            residual_m: self.x[0],
+            sliding_at_end: matches!(self.mode, Mode::Slip(_)),
+        };
+        (outcome, self.recorder)
+    }
+
+    // ---- what is in force -----------------------------------------------------------------------
+
+    /// Tables of the present phase.
+    #[inline(always)]
+    pub(super) fn phase(&self) -> &'a Phase {
+        self.phase_of(self.mode, self.contact)
+    }
+
+    #[inline(always)]
+    pub(super) fn phase_of(&self, mode: Mode, contact: Contact) -> &'a Phase {
+        match mode {
+            Mode::Stick => &self.tables.stick,
+            Mode::Slip(direction) => {
+                &self.tables.slip[self.law.branch(contact, direction).restraint]
+            }
+        }
+    }
+
+    /// Friction force over the normal force in a mode, `−σ μ_k`; 0 in stick.
+    #[inline(always)]
+    pub(super) fn friction_of(&self, mode: Mode, contact: Contact) -> f64 {
+        match mode {
+            Mode::Stick => 0.0,
+            Mode::Slip(direction) => -self.law.branch(contact, direction).coefficient,
+        }
+    }
+
+    /// What the stop does to the outputs: in slip the constant force of its branch, in stick its force.
+    #[inline(always)]
+    pub(super) fn stop_input(&self, mode: Mode, contact: Contact, s: f64) -> f64 {
+        if !self.law.has_stop() {
+            return 0.0;
+        }
+        match mode {
+            Mode::Stick => {
+                let spring_n = self.tables.stick.system.stiffness_n_per_m * s;
+                self.law.hold(contact, s).force_n - spring_n
+            }
+            Mode::Slip(direction) => self.law.branch(contact, direction).force_n,
+        }
+    }
+
+    /// The friction force of a batch of slip, from its coefficient.
+    #[inline(always)]
+    pub(super) fn batch_force(&self, coefficient: f64, sample: usize) -> Force<'a> {
+        match self.ground.normal {
+            Normal::Constant(normal) => {
+                Force::Constant(coefficient * if normal > 0.0 { normal } else { 0.0 })
+            }
+            Normal::Varying(normal) => match normal[sample..].first_chunk() {
+                Some(window) => Force::Varying(coefficient, window),
+                None => Force::Constant(0.0),
+            },
+        }
+    }
+
+    /// Groups of eight outputs; those of one storey are one.
+    #[inline(always)]
+    pub(super) fn groups(&self, phase: &Phase) -> usize {
+        if self.width.modes() == 1 { 1 } else { phase.outputs.groups() }
+    }
+
+    /// A group of outputs in a padded state.
+    #[inline(always)]
+    pub(super) fn group_at(
+        simd: S,
+        phase: &Phase,
+        g: usize,
+        x: &[f64],
+        [friction, a, stop]: [f64; 3],
+    ) -> f64x8<S> {
+        let (outputs, count) = (&phase.outputs, 2 + x.len());
+        let constant =
+            outputs.constant[g].load(simd) + outputs.of_stop[g].load(simd) * eight(simd, stop);
+        let columns = &outputs.columns[g * count..][..count];
+        combine8(simd, columns, &[friction, a], &[], x) + constant
+    }
+
+    /// Expands the motion from a state into the series, over one unit of the phase.
+    #[inline(always)]
+    pub(super) fn expand(
+        simd: S,
+        width: W,
+        phase: &Phase,
+        x: &[f64],
+        load: &Load,
+        series: &mut Series,
+    ) {
+        match &phase.series {
+            Some(table) if width.modes() == 1 => {
+                if phase.slip {
+                    series.expand_by_table::<S, true>(simd, table, x, load);
+                } else {
+                    series.expand_by_table::<S, false>(simd, table, x, load);
+                }
+            }
+            _ => series.expand(&phase.system, phase.slip, x, load, phase.unit_s),
+        }
+    }
+
+    /// What bounds the second derivatives of the outputs over the batch from a sample.
+    ///
+    /// A kink of the loads adds to `‖ẍ‖` at most `√M_tot |Δȧ| + |ΔṪ|/√M1`, and their change to `‖ẋ‖`
+    /// at most `√M_tot |Δa| + |ΔT|/√M1`.
+    #[inline(always)]
+    pub(super) fn curvature(
+        &mut self,
+        phase: &Phase,
+        coefficient: f64,
+        sample: usize,
+        per_dt: f64,
+    ) -> Curvature {
+        let a = self.ground.acceleration;
+        let jerk = (a[sample + 1] - a[sample]) * per_dt;
+        let normal = self.ground.normal_at(sample);
+        let force = coefficient * if normal > 0.0 { normal } else { 0.0 };
+        let force_rate = match self.ground.normal {
+            Normal::Constant(_) => 0.0,
+            Normal::Varying(n) => coefficient * ((n[sample + 1] - n[sample]) * per_dt),
+        };
+        let (load, force) = ([a[sample], jerk], [force, force_rate]);
+        let system = &phase.system;
+        let [first, second] = if self.width.modes() == 1 {
+            let (mut f, mut eta2) = ([0.0], [0.0]);
+            system.derivative_norms(
+                phase.slip,
+                &self.x[..self.width.components()],
+                load,
+                force,
+                [&mut f, &mut eta2],
+            )
+        } else {
+            let [f, eta2] = &mut self.spare;
+            system.derivative_norms(
+                phase.slip,
+                &self.x[..self.width.components()],
+                load,
+                force,
+                [f, eta2],
+            )
+        };
+        let (horizontal, vertical) = self.ground.roughness(sample);
+        let of_a = if phase.slip { system.root_total_mass } else { system.root_storey_mass };
+        let mut curvature = Curvature {
+            first: first + of_a * horizontal.variation,
+            second: second + per_dt * (of_a * horizontal.kinks),
+            jerk: per_dt * horizontal.change,
+            force_rate: 0.0,
+        };
+        if let Some(vertical) = vertical
+            && coefficient != 0.0
+        {
+            let of_vertical = coefficient.abs() * self.ground.mass_kg;
+            let of_norm = of_vertical * system.per_root_block;
+            curvature.first += of_norm * vertical.variation;
+            curvature.second += per_dt * (of_norm * vertical.kinks);
+            curvature.force_rate = per_dt * (of_vertical * vertical.change);
+        }
+        curvature
+    }
+
+    /// The force that keeps the block stuck under an acceleration, eqs (8), (14).
+    pub(super) fn demand(&mut self, a: f64) -> f64 {
+        let system = &self.tables.stick.system;
+        let n = self.width.modes();
+        let (eta, rate) = (&self.x[2..2 + n], &self.x[2 + n..2 + 2 * n]);
+        let f = &mut self.spare[0];
+        system.restoring(eta, rate, f);
+        let hold = self.law.hold(self.contact, self.x[0]);
+        (system.block_mass_kg * a + hold.force_n) - dot(&system.participation, f)
+    }
+
+    // ---- what is kept ---------------------------------------------------------------------------
+
+    pub(super) fn push_event(&mut self, time_s: f64, kind: EventKind) {
+        self.events_in_interval += 1;
+        let sliding_displacement_m = self.x[0];
+        self.events.push(Event { time_s, kind, mode: self.mode, sliding_displacement_m });
+    }
+
+    /// Records the present state as a knot at a sample.
+    #[inline(never)]
+    pub(super) fn record_sample(&mut self, sample: usize, row: bool) {
+        if self.recorder.is_some() {
+            let normal = self.ground.normal_at(sample).max(0.0);
+            let time_s = self.ground.times_s[sample];
+            let (table, a) = (self.ground.table[sample], self.ground.acceleration[sample]);
+            let x = core::mem::take(&mut self.x);
+            self.record_knot(time_s, &x, [table, a, normal], row);
+            self.x = x;
+        }
+    }
+
+    /// Records a state at a time.
+    #[inline(never)]
+    pub(super) fn record_knot(
+        &mut self,
+        time_s: f64,
+        x: &[f64],
+        [table, acceleration, normal]: [f64; 3],
+        row: bool,
+    ) {
+        let (mode, contact, system) = (self.mode, self.contact, &self.phase().system);
+        let force_n = match mode {
+            Mode::Stick => self.law.hold(contact, x[0]).force_n,
+            Mode::Slip(direction) => self.law.branch(contact, direction).force_n,
+        };
+        let friction_n = self.friction_of(mode, contact) * normal;
+        let knot =
+            Knot { time_s, mode, contact, table, acceleration, state: x, friction_n, force_n };
+        if let Some(recorder) = &mut self.recorder {
+            recorder.knot(system, &knot, row);
+        }
+    }
+
+    /// Draws the limits around the peaks attained; a demand that has reached its largest bound cannot
+    /// grow but by rounding.
+    #[inline(always)]
+    pub(super) fn set_limits(&mut self) {
+        self.peaks.limit.copy_from_slice(&self.peaks.peak);
+        if let (Mode::Stick, Normal::Constant(normal)) = (self.mode, self.ground.normal) {
+            let bound = self.law.largest_static() * normal * (1.0 - 1e-14);
+            let first = &mut self.peaks.limit[0].0;
+            if first[output::FRICTION] >= bound {
+                first[output::FRICTION] = f64::INFINITY;
+            }
+            let free = self.tables.stick.system.stiffness_n_per_m == 0.0 && !self.law.has_stop();
+            if free && first[output::SLIDER] >= bound {
+                first[output::SLIDER] = f64::INFINITY;
+            }
+        }
+    }
+}

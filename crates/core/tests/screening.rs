@@ -1,0 +1,375 @@
+//! Screened propagation against event stepping: random systems under long records, every demand and
+//! every count.
+
+// Helpers of tests may panic as tests do.
+#![allow(clippy::disallowed_macros, clippy::expect_used)]
+
+mod common;
+
+use common::random::Random;
+use common::sketch::Sketch;
+use slipstick::model::Model;
+use slipstick::motion::GroundMotion;
+use slipstick::response::Response;
+use slipstick::solver::{self, InstructionSet, Prepared, PreparedMotion};
+
+/// Largest difference, over the peak of each quantity.
+const TOLERANCE: f64 = 1e-11;
+/// Relative change of the input that must move a well-conditioned result by less.
+const PERTURBATION: f64 = 1e-12;
+
+/// The same of frames, the bar for motions that are cut: their fastest modes turn up to 1e5 rad, and
+/// cutting the samples rounds the times.
+const TOLERANCE_OF_FRAMES: f64 = 1e-9;
+
+/// Systems that a run of the test draws.
+const SYSTEMS: u64 = 3000;
+
+/// A system of at most one storey, shaken by a record of a few hundred samples.
+fn shaken(random: &mut Random) -> Sketch {
+    loop {
+        let x = Sketch::system(random);
+        if x.masses.len() <= 1 {
+            return under_record(random, x);
+        }
+    }
+}
+
+/// A frame of two storeys or more, shaken so.
+fn shaken_frame(random: &mut Random) -> Sketch {
+    loop {
+        let x = Sketch::system(random);
+        if x.masses.len() > 1 {
+            return under_record(random, x);
+        }
+    }
+}
+
+fn under_record(random: &mut Random, mut x: Sketch) -> Sketch {
+    let count = random.integer(20, 600) as usize;
+    let rate = x.stiffnesses.first().map_or(10.0, |k| (k / x.masses[0]).sqrt());
+    let dt = random.logarithmic(0.003, 0.15) / rate;
+    let amplitude = x.level() * random.logarithmic(0.5, 6.0);
+    x.times = (0..=count).map(|i| i as f64 * dt).collect();
+    x.horizontal = record(random, count, dt, amplitude);
+    if random.chance(0.15) {
+        x.stretch_times(random);
+    }
+    if random.chance(0.1) {
+        let vertical = x.gravity * random.between(0.0, 0.7);
+        x.lift(random, vertical);
+    }
+    for _ in 0..random.integer(0, 3) {
+        if random.chance(0.3) {
+            let to = amplitude * random.between(-1.0, 1.0);
+            x.add_jump(random, to);
+        }
+    }
+    if random.chance(0.3) {
+        x.disturb(random, 0.02, 0.1);
+    }
+    x
+}
+
+/// Sines, noise and rests in any mixture.
+fn record(random: &mut Random, count: usize, dt: f64, amplitude: f64) -> Vec<f64> {
+    let noise = if random.chance(0.6) { random.logarithmic(1e-3, 1.0) } else { 0.0 };
+    let colour = random.between(0.0, 0.98);
+    let waves: Vec<[f64; 3]> = (0..random.integer(1, 3))
+        .map(|_| {
+            let samples = random.logarithmic(8.0, 400.0);
+            [random.unit(), core::f64::consts::TAU / (samples * dt), random.between(0.0, 6.3)]
+        })
+        .collect();
+    let quiet = if random.chance(0.3) { random.integer(0, count as i64) as usize } else { count };
+    let mut drift = 0.0;
+    (0..=count)
+        .map(|i| {
+            drift = colour * drift + noise * random.between(-1.0, 1.0);
+            let t = i as f64 * dt;
+            let sum: f64 = waves.iter().map(|w| w[0] * libm::sin(w[1] * t + w[2])).sum();
+            if i > quiet && i < quiet + 60 { 0.0 } else { amplitude * (0.5 * sum + drift) }
+        })
+        .collect()
+}
+
+/// A demand and the size it is measured by.
+type Figure = (&'static str, f64, f64);
+
+/// Every demand with the size it is measured by, and every count.
+fn figures(r: &Response) -> (Vec<Figure>, [u64; 3], bool) {
+    let d = &r.demands;
+    let s = d.peak_sliding_displacement_m;
+    let mut list = vec![
+        ("peak s", s, s),
+        ("largest s", d.max_sliding_displacement_m, s),
+        ("smallest s", d.min_sliding_displacement_m, s),
+        ("residual s", d.residual_sliding_displacement_m, s),
+        ("path", d.sliding_path_m, d.sliding_path_m.max(s)),
+        ("sliding time", d.sliding_time_s, d.sliding_time_s),
+        ("time of peak", d.peak_sliding_displacement_time_s, f64::INFINITY),
+    ];
+    let mut own = |name, x: f64| list.push((name, x, x));
+    own("peak velocity", d.peak_sliding_velocity_m_per_s);
+    own("block acceleration", d.peak_block_acceleration_m_per_s2);
+    own("base shear", d.peak_base_shear_n);
+    own("friction", d.peak_friction_force_n);
+    own("slider force", d.peak_slider_force_n);
+    own("overturning", d.overturning_ratio.unwrap_or(0.0));
+    for storey in &d.storeys {
+        own("floor acceleration", storey.peak_acceleration_m_per_s2);
+        own("displacement", storey.peak_displacement_m);
+        own("drift", storey.peak_drift_m);
+    }
+    (list, [d.slip_count, d.reversal_count, d.stick_count], d.sliding_at_end)
+}
+
+/// What differs between two responses, over the size of each; accelerations of floors over `least` at
+/// least.
+fn difference(a: &Response, b: &Response, least: f64) -> (f64, String, bool) {
+    let ((x, counts, sliding), (y, other_counts, other_sliding)) = (figures(a), figures(b));
+    let mut worst = (0.0, String::new());
+    for (x, y) in x.iter().zip(&y) {
+        let least = if x.0 == "floor acceleration" { least } else { 0.0 };
+        let size = x.2.max(y.2).max(least).max(1e-300);
+        let off = (x.1 - y.1).abs() / size;
+        if !(off <= worst.0) {
+            worst = (off, format!("{}: {:e} and {:e}", x.0, x.1, y.1));
+        }
+    }
+    (worst.0, worst.1, counts == other_counts && sliding == other_sliding)
+}
+
+/// Demands by event stepping alone: every interval of the motion is cut in three uneven parts, which
+/// changes no straight line and leaves no even step to screen.
+fn stepped(model: &Model, motion: &GroundMotion) -> Response {
+    let times_s = motion.times_s();
+    let cut = |x: &[f64]| -> Vec<f64> {
+        let mut cut = Vec::new();
+        for (i, pair) in x.windows(2).enumerate() {
+            let [a, b] = [pair[0], pair[1]];
+            cut.push(a);
+            // A jump stays one.
+            if times_s[i + 1] > times_s[i] {
+                let parts = if i % 2 == 0 { [0.3, 0.55] } else { [0.2, 0.75] };
+                cut.extend(parts.map(|part| a + (b - a) * part));
+            }
+        }
+        cut.push(x[x.len() - 1]);
+        cut
+    };
+    let vertical = motion.vertical_m_per_s2().map(cut);
+    let motion = GroundMotion::new(cut(times_s), cut(motion.horizontal_m_per_s2()), vertical);
+    solver::exact_demands(model, &motion.expect("a motion")).expect("a response")
+}
+
+fn agree(seed: u64, systems: u64, tolerance: f64, draw: impl Fn(&mut Random) -> Sketch) {
+    let (mut ill, mut events, mut worst) = (0, 0, 0.0_f64);
+    let mut wrong = Vec::new();
+    for system in 0..systems {
+        let mut random = Random::new(seed + system);
+        let sketch = draw(&mut random);
+        let (model, motion) = sketch.build();
+        // A floor that feels a millionth of what shakes its frame is known to so many digits less.
+        let pga = motion.horizontal_m_per_s2().iter().fold(0.0_f64, |pga, a| pga.max(a.abs()));
+        let least = if model.storeys() > 1 { 1e-6 * pga } else { 0.0 };
+        let stepped_alone = stepped(&model, &motion);
+        let screened = solver::exact_demands(&model, &motion).expect("a response");
+        events += stepped_alone.events.len();
+        let (off, what, same) = difference(&stepped_alone, &screened, least);
+        if same && off <= tolerance {
+            worst = worst.max(off);
+            continue;
+        }
+        let moved = sketch.perturbed(PERTURBATION).iter().fold((0.0_f64, true), |moved, other| {
+            let (model, motion) = other.build();
+            let other = stepped(&model, &motion);
+            let (off, _, same) = difference(&stepped_alone, &other, least);
+            (moved.0.max(off), moved.1 && same)
+        });
+        if (!same && !moved.1) || (same && moved.0 > tolerance) {
+            ill += 1;
+        } else {
+            let counts = [&stepped_alone, &screened].map(|r| figures(r).1);
+            wrong.push(format!("seed {}: {off:.1e} {what}, counts {counts:?}", seed + system));
+        }
+    }
+    println!("{systems} systems, {events} events, {ill} ill-conditioned, worst {worst:.1e}");
+    assert!(wrong.is_empty(), "{} differ:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+#[test]
+fn peer_event_stepping_on_random_systems() {
+    agree(1, SYSTEMS, TOLERANCE, shaken);
+}
+
+#[test]
+fn peer_event_stepping_on_random_frames() {
+    agree(300_000, 500, TOLERANCE_OF_FRAMES, shaken_frame);
+}
+
+/// The bits of all that a response says but its history.
+fn bits(r: &Response) -> (Vec<u64>, [u64; 3], Vec<[u64; 2]>) {
+    let (list, counts, _) = figures(r);
+    let events = r.events.iter();
+    let events = events.map(|e| [e.time_s.to_bits(), e.sliding_displacement_m.to_bits()]);
+    (list.iter().map(|x| x.1.to_bits()).collect(), counts, events.collect())
+}
+
+#[test]
+fn exact_bits_are_the_same_by_every_instruction_set() {
+    let all = InstructionSet::all();
+    assert!(!all.is_empty());
+    for seed in 0..400 {
+        let (model, motion) = shaken(&mut Random::new(seed)).build();
+        let motion = PreparedMotion::new(motion);
+        let model = Prepared::new(model, motion.dt_s());
+        let by = |set: InstructionSet| bits(&model.demands_by(set, &motion).expect("a response"));
+        let first = by(all[0]);
+        for set in &all[1..] {
+            assert_eq!(by(*set), first, "seed {seed}: {set:?} and {:?}", all[0]);
+        }
+    }
+}
+
+#[test]
+fn exact_history_changes_no_bit() {
+    for seed in 0..400 {
+        let (model, motion) = shaken(&mut Random::new(seed)).build();
+        let with = solver::exact(&model, &motion).expect("a response");
+        let without = solver::exact_demands(&model, &motion).expect("a response");
+        assert_eq!(bits(&with), bits(&without), "seed {seed}");
+    }
+}
+
+#[test]
+fn exact_sharing_and_foreign_steps_change_no_bit() {
+    for seed in 0..200 {
+        let (model, motion) = shaken(&mut Random::new(seed)).build();
+        let fresh = bits(&solver::exact_demands(&model, &motion).expect("a response"));
+        let prepared = PreparedMotion::new(motion);
+        let rougher = model.with_friction(model.slider().friction.scaled(1.7).expect("friction"));
+        let shared = Prepared::new(rougher, prepared.dt_s()).with_model(model.clone());
+        assert_eq!(bits(&shared.demands(&prepared).expect("a response")), fresh);
+        // Prepared for another step.
+        let foreign = Prepared::new(model, Some(0.0123));
+        assert_eq!(bits(&foreign.demands(&prepared).expect("a response")), fresh);
+    }
+}
+
+/// Everything turned round gives the same numbers, the never-slid residual of −0 included.
+#[test]
+fn exact_mirrored_systems_give_mirrored_numbers() {
+    for seed in 0..1000 {
+        let sketch = shaken(&mut Random::new(seed));
+        let mut other = sketch.clone();
+        let turn = |list: &mut Vec<f64>| list.iter_mut().for_each(|x| *x = -*x);
+        turn(&mut other.horizontal);
+        turn(&mut other.v);
+        other.q.as_mut().map(turn);
+        (other.s, other.w, other.tilt) = (-sketch.s, -sketch.w, -sketch.tilt);
+        other.static_friction.reverse();
+        other.kinetic_friction.reverse();
+        let of = |sketch: &Sketch| {
+            let (model, motion) = sketch.build();
+            solver::exact_demands(&model, &motion).expect("a response")
+        };
+        let (a, b) = (of(&sketch), of(&other));
+        let ((x, counts, sliding), (y, other_counts, other_sliding)) = (figures(&a), figures(&b));
+        assert_eq!((counts, sliding), (other_counts, other_sliding), "seed {seed}");
+        for (x, y) in x.iter().zip(&y) {
+            let expected = match x.0 {
+                "largest s" => -b.demands.min_sliding_displacement_m,
+                "smallest s" => -b.demands.max_sliding_displacement_m,
+                "residual s" => -y.1,
+                _ => y.1,
+            };
+            assert!(x.1 == expected, "seed {seed}: {} is {:e}, mirrored {expected:e}", x.0, x.1);
+        }
+        assert!(a.events.iter().zip(&b.events).all(|(a, b)| a.time_s == b.time_s), "seed {seed}");
+    }
+}
+
+/// An undamped storey swings on a stuck block: `q = v₀/ω sin ωt`, whatever sample of a block the
+/// peak follows, the first of all included.
+#[test]
+fn exact_peak_after_any_sample_of_a_block() {
+    for k in 0..40 {
+        let mut x = Sketch::block(0.5, 0.5);
+        x.masses = vec![32.0];
+        let rate = 8.0;
+        x.stiffnesses = vec![32.0 * rate * rate];
+        let dt = 0.02;
+        // The peak lies between samples k and k + 1, nearer to the former.
+        let phase = core::f64::consts::FRAC_PI_2 - rate * dt * (k as f64 + 0.3);
+        x.q = Some(vec![0.01 * libm::sin(phase)]);
+        x.v = vec![0.01 * rate * libm::cos(phase)];
+        x.times = (0..60).map(|i| f64::from(i) * dt).collect();
+        x.horizontal = vec![0.0; 60];
+        let (model, motion) = x.build();
+        let d = solver::exact_demands(&model, &motion).expect("a response").demands;
+        let found = d.storeys[0].peak_displacement_m;
+        assert!((found - 0.01).abs() < 1e-14, "peak after sample {k}: {found:e}");
+        let shear = 0.01 * 32.0 * rate * rate;
+        assert!((d.peak_base_shear_n - shear).abs() < 1e-12 * shear, "peak after sample {k}");
+    }
+}
+
+/// A rigid block on a spring slides from `w₀` to its stop at `s`, `½ w₀² = ½ k s² + f s`; its
+/// acceleration, which is `f` alone without a spring, is largest there: `k s + f`.
+#[test]
+fn exact_acceleration_of_a_rigid_block_on_a_spring() {
+    let mut x = Sketch::block(0.05, 0.05);
+    (x.w, x.spring) = (0.5, 128.0 * 9.0);
+    x.times = (0..200).map(|i| f64::from(i) * 0.01).collect();
+    x.horizontal = vec![0.0; 200];
+    let (model, motion) = x.build();
+    let d = solver::exact_demands(&model, &motion).expect("a response").demands;
+    let (k, f) = (9.0_f64, 0.05 * 8.0);
+    let s = ((f * f + k * 0.25).sqrt() - f) / k;
+    assert!((d.peak_sliding_displacement_m - s).abs() < 1e-14);
+    assert!((d.peak_block_acceleration_m_per_s2 - (k * s + f)).abs() < 1e-13);
+}
+
+/// A jump amid what would be a block: the block that just holds before it slips right after.
+#[test]
+fn exact_jump_amid_a_block() {
+    for at in 1..20 {
+        let mut x = Sketch::block(0.1, 0.1);
+        x.times = (0..=at).map(|i| f64::from(i) * 0.125).collect();
+        x.horizontal = vec![0.5; x.times.len()];
+        x.times.extend((at..40).map(|i| f64::from(i) * 0.125));
+        x.horizontal.resize(x.times.len(), 1.6);
+        let (model, motion) = x.build();
+        let r = solver::exact_demands(&model, &motion).expect("a response");
+        assert_eq!(r.events.len(), 1, "jump at sample {at}");
+        assert_eq!(r.events[0].time_s, f64::from(at) * 0.125);
+        // Slides at 0.8 − 1.6 m/s² ever after.
+        let t = (39 - at) as f64 * 0.125;
+        let s = -0.5 * 0.8 * t * t;
+        assert!((r.demands.residual_sliding_displacement_m - s).abs() < 1e-13);
+    }
+}
+
+/// Static and kinetic friction are equal: each release starts with no acceleration, and none of
+/// its double zeros is a stop. A rigid block under a triangle wave turns round in closed form; here
+/// the counts of the event stepping are the measure, over hundreds of releases.
+#[test]
+fn peer_event_stepping_on_equal_friction() {
+    agree(100_000, 1000, TOLERANCE, |random| {
+        let mut x = shaken(random);
+        x.static_friction = x.kinetic_friction;
+        x
+    });
+}
+
+/// Coarse sampling: an event every few samples, and chords that hide much.
+#[test]
+fn peer_event_stepping_on_coarse_samples() {
+    agree(200_000, 1000, TOLERANCE, |random| {
+        let mut x = shaken(random);
+        let factor = random.between(2.0, 10.0);
+        x.times.iter_mut().for_each(|t| *t *= factor);
+        x
+    });
+}

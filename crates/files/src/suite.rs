@@ -1,0 +1,138 @@
+//! The records of a suite, opened once.
+
+use std::path::{Path, PathBuf};
+
+use slipstick::assessment::suite::{Suite, SuiteRecord};
+use slipstick::error::ChoiceError;
+use slipstick::record::Units;
+use slipstick::response::Warning;
+use slipstick::study::engine::Engine;
+
+use crate::error::FileError;
+use crate::globs::expand_all;
+use crate::load::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
+
+/// Why the records of a suite cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum SuiteError {
+    /// A file.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Vertical components that are not as many as the horizontal ones.
+    #[error(transparent)]
+    Choice(#[from] ChoiceError),
+}
+
+/// Records to be opened, and what they may not say themselves.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SuiteRequest {
+    /// Files, folders or patterns, relative to the working folder.
+    pub patterns: Vec<String>,
+    /// The same for the vertical components, as many and in the same order.
+    pub vertical: Vec<String>,
+    /// Units, where files do not state them.
+    pub units: Option<Units>,
+    /// Time step in s, where files do not state it.
+    pub dt_s: Option<f64>,
+    /// Name or number (from 1) of the channel.
+    pub channel: Option<String>,
+}
+
+/// A suite with what is known of its files.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct OpenSuite {
+    /// The records, in the order of their patterns and paths.
+    pub suite: Suite,
+    /// Files read: path, SHA-256, what they are.
+    pub sources: Vec<(String, String, String)>,
+    /// What reading them gave notice of, each kind once.
+    pub warnings: Vec<Warning>,
+}
+
+impl OpenSuite {
+    /// Opens all records; a record's name is its file's stem, or its path where stems repeat.
+    ///
+    /// # Errors
+    /// [`SuiteError`] where nothing matches a pattern, a file is no record, or the vertical
+    /// components are not as many as the horizontal ones.
+    pub fn open(request: &SuiteRequest) -> Result<Self, SuiteError> {
+        let files = expand_all(Path::new(""), &request.patterns)?;
+        let vertical = expand_all(Path::new(""), &request.vertical)?;
+        if !vertical.is_empty() && vertical.len() != files.len() {
+            return Err(SuiteError::Choice(ChoiceError {
+                what: "vertical".to_owned(),
+                expected: format!("one vertical motion for each of {} records", files.len()),
+                found: vertical.len().to_string(),
+                nearest: None,
+            }));
+        }
+        let load = |i: usize| {
+            Ok(load_record(&RecordRequest {
+                path: files[i].clone(),
+                units: request.units,
+                dt_s: request.dt_s,
+                channel: request.channel.clone(),
+                vertical: vertical.get(i).map(|path| VerticalRequest {
+                    path: path.clone(),
+                    channel: None,
+                    factor: 1.0,
+                }),
+                ..RecordRequest::default()
+            }))
+        };
+        // Nothing stops an engine that nobody follows.
+        let loaded = Engine::unwatched().map(files.len(), load).unwrap_or_default();
+        let loaded = loaded.into_iter().collect::<Result<Vec<_>, FileError>>()?;
+        Ok(Self::of(&names(&files), loaded, false))
+    }
+
+    /// The motion of a model as its only record.
+    #[must_use]
+    pub fn single(name: &str, loaded: LoadedMotion, made: bool) -> Self {
+        Self::of(&[name.to_owned()], vec![loaded], made)
+    }
+
+    fn of(names: &[String], loaded: Vec<LoadedMotion>, made: bool) -> Self {
+        let mut open = Self { suite: Suite { records: Vec::new(), made }, ..Self::default() };
+        let mut noticed: Vec<(&'static str, Vec<String>)> = Vec::new();
+        for (name, loaded) in names.iter().zip(loaded) {
+            for (source, description) in loaded.sources.iter().zip(&loaded.description) {
+                open.sources.push((
+                    source.path.display().to_string(),
+                    source.sha256.clone(),
+                    description.clone(),
+                ));
+            }
+            for warning in &loaded.warnings {
+                let message = format!("{name}: {}", warning.message);
+                match noticed.iter_mut().find(|(kind, _)| *kind == warning.kind) {
+                    Some((_, messages)) => messages.push(message),
+                    None => noticed.push((warning.kind, vec![message])),
+                }
+            }
+            let name = name.clone();
+            open.suite.records.push(SuiteRecord { name, motion: loaded.loaded.motion });
+        }
+        let one = |(kind, messages): (&'static str, Vec<String>)| {
+            let more = match messages.len() {
+                1 => String::new(),
+                n => format!(" (and {} of the other records)", n - 1),
+            };
+            let message = format!("{}{more}", messages[0]);
+            Warning { kind, time_s: None, message }
+        };
+        open.warnings = noticed.into_iter().map(one).collect();
+        open
+    }
+}
+
+/// Stems of files, or paths where stems repeat.
+fn names(files: &[PathBuf]) -> Vec<String> {
+    let path = |file: &PathBuf| file.display().to_string().replace('\\', "/");
+    let stem = |file: &PathBuf| {
+        file.file_stem().map_or_else(|| path(file), |stem| stem.to_string_lossy().into_owned())
+    };
+    let stems: Vec<String> = files.iter().map(stem).collect();
+    let repeats = |name: &String| stems.iter().filter(|other| *other == name).count() > 1;
+    if stems.iter().any(repeats) { files.iter().map(path).collect() } else { stems }
+}

@@ -1,0 +1,342 @@
+//! The paper, reproduced: every experiment and every claim of the source, computed again.
+//!
+//! [`Library`] holds the mock-ups and records ([`paper_library`] those of the examples),
+//! [`reproduce`] runs and judges everything on them, [`chapter`] writes what came of it.
+//!
+//! **Rules of judgement.** A number agrees where the computed one is within half a unit of the last
+//! digit that the paper prints, or within the band that the claim's own `rule` states for a word
+//! such as "about". A statement without a number agrees where the figure that `rule` names lies in
+//! the band that `rule` names. What rests on data that the paper does not give cannot be checked;
+//! `why` then names the datum and the range that was scanned in its place.
+
+use std::ops::ControlFlow;
+
+use slipstick::error::{InputError, ModelError, MotionError, RecordError, SolveError, Stopped};
+
+mod carried;
+pub mod chapter;
+mod curves;
+mod experiments;
+mod friction;
+mod iteration;
+mod library;
+mod numbers;
+mod offset;
+mod resonance;
+mod sensitivity;
+mod steady;
+mod storey;
+mod suite;
+mod window;
+
+pub use carried::paper_library;
+pub use experiments::{DrawnTest, TestRun};
+pub use friction::{FrictionPair, LighterFriction, Overturning};
+pub use iteration::IterationCell;
+pub use library::{Experiment, Library, Shake};
+pub use numbers::Cantilever;
+pub use offset::{OffsetRow, StartPhase, StepDrift};
+pub use resonance::FreeSliding;
+pub use sensitivity::{Compared, NOISE_M_PER_S2, SensitivityRow};
+pub use storey::DisplacementCurve;
+pub use suite::{
+    SPECTRUM_FRICTIONS, SPECTRUM_MASS_RATIOS, SUITE_PEAK_M_PER_S2, SlidingSpectrum, SuiteRow,
+    over_friction,
+};
+pub use window::{Point, Ratio, SCANNED_HZ, TESTED_HZ, Window};
+
+/// What becomes of a claim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// The computed figure satisfies the claim's rule.
+    Agrees,
+    /// It does not; `why` says by how much and from what.
+    Differs,
+    /// A datum is missing; `why` names it and the range scanned.
+    CannotBeChecked,
+}
+
+impl Verdict {
+    /// The verdict in words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Agrees => "agrees",
+            Self::Differs => "differs",
+            Self::CannotBeChecked => "cannot be checked",
+        }
+    }
+}
+
+/// One claim of the paper and its judgement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Claim {
+    /// Short stable name.
+    pub id: String,
+    /// Where the paper says it.
+    pub section: &'static str,
+    /// What it says, in our words.
+    pub claim: String,
+    /// The number it prints, in `unit`; `None` where it prints none.
+    pub paper_value: Option<f64>,
+    /// The number computed, in `unit`.
+    pub computed_value: Option<f64>,
+    /// Unit of both, empty for a ratio.
+    pub unit: &'static str,
+    /// When it agrees.
+    pub rule: String,
+    /// The judgement.
+    pub verdict: Verdict,
+    /// Why: what was computed; for a difference its size and cause, for what cannot be checked the
+    /// missing datum and the range scanned.
+    pub why: String,
+}
+
+impl Claim {
+    /// A printed number, `half_unit` being half a unit of its last digit; `why` gets the
+    /// difference, computed less printed.
+    fn printed(
+        (id, section, claim): (&str, &'static str, &str),
+        [paper_value, half_unit]: [f64; 2],
+        (computed_value, unit): (f64, &'static str),
+        why: impl FnOnce(Verdict, f64) -> String,
+    ) -> Self {
+        let difference = computed_value - paper_value;
+        // Half a unit itself still rounds to the printed digits, one way or the other.
+        let verdict = if difference.abs() <= half_unit * (1.0 + 1e-9) {
+            Verdict::Agrees
+        } else {
+            Verdict::Differs
+        };
+        Self {
+            id: id.to_owned(),
+            section,
+            claim: claim.to_owned(),
+            paper_value: Some(paper_value),
+            computed_value: Some(computed_value),
+            unit,
+            rule: format!("within {half_unit} {unit} of the printed number").replace("  ", " "),
+            verdict,
+            why: why(verdict, difference),
+        }
+    }
+
+    /// A statement judged by a figure that must lie in a band (both ends included).
+    fn banded(
+        (id, section, claim): (&str, &'static str, &str),
+        paper_value: Option<f64>,
+        (computed_value, unit): (f64, &'static str),
+        ([from, to], rule): ([f64; 2], &str),
+        why: impl FnOnce(Verdict) -> String,
+    ) -> Self {
+        let inside = (from..=to).contains(&computed_value);
+        let verdict = if inside { Verdict::Agrees } else { Verdict::Differs };
+        Self {
+            id: id.to_owned(),
+            section,
+            claim: claim.to_owned(),
+            paper_value,
+            computed_value: Some(computed_value),
+            unit,
+            rule: rule.to_owned(),
+            verdict,
+            why: why(verdict),
+        }
+    }
+
+    /// A statement whose data the paper does not give.
+    fn unchecked((id, section, claim): (&str, &'static str, &str), why: String) -> Self {
+        Self {
+            id: id.to_owned(),
+            section,
+            claim: claim.to_owned(),
+            paper_value: None,
+            computed_value: None,
+            unit: "",
+            rule: "none: a datum is missing".to_owned(),
+            verdict: Verdict::CannotBeChecked,
+            why,
+        }
+    }
+}
+
+/// How finely the ranges of the paper are scanned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Grid {
+    /// As the book shows them.
+    Full,
+    /// A tenth of the work, with the same verdicts.
+    Quick,
+}
+
+impl Grid {
+    /// One of two settings.
+    fn pick<T>(self, full: T, quick: T) -> T {
+        match self {
+            Self::Full => full,
+            Self::Quick => quick,
+        }
+    }
+}
+
+/// Everything computed, claim by claim and table by table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Paper {
+    /// How finely it was scanned.
+    pub grid: Grid,
+    /// All claims in the order of the paper's sections.
+    pub claims: Vec<Claim>,
+    /// Both solvers on every mock-up.
+    pub tests: Vec<TestRun>,
+    /// The tests of the paper's figures, with histories.
+    pub drawn: Vec<DrawnTest>,
+    /// Frequencies of a steel rod with each mass.
+    pub cantilevers: Vec<Cantilever>,
+    /// Storey displacement against amplitude, figures 9d and 10d.
+    pub displacements: Vec<DisplacementCurve>,
+    /// Storey to table acceleration against amplitude, figures 9 to 11.
+    pub free_sliding: Vec<FreeSliding>,
+    /// The amplification windows, one a mock-up and amplitude.
+    pub windows: Vec<Window>,
+    /// Parts of the residual displacement.
+    pub offsets: Vec<OffsetRow>,
+    /// What the stepwise integration adds to the residual, by step.
+    pub step_drifts: Vec<StepDrift>,
+    /// Offset against the phase at which a sine starts.
+    pub start_phases: Vec<StartPhase>,
+    /// Sensitivities of peaks and residuals.
+    pub sensitivities: Vec<SensitivityRow>,
+    /// Static and kinetic friction, together and apart.
+    pub friction_pairs: Vec<FrictionPair>,
+    /// Section 6 with friction lowered.
+    pub lighter: Vec<LighterFriction>,
+    /// Overturning ratios.
+    pub overturning: Vec<Overturning>,
+    /// The stepwise iteration against `δ` and step.
+    pub iterations: Vec<IterationCell>,
+    /// Sliding displacement against friction over the records.
+    pub suite: Vec<SuiteRow>,
+    /// Spectra of sliding structures for El Centro 1940.
+    pub spectra: Vec<SlidingSpectrum>,
+}
+
+impl Paper {
+    /// Number of claims with a verdict.
+    #[must_use]
+    pub fn count(&self, verdict: Verdict) -> usize {
+        self.claims.iter().filter(|claim| claim.verdict == verdict).count()
+    }
+
+    /// The claims whose name begins so.
+    pub fn claims_of<'a>(&'a self, ids: &'a [&'a str]) -> impl Iterator<Item = &'a Claim> {
+        self.claims.iter().filter(move |claim| ids.iter().any(|id| claim.id.starts_with(id)))
+    }
+}
+
+/// Why the paper could not be reproduced: a fault of the library's own texts, or of a solver.
+#[derive(Debug, thiserror::Error)]
+pub enum PaperError {
+    /// A model's text.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// A record's text.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// A record that is no motion, or a motion that cannot be made.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// A varied model.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// An analysis.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+    /// The callback that followed it stopped it.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
+    /// A mock-up or record that a claim needs.
+    #[error("expected {what} among the mock-ups and records of the paper, found none")]
+    Missing {
+        /// Its name.
+        what: String,
+    },
+}
+
+/// Runs everything; `progress` is told what comes next and answers whether to go on.
+///
+/// The same library and grid give the same bits.
+///
+/// # Errors
+/// [`PaperError`] for a library that lacks a mock-up or record, or an exact analysis that fails; a
+/// stepwise analysis that fails is a result. [`PaperError::Stopped`] where `progress` says so.
+pub fn reproduce(
+    library: &Library,
+    grid: Grid,
+    progress: &mut dyn FnMut(&'static str) -> ControlFlow<()>,
+) -> Result<Paper, PaperError> {
+    let mut next = |what| match progress(what) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(Stopped),
+    };
+    next("both solvers on every mock-up")?;
+    let (tests, drawn, mut claims) = experiments::run(library)?;
+    next("numbers of the text")?;
+    let (cantilevers, more) = numbers::run(library)?;
+    claims.extend(more);
+    next("the stepwise iteration")?;
+    let (iterations, more) = iteration::run(library, grid)?;
+    claims.extend(more);
+    next("storey displacement against amplitude")?;
+    let (displacements, more) = storey::run(library, grid)?;
+    claims.extend(more);
+    let (free_sliding, more) = resonance::run(library, grid)?;
+    claims.extend(more);
+    next("the amplification window")?;
+    let (windows, more) = window::run(library, grid)?;
+    claims.extend(more);
+    next("the offset")?;
+    let offset::Offsets { rows: offsets, step_drifts, start_phases, claims: more } =
+        offset::run(library, grid)?;
+    claims.extend(more);
+    next("sensitivities")?;
+    let (sensitivities, more) = sensitivity::run(library, grid)?;
+    claims.extend(more);
+    next("static and kinetic friction")?;
+    let friction::FrictionResults { pairs: friction_pairs, lighter, overturning, claims: more } =
+        friction::run(library, grid)?;
+    claims.extend(more);
+    next("records and spectra")?;
+    let (suite, spectra) = suite::run(library, grid)?;
+    claims.sort_by_key(|claim| section_order(claim.section));
+    Ok(Paper {
+        grid,
+        claims,
+        tests,
+        drawn,
+        cantilevers,
+        displacements,
+        free_sliding,
+        windows,
+        offsets,
+        step_drifts,
+        start_phases,
+        sensitivities,
+        friction_pairs,
+        lighter,
+        overturning,
+        iterations,
+        suite,
+        spectra,
+    })
+}
+
+/// Where in the paper a claim stands; of several places the first counts.
+fn section_order(section: &str) -> usize {
+    const ORDER: [&str; 12] =
+        ["abstract", "1", "2", "3", "3.1", "3.2.1", "3.2.2", "3.2.3", "3.2.4", "5", "6", "7.1"];
+    let first = section.split(',').next().unwrap_or_default();
+    ORDER
+        .iter()
+        .position(|known| *known == first)
+        .unwrap_or(ORDER.len() + usize::from(first == "8"))
+}

@@ -1,0 +1,161 @@
+//! The page that a design office prints: one file, no scripts, nothing from elsewhere.
+
+pub(crate) mod inputs;
+mod results;
+
+use slipstick::response::Warning;
+
+use crate::figures::{self, Drawn};
+use crate::markup::Markup;
+use crate::number::{compact, typeset};
+use crate::report::Report;
+use crate::summary::method_name;
+
+/// The whole page.
+pub fn page(report: &Report) -> String {
+    let summary = report.summary;
+    let mut body = Markup::new();
+    warnings(&mut body, report);
+    inputs::section(&mut body, report);
+    results::peaks(&mut body, report);
+    results::events(&mut body, report);
+    results::certificate(&mut body, report);
+    inputs::assumptions(&mut body, report);
+    figure_section(&mut body, &figures::all(report));
+    document(&Frame {
+        kind: "Sliding response analysis",
+        title_end: ": sliding response",
+        name: &summary.model,
+        line: &format!(
+            "Slipstick {}, {} method. {}",
+            summary.slipstick,
+            method_name(summary.method),
+            report.record
+        ),
+        version: summary.slipstick,
+        command_line: report.command_line,
+        body: &body,
+    })
+}
+
+/// What stands around the body of a page.
+pub(crate) struct Frame<'a> {
+    /// Above the name.
+    pub kind: &'static str,
+    /// After the name in the title of the window.
+    pub title_end: &'static str,
+    /// What the page is about.
+    pub name: &'a str,
+    /// Below the name.
+    pub line: &'a str,
+    /// Version of this program.
+    pub version: &'a str,
+    /// The command as it was typed.
+    pub command_line: &'a str,
+    /// All between header and footer.
+    pub body: &'a Markup,
+}
+
+/// A self-contained page.
+pub(crate) fn document(frame: &Frame) -> String {
+    let mut out = Markup::new();
+    out.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n")
+        .raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>")
+        .text(frame.name)
+        .raw(frame.title_end)
+        .raw("</title>\n<style>\n")
+        .raw(include_str!("html/style.css"));
+    page_margins(&mut out, frame);
+    out.raw("</style>\n</head>\n<body>\n<header>\n<p>")
+        .raw(frame.kind)
+        .raw("</p>\n")
+        .element("h1", frame.name)
+        .raw("\n<p>")
+        .text(frame.line)
+        .raw("</p>\n</header>\n<main>\n")
+        .append(frame.body)
+        .raw("</main>\n<footer>\n<p>")
+        .text(format!("Slipstick {}: ", frame.version))
+        .raw("<code>")
+        .text(frame.command_line)
+        .raw("</code></p>\n</footer>\n</body>\n</html>\n");
+    out.into_string()
+}
+
+/// Name above and version, command and page number below, on every printed page.
+fn page_margins(out: &mut Markup, frame: &Frame) {
+    out.raw("@page { size: A4; margin: 20mm 17mm 20mm 20mm;\n")
+        .raw("  font: 7.5pt Helvetica, Arial, \"Liberation Sans\", sans-serif; color: #444;\n")
+        .raw("  @top-left { content: ")
+        .css_string(frame.name, 90)
+        .raw("; }\n  @bottom-left { content: ")
+        .css_string(&format!("Slipstick {} · {}", frame.version, frame.command_line), 105)
+        .raw("; }\n  @bottom-right { content: counter(page) \" / \" counter(pages); }\n}\n");
+}
+
+fn warnings(out: &mut Markup, report: &Report) {
+    let all = report.summary.all_warnings();
+    warning_list(out, &all);
+}
+
+/// Warnings, each with the run it belongs to, or a line that says there are none.
+pub(crate) fn warning_list(out: &mut Markup, warnings: &[(Option<&'static str>, &Warning)]) {
+    if warnings.is_empty() {
+        out.raw("<p class=\"quiet\">No warnings.</p>\n");
+        return;
+    }
+    out.raw("<section class=\"warnings\">\n<h2>Warnings</h2>\n<ul>\n");
+    for (run, warning) in warnings {
+        out.raw("<li>").element("strong", warning.kind.replace('_', " "));
+        if let Some(name) = run {
+            out.text(format!(" ({name} friction)"));
+        }
+        if let Some(time_s) = warning.time_s {
+            out.text(format!(" at {} s", typeset(&compact(time_s))));
+        }
+        out.raw(": ").text(&warning.message).raw("</li>\n");
+    }
+    out.raw("</ul>\n</section>\n");
+}
+
+/// Numbered figures with their captions.
+pub(crate) fn figure_section(out: &mut Markup, figures: &[Drawn]) {
+    out.raw("<section class=\"figures\">\n<h2>Figures</h2>\n");
+    if figures.is_empty() {
+        out.raw("<p>No history was kept, so there is nothing to draw.</p>\n");
+    }
+    for (i, figure) in figures.iter().enumerate() {
+        out.raw("<figure").attribute("id", figure.id).raw(">\n").append(figure.svg.markup());
+        out.raw("<figcaption><strong>")
+            .text(format!("Figure {}.", i + 1))
+            .raw("</strong> ")
+            .text(&figure.caption)
+            .raw("</figcaption>\n</figure>\n");
+    }
+    out.raw("</section>\n");
+}
+
+/// Opens a table with a row of heads; those marked are over numbers.
+pub(crate) fn table_head(out: &mut Markup, heads: &[(String, bool)]) {
+    out.raw("<table>\n<thead><tr>");
+    for (head, number) in heads {
+        out.raw(if *number { "<th scope=\"col\" class=\"number\">" } else { "<th scope=\"col\">" })
+            .text(head)
+            .raw("</th>");
+    }
+    out.raw("</tr></thead>\n<tbody>\n");
+}
+
+/// A table of names and values.
+pub(crate) fn name_table(out: &mut Markup, caption: &str, rows: &[(&str, String)]) {
+    out.raw("<table>\n").element("caption", caption).raw("\n<tbody>\n");
+    for (name, value) in rows {
+        out.raw(if name.starts_with(' ') { "<tr class=\"sub\">" } else { "<tr>" })
+            .raw("<th scope=\"row\">")
+            .text(name.trim_start())
+            .raw("</th><td>")
+            .text(value.replace('-', "−"))
+            .raw("</td></tr>\n");
+    }
+    out.raw("</tbody>\n</table>\n");
+}

@@ -1,0 +1,221 @@
+//! One analysis in figures: what `--json` prints, the table shows and the report begins with.
+
+mod keys;
+mod warnings;
+
+use slipstick::assessment::single::{FloorSpectra, Job, Judged, Outcome};
+use slipstick::check::{Certificate, ClosestCall};
+use slipstick::model::Model;
+use slipstick::motion::{Figures, GroundMotion};
+use slipstick::response::{Demands, Iterations, Method, Response, Warning};
+
+/// What a [`Summary`] is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct SummaryInputs<'a> {
+    /// Name of the model, else the stem of its file.
+    pub name: &'a str,
+    /// The model that ran.
+    pub model: &'a Model,
+    /// The motion that it ran on.
+    pub motion: &'a GroundMotion,
+    /// Figures of that motion without its tail, in which a drift would go on.
+    pub record: Figures,
+    /// The answer.
+    pub response: &'a Response,
+    /// Its certificate.
+    pub certificate: &'a Certificate,
+    /// Factor on both coefficients of friction: 1 but for lower- and upper-bound runs.
+    pub friction_factor: f64,
+    /// What reading the model and the record gave notice of.
+    pub warnings: &'a [Warning],
+}
+
+/// Figures that certify a response, without the energy histories.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Checks {
+    /// Largest defect of the equations of motion.
+    pub equilibrium_residual: f64,
+    /// Largest excess over the friction law.
+    pub friction_excess: f64,
+    /// Largest imbalance of energy.
+    pub energy_balance_error: f64,
+    /// Largest difference of a demand from the one recomputed.
+    pub demands_error: f64,
+    /// The nearest decision; `None` where nothing was decided, and of the stepwise method.
+    pub closest_call: Option<ClosestCall>,
+    /// What the first four must stay below.
+    pub bound: f64,
+    /// Whether they do; `None` of the stepwise method, which is reported, never judged.
+    pub holds: Option<bool>,
+}
+
+/// Summaries of the runs with lower- and upper-bound friction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bounds {
+    /// With the lower coefficients.
+    pub lower: Summary,
+    /// With the upper ones.
+    pub upper: Summary,
+}
+
+/// One analysis in figures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    /// Version of Slipstick.
+    pub slipstick: &'static str,
+    /// Name of the model, else the stem of its file.
+    pub model: String,
+    /// How it was computed.
+    pub method: Method,
+    /// Rows of the history.
+    pub samples: usize,
+    /// Constant step of the motion in s, `None` where it is uneven.
+    pub dt_s: Option<f64>,
+    /// Time of the last instant, tail included, in s.
+    pub duration_s: f64,
+    /// Factor on both coefficients of friction.
+    pub friction_factor: f64,
+    /// Figures of the motion.
+    pub record: Figures,
+    /// Peaks, residuals and counts.
+    pub demands: Demands,
+    /// Intervals in which contact was lost, in s.
+    pub contact_loss_s: Vec<[f64; 2]>,
+    /// Iterations, of the stepwise method only.
+    pub iterations: Option<Iterations>,
+    /// The certificate's figures.
+    pub checks: Checks,
+    /// All that a reader must know, the gravest first.
+    pub warnings: Vec<Warning>,
+    /// The runs with lower- and upper-bound friction, where they were asked for.
+    pub bounds: Option<Box<Bounds>>,
+    /// Response spectra of table, block and floors, where they were asked for.
+    pub floor_spectra: Option<FloorSpectra>,
+}
+
+impl Summary {
+    /// Gathers the figures and the warnings: those given, the solver's, and those that follow from
+    /// the figures (`check_failed`, `gap_exceeded`, `close_call`), one a kind and time.
+    #[must_use]
+    pub fn new(inputs: &SummaryInputs) -> Self {
+        let SummaryInputs { name, motion, record, response, certificate, .. } = *inputs;
+        let exact = response.method == Method::Exact;
+        let history = response.history.as_ref().filter(|history| !history.is_empty());
+        Self {
+            slipstick: env!("CARGO_PKG_VERSION"),
+            model: name.to_owned(),
+            method: response.method,
+            samples: history.map_or(motion.len(), |history| history.rows.len()),
+            dt_s: motion.dt_s(),
+            duration_s: history
+                .and_then(|history| history.time_s.last().copied())
+                .unwrap_or_else(|| motion.duration_s()),
+            friction_factor: inputs.friction_factor,
+            record,
+            demands: response.demands.clone(),
+            contact_loss_s: response.contact_loss_s.clone(),
+            iterations: response.iterations,
+            checks: Checks {
+                equilibrium_residual: certificate.equilibrium_residual,
+                friction_excess: certificate.friction_excess,
+                energy_balance_error: certificate.energy_balance_error,
+                demands_error: certificate.demands_error,
+                closest_call: certificate.closest_call.filter(|_| exact),
+                bound: certificate.bound,
+                holds: exact.then(|| certificate.holds()),
+            },
+            warnings: warnings::assemble(inputs),
+            bounds: None,
+            floor_spectra: None,
+        }
+    }
+
+    /// The figures of all that came of a job; `record` is of its motion without the tail.
+    #[must_use]
+    pub fn of(name: &str, job: &Job, record: Figures, outcome: &Outcome) -> Self {
+        let one = |judged: &Judged| {
+            let summary = Self::new(&SummaryInputs {
+                name,
+                model: &judged.model,
+                motion: &job.motion,
+                record,
+                response: &judged.response,
+                certificate: &judged.certificate,
+                friction_factor: judged.friction_factor,
+                warnings: &job.warnings,
+            });
+            // The step is that of the record: a tail may start with a jump or end between two steps.
+            Self { dt_s: job.bare.dt_s(), ..summary }
+        };
+        let summary = one(&outcome.nominal);
+        let summary = match &outcome.bounds {
+            Some([lower, upper]) => summary.with_bounds(one(lower), one(upper)),
+            None => summary,
+        };
+        Self { floor_spectra: outcome.floor_spectra.clone(), ..summary }
+    }
+
+    /// The same with the runs with lower- and upper-bound friction beside it.
+    #[must_use]
+    pub fn with_bounds(mut self, lower: Self, upper: Self) -> Self {
+        self.bounds = Some(Box::new(Bounds { lower, upper }));
+        self
+    }
+
+    /// The same with the response spectra of table, block and floors.
+    #[must_use]
+    pub fn with_floor_spectra(mut self, spectra: FloorSpectra) -> Self {
+        self.floor_spectra = Some(spectra);
+        self
+    }
+
+    /// Whether an exact run, or one of its bounds, fails its check; a stepwise run never does.
+    #[must_use]
+    pub fn check_failed(&self) -> bool {
+        self.runs().iter().any(|(_, run)| run.checks.holds == Some(false))
+    }
+
+    /// All runs with their names, side by side: `nominal`, or `lower`, `nominal`, `upper`.
+    #[must_use]
+    pub fn runs(&self) -> Vec<(&'static str, &Self)> {
+        match &self.bounds {
+            None => vec![("nominal", self)],
+            Some(bounds) => {
+                vec![("lower", &bounds.lower), ("nominal", self), ("upper", &bounds.upper)]
+            }
+        }
+    }
+
+    /// The warnings of all runs: those of the nominal run first, with `None`; then those of the
+    /// bounds that it does not share, with the name of the run.
+    #[must_use]
+    pub fn all_warnings(&self) -> Vec<(Option<&'static str>, &Warning)> {
+        let mut all: Vec<_> = self.warnings.iter().map(|warning| (None, warning)).collect();
+        for (name, run) in self.runs().into_iter().filter(|(name, _)| *name != "nominal") {
+            let own = run.warnings.iter().filter(|warning| !self.warnings.contains(warning));
+            all.extend(own.map(|warning| (Some(name), warning)));
+        }
+        all
+    }
+
+    /// The `--json` object as text: two spaces of indentation, keys always in the same order,
+    /// numbers in shortest round-trip digits, finite or `null`.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        keys::object(self).to_pretty()
+    }
+}
+
+/// Whether a figure is above its bound; NaN is.
+pub(crate) fn exceeds(figure: f64, bound: f64) -> bool {
+    figure.is_nan() || figure > bound
+}
+
+/// The name that files and tables give a method.
+#[must_use]
+pub fn method_name(method: Method) -> &'static str {
+    match method {
+        Method::Exact => "exact",
+        Method::Stepwise => "stepwise",
+    }
+}
