@@ -10,6 +10,7 @@ mod open;
 mod part;
 mod parts;
 mod repeat;
+mod seal;
 mod shard;
 mod summary;
 
@@ -47,6 +48,20 @@ pub enum StudyError {
     )]
     Foreign {
         /// The part.
+        path: PathBuf,
+    },
+    /// A file that is not the part of its name.
+    #[error("{}: {reason}: run the study again with --resume, which replaces it", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A file under a name that the study does not give to any part.
+    #[error("{}: the study has no such part: remove it", path.display())]
+    Stray {
+        /// The file.
         path: PathBuf,
     },
     /// Folders that do not hold every run.

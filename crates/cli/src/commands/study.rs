@@ -93,6 +93,9 @@ fn run(args: &StudyArgs, study: &OpenStudy, shard: Shard, out: &Path) -> Result<
         }
         Err(error) => return Err(error.into()),
     };
+    for notice in &outcome.notices {
+        say(format_args!("warning: {notice}"));
+    }
     let summary = watched("summarising", args.quiet, || conclude(study, out))?;
     print(&table(&summary, args.display_units.into()))?;
     if !args.quiet {

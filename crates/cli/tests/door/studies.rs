@@ -251,6 +251,88 @@ fn exact_killed_study_is_resumed_to_the_same_bytes() {
     }
 }
 
+/// What a disk or a hand did to a part is found, said and run again, to the same bytes.
+#[test]
+fn exact_damaged_parts_are_run_again() {
+    let folder = folder("study-damaged");
+    folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
+    let (whole, summary) = (parts(&folder, "out"), folder.read("out/summary.csv"));
+    let manifest = folder.read("out/manifest.json");
+    let damaged = "out/part-00001.parquet";
+    let bytes = whole.get(&PathBuf::from("part-00001.parquet")).unwrap();
+    let length = bytes.len();
+    // A bit of the data, of the notes at the end, of the hash among them; a file cut off, one that
+    // is none, another part in its place.
+    let mut cases: Vec<Vec<u8>> =
+        (0..12).map(|k| flipped(bytes, (2 * k + 1) * length / 24)).collect();
+    cases.push(flipped(bytes, length - 20));
+    let key = bytes.windows(16).rposition(|window| window == b"slipstick.sha256").unwrap();
+    cases.push(flipped(bytes, key + 20));
+    cases.extend([bytes[..length / 2].to_vec(), Vec::new(), b"PAR1 no more".to_vec()]);
+    let other = whole.get(&PathBuf::from("part-00000.parquet")).unwrap().clone();
+    for (case, bytes) in cases.iter().chain([&other]).enumerate() {
+        folder.write(damaged, bytes);
+        let refused = folder.refused(&["study", "merge", "out", "--out", "all.parquet"]);
+        let reason = match case == cases.len() {
+            false => "damaged: its bytes are not those that were written",
+            true => "holds the runs 0 to 499, where 500 to 999 belong",
+        };
+        let mend = "run the study again with --resume, which replaces it";
+        assert_eq!(refused, format!("{damaged}: {reason}: {mend}"), "{case}");
+        let output = folder.output(&["study", "plan.toml", "--out", "out", "--resume"]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let said = format!("warning: {damaged}: {reason}; its runs are run again\n");
+        assert!(text(&output.stderr).contains(&said), "{case}: {}", text(&output.stderr));
+        assert_eq!(parts(&folder, "out"), whole, "{case}");
+        assert_eq!(folder.read("out/summary.csv"), summary, "{case}");
+        assert_eq!(folder.read("out/manifest.json"), manifest, "{case}");
+    }
+}
+
+/// A file that no part of the study is called is counted nowhere.
+#[test]
+fn exact_stray_parts_are_left_out() {
+    let folder = folder("study-stray");
+    folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
+    let summary = folder.read("out/summary.csv");
+    let part = std::fs::read(folder.path().join("out/part-00001.parquet")).unwrap();
+    for name in ["out/part-00003.parquet", "out/part-1.parquet"] {
+        folder.write(name, &part);
+        let refused = folder.refused(&["study", "merge", "out", "--out", "all.parquet"]);
+        assert_eq!(refused, format!("{name}: the study has no such part: remove it"));
+        let output = folder.output(&["study", "plan.toml", "--out", "out", "--resume"]);
+        let said =
+            format!("warning: {name}: the study has no such part; left out of the summary\n");
+        assert!(text(&output.stderr).contains(&said), "{}", text(&output.stderr));
+        assert_eq!(folder.read("out/summary.csv"), summary);
+        std::fs::remove_file(folder.path().join(name)).unwrap();
+    }
+}
+
+/// The manifest says which bytes each part has, as `sha256sum` does.
+#[test]
+fn exact_manifest_has_the_hash_of_every_part() {
+    let folder = folder("study-hashes");
+    folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
+    let manifest: serde_json::Value =
+        serde_json::from_str(&folder.read("out/manifest.json")).unwrap();
+    let listed = manifest["parts"].as_array().unwrap();
+    assert_eq!(listed.len(), 3);
+    for (index, part) in listed.iter().enumerate() {
+        let path = folder.path().join("out").join(part["path"].as_str().unwrap());
+        let hash = slipstick_files::sha256_hex(&std::fs::read(path).unwrap());
+        assert_eq!(part["sha256"], hash.as_str());
+        assert_eq!((&part["first_run"], &part["rows"]), (&(500 * index).into(), &500.into()));
+    }
+}
+
+/// Some bytes with one bit changed.
+fn flipped(bytes: &[u8], at: usize) -> Vec<u8> {
+    let mut bytes = bytes.to_vec();
+    bytes[at] ^= 4;
+    bytes
+}
+
 /// The printed line gives the row's demands, to the last bit.
 #[test]
 fn exact_repeat_reproduces_rows() {
@@ -410,9 +492,6 @@ fn exact_folders_with_files_need_a_word() {
     assert_eq!(first.len(), second.len());
     assert!(first.iter().all(|(name, bytes)| second[name] != *bytes));
     assert_eq!(folder.read("out/mine.txt"), "mine");
-    folder.write("out/part-00001.parquet", "PAR1 no more");
-    let refused = folder.refused(&["study", "plan.toml", "--out", "out", "--resume"]);
-    assert!(refused.contains("part-00001.parquet: expected a Parquet file"), "{refused}");
     folder.write("file", "");
     let refused = folder.refused(&["study", "plan.toml", "--out", "file"]);
     assert!(refused.contains("file: expected a folder to write to, found a file"), "{refused}");

@@ -9,7 +9,7 @@ use slipstick::table::Cells;
 use slipstick_report::json::Json;
 
 use super::part::{self, Checks, Notes, PartFile};
-use super::parts::{MANIFEST, SUMMARY, parts, refuse_foreign};
+use super::parts::{Found, MANIFEST, SUMMARY, find};
 use super::summary;
 use super::{OpenStudy, StudyError};
 use crate::error::FileError;
@@ -28,14 +28,14 @@ pub struct Merged {
 }
 
 /// Writes `manifest.json` and `summary.csv` of the parts in a folder and gives the summary; the
-/// threads are those of the pool that it is called in.
+/// threads are those of the pool that it is called in. Parts that are damaged are left out.
 ///
 /// # Errors
-/// [`StudyError`] for parts that are damaged or belong to another study, and files that cannot be
-/// written.
+/// [`StudyError`] for parts that belong to another study, and files that cannot be written.
 pub fn conclude(study: &OpenStudy, folder: &Path) -> Result<StudySummary, StudyError> {
-    let files = parts(folder)?;
-    refuse_foreign(&files, &study.id)?;
+    let found = find(folder)?;
+    found.refuse_foreign(&study.id)?;
+    let files = found.whole;
     let summary = summary::of(study, &files, &Engine::unwatched())?;
     summary::write(&folder.join(SUMMARY), &summary)?;
     write_whole(&folder.join(MANIFEST), manifest(study, &files).to_pretty().as_bytes())?;
@@ -73,6 +73,18 @@ fn manifest(study: &OpenStudy, files: &[PartFile]) -> Json {
         ("complete", (total.rows == study.study.runs()).into()),
         ("failures", total.failures.into()),
         ("checks", checks(&total.checks)),
+        ("parts", Json::List(files.iter().map(part_of_manifest).collect())),
+    ])
+}
+
+/// A part by its name, its runs and the hash of its file.
+fn part_of_manifest(file: &PartFile) -> Json {
+    let name = file.table.path.file_name().map_or_else(Default::default, |n| n.to_string_lossy());
+    Json::Object(vec![
+        ("path", (&*name).into()),
+        ("first_run", file.notes.first.into()),
+        ("rows", file.notes.rows.into()),
+        ("sha256", file.sha256.as_str().into()),
     ])
 }
 
@@ -101,25 +113,28 @@ fn totals(files: &[PartFile]) -> Merged {
 /// The bytes of the file follow from the rows alone. A part that is in two folders counts once.
 ///
 /// # Errors
-/// [`StudyError::Foreign`] for parts of different studies, [`StudyError::Incomplete`] where runs
-/// are missing, [`FileError`] for files that cannot be read or written.
+/// [`StudyError::Foreign`] for parts of different studies, [`StudyError::Damaged`] and
+/// [`StudyError::Stray`] for files that are not the parts of their names,
+/// [`StudyError::Incomplete`] where runs are missing, [`FileError`] for files that cannot be read or written.
 pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, StudyError> {
-    let mut files: Vec<PartFile> = Vec::new();
+    let mut all = Found::default();
     for folder in folders {
-        for file in parts(folder)? {
-            if !files.iter().any(|known| known.notes.first == file.notes.first) {
-                files.push(file);
-            }
-        }
+        let found = find(folder)?;
+        found.refuse_damaged()?;
+        all.whole.extend(found.whole);
     }
-    files.sort_by_key(|file| file.notes.first);
+    all.whole.sort_by_key(|file| file.notes.first);
+    if let Some(first) = all.whole.first() {
+        all.refuse_foreign(&first.notes.id)?;
+    }
+    let mut files = all.whole;
+    files.dedup_by_key(|file| file.notes.first);
     let named = folders.iter().map(|f| f.display().to_string()).collect::<Vec<_>>().join(", ");
     let Some(first) = files.first().cloned() else {
         let reason = "it holds no parts of a study".to_owned();
         let path = folders.first().cloned().unwrap_or_default();
         return Err(FileError::Table { path, reason }.into());
     };
-    refuse_foreign(&files, &first.notes.id)?;
     let runs = first.notes.runs;
     let mut next = 0;
     for file in &files {

@@ -1,13 +1,16 @@
 //! A part of a study: so many rows in one Parquet file.
 
 use std::io::Write;
+use std::ops::Range;
 
 use slipstick::study::Verdict;
-use slipstick::table::Field;
+use slipstick::table::{Cells, Field};
 
 use crate::error::FileError;
 use crate::parquet::{Table, TableWriter};
 use ::parquet::errors::ParquetError;
+
+use super::seal::{SEAL_KEY, blank, seal};
 
 /// Parts that a study is cut into, where their size allows.
 const PARTS: u64 = 128;
@@ -30,6 +33,12 @@ pub(super) fn part_count(runs: u64) -> u64 {
 /// Name of a part's file.
 pub(super) fn part_name(part: u64) -> String {
     format!("part-{part:05}.parquet")
+}
+
+/// The runs of a part.
+pub(super) fn rows_of(part: u64, runs: u64) -> Range<u64> {
+    let size = part_rows(runs);
+    part * size..((part + 1) * size).min(runs)
 }
 
 /// The part of a file's name.
@@ -146,9 +155,26 @@ pub(super) fn table<W: Write + Send>(
     TableWriter::new(to, fields, &notes.to_pairs())
 }
 
+/// The bytes of a part, with the hash of all of them.
+pub(super) fn sealed(
+    fields: &[Field],
+    notes: &Notes,
+    cells: &[Cells],
+) -> Result<Vec<u8>, ParquetError> {
+    let mut pairs = notes.to_pairs();
+    pairs.push((SEAL_KEY, blank()));
+    let mut table = TableWriter::new(Vec::new(), fields, &pairs)?;
+    table.row_group(cells)?;
+    let mut bytes = table.finish()?;
+    seal(&mut bytes);
+    Ok(bytes)
+}
+
 /// A file of a study that is known by its notes.
 #[derive(Clone, Debug)]
 pub(super) struct PartFile {
     pub table: Table,
     pub notes: Notes,
+    /// SHA-256 of the file.
+    pub sha256: String,
 }

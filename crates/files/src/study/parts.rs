@@ -1,12 +1,17 @@
 //! The files of a study in a folder.
 
 use std::fs;
-use std::path::Path;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use slipstick::study::engine::Engine;
 
 use super::StudyError;
-use super::part::{Notes, PartFile, part_of_name};
+use super::part::{Notes, PartFile, part_count, part_name, part_of_name, rows_of};
+use super::seal::is_sealed;
 use crate::error::FileError;
 use crate::parquet::Table;
+use crate::read::{read_bytes, sha256_hex};
 
 /// What a study writes besides its parts.
 pub(super) const MANIFEST: &str = "manifest.json";
@@ -82,26 +87,86 @@ pub(super) fn remove_leftovers(
     Ok(())
 }
 
-/// The parts in a folder, in order of their runs.
-///
-/// # Errors
-/// [`FileError::Table`] for a part that is damaged.
-pub(super) fn parts(folder: &Path) -> Result<Vec<PartFile>, FileError> {
-    let mut parts = Vec::new();
-    for name in names(folder)?.into_iter().filter(|name| part_of_name(name).is_some()) {
-        let table = Table::of(&folder.join(name))?;
-        parts.push(PartFile { notes: Notes::of(&table)?, table });
-    }
-    parts.sort_by_key(|part| part.notes.first);
-    Ok(parts)
+/// What stands under the names of parts in a folder.
+#[derive(Debug, Default)]
+pub(super) struct Found {
+    /// The parts, in order of their runs.
+    pub whole: Vec<PartFile>,
+    /// Files that are not what they were written as, or hold other runs than their names say.
+    pub damaged: Vec<Damaged>,
+    /// Files under names that the study does not give.
+    pub strays: Vec<PathBuf>,
 }
 
-/// Refuses parts of another study.
-pub(super) fn refuse_foreign(parts: &[PartFile], id: &str) -> Result<(), StudyError> {
-    match parts.iter().find(|part| part.notes.id != id) {
-        Some(part) => Err(StudyError::Foreign { path: part.table.path.clone() }),
-        None => Ok(()),
+/// A file that is not the part of its name.
+#[derive(Debug)]
+pub(super) struct Damaged {
+    pub path: PathBuf,
+    pub part: u64,
+    pub reason: String,
+}
+
+impl Found {
+    /// Refuses parts of another study.
+    pub fn refuse_foreign(&self, id: &str) -> Result<(), StudyError> {
+        match self.whole.iter().find(|part| part.notes.id != id) {
+            Some(part) => Err(StudyError::Foreign { path: part.table.path.clone() }),
+            None => Ok(()),
+        }
     }
+
+    /// Refuses what is not the part of its name.
+    pub fn refuse_damaged(&self) -> Result<(), StudyError> {
+        if let Some(Damaged { path, reason, .. }) = self.damaged.first() {
+            return Err(StudyError::Damaged { path: path.clone(), reason: reason.clone() });
+        }
+        match self.strays.first() {
+            Some(path) => Err(StudyError::Stray { path: path.clone() }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Judges every file under a part's name: its hash, and the runs that it holds.
+///
+/// # Errors
+/// [`FileError::Read`].
+pub(super) fn find(folder: &Path) -> Result<Found, FileError> {
+    let names = names(folder)?.into_iter();
+    let named: Vec<_> = names.filter_map(|name| Some((part_of_name(&name)?, name))).collect();
+    let judge = |i: usize| Ok(judge(&folder.join(&named[i].1), named[i].0));
+    // Nothing stops an engine that nobody follows.
+    let judged = Engine::unwatched().map(named.len(), judge).unwrap_or_default();
+    let mut found = Found::default();
+    for ((part, name), judged) in named.into_iter().zip(judged) {
+        let path = folder.join(&name);
+        match judged? {
+            _ if name != part_name(part) => found.strays.push(path),
+            Ok(file) if part >= part_count(file.notes.runs) => found.strays.push(path),
+            Ok(file) => found.whole.push(file),
+            Err(reason) => found.damaged.push(Damaged { path, part, reason }),
+        }
+    }
+    found.whole.sort_by_key(|part| part.notes.first);
+    Ok(found)
+}
+
+/// The part in a file, or why it is none.
+fn judge(path: &Path, part: u64) -> Result<Result<PartFile, String>, FileError> {
+    let bytes = read_bytes(path)?;
+    let sha256 = sha256_hex(&bytes);
+    if !is_sealed(bytes) {
+        return Ok(Err("damaged: its bytes are not those that were written".to_owned()));
+    }
+    let table = Table::of(path)?;
+    let notes = Notes::of(&table)?;
+    let (held, own) = (notes.first..notes.first + notes.rows, rows_of(part, notes.runs));
+    if part < part_count(notes.runs) && held != own {
+        let range = |runs: &Range<u64>| format!("{} to {}", runs.start, runs.end.saturating_sub(1));
+        let (held, own) = (range(&held), range(&own));
+        return Ok(Err(format!("holds the runs {held}, where {own} belong")));
+    }
+    Ok(Ok(PartFile { table, notes, sha256 }))
 }
 
 #[cfg(test)]

@@ -8,8 +8,8 @@ use slipstick::error::Stopped;
 use slipstick::study::engine::Engine;
 use slipstick::study::{Row, Verdict};
 
-use super::part::{self, Checks, Notes, part_count, part_name, part_rows};
-use super::parts::{parts, refuse_foreign, remove_leftovers};
+use super::part::{self, Checks, Notes, part_count, part_name, rows_of};
+use super::parts::{Damaged, Found, find, remove_leftovers};
 use super::{OpenStudy, StudyError};
 use crate::parquet::at;
 use crate::write::{OutputFolder, write_whole};
@@ -50,7 +50,7 @@ impl Shard {
 }
 
 /// What a shard came to.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShardOutcome {
     /// Runs of the shard.
     pub runs: u64,
@@ -60,6 +60,8 @@ pub struct ShardOutcome {
     pub failures: u64,
     /// What came of running some again.
     pub checks: Checks,
+    /// One sentence for each file that stood under a part's name and was not that part.
+    pub notices: Vec<String>,
 }
 
 /// Runs what a folder lacks of a shard's parts.
@@ -72,7 +74,7 @@ pub struct ShardOutcome {
 /// # Errors
 /// [`StudyError`] for inputs that cannot be used, a folder that cannot be written or that holds
 /// parts of another study, a run that fails its check, and where the engine is stopped. A run that
-/// cannot be solved is a row.
+/// cannot be solved is a row; a part that is damaged is run again.
 pub fn run_shard(
     plan: &Path,
     shard: Shard,
@@ -97,14 +99,17 @@ impl OpenStudy {
         let runs = self.study.runs();
         let wanted = shard.parts(part_count(runs));
         remove_leftovers(folder, &wanted)?;
-        let present = parts(folder)?;
-        refuse_foreign(&present, &self.id)?;
-        let mut outcome = ShardOutcome::default();
+        let found = find(folder)?;
+        found.refuse_foreign(&self.id)?;
+        let mut outcome = ShardOutcome {
+            notices: notices(&found, &wanted, part_count(runs)),
+            ..Default::default()
+        };
         let mut to_do = Vec::new();
         for part in wanted {
             let rows = rows_of(part, runs);
             outcome.runs += rows.end - rows.start;
-            match present.iter().find(|file| file.table.path.ends_with(part_name(part))) {
+            match found.whole.iter().find(|file| file.notes.first == rows.start) {
                 Some(file) => {
                     outcome.kept += file.notes.rows;
                     outcome.failures += file.notes.failures;
@@ -160,12 +165,8 @@ impl OpenStudy {
             checks: self.check(rows, engine)?,
         };
         let path = folder.join(part_name(part));
-        let bytes = || {
-            let mut table = part::table(Vec::new(), &self.study.fields(), &notes)?;
-            table.row_group(&self.study.cells(rows))?;
-            table.finish()
-        };
-        write_whole(&path, &bytes().map_err(at(&path))?)?;
+        let bytes = part::sealed(&self.study.fields(), &notes, &self.study.cells(rows));
+        write_whole(&path, &bytes.map_err(at(&path))?)?;
         Ok(notes)
     }
 
@@ -188,6 +189,22 @@ impl OpenStudy {
     }
 }
 
+/// What becomes of files that are not the parts of their names.
+fn notices(found: &Found, wanted: &Range<u64>, count: u64) -> Vec<String> {
+    let stray = |path: &Path| {
+        format!("{}: the study has no such part; left out of the summary", path.display())
+    };
+    let damaged = found.damaged.iter().map(|Damaged { path, part, reason }| {
+        let what = match wanted.contains(part) {
+            true => "its runs are run again",
+            false if *part >= count => return stray(path),
+            false => "left out of the summary until its shard is run again",
+        };
+        format!("{}: {reason}; {what}", path.display())
+    });
+    damaged.chain(found.strays.iter().map(|path| stray(path))).collect()
+}
+
 fn what_failed(verdict: &Verdict) -> String {
     if !verdict.same {
         return "run again alone it came out differently".to_owned();
@@ -200,12 +217,6 @@ fn what_failed(verdict: &Verdict) -> String {
         verdict.energy_balance_error,
         verdict.demands_error
     )
-}
-
-/// The runs of a part.
-pub(super) fn rows_of(part: u64, runs: u64) -> Range<u64> {
-    let size = part_rows(runs);
-    part * size..((part + 1) * size).min(runs)
 }
 
 /// Time that a shard may take in the pool that this is called in, from runs spread over it that are
