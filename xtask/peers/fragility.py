@@ -232,6 +232,125 @@ def clouds():
     return cases
 
 
+def delta(curve, parameters, covariance):
+    """Standard errors of what follows from the parameters, by derivatives in complex steps."""
+    k = len(parameters)
+    steps = [curve([q + (1e-30j if i == j else 0) for j, q in enumerate(parameters)]) for i in range(k)]
+    to = np.array([[value.imag / 1e-30 for value in row] for row in steps]).T
+    return np.sqrt(np.diag(to @ covariance @ to.T))
+
+
+def with_t(case, median, dispersion, errors, groups):
+    """Intervals as statsmodels gives them with use_t: Student's t on the number of groups less one."""
+    t = stats.t.ppf(0.5 + CONFIDENCE / 2, groups - 1)
+    case |= {"median": median, "dispersion": dispersion, "se_ln_median": errors[0], "se_dispersion": errors[1],
+             "median_interval": [median * np.exp(s * t * errors[0]) for s in (-1, 1)],
+             "dispersion_interval": [dispersion * np.exp(s * t * errors[1] / dispersion) for s in (-1, 1)]}
+    return case
+
+
+def clustered_stripes():
+    """Records times designs times levels, a term of each record in common: Probit clustered by record."""
+    cases = []
+    for name, records, designs, levels, seed in [("suite", 20, 50, 10, 11), ("small", 6, 4, 5, 12)]:
+        rng = np.random.default_rng(seed)
+        x = np.round(np.linspace(0.1, 1.0, levels), 4)
+        of_record = 0.35 * rng.standard_normal(records)
+        rows, group, ln_x, beyond = [], [], [], []
+        for r in range(records):
+            for level in x:
+                own = of_record[r] + 0.25 * rng.standard_normal(designs)
+                exceeds = (np.log(level / 0.45) + own > 0).astype(int)
+                rows.append([r, level, designs, int(exceeds.sum())])
+                group += [r] * designs
+                ln_x += [np.log(level)] * designs
+                beyond += exceeds.tolist()
+        model = sm.Probit(np.array(beyond), sm.add_constant(np.array(ln_x)))
+        start = model.fit(disp=0, tol=1e-15, maxiter=200, method="newton").params
+        fit = model.fit(start_params=start, disp=0, tol=1e-15, maxiter=200, method="newton",
+                        cov_type="cluster", cov_kwds={"groups": np.array(group)}, use_t=True)
+        a, b = fit.params
+        errors = delta(lambda p: [-p[0] / p[1], 1 / p[1]], fit.params, fit.cov_params())
+        # What the same fit says where runs are taken as independent.
+        naive = delta(lambda p: [-p[0] / p[1], 1 / p[1]], fit.params, np.linalg.inv(-model.hessian(fit.params)))
+        # The bounds of the linear predictor at three levels, by statsmodels' own t.
+        at = np.array([0.5 * x[0], x[levels // 2], 1.3 * x[-1]])
+        form = np.column_stack([np.ones(3), np.log(at)])
+        ends = special.ndtr(fit.t_test(form).conf_int(1 - CONFIDENCE))
+        case = {"name": name, "rows": rows, "naive_se_ln_median": naive[0], "log_likelihood": fit.llf,
+                "band": [[s, *pair] for s, pair in zip(at, ends)]}
+        cases.append(with_t(case, float(np.exp(-a / b)), 1 / b, errors, records))
+    return cases
+
+
+def sandwich(scores, hessian, group, k):
+    """Cluster-robust covariance with the correction of statsmodels' cov_cluster."""
+    groups = np.unique(group)
+    summed = np.array([scores[group == g].sum(axis=0) for g in groups])
+    n, count = len(group), len(groups)
+    bread = np.linalg.inv(-hessian)
+    return count / (count - 1) * (n - 1) / (n - k) * bread @ (summed.T @ summed) @ bread
+
+
+def clustered_likelihood(of_each, start, group):
+    """Maximum and cluster-robust covariance of a likelihood given observation by observation."""
+    total = lambda p: float(np.sum(of_each(p)))
+    p, covariance, _ = polished(total, start)
+    k = len(p)
+    scores = np.empty((len(group), k))
+    for i in range(k):
+        def central(h):
+            e = np.zeros(k)
+            e[i] = h
+            return (of_each(p + e) - of_each(p - e)) / (2 * h)
+        h = 2e-3 * max(1.0, abs(p[i]))
+        d = [central(h / 2**j) for j in range(4)]
+        for m in range(1, 4):
+            d = [(4**m * d[j + 1] - d[j]) / (4**m - 1) for j in range(len(d) - 1)]
+        scores[:, i] = d[0]
+    return p, sandwich(scores, -np.linalg.inv(covariance), group, k)
+
+
+def clustered_capacities():
+    """Twelve records with four designs each, some known from below only."""
+    rng = np.random.default_rng(13)
+    group = np.repeat(np.arange(12), 4)
+    level = np.round(np.exp(np.log(0.5) + 0.3 * rng.standard_normal(12)[group] + 0.15 * rng.standard_normal(48)), 4)
+    reached = level < 0.8
+    level = np.where(reached, level, 0.8)
+    y = np.log(level)
+
+    def of_each(p):
+        z = (y - p[0]) / p[1]
+        return np.where(reached, stats.norm.logpdf(z) - np.log(p[1]), special.log_ndtr(-z))
+
+    p, v = clustered_likelihood(of_each, [y.mean(), y.std()], group)
+    case = {"levels": level.tolist(), "reached": reached.tolist(), "records": group.tolist()}
+    return with_t(case, float(np.exp(p[0])), float(p[1]), np.sqrt(np.diag(v)), 12)
+
+
+def clustered_cloud():
+    """Ten records with six runs each."""
+    rng = np.random.default_rng(14)
+    group = np.repeat(np.arange(10), 6)
+    x = np.round(np.exp(np.log(0.4) + 0.6 * rng.standard_normal(60)), 4)
+    d = np.round(np.exp(np.log(0.12) + 1.7 * np.log(x / 0.4) + 0.4 * rng.standard_normal(10)[group]
+                        + 0.2 * rng.standard_normal(60)), 5)
+    lx, ly, ln_limit = np.log(x), np.log(d), np.log(0.15)
+
+    def of_each(p):
+        return stats.norm.logpdf((ly - p[0] - p[1] * lx) / p[2]) - np.log(p[2])
+
+    ols = sm.OLS(ly, sm.add_constant(lx)).fit()
+    p, v = clustered_likelihood(of_each, [*ols.params, np.sqrt(ols.scale)], group)
+    # The line's own covariance is that of statsmodels but for the count of parameters.
+    robust = sm.OLS(ly, sm.add_constant(lx)).fit(cov_type="cluster", cov_kwds={"groups": group})
+    assert np.allclose(v[:2, :2] * (60 - 3) / (60 - 2), robust.cov_params(), rtol=1e-6)
+    errors = delta(lambda p: [(ln_limit - p[0]) / p[1], p[2] / p[1]], p, v)
+    case = {"levels": x.tolist(), "demands": d.tolist(), "records": group.tolist(), "limit": 0.15}
+    return with_t(case, float(np.exp((ln_limit - p[0]) / p[1])), float(p[2] / p[1]), errors, 10)
+
+
 json.dump({
     "origin": f"xtask/peers/fragility.py with numpy {np.__version__}, scipy {scipy.__version__}, "
               f"statsmodels {statsmodels.__version__}",
@@ -241,5 +360,6 @@ json.dump({
     "stripes": stripes(),
     "capacities": capacities(),
     "clouds": clouds(),
+    "clustered": {"stripes": clustered_stripes(), "capacities": clustered_capacities(), "cloud": clustered_cloud()},
 }, sys.stdout, indent=1, default=float)
 print()

@@ -141,8 +141,11 @@ impl Fit {
 
     /// Estimates of `[δ, γ, h]`.
     pub(crate) fn parameters(&self) -> Parameters {
+        self.unscaled(self.estimate)
+    }
+
+    fn unscaled(&self, [delta, gamma, h]: Parameters) -> Parameters {
         let Scaling { x, y } = self.scaling;
-        let [delta, gamma, h] = self.estimate;
         let (gamma, h) = (gamma / x[1], h / y[1]);
         [delta + h * y[0] - gamma * x[0], gamma, h]
     }
@@ -159,6 +162,76 @@ impl Fit {
         let variance: f64 =
             (0..3).map(|i| (0..3).map(|j| c[i] * self.covariance[i][j] * c[j]).sum::<f64>()).sum();
         variance.max(0.0).sqrt()
+    }
+
+    /// Number of observations, equal ones counted once.
+    pub(crate) fn observations(&self) -> usize {
+        self.data.len()
+    }
+
+    /// Number of observations, equal ones counted each.
+    pub(crate) fn weight(&self) -> f64 {
+        self.data.iter().map(|o| o.weight).sum()
+    }
+
+    /// Replaces the covariance by that which is robust to dependence within clusters, one number for
+    /// each observation as given to [`Fit::new`]:
+    ///
+    /// ```text
+    /// V = G/(G − 1) · (n − 1)/(n − k) · A⁻¹ (Σ_g s_g s_gᵀ) A⁻¹
+    /// ```
+    ///
+    /// with the observed information `A`, the score `s_g` of a cluster, `G` clusters, `n`
+    /// observations and `k` parameters (K.-Y. Liang and S. L. Zeger, *Biometrika* 73, 1986).
+    pub(crate) fn cluster(&mut self, clusters: &[usize]) {
+        let count = clusters.iter().max().map_or(0, |last| last + 1);
+        let mut scores = vec![[0.0; 3]; count];
+        for (o, &cluster) in self.data.iter().zip(clusters) {
+            let (gradient, _) = slopes(core::slice::from_ref(o), self.estimate);
+            for i in 0..3 {
+                scores[cluster][i] += gradient[i];
+            }
+        }
+        let n = self.weight();
+        let k = if self.slope { 3.0 } else { 2.0 };
+        let groups = count as f64;
+        let correction = groups / (groups - 1.0) * (n - 1.0) / (n - k);
+        let a = self.covariance;
+        let mut v = [[0.0; 3]; 3];
+        for score in &scores {
+            let step = a.map(|row| row.iter().zip(score).map(|(a, s)| a * s).sum::<f64>());
+            for i in 0..3 {
+                for j in 0..3 {
+                    v[i][j] += correction * step[i] * step[j];
+                }
+            }
+        }
+        self.covariance = v;
+    }
+
+    /// Estimates of `[δ, γ, h]` from the same observations in other numbers: each counted `times` as
+    /// often, by its index.
+    pub(crate) fn resampled(&self, times: impl Fn(usize) -> u32) -> Result<Parameters, FitError> {
+        let counted = |(i, o): (usize, &Observation)| {
+            let times = times(i);
+            (times > 0).then(|| Observation { weight: o.weight * f64::from(times), ..*o })
+        };
+        let data: Vec<Observation> = self.data.iter().enumerate().filter_map(counted).collect();
+        if data.iter().all(|o| o.known != Known::Exactly) {
+            // Without an overlap the likelihood has no maximum.
+            let ends = |known: Known, from: f64, better: fn(f64, f64) -> f64| {
+                let of = data.iter().filter(|o| o.known == known).map(|o| o.y);
+                of.fold(from, better)
+            };
+            let first_beyond = ends(Known::AtMost, f64::INFINITY, f64::min);
+            let last_within = ends(Known::AtLeast, f64::NEG_INFINITY, f64::max);
+            if first_beyond >= last_within {
+                return Err(FitError::NoMaximum);
+            }
+        }
+        let free: &[Parameters] = if self.slope { &AXES } else { &[AXES[0], AXES[2]] };
+        let found = maximise(&data, self.estimate, free)?;
+        Ok(self.unscaled(found.at))
     }
 
     /// Where `2 (ln L_max − ln L)` of the best fit under the condition `form(v)·[δ, γ, h] = rhs(v)`

@@ -13,10 +13,18 @@
 //! - a cloud: `ln D = a + b ln x + σ ε`, demands below a floor or above a cap known only as such; then
 //!   `ln θ = (ln L − a)/b` and `β = σ/b` (F. Jalayer and C. A. Cornell, 2003, with Tobin's
 //!   likelihood).
+//!
+//! Runs of one record are not independent of each other: a record that asks much does so at every
+//! level and of every design. Where records have several observations, standard errors and intervals
+//! are clustered by record ([`Certainty`]).
 
 use super::censored::{Fit, Known, Observation, Parameters};
 use crate::error::FitError;
-use crate::numerics::distribution::{chi_squared_tail, normal_cdf, normal_quantile};
+use crate::numerics::distribution::{
+    chi_squared_tail, normal_cdf, normal_quantile, student_quantile,
+};
+use crate::numerics::fractile::{fractile, sorted};
+use crate::numerics::random::Random;
 
 /// A lognormal curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,6 +103,31 @@ pub struct Fragility {
     curve: Lognormal,
     fit: Fit,
     kind: Kind,
+    /// The record of each observation of the fit, numbered from 0; empty where all are independent.
+    records: Vec<usize>,
+    certainty: Certainty,
+}
+
+/// What standard errors, intervals and band follow from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Certainty {
+    /// Independent observations: the observed information and the profile likelihood.
+    Independent,
+    /// Observations of one record depend on each other: the sandwich of scores summed by record, with
+    /// Student's distribution on `records − 1` degrees of freedom.
+    Clustered {
+        /// Number of records.
+        records: usize,
+    },
+    /// Fits to records drawn with replacement: fractiles of their curves.
+    Bootstrap {
+        /// Number of records.
+        records: usize,
+        /// The curves of the draws that could be fitted.
+        curves: Vec<Lognormal>,
+        /// Number of draws without a fit, which are left out.
+        failed: usize,
+    },
 }
 
 /// How `θ` and `β` follow from the parameters `δ, γ, h` of the fit.
@@ -114,8 +147,18 @@ impl Fragility {
     /// cannot tell a curve: none or all exceed, one level only, the two separated, or a share that
     /// falls with intensity.
     pub fn of_stripes(stripes: &[Stripe]) -> Result<Self, FitError> {
+        Self::of_stripes_by_record(stripes, &[])
+    }
+
+    /// The same with the record of each stripe, by which its certainty is clustered; records are
+    /// numbers from 0, none left out.
+    ///
+    /// # Errors
+    /// As [`Fragility::of_stripes`], and [`FitError::TooFew`] for a single record.
+    pub fn of_stripes_by_record(stripes: &[Stripe], records: &[usize]) -> Result<Self, FitError> {
         let mut data = Vec::new();
-        for stripe in stripes {
+        let mut clusters = Vec::new();
+        for (i, stripe) in stripes.iter().enumerate() {
             let y = libm::log(positive("level", stripe.level)?);
             if stripe.runs == 0 || stripe.exceeded > stripe.runs {
                 return Err(FitError::OutOfRange {
@@ -126,18 +169,16 @@ impl Fragility {
             }
             let counts =
                 [(Known::AtMost, stripe.exceeded), (Known::AtLeast, stripe.runs - stripe.exceeded)];
-            data.extend(
-                counts
-                    .into_iter()
-                    .filter(|(_, count)| *count > 0)
-                    .map(|(known, count)| Observation { x: 0.0, y, known, weight: count as f64 }),
-            );
+            for (known, count) in counts.into_iter().filter(|(_, count)| *count > 0) {
+                data.push(Observation { x: 0.0, y, known, weight: count as f64 });
+                clusters.extend(records.get(i));
+            }
         }
         if data.is_empty() {
             return Err(FitError::TooFew { what: "stripes", expected: 2, found: 0 });
         }
         refuse_separated(stripes)?;
-        Self::of_capacity_fit(Fit::new(&data, false)?)
+        Self::of_capacity_fit(Fit::new(&data, false)?, clusters)
     }
 
     /// From capacities, those not reached being known only from below.
@@ -146,6 +187,17 @@ impl Fragility {
     /// [`FitError`] for fewer than two capacities that are reached, for levels that are not > 0, and
     /// where the values do not scatter.
     pub fn of_capacities(capacities: &[Capacity]) -> Result<Self, FitError> {
+        Self::of_capacities_by_record(capacities, &[])
+    }
+
+    /// The same with the record of each capacity, as in [`Fragility::of_stripes_by_record`].
+    ///
+    /// # Errors
+    /// As [`Fragility::of_capacities`], and [`FitError::TooFew`] for a single record.
+    pub fn of_capacities_by_record(
+        capacities: &[Capacity],
+        records: &[usize],
+    ) -> Result<Self, FitError> {
         let mut data = Vec::with_capacity(capacities.len());
         for capacity in capacities {
             let y = libm::log(positive("capacity", capacity.level)?);
@@ -161,7 +213,7 @@ impl Fragility {
             let what = "capacities that are reached";
             return Err(FitError::TooFew { what, expected: 2, found: reached });
         }
-        Self::of_capacity_fit(Fit::new(&data, false)?)
+        Self::of_capacity_fit(Fit::new(&data, false)?, records.to_vec())
     }
 
     /// From a cloud of intensities and demands, for a limit on the demand in its unit.
@@ -170,6 +222,18 @@ impl Fragility {
     /// [`FitError`] for fewer than three demands that are known, for values that are not > 0, for a
     /// single intensity, for points on a line, and for demands that do not grow with intensity.
     pub fn of_cloud(points: &[CloudPoint], limit: f64) -> Result<Self, FitError> {
+        Self::of_cloud_by_record(points, limit, &[])
+    }
+
+    /// The same with the record of each point, as in [`Fragility::of_stripes_by_record`].
+    ///
+    /// # Errors
+    /// As [`Fragility::of_cloud`], and [`FitError::TooFew`] for a single record.
+    pub fn of_cloud_by_record(
+        points: &[CloudPoint],
+        limit: f64,
+        records: &[usize],
+    ) -> Result<Self, FitError> {
         let ln_limit = libm::log(positive("limit", limit)?);
         let mut data = Vec::with_capacity(points.len());
         for point in points {
@@ -185,23 +249,72 @@ impl Fragility {
         if points.iter().all(|point| point.level == points[0].level) {
             return Err(FitError::OneLevel { level: points[0].level });
         }
-        let fit = Fit::new(&data, true)?;
-        let [delta, gamma, h] = fit.parameters();
-        let median = libm::exp((h * ln_limit - delta) / gamma);
-        let curve = Lognormal { median, dispersion: gamma.recip() };
-        if !(gamma > 0.0 && median.is_finite() && median > 0.0) {
-            return Err(FitError::Falls);
-        }
-        Ok(Self { curve, fit, kind: Kind::Cloud(ln_limit) })
+        Self::of_fit(Fit::new(&data, true)?, Kind::Cloud(ln_limit), records.to_vec())
     }
 
-    fn of_capacity_fit(fit: Fit) -> Result<Self, FitError> {
-        let [delta, _, h] = fit.parameters();
-        let curve = Lognormal { median: libm::exp(delta / h), dispersion: h.recip() };
-        if !(fit.rises() && curve.median.is_finite() && curve.median > 0.0) {
+    fn of_capacity_fit(fit: Fit, records: Vec<usize>) -> Result<Self, FitError> {
+        if !fit.rises() {
             return Err(FitError::Falls);
         }
-        Ok(Self { curve, fit, kind: Kind::Capacity })
+        Self::of_fit(fit, Kind::Capacity, records)
+    }
+
+    /// Clustered where a record has more than one observation.
+    fn of_fit(mut fit: Fit, kind: Kind, mut records: Vec<usize>) -> Result<Self, FitError> {
+        let curve = kind.curve(fit.parameters()).ok_or(FitError::Falls)?;
+        let count = records.iter().max().map_or(0, |last| last + 1);
+        if count as f64 == fit.weight() {
+            records.clear();
+        }
+        let certainty = match (records.is_empty(), count) {
+            (true, _) => Certainty::Independent,
+            (_, 1) => {
+                let what = "records, whose scatter tells the certainty";
+                return Err(FitError::TooFew { what, expected: 2, found: 1 });
+            }
+            _ => {
+                fit.cluster(&records);
+                Certainty::Clustered { records: count }
+            }
+        };
+        Ok(Self { curve, fit, kind, records, certainty })
+    }
+
+    /// The same fit with its certainty from so many draws of all records with replacement, each fitted
+    /// anew; where observations are independent, they are drawn themselves.
+    #[must_use]
+    pub fn bootstrapped(mut self, draws: u32, seed: u64) -> Self {
+        let own: Vec<usize> = (0..self.fit.observations()).collect();
+        let records = if self.records.is_empty() { &own } else { &self.records };
+        let count = records.iter().max().map_or(0, |last| last + 1);
+        let mut random = Random::new(seed);
+        let mut curves = Vec::with_capacity(draws as usize);
+        let mut times = vec![0_u32; count];
+        for _ in 0..draws {
+            times.fill(0);
+            for _ in 0..count {
+                times[random.below(count)] += 1;
+            }
+            let found = self.fit.resampled(|i| times[records[i]]).ok();
+            curves.extend(found.and_then(|parameters| self.kind.curve(parameters)));
+        }
+        let failed = draws as usize - curves.len();
+        self.certainty = Certainty::Bootstrap { records: count, curves, failed };
+        self
+    }
+
+    /// What standard errors, intervals and band follow from.
+    #[must_use]
+    pub fn certainty(&self) -> &Certainty {
+        &self.certainty
+    }
+
+    /// How many standard errors an interval of that confidence reaches to either side.
+    fn reach(&self, confidence: f64) -> f64 {
+        match self.certainty {
+            Certainty::Clustered { records } => student_quantile(confidence, (records - 1) as f64),
+            _ => normal_quantile(0.5 + 0.5 * confidence),
+        }
     }
 
     /// The curve.
@@ -225,30 +338,57 @@ impl Fragility {
     }
 
     /// Confidence band of the probability at an intensity > 0, pointwise: `ln(x/θ)/β` is linear in
-    /// the parameters, so `Φ(η ± z se(η))` with its standard error by the observed information
-    /// (the delta method on the scale of the probit).
+    /// the parameters, so `Φ(η ± z se(η))` with its standard error (the delta method on the scale of the
+    /// probit); of a bootstrap the fractiles of its curves.
     #[must_use]
     pub fn band(&self, intensity: f64, confidence: f64) -> [f64; 2] {
+        if let Certainty::Bootstrap { curves, .. } = &self.certainty {
+            return middle(curves.iter().map(|c| c.probability(intensity)), confidence)
+                .map(|end| end.unwrap_or(f64::NAN));
+        }
         let form = self.form(libm::log(intensity));
         let [delta, gamma, h] = self.fit.parameters();
         let eta = form[0] * delta + form[1] * gamma + form[2] * h;
-        let half = normal_quantile(0.5 + 0.5 * confidence) * self.fit.standard_error(form);
+        let half = self.reach(confidence) * self.fit.standard_error(form);
         [normal_cdf(eta - half), normal_cdf(eta + half)]
     }
 
-    /// Confidence interval of the median by profile likelihood; `None` where it is open.
+    /// Confidence interval of the median; `None` where it is open. By profile likelihood where
+    /// observations are independent, `θ exp(± t se(ln θ))` where they are clustered.
     #[must_use]
     pub fn median_interval(&self, confidence: f64) -> [Option<f64>; 2] {
         let ln_median = libm::log(self.curve.median);
+        match &self.certainty {
+            Certainty::Independent => {}
+            Certainty::Clustered { .. } => {
+                let half = self.reach(confidence) * self.standard_errors()[0];
+                return [-half, half].map(|by| Some(libm::exp(ln_median + by)));
+            }
+            Certainty::Bootstrap { curves, .. } => {
+                return middle(curves.iter().map(|curve| curve.median), confidence);
+            }
+        }
         // d ln θ = −β dη at the median.
         let se = self.curve.dispersion * self.fit.standard_error(self.form(ln_median));
         let ends = self.fit.profile(ln_median, se.max(1e-9), confidence, |v| (self.form(v), 0.0));
         ends.map(|end| end.map(libm::exp))
     }
 
-    /// Confidence interval of the dispersion by profile likelihood; `None` where it is open.
+    /// Confidence interval of the dispersion, as [`Fragility::median_interval`]: clustered it is
+    /// `β exp(± t se(β)/β)`.
     #[must_use]
     pub fn dispersion_interval(&self, confidence: f64) -> [Option<f64>; 2] {
+        match &self.certainty {
+            Certainty::Independent => {}
+            Certainty::Clustered { .. } => {
+                let beta = self.curve.dispersion;
+                let half = self.reach(confidence) * self.standard_errors()[1] / beta;
+                return [-half, half].map(|by| Some(beta * libm::exp(by)));
+            }
+            Certainty::Bootstrap { curves, .. } => {
+                return middle(curves.iter().map(|curve| curve.dispersion), confidence);
+            }
+        }
         let rate = match self.kind {
             Kind::Capacity => [0.0, 0.0, 1.0],
             Kind::Cloud(_) => [0.0, 1.0, 0.0],
@@ -260,9 +400,16 @@ impl Fragility {
         ends.map(|end| end.map(libm::exp))
     }
 
-    /// Standard errors of `ln θ` and `β`, by the delta method from the observed information.
+    /// Standard errors of `ln θ` and `β`, by the delta method; of a bootstrap the standard deviations of
+    /// its curves.
     #[must_use]
     pub fn standard_errors(&self) -> [f64; 2] {
+        if let Certainty::Bootstrap { curves, .. } = &self.certainty {
+            return [
+                deviation(curves.iter().map(|curve| libm::log(curve.median))),
+                deviation(curves.iter().map(|curve| curve.dispersion)),
+            ];
+        }
         let beta = self.curve.dispersion;
         let of_median = beta * self.fit.standard_error(self.form(libm::log(self.curve.median)));
         let rate = match self.kind {
@@ -271,6 +418,34 @@ impl Fragility {
         };
         [of_median, beta * beta * self.fit.standard_error(rate)]
     }
+}
+
+impl Kind {
+    /// The curve of `[δ, γ, h]`; `None` where it does not rise.
+    fn curve(self, [delta, gamma, h]: Parameters) -> Option<Lognormal> {
+        let (ln_median, rate) = match self {
+            Self::Capacity => (delta / h, h),
+            Self::Cloud(ln_limit) => ((h * ln_limit - delta) / gamma, gamma),
+        };
+        let (median, dispersion) = (libm::exp(ln_median), rate.recip());
+        let rises = rate > 0.0 && median.is_finite() && median > 0.0;
+        rises.then_some(Lognormal { median, dispersion })
+    }
+}
+
+/// The fractiles between which the middle of the values lies; `None` without values.
+fn middle(values: impl Iterator<Item = f64>, share: f64) -> [Option<f64>; 2] {
+    let values = sorted(&values.collect::<Vec<_>>());
+    [0.5 - 0.5 * share, 0.5 + 0.5 * share]
+        .map(|p| (!values.is_empty()).then(|| fractile(&values, p)))
+}
+
+/// Standard deviation with `n − 1`.
+fn deviation(values: impl Iterator<Item = f64>) -> f64 {
+    let values: Vec<f64> = values.collect();
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    (values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / (n - 1.0)).sqrt()
 }
 
 /// How far counts lie from the fitted curve.

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::assessment::censored::{Fit, Known, Observation};
 use crate::assessment::fragility::{
-    Capacity, CloudPoint, Fragility, Lognormal, Stripe, test_counts, test_normality,
+    Capacity, Certainty, CloudPoint, Fragility, Lognormal, Stripe, test_counts, test_normality,
 };
 use crate::assessment::proportion::Proportion;
 use crate::error::FitError;
@@ -217,6 +217,125 @@ fn peer_clouds_agree_with_statsmodels() {
         let dispersion = fragility.curve().dispersion;
         assert!(low.unwrap() < dispersion && dispersion < high.unwrap());
     }
+}
+
+/// Standard errors, intervals and band of a clustered fit.
+fn check_clustered(fragility: &Fragility, case: &Value, name: &str, tolerance: f64) {
+    near(fragility.curve().median, &case["median"], 1e-9, name);
+    near(fragility.curve().dispersion, &case["dispersion"], 1e-9, name);
+    let [of_median, of_dispersion] = fragility.standard_errors();
+    near(of_median, &case["se_ln_median"], tolerance, name);
+    near(of_dispersion, &case["se_dispersion"], tolerance, name);
+    for (found, expected) in [
+        (fragility.median_interval(0.9), numbers(&case["median_interval"])),
+        (fragility.dispersion_interval(0.9), numbers(&case["dispersion_interval"])),
+    ] {
+        for (found, expected) in found.iter().zip(expected) {
+            let found = found.unwrap();
+            assert!((found / expected - 1.0).abs() < tolerance, "{name}: {found} for {expected}");
+        }
+    }
+}
+
+fn indices(value: &Value) -> Vec<usize> {
+    value.as_array().unwrap().iter().map(|v| v.as_u64().unwrap() as usize).collect()
+}
+
+#[test]
+fn peer_clustered_probit_agrees_with_statsmodels() {
+    for case in reference()["clustered"]["stripes"].as_array().unwrap() {
+        let name = case["name"].as_str().unwrap();
+        let rows = case["rows"].as_array().unwrap();
+        let count = |row: &Value, i: usize| row[i].as_u64().unwrap();
+        let of = |row: &Value| Stripe {
+            level: number(&row[1]),
+            runs: count(row, 2),
+            exceeded: count(row, 3),
+        };
+        let stripes: Vec<Stripe> = rows.iter().map(of).collect();
+        let records: Vec<usize> = rows.iter().map(|row| count(row, 0) as usize).collect();
+        let fragility = Fragility::of_stripes_by_record(&stripes, &records).unwrap();
+        check_clustered(&fragility, case, name, 1e-8);
+        check_band(&fragility, case, 1e-9);
+        near(fragility.fit().log_likelihood(), &case["log_likelihood"], 1e-11, name);
+        // Taken as independent, the same counts claim a certainty that they do not have.
+        let independent = Fragility::of_stripes(&stripes).unwrap();
+        assert_eq!(independent.certainty(), &Certainty::Independent);
+        near(independent.standard_errors()[0], &case["naive_se_ln_median"], 1e-8, name);
+        assert!(fragility.standard_errors()[0] > 1.5 * independent.standard_errors()[0]);
+        assert_eq!(independent.curve(), fragility.curve());
+    }
+}
+
+#[test]
+fn peer_clustered_capacities_and_cloud_agree_with_scipy() {
+    let reference = reference();
+    let case = &reference["clustered"]["capacities"];
+    let reached = case["reached"].as_array().unwrap().iter().map(|r| r.as_bool().unwrap());
+    let levels = numbers(&case["levels"]).into_iter();
+    let capacities: Vec<Capacity> =
+        levels.zip(reached).map(|(level, reached)| Capacity { level, reached }).collect();
+    let records = indices(&case["records"]);
+    let fragility = Fragility::of_capacities_by_record(&capacities, &records).unwrap();
+    // The peer's scores are by differences.
+    check_clustered(&fragility, case, "capacities", 1e-6);
+    let case = &reference["clustered"]["cloud"];
+    let points: Vec<CloudPoint> = numbers(&case["levels"])
+        .into_iter()
+        .zip(numbers(&case["demands"]))
+        .map(|(level, demand)| CloudPoint { level, demand, known: Known::Exactly })
+        .collect();
+    let records = indices(&case["records"]);
+    let fragility =
+        Fragility::of_cloud_by_record(&points, number(&case["limit"]), &records).unwrap();
+    check_clustered(&fragility, case, "cloud", 1e-6);
+}
+
+/// One observation a record is independence; one record tells nothing of the scatter between records.
+#[test]
+fn exact_clusters_of_one_are_independent() {
+    let capacities =
+        [0.3, 0.4, 0.55, 0.7, 0.5].map(|level| Capacity { level, reached: level < 0.6 });
+    let alone = Fragility::of_capacities(&capacities).unwrap();
+    let own = Fragility::of_capacities_by_record(&capacities, &[4, 2, 0, 1, 3]).unwrap();
+    assert_eq!(own, alone);
+    let one = Fragility::of_capacities_by_record(&capacities, &[0; 5]);
+    assert!(matches!(one, Err(FitError::TooFew { found: 1, .. })), "{one:?}");
+    // Five runs in one row are not one observation.
+    let stripe = |level, exceeded| Stripe { level, runs: 5, exceeded };
+    let stripes = [stripe(0.2, 1), stripe(0.3, 2), stripe(0.5, 4)];
+    let clustered = Fragility::of_stripes_by_record(&stripes, &[0, 1, 2]).unwrap();
+    assert_eq!(clustered.certainty(), &Certainty::Clustered { records: 3 });
+}
+
+/// Draws of records scatter as the sandwich says, and the same seed gives the same.
+#[test]
+fn prop_bootstrap_over_records_is_near_the_sandwich() {
+    let reference = reference();
+    let case = &reference["clustered"]["stripes"][0];
+    let rows = case["rows"].as_array().unwrap();
+    let count = |row: &Value, i: usize| row[i].as_u64().unwrap();
+    let stripes: Vec<Stripe> = rows
+        .iter()
+        .map(|row| Stripe { level: number(&row[1]), runs: count(row, 2), exceeded: count(row, 3) })
+        .collect();
+    let records: Vec<usize> = rows.iter().map(|row| count(row, 0) as usize).collect();
+    let sandwich = Fragility::of_stripes_by_record(&stripes, &records).unwrap();
+    let drawn = sandwich.clone().bootstrapped(1000, 1);
+    let Certainty::Bootstrap { records, curves, failed } = drawn.certainty() else {
+        panic!("a bootstrap");
+    };
+    assert_eq!((*records, curves.len(), *failed), (20, 1000, 0));
+    for (found, expected) in drawn.standard_errors().iter().zip(sandwich.standard_errors()) {
+        // The sandwich has its correction and 1000 draws scatter by 2 %.
+        assert!((found / expected - 1.0).abs() < 0.15, "{found} for {expected}");
+    }
+    let [low, high] = drawn.median_interval(0.9).map(Option::unwrap);
+    assert!(low < sandwich.curve().median && sandwich.curve().median < high);
+    let [low, high] = drawn.band(0.5, 0.9);
+    assert!(0.5 < low && low < high && high < 0.95);
+    assert_eq!(sandwich.clone().bootstrapped(1000, 1), drawn);
+    assert_ne!(sandwich.bootstrapped(1000, 2), drawn);
 }
 
 /// Without censoring and with equal weights: mean and standard deviation with n.
