@@ -162,6 +162,20 @@ impl Cells {
         self.len() == 0
     }
 
+    /// The cells of some rows, in their order; a row that does not exist is left out.
+    #[must_use]
+    pub fn select(&self, rows: &[usize]) -> Self {
+        fn of<T: Clone>(cells: &[T], rows: &[usize]) -> Vec<T> {
+            rows.iter().filter_map(|&row| cells.get(row).cloned()).collect()
+        }
+        match self {
+            Self::Numbers(cells) => Self::Numbers(of(cells, rows)),
+            Self::Counts(cells) => Self::Counts(of(cells, rows)),
+            Self::Flags(cells) => Self::Flags(of(cells, rows)),
+            Self::Texts(cells) => Self::Texts(of(cells, rows)),
+        }
+    }
+
     /// Appends cells of the same kind; `false` where they are of another.
     #[must_use]
     pub fn append(&mut self, more: Self) -> bool {
@@ -193,6 +207,17 @@ impl Table {
     #[must_use]
     pub fn rows(&self) -> usize {
         self.columns.iter().map(|column| column.cells.len()).min().unwrap_or(0)
+    }
+
+    /// Some of its rows, in their order.
+    #[must_use]
+    pub fn select(&self, rows: &[usize]) -> Self {
+        let column = |column: &Column| Column {
+            cells: column.cells.select(rows),
+            name: column.name.clone(),
+            unit: column.unit.clone(),
+        };
+        Self { columns: self.columns.iter().map(column).collect() }
     }
 
     /// The column of a name, the first.
@@ -227,6 +252,9 @@ mod tests {
         assert_eq!(table.find("level").unwrap().field(), Field::number("level", "m/s2"));
         assert_eq!(table.find("Level"), None);
         assert_eq!(Table::default().rows(), 0);
+        let last = table.select(&[1]);
+        assert_eq!((last.rows(), last.texts_of("record").unwrap()), (1, &["b".to_owned()][..]));
+        assert_eq!(last.find("level").unwrap().unit, "m/s2");
     }
 
     #[test]

@@ -66,7 +66,8 @@ design within the gap with the least acceleration; with slider.bounds in the mod
 
 Exit status 1 where no design keeps the gap.
 
-Writes with --out: front.csv and front.parquet, figures (SVG), summary.json, report.html.";
+Writes with --out: front.csv and front.parquet, runs.parquet (every run of the front), figures
+(SVG), summary.json, report.html.";
 
 /// Model and records.
 #[derive(Debug, Args)]
@@ -160,7 +161,7 @@ pub struct IdaArgs {
 /// `slipstick fragility`.
 #[derive(Debug, Args)]
 pub struct FragilityArgs {
-    /// ida.csv, capacities.csv, counts (CSV), a Parquet file, or the folder of a study
+    /// Folder that ida, study, spectrum or design wrote, or a table: CSV or Parquet
     pub source: PathBuf,
     /// Key of the demand
     #[arg(long, value_name = "KEY", default_value = "peak_sliding_displacement_m")]
@@ -171,9 +172,25 @@ pub struct FragilityArgs {
     /// Intensity measure, where it is not that of the levels: PGV, Sa(1.2 s), or a column's name
     #[arg(long, value_name = "NAME")]
     pub measure: Option<String>,
+    /// Unit of the intensities, where the table does not state it: g, m/s2, cm/s, …
+    #[arg(long, value_name = "UNIT")]
+    pub units: Option<String>,
     /// What the curve is fitted to; by the kind of data where not given
     #[arg(long, value_enum, value_name = "DATA")]
     pub fit_to: Option<FitToName>,
+    /// Take only rows with this value or within this range: slider.radius="1..2 m", record=taft-111;
+    /// repeatable
+    #[arg(long = "where", value_name = "PATH=VALUE|FROM..TO")]
+    pub keep: Vec<String>,
+    /// One curve for each value of this column: slider.radius
+    #[arg(long, value_name = "PATH")]
+    pub by: Option<String>,
+    /// Intervals by so many draws of the records with replacement, in place of the sandwich
+    #[arg(long, value_name = "DRAWS", value_parser = clap::value_parser!(u32).range(50..=100_000))]
+    pub bootstrap: Option<u32>,
+    /// Seed of those draws
+    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "bootstrap")]
+    pub seed: u64,
     /// Demands below this count as below it only, in a cloud: "1 mm"
     #[arg(long, value_name = "LIMIT")]
     pub floor: Option<String>,

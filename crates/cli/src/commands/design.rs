@@ -61,7 +61,8 @@ pub fn design(args: &DesignArgs) -> Result<ExitCode, Failure> {
         display: args.suite.result.display_units.into(),
     }
     .sheet();
-    let tables = [("front.csv", &run.front), ("front.parquet", &run.front)];
+    let tables =
+        [("front.csv", &run.front), ("front.parquet", &run.front), ("runs.parquet", &run.runs)];
     conclude(&args.suite.result, folder, &sheet, &tables, &opened.sources(), &opened.inputs())?;
     Ok(ExitCode::from(u8::from(run.found.front.is_empty())))
 }

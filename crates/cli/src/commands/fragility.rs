@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use slipstick::assessment::AssessmentError;
-use slipstick::assessment::observed::{FitTo, FragilityRequest, run_fragility};
+use slipstick::assessment::observed::{FitTo, FragilityRequest, run_fragility, run_fragility_by};
 use slipstick::table::Table;
-use slipstick_files::{ReadTable, expand, read_bytes, read_table, sha256_hex};
-use slipstick_report::assessment::fragility::FragilityReport;
+use slipstick_files::{OutputFolder, ReadTable, expand, read_bytes, read_table, sha256_hex};
+use slipstick_report::assessment::Sheet;
+use slipstick_report::assessment::fragility::{FragilityFamily, FragilityReport};
 
 use super::assessment::{conclude, failure, folder, limit, share};
 use crate::args::{FitToName, FragilityArgs};
@@ -30,6 +31,7 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
         demand: &args.demand,
         limit: bound,
         measure: args.measure.as_deref(),
+        units: args.units.as_deref(),
         fit_to: args.fit_to.map(|name| match name {
             FitToName::Counts => FitTo::Counts,
             FitToName::Capacities => FitTo::Capacities,
@@ -37,58 +39,103 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
         }),
         floor: of("--floor", &args.floor)?,
         cap: of("--cap", &args.cap)?,
+        keep: &args.keep,
+        bootstrap: args.bootstrap.map(|draws| (draws, args.seed)),
     };
-    let mut run =
-        watched("fitting", args.result.quiet, || run_fragility(&request)).map_err(|error| {
-            match error {
-                AssessmentError::Cell(error) => read.cell_error(&error).into(),
-                other => failure(other),
-            }
-        })?;
+    let failed = |error| match error {
+        AssessmentError::Cell(error) => read.cell_error(&error).into(),
+        other => failure(other),
+    };
+    let inputs: Vec<PathBuf> = sources.iter().map(|(path, ..)| path.into()).collect();
+    let version = env!("CARGO_PKG_VERSION");
+    let display = args.result.display_units.into();
+    if let Some(by) = &args.by {
+        let fit = || run_fragility_by(&request, by);
+        let (groups, by_unit) = watched("fitting", args.result.quiet, fit).map_err(failed)?;
+        let folder = folder(&args.result, &inputs)?;
+        let family = FragilityFamily {
+            version,
+            name: &name,
+            by,
+            by_unit: &by_unit,
+            groups: &groups,
+            demand: &args.demand,
+            limit: bound,
+            confidence,
+            display,
+        };
+        let Some(sheet) = family.sheet() else {
+            let reason = groups.iter().find_map(|group| group.run.as_ref().err());
+            let reason = reason.map_or("no rows".to_owned(), ToString::to_string);
+            return Err(Failure::Message(format!("--by {by}: no value has a curve: {reason}")));
+        };
+        let curves = family.curves();
+        let mut table = Table::default();
+        if curves.iter().any(|(group, _)| group.value.is_nan()) {
+            table.texts(by, curves.iter().map(|(group, _)| group.text.clone()).collect());
+        } else {
+            table.numbers(by, &by_unit, curves.iter().map(|(group, _)| group.value).collect());
+        }
+        let unit = groups.iter().find_map(|group| Some(&group.run.as_ref().ok()?.measure_unit));
+        let rows: Vec<[f64; 4]> = curves.iter().map(|(_, row)| *row).collect();
+        curve_columns(&mut table, unit.map_or("", String::as_str), &rows);
+        return finish(args, folder, &sheet, &table, &sources);
+    }
+    let run = watched("fitting", args.result.quiet, || run_fragility(&request)).map_err(failed)?;
     if let Some((.., kind)) = sources.first_mut() {
         run.kind.clone_into(kind);
     }
-    for warning in run.warnings.iter_mut().filter(|warning| warning.kind == "fitted_to") {
-        warning.message.push_str("; --fit-to chooses otherwise");
-    }
-    let inputs: Vec<PathBuf> = sources.iter().map(|(path, ..)| path.into()).collect();
     let folder = folder(&args.result, &inputs)?;
     let report = FragilityReport {
-        version: env!("CARGO_PKG_VERSION"),
+        version,
         name: &name,
-        measure: &run.measure,
-        measure_unit: &run.measure_unit,
         demand: &args.demand,
         limit: bound,
-        data: &run.data,
-        fragility: &run.fragility,
+        run: &run,
         confidence,
-        warnings: &run.warnings,
-        display: args.result.display_units.into(),
+        display,
     };
-    let curve = report.curve();
-    let column = |i: usize| curve.iter().map(|row| row[i]).collect::<Vec<f64>>();
     let mut table = Table::default();
+    curve_columns(&mut table, &run.measure_unit, &report.curve());
+    finish(args, folder, &report.sheet(), &table, &sources)
+}
+
+/// Intensity, probability and band of curves.
+fn curve_columns(table: &mut Table, unit: &str, rows: &[[f64; 4]]) {
+    let column = |i: usize| rows.iter().map(|row| row[i]).collect::<Vec<_>>();
     table
-        .numbers("level", &run.measure_unit, column(0))
+        .numbers("level", unit, column(0))
         .numbers("probability", "", column(1))
         .numbers("band_low", "", column(2))
         .numbers("band_high", "", column(3));
-    let tables = [("fragility.csv", &table), ("fragility.parquet", &table)];
-    conclude(&args.result, folder, &report.sheet(), &tables, &sources, &[])?;
+}
+
+fn finish(
+    args: &FragilityArgs,
+    folder: Option<OutputFolder>,
+    sheet: &Sheet,
+    table: &Table,
+    sources: &[Source],
+) -> Result<ExitCode, Failure> {
+    let tables = [("fragility.csv", table), ("fragility.parquet", table)];
+    conclude(&args.result, folder, sheet, &tables, sources, &[])?;
     Ok(ExitCode::SUCCESS)
 }
 
 /// A file that was read: its path, its hash, what it is.
 type Source = (String, String, String);
 
-/// The table of a file, or of the parts of a study's folder, and the files with their hashes.
+/// What the commands write into their folders, the first that is there.
+const TABLES: [&str; 4] = ["part-*.parquet", "parts/part-*.parquet", "ida.parquet", "runs.parquet"];
+
+/// The table of a file, or of the folder of a command, and the files with their hashes.
 fn read(source: &Path) -> Result<(Vec<Source>, ReadTable), Failure> {
     let files = if source.is_dir() {
-        expand(source, "part-*.parquet").map_err(|_| {
-            let expected = "a file, or the folder of a study with its part-*.parquet";
+        let found = TABLES.iter().find_map(|pattern| expand(source, pattern).ok());
+        found.ok_or_else(|| {
+            let expected = "a table, or a folder that ida, study, spectrum or design wrote";
             Failure::Message(format!(
-                "SOURCE: expected {expected}, found the folder {}",
+                "SOURCE: expected {expected}, found the folder {} without runs",
                 source.display()
             ))
         })?

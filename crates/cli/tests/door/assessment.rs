@@ -222,13 +222,40 @@ fn exact_hunt_brackets_the_gap_to_one_percent() {
         };
         assert!(peak(below[row]) < 0.06 && peak(above[row]) >= 0.06, "{}", records[row]);
     }
-    // What the hunt found is what the fragility is fitted to, from either file.
-    let of = |file: &str| {
-        let source = format!("out/{file}");
-        json(&folder, &["fragility", &source, "--limit", "60 mm", "--fit-to", "capacities"])
-    };
-    let (by_capacity, by_run) = (of("capacities.csv"), of("ida.csv"));
-    assert_eq!(by_capacity["median"], by_run["median"]);
+    // What the hunt found is what the fragility is fitted to, from any of its files or the folder:
+    // a level that several records were run at makes no stripe of it.
+    let of = |source: &str| json(&folder, &["fragility", source, "--limit", "60 mm"]);
+    let by_capacity = of("out/capacities.csv");
+    for source in ["out/ida.csv", "out/ida.parquet", "out"] {
+        let by_run = of(source);
+        for key in
+            ["median", "dispersion", "median_interval", "dispersion_interval", "method", "measure"]
+        {
+            assert_eq!(by_capacity[key], by_run[key], "{source}: {key}");
+        }
+        assert_eq!(by_run["why"], "the levels were hunted for each record");
+    }
+    let text = folder.stdout(&["fragility", "out", "--limit", "60 mm"]);
+    let first = "Fitted   to capacities, the first crossing of each record: the levels were hunted";
+    assert!(text.starts_with(first), "{text}");
+    let refused = folder.refused(&["fragility", "out", "--limit", "60 mm", "--fit-to", "counts"]);
+    assert!(refused.starts_with("--fit-to: expected capacities: the levels"), "{refused}");
+    // Without the word of the analysis the levels themselves tell.
+    let rows: Vec<String> = folder
+        .read("out/ida.csv")
+        .lines()
+        .map(|line| {
+            line.split(',')
+                .enumerate()
+                .filter(|(i, _)| *i != 3)
+                .map(|(_, c)| c)
+                .collect::<Vec<_>>()
+                .join(",")
+        })
+        .collect();
+    folder.write("plain.csv", rows.join("\n"));
+    assert!(!rows[0].contains("level_choice"));
+    assert_eq!(of("plain.csv")["median"], by_capacity["median"]);
     assert_eq!(by_capacity["measure"], "PGA");
     assert_eq!(by_capacity["method"], "capacities");
     let capacities = column(&csv, "capacity");
@@ -385,9 +412,9 @@ fn exact_results_are_the_same_on_any_number_of_threads() {
 #[test]
 fn exact_what_is_wrong_is_said() {
     let folder = suite("refused", 2);
-    folder.write("none.csv", "level,runs,exceeded\n0.1,4,0\n0.2,4,0\n");
-    folder.write("cell.csv", "level,runs,exceeded\n0.1,4,0\n0.2,x,0\n");
-    folder.write("columns.csv", "record,level,peak_drift_m\na,1,2\n");
+    folder.write("none.csv", "level [m/s2],runs,exceeded\n0.1,4,0\n0.2,4,0\n");
+    folder.write("cell.csv", "level [m/s2],runs,exceeded\n0.1,4,0\n0.2,x,0\n");
+    folder.write("columns.csv", "record,level_g,peak_drift_m\na,1,2\n");
     let records = ["--records", "records"];
     let with = |arguments: &[&'static str]| -> Vec<&'static str> {
         [&arguments[..2], &records[..], &arguments[2..]].concat()
@@ -441,7 +468,7 @@ fn exact_what_is_wrong_is_said() {
         (
             vec!["fragility", "none.csv"],
             "none of 8 runs exceeds the limit, up to an intensity of 0.2: a fragility cannot be told; go \
-             to higher intensities or take a smaller limit",
+             to higher intensities or take a smaller limit (intensities in m/s2)",
         ),
         (vec!["fragility", "cell.csv"], "cell.csv:3:5: expected a number in runs, found \"x\""),
         (

@@ -8,7 +8,7 @@ use super::support::{Folder, column};
 #[test]
 fn peer_fragility_of_counts_is_that_of_statsmodels() {
     let folder = Folder::new("fragility-counts");
-    folder.write("stripes.csv", "level,runs,exceeded\n0.2,11,1\n0.4,11,4\n0.8,11,10\n");
+    folder.write("stripes.csv", "level [m/s2],runs,exceeded\n0.2,11,1\n0.4,11,4\n0.8,11,10\n");
     let text = include_str!("../../../../data/reference/fragility.json");
     let reference: Value = serde_json::from_str(text).unwrap();
     let case = &reference["stripes"][1];
@@ -59,6 +59,17 @@ fn exact_fragility_of_a_study_counts_its_rows() {
     assert_eq!(of_study["stripes"], of_ida["stripes"]);
     assert_eq!(of_study["median"], of_ida["median"]);
     assert_eq!(of("ida/ida.parquet")["median"], of_ida["median"]);
+    // The folder itself is the table, and each form of it fits the same.
+    for source in ["ida", "ida/ida.csv", "ida/ida.parquet"] {
+        assert_eq!(
+            of(source),
+            Value::Object({
+                let mut same = of_ida.as_object().unwrap().clone();
+                same.insert("name".to_owned(), source.into());
+                same
+            })
+        );
+    }
     // First crossings need the names of the records, which Parquet has too.
     let crossings = |source: &str| {
         json(&folder, &[&["fragility", source, "--fit-to", "capacities"], &limit[..]].concat())
@@ -95,4 +106,177 @@ fn exact_fragility_of_a_study_counts_its_rows() {
     let cloud = json(&folder, &cloud);
     assert_eq!((&cloud["method"], &cloud["measure_unit"]), (&"cloud".into(), &"m/s".into()));
     assert!(number(&cloud["cloud"]["slope"]) > 0.5);
+}
+
+/// Every record at every level is run once for each design, so runs of a record are not independent.
+#[test]
+fn exact_intervals_of_a_study_are_clustered_by_record() {
+    let folder = suite("fragility-clusters", 6);
+    folder.write(
+        "plan.toml",
+        "model = \"model.toml\"\n[records]\nfiles = [\"records/*.csv\"]\nmeasure = \"PGA\"\n\
+         levels = [\"1 m/s2\", \"1.5 m/s2\", \"2 m/s2\", \"2.5 m/s2\", \"3 m/s2\"]\n[vary]\n\
+         \"slider.kinetic_friction\" = { uniform = [0.03, 0.06] }\n\
+         \"slider.radius\" = { values = [\"1.5 m\", \"2 m\"] }\n[sampling]\nmethod = \"sobol\"\n\
+         count = 16\nseed = 3\n",
+    );
+    folder.stdout(&["study", "plan.toml", "--out", "study", "-q"]);
+    let of = |more: &[&str]| {
+        let fragility = ["fragility", "study", "--limit", "40 mm", "--measure", "PGA"];
+        json(&folder, &[&fragility[..], more].concat())
+    };
+    let all = of(&[]);
+    assert_eq!((&all["certainty"], &all["records"]), (&"clustered".into(), &6.into()));
+    assert_eq!(all["designs"], 16);
+    assert_eq!(
+        all["averaged_over"],
+        serde_json::json!(["slider.kinetic_friction", "slider.radius"])
+    );
+    let text = folder.stdout(&["fragility", "study", "--limit", "40 mm"]);
+    let first = text.lines().next().unwrap();
+    assert!(first.starts_with("Fitted   to counts of exceedances at each level: every"), "{text}");
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let averaged = "averaged over slider.kinetic_friction, slider.radius: 16 designs";
+    assert!(words.join(" ").contains(averaged), "{text}");
+    // A curve of its own for each radius is the curve of those rows.
+    let by = of(&["--by", "slider.radius"]);
+    let curves = by["curves"].as_array().unwrap();
+    assert_eq!((curves.len(), &by["by_unit"]), (2, &"m".into()));
+    for (curve, radius) in curves.iter().zip(["1.5 m", "2 m"]) {
+        let alone = of(&["--where", &format!("slider.radius={radius}")]);
+        assert_eq!(curve["fragility"], alone, "{radius}");
+        assert_eq!(alone["designs"], 8);
+        assert_eq!(alone["averaged_over"], serde_json::json!(["slider.kinetic_friction"]));
+    }
+    let low = of(&[
+        "--where",
+        "slider.kinetic_friction=0.03..0.045",
+        "--where",
+        "slider.radius=1..1.8 m",
+    ]);
+    assert!(number(&low["designs"]) < 8.0 && number(&low["designs"]) > 1.0);
+    // Crossings are those of every design of every record.
+    let crossings = of(&["--fit-to", "capacities"]);
+    assert_eq!(crossings["capacities"].as_array().unwrap().len(), 6 * 16);
+    // Draws of the records instead of the sandwich.
+    let drawn = of(&["--bootstrap", "200"]);
+    assert_eq!((&drawn["certainty"], &drawn["median"]), (&"bootstrap".into(), &all["median"]));
+    let ratio = number(&drawn["se_ln_median"]) / number(&all["se_ln_median"]);
+    assert!((0.5..1.5).contains(&ratio), "{ratio}");
+    assert_eq!(of(&["--bootstrap", "200"]), drawn);
+    folder.stdout(&[
+        "fragility",
+        "study",
+        "--limit",
+        "40 mm",
+        "--by",
+        "slider.radius",
+        "--out",
+        "by",
+        "-q",
+    ]);
+    let curve = folder.read("by/fragility.csv");
+    assert!(curve.starts_with("slider.radius,level,probability,band_low,band_high\n"), "{curve}");
+    let mut radii = column(&curve, "slider.radius");
+    radii.dedup();
+    assert_eq!(radii, [1.5, 2.0]);
+    assert!(folder.read("by/fragility.svg").contains("1.5 m"));
+    for (more, expected) in [
+        (
+            &["--where", "slider.radius=3 m"][..],
+            "--where slider.radius: expected a value that occurs",
+        ),
+        (&["--where", "slider.radius=2"], "--where slider.radius: expected a length with its unit"),
+        (&["--where", "slider.radius"], "--where: expected PATH=VALUE or PATH=FROM..TO"),
+        (&["--where", "slider.radios=2 m"], "--where: expected a column of"),
+        (&["--by", "slider.radios"], "--by: expected a column of"),
+        (&["--by", "peak_sliding_displacement_m"], "--by: expected a column of"),
+    ] {
+        let found = folder.refused(&[&["fragility", "study", "--limit", "40 mm"], more].concat());
+        assert!(found.starts_with(expected), "{more:?}: {found}");
+    }
+}
+
+/// A design's folder holds the runs of its front, a spectrum's all of its runs.
+#[test]
+fn exact_folders_of_design_and_spectrum_are_read() {
+    let folder = suite("fragility-folders", 8);
+    // Records that are alike but for their strength and a part of their own: demands grow with it.
+    let values = |number: usize| {
+        column(&folder.read(&format!("records/r{number}.csv")), "acceleration_m_per_s2")
+    };
+    let first = values(0);
+    for number in 0..8 {
+        let mut text = "time_s,acceleration_m_per_s2\n".to_owned();
+        for (i, (common, own)) in first.iter().zip(values(number)).enumerate() {
+            let value = (0.5 + 0.2 * number as f64) * (common + 0.1 * own);
+            text.push_str(&format!("{:.2},{value:.6}\n", 0.02 * i as f64));
+        }
+        folder.write(&format!("records/r{number}.csv"), text);
+    }
+    let common =
+        ["model.toml", "--records", "records", "--scale", "1.3", "-q", "--friction", "0.03,0.05"];
+    let design =
+        ["--vary", "slider.radius=1, 2 m", "--gap", "2 m", "--sensitivity", "0", "--out", "design"];
+    folder.stdout(&[&["design"], &common[..], &design].concat());
+    folder.stdout(
+        &[&["spectrum"], &common[..], &["--over", "slider.radius=1, 2 m", "--out", "spectrum"]]
+            .concat(),
+    );
+    let of = |source: &str| {
+        json(&folder, &["fragility", source, "--limit", "40 mm", "--floor", "0.1 mm"])
+    };
+    let front = column(&folder.read("design/front.csv"), "slider.radius").len();
+    let design = of("design");
+    assert_eq!((&design["method"], &design["measure"]), (&"cloud".into(), &"PGA".into()));
+    let cloud = &design["cloud"];
+    assert_eq!(number(&cloud["known"]) + number(&cloud["below_floor"]), 8.0 * front as f64);
+    let spectrum = of("spectrum");
+    assert_eq!((&spectrum["designs"], &spectrum["certainty"]), (&4.into(), &"clustered".into()));
+    folder.write("empty/readme.txt", "nothing");
+    let found = folder.refused(&["fragility", "empty", "--limit", "40 mm"]);
+    assert!(found.starts_with("SOURCE: expected a table, or a folder that ida"), "{found}");
+}
+
+/// A table that does not state the unit of its levels is refused: read as SI, levels in g would be wrong
+/// by a factor of 9.8.
+#[test]
+fn exact_intensities_without_a_unit_are_refused() {
+    let folder = Folder::new("fragility-units");
+    let rows = "runs,exceeded\n0.2,11,1\n0.4,11,4\n0.8,11,10\n";
+    for (name, head) in [
+        ("none", "level"),
+        ("suffix", "level_g"),
+        ("bracket", "level [g]"),
+        ("si", "level_m_per_s2"),
+    ] {
+        folder.write(&format!("{name}.csv"), format!("{head},{rows}"));
+    }
+    folder.write("capacities.csv", "capacity,reached\n0.2,1\n0.4,1\n0.8,1\n");
+    folder.write("ida.csv", "level,peak_drift_m\n0.2,0.1\n0.4,0.2\n0.4,0.4\n0.8,0.3\n");
+    let refused = |arguments: &[&str]| folder.refused(&[&["fragility"], arguments].concat());
+    let found = refused(&["none.csv", "--measure", "PGA"]);
+    let expected = "--units: expected the unit of level, which none.csv does not state: write \
+                    \"level [g]\" in its header, or give --units g, found none";
+    assert!(found.starts_with(expected), "{found}");
+    assert!(refused(&["none.csv"]).starts_with("--units: expected the unit of level"));
+    assert!(refused(&["capacities.csv"]).starts_with("--units: expected the unit of capacity"));
+    let run = ["ida.csv", "--demand", "peak_drift_m", "--limit", "0.25 m"];
+    assert!(refused(&run).starts_with("--units: expected the unit of level"));
+    let median = |arguments: &[&str]| {
+        let all = [&["fragility"], arguments, &["--measure", "PGA"]].concat();
+        number(&json(&folder, &all)["median"])
+    };
+    let si = median(&["si.csv"]);
+    for stated in [&["none.csv", "--units", "g"][..], &["suffix.csv"], &["bracket.csv"]] {
+        assert!((median(stated) / si / 9.80665 - 1.0).abs() < 1e-9, "{stated:?}");
+    }
+    assert_eq!(median(&["suffix.csv", "--units", "g"]), median(&["suffix.csv"]));
+    let found = refused(&["suffix.csv", "--units", "m/s2"]);
+    assert!(found.starts_with("--units: expected \"g\", the unit that level_g states"), "{found}");
+    let found = refused(&["none.csv", "--measure", "PGA", "--units", "m/s"]);
+    assert!(found.starts_with("--units: expected an acceleration"), "{found}");
+    let velocity = json(&folder, &["fragility", "none.csv", "--measure", "PGV", "--units", "cm/s"]);
+    assert_eq!(velocity["measure_unit"], "m/s");
+    assert!((number(&velocity["median"]) * 100.0 / si - 1.0).abs() < 1e-9);
 }

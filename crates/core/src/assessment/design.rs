@@ -298,6 +298,8 @@ pub struct DesignRun {
     pub failures: Vec<FailedRun>,
     /// The front, a row a design.
     pub front: Table,
+    /// The runs of the designs on the front: record, level, values and both demands.
+    pub runs: Table,
 }
 
 /// A design with friction at its lower and upper bound.
@@ -349,6 +351,7 @@ pub fn run_design(
     let grid = models.grid();
     let parts = models.all(records, engine)?;
     let mut failures: Vec<FailedRun> = Vec::new();
+    let mut ran: Vec<((usize, usize), Demand)> = Vec::new();
     let found = search(&target, grid.len(), records, |pairs: &[(usize, usize)]| {
         let runs = runner.pairs(pairs, &parts)?;
         let demand = |(run, (_, record)): (Result<Demand, RunError>, &(usize, usize))| {
@@ -357,7 +360,9 @@ pub fn run_design(
                 FAILED
             })
         };
-        Ok::<_, AssessmentError>(runs.into_iter().zip(pairs).map(demand).collect())
+        let demands: Vec<Demand> = runs.into_iter().zip(pairs).map(demand).collect();
+        ran.extend(pairs.iter().copied().zip(demands.iter().copied()));
+        Ok::<_, AssessmentError>(demands)
     })?;
     let bounded = match request.bounds {
         None => None,
@@ -370,7 +375,33 @@ pub fn run_design(
     let sensitivity = if request.sensitivity > 0 { runner.sensitivity(request)? } else { None };
     let variables = grid.axes().to_vec();
     let front = table(request, &variables, &found, bounded.as_deref());
-    Ok(DesignRun { variables, found, bounded, sensitivity, failures, front })
+    ran.retain(|((design, _), _)| found.front.iter().any(|point| point.design == *design));
+    ran.sort_by_key(|(pair, _)| *pair);
+    let runs = rows(request, &runner, &ran)?;
+    Ok(DesignRun { variables, found, bounded, sensitivity, failures, front, runs })
+}
+
+/// A row for each run of a design and a record.
+fn rows(
+    request: &DesignRequest<'_>,
+    runner: &Runner<'_>,
+    ran: &[((usize, usize), Demand)],
+) -> Result<Table, AssessmentError> {
+    let (suite, grid) = (request.suite, request.models.grid());
+    let records: Vec<usize> = ran.iter().map(|((_, record), _)| *record).collect();
+    let mut rows = Table::default();
+    rows.texts("record", records.iter().map(|&i| suite.records[i].name.clone()).collect());
+    rows.columns.extend(suite.intensities(&request.scaling, &records, runner.engine)?.columns);
+    rows.numbers("scale", "", records.iter().map(|&i| runner.factors[i]).collect());
+    for (i, axis) in grid.axes().iter().enumerate() {
+        let value = |((design, _), _): &((usize, usize), Demand)| grid.values(*design)[i];
+        rows.numbers(&axis.path, &axis.unit, ran.iter().map(value).collect());
+    }
+    let displacements = ran.iter().map(|(_, demand)| demand.displacement_m).collect();
+    rows.numbers("peak_sliding_displacement_m", "m", displacements);
+    let accelerations = ran.iter().map(|(_, demand)| demand.acceleration_m_per_s2).collect();
+    rows.numbers(request.acceleration, "m/s2", accelerations);
+    Ok(rows)
 }
 
 /// A run without an answer.

@@ -350,6 +350,9 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
     let mut rows = Table::default();
     rows.texts("record", flat.iter().map(|(name, _)| (*name).clone()).collect());
     rows.texts("measure", vec![measure.to_string(); flat.len()]);
+    rows.texts("measure_unit", vec![measure.unit().to_owned(); flat.len()]);
+    let choice = if hunt.is_some() { "hunted" } else { "given" };
+    rows.texts("level_choice", vec![choice.to_owned(); flat.len()]);
     rows.numbers("level", measure.unit(), flat.iter().map(|(_, run)| run.level).collect());
     rows.numbers("scale", "", flat.iter().map(|(_, run)| run.scale).collect());
     for (i, column) in models.columns().iter().enumerate() {
@@ -375,6 +378,7 @@ fn capacities(
     table
         .texts("record", names.to_vec())
         .texts("measure", vec![measure.to_string(); names.len()])
+        .texts("measure_unit", vec![unit.to_owned(); names.len()])
         .numbers("capacity", unit, crossings.iter().map(|c| c.level).collect())
         .numbers("reached", "", crossings.iter().map(|c| f64::from(u8::from(c.reached))).collect())
         .numbers("below", unit, crossings.iter().map(|c| c.between[0]).collect())

@@ -257,7 +257,9 @@ pub fn run_spectrum(
         "record",
         (0..runs.len()).map(|i| suite.records[i % records].name.clone()).collect(),
     );
-    rows.numbers("scale", "", (0..runs.len()).map(|i| factors[i % records]).collect());
+    let of_runs: Vec<usize> = (0..runs.len()).map(|i| i % records).collect();
+    rows.columns.extend(suite.intensities(&request.scaling, &of_runs, engine)?.columns);
+    rows.numbers("scale", "", of_runs.iter().map(|&record| factors[record]).collect());
     coordinates(&mut rows, records);
     for (i, column) in models.columns().iter().enumerate() {
         let of = |run: &Result<Run, RunError>| run.as_ref().map_or(f64::NAN, |run| run.demands[i]);

@@ -6,6 +6,7 @@ use crate::input::Parts;
 use crate::motion::GroundMotion;
 use crate::motion::intensity::Measure;
 use crate::study::engine::{Engine, made_motion, scaled_with_tail};
+use crate::table::Table;
 
 /// How records are scaled, vertical components with them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,6 +83,32 @@ impl Suite {
                 Ok(values.into_iter().map(|value| level / value).collect())
             }
         }
+    }
+
+    /// Columns that say of what intensity each record is as it is run: `measure`, `measure_unit` and
+    /// `level`, the peak acceleration where records are scaled by a factor; none for a made motion.
+    pub(super) fn intensities(
+        &self,
+        scaling: &Scaling,
+        of_runs: &[usize],
+        engine: &Engine<'_>,
+    ) -> Result<Table, AssessmentError> {
+        let mut table = Table::default();
+        if self.made {
+            return Ok(table);
+        }
+        let (measure, levels) = match scaling {
+            Scaling::Level(measure, level) => (*measure, vec![*level; self.records.len()]),
+            Scaling::Factor(factor) => {
+                let values = self.measure(&Measure::Pga, engine)?;
+                (Measure::Pga, values.into_iter().map(|value| value * factor.abs()).collect())
+            }
+        };
+        table
+            .texts("measure", vec![measure.to_string(); of_runs.len()])
+            .texts("measure_unit", vec![measure.unit().to_owned(); of_runs.len()])
+            .numbers("level", measure.unit(), of_runs.iter().map(|&i| levels[i]).collect());
+        Ok(table)
     }
 
     /// A record times a factor, with a tail of free vibration.

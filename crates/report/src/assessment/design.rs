@@ -95,6 +95,7 @@ impl DesignReport<'_> {
         Sheet {
             kind: "Design over a suite",
             name: self.name.to_owned(),
+            first: None,
             line: format!(
                 "{designs} designs, {} records{}; {} runs of {} were needed",
                 self.records,

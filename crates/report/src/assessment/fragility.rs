@@ -1,19 +1,21 @@
 //! Fragility curves with their certainty.
 
+mod family;
 mod figures;
 
 use slipstick::assessment::censored::Known;
 use slipstick::assessment::fragility::{
-    Capacity, CloudPoint, Fragility, Stripe, test_counts, test_normality,
+    Capacity, Certainty, CloudPoint, Stripe, test_counts, test_normality,
 };
-use slipstick::assessment::observed::Data;
-use slipstick::response::Warning;
+use slipstick::assessment::observed::{Data, FragilityRun};
 
 use super::key::{of_measure, quantity, title};
 use super::sheet::{Sheet, cell};
 use crate::display::{DisplayUnits, Unit};
 use crate::json::Json;
 use crate::number::compact;
+
+pub use family::FragilityFamily;
 
 /// What a fragility is told from.
 #[derive(Clone, Debug)]
@@ -22,22 +24,14 @@ pub struct FragilityReport<'a> {
     pub version: &'static str,
     /// Where the data came from, as a person calls it.
     pub name: &'a str,
-    /// The intensity measure, as `Sa(1.2 s, 5 %)`.
-    pub measure: &'a str,
-    /// Its SI unit.
-    pub measure_unit: &'a str,
     /// Key of the demand.
     pub demand: &'a str,
     /// The limit on it, SI; `None` where the data are counts or capacities of a limit unknown.
     pub limit: Option<f64>,
-    /// The data.
-    pub data: &'a Data,
-    /// The fit.
-    pub fragility: &'a Fragility,
+    /// The data and the fit.
+    pub run: &'a FragilityRun,
     /// Confidence of intervals and band, such as 0.9.
     pub confidence: f64,
-    /// Choices that had to be made.
-    pub warnings: &'a [Warning],
     /// Units to show results in.
     pub display: DisplayUnits,
 }
@@ -48,7 +42,7 @@ const POINTS: usize = 161;
 
 impl FragilityReport<'_> {
     fn levels(&self) -> Vec<f64> {
-        match self.data {
+        match &self.run.data {
             Data::Stripes(stripes) => stripes.iter().map(|stripe| stripe.level).collect(),
             Data::Capacities(capacities) => capacities.iter().map(|c| c.level).collect(),
             Data::Cloud(points) => points.iter().map(|point| point.level).collect(),
@@ -56,7 +50,11 @@ impl FragilityReport<'_> {
     }
 
     fn unit(&self) -> Unit {
-        of_measure(self.measure_unit, self.display, self.levels().into_iter().fold(0.0, f64::max))
+        of_measure(
+            &self.run.measure_unit,
+            self.display,
+            self.levels().into_iter().fold(0.0, f64::max),
+        )
     }
 
     fn demand_unit(&self) -> Unit {
@@ -79,7 +77,7 @@ impl FragilityReport<'_> {
     /// Intensities from 0 to where the curve ends, with probability and band: the tabled curve.
     #[must_use]
     pub fn curve(&self) -> Vec<[f64; 4]> {
-        let curve = self.fragility.curve();
+        let curve = self.run.fragility.curve();
         let data = self.levels().into_iter().fold(0.0, f64::max);
         // Past the data the curve is drawn to 99 %, but no further than half as far again.
         let last = curve.intensity(0.99).clamp(data, 1.5 * data);
@@ -88,7 +86,7 @@ impl FragilityReport<'_> {
             if i == 0 {
                 return [0.0; 4];
             }
-            let [low, high] = self.fragility.band(x, self.confidence);
+            let [low, high] = self.run.fragility.band(x, self.confidence);
             [x, curve.probability(x), low, high]
         };
         (0..POINTS).map(of).collect()
@@ -98,26 +96,27 @@ impl FragilityReport<'_> {
     #[must_use]
     pub fn sheet(&self) -> Sheet {
         let (unit, edp) = (self.unit(), self.demand_unit());
-        let from = match self.data {
+        let from = match &self.run.data {
             Data::Stripes(stripes) => {
                 let runs: u64 = stripes.iter().map(|stripe| stripe.runs).sum();
                 format!("{} stripes, {runs} runs", stripes.len())
             }
             Data::Capacities(capacities) => {
                 let reached = capacities.iter().filter(|c| c.reached).count();
-                format!("capacities of {} records, {reached} reached", capacities.len())
+                format!("{} capacities, {reached} reached", capacities.len())
             }
             Data::Cloud(points) => format!("a cloud of {} runs", points.len()),
         };
         let mut figures = vec![self.figure(unit)];
-        if let Data::Cloud(points) = self.data {
+        if let Data::Cloud(points) = &self.run.data {
             figures.push(self.cloud_figure(points, unit, edp));
         }
         Sheet {
             kind: "Fragility",
             name: self.name.to_owned(),
-            line: format!("{} over {}, from {from}", self.exceedance(), self.measure),
-            warnings: self.warnings.to_vec(),
+            first: Some(("Fitted", self.fitted())),
+            line: format!("{} over {}, from {from}", self.exceedance(), &self.run.measure),
+            warnings: self.run.warnings.clone(),
             tables: self.tables(unit),
             notes: self.goodness().1,
             figures,
@@ -126,15 +125,53 @@ impl FragilityReport<'_> {
         }
     }
 
+    /// What was fitted and why, and over what it averages.
+    fn fitted(&self) -> String {
+        let what = match &self.run.data {
+            Data::Stripes(_) => "counts of exceedances at each level",
+            Data::Capacities(_) => "capacities, the first crossing of each record",
+            Data::Cloud(_) => "all runs by regression (cloud)",
+        };
+        let averaged = if self.run.averaged.designs > 1 {
+            format!("; {}", self.run.averaged)
+        } else {
+            String::new()
+        };
+        format!("to {what}: {}{averaged}", self.run.why)
+    }
+
+    /// Of what the standard errors and intervals are.
+    fn certainty(&self) -> String {
+        match self.run.fragility.certainty() {
+            Certainty::Independent => {
+                "Intervals of θ and β are by profile likelihood; the band is pointwise, Φ(η ± z se(η)) of \
+                 the linear predictor, with the observed information. The data are taken as independent \
+                 of each other."
+                    .to_owned()
+            }
+            Certainty::Clustered { records } => format!(
+                "Runs of one record are not independent: standard errors are clustered by record (the \
+                 sandwich of the scores of {records} records), intervals are θ exp(± t se(ln θ)) and \
+                 β exp(± t se(β)/β) with Student's t on {} degrees of freedom, and so is the band.",
+                records - 1
+            ),
+            Certainty::Bootstrap { records, curves, .. } => format!(
+                "Standard errors, intervals and band are those of {} curves, each fitted to {records} \
+                 records drawn with replacement (bootstrap).",
+                curves.len()
+            ),
+        }
+    }
+
     fn tables(&self, unit: Unit) -> Vec<(String, Vec<Vec<String>>)> {
-        let curve = self.fragility.curve();
-        let [of_median, of_dispersion] = self.fragility.standard_errors();
+        let curve = self.run.fragility.curve();
+        let [of_median, of_dispersion] = self.run.fragility.standard_errors();
         let percent = compact(100.0 * self.confidence);
         let heads = ["", "Estimate", "Standard error", &format!("{percent} % from"), "to"];
         let end = |end: Option<f64>, unit: Option<Unit>| {
             end.map_or("open".to_owned(), |v| cell(unit.map_or(v, |unit| unit.of(v))))
         };
-        let [low, high] = self.fragility.median_interval(self.confidence);
+        let [low, high] = self.run.fragility.median_interval(self.confidence);
         let median = vec![
             unit.label("Median θ"),
             cell(unit.of(curve.median)),
@@ -142,7 +179,7 @@ impl FragilityReport<'_> {
             end(low, Some(unit)),
             end(high, Some(unit)),
         ];
-        let [low, high] = self.fragility.dispersion_interval(self.confidence);
+        let [low, high] = self.run.fragility.dispersion_interval(self.confidence);
         let dispersion = vec![
             "Dispersion β".to_owned(),
             cell(curve.dispersion),
@@ -154,18 +191,18 @@ impl FragilityReport<'_> {
             "Lognormal fragility".to_owned(),
             vec![heads.map(str::to_owned).to_vec(), median, dispersion],
         )];
-        let heads = vec!["Probability of exceedance".to_owned(), unit.label(self.measure)];
+        let heads = vec!["Probability of exceedance".to_owned(), unit.label(&self.run.measure)];
         let row =
             |p: f64| vec![format!("{} %", compact(100.0 * p)), cell(unit.of(curve.intensity(p)))];
         tables.push((
             "Intensity by probability".to_owned(),
             std::iter::once(heads).chain(SHARES.map(row)).collect(),
         ));
-        if let Data::Stripes(stripes) = self.data {
+        if let Data::Stripes(stripes) = &self.run.data {
             let heads =
-                [&unit.label(self.measure), "Runs", "Exceed", "Share", "Fitted", "from", "to"];
+                [&unit.label(&self.run.measure), "Runs", "Exceed", "Share", "Fitted", "from", "to"];
             let row = |stripe: &Stripe| {
-                let [low, high] = self.fragility.band(stripe.level, self.confidence);
+                let [low, high] = self.run.fragility.band(stripe.level, self.confidence);
                 vec![
                     cell(unit.of(stripe.level)),
                     stripe.runs.to_string(),
@@ -180,8 +217,8 @@ impl FragilityReport<'_> {
             let rows = std::iter::once(heads).chain(stripes.iter().map(row)).collect();
             tables.push(("Stripes".to_owned(), rows));
         }
-        if let Data::Cloud(points) = self.data {
-            let fit = self.fragility.fit();
+        if let Data::Cloud(points) = &self.run.data {
+            let fit = self.run.fragility.fit();
             let count =
                 |known: Known| points.iter().filter(|p| p.known == known).count().to_string();
             let rows = [
@@ -226,9 +263,9 @@ impl FragilityReport<'_> {
             ),
         }
         };
-        let (json, note) = match self.data {
+        let (json, note) = match &self.run.data {
             Data::Stripes(stripes) => {
-                let test = test_counts(&self.fragility.curve(), stripes);
+                let test = test_counts(&self.run.fragility.curve(), stripes);
                 let p = test.p_value.map_or("no degrees of freedom".to_owned(), |p| {
                     format!("p = {} on {} degrees of freedom", cell(p), test.degrees)
                 });
@@ -258,7 +295,7 @@ impl FragilityReport<'_> {
                 normality(if all { &logs } else { &[] }, "the logarithms of the capacities")
             }
             Data::Cloud(points) => {
-                let fit = self.fragility.fit();
+                let fit = self.run.fragility.fit();
                 let all = points.iter().all(|point| point.known == Known::Exactly);
                 let residual = |p: &CloudPoint| {
                     libm::log(p.demand) - fit.intercept() - fit.slope() * libm::log(p.level)
@@ -271,19 +308,16 @@ impl FragilityReport<'_> {
     }
 
     fn method(&self) -> Vec<String> {
-        let mut method = vec![
-            "P(exceedance | x) = Φ(ln(x/θ)/β), by maximum likelihood. Intervals of θ and β are by profile \
-             likelihood; the band is pointwise, Φ(η ± z se(η)) of the linear predictor, with the observed \
-             information. All count the scatter between the runs given, not what the suite, the model or \
-             the measure leave out."
-                .to_owned(),
-        ];
+        let mut method = vec![format!(
+            "P(exceedance | x) = Φ(ln(x/θ)/β), by maximum likelihood. {} All count the scatter \
+                 between the runs given, not what the suite, the model or the measure leave out.",
+            self.certainty()
+        )];
         method.push(
-            match self.data {
+            match &self.run.data {
                 Data::Stripes(_) => {
-                    "Counts: k of n runs at a level exceed, independently (Baker 2015). Records used at \
-                     several levels are not independent of themselves: the intervals are then somewhat \
-                     too narrow."
+                    "Counts: k of n runs at a level exceed (Baker 2015). The test of fit takes runs as \
+                     independent."
                 }
                 Data::Capacities(_) => {
                     "Capacities: a record that does not reach the limit at its highest level counts as a \
@@ -301,10 +335,10 @@ impl FragilityReport<'_> {
     }
 
     fn json(&self) -> Json {
-        let curve = self.fragility.curve();
+        let curve = self.run.fragility.curve();
         let pair = |ends: [Option<f64>; 2]| Json::List(ends.map(Json::from).to_vec());
-        let [of_median, of_dispersion] = self.fragility.standard_errors();
-        let (method, data) = match self.data {
+        let [of_median, of_dispersion] = self.run.fragility.standard_errors();
+        let (method, data) = match &self.run.data {
             Data::Stripes(stripes) => {
                 let of = |s: &Stripe| {
                     Json::Object(vec![
@@ -323,7 +357,7 @@ impl FragilityReport<'_> {
                 ("capacities", ("capacities", Json::List(capacities.iter().map(of).collect())))
             }
             Data::Cloud(points) => {
-                let fit = self.fragility.fit();
+                let fit = self.run.fragility.fit();
                 let count =
                     |k: Known| Json::Count(points.iter().filter(|p| p.known == k).count() as u64);
                 let cloud = Json::Object(vec![
@@ -337,24 +371,37 @@ impl FragilityReport<'_> {
                 ("cloud", ("cloud", cloud))
             }
         };
+        let (certainty, records) = match self.run.fragility.certainty() {
+            Certainty::Independent => ("independent", None),
+            Certainty::Clustered { records } => ("clustered", Some(*records)),
+            Certainty::Bootstrap { records, .. } => ("bootstrap", Some(*records)),
+        };
         let row =
             |[x, p, low, high]: [f64; 4]| Json::List([x, p, low, high].map(Json::from).to_vec());
         Json::Object(vec![
             ("slipstick", self.version.into()),
             ("name", self.name.into()),
             ("method", method.into()),
-            ("measure", self.measure.into()),
-            ("measure_unit", self.measure_unit.into()),
+            ("why", self.run.why.as_str().into()),
+            ("designs", Json::Count(self.run.averaged.designs as u64)),
+            (
+                "averaged_over",
+                Json::List(self.run.averaged.paths.iter().map(|p| p.as_str().into()).collect()),
+            ),
+            ("measure", self.run.measure.as_str().into()),
+            ("measure_unit", self.run.measure_unit.as_str().into()),
             ("demand", self.demand.into()),
             ("limit", self.limit.into()),
             ("median", curve.median.into()),
             ("dispersion", curve.dispersion.into()),
             ("se_ln_median", of_median.into()),
             ("se_dispersion", of_dispersion.into()),
+            ("certainty", certainty.into()),
+            ("records", records.map_or(Json::Null, |records| Json::Count(records as u64))),
             ("confidence", self.confidence.into()),
-            ("median_interval", pair(self.fragility.median_interval(self.confidence))),
-            ("dispersion_interval", pair(self.fragility.dispersion_interval(self.confidence))),
-            ("log_likelihood", self.fragility.fit().log_likelihood().into()),
+            ("median_interval", pair(self.run.fragility.median_interval(self.confidence))),
+            ("dispersion_interval", pair(self.run.fragility.dispersion_interval(self.confidence))),
+            ("log_likelihood", self.run.fragility.fit().log_likelihood().into()),
             ("goodness_of_fit", self.goodness().0),
             data,
             ("curve", Json::List(self.curve().into_iter().map(row).collect())),

@@ -117,6 +117,7 @@ impl IdaReport<'_> {
         Sheet {
             kind: "Incremental dynamic analysis",
             name: self.name.to_owned(),
+            first: None,
             line: format!(
                 "{} records, {} runs, {} over {}, {what}",
                 self.records.len(),

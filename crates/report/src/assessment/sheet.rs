@@ -19,6 +19,8 @@ pub struct Sheet {
     pub kind: &'static str,
     /// Name of the model.
     pub name: String,
+    /// What stands before all else, where a reader must know it first: a name and a sentence.
+    pub first: Option<(&'static str, String)>,
     /// What was done, in a line.
     pub line: String,
     /// All that a reader must know.
@@ -52,7 +54,11 @@ impl Sheet {
     /// The result as plain text for a terminal.
     #[must_use]
     pub fn to_text(&self) -> String {
-        let mut text = field("Model", &self.name);
+        let mut text = String::new();
+        if let Some((name, sentence)) = &self.first {
+            text.push_str(&field(name, sentence));
+        }
+        text.push_str(&field("Model", &self.name));
         text.push_str(&field("Analysis", &format!("{}. {}", self.kind, self.line)));
         for (heading, rows) in &self.tables {
             text.push_str(&format!("\n{heading}\n"));
@@ -81,6 +87,9 @@ impl Sheet {
     #[must_use]
     pub fn to_html(&self, went: &Went) -> String {
         let mut body = Markup::new();
+        if let Some((name, sentence)) = &self.first {
+            body.element("p", format!("{name}: {sentence}")).raw("\n");
+        }
         let warnings: Vec<_> = self.warnings.iter().map(|warning| (None, warning)).collect();
         warning_list(&mut body, &warnings);
         body.raw("<section>\n<h2>Results</h2>\n");

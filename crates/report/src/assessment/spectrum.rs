@@ -75,6 +75,7 @@ impl<'s> SpectrumReport<'s> {
         Sheet {
             kind: "Sliding spectra",
             name: self.name.to_owned(),
+            first: None,
             line: format!("{} runs: {records}{}", self.runs, self.scaled),
             warnings: counted("failed_runs", self.failures)
                 .into_iter()

@@ -102,9 +102,12 @@ fn exact_a_fragility_comes_of_an_ida_without_a_file() {
         demand,
         limit: Some(0.02),
         measure: None,
+        units: None,
         fit_to: Some(FitTo::Capacities),
         floor: None,
         cap: None,
+        keep: &[],
+        bootstrap: None,
     });
     let fragility = fragility.unwrap();
     assert_eq!((fragility.measure.as_str(), fragility.measure_unit.as_str()), ("PGA", "m/s2"));

@@ -28,7 +28,7 @@ impl FragilityReport<'_> {
             shape: Shape::Dots("#fff"),
             points,
         };
-        let what = match self.data {
+        let what = match &self.run.data {
             Data::Stripes(stripes) => {
                 let point = |s: &slipstick::assessment::fragility::Stripe| {
                     [unit.of(s.level), s.exceeded as f64 / s.runs as f64]
@@ -44,7 +44,7 @@ impl FragilityReport<'_> {
         };
         let last = x.last().copied().unwrap_or(1.0);
         let axes = [
-            Axis::linear(unit.label(self.measure), 0.0, last),
+            Axis::linear(unit.label(&self.run.measure), 0.0, last),
             Axis::linear("Probability of exceedance", 0.0, 1.0),
         ];
         let [x_axis, y_axis] = axes;
@@ -84,7 +84,7 @@ impl FragilityReport<'_> {
         let (low, high) = range(points.iter().map(|p| edp.of(p.demand)).collect());
         let limit = edp.of(self.limit.unwrap_or(f64::NAN));
         let (low, high) = (low.min(limit) / 1.2, high.max(limit) * 1.2);
-        let fit = self.fragility.fit();
+        let fit = self.run.fragility.fit();
         let at = |x: f64, by: f64| {
             let ln_d = fit.intercept() + fit.slope() * libm::log(x * unit.in_si) + by * fit.sigma();
             edp.of(libm::exp(ln_d))
@@ -103,7 +103,7 @@ impl FragilityReport<'_> {
         }
         series.push(line("limit", Style::LIMIT, vec![[first, limit], [last, limit]]));
         let axes = [
-            Axis::logarithmic(unit.label(self.measure), first / 1.05, last * 1.05),
+            Axis::logarithmic(unit.label(&self.run.measure), first / 1.05, last * 1.05),
             Axis::logarithmic(edp.label(&title(self.demand)), low, high),
         ];
         let [x, y] = axes;
@@ -111,7 +111,7 @@ impl FragilityReport<'_> {
             "{} of every run over {}, with the regression ln D = a + b ln IM and one standard \
              deviation to either side.",
             title(self.demand),
-            self.measure
+            &self.run.measure
         );
         single("cloud", "Cloud", caption, panel(x, y, 260.0, series))
     }

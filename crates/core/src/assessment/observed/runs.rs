@@ -1,0 +1,176 @@
+//! Data from single runs: counts at levels, first crossings, or a cloud.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::columns::{Columns, Records};
+use super::intensity::Intensity;
+use super::{Data, FitTo, FragilityRequest, rows};
+use crate::assessment::censored::Known;
+use crate::assessment::fragility::{Capacity, CloudPoint, Stripe};
+use crate::assessment::ida::Curve;
+use crate::assessment::{AssessmentError, refuse};
+use crate::response::Warning;
+
+/// What single runs were made into, and why.
+pub(super) struct OfRuns {
+    pub(super) data: Data,
+    /// The record of each of the data.
+    pub(super) records: Option<Records>,
+    pub(super) why: String,
+}
+
+/// The column in which an incremental dynamic analysis says how its levels were chosen.
+const LEVEL_CHOICE: &str = "level_choice";
+
+pub(super) fn of_runs(
+    request: &FragilityRequest<'_>,
+    columns: Columns<'_>,
+    intensity: &Intensity,
+    warnings: &mut Vec<Warning>,
+) -> Result<OfRuns, AssessmentError> {
+    if !columns.has(request.demand) {
+        return Err(columns.lacking("demand", request.demand));
+    }
+    let Some(limit) = request.limit else {
+        return Err(refuse("limit", "a limit on the demand, such as \"150 mm\"", "nothing"));
+    };
+    let levels = intensity.values(columns)?;
+    let demands: Vec<f64> =
+        columns.numbers_or_nan(request.demand)?.into_iter().map(f64::abs).collect();
+    let records = columns.records();
+    let hunted = columns.first_text(LEVEL_CHOICE).is_some_and(|choice| choice == "hunted");
+    let (fit_to, why) = match (request.fit_to, hunted) {
+        (Some(FitTo::Counts), true) => {
+            let expected = "capacities: the levels of this table were hunted, each chosen by the \
+                            answer at the one before";
+            return Err(refuse("fit-to", expected, "counts"));
+        }
+        (Some(asked), _) => (asked, "as --fit-to asks".to_owned()),
+        (None, true) => (FitTo::Capacities, "the levels were hunted for each record".to_owned()),
+        (None, false) => natural(&levels, records.as_ref()),
+    };
+    let mut warn = |kind, message| warnings.push(Warning { kind, time_s: None, message });
+    if fit_to == FitTo::Capacities {
+        let Some(records) = records else { return Err(columns.lacking("fit-to", "record")) };
+        let (capacities, of_capacity) = crossings(columns, &records, &levels, &demands, limit)?;
+        let records = Records { of_row: of_capacity, count: records.count };
+        return Ok(OfRuns { data: Data::Capacities(capacities), records: Some(records), why });
+    }
+    let failed = demands.iter().filter(|demand| demand.is_nan()).count();
+    if failed > 0 {
+        warn(
+            "failed_runs",
+            format!("{failed} of {} runs have no demand and are left out", demands.len()),
+        );
+    }
+    let kept: Vec<usize> = (0..demands.len()).filter(|&row| !demands[row].is_nan()).collect();
+    // Records of which all runs failed are no records.
+    let of_kept =
+        records.map(|records| Records::numbered(kept.iter().map(|&row| records.of_row[row])));
+    if fit_to == FitTo::Counts {
+        let record = |i: usize| of_kept.as_ref().map_or(0, |records| records.of_row[i]);
+        let mut counts: BTreeMap<(u64, usize), Stripe> = BTreeMap::new();
+        for (i, &row) in kept.iter().enumerate() {
+            let level = levels[row];
+            // Bits of numbers > 0 are in the order of the numbers.
+            let stripe = counts.entry((level.to_bits(), record(i))).or_insert(Stripe {
+                level,
+                runs: 0,
+                exceeded: 0,
+            });
+            stripe.runs += 1;
+            stripe.exceeded += u64::from(demands[row] > limit);
+        }
+        let of_row = counts.keys().map(|(_, record)| *record).collect();
+        let records = of_kept.map(|records| Records { of_row, count: records.count });
+        let stripes = counts.into_values().collect();
+        return Ok(OfRuns { data: Data::Stripes(stripes), records, why });
+    }
+    let floor = request.floor.unwrap_or(0.0);
+    let mut points = Vec::with_capacity(kept.len());
+    for &row in &kept {
+        let (level, demand) = (levels[row], demands[row]);
+        let (demand, known) = match request.cap {
+            Some(cap) if demand > cap => (cap, Known::AtLeast),
+            _ if demand < floor => (floor, Known::AtMost),
+            _ if demand == 0.0 => {
+                let expected = "a floor for the runs in which nothing moves, such as \"1 mm\"";
+                return Err(refuse("floor", expected, "a demand of 0, which has no logarithm"));
+            }
+            _ => (demand, Known::Exactly),
+        };
+        points.push(CloudPoint { level, demand, known });
+    }
+    Ok(OfRuns { data: Data::Cloud(points), records: of_kept, why })
+}
+
+/// What runs are best fitted to, and why: counts where every record was run at every level, first
+/// crossings where each record has several levels of its own, else regression.
+fn natural(levels: &[f64], records: Option<&Records>) -> (FitTo, String) {
+    let Some(records) = records else {
+        let mut runs: BTreeMap<u64, usize> = BTreeMap::new();
+        for level in levels {
+            *runs.entry(level.to_bits()).or_default() += 1;
+        }
+        return if runs.values().all(|runs| *runs >= 2) {
+            (FitTo::Counts, "levels are shared".to_owned())
+        } else {
+            (FitTo::Cloud, "levels are not shared".to_owned())
+        };
+    };
+    let mut at: HashMap<u64, Vec<bool>> = HashMap::new();
+    for (level, &record) in levels.iter().zip(&records.of_row) {
+        at.entry(level.to_bits()).or_insert_with(|| vec![false; records.count])[record] = true;
+    }
+    if records.count > 1 && at.values().all(|run| run.iter().all(|run| *run)) {
+        return (FitTo::Counts, "every record was run at every level".to_owned());
+    }
+    let of_records: usize = at.values().map(|run| run.iter().filter(|run| **run).count()).sum();
+    if of_records >= 2 * records.count {
+        (FitTo::Capacities, "each record has levels of its own".to_owned())
+    } else {
+        (FitTo::Cloud, "the records were run at one level each".to_owned())
+    }
+}
+
+/// The first crossing of each record's curve, for each design a curve, and their records.
+fn crossings(
+    columns: Columns<'_>,
+    records: &Records,
+    levels: &[f64],
+    demands: &[f64],
+    limit: f64,
+) -> Result<(Vec<Capacity>, Vec<usize>), AssessmentError> {
+    let (_, designs) = rows::designs(columns)?;
+    let design = |row: usize| designs.as_ref().map_or(0, |designs| designs.of_row[row]);
+    let channels = columns.table.texts_of("channel");
+    let channel = |row: usize| channels.map_or("", |channels| &channels[row][..]);
+    let key = |row: usize| (records.of_row[row], channel(row), design(row));
+    let of_curve = Records::numbered((0..levels.len()).map(key));
+    let mut curves = vec![Curve::default(); of_curve.count];
+    let mut of_capacity = vec![0; of_curve.count];
+    for (row, &curve) in of_curve.of_row.iter().enumerate() {
+        curves[curve].insert(levels[row], demands[row]);
+        of_capacity[curve] = records.of_row[row];
+    }
+    let capacity = |curve: &Curve| {
+        let crossing = curve.first_crossing(limit);
+        Capacity { level: crossing.level, reached: crossing.reached }
+    };
+    Ok((curves.iter().map(capacity).collect(), of_capacity))
+}
+
+/// Counts of equal levels added up, by rising level.
+pub(super) fn by_level(stripes: &[Stripe]) -> Vec<Stripe> {
+    let mut levels: BTreeMap<u64, Stripe> = BTreeMap::new();
+    for stripe in stripes {
+        let of_level = levels.entry(stripe.level.to_bits()).or_insert(Stripe {
+            level: stripe.level,
+            runs: 0,
+            exceeded: 0,
+        });
+        of_level.runs += stripe.runs;
+        of_level.exceeded += stripe.exceeded;
+    }
+    levels.into_values().collect()
+}

@@ -1,0 +1,221 @@
+//! Fragilities of the same table by the values of a path.
+
+use slipstick::assessment::observed::{Averaged, FragilityGroup, FragilityRun};
+use slipstick::response::Warning;
+
+use super::{FragilityReport, POINTS};
+use crate::assessment::lines::{GROUPS, line, panel, single};
+use crate::assessment::sheet::{Sheet, cell};
+use crate::display::{DisplayUnits, Unit};
+use crate::json::Json;
+use crate::number::compact;
+use crate::plot::Axis;
+
+/// What several fragilities are told from.
+#[derive(Clone, Debug)]
+pub struct FragilityFamily<'a> {
+    /// Version of this program.
+    pub version: &'static str,
+    /// Where the data came from, as a person calls it.
+    pub name: &'a str,
+    /// The path by which the rows were taken apart.
+    pub by: &'a str,
+    /// The SI unit of its values.
+    pub by_unit: &'a str,
+    /// A fragility for each value, or why there is none.
+    pub groups: &'a [FragilityGroup],
+    /// Key of the demand.
+    pub demand: &'a str,
+    /// The limit on it, SI.
+    pub limit: Option<f64>,
+    /// Confidence of intervals and bands.
+    pub confidence: f64,
+    /// Units to show results in.
+    pub display: DisplayUnits,
+}
+
+impl FragilityFamily<'_> {
+    fn report<'b>(&'b self, run: &'b FragilityRun) -> FragilityReport<'b> {
+        FragilityReport {
+            version: self.version,
+            name: self.name,
+            demand: self.demand,
+            limit: self.limit,
+            run,
+            confidence: self.confidence,
+            display: self.display,
+        }
+    }
+
+    /// The fragilities that there are, with their values.
+    fn reports(&self) -> Vec<(&FragilityGroup, FragilityReport<'_>)> {
+        let report = |run| self.report(run);
+        self.groups.iter().filter_map(|g| Some((g, report(g.run.as_ref().ok()?)))).collect()
+    }
+
+    /// A value as people read it: `2 m`.
+    fn label(&self, group: &FragilityGroup) -> String {
+        if group.value.is_nan() {
+            return group.text.clone();
+        }
+        format!("{} {}", compact(group.value), self.by_unit).trim_end().to_owned()
+    }
+
+    /// Rows of the curves: the value, intensity, probability and band.
+    #[must_use]
+    pub fn curves(&self) -> Vec<(&FragilityGroup, [f64; 4])> {
+        let of = |(group, report): (_, FragilityReport<'_>)| {
+            report.curve().into_iter().map(move |row| (group, row)).collect::<Vec<_>>()
+        };
+        self.reports().into_iter().flat_map(of).collect()
+    }
+
+    /// The result laid out; `None` where no value has a fragility.
+    #[must_use]
+    pub fn sheet(&self) -> Option<Sheet> {
+        let reports = self.reports();
+        let (_, first) = reports.first()?;
+        let unit = first.unit();
+        let fitted = first.fitted();
+        let fitted = fitted.split("; averaged").next().unwrap_or(&fitted);
+        let mut warnings: Vec<Warning> = Vec::new();
+        for (group, report) in &reports {
+            for warning in &report.run.warnings {
+                let said = warnings.iter().any(|w| w.kind == warning.kind);
+                if !said {
+                    let message = format!("{}: {}", self.label(group), warning.message);
+                    warnings.push(Warning { message, ..warning.clone() });
+                }
+            }
+        }
+        for group in self.groups {
+            if let Err(error) = &group.run {
+                let message = format!("{} = {}: {error}", self.by, self.label(group));
+                warnings.push(Warning { kind: "no_curve", time_s: None, message });
+            }
+        }
+        let averaged = |averaged: &Averaged| match averaged.designs {
+            0 | 1 => String::new(),
+            _ => format!("; each {averaged}"),
+        };
+        Some(Sheet {
+            kind: "Fragility",
+            name: self.name.to_owned(),
+            first: Some((
+                "Fitted",
+                format!("{fitted}; by {}{}", self.by, averaged(&first.run.averaged)),
+            )),
+            line: format!(
+                "{} over {}, one curve for each of {} values of {}",
+                first.exceedance(),
+                first.run.measure,
+                reports.len(),
+                self.by
+            ),
+            warnings,
+            tables: vec![self.table(&reports, unit)],
+            notes: Vec::new(),
+            figures: vec![self.figure(&reports, unit)],
+            method: first.method(),
+            json: self.json(),
+        })
+    }
+
+    fn table(
+        &self,
+        reports: &[(&FragilityGroup, FragilityReport<'_>)],
+        unit: Unit,
+    ) -> (String, Vec<Vec<String>>) {
+        let percent = compact(100.0 * self.confidence);
+        let heads = [
+            self.by,
+            "Designs",
+            &unit.label("Median θ"),
+            "se of ln θ",
+            &format!("{percent} % from"),
+            "to",
+            "Dispersion β",
+            "from",
+            "to",
+        ];
+        let mut rows = vec![heads.map(str::to_owned).to_vec()];
+        for (group, report) in reports {
+            let fragility = &report.run.fragility;
+            let end = |end: Option<f64>, by: f64| end.map_or("open".to_owned(), |v| cell(v / by));
+            let [low, high] = fragility.median_interval(self.confidence);
+            let [least, most] = fragility.dispersion_interval(self.confidence);
+            rows.push(vec![
+                self.label(group),
+                report.run.averaged.designs.to_string(),
+                cell(unit.of(fragility.curve().median)),
+                cell(fragility.standard_errors()[0]),
+                end(low, unit.in_si),
+                end(high, unit.in_si),
+                cell(fragility.curve().dispersion),
+                end(least, 1.0),
+                end(most, 1.0),
+            ]);
+        }
+        (format!("Lognormal fragility by {}", self.by), rows)
+    }
+
+    fn figure(
+        &self,
+        reports: &[(&FragilityGroup, FragilityReport<'_>)],
+        unit: Unit,
+    ) -> crate::figures::Drawn {
+        let last = reports
+            .iter()
+            .filter_map(|(_, report)| report.curve().last().map(|row| row[0]))
+            .fold(0.0, f64::max);
+        let series = reports
+            .iter()
+            .enumerate()
+            .map(|(i, (group, report))| {
+                let curve = report.run.fragility.curve();
+                let at = |i: usize| last * i as f64 / (POINTS - 1) as f64;
+                let points = (0..POINTS)
+                    .map(|i| {
+                        let p = if i == 0 { 0.0 } else { curve.probability(at(i)) };
+                        [unit.of(at(i)), p]
+                    })
+                    .collect();
+                line(self.label(group), GROUPS[i % GROUPS.len()], points)
+            })
+            .collect();
+        let (x, y) = (
+            Axis::linear(unit.label(&reports[0].1.run.measure), 0.0, unit.of(last)),
+            Axis::linear("Probability of exceedance", 0.0, 1.0),
+        );
+        let caption = format!(
+            "Probability of exceedance ({}) for each value of {}.",
+            reports[0].1.exceedance(),
+            self.by
+        );
+        single("fragility", "Fragility curves", caption, panel(x, y, 300.0, series))
+    }
+
+    fn json(&self) -> Json {
+        let of = |group: &FragilityGroup| {
+            let value = if group.value.is_nan() {
+                Json::from(group.text.as_str())
+            } else {
+                Json::from(group.value)
+            };
+            let found = match &group.run {
+                Ok(run) => ("fragility", self.report(run).json()),
+                Err(error) => ("error", Json::from(error.to_string().as_str())),
+            };
+            Json::Object(vec![("value", value), found])
+        };
+        Json::Object(vec![
+            ("slipstick", self.version.into()),
+            ("name", self.name.into()),
+            ("by", self.by.into()),
+            ("by_unit", self.by_unit.into()),
+            ("demand", self.demand.into()),
+            ("limit", self.limit.into()),
+            ("curves", Json::List(self.groups.iter().map(of).collect())),
+        ])
+    }
+}
