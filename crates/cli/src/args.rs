@@ -160,23 +160,11 @@ pub struct RunArgs {
     /// What its file does not say
     #[command(flatten)]
     pub record: RecordArgs,
-    /// Factor on the record; may be negative
-    #[arg(
-        long,
-        value_name = "FACTOR",
-        requires = "motion",
-        allow_hyphen_values = true,
-        help_heading = "Ground motion"
-    )]
+    /// Factor on the record, that of the model or of --motion; may be negative
+    #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, help_heading = "Ground motion")]
     pub scale: Option<String>,
     /// Peak acceleration to scale the record to: "0.3 g"
-    #[arg(
-        long,
-        value_name = "PEAK",
-        requires = "motion",
-        conflicts_with = "scale",
-        help_heading = "Ground motion"
-    )]
+    #[arg(long, value_name = "PEAK", conflicts_with = "scale", help_heading = "Ground motion")]
     pub scale_to: Option<String>,
 
     /// How to compute: exact, or stepwise as the paper's own program did

@@ -9,6 +9,7 @@ mod cases;
 mod columns;
 mod design;
 pub mod engine;
+pub(crate) mod notices;
 mod rows;
 pub mod summary;
 mod verify;
@@ -72,6 +73,8 @@ pub struct Study {
 struct Sample {
     values: Vec<f64>,
     parts: Result<Parts, RunError>,
+    /// Frequency of the highest mode of the model; 0 without a model.
+    highest_hz: f64,
 }
 
 impl Study {
@@ -253,7 +256,8 @@ impl Study {
     fn sample(&self, index: u64) -> Sample {
         let values = self.design.values(index);
         let parts = self.variation.parts(&values).map_err(RunError::from);
-        Sample { values, parts }
+        let highest_hz = parts.as_ref().map_or(0.0, |parts| notices::highest_hz(&parts.model));
+        Sample { values, parts, highest_hz }
     }
 
     /// The samples in a range: from the store, where they are few enough to be kept.

@@ -44,16 +44,39 @@ pub fn expand(base: &Path, pattern: &str) -> Result<Vec<PathBuf>, FileError> {
 /// # Errors
 /// As [`expand`], the first.
 pub fn expand_all<S: AsRef<str>>(base: &Path, patterns: &[S]) -> Result<Vec<PathBuf>, FileError> {
-    let mut files: Vec<PathBuf> = Vec::new();
+    Ok(expand_once(base, patterns)?.0)
+}
+
+/// The same with the files that are named more than once.
+///
+/// # Errors
+/// As [`expand`], the first.
+pub(crate) fn expand_once<S: AsRef<str>>(
+    base: &Path,
+    patterns: &[S],
+) -> Result<(Vec<PathBuf>, Vec<PathBuf>), FileError> {
+    let (mut files, mut again) = (Vec::new(), Vec::new());
     let mut known = std::collections::HashSet::new();
     for pattern in patterns {
         for file in expand(base, pattern.as_ref())? {
             if known.insert(file.clone()) {
                 files.push(file);
+            } else if !again.contains(&file) {
+                again.push(file);
             }
         }
     }
-    Ok(files)
+    Ok((files, again))
+}
+
+/// What is said of files that are named more than once; `None` where none is.
+pub(crate) fn named_twice(again: &[PathBuf]) -> Option<String> {
+    let first = again.first()?;
+    let more = match again.len() - 1 {
+        0 => String::new(),
+        more => format!(" (and {more} more)"),
+    };
+    Some(format!("{} is named more than once: it is used once{more}", first.display()))
 }
 
 /// The folder before the first part that is a pattern, and the parts from there on.

@@ -9,7 +9,7 @@ use slipstick::response::Warning;
 use slipstick::study::engine::Engine;
 
 use crate::error::FileError;
-use crate::globs::expand_all;
+use crate::globs::{expand_all, expand_once, named_twice};
 use crate::load::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
 
 /// Why the records of a suite cannot be used.
@@ -56,7 +56,7 @@ impl OpenSuite {
     /// [`SuiteError`] where nothing matches a pattern, a file is no record, or the vertical
     /// components are not as many as the horizontal ones.
     pub fn open(request: &SuiteRequest) -> Result<Self, SuiteError> {
-        let files = expand_all(Path::new(""), &request.patterns)?;
+        let (files, again) = expand_once(Path::new(""), &request.patterns)?;
         let vertical = expand_all(Path::new(""), &request.vertical)?;
         if !vertical.is_empty() && vertical.len() != files.len() {
             return Err(SuiteError::Choice(ChoiceError {
@@ -83,7 +83,14 @@ impl OpenSuite {
         // Nothing stops an engine that nobody follows.
         let loaded = Engine::unwatched().map(files.len(), load).unwrap_or_default();
         let loaded = loaded.into_iter().collect::<Result<Vec<_>, FileError>>()?;
-        Ok(Self::of(&names(&files), loaded, false))
+        let mut open = Self::of(&names(&files), loaded, false);
+        let twice = named_twice(&again);
+        open.warnings.extend(twice.map(|message| Warning {
+            kind: "record_named_twice",
+            time_s: None,
+            message,
+        }));
+        Ok(open)
     }
 
     /// The motion of a model as its only record.

@@ -21,7 +21,8 @@ table_acceleration, block_acceleration, sliding_displacement, sliding_velocity,
 friction_force, storey1_displacement, storey1_velocity, storey1_acceleration, …
 
 Figures for --within: peak_ratio, residual_error, rms_error, normalised_rms_error,
-correlation, russell_magnitude, russell_phase, russell_comprehensive, anderson, arrival_lag;
+correlation, russell_magnitude, russell_phase, russell_comprehensive, anderson_whole_band,
+arrival_lag;
 SI, either end may be left out. A bound that is missed makes the exit status 1.";
 pub(super) const IDENTIFY_EXAMPLES: &str = "\
 Examples:

@@ -21,7 +21,10 @@ use crate::progress::watched;
 /// Runs one analysis, prints it and writes its files.
 pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     let model = read_model(&args.model)?;
-    let overrides = overrides(&args.set, args.method)?;
+    let mut overrides = overrides(&args.set, args.method)?;
+    if args.motion.is_none() {
+        overrides.extend(scale_of_model(args)?);
+    }
     let analysis = input::from_bytes(&model.name, &model.bytes, &overrides)
         .map_err(|error| Failure::input(error, &model.text()))?;
     args.record.only_with("--motion <FILE>", args.motion.is_some())?;
@@ -104,6 +107,17 @@ pub(super) fn overrides(
         Override::of_option("--set", &text).map_err(|error| Failure::Message(error.to_string()))
     })
     .collect()
+}
+
+/// Without `--motion` the scale is that of the model's own motion.
+fn scale_of_model(args: &RunArgs) -> Result<Option<Override>, Failure> {
+    let (option, key, value) = match (&args.scale, &args.scale_to) {
+        (Some(factor), _) => ("--scale", "motion.scale", factor),
+        (None, Some(peak)) => ("--scale-to", "motion.scale_to", peak),
+        (None, None) => return Ok(None),
+    };
+    let set = Override::of_option(option, &format!("{key}={value}"));
+    set.map(Some).map_err(|error| Failure::Message(error.to_string()))
 }
 
 /// The record of `--motion`, completed by the options beside it.

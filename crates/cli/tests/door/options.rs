@@ -1,6 +1,6 @@
 //! Commands beside `run`, help, units of the table, what is said and what is not.
 
-use super::support::{BLOCK, Folder, text};
+use super::support::{BLOCK, Folder, RECORD, RECORDED, text};
 
 #[test]
 fn exact_examples_of_init_run_without_surprises() {
@@ -103,4 +103,52 @@ fn exact_messages_go_to_standard_error_and_quiet_takes_them_away() {
     assert_eq!(stderr(&["--out", "out"]), "wrote out/report.html\n");
     assert_eq!(stderr(&["--out", "out", "--quiet"]), "");
     assert!(folder.stdout(&["run", "model.toml"]).contains("gap_exceeded"));
+}
+
+/// Without --motion the scale is that of the model's own record.
+#[test]
+fn exact_scale_without_a_motion_is_that_of_the_model() {
+    let folder = Folder::with_model("scale-of-model", RECORDED);
+    folder.write("record.csv", RECORD);
+    let scaled = folder.json(&["model.toml", "--scale-to", "0.3 g"]);
+    assert!(
+        (scaled["record"]["pga_m_per_s2"].as_f64().unwrap() / 0.3 / 9.80665 - 1.0).abs() < 1e-14
+    );
+    let set = folder.json(&["model.toml", "--set", "motion.scale_to=0.3 g"]);
+    assert_eq!(scaled, set);
+    let twice = folder.json(&["model.toml", "--scale", "-2"]);
+    assert_eq!(twice["record"]["pga_m_per_s2"], 10.0);
+    folder.write("sine.toml", BLOCK);
+    let found = folder.refused(&["run", "sine.toml", "--scale-to", "0.3 g"]);
+    assert!(found.contains("motion.scale_to"), "{found}");
+}
+
+/// A tail that ends between two steps does not make the record's step uneven.
+#[test]
+fn exact_the_report_tells_the_step_of_the_record() {
+    let model = format!("{RECORDED}\n[analysis]\ntail = \"0.7 s\"\n");
+    let folder = Folder::with_model("step-of-record", &model);
+    folder.write("record.csv", RECORD);
+    folder.stdout(&["run", "model.toml", "--out", "out", "-q"]);
+    let page = folder.read("out/report.html");
+    assert!(page.contains("Time step") && !page.contains("uneven"), "uneven");
+}
+
+/// One long line of numbers is a series as several lines of them are.
+#[test]
+fn exact_one_long_line_is_a_record() {
+    let folder = Folder::new("long-line");
+    let numbers: Vec<String> =
+        (0..200).map(|i| format!("{:.4}", (0.3 * f64::from(i)).sin())).collect();
+    folder.write("line.txt", numbers.join(" "));
+    let lines: Vec<String> = numbers.chunks(8).map(|line| line.join(" ")).collect();
+    folder.write("lines.txt", lines.join("\n"));
+    let of = |file: &str| {
+        let text =
+            folder.stdout(&["record", "info", file, "--units", "g", "--dt", "0.01 s", "--json"]);
+        let found: serde_json::Value = serde_json::from_str(&text).unwrap();
+        (found[0]["npts"].clone(), found[0]["pga_m_per_s2"].clone())
+    };
+    assert_eq!(of("line.txt"), of("lines.txt"));
+    assert_eq!(of("line.txt").0, 200);
 }

@@ -568,3 +568,68 @@ fn exact_schema_of_plans_is_json() {
         schema["properties"]["vary"]["additionalProperties"]["properties"]["factor_of"].is_object()
     );
 }
+
+/// A level named twice would count its runs twice; a record named twice is used once, and that is said.
+#[test]
+fn exact_what_is_named_twice_is_said() {
+    let folder = folder("named-twice");
+    folder.write("twice.toml", PLAN.replace("\"0.5 g\"]", "\"0.2 g\"]"));
+    let found = folder.refused(&["study", "twice.toml", "--out", "out"]);
+    assert!(found.contains("expected a level that is not named before, found"), "{found}");
+    folder.write(
+        "factors.toml",
+        PLAN.replace("measure = \"PGA\"\n", "")
+            .replace("levels = [\"0.2 g\", \"0.3 g\", \"0.5 g\"]", "scale = [1.0, 2.0, 1.0]"),
+    );
+    let found = folder.refused(&["study", "factors.toml", "--out", "out"]);
+    assert!(found.contains("expected factors that differ, found 1 twice"), "{found}");
+    folder.write(
+        "files.toml",
+        PLAN.replace("[\"records/*.csv\"]", "[\"records/b.csv\", \"records\"]"),
+    );
+    let output = folder.output(&["study", "files.toml", "--dry-run"]);
+    let said = text(&output.stderr);
+    assert!(said.contains("b.csv is named more than once: it is used once"), "{said}");
+    assert!(text(&output.stdout).contains("records  2\n"), "{}", text(&output.stdout));
+    let output = folder.output(&[
+        "ida",
+        "model.toml",
+        "--records",
+        "records/b.csv",
+        "records",
+        "--levels",
+        "1, 2 m/s2",
+    ]);
+    let said = text(&output.stdout);
+    assert!(said.contains("record_named_twice: records/b.csv is named more than once"), "{said}");
+}
+
+/// A study warns of what `run` warns of, on the same model and motion.
+#[test]
+fn exact_a_study_warns_as_run_does() {
+    let folder = folder("study-warns");
+    let radius = MODEL.replace("gap = \"100 mm\"", "radius = \"2 m\"");
+    folder.write("model.toml", &radius);
+    folder.write("up/a.csv", RECORD);
+    let plan = "model = \"model.toml\"\n[records]\nfiles = [\"records/a.csv\"]\nvertical = [\"up/a.csv\"]\n";
+    folder.write("plan.toml", plan);
+    folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
+    let columns = read_columns(&folder.path().join("out/part-00000.parquet")).unwrap();
+    let of_study = columns.iter().find(|column| column.name == "warnings").unwrap();
+    let Cells::Texts(of_study) = &of_study.cells else { panic!("texts") };
+    let motion = "record = \"records/a.csv\"\nvertical = \"up/a.csv\"\n";
+    let motion = radius.split("[motion]").next().unwrap().to_owned() + "[motion]\n" + motion;
+    folder.write("run.toml", motion);
+    let of_run = folder.json(&["run.toml"]);
+    let of_run: Vec<&str> = of_run["warnings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|w| w["kind"].as_str().unwrap())
+        .collect();
+    assert!(of_run.contains(&"coarse_sampling"), "{of_run:?}");
+    assert!(of_run.contains(&"pendulum_under_vertical_motion"), "{of_run:?}");
+    for kind in &of_run {
+        assert!(of_study[0].split(';').any(|of_study| of_study == *kind), "{kind}: {of_study:?}");
+    }
+}

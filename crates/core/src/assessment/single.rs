@@ -4,11 +4,13 @@
 use crate::check::{self, Certificate};
 use crate::error::{InputError, MotionError, SolveError};
 use crate::input::{Analysis, MotionSource};
-use crate::linear::shear_frame_frequencies;
 use crate::model::Model;
 use crate::motion::{GroundMotion, spectrum};
 use crate::response::{History, Response, Warning};
 use crate::solver;
+use crate::study::notices::{
+    coarse_sampling, highest_hz, longest_step_s, pendulum_under_vertical_motion,
+};
 
 /// Damping ratio of floor spectra.
 const FLOOR_SPECTRUM_DAMPING: f64 = 0.05;
@@ -80,8 +82,10 @@ impl Job {
             tail_s => bare.with_tail(tail_s).map_err(|error| of_tail(&analysis, &error))?,
         };
         let mut warnings = noticed;
-        warnings.extend(coarse_sampling(&analysis.model, &bare));
-        warnings.extend(pendulum_under_vertical_motion(&analysis, &bare));
+        let (highest_hz, step_s) = (highest_hz(&analysis.model), longest_step_s(&bare));
+        warnings.extend(coarse_sampling(highest_hz, step_s));
+        let has_radius = analysis.value("slider.radius").is_some();
+        warnings.extend(pendulum_under_vertical_motion(has_radius, &bare));
         Ok(Self { analysis, bare, motion, warnings })
     }
 
@@ -148,36 +152,6 @@ fn of_tail(analysis: &Analysis, error: &MotionError) -> InputError {
         }
         other => analysis.motion_error(other),
     }
-}
-
-/// Samples further apart than a tenth of the shortest period say little of the highest mode.
-fn coarse_sampling(model: &Model, motion: &GroundMotion) -> Option<Warning> {
-    let times_s = motion.times_s();
-    let longest_s = times_s.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
-    let nyquist_hz = 0.5 / longest_s;
-    let frame = model.frame();
-    let of_frame = shear_frame_frequencies(&frame.masses_kg, &frame.stiffnesses_n_per_m);
-    let of_slider = (model.slider().stiffness_n_per_m / model.total_mass_kg()).sqrt();
-    let highest_hz = of_frame.into_iter().fold(of_slider, f64::max) / (2.0 * std::f64::consts::PI);
-    (nyquist_hz < 5.0 * highest_hz).then(|| Warning {
-        kind: "coarse_sampling",
-        time_s: None,
-        message: format!(
-            "the Nyquist frequency of the motion, {nyquist_hz:.4} Hz, is below 5 times the highest \
-             mode, {highest_hz:.4} Hz: the motion may lack what excites that mode"
-        ),
-    })
-}
-
-fn pendulum_under_vertical_motion(analysis: &Analysis, motion: &GroundMotion) -> Option<Warning> {
-    let pendulum = analysis.value("slider.radius").is_some();
-    (pendulum && motion.vertical_m_per_s2().is_some()).then(|| Warning {
-        kind: "pendulum_under_vertical_motion",
-        time_s: None,
-        message: "the pendulum slider is a spring M_tot g / R; its true force would follow the \
-                  normal force N(t)"
-            .to_owned(),
-    })
 }
 
 /// Spectra of table, block and floors; what the knots keep is taken as linear between them, with

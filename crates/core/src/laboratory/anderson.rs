@@ -1,10 +1,10 @@
-//! Anderson's goodness of fit of one acceleration history.
+//! Anderson's scores of one acceleration history, over the whole band.
 //!
 //! J. G. Anderson, "Quantitative measure of the goodness-of-fit of synthetic seismograms", 13th
 //! World Conference on Earthquake Engineering, 2004, paper 243. Ten scores from 0 to 10; below 4
 //! is a poor fit, 4 to 6 fair, 6 to 8 good, above 8 excellent. The original repeats them in
-//! narrow bands of frequency and takes the mean over those; here they are those of the whole band
-//! of the record.
+//! ten bands of frequency and takes the mean over those, which is his goodness of fit; here they are
+//! those of the whole band of the record, and are called so.
 //!
 //! For two positive numbers `S(a, b) = 10 exp(−((a − b)/min(a, b))²)`, and 10 where both are 0.
 

@@ -167,7 +167,7 @@ impl Metrics {
         "russell_magnitude",
         "russell_phase",
         "russell_comprehensive",
-        "anderson",
+        "anderson_whole_band",
         "arrival_lag",
     ];
 
@@ -183,7 +183,7 @@ impl Metrics {
             "russell_magnitude" => self.russell.map(|r| r.magnitude),
             "russell_phase" => self.russell.map(|r| r.phase),
             "russell_comprehensive" => self.russell.map(|r| r.comprehensive),
-            "anderson" => self.anderson.map(|a| a.mean()),
+            "anderson_whole_band" => self.anderson.map(|a| a.mean()),
             "arrival_lag" => self.arrival_lag_s,
             _ => None,
         }

@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::engine::{Engine, Running, Shaking, made_motion};
+use super::notices::{coarse_sampling, longest_step_s, pendulum_under_vertical_motion};
 use super::{Case, Sample, Study, chunks};
 use crate::error::{RunError, Stopped};
 use crate::input::{MotionSource, Parts};
@@ -42,17 +43,21 @@ pub struct Row {
 struct Prepared {
     motion: GroundMotion,
     measures: Arc<[f64]>,
+    /// Longest step of the motion without its tail.
+    longest_step_s: f64,
 }
 
 /// The same with what the solver needs to know of it.
 struct Ready<'a> {
     motion: Shaking<'a>,
     measures: Arc<[f64]>,
+    longest_step_s: f64,
 }
 
 fn ready(prepared: &Result<Prepared, RunError>) -> Result<Ready<'_>, RunError> {
-    let Prepared { motion, measures } = prepared.as_ref().map_err(Clone::clone)?;
-    Ok(Ready { motion: Shaking::new(motion), measures: measures.clone() })
+    let Prepared { motion, measures, longest_step_s } = prepared.as_ref().map_err(Clone::clone)?;
+    let (measures, longest_step_s) = (measures.clone(), *longest_step_s);
+    Ok(Ready { motion: Shaking::new(motion), measures, longest_step_s })
 }
 
 /// What a prepared motion was made from: it serves for all samples that agree on it.
@@ -146,7 +151,8 @@ impl Study {
         let motion = record.motion.scaled(scale).map_err(RunError::from);
         Some(motion.map(|motion| {
             let measures = self.measures_of(case.record, scale, &motion);
-            Prepared { motion, measures }
+            let longest_step_s = longest_step_s(&motion);
+            Prepared { motion, measures, longest_step_s }
         }))
     }
 
@@ -210,13 +216,38 @@ impl Study {
         };
         let (demands, warnings, error) = match outcome {
             Ok(response) => {
-                let record = self.records.get(case.record as usize);
-                let of_record = record.map_or(&[][..], |record| &record.warnings);
-                (demand_values(&response.demands), warnings(of_record, &response), None)
+                let noticed = motion.as_ref().map_or_else(
+                    |_| Vec::new(),
+                    |ready| {
+                        let (highest_hz, step_s) = (sample.highest_hz, ready.longest_step_s);
+                        self.noticed(case, highest_hz, step_s, ready.motion.motion())
+                    },
+                );
+                (demand_values(&response.demands), warnings(&noticed, &response), None)
             }
             Err(error) => (vec![f64::NAN; self.demands], Vec::new(), Some(error)),
         };
         Row { run, case, scale, measures, values, demands, warnings, error }
+    }
+
+    /// Kinds of what is noticed of the record, and of model and motion before they are run.
+    pub(super) fn noticed(
+        &self,
+        case: Case,
+        highest_hz: f64,
+        longest_step_s: f64,
+        motion: &GroundMotion,
+    ) -> Vec<&'static str> {
+        let of_record = self.records.get(case.record as usize).map(|record| &record.warnings);
+        let is_radius = |path: &str| path == "slider.radius";
+        let has_radius = self.variation.has("slider.radius")
+            || self.design.vary().iter().any(|varied| is_radius(&varied.path));
+        let of_model = [
+            coarse_sampling(highest_hz, longest_step_s),
+            pendulum_under_vertical_motion(has_radius, motion),
+        ];
+        let of_model = of_model.into_iter().flatten().map(|warning| warning.kind);
+        of_record.into_iter().flatten().copied().chain(of_model).collect()
     }
 
     fn with_tail(
@@ -226,13 +257,16 @@ impl Study {
     ) -> Result<Prepared, RunError> {
         let bare = match scaled {
             Some(scaled) => {
-                let Ready { motion, measures } = scaled.as_ref().map_err(Clone::clone)?;
-                Prepared { motion: motion.motion().clone(), measures: measures.clone() }
+                let Ready { motion, measures, longest_step_s } =
+                    scaled.as_ref().map_err(Clone::clone)?;
+                let (measures, longest_step_s) = (measures.clone(), *longest_step_s);
+                Prepared { motion: motion.motion().clone(), measures, longest_step_s }
             }
             None => {
                 let motion = made_motion(made.source)?;
                 let measures = self.measures.iter().map(|measure| measure.of(&motion)).collect();
-                Prepared { motion, measures }
+                let longest_step_s = longest_step_s(&motion);
+                Prepared { motion, measures, longest_step_s }
             }
         };
         if made.tail_s == 0.0 {

@@ -1,6 +1,7 @@
 //! Rows under test: run again alone, from the model's text, with history and certificate.
 
 use super::engine::{made_motion, scaled_with_tail};
+use super::notices::{highest_hz, longest_step_s};
 use super::rows::warnings;
 use super::{Row, Study};
 use crate::check::{self, Certificate};
@@ -50,11 +51,14 @@ impl Study {
         };
         let certificate = check::check(&analysis.model, &motion, &response);
         let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
-        let record = self.records.get(row.case.record as usize);
-        let of_record = record.map_or(&[][..], |record| &record.warnings);
+        let step_s = match self.records.get(row.case.record as usize) {
+            Some(record) => longest_step_s(&record.motion),
+            None => made_motion(analysis.motion.as_ref()).map_or(0.0, |made| longest_step_s(&made)),
+        };
+        let noticed = self.noticed(row.case, highest_hz(&analysis.model), step_s, &motion);
         let same = row.error.is_none()
             && bits(&demand_values(&response.demands)) == bits(&row.demands)
-            && warnings(of_record, &response) == row.warnings;
+            && warnings(&noticed, &response) == row.warnings;
         let holds = certificate.holds();
         let Certificate {
             equilibrium_residual,

@@ -8,7 +8,7 @@ use slipstick::study::{Record, Study};
 
 use super::StudyError;
 use crate::error::FileError;
-use crate::globs::expand;
+use crate::globs::{expand, named_twice};
 use crate::load::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
 use crate::read::{read_at_most, resolve, sha256_hex};
 use crate::run::request;
@@ -70,7 +70,7 @@ impl OpenStudy {
         ];
         let mut notices = Vec::new();
         let loaded = match &plan.records {
-            Some(records) => load_all(&plan, records, folder, &in_plan)?,
+            Some(records) => load_all(&plan, records, folder, &in_plan, &mut notices)?,
             None => own_record(&plan, &model_path, &model_bytes, &in_model)?,
         };
         let mut records = Vec::new();
@@ -125,8 +125,10 @@ fn load_all(
     records: &Records,
     folder: &Path,
     in_plan: &impl Fn(slipstick::error::InputError) -> StudyError,
+    notices: &mut Vec<String>,
 ) -> Result<Vec<Loaded>, StudyError> {
     let files = find(plan, "records.files", &records.files, folder).map_err(in_plan)?;
+    let files = if records.vertical.is_empty() { once(files, notices) } else { files };
     let vertical = find(plan, "records.vertical", &records.vertical, folder).map_err(in_plan)?;
     if !vertical.is_empty() && vertical.len() != files.len() {
         let expected = format!("one vertical motion for each of {} files", files.len());
@@ -156,6 +158,18 @@ fn load_all(
         });
     }
     Ok(all)
+}
+
+/// Each file once, and a notice of those that are named more than once.
+fn once(files: Vec<PathBuf>, notices: &mut Vec<String>) -> Vec<PathBuf> {
+    let (mut kept, mut again): (Vec<PathBuf>, Vec<PathBuf>) = (Vec::new(), Vec::new());
+    for file in files {
+        let list = if kept.contains(&file) { &mut again } else { &mut kept };
+        list.push(file);
+    }
+    again.dedup();
+    notices.extend(named_twice(&again));
+    kept
 }
 
 /// The files that patterns mean, in the order of the patterns; all that mean none are named at once.

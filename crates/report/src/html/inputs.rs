@@ -41,7 +41,8 @@ fn record_rows(report: &Report) -> Vec<(&'static str, String)> {
         format!("{} {}", significant(unit.of(si), 4), unit.symbol)
     };
     let show = |quantity, si: f64| show_as(quantity, si, si);
-    let dt = motion.dt_s().map_or("uneven".to_owned(), |dt_s| format!("{} s", compact(dt_s)));
+    // The step of the record: a tail may end between two steps.
+    let dt = summary.dt_s.map_or("uneven".to_owned(), |dt_s| format!("{} s", compact(dt_s)));
     let mut rows = vec![
         ("Record", report.record.to_owned()),
         ("Samples", count(motion.len() as u64)),

@@ -128,7 +128,7 @@ impl CompareReport<'_> {
             row("Arrival lag (s)", &|_, m, _| ratio(m.arrival_lag_s)),
         ];
         if all.iter().any(|c| c.metrics.anderson.is_some()) {
-            rows.push(row("Anderson's goodness of fit (0 to 10)", &|_, m, _| {
+            rows.push(row("Anderson's scores over the whole band (0 to 10)", &|_, m, _| {
                 let mean = m.anderson.map(|a| a.mean());
                 mean.map_or(String::new(), |s| format!("{s:.1} {}", anderson::word(s)))
             }));
@@ -199,7 +199,7 @@ impl CompareReport<'_> {
                 ("russell_magnitude", m.russell.map(|r| r.magnitude).into()),
                 ("russell_phase", m.russell.map(|r| r.phase).into()),
                 ("russell_comprehensive", m.russell.map(|r| r.comprehensive).into()),
-                ("anderson", scores),
+                ("anderson_whole_band", scores),
                 ("arrival_lag_s", m.arrival_lag_s.into()),
                 ("correlation_at_lag", m.lagged_correlation.into()),
             ])

@@ -41,7 +41,14 @@ fn levels(values: &Values) -> Result<Levels, InputError> {
             Some(factors) if factors.is_empty() => {
                 return Err(values.error("records.scale", "at least one factor", "none"));
             }
-            Some(factors) => factors,
+            Some(factors) => {
+                let twice = (1..factors.len()).find(|&i| factors[..i].contains(&factors[i]));
+                if let Some(i) = twice {
+                    let (expected, found) = ("factors that differ", factors[i].to_string());
+                    return Err(values.error("records.scale", expected, format!("{found} twice")));
+                }
+                factors
+            }
             None => vec![1.0],
         };
         return Ok(Levels::Factors(factors));
@@ -73,6 +80,9 @@ fn levels(values: &Values) -> Result<Levels, InputError> {
     for (index, item) in items.iter().enumerate() {
         let place = format!("records.levels.{}", index + 1);
         match values.quantity(&place, item, dimension, Range::Positive)? {
+            Given::Number(level) if levels.contains(&level) => {
+                return Err(values.mistyped(&place, item, "a level that is not named before"));
+            }
             Given::Number(level) => levels.push(level),
             _ => return Err(values.mistyped(&place, item, dimension.with_article())),
         }

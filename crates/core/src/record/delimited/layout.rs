@@ -32,7 +32,9 @@ pub(super) fn of(text: &Text, header: &Header, table: &Table) -> Result<Layout, 
     // A column that is named and has a unit of motion is not taken for times.
     let first_is_motion =
         names.as_ref().is_some_and(|names| names[0].unit.is_some() || named_time.is_some());
-    let looks_like_time = !first_is_motion && table.columns >= 2 && mostly_increases(table);
+    // Nothing increases in a single row: one long line of numbers is a series.
+    let looks_like_time =
+        !first_is_motion && table.columns >= 2 && table.rows() >= 2 && mostly_increases(table);
     let time_column = named_time.or(looks_like_time.then_some(0));
     let wrapped = time_column.is_none() && names.is_none() && table.columns >= 3;
 
