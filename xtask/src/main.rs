@@ -28,6 +28,10 @@ Usage: cargo xtask TASK
                                  times the same analyses here, in a numba loop, SciPy and
                                  OpenSeesPy (needs python3; makes .venv)
                                  (--write: into book/src/generated/peers.md)
+  bench-storeys [--json] [--quick] [--write]
+                                 times frames of 0 to 20 storeys, their histories and certificates,
+                                 beside a numba loop for frames
+                                 (--write: into book/src/generated/storeys.md)
   bench-study [--quick] [--write]
                                  times the far-field study on one thread and two, in a numba loop
                                  and in OpenSeesPy; opens it in DuckDB (needs its records)
@@ -56,6 +60,7 @@ fn main() -> ExitCode {
         ["console", options @ ..] => console::console(options),
         ["paper", options @ ..] => paper::paper(options),
         ["bench-peers", options @ ..] => peers::bench_peers(options),
+        ["bench-storeys", options @ ..] => peers::bench_storeys(options),
         ["bench-study", options @ ..] => peers::bench_study(options),
         ["bench-records", options @ ..] => peers::bench_records(options),
         ["fuzz", options @ ..] => tools::fuzz(options),

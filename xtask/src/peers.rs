@@ -27,6 +27,14 @@ pub fn bench_study(options: &[&str]) -> Outcome {
     bench.run("study_bench.py", &[("--slipstick", slipstick)])
 }
 
+/// Frames of 0 to 20 storeys timed beside a numba loop.
+pub fn bench_storeys(options: &[&str]) -> Outcome {
+    let bench = Bench::new("storeys", options, &["--json", "--quick", "--write"])?;
+    shell::run(&mut shell::cargo("build --release -p slipstick --example storeys_bench"))?;
+    let helper = built(&bench.target, "examples/storeys_bench");
+    bench.run("storeys_bench.py", &[("--helper", helper)])
+}
+
 /// Reading and response spectra timed beside NumPy, ObsPy, eqsig and pyrotd.
 pub fn bench_records(options: &[&str]) -> Outcome {
     let bench = Bench::new("records", options, &["--quick", "--write"])?;

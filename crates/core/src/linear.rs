@@ -14,5 +14,5 @@ mod system;
 
 pub use frame::{FrameModes, shear_frame_frequencies, shear_frame_modes};
 pub use maps::{BATCH, Force, Maps, QUIET, Row, Units, Window};
-pub use series::{Load, MAX_RATE_STEP, Series, SeriesTable, advance, series_table};
+pub use series::{Load, MAX_RATE_STEP, Series, SeriesTable, advance, orders, series_table};
 pub use system::{StoreyDamping, System};

@@ -262,19 +262,6 @@ impl Record {
 }
 
 impl Channel {
-    /// The same channel with another motion along the surface in it, its labels kept: what a
-    /// processing step makes of it. Its units are m/s².
-    #[must_use]
-    pub fn with_motion(&self, motion: &GroundMotion) -> Self {
-        let sampling = match motion.dt_s() {
-            Some(dt_s) => Sampling::Dt(dt_s),
-            None => Sampling::Times(motion.times_s().to_vec()),
-        };
-        let units = Units::m_per_s2();
-        let values = motion.horizontal_m_per_s2().to_vec();
-        Self { units, values, sampling, ..self.clone() }
-    }
-
     /// The same channel with other samples in it, in SI: what processing makes of it.
     #[must_use]
     pub fn with_series(&self, series: &Series) -> Self {

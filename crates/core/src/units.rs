@@ -161,15 +161,6 @@ impl Unit {
             Factor::Over(divisor) => value / divisor,
         }
     }
-
-    /// A value in the SI unit as one in this unit.
-    #[must_use]
-    pub fn from_si(&self, value: f64) -> f64 {
-        match self.factor {
-            Factor::Times(factor) => value / factor,
-            Factor::Over(divisor) => value * divisor,
-        }
-    }
 }
 
 const MASS: [Unit; 3] =

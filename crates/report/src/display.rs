@@ -91,20 +91,6 @@ pub const POUND_KG: f64 = 0.453_592_37;
 pub const KIP_N: f64 = 1000.0 * POUND_KG * STANDARD_GRAVITY_M_PER_S2;
 
 impl DisplayUnits {
-    /// The names of the systems, as the option takes them.
-    pub const NAMES: [&'static str; 3] = ["si", "kN-mm", "us"];
-
-    /// The system that an option names: `si`, `kN-mm` or `us`.
-    #[must_use]
-    pub fn from_name(name: &str) -> Option<Self> {
-        match name {
-            "si" => Some(Self::Si),
-            "kN-mm" => Some(Self::KnMm),
-            "us" => Some(Self::Us),
-            _ => None,
-        }
-    }
-
     /// The unit for values of a quantity up to `largest_si` in size.
     ///
     /// Only SI chooses by size; the other systems have one unit a quantity.
@@ -207,12 +193,5 @@ mod tests {
         assert_eq!(symbol(Quantity::Mass, 325.0), "kg");
         assert_eq!(symbol(Quantity::Mass, 325e3), "t");
         assert_eq!(symbol(Quantity::Stiffness, 143e3), "kN/m");
-    }
-
-    #[test]
-    fn exact_names_of_the_option() {
-        assert_eq!(DisplayUnits::from_name("kN-mm"), Some(DisplayUnits::KnMm));
-        assert_eq!(DisplayUnits::from_name("us"), Some(DisplayUnits::Us));
-        assert_eq!(DisplayUnits::from_name("SI"), None);
     }
 }

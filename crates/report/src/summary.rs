@@ -162,13 +162,6 @@ impl Summary {
         self
     }
 
-    /// The same with the response spectra of table, block and floors.
-    #[must_use]
-    pub fn with_floor_spectra(mut self, spectra: FloorSpectra) -> Self {
-        self.floor_spectra = Some(spectra);
-        self
-    }
-
     /// Whether an exact run, or one of its bounds, fails its check; a stepwise run never does.
     #[must_use]
     pub fn check_failed(&self) -> bool {

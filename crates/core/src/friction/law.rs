@@ -184,11 +184,4 @@ impl Law {
         let of = |direction| self.friction.static_coefficient(direction);
         of(Direction::Positive).max(of(Direction::Negative))
     }
-
-    /// Largest kinetic coefficient of a direction.
-    #[must_use]
-    pub fn largest_kinetic(&self) -> f64 {
-        let of = |direction| self.friction.kinetic_coefficient(direction);
-        of(Direction::Positive).max(of(Direction::Negative))
-    }
 }

@@ -149,24 +149,17 @@ pub fn combine4<S: Simd>(
     out: &mut [f64],
 ) {
     let count = singles.len() + loads.len() + x.len();
-    for (columns, out) in columns.chunks_exact(count).zip(out.chunks_exact_mut(4)) {
-        let (first, rest) = columns.split_at(singles.len());
+    let (loads, x) = (loads.as_chunks::<4>().0, x.as_chunks::<4>().0);
+    for (i, out) in out.as_chunks_mut::<4>().0.iter_mut().enumerate() {
+        let (of_singles, rest) = columns[i * count..][..count].split_at(singles.len());
+        let (rest, _) = rest.as_chunks::<4>();
         let (of_loads, of_x) = rest.split_at(loads.len());
-        let zero = four(simd, 0.0);
-        let mut sums = [zero; 4];
-        for (i, (column, a)) in first.iter().zip(singles).enumerate() {
-            sums[i] = column.load(simd) * four(simd, *a);
+        let mut sums = [four(simd, 0.0); 4];
+        for j in 0..singles.len() {
+            sums[j] = of_singles[j].load(simd) * four(simd, singles[j]);
         }
-        for (columns, a) in of_loads.chunks_exact(4).zip(loads.chunks_exact(4)) {
-            for i in 0..4 {
-                sums[i] += columns[i].load(simd) * four(simd, a[i]);
-            }
-        }
-        for (columns, x) in of_x.chunks_exact(4).zip(x.chunks_exact(4)) {
-            for i in 0..4 {
-                sums[i] += columns[i].load(simd) * four(simd, x[i]);
-            }
-        }
+        add4(simd, &mut sums, of_loads, loads);
+        add4(simd, &mut sums, of_x, x);
         ((sums[0] + sums[1]) + (sums[2] + sums[3])).store_slice(out);
     }
 }
@@ -180,22 +173,34 @@ pub fn combine8<S: Simd>(
     loads: &[f64],
     x: &[f64],
 ) -> f64x8<S> {
-    let (first, rest) = columns.split_at(singles.len());
-    let (of_loads, of_x) = rest.split_at(loads.len());
-    let zero = eight(simd, 0.0);
-    let mut sums = [zero; 2];
-    for (i, (column, a)) in first.iter().zip(singles).enumerate() {
-        sums[i % 2] += column.load(simd) * eight(simd, *a);
+    let (of_singles, rest) = columns.split_at(singles.len());
+    let (loads, x) = (loads.as_chunks::<4>().0, x.as_chunks::<4>().0);
+    let (of_loads, of_x) = rest.as_chunks::<4>().0.split_at(loads.len());
+    let mut sums = [eight(simd, 0.0); 2];
+    for j in 0..singles.len() {
+        sums[j % 2] += of_singles[j].load(simd) * eight(simd, singles[j]);
     }
-    for (columns, a) in of_loads.chunks_exact(4).zip(loads.chunks_exact(4)) {
-        for i in 0..4 {
-            sums[i % 2] += columns[i].load(simd) * eight(simd, a[i]);
-        }
-    }
-    for (columns, x) in of_x.chunks_exact(4).zip(x.chunks_exact(4)) {
-        for i in 0..4 {
-            sums[i % 2] += columns[i].load(simd) * eight(simd, x[i]);
-        }
-    }
+    add8(simd, &mut sums, of_loads, loads);
+    add8(simd, &mut sums, of_x, x);
     sums[0] + sums[1]
+}
+
+#[inline(always)]
+fn add4<S: Simd>(simd: S, sums: &mut [f64x4<S>; 4], columns: &[[Four; 4]], x: &[[f64; 4]]) {
+    let columns = &columns[..x.len()];
+    for k in 0..x.len() {
+        for j in 0..4 {
+            sums[j] += columns[k][j].load(simd) * four(simd, x[k][j]);
+        }
+    }
+}
+
+#[inline(always)]
+fn add8<S: Simd>(simd: S, sums: &mut [f64x8<S>; 2], columns: &[[Eight; 4]], x: &[[f64; 4]]) {
+    let columns = &columns[..x.len()];
+    for k in 0..x.len() {
+        for j in 0..4 {
+            sums[j % 2] += columns[k][j].load(simd) * eight(simd, x[k][j]);
+        }
+    }
 }

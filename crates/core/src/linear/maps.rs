@@ -13,6 +13,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::lanes::{Eight, Four, combine4, combine8, dot, eight, four};
+use super::polynomial::DEGREE;
 use super::series::{Load, Series, advance};
 use super::system::System;
 
@@ -90,7 +91,7 @@ impl Units {
     pub fn new<S: Simd>(simd: S, system: &System, slip: bool, dt_s: f64) -> Self {
         let components = 2 + 2 * system.modes();
         let stride = components.div_ceil(4) * 4;
-        let mut series = Series::new(system);
+        let mut series = Series::new(system, DEGREE);
         let none = Load::default();
         let mut by_1 = vec![0.0; stride * stride];
         for (j, column) in by_1.chunks_exact_mut(stride).take(components).enumerate() {

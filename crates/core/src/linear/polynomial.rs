@@ -26,13 +26,24 @@ pub fn value(c: &Polynomial, x: f64) -> f64 {
     (p0 + p1 * x4) + (p2 + (p3 + c[16] * x4) * x4) * (x4 * x4)
 }
 
+/// `k` and `k (k − 1)`, the factors of the derivatives of `x^k`.
+const FACTORS: [Polynomial; 2] = {
+    let mut factors = [[0.0; DEGREE + 1]; 2];
+    let mut k = 1;
+    while k <= DEGREE {
+        (factors[0][k], factors[1][k]) = (k as f64, (k * (k - 1)) as f64);
+        k += 1;
+    }
+    factors
+};
+
 /// Derivative.
 #[inline(always)]
 #[must_use]
 pub fn derivative(c: &Polynomial) -> Polynomial {
     let mut d = [0.0; DEGREE + 1];
-    for k in 1..=DEGREE {
-        d[k - 1] = k as f64 * c[k];
+    for k in 0..DEGREE {
+        d[k] = FACTORS[0][k + 1] * c[k + 1];
     }
     d
 }
@@ -41,10 +52,13 @@ pub fn derivative(c: &Polynomial) -> Polynomial {
 #[inline(always)]
 #[must_use]
 pub fn curvature_bound(c: &Polynomial) -> f64 {
+    let [fours, factors] = [c, &FACTORS[1]].map(|c| c.as_chunks::<4>().0);
     // Four sums, that none has to wait for another.
-    let mut bound = [0.0; 4];
-    for k in 2..=DEGREE {
-        bound[k % 4] += (k * (k - 1)) as f64 * c[k].abs();
+    let mut bound = [FACTORS[1][DEGREE] * c[DEGREE].abs(), 0.0, 0.0, 0.0];
+    for (c, factor) in fours.iter().zip(factors) {
+        for i in 0..4 {
+            bound[i] += factor[i] * c[i].abs();
+        }
     }
     (bound[0] + bound[1]) + (bound[2] + bound[3])
 }
@@ -54,7 +68,7 @@ pub fn curvature_bound(c: &Polynomial) -> f64 {
 fn curvature_up_to(c: &Polynomial, b: f64) -> f64 {
     let mut bound = 0.0;
     for k in (2..=DEGREE).rev() {
-        bound = bound * b + (k * (k - 1)) as f64 * c[k].abs();
+        bound = bound * b + FACTORS[1][k] * c[k].abs();
     }
     bound
 }

@@ -1,17 +1,14 @@
 //! Taylor series of the motion in stick and in slip.
 
+use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
-use fearless_simd::{f64x4, f64x8};
 
-use super::lanes::{Eight, Width, dot, eight, four};
+use super::lanes::{Four, Width, combine4, dot, four};
 use super::polynomial::{DEGREE, Polynomial};
 use super::system::System;
 
 /// Longest interval for one series, times the rate: 0.8^17 / 17! = 6.3e-17.
 pub const MAX_RATE_STEP: f64 = 0.8;
-
-/// Pairs of orders.
-const PAIRS: usize = DEGREE / 2;
 
 /// Loads over an interval, linear in time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,10 +23,10 @@ pub struct Load {
     pub force_change: f64,
 }
 
-/// What a unit of each of `s, ṡ, η, η̇` and of the four numbers of a [`Load`] adds to the state of a
-/// system of one storey: coefficients from the first order on, an odd order and the even one after it
-/// side by side.
-pub type SeriesTable = [[Eight; 8]; PAIRS];
+/// The orders from the first on of a series as sums: for each four of coefficients what a unit of
+/// each number of a [`Load`], and of each component of the state, adds to them.
+#[derive(Clone, Debug)]
+pub struct SeriesTable(Vec<Four>);
 
 /// Taylor coefficients of a state over an interval, in time over the interval's length.
 ///
@@ -38,6 +35,7 @@ pub type SeriesTable = [[Eight; 8]; PAIRS];
 #[derive(Clone, Debug)]
 pub struct Series {
     stride: usize,
+    orders: usize,
     c: Vec<f64>,
     f: Vec<f64>,
 }
@@ -54,12 +52,12 @@ const RECIPROCAL: [f64; DEGREE] = {
 };
 
 impl Series {
-    /// Room for the series of a system.
+    /// Room for series of so many orders, a multiple of four.
     #[must_use]
-    pub fn new(system: &System) -> Self {
+    pub fn new(system: &System, orders: usize) -> Self {
         let n = system.modes();
         let stride = (2 + 2 * n).div_ceil(4) * 4;
-        Self { stride, c: vec![0.0; stride * (DEGREE + 1)], f: vec![0.0; n] }
+        Self { stride, orders, c: vec![0.0; stride * (DEGREE + 1)], f: vec![0.0; n] }
     }
 
     /// Motion from a padded state over `length_s`, order by order from the equations of motion.
@@ -71,7 +69,7 @@ impl Series {
         if !slip {
             self.c[1] = 0.0;
         }
-        for k in 0..DEGREE {
+        for k in 0..self.orders {
             let (before, after) = self.c.split_at_mut((k + 1) * stride);
             let (now, next) = (&before[k * stride..], &mut after[..stride]);
             let (a, force) = match k {
@@ -98,35 +96,23 @@ impl Series {
         }
     }
 
-    /// The same by a table for this length, of one storey at most.
+    /// The same by a table for this length.
     #[inline(always)]
-    pub fn expand_by_table<S: Simd, const SLIP: bool>(
+    pub fn expand_by_table<S: Simd>(
         &mut self,
         simd: S,
         table: &SeriesTable,
+        slip: bool,
         x: &[f64],
         load: &Load,
     ) {
-        let Some((start, orders)) = self.c.split_first_chunk_mut::<4>() else { return };
-        let Some(x) = x.first_chunk::<4>() else { return };
-        *start = *x;
-        if !SLIP {
+        let (start, rest) = self.c.split_at_mut(x.len());
+        start.copy_from_slice(x);
+        if !slip {
             start[1] = 0.0;
         }
-        for (columns, out) in table.iter().zip(orders.chunks_exact_mut(8)) {
-            let structure = of(simd, columns, 2, x[2]) + of(simd, columns, 3, x[3]);
-            let ground = of(simd, columns, 4, load.acceleration)
-                + of(simd, columns, 5, load.acceleration_change);
-            let c = if SLIP {
-                let force =
-                    of(simd, columns, 6, load.force) + of(simd, columns, 7, load.force_change);
-                let block = of(simd, columns, 0, x[0]) + of(simd, columns, 1, x[1]);
-                (ground + force) + (block + structure)
-            } else {
-                ground + structure
-            };
-            c.store_slice(out);
-        }
+        let loads = [load.acceleration, load.acceleration_change, load.force, load.force_change];
+        combine4(simd, &table.0, &loads, &[], x, &mut rest[..x.len() * self.orders]);
     }
 
     /// Four components of an order.
@@ -143,17 +129,13 @@ impl Series {
         let t4 = four(simd, t2 * t2);
         for (i, out) in out.chunks_exact_mut(4).enumerate() {
             // Four sums, of the orders that leave the same rest on division by four.
-            let mut sums = [Self::four(simd, c, stride, DEGREE, i); 4];
-            for (r, sum) in sums.iter_mut().enumerate() {
-                let mut k = 12 + r;
-                *sum = if r == 0 {
-                    Self::four(simd, c, stride, k, i) + *sum * t4
-                } else {
-                    Self::four(simd, c, stride, k, i)
-                };
-                while k >= 4 {
-                    k -= 4;
-                    *sum = Self::four(simd, c, stride, k, i) + *sum * t4;
+            let zero = four(simd, 0.0);
+            let mut sums = [Self::four(simd, c, stride, self.orders, i), zero, zero, zero];
+            let mut k = self.orders;
+            while k >= 4 {
+                k -= 4;
+                for r in 0..4 {
+                    sums[r] = Self::four(simd, c, stride, k + r, i) + sums[r] * t4;
                 }
             }
             let even = sums[0] + sums[2] * four(simd, t2);
@@ -162,15 +144,13 @@ impl Series {
         }
     }
 
-    /// The coefficients of one component of the state.
+    /// The coefficients of one component of the state times a factor.
     #[inline(always)]
     #[must_use]
-    pub fn component<W: Width>(&self, width: W, i: usize) -> Polynomial {
-        let stride = 4 * width.fours();
-        let c = &self.c[..stride * (DEGREE + 1)];
+    pub fn component<W: Width>(&self, width: W, i: usize, factor: f64) -> Polynomial {
         let mut p = [0.0; DEGREE + 1];
-        for k in 0..=DEGREE {
-            p[k] = c[k * stride + i];
+        for (p, c) in p.iter_mut().zip(self.c.chunks_exact(4 * width.fours())) {
+            *p = factor * c[i];
         }
         p
     }
@@ -180,10 +160,10 @@ impl Series {
     #[must_use]
     pub fn row<W: Width>(&self, width: W, row: &[f64]) -> Polynomial {
         let stride = 4 * width.fours();
-        let (row, c) = (&row[..stride], &self.c[..stride * (DEGREE + 1)]);
+        let row = &row[..stride];
         let mut p = [0.0; DEGREE + 1];
-        for k in 0..=DEGREE {
-            p[k] = dot(row, &c[k * stride..][..stride]);
+        for (p, c) in p.iter_mut().zip(self.c.chunks_exact(stride)).take(self.orders + 1) {
+            *p = dot(row, c);
         }
         p
     }
@@ -196,37 +176,52 @@ impl Series {
     }
 }
 
-#[inline(always)]
-fn of<S: Simd>(simd: S, columns: &[Eight; 8], j: usize, x: f64) -> f64x8<S> {
-    columns[j].load(simd) * eight(simd, x)
+/// Orders of a series for a rate times a length of [`MAX_RATE_STEP`] at most, a multiple of four.
+///
+/// What the series of a slow system leaves out is below 1e-24 of its largest term: a slide of a
+/// hundred-millionth of the structure's motion keeps its digits.
+#[must_use]
+pub fn orders(rate_step: f64) -> usize {
+    let mut term = 1.0;
+    for k in 1..DEGREE {
+        term *= rate_step / k as f64;
+        if k % 4 == 1 && k > 4 && term <= 1e-24 {
+            return k - 1;
+        }
+    }
+    DEGREE
 }
 
-/// The table of a system of one storey at most for intervals of `length_s`.
+/// The table of a system for intervals of `length_s`.
 #[must_use]
-pub fn series_table(system: &System, slip: bool, length_s: f64) -> Box<SeriesTable> {
-    let mut table = Box::new([[Eight::ZERO; 8]; PAIRS]);
-    let mut series = Series::new(system);
-    for input in 0..8 {
-        let mut x = [0.0; 4];
-        if let Some(x) = x.get_mut(input) {
-            *x = 1.0;
-        }
+pub fn series_table(system: &System, slip: bool, length_s: f64, orders: usize) -> SeriesTable {
+    let mut series = Series::new(system, orders);
+    let (stride, components) = (series.stride, 2 + 2 * system.modes());
+    let count = 4 + stride;
+    let mut columns = vec![Four::ZERO; count * orders * stride / 4];
+    let mut x = vec![0.0; stride];
+    for input in 0..4 + components {
         let of = |i: usize| f64::from(u8::from(input == i));
         let load = Load {
-            acceleration: of(4),
-            acceleration_change: of(5),
-            force: of(6),
-            force_change: of(7),
+            acceleration: of(0),
+            acceleration_change: of(1),
+            force: of(2),
+            force_change: of(3),
         };
-        if slip || (2..6).contains(&input) {
+        x.fill(0.0);
+        if input >= 4 {
+            x[input - 4] = 1.0;
+        }
+        // In stick neither the force nor the block's own motion does anything.
+        if slip || !(2..6).contains(&input) {
             series.expand(system, slip, &x, &load, length_s);
-            for k in 1..=DEGREE {
-                let half = (k - 1) % 2 * 4;
-                table[(k - 1) / 2][input].0[half..half + 4].copy_from_slice(series.order(k));
+            let orders = series.c[stride..][..stride * orders].as_chunks::<4>().0;
+            for (columns, c) in columns.chunks_exact_mut(count).zip(orders) {
+                columns[input] = Four(*c);
             }
         }
     }
-    table
+    SeriesTable(columns)
 }
 
 /// Moves a padded state over `length_s` under loads that are linear in it, by as many series as the

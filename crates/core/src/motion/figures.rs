@@ -24,12 +24,6 @@ impl GroundMotion {
     pub fn figures(&self) -> Figures {
         Figures::of(&self.times_s, &self.horizontal_m_per_s2)
     }
-
-    /// Figures of the vertical acceleration, where there is one.
-    #[must_use]
-    pub fn vertical_figures(&self) -> Option<Figures> {
-        self.vertical_m_per_s2.as_deref().map(|a| Figures::of(&self.times_s, a))
-    }
 }
 
 impl Figures {
@@ -156,12 +150,5 @@ mod tests {
         close(f.pgv_m_per_s, 6.0);
         close(f.pgd_m, 6.0);
         assert_eq!(motion(&[0.0, 2.0], &[0.0, 0.0]).figures(), Figures::default());
-    }
-
-    #[test]
-    fn exact_vertical_has_its_own_figures() {
-        let both = GroundMotion::new(vec![0.0, 2.0], vec![0.0; 2], Some(vec![1.0, -1.0])).unwrap();
-        close(both.vertical_figures().unwrap().pgv_m_per_s, 0.5);
-        assert_eq!(both.figures().pgv_m_per_s, 0.0);
     }
 }

@@ -197,7 +197,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         load.force -= branch.force_n;
         Self::expand(self.simd, self.width, phase, &self.x, &load, &mut self.series);
         let sign = direction.sign();
-        let mut speed = self.series.component(self.width, 1).map(|c| sign * c);
+        let mut speed = self.series.component(self.width, 1, sign);
         if let Some(start) = self.start.take() {
             if start.order == 1 {
                 speed[1] = start.acceleration * phase.unit_s;
@@ -438,8 +438,8 @@ fn first_exit<W: Width>(
     to: f64,
     at_zero: bool,
 ) -> Option<f64> {
-    let (s, w) = (series.component(width, 0), series.component(width, 1));
-    let mut p: Polynomial = core::array::from_fn(|k| exit.of_s * s[k] + exit.of_w * w[k]);
+    let [s, w] = [(0, exit.of_s), (1, exit.of_w)].map(|(i, of)| series.component(width, i, of));
+    let mut p: Polynomial = core::array::from_fn(|k| s[k] + w[k]);
     p[0] += exit.constant;
     if at_zero && exit.level_m.is_none() {
         return first_root(&deflated(&p, 1), to);

@@ -1,5 +1,8 @@
 //! The motion as the equations see it: along the slope with gravity's pull, and as normal force.
 
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
 use crate::linear::lanes::greatest;
 use crate::linear::{BATCH, QUIET};
 use crate::motion::GroundMotion;
@@ -62,28 +65,29 @@ impl Signal {
         let chunks = x.len().div_ceil(BATCH);
         let mut largest = vec![0.0; chunks + QUIET / BATCH];
         let mut steepest = largest.clone();
-        for (i, x) in x.windows(2).enumerate() {
-            steepest[i / BATCH] = greatest(steepest[i / BATCH], (x[1] - x[0]).abs());
+        for i in 0..chunks {
+            let intervals = &x[BATCH * i..x.len().min(BATCH * (i + 1) + 1)];
+            let samples = &intervals[..intervals.len().min(BATCH)];
+            largest[i] = samples.iter().fold(0.0, |size, x| greatest(size, x.abs()));
+            let changes = intervals.windows(2).map(|x| (x[1] - x[0]).abs());
+            steepest[i] = changes.fold(0.0, greatest);
         }
-        for (largest, x) in largest.iter_mut().zip(x.chunks(BATCH)) {
-            *largest = x.iter().fold(0.0, |size, x| greatest(size, x.abs()));
+        let mut sums = vec![[0.0; 2]; x.len()];
+        let [mut variation, mut kinks, mut change] = [0.0; 3];
+        for i in 1..x.len() {
+            let next = x[i] - x[i - 1];
+            if i > 1 {
+                kinks += (next - change).abs();
+            }
+            variation += next.abs();
+            (sums[i - 1][1], sums[i]) = (kinks, [variation, kinks]);
+            change = next;
         }
         // From the last of eight samples a batch ends at the last sample of the next chunk, and quiet
         // stick at that of the fourth.
         let over = |i: usize, n: usize| largest[i..=i + n].iter().fold(0.0, |a, b| greatest(a, *b));
         let sizes = (0..chunks).map(|i| [over(i, 1), over(i, QUIET / BATCH)]).collect();
         let changes = (0..chunks).map(|i| greatest(steepest[i], steepest[i + 1])).collect();
-        let mut sums = Vec::with_capacity(x.len());
-        let [mut variation, mut kinks] = [0.0; 2];
-        for (i, now) in x.iter().enumerate() {
-            let before = if i > 0 { x[i - 1] } else { *now };
-            let after = x.get(i + 1).unwrap_or(now);
-            variation += (now - before).abs();
-            if i > 0 {
-                kinks += ((after - now) - (now - before)).abs();
-            }
-            sums.push([variation, kinks]);
-        }
         Self { sizes, changes, sums }
     }
 
@@ -138,6 +142,19 @@ pub(super) struct Ground<'a> {
 pub(super) enum Normal<'a> {
     Constant(f64),
     Varying(&'a [f64]),
+}
+
+impl Normal<'_> {
+    /// At the eight samples after one, and at that one.
+    #[inline(always)]
+    pub(super) fn window<S: Simd>(&self, simd: S, sample: usize) -> (f64x8<S>, f64) {
+        match self {
+            Self::Constant(normal) => (f64x8::splat(simd, *normal), *normal),
+            Self::Varying(normal) => {
+                (f64x8::from_slice(simd, &normal[sample + 1..][..BATCH]), normal[sample])
+            }
+        }
+    }
 }
 
 /// A stretch of one sample interval over which all loads are linear.

@@ -175,35 +175,36 @@ pub(super) fn rows(
     all
 }
 
-/// The outputs of a phase, eight side by side.
+/// The outputs of a phase.
 #[derive(Debug)]
 pub(super) struct Outputs {
     pub(super) rows: Vec<OutputRow>,
-    /// Group by group: friction force and acceleration, then the state.
+    pub(super) groups: Vec<Group>,
+    /// Group by group: one, friction force, acceleration and stop, then the state.
     pub(super) columns: Vec<Eight>,
-    pub(super) of_stop: Vec<Eight>,
-    pub(super) constant: Vec<Eight>,
+}
+
+/// What bounds eight outputs side by side.
+#[derive(Debug)]
+pub(super) struct Group {
+    pub(super) constant: Eight,
+    pub(super) of_stop: Eight,
     /// Largest values on states of energy norm 1.
-    pub(super) norm: Vec<Eight>,
+    pub(super) norm: Eight,
     /// The same of their rates `c A`, and what rates of acceleration and friction force add to their
     /// second derivatives, `|c b|`.
-    pub(super) norm_of_rate: Vec<Eight>,
-    pub(super) of_jerk: Vec<Eight>,
-    pub(super) of_force_rate: Vec<Eight>,
+    pub(super) norm_of_rate: Eight,
+    pub(super) of_jerk: Eight,
+    pub(super) of_force_rate: Eight,
     /// Factors of `s`, and those of the acceleration and of the friction force as sizes.
-    pub(super) of_s: Vec<Eight>,
-    pub(super) size_of_a: Vec<Eight>,
-    pub(super) size_of_friction: Vec<Eight>,
-    /// Lanes whose value has kinks where the acceleration, or the normal force, has.
-    pub(super) kinked_by_a: Vec<u64>,
-    pub(super) kinked_by_normal: Vec<u64>,
+    pub(super) of_s: Eight,
+    pub(super) size_of_a: Eight,
+    pub(super) size_of_friction: Eight,
 }
 
 impl Outputs {
     pub(super) fn new(system: &System, slip: bool, rows: Vec<OutputRow>) -> Self {
         let stride = rows[0].state.len();
-        let norms: Vec<f64> = rows.iter().map(|row| system.dual_norm(slip, &row.state)).collect();
-        let groups = rows.len().div_ceil(8);
         let mut unit = vec![0.0; stride];
         let mut end = vec![0.0; stride];
         let mut on = |j: Option<usize>, a: f64, force: f64| {
@@ -219,46 +220,32 @@ impl Outputs {
             }
         }
         let (of_jerk, of_force_rate) = (on(None, 1.0, 0.0), on(None, 0.0, 1.0));
-        let rate_norms: Vec<f64> = rates.iter().map(|row| system.dual_norm(slip, row)).collect();
         let lanes = |g: usize, of: &dyn Fn(usize) -> f64| {
             Eight(core::array::from_fn(
                 |i| if 8 * g + i < rows.len() { of(8 * g + i) } else { 0.0 },
             ))
         };
-        let each = |of: &dyn Fn(usize) -> f64| (0..groups).map(|g| lanes(g, of)).collect();
-        let mut columns = Vec::with_capacity(groups * (2 + stride));
-        for g in 0..groups {
+        let mut groups = Vec::new();
+        let mut columns = Vec::new();
+        for g in 0..rows.len().div_ceil(8) {
+            let group = Group {
+                constant: lanes(g, &|j| rows[j].constant),
+                of_stop: lanes(g, &|j| rows[j].of_stop),
+                norm: lanes(g, &|j| system.dual_norm(slip, &rows[j].state)),
+                norm_of_rate: lanes(g, &|j| system.dual_norm(slip, &rates[j])),
+                of_jerk: lanes(g, &|j| of_jerk[j].abs()),
+                of_force_rate: lanes(g, &|j| of_force_rate[j].abs()),
+                of_s: lanes(g, &|j| rows[j].state[0]),
+                size_of_a: lanes(g, &|j| rows[j].of_a.abs()),
+                size_of_friction: lanes(g, &|j| rows[j].of_friction.abs()),
+            };
+            columns.push(group.constant);
             columns.push(lanes(g, &|j| rows[j].of_friction));
             columns.push(lanes(g, &|j| rows[j].of_a));
+            columns.push(group.of_stop);
             columns.extend((0..stride).map(|i| lanes(g, &|j| rows[j].state[i])));
+            groups.push(group);
         }
-        let bits = |of: &dyn Fn(&OutputRow) -> bool| {
-            rows.chunks(8)
-                .map(|rows| {
-                    rows.iter().enumerate().fold(0, |bits, (i, row)| bits | u64::from(of(row)) << i)
-                })
-                .collect()
-        };
-        Self {
-            columns,
-            of_stop: each(&|j| rows[j].of_stop),
-            constant: each(&|j| rows[j].constant),
-            norm: each(&|j| norms[j]),
-            norm_of_rate: each(&|j| rate_norms[j]),
-            of_jerk: each(&|j| of_jerk[j].abs()),
-            of_force_rate: each(&|j| of_force_rate[j].abs()),
-            of_s: each(&|j| rows[j].state[0]),
-            size_of_a: each(&|j| rows[j].of_a.abs()),
-            size_of_friction: each(&|j| rows[j].of_friction.abs()),
-            kinked_by_a: bits(&|row| row.of_a != 0.0),
-            kinked_by_normal: bits(&|row| row.of_friction != 0.0),
-            rows,
-        }
-    }
-
-    /// Groups of eight.
-    #[inline(always)]
-    pub(super) fn groups(&self) -> usize {
-        self.constant.len()
+        Self { rows, groups, columns }
     }
 }

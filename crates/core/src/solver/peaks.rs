@@ -3,8 +3,9 @@
 //! While loads are linear `ẍ` has the energy norm of its start at most, so an output of dual norm `c`
 //! departs from the chord between two of its values by no more than `c ‖ẍ‖ h²/8`. Where that may
 //! exceed the peak attained so far the place is kept as a candidate; what is still in question at the
-//! end, or when too many have gathered, is settled by the Taylor series.
+//! end, or when too many have gathered, is settled sample by sample and by the Taylor series.
 
+use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::event::{Segment, output_series};
@@ -14,61 +15,61 @@ use super::tables::{Batch, Phase};
 use crate::friction::Contact;
 use crate::linear::lanes::{Eight, Width, eight, greatest, larger};
 use crate::linear::polynomial::largest;
-use crate::linear::{BATCH, Force, Window};
+use crate::linear::{BATCH, Force};
 use crate::response::Mode;
 
 /// Candidates that are kept before they are settled, besides one an output.
-const ROOM: usize = 16;
+const ROOM: usize = 64;
 
-/// Peaks attained, and the places that may hold more.
+/// Peaks attained, and the candidates for more.
 pub(super) struct Peaks {
     pub(super) peak: Vec<Eight>,
     /// Sizes that are no news: the peaks, or infinite where a size cannot grow.
     pub(super) limit: Vec<Eight>,
+    /// Bounds on the outputs in the place just weighed; zero where it cannot hold a peak.
+    pub(super) above: Vec<Eight>,
     candidates: Vec<Candidate>,
-    /// What one is made from, and how many there may be.
-    model: Candidate,
-    room: usize,
-    /// How many of them are in use.
-    used: usize,
+    /// State at the start of each candidate, and its bounds.
+    states: Vec<f64>,
+    bounds: Vec<Eight>,
     outputs: usize,
+    /// For each output of a candidate the samples that may hold its peak, as bits.
+    samples: Vec<u8>,
+    /// Room for a state.
+    x: Vec<f64>,
 }
 
 /// A place that may hold a peak.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 struct Candidate {
     sample: usize,
-    /// Whole samples, or a segment of one.
-    segment: Option<Segment>,
+    extent: Extent,
     mode: Mode,
     contact: Contact,
-    /// State at its start.
-    x: Vec<f64>,
-    /// Bounds on the outputs; zero where it cannot hold a peak.
-    above: Vec<Eight>,
-    /// For each output the samples of a batch that may hold the peak, as bits.
-    samples: Vec<u8>,
+}
+
+/// How far a candidate reaches.
+#[derive(Clone, Copy)]
+pub(super) enum Extent {
+    /// A segment of one sample.
+    Segment(Segment),
+    /// So many samples of a batch.
+    Samples(usize, Curvature),
 }
 
 impl Peaks {
     pub(super) fn new(groups: usize, outputs: usize, stride: usize) -> Self {
-        let candidate = Candidate {
-            sample: 0,
-            segment: None,
-            mode: Mode::Stick,
-            contact: Contact::Free,
-            x: vec![0.0; stride],
-            above: vec![Eight::ZERO; groups],
-            samples: vec![0; 8 * groups],
-        };
+        let zeros = || vec![Eight::ZERO; groups];
         Self {
-            peak: vec![Eight::ZERO; groups],
-            limit: vec![Eight::ZERO; groups],
+            peak: zeros(),
+            limit: zeros(),
+            above: zeros(),
             candidates: Vec::new(),
-            model: candidate,
-            room: ROOM + outputs,
-            used: 0,
+            states: Vec::new(),
+            bounds: Vec::new(),
             outputs,
+            samples: Vec::new(),
+            x: vec![0.0; stride],
         }
     }
 
@@ -77,25 +78,46 @@ impl Peaks {
         self.peak.iter().flat_map(|peak| peak.0).take(self.outputs).collect()
     }
 
-    fn in_question(&self, candidate: &Candidate) -> bool {
-        let all = candidate.above.iter().zip(&self.peak);
+    /// Whether the bounds of a candidate are above the peaks attained since.
+    fn in_question(&self, i: usize) -> bool {
+        let groups = self.peak.len();
+        let all = self.bounds[i * groups..].iter().zip(&self.peak);
         all.flat_map(|(above, peak)| above.0.into_iter().zip(peak.0)).any(|(a, p)| a > p)
     }
 
+    /// Whether an output may have its peak in one of the samples of a candidate.
+    #[inline(always)]
+    fn asks(&self, i: usize, j: usize, sample: u8) -> bool {
+        let (g, lane) = (j / 8, j % 8);
+        let first = i * self.peak.len();
+        let bound = self.bounds[first + g].0[lane];
+        self.samples[8 * first + j] & sample != 0 && bound > self.peak[g].0[lane]
+    }
+
+    /// Forgets the candidates that are not; the samples of all are still alike.
     fn drop_overtaken(&mut self) {
-        let mut i = 0;
-        while i < self.used {
-            if self.in_question(&self.candidates[i]) {
-                i += 1;
-            } else {
-                self.used -= 1;
-                self.candidates.swap(i, self.used);
+        let (groups, stride) = (self.peak.len(), self.x.len());
+        let mut used = 0;
+        for i in 0..self.candidates.len() {
+            if self.in_question(i) {
+                self.candidates[used] = self.candidates[i];
+                self.states.copy_within(i * stride..(i + 1) * stride, used * stride);
+                self.bounds.copy_within(i * groups..(i + 1) * groups, used * groups);
+                used += 1;
             }
         }
+        self.forget_from(used);
+    }
+
+    fn forget_from(&mut self, used: usize) {
+        self.candidates.truncate(used);
+        self.states.truncate(used * self.x.len());
+        self.bounds.truncate(used * self.peak.len());
+        self.samples.truncate(8 * used * self.peak.len());
     }
 }
 
-impl<S: Simd, W: Width> Run<'_, S, W> {
+impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     /// Looks at the segment that the last series has covered: `next` is its start, `x` its end.
     #[inline(always)]
     pub(super) fn look(&mut self, phase: &Phase, stretch: &Stretch, segment: &Segment) {
@@ -104,7 +126,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         let second = &self.series.order(2)[..d];
         // Twice the second coefficient is ẍ times the unit squared.
         let part = segment.part;
-        let reach = 0.25 * phase.system.energy_norm(second) * (part * part);
+        let reach = eight(simd, 0.25 * phase.system.energy_norm(second) * (part * part));
         let coefficient = self.friction_of(self.mode, self.contact);
         let stop = self.stop_input(self.mode, self.contact, self.x[0]);
         let (from_s, to_s) = (segment.from_s, segment.to_s);
@@ -114,72 +136,55 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         if self.law.has_stop() {
             self.look_at_stop(part);
         }
-        let reach_all = eight(simd, reach);
         let stride = 4 * self.width.fours();
-        let mut news = false;
+        let mut open = false;
         for g in 0..self.groups(phase) {
             let a = Self::group_at(simd, phase, g, &self.next[..stride], first);
             let b = Self::group_at(simd, phase, g, &self.x[..stride], last);
-            a.store_slice(&mut self.values[g].0);
-            b.store_slice(&mut self.next_values[g].0);
-            let slack = phase.outputs.norm[g].load(simd) * reach_all;
-            let limit = self.peaks.limit[g].load(simd);
-            news |= !(larger(a.abs(), b.abs()) + slack).simd_le(limit).all_true();
+            open |= self.weigh(g, [a, b], phase.outputs.groups[g].norm.load(simd) * reach);
         }
-        if news {
-            self.look_closer(phase, stretch, segment, reach);
+        if open {
+            self.keep(stretch.interval, Extent::Segment(*segment), true);
         }
     }
 
-    #[inline(never)]
-    fn look_closer(&mut self, phase: &Phase, stretch: &Stretch, segment: &Segment, reach: f64) {
-        let simd = self.simd;
-        simd.vectorize(
-            #[inline(always)]
-            || self.look_at_ends(phase, stretch, segment, reach),
-        );
-    }
-
+    /// Weighs the outputs of a group against their limits, from two values and how far they may depart
+    /// from the chord between. Leaves its bounds in `above`; whether one is above its limit.
     #[inline(always)]
-    fn look_at_ends(&mut self, phase: &Phase, stretch: &Stretch, segment: &Segment, reach: f64) {
+    pub(super) fn weigh(&mut self, g: usize, [a, b]: [f64x8<S>; 2], slack: f64x8<S>) -> bool {
         let simd = self.simd;
-        let mut in_question = false;
-        let mut above = core::mem::take(&mut self.next_values);
-        for g in 0..phase.outputs.groups() {
-            let (a, b) = (self.values[g].load(simd), above[g].load(simd));
-            let slack = phase.outputs.norm[g].load(simd) * eight(simd, reach);
-            let attained = larger(a.abs(), b.abs());
-            let peak = larger(self.peaks.peak[g].load(simd), attained);
+        let (zero, limit) = (eight(simd, 0.0), self.peaks.limit[g].load(simd));
+        let attained = larger(a.abs(), b.abs());
+        if (attained + slack).simd_le(limit).all_true() {
+            self.peaks.above[g] = Eight::ZERO;
+            return false;
+        }
+        let grown = attained.simd_gt(limit);
+        let limit = grown.select(attained, limit);
+        if grown.any_true() {
+            let peak = grown.select(attained, self.peaks.peak[g].load(simd));
             peak.store_slice(&mut self.peaks.peak[g].0);
-            // An extreme lies inside only where the ends are less than four times the slack apart:
-            // |y| ≤ max + (slack − |Δ|/4)² / slack.
-            let zero = eight(simd, 0.0);
-            let inside = slack - (b - a).abs() * eight(simd, 0.25);
-            let bulge = inside.simd_gt(zero).select(inside * (inside / slack), zero);
-            let bound = attained + bulge;
-            // A few ulp are no more than the rounding of the ends.
-            let open = bound.simd_gt(peak + peak * eight(simd, 1e-15));
-            open.select(bound, zero).store_slice(&mut above[g].0);
-            in_question |= open.any_true();
+            self.set_limits();
         }
-        self.next_values = above;
-        self.set_limits();
-        if in_question {
-            let open = self.peaks.limit.iter().zip(&self.next_values);
-            let news = open.flat_map(|(limit, above)| above.0.into_iter().zip(limit.0));
-            if news.into_iter().any(|(above, limit)| above > limit) {
-                self.keep(stretch.interval, Some(*segment), &[]);
-            }
-        }
+        // An extreme lies inside only where the ends are less than four times the slack apart:
+        // |y| ≤ max + (slack − |Δ|/4)² / slack.
+        let inside = slack - (b - a).abs() * eight(simd, 0.25);
+        let bulge = inside.simd_gt(zero).select(inside * (inside / slack), zero);
+        let bound = attained + bulge;
+        // A few ulp are no more than the rounding of the values.
+        let open = bound.simd_gt(limit + limit * eight(simd, 1e-15));
+        open.select(bound, zero).store_slice(&mut self.peaks.above[g].0);
+        open.any_true()
     }
 
     /// Looks at the force of the stop in the last series.
     #[inline(never)]
     fn look_at_stop(&mut self, part: f64) {
         let mut force_n = self.law.stop_force_n(self.contact, self.x[0], self.x[1]);
-        let (s, w) = (self.series.component(self.width, 0), self.series.component(self.width, 1));
         if let Some([of_s, of_w, constant]) = self.law.stop_row(self.contact) {
-            let mut p = core::array::from_fn(|k| of_s * s[k] + of_w * w[k]);
+            let [s, w] =
+                [(0, of_s), (1, of_w)].map(|(i, of)| self.series.component(self.width, i, of));
+            let mut p = core::array::from_fn(|k| s[k] + w[k]);
             p[0] += constant;
             force_n = largest(&p, part, force_n);
         }
@@ -187,103 +192,22 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         *peak = greatest(*peak, force_n);
     }
 
-    /// Looks at the outputs of `open` over the first samples of a batch, by their rows; `near` is `h²/8`
-    /// of a sample.
+    /// Keeps a candidate whose bounds stand in `above`; its start is `next` where the state has moved.
     #[inline(never)]
-    pub(super) fn look_at_batch(
-        &mut self,
-        (phase, batch): (&Phase, &Batch),
-        (sample, steps): (usize, usize),
-        (a, force): (&Window, Force<'_>),
-        curvature: &Curvature,
-        near: f64,
-    ) {
-        let simd = self.simd;
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                let stop = self.stop_input(self.mode, self.contact, self.x[0]);
-                let mut kept = Vec::new();
-                let mut news = false;
-                let mut changed = false;
-                for g in 0..self.groups(phase) {
-                    let mut bits = self.open[g];
-                    let mut above = Eight::ZERO;
-                    let slacks = curvature.slack(simd, phase, g, near).to_array();
-                    while bits != 0 {
-                        let i = bits.trailing_zeros() as usize;
-                        bits &= bits - 1;
-                        let j = 8 * g + i;
-                        if j >= self.peaks.outputs {
-                            break;
-                        }
-                        let limit = self.peaks.limit[g].0[i];
-                        if limit == f64::INFINITY {
-                            continue;
-                        }
-                        let row = &phase.outputs.rows[j];
-                        let constant = row.constant + row.of_stop * stop;
-                        let stride = 4 * self.width.fours();
-                        let values = batch.rows[j].values(simd, &self.x[..stride], a, force)
-                            + eight(simd, constant);
-                        let slack = slacks[i];
-                        let sizes = values.abs();
-                        let hits = sizes.simd_gt(eight(simd, limit - slack)).to_bitmask();
-                        let first = self.values[g].0[i];
-                        if hits & ((1 << steps) - 1) == 0 && first.abs() <= limit - slack {
-                            continue;
-                        }
-                        let mut all = [first; BATCH + 1];
-                        all[1..].copy_from_slice(&values.to_array());
-                        let attained =
-                            all[..=steps].iter().fold(limit, |peak, y| greatest(peak, y.abs()));
-                        changed |= attained > limit;
-                        self.peaks.peak[g].0[i] = greatest(self.peaks.peak[g].0[i], attained);
-                        let (mask, bound) = samples_above(&all[..=steps], slack, attained);
-                        if mask != 0 {
-                            if kept.is_empty() {
-                                kept.resize(8 * phase.outputs.groups(), 0);
-                            }
-                            above.0[i] = bound;
-                            kept[j] = mask;
-                            news = true;
-                        }
-                    }
-                    self.next_values[g] = above;
-                }
-                if changed {
-                    self.set_limits();
-                }
-                if news {
-                    self.keep(sample, None, &kept);
-                }
-            },
-        );
-    }
-
-    /// Keeps a candidate whose bounds stand in `next_values`: the segment that `next` is the start
-    /// of, or whole samples from `x`.
-    #[inline(never)]
-    fn keep(&mut self, sample: usize, segment: Option<Segment>, samples: &[u8]) {
-        let room = self.peaks.room;
-        if self.peaks.used == room {
+    pub(super) fn keep(&mut self, sample: usize, extent: Extent, moved: bool) {
+        let room = ROOM + self.peaks.outputs;
+        if self.peaks.candidates.len() == room {
             self.peaks.drop_overtaken();
-            if self.peaks.used > room / 2 {
+            if self.peaks.candidates.len() > room / 2 {
                 self.settle_peaks();
             }
         }
+        let (mode, contact) = (self.mode, self.contact);
         let peaks = &mut self.peaks;
-        if peaks.used == peaks.candidates.len() {
-            peaks.candidates.push(peaks.model.clone());
-        }
-        let candidate = &mut peaks.candidates[peaks.used];
-        peaks.used += 1;
-        (candidate.sample, candidate.segment) = (sample, segment);
-        (candidate.mode, candidate.contact) = (self.mode, self.contact);
-        let start = if segment.is_some() { &self.next } else { &self.x };
-        candidate.x.copy_from_slice(start);
-        candidate.above.copy_from_slice(&self.next_values);
-        candidate.samples[..samples.len()].copy_from_slice(samples);
+        peaks.candidates.push(Candidate { sample, extent, mode, contact });
+        peaks.states.extend_from_slice(if moved { &self.next } else { &self.x });
+        peaks.bounds.extend_from_slice(&peaks.above);
+        peaks.samples.resize(8 * peaks.bounds.len(), u8::MAX);
     }
 
     /// Settles all candidates that are still in question.
@@ -293,100 +217,166 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         simd.vectorize(
             #[inline(always)]
             || {
-                self.peaks.drop_overtaken();
-                let (used, mut candidates) =
-                    (self.peaks.used, core::mem::take(&mut self.peaks.candidates));
-                for candidate in &mut candidates[..used] {
-                    if self.peaks.in_question(candidate) {
-                        self.settle(candidate);
+                for i in 0..self.peaks.candidates.len() {
+                    if self.peaks.in_question(i) {
+                        self.look_at_samples(i);
                     }
                 }
-                (self.peaks.used, self.peaks.candidates) = (0, candidates);
+                for i in 0..self.peaks.candidates.len() {
+                    if self.peaks.in_question(i) {
+                        self.settle(i);
+                    }
+                }
+                self.peaks.forget_from(0);
                 self.set_limits();
             },
         );
     }
 
+    /// Looks at the outputs of a candidate at its samples, and bounds them between.
     #[inline(always)]
-    fn settle(&mut self, candidate: &mut Candidate) {
-        let (mode, contact) = (candidate.mode, candidate.contact);
+    fn look_at_samples(&mut self, i: usize) {
+        let simd = self.simd;
+        let Candidate { sample, extent, mode, contact } = self.peaks.candidates[i];
         let phase = self.phase_of(mode, contact);
-        if let Some(segment) = candidate.segment {
-            let stretch = self.ground.stretch(candidate.sample, segment.from_s, segment.to_s);
-            self.settle_segment(candidate, phase, &stretch, &segment, 1);
+        let (Extent::Samples(steps, curvature), Some(batch)) = (extent, &phase.batch) else {
             return;
-        }
-        let Some(batch) = &phase.batch else { return };
-        let open = |peaks: &Peaks, bit: u8| {
-            let all = candidate.above.iter().zip(&peaks.peak).enumerate();
-            all.flat_map(|(g, (above, peak))| {
-                (0..8).map(move |i| (8 * g + i, above.0[i], peak.0[i]))
-            })
-            .any(|(j, above, peak)| above > peak && candidate.samples[j] & bit != 0)
         };
-        let start = candidate.x.clone();
-        let coefficient = self.friction_of(mode, contact);
-        let force = match mode {
-            Mode::Stick => Force::Constant(0.0),
-            Mode::Slip(_) => self.batch_force(coefficient, candidate.sample),
-        };
-        let Some(a) = self.ground.acceleration[candidate.sample..].first_chunk() else { return };
-        let unit_s = phase.unit_s;
-        for k in 0..BATCH {
-            let bit = 1 << k;
-            if !open(&self.peaks, bit) {
+        let Some(a) = self.ground.acceleration[sample..].first_chunk() else { return };
+        let force = self.candidate_force(i);
+        let (groups, stride) = (self.peaks.peak.len(), 4 * self.width.fours());
+        let x = &self.peaks.states[i * self.peaks.x.len()..][..stride];
+        let stop = self.stop_input(mode, contact, x[0]);
+        let near = 0.125 * batch.dt_s * batch.dt_s;
+        for g in 0..groups {
+            let bounds = self.peaks.bounds[i * groups + g];
+            if bounds.load(simd).simd_le(self.peaks.peak[g].load(simd)).all_true() {
                 continue;
             }
-            if k == 0 {
-                candidate.x.copy_from_slice(&start);
-            } else {
-                batch.maps.after(self.simd, k, &start, a, force, &mut candidate.x);
+            let slack = curvature.slack(simd, &phase.outputs.groups[g], near).to_array();
+            let first = Self::group_at(simd, phase, g, x, [force.at(0), a[0], stop]).to_array();
+            for lane in 0..8 {
+                let (j, peak) = (8 * g + lane, self.peaks.peak[g].0[lane]);
+                if bounds.0[lane] <= peak {
+                    continue;
+                }
+                let row = &phase.outputs.rows[j];
+                let values = batch.rows[j].values(simd, x, a, force)
+                    + eight(simd, row.constant + row.of_stop * stop);
+                let mut all = [first[lane]; BATCH + 1];
+                all[1..].copy_from_slice(&values.to_array());
+                let all = &all[..=steps];
+                let peak = all.iter().fold(peak, |peak, y| greatest(peak, y.abs()));
+                self.peaks.peak[g].0[lane] = peak;
+                let (samples, bound) = samples_above(all, slack[lane], peak);
+                self.peaks.samples[8 * i * groups + j] = samples;
+                self.peaks.bounds[i * groups + g].0[lane] = bound;
             }
-            let stretch = self.ground.stretch(candidate.sample + k, 0.0, batch.dt_s);
-            let units = (batch.dt_s / unit_s).round().max(1.0);
-            for unit in 0..units as usize {
-                let from_s = unit as f64 * unit_s;
-                let segment = Segment { from_s, to_s: from_s + unit_s, part: 1.0 };
-                self.settle_segment(candidate, phase, &stretch, &segment, bit);
-                let s = candidate.x[0];
-                self.series.state_at(self.simd, 1.0, &mut candidate.x);
+        }
+    }
+
+    /// Friction force over a candidate of whole samples.
+    #[inline(always)]
+    fn candidate_force(&self, i: usize) -> Force<'a> {
+        let Candidate { sample, mode, contact, .. } = self.peaks.candidates[i];
+        match mode {
+            Mode::Stick => Force::Constant(0.0),
+            Mode::Slip(_) => self.batch_force(self.friction_of(mode, contact), sample),
+        }
+    }
+
+    /// Settles a candidate by the series of the segment, or of the samples, that may hold a peak.
+    #[inline(always)]
+    fn settle(&mut self, i: usize) {
+        let Candidate { sample, extent, mode, contact } = self.peaks.candidates[i];
+        let phase = self.phase_of(mode, contact);
+        let mut x = core::mem::take(&mut self.peaks.x);
+        let stride = x.len();
+        x.copy_from_slice(&self.peaks.states[i * stride..][..stride]);
+        match (extent, &phase.batch) {
+            (Extent::Segment(segment), _) => {
+                let stretch = self.ground.stretch(sample, segment.from_s, segment.to_s);
+                self.settle_segment((i, u8::MAX), phase, (&stretch, &segment), &x);
+            }
+            (Extent::Samples(steps, _), Some(batch)) => {
+                for k in 0..steps {
+                    if (0..self.peaks.outputs).any(|j| self.peaks.asks(i, j, 1 << k)) {
+                        self.state_of(i, k, batch, &mut x);
+                        self.settle_sample((i, k), (phase, batch), mode, &mut x);
+                    }
+                }
+            }
+            _ => {}
+        }
+        self.peaks.x = x;
+    }
+
+    /// State at a sample of a candidate.
+    #[inline(always)]
+    fn state_of(&self, i: usize, k: usize, batch: &Batch, x: &mut [f64]) {
+        let start = &self.peaks.states[i * x.len()..][..x.len()];
+        let Some(a) = self.ground.acceleration[self.peaks.candidates[i].sample..].first_chunk()
+        else {
+            return;
+        };
+        if k == 0 {
+            x.copy_from_slice(start);
+        } else {
+            batch.maps.after(self.simd, k, start, a, self.candidate_force(i), x);
+        }
+    }
+
+    /// Settles the sample after the `k`-th of a candidate, by as many series as a step has.
+    #[inline(always)]
+    fn settle_sample(
+        &mut self,
+        (i, k): (usize, usize),
+        (phase, batch): (&Phase, &Batch),
+        mode: Mode,
+        x: &mut [f64],
+    ) {
+        let stretch = self.ground.stretch(self.peaks.candidates[i].sample + k, 0.0, batch.dt_s);
+        let units = (batch.dt_s / phase.unit_s).round().max(1.0) as usize;
+        for unit in 0..units {
+            let from_s = unit as f64 * phase.unit_s;
+            let segment = Segment { from_s, to_s: from_s + phase.unit_s, part: 1.0 };
+            self.settle_segment((i, 1 << k), phase, (&stretch, &segment), x);
+            if unit + 1 < units {
+                let s = x[0];
+                self.series.state_at(self.simd, 1.0, x);
                 if mode == Mode::Stick {
-                    candidate.x[0] = s;
+                    x[0] = s;
                 }
             }
         }
     }
 
-    /// Looks for the peaks of a candidate in one segment by the series of its outputs.
+    /// Looks for the peaks of a candidate in one segment from `x` by the series of those outputs that
+    /// have one of the bits.
     #[inline(always)]
     fn settle_segment(
         &mut self,
-        candidate: &Candidate,
+        (i, bits): (usize, u8),
         phase: &Phase,
-        stretch: &Stretch,
-        segment: &Segment,
-        bit: u8,
+        (stretch, segment): (&Stretch, &Segment),
+        x: &[f64],
     ) {
-        let (mode, contact) = (candidate.mode, candidate.contact);
+        let Candidate { mode, contact, .. } = self.peaks.candidates[i];
         let coefficient = self.friction_of(mode, contact);
         let mut load = self.load(phase, stretch, segment.from_s, coefficient);
         let friction = load.force;
-        let stop = self.stop_input(mode, contact, candidate.x[0]);
+        let stop = self.stop_input(mode, contact, x[0]);
         if mode != Mode::Stick {
             load.force -= stop;
         }
-        Self::expand(self.simd, self.width, phase, &candidate.x, &load, &mut self.series);
+        Self::expand(self.simd, self.width, phase, x, &load, &mut self.series);
         load.force = friction;
         for j in 0..self.peaks.outputs {
-            let (g, i) = (j / 8, j % 8);
-            let asked = candidate.segment.is_some() || candidate.samples[j] & bit != 0;
-            let peak = self.peaks.peak[g].0[i];
-            if !asked || candidate.above[g].0[i] <= peak {
-                continue;
+            if self.peaks.asks(i, j, bits) {
+                let p = output_series(self.width, phase, j, &self.series, &load, stop);
+                let peak = &mut self.peaks.peak[j / 8].0[j % 8];
+                *peak = largest(&p.map(|c| -c), segment.part, largest(&p, segment.part, *peak));
             }
-            let p = output_series(self.width, phase, j, &self.series, &load, stop);
-            let peak = largest(&p, segment.part, peak);
-            self.peaks.peak[g].0[i] = largest(&p.map(|c| -c), segment.part, peak);
         }
     }
 }

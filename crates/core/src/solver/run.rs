@@ -8,14 +8,14 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::ground::{Ground, Normal};
-use super::outputs::output;
+use super::outputs::{Group, output};
 use super::peaks::Peaks;
 use super::recorder::{Knot, Recorder};
 use super::tables::{Phase, Tables};
 use crate::error::SolveError;
 use crate::friction::{Contact, Direction, Hold, Law};
 use crate::linear::lanes::{Eight, Width, combine8, dot, eight};
-use crate::linear::{Force, Load, Series};
+use crate::linear::{BATCH, Force, Load, Series};
 use crate::model::Model;
 use crate::response::{Event, EventKind, Mode, StopDemands};
 
@@ -117,26 +117,40 @@ pub(super) struct Outcome {
     pub(super) sliding_at_end: bool,
 }
 
-/// Bounds over a batch: on `‖ẋ‖` and `‖ẍ‖`, on `|ȧ|` and `|Ṫ|`.
+/// A polyline departs from its chord over a batch by no more than this times the sum of its second
+/// differences.
+const BEND: f64 = 0.25 * BATCH as f64;
+
+/// Bounds over a batch: on `‖ẋ‖` and `‖ẍ‖`, on `|ȧ|` and `|Ṫ|`, and how far `a` and `T` themselves
+/// depart from their chords.
 #[derive(Clone, Copy)]
 pub(super) struct Curvature {
     first: f64,
     second: f64,
     jerk: f64,
     force_rate: f64,
+    bend_of_a: f64,
+    bend_of_force: f64,
 }
 
 impl Curvature {
-    /// How far outputs of a group depart from a chord of length `h`, `reach` being `h²/8`: for
+    /// How far outputs of a group depart from a chord within one sample, `reach` being `h²/8`: for
     /// `y = c·x + …`, `|ÿ| ≤ min(|c|* ‖ẍ‖, |c A|* ‖ẋ‖ + |c b| |ȧ| + …)`.
     #[inline(always)]
-    pub(super) fn slack<S: Simd>(&self, simd: S, phase: &Phase, g: usize, reach: f64) -> f64x8<S> {
-        let outputs = &phase.outputs;
-        let by_second = outputs.norm[g].load(simd) * eight(simd, self.second);
-        let by_first = outputs.norm_of_rate[g].load(simd) * eight(simd, self.first)
-            + (outputs.of_jerk[g].load(simd) * eight(simd, self.jerk)
-                + outputs.of_force_rate[g].load(simd) * eight(simd, self.force_rate));
+    pub(super) fn slack<S: Simd>(&self, simd: S, group: &Group, reach: f64) -> f64x8<S> {
+        let by_second = group.norm.load(simd) * eight(simd, self.second);
+        let by_first = group.norm_of_rate.load(simd) * eight(simd, self.first)
+            + (group.of_jerk.load(simd) * eight(simd, self.jerk)
+                + group.of_force_rate.load(simd) * eight(simd, self.force_rate));
         by_first.simd_lt(by_second).select(by_first, by_second) * eight(simd, reach)
+    }
+
+    /// The same from a chord over the batch, in which the loads have kinks.
+    #[inline(always)]
+    pub(super) fn slack_over_batch<S: Simd>(&self, simd: S, group: &Group, reach: f64) -> f64x8<S> {
+        self.slack(simd, group, reach)
+            + (group.size_of_a.load(simd) * eight(simd, self.bend_of_a)
+                + group.size_of_friction.load(simd) * eight(simd, self.bend_of_force))
     }
 }
 
@@ -153,11 +167,8 @@ pub(super) struct Run<'a, S, W> {
     pub(super) x: Vec<f64>,
     /// A state ahead.
     pub(super) next: Vec<f64>,
-    /// Outputs in both.
+    /// Outputs in `x`, where they are known.
     pub(super) values: Vec<Eight>,
-    pub(super) next_values: Vec<Eight>,
-    /// Outputs that a bound leaves open, as bits of each group.
-    pub(super) open: Vec<u64>,
     pub(super) series: Series,
     /// Room for two lists of storey coordinates.
     pub(super) spare: [Vec<f64>; 2],
@@ -199,7 +210,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             w if w < 0.0 => Mode::Slip(Direction::Negative),
             _ => Mode::Stick,
         };
-        let groups = tables.stick.outputs.groups();
+        let groups = tables.stick.outputs.groups.len();
         Self {
             simd,
             width,
@@ -209,9 +220,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             recorder,
             next: vec![0.0; stride],
             values: vec![Eight::ZERO; groups],
-            next_values: vec![Eight::ZERO; groups],
-            open: vec![0; groups],
-            series: Series::new(system),
+            series: Series::new(system, tables.orders),
             spare: [vec![0.0; n], vec![0.0; n]],
             peaks: Peaks::new(groups, tables.stick.outputs.rows.len(), stride),
             mode,
@@ -349,7 +358,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     /// Groups of eight outputs; those of one storey are one.
     #[inline(always)]
     pub(super) fn groups(&self, phase: &Phase) -> usize {
-        if self.width.modes() == 1 { 1 } else { phase.outputs.groups() }
+        if self.width.modes() == 1 { 1 } else { phase.outputs.groups.len() }
     }
 
     /// A group of outputs in a padded state.
@@ -361,11 +370,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         x: &[f64],
         [friction, a, stop]: [f64; 3],
     ) -> f64x8<S> {
-        let (outputs, count) = (&phase.outputs, 2 + x.len());
-        let constant =
-            outputs.constant[g].load(simd) + outputs.of_stop[g].load(simd) * eight(simd, stop);
-        let columns = &outputs.columns[g * count..][..count];
-        combine8(simd, columns, &[friction, a], &[], x) + constant
+        let count = 4 + x.len();
+        let columns = &phase.outputs.columns[g * count..][..count];
+        combine8(simd, columns, &[1.0, friction, a, stop], &[], x)
     }
 
     /// Expands the motion from a state into the series, over one unit of the phase.
@@ -379,21 +386,19 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         series: &mut Series,
     ) {
         match &phase.series {
-            Some(table) if width.modes() == 1 => {
-                if phase.slip {
-                    series.expand_by_table::<S, true>(simd, table, x, load);
-                } else {
-                    series.expand_by_table::<S, false>(simd, table, x, load);
-                }
+            Some(table) => {
+                let x = &x[..4 * width.fours()];
+                series.expand_by_table(simd, table, phase.slip, x, load);
             }
-            _ => series.expand(&phase.system, phase.slip, x, load, phase.unit_s),
+            None => series.expand(&phase.system, phase.slip, x, load, phase.unit_s),
         }
     }
 
     /// What bounds the second derivatives of the outputs over the batch from a sample.
     ///
     /// A kink of the loads adds to `‖ẍ‖` at most `√M_tot |Δȧ| + |ΔṪ|/√M1`, and their change to `‖ẋ‖`
-    /// at most `√M_tot |Δa| + |ΔT|/√M1`.
+    /// at most `√M_tot |Δa| + |ΔT|/√M1`; from its chord over `n` samples a polyline departs by no more
+    /// than `n/4` times the sum of its second differences.
     #[inline(always)]
     pub(super) fn curvature(
         &mut self,
@@ -438,6 +443,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             second: second + per_dt * (of_a * horizontal.kinks),
             jerk: per_dt * horizontal.change,
             force_rate: 0.0,
+            bend_of_a: BEND * horizontal.kinks,
+            bend_of_force: 0.0,
         };
         if let Some(vertical) = vertical
             && coefficient != 0.0
@@ -447,6 +454,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             curvature.first += of_norm * vertical.variation;
             curvature.second += per_dt * (of_norm * vertical.kinks);
             curvature.force_rate = per_dt * (of_vertical * vertical.change);
+            curvature.bend_of_force = BEND * (of_vertical * vertical.kinks);
         }
         curvature
     }

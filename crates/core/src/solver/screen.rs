@@ -10,10 +10,11 @@ use fearless_simd::prelude::*;
 
 use super::ground::Normal;
 use super::outputs::output;
-use super::run::{Curvature, Run};
+use super::peaks::Extent;
+use super::run::Run;
 use super::tables::{Batch, Phase};
 use crate::friction::Direction;
-use crate::linear::lanes::{Width, dot, eight, larger, least};
+use crate::linear::lanes::{Eight, Width, eight, greatest, least};
 use crate::linear::{BATCH, Force, QUIET, Window};
 use crate::response::Mode;
 
@@ -70,16 +71,17 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let coefficient = self.friction_of(self.mode, self.contact);
         let system = &phase.system;
         let batch_s = BATCH as f64 * batch.dt_s;
+        let mut known = 0;
         while sample + BATCH <= end {
             if varying && !(self.ground.normal_range(sample)[0] > 0.0) {
                 break;
             }
             let (a, force) = (self.window(sample), self.batch_force(coefficient, sample));
             batch.maps.after(simd, BATCH, &self.x[..stride], a, force, &mut self.next[..stride]);
-            let x = &self.x[..stride];
-            let (w, next_w) = (sign * x[1], sign * self.next[1]);
+            let (w, next_w) = (sign * self.x[1], sign * self.next[1]);
             let curvature = self.curvature(phase, coefficient, sample, batch.per_dt);
-            let hidden = curvature.slack(simd, phase, 0, far).as_array()[output::VELOCITY];
+            let slack = curvature.slack_over_batch(simd, &phase.outputs.groups[0], far);
+            let hidden = slack.as_array()[output::VELOCITY];
             let mut steps = BATCH;
             let x = &self.x[..stride];
             if !(w > hidden && next_w > hidden) {
@@ -100,6 +102,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             if steps == 0 {
                 break;
             }
+            if steps < BATCH {
+                batch.maps.after(simd, steps, x, a, force, &mut self.next[..stride]);
+            }
             // Of one storey the group is looked at for less than the bound takes.
             let coarse = (self.width.modes() > 1).then(|| {
                 let [size, _] = self.ground.sizes(sample);
@@ -108,16 +113,12 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 let norm = system.energy_norm(&x[..self.width.components()]) + batch_s * growth;
                 Coarse { norm, size, friction }
             });
-            let inputs = [[force.at(0), a[0], 0.0], [force.at(BATCH), a[BATCH], 0.0]];
-            if self.outputs_open(phase, coarse.as_ref(), inputs, &curvature, far, varying) {
-                self.look_at_batch((phase, batch), (sample, steps), (a, force), &curvature, near);
-            }
+            let inputs = [[force.at(0), a[0], 0.0], [force.at(steps), a[steps], 0.0]];
+            let extent = Extent::Samples(steps, curvature);
+            let (phase, group) = ((phase, coarse.as_ref()), (slack, None, far));
+            self.look_over(phase, (sample, extent), inputs, group, &mut known);
             self.record_batch(batch, sample, steps, a, force);
             sample += steps;
-            if steps < BATCH {
-                let (x, next) = (&self.x[..stride], &mut self.next[..stride]);
-                batch.maps.after(simd, steps, x, a, force, next);
-            }
             core::mem::swap(&mut self.x, &mut self.next);
             if steps < BATCH {
                 break;
@@ -140,86 +141,94 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let [low, high] = hold.bounds;
         let stop = self.stop_input(Mode::Stick, self.contact, self.x[0]);
         // Of the demand without the springs' part.
-        let norm_of_demand = phase.outputs.norm[0].0[output::FRICTION];
-        let size_of_a = phase.outputs.size_of_a[0].0[output::FRICTION];
+        let norm_of_demand = phase.outputs.groups[0].norm.0[output::FRICTION];
+        let size_of_a = phase.outputs.groups[0].size_of_a.0[output::FRICTION];
         let growth = [BATCH, QUIET].map(|n| n as f64 * batch.dt_s * system.root_storey_mass);
         let near = 0.125 * batch.dt_s * batch.dt_s;
         let far = (BATCH * BATCH) as f64 * near;
         let force = Force::Constant(0.0);
+        let row = &phase.outputs.rows[output::FRICTION];
+        let constant = row.of_stop * stop + row.constant;
+        let mut known = 0;
         while sample + BATCH <= end {
             let sizes = self.ground.sizes(sample);
             let [normal, _] = self.ground.normal_range(sample);
             let norm = self.norm_of_structure(phase);
             let holds = least(high, -low) * normal - hold.force_n.abs();
-            let coarse = [0, 1].map(|i| Coarse {
-                norm: norm + growth[i] * sizes[i],
-                size: sizes[i],
-                friction: 0.0,
+            let bounds = [0, 1].map(|i| {
+                let (norm, size) = (norm + growth[i] * sizes[i], sizes[i]);
+                (norm_of_demand * norm + size_of_a * size <= holds).then_some(Coarse {
+                    norm,
+                    size,
+                    friction: 0.0,
+                })
             });
-            let [within, quiet] = [0, 1]
-                .map(|i| norm_of_demand * coarse[i].norm + size_of_a * coarse[i].size <= holds);
-            let within = within && self.below_limits(phase, &coarse[0], stop);
-            if within
-                && quiet
-                && sample + QUIET <= end
-                && matches!(self.ground.normal, Normal::Constant(_))
-                && self.below_limits(phase, &coarse[1], stop)
-            {
-                self.take_quiet(batch, sample);
-                sample += QUIET;
-                continue;
-            }
             let a = self.window(sample);
-            let (x, next) = (&self.x[..stride], &mut self.next[..stride]);
-            batch.maps.after(simd, BATCH, x, a, force, next);
-            if within {
+            if let Some(coarse) = &bounds[0]
+                && self.below_limits(phase, coarse, stop)
+            {
+                known = 0;
+                if let Some(coarse) = &bounds[1]
+                    && sample + QUIET <= end
+                    && matches!(self.ground.normal, Normal::Constant(_))
+                    && self.below_limits(phase, coarse, stop)
+                {
+                    self.take_quiet(batch, sample);
+                    sample += QUIET;
+                    continue;
+                }
+                let (x, next) = (&self.x[..stride], &mut self.next[..stride]);
+                batch.maps.after(simd, BATCH, x, a, force, next);
                 self.record_batch(batch, sample, BATCH, a, force);
                 self.swap_in_stick();
                 sample += BATCH;
                 continue;
             }
+            let (x, next) = (&self.x[..stride], &mut self.next[..stride]);
+            batch.maps.after(simd, BATCH, x, a, force, next);
             let curvature = self.curvature(phase, 0.0, sample, batch.per_dt);
-            let hidden = curvature.slack(simd, phase, 0, near).as_array()[output::FRICTION];
-            let row = &phase.outputs.rows[output::FRICTION];
-            let constant = row.of_stop * stop + row.constant;
-            let x = &self.x[..stride];
-            let demand =
-                batch.rows[output::FRICTION].values(simd, x, a, force) + eight(simd, constant);
-            let first = dot(&row.state[..stride], x) + (row.of_a * a[0] + constant);
+            let slack = curvature.slack_over_batch(simd, &phase.outputs.groups[0], far);
+            let [before, after] = [[0.0, a[0], stop], [0.0, a[BATCH], stop]];
+            let y = self.outputs_known(phase, 0, before, &mut known);
+            let mut next_y = Self::group_at(simd, phase, 0, &self.next[..stride], after);
+            let [first, last] = [y, next_y].map(|y| y.as_array()[output::FRICTION]);
+            let hidden = slack.as_array()[output::FRICTION];
             let steps = match self.ground.normal {
-                Normal::Constant(normal) => {
-                    let (low, high) = (low * normal, high * normal);
-                    let clear = demand.simd_gt(eight(simd, low + hidden))
-                        & demand.simd_lt(eight(simd, high - hidden));
-                    let holds = first > low + hidden && first < high - hidden;
-                    clear_steps(clear.to_bitmask(), holds)
+                Normal::Constant(normal)
+                    if least(first, last) > low * normal + hidden
+                        && greatest(first, last) < high * normal - hidden =>
+                {
+                    BATCH
                 }
-                Normal::Varying(normal) => {
-                    let Some([n0, n @ ..]) = normal[sample..].first_chunk::<{ BATCH + 1 }>() else {
-                        break;
-                    };
-                    let n = f64x8::from_slice(simd, n);
-                    let clear = demand.simd_gt(n * eight(simd, low) + eight(simd, hidden))
-                        & demand.simd_lt(n * eight(simd, high) - eight(simd, hidden))
-                        & n.simd_gt(eight(simd, 0.0));
-                    let holds =
-                        *n0 > 0.0 && first > low * n0 + hidden && first < high * n0 - hidden;
-                    clear_steps(clear.to_bitmask(), holds)
+                normal => {
+                    let hidden = curvature.slack(simd, &phase.outputs.groups[0], near);
+                    let hidden = hidden.as_array()[output::FRICTION];
+                    let x = &self.x[..stride];
+                    let demand = batch.rows[output::FRICTION].values(simd, x, a, force)
+                        + eight(simd, constant);
+                    held_steps(
+                        simd,
+                        (demand, first),
+                        normal.window(simd, sample),
+                        [low, high],
+                        hidden,
+                    )
                 }
             };
             if steps == 0 {
                 break;
             }
-            let inputs = [[0.0, a[0], stop], [0.0, a[BATCH], stop]];
-            if self.outputs_open(phase, Some(&coarse[0]), inputs, &curvature, far, false) {
-                self.look_at_batch((phase, batch), (sample, steps), (a, force), &curvature, near);
-            }
-            self.record_batch(batch, sample, steps, a, force);
-            sample += steps;
+            let after = [0.0, a[steps], stop];
             if steps < BATCH {
                 let (x, next) = (&self.x[..stride], &mut self.next[..stride]);
                 batch.maps.after(simd, steps, x, a, force, next);
+                next_y = Self::group_at(simd, phase, 0, next, after);
             }
+            let extent = Extent::Samples(steps, curvature);
+            let group = (slack, Some(next_y), far);
+            self.look_over((phase, None), (sample, extent), [before, after], group, &mut known);
+            self.record_batch(batch, sample, steps, a, force);
+            sample += steps;
             self.swap_in_stick();
             if steps < BATCH {
                 break;
@@ -240,66 +249,83 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         ((sums[0] + sums[1]) + (sums[2] + sums[3])).sqrt()
     }
 
-    /// Finds the outputs that no bound keeps below their limits over a batch from `x` to `next`: not a
-    /// bound on the state, nor, unless they have kinks, the chord.
+    /// Looks at the outputs of samples from `x` to `next`: where neither a bound on the state nor the
+    /// chord keeps them below their limits the samples are kept. Of the first group the slack is known
+    /// and perhaps the outputs in `next`; `far` is `h²/8` of a batch.
     #[inline(always)]
-    fn outputs_open(
+    fn look_over(
         &mut self,
-        phase: &Phase,
-        coarse: Option<&Coarse>,
+        (phase, coarse): (&Phase, Option<&Coarse>),
+        (sample, extent): (usize, Extent),
         [first, last]: [[f64; 3]; 2],
-        curvature: &Curvature,
-        far: f64,
-        varying: bool,
-    ) -> bool {
+        (slack, first_group, far): (f64x8<S>, Option<f64x8<S>>, f64),
+        known: &mut u64,
+    ) {
         let (simd, stride) = (self.simd, 4 * self.width.fours());
-        let outputs = &phase.outputs;
-        let mut news = 0;
+        let (mut open, mut known_next) = (false, 0);
         for g in 0..self.groups(phase) {
-            let mut open = match coarse {
-                Some(coarse) => self.coarse_open(phase, g, coarse, first[2]),
-                None => 0xff,
-            };
-            if open != 0 {
-                let y = Self::group_at(simd, phase, g, &self.x[..stride], first);
-                let next_y = Self::group_at(simd, phase, g, &self.next[..stride], last);
-                y.store_slice(&mut self.values[g].0);
-                let limit = self.peaks.limit[g].load(simd);
-                let slack = curvature.slack(simd, phase, g, far);
-                let below = (larger(y.abs(), next_y.abs()) + slack).simd_le(limit);
-                let mut chord = !below.to_bitmask();
-                if !phase.slip {
-                    chord |= outputs.kinked_by_a[g];
-                } else if varying {
-                    chord |= outputs.kinked_by_normal[g];
-                }
-                open &= chord;
+            if coarse.is_some_and(|coarse| !self.coarse_open(phase, g, coarse, first[2])) {
+                self.peaks.above[g] = Eight::ZERO;
+                continue;
             }
-            self.open[g] = open;
-            news |= open;
+            let y = self.outputs_known(phase, g, first, known);
+            let next = match first_group {
+                Some(next) if g == 0 => next,
+                _ => Self::group_at(simd, phase, g, &self.next[..stride], last),
+            };
+            next.store_slice(&mut self.values[g].0);
+            known_next |= 1 << g;
+            let slack = match &extent {
+                Extent::Samples(_, curvature) if g > 0 => {
+                    curvature.slack_over_batch(simd, &phase.outputs.groups[g], far)
+                }
+                _ => slack,
+            };
+            open |= self.weigh(g, [y, next], slack);
         }
-        news != 0
+        *known = known_next;
+        if open {
+            self.keep(sample, extent, false);
+        }
     }
 
-    /// Outputs of a group that a bound on the state and the loads does not keep below their limits.
+    /// Outputs of a group in `x`; `known` has a bit for each group whose outputs stand in `values`.
     #[inline(always)]
-    fn coarse_open(&self, phase: &Phase, g: usize, coarse: &Coarse, stop: f64) -> u64 {
-        let (simd, outputs) = (self.simd, &phase.outputs);
-        let mut constant =
-            outputs.constant[g].load(simd) + outputs.of_stop[g].load(simd) * eight(simd, stop);
-        if !phase.slip {
-            constant += outputs.of_s[g].load(simd) * eight(simd, self.x[0]);
+    fn outputs_known(
+        &mut self,
+        phase: &Phase,
+        g: usize,
+        inputs: [f64; 3],
+        known: &mut u64,
+    ) -> f64x8<S> {
+        if *known & (1 << g) == 0 {
+            let x = &self.x[..4 * self.width.fours()];
+            let y = Self::group_at(self.simd, phase, g, x, inputs);
+            y.store_slice(&mut self.values[g].0);
+            *known |= 1 << g;
+            return y;
         }
-        let loads = outputs.size_of_a[g].load(simd) * eight(simd, coarse.size)
-            + outputs.size_of_friction[g].load(simd) * eight(simd, coarse.friction);
-        let most = (outputs.norm[g].load(simd) * eight(simd, coarse.norm) + loads) + constant.abs();
-        !most.simd_le(self.peaks.limit[g].load(simd)).to_bitmask() & 0xff
+        self.values[g].load(self.simd)
+    }
+
+    /// Whether a bound on the state and the loads leaves outputs of a group above their limits.
+    #[inline(always)]
+    fn coarse_open(&self, phase: &Phase, g: usize, coarse: &Coarse, stop: f64) -> bool {
+        let (simd, group) = (self.simd, &phase.outputs.groups[g]);
+        let mut constant = group.constant.load(simd) + group.of_stop.load(simd) * eight(simd, stop);
+        if !phase.slip {
+            constant += group.of_s.load(simd) * eight(simd, self.x[0]);
+        }
+        let loads = group.size_of_a.load(simd) * eight(simd, coarse.size)
+            + group.size_of_friction.load(simd) * eight(simd, coarse.friction);
+        let most = (group.norm.load(simd) * eight(simd, coarse.norm) + loads) + constant.abs();
+        !most.simd_le(self.peaks.limit[g].load(simd)).all_true()
     }
 
     #[inline(always)]
     fn below_limits(&self, phase: &Phase, coarse: &Coarse, stop: f64) -> bool {
         for g in 0..self.groups(phase) {
-            if self.coarse_open(phase, g, coarse, stop) != 0 {
+            if self.coarse_open(phase, g, coarse, stop) {
                 return false;
             }
         }
@@ -362,6 +388,22 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             self.record_knot(time_s, &x, [table, a[k], normal], true);
         }
     }
+}
+
+/// Samples of stick: the demand at the first and at the eight after it stays between its bounds.
+#[inline(always)]
+fn held_steps<S: Simd>(
+    simd: S,
+    (demand, first): (f64x8<S>, f64),
+    (n, n0): (f64x8<S>, f64),
+    [low, high]: [f64; 2],
+    hidden: f64,
+) -> usize {
+    let clear = demand.simd_gt(n * eight(simd, low) + eight(simd, hidden))
+        & demand.simd_lt(n * eight(simd, high) - eight(simd, hidden))
+        & n.simd_gt(eight(simd, 0.0));
+    let holds = n0 > 0.0 && first > low * n0 + hidden && first < high * n0 - hidden;
+    clear_steps(clear.to_bitmask(), holds)
 }
 
 /// Samples up to the last before the first that is not clear: both ends of each must be.

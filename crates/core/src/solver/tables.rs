@@ -5,7 +5,7 @@ use fearless_simd::prelude::*;
 use super::outputs::{self, Outputs};
 use crate::friction::Law;
 use crate::linear::{
-    MAX_RATE_STEP, Maps, Row, SeriesTable, StoreyDamping, System, Units, series_table,
+    MAX_RATE_STEP, Maps, Row, SeriesTable, StoreyDamping, System, Units, orders, series_table,
 };
 use crate::model::{Damping, Model};
 
@@ -15,12 +15,17 @@ const BATCH_STOREYS: usize = 32;
 /// Largest rate times step for batches: beyond, their bounds say nothing.
 const BATCH_RATE_STEP: f64 = 8.0;
 
+/// Most storeys for which series go by a table: beyond, its sums are longer than the recursion.
+const TABLE_STOREYS: usize = 4;
+
 /// Tables of a structure, its springs and dampers, and a step. Friction has no part in them.
 #[derive(Debug)]
 pub(super) struct Tables {
     pub(super) stick: Phase,
     /// One for each restraint of the law.
     pub(super) slip: Vec<Phase>,
+    /// Orders of all series.
+    pub(super) orders: usize,
     /// Whether the overturning moment is an output.
     pub(super) overturns: bool,
     /// `g sin θ`.
@@ -34,7 +39,7 @@ pub(super) struct Phase {
     pub(super) slip: bool,
     /// Length of one series in s: a whole part of the step.
     pub(super) unit_s: f64,
-    pub(super) series: Option<Box<SeriesTable>>,
+    pub(super) series: Option<SeriesTable>,
     pub(super) outputs: Outputs,
     pub(super) batch: Option<Batch>,
 }
@@ -75,17 +80,36 @@ impl Tables {
         let overturning = outputs::overturning(model, &free);
         let slope = model.slope_m_per_s2();
         let moment = overturning.as_ref();
+        let systems: Vec<System> = law
+            .restraints()
+            .enumerate()
+            .map(|(i, restraint)| {
+                let (k, c) = (restraint.stiffness_n_per_m, restraint.damper_n_s_per_m);
+                if i == 0 { free.clone() } else { free.restrained(k, c) }
+            })
+            .collect();
+        let rates = systems.iter().map(|system| system.slip_rate_rad_per_s);
+        let rate_step = |rate: f64| rate * unit_s(rate, dt_s);
+        let orders =
+            orders(rates.map(rate_step).fold(rate_step(free.stick_rate_rad_per_s), f64::max));
         let rows = outputs::rows(&free, false, moment, slope);
-        let stick = Phase::new(simd, free.clone(), false, dt_s, rows);
-        let mut slip = Vec::new();
-        for (i, restraint) in law.restraints().enumerate() {
-            let (k, c) = (restraint.stiffness_n_per_m, restraint.damper_n_s_per_m);
-            let system = if i == 0 { free.clone() } else { free.restrained(k, c) };
+        let stick = Phase::new(simd, free, false, (dt_s, dt_s), orders, rows);
+        let slip = systems.into_iter().enumerate().map(|(i, system)| {
             let rows = outputs::rows(&system, true, moment, slope);
             // Pressed against a stop, samples go one by one.
-            slip.push(Phase::new(simd, system, true, dt_s.filter(|_| i == 0), rows));
-        }
-        Self { stick, slip, overturns: overturning.is_some(), slope }
+            Phase::new(simd, system, true, (dt_s, dt_s.filter(|_| i == 0)), orders, rows)
+        });
+        Self { stick, slip: slip.collect(), orders, overturns: overturning.is_some(), slope }
+    }
+}
+
+/// Length of one series: a whole part of the step.
+fn unit_s(rate_rad_per_s: f64, dt_s: Option<f64>) -> f64 {
+    let longest_s = MAX_RATE_STEP / rate_rad_per_s;
+    match dt_s {
+        Some(dt_s) => dt_s / (dt_s / longest_s).ceil().max(1.0),
+        // Without a rate any length is one series; a minute keeps its powers within reach.
+        None => longest_s.min(60.0),
     }
 }
 
@@ -95,19 +119,16 @@ impl Phase {
         simd: S,
         system: System,
         slip: bool,
-        dt_s: Option<f64>,
+        (dt_s, batch_s): (Option<f64>, Option<f64>),
+        orders: usize,
         rows: Vec<outputs::OutputRow>,
     ) -> Self {
         let rate = if slip { system.slip_rate_rad_per_s } else { system.stick_rate_rad_per_s };
-        let longest_s = MAX_RATE_STEP / rate;
-        let unit_s = match dt_s {
-            Some(dt_s) => dt_s / (dt_s / longest_s).ceil().max(1.0),
-            // Without a rate any length is one series; a minute keeps its powers within reach.
-            None => longest_s.min(60.0),
-        };
-        let series = (system.modes() == 1).then(|| series_table(&system, slip, unit_s));
-        let batch =
-            dt_s.filter(|dt_s| system.storeys <= BATCH_STOREYS && dt_s * rate <= BATCH_RATE_STEP);
+        let unit_s = unit_s(rate, dt_s);
+        let series =
+            (system.storeys <= TABLE_STOREYS).then(|| series_table(&system, slip, unit_s, orders));
+        let batch = batch_s
+            .filter(|dt_s| system.storeys <= BATCH_STOREYS && dt_s * rate <= BATCH_RATE_STEP);
         let batch = if let Some(dt_s) = batch {
             let units = Units::new(simd, &system, slip, dt_s);
             let of_s: Vec<f64> =

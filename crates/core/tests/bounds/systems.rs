@@ -135,13 +135,13 @@ impl Rates {
 }
 
 pub fn series(system: &System, slip: bool, state: &State, load: &Load, length_s: f64) -> Series {
-    let mut series = slipstick::linear::Series::new(system);
+    let mut series = slipstick::linear::Series::new(system, DEGREE);
     let mut x = state.0.clone();
     let components = x.len();
     x.resize(components.div_ceil(4) * 4, 0.0);
     series.expand(system, slip, &x, load, length_s);
     let width = Many(system.modes());
-    Series((0..components).map(|i| series.component(width, i)).collect())
+    Series((0..components).map(|i| series.component(width, i, 1.0)).collect())
 }
 
 /// A coefficient of a series as a state.

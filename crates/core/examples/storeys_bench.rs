@@ -1,0 +1,145 @@
+//! Times analyses of frames for `cargo xtask bench-storeys`: Taft at 0.3 g under 0 to 20 storeys.
+//!
+//! Prints a line a system, fields by tabs: name, number of storeys, samples, events, peak sliding
+//! displacement in m, then nanoseconds a run of the demands alone, of the history and of the history
+//! with its certificate, each the least of several runs of a prepared model, and of the preparation.
+//! With a system's name and a count it runs the demands of that system so many times, for a profiler.
+
+#![allow(
+    clippy::disallowed_macros,
+    clippy::disallowed_methods,
+    reason = "a program may print, read files and the clock"
+)]
+
+use slipstick::check::check;
+use slipstick::error::SolveError;
+use slipstick::friction::{Coulomb, Friction};
+use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
+use slipstick::motion::GroundMotion;
+use slipstick::solver::{Prepared, PreparedMotion};
+use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
+use std::error::Error;
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+/// Mass of the block and of each floor.
+const MASS_KG: f64 = 1000.0;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let profiled = match arguments.as_slice() {
+        [] => None,
+        [name, count] => Some((name.as_str(), count.parse::<u32>()?)),
+        _ => return Err("expected no argument or a name and a count".into()),
+    };
+    let [level, vertical] = taft()?;
+    let [level, vertical] = [level, vertical].map(PreparedMotion::new);
+    let mut systems = vec![
+        ("n = 0", model(0, 0.5, [0.06, 0.05])?, &level),
+        ("n = 1, T = 0.5 s", model(1, 0.5, [0.06, 0.05])?, &level),
+        ("n = 1, T = 0.5 s, low friction", model(1, 0.5, [0.03, 0.02])?, &level),
+        ("n = 1, T = 0.1 s", model(1, 0.1, [0.06, 0.05])?, &level),
+        ("n = 1, vertical motion", model(1, 0.5, [0.06, 0.05])?, &vertical),
+    ];
+    for (name, n) in [("n = 2", 2), ("n = 5", 5), ("n = 10", 10), ("n = 20", 20)] {
+        systems.push((name, model(n, 0.1 * n as f64, [0.06, 0.05])?, &level));
+    }
+    for (name, model, motion) in systems {
+        if profiled.is_some_and(|(wanted, _)| wanted != name) {
+            continue;
+        }
+        let clock = Instant::now();
+        let prepared = Prepared::new(model, motion.dt_s());
+        let set_up = clock.elapsed();
+        match profiled {
+            None => measure(name, &prepared, motion, set_up)?,
+            Some((_, count)) => {
+                for _ in 0..count {
+                    black_box(prepared.demands(motion)?);
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn measure(
+    name: &str,
+    prepared: &Prepared,
+    motion: &PreparedMotion,
+    set_up: Duration,
+) -> Result<(), Box<dyn Error>> {
+    let response = prepared.demands(motion)?;
+    let samples = motion.motion().len();
+    let demands = least(|| prepared.demands(motion).map(|response| drop(black_box(response))))?;
+    let history = least(|| prepared.response(motion).map(|response| drop(black_box(response))))?;
+    let checked = least(|| {
+        let response = prepared.response(motion)?;
+        black_box(check(prepared.model(), motion.motion(), &response));
+        Ok(())
+    })?;
+    let [demands, history, checked, set_up] =
+        [demands, history, checked, set_up].map(|time| time.as_nanos());
+    let (storeys, events) = (prepared.model().storeys(), response.events.len());
+    let peak_m = response.demands.peak_sliding_displacement_m;
+    println!(
+        "{name}\t{storeys}\t{samples}\t{events}\t{peak_m:e}\t{demands}\t{history}\t{checked}\t{set_up}"
+    );
+    Ok(())
+}
+
+/// The least time of a run, of as many as 0.3 s hold.
+fn least(mut run: impl FnMut() -> Result<(), SolveError>) -> Result<Duration, SolveError> {
+    let clock = Instant::now();
+    let mut least = Duration::MAX;
+    while clock.elapsed() < Duration::from_millis(300) {
+        let start = Instant::now();
+        run()?;
+        least = least.min(start.elapsed());
+    }
+    Ok(least)
+}
+
+/// The Taft record at 0.3 g, without and with two thirds of it upwards, reversed in time.
+fn taft() -> Result<[GroundMotion; 2], Box<dyn Error>> {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/records/taft-111.txt");
+    let text = std::fs::read_to_string(file)?;
+    let lines = text.lines().filter(|line| !line.starts_with('#'));
+    let values: Vec<f64> = lines.filter_map(|line| line.trim().parse().ok()).collect();
+    let peak = values.iter().fold(0.0_f64, |peak, a| peak.max(a.abs()));
+    let factor = 0.3 * STANDARD_GRAVITY_M_PER_S2 / peak;
+    let scaled: Vec<f64> = values.iter().map(|a| factor * a).collect();
+    let upwards = scaled.iter().rev().map(|a| a * 2.0 / 3.0).collect();
+    Ok([
+        GroundMotion::evenly_spaced(0.01, scaled.clone(), None)?,
+        GroundMotion::evenly_spaced(0.01, scaled, Some(upwards))?,
+    ])
+}
+
+/// A shear frame of equal floors and storeys with a first period, on a pendulum slider of 2 m.
+fn model(n: usize, period_s: f64, [mu_s, mu_k]: [f64; 2]) -> Result<Model, Box<dyn Error>> {
+    let total_kg = MASS_KG * (n + 1) as f64;
+    let slider = Slider {
+        friction: Friction::Coulomb(Coulomb::new([mu_s; 2], [mu_k; 2])?),
+        stiffness_n_per_m: total_kg * STANDARD_GRAVITY_M_PER_S2 / 2.0,
+        damper_n_s_per_m: 0.0,
+        tilt_rad: 0.0,
+        gap_m: None,
+        stop: None,
+    };
+    let frame = if n == 0 {
+        Frame::none()
+    } else {
+        // First frequency of a uniform shear frame: 2 √(k/m) sin(π / (4n + 2)).
+        let half = libm::sin(core::f64::consts::PI / (4 * n + 2) as f64);
+        let rate = core::f64::consts::PI / (period_s * half);
+        Frame {
+            masses_kg: vec![MASS_KG; n],
+            stiffnesses_n_per_m: vec![MASS_KG * rate * rate; n],
+            damping: Damping::Ratio(0.05),
+            heights_m: None,
+        }
+    };
+    let block = Block { mass_kg: MASS_KG, width_m: None, height_m: None };
+    Ok(Model::new(block, slider, frame, STANDARD_GRAVITY_M_PER_S2, InitialState::rest())?)
+}
