@@ -5,7 +5,7 @@ use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
-use slipstick::error::InputError;
+use slipstick::error::{InputError, visible};
 use slipstick_files::{FileError, JobError, LaboratoryError, StudyError};
 
 /// Bad input, or an output that nobody reads any more.
@@ -53,16 +53,19 @@ impl Failure {
                 if io::stderr().is_terminal()
                     && let Some(excerpt) = excerpt(error, text)
                 {
-                    say(format_args!("{excerpt}"));
+                    let _ = writeln!(io::stderr(), "{excerpt}");
                 }
             }
         }
     }
 }
 
-/// One line to standard error. Where nobody can be told, nobody is: that is no reason to stop.
-pub fn say(line: fmt::Arguments<'_>) {
-    let _ = writeln!(io::stderr(), "{line}");
+/// A message to standard error, what would steer the terminal made visible. Where nobody can be told,
+/// nobody is: that is no reason to stop.
+pub fn say(message: fmt::Arguments<'_>) {
+    let text = message.to_string();
+    let lines: Vec<String> = text.split('\n').map(visible).collect();
+    let _ = writeln!(io::stderr(), "{}", lines.join("\n"));
 }
 
 /// The line that an error points to, underlined; nothing where the error lies outside the text.
@@ -76,9 +79,10 @@ fn excerpt(error: &InputError, text: &str) -> Option<String> {
         Some(value) if !value.is_empty() => Renderer::plain(),
         _ => Renderer::styled(),
     };
-    let label = format!("expected {}", error.expected);
+    let label = visible(&format!("expected {}", error.expected));
+    let name = visible(name);
     let snippet = Snippet::source(text)
-        .path(&place.source_name)
+        .path(&name)
         .annotation(AnnotationKind::Primary.span(place.span.clone()).label(&label));
     Some(renderer.render(&[Level::ERROR.primary_title(&error.found).element(snippet)]))
 }

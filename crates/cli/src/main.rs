@@ -12,7 +12,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use args::{Cli, Command};
 use clap::Parser;
-use failure::{Failure, print};
+use failure::{Failure, print, say};
+use slipstick::error::is_hidden;
 
 /// Exit status after Ctrl-C, as shells have it.
 const INTERRUPTED: i32 = 130;
@@ -51,6 +52,13 @@ fn run() -> Result<ExitCode, Failure> {
         Err(error) if !error.use_stderr() && !io::stdout().is_terminal() => {
             print(&error.render().to_string())?;
             return Ok(ExitCode::SUCCESS);
+        }
+        Err(error)
+            if std::env::args_os().any(|word| word.to_string_lossy().contains(is_hidden)) =>
+        {
+            // It repeats what was typed, or what a pattern of the shell met.
+            say(format_args!("{}", error.render().to_string().trim_end()));
+            return Ok(if error.use_stderr() { ExitCode::from(2) } else { ExitCode::SUCCESS });
         }
         Err(error) => {
             let _ = error.print();

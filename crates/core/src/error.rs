@@ -93,6 +93,21 @@ pub enum MotionError {
         /// Its own time, in s.
         found_s: f64,
     },
+    /// A gap that makes the motion longer than its samples can tell of.
+    #[error(
+        "sample {index}: expected a motion of at most {longest_s} s, in proportion to its samples, \
+         found a gap from {from_s} s to {to_s} s: correct the time, or cut the motion there"
+    )]
+    Gap {
+        /// Index of the sample after the gap, from 0.
+        index: usize,
+        /// Time of the sample before it, in s.
+        from_s: f64,
+        /// Its own time, in s.
+        to_s: f64,
+        /// How long the motion may be, in s.
+        longest_s: f64,
+    },
     /// A parameter of a made motion, or a factor, outside its range.
     #[error("{quantity}: expected {expected}, found {found}")]
     OutOfRange {
@@ -304,7 +319,9 @@ pub enum FitError {
 /// Bytes that are not a record: of text in the `file:line:column` form an editor can jump to, of a
 /// binary file with the offset of the first offending byte.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{source_name}{}: expected {expected}, found {found:?}", place(*line, *column, *offset))]
+#[error(
+    "{}{}: expected {expected}, found {found:?}", visible(source_name), place(*line, *column, *offset)
+)]
 pub struct RecordError {
     /// The caller's name for the text: a path, or the name of a dropped file.
     pub source_name: String,
@@ -387,7 +404,7 @@ impl std::fmt::Display for InputError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Place { source_name, line, column, .. } = &*self.place;
         if !source_name.is_empty() {
-            write!(f, "{source_name}:{line}:{column}: ")?;
+            write!(f, "{}:{line}:{column}: ", visible(source_name))?;
         }
         if !self.path.is_empty() {
             write!(f, "{}: ", self.path)?;
@@ -406,7 +423,7 @@ fn nearest_suffix(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |nearest| format!("; nearest is \"{nearest}\""))
 }
 
-/// A found text as messages show it: control characters escaped, cut to 40 characters.
+/// A found text as messages show it: [`visible`], cut to 40 characters.
 pub(crate) fn cut(text: &str) -> String {
     const LONGEST: usize = 40;
     let mut shown = String::new();
@@ -415,13 +432,44 @@ pub(crate) fn cut(text: &str) -> String {
             shown.push('…');
             break;
         }
-        if character.is_control() {
-            shown.extend(character.escape_default());
-        } else {
-            shown.push(character);
-        }
+        show(character, &mut shown);
     }
     shown
+}
+
+/// A text as messages and results show it: characters that steer a terminal (control characters) and
+/// those that turn the direction of writing are escaped, `\u{1b}`.
+///
+/// ```
+/// assert_eq!(slipstick::error::visible("a\u{1b}[2J\u{202e}b"), r"a\u{1b}[2J\u{202e}b");
+/// ```
+#[must_use]
+pub fn visible(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    text.chars().for_each(|character| show(character, &mut shown));
+    shown
+}
+
+fn show(character: char, shown: &mut String) {
+    if is_hidden(character) {
+        shown.extend(character.escape_default());
+    } else {
+        shown.push(character);
+    }
+}
+
+/// Whether a character steers a terminal or turns the direction of writing, and is not seen itself.
+#[must_use]
+pub fn is_hidden(character: char) -> bool {
+    character.is_control()
+        || matches!(
+            character,
+            '\u{61c}'
+                | '\u{200e}'
+                | '\u{200f}'
+                | '\u{202a}'..='\u{202e}'
+                | '\u{2066}'..='\u{2069}'
+        )
 }
 
 /// The known word nearest to `word`, where the two are alike: at least half of it is the same.

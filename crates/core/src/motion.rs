@@ -17,9 +17,19 @@ pub use series::{Quantity, Series};
 pub use spectrum::{Ordinates, Spectrum, logarithmic_periods, spectrum};
 
 use crate::error::MotionError;
+use crate::numerics::fractile::upper_median;
 
 /// Most samples that a motion may have.
 pub const MAX_SAMPLES: usize = 100_000_000;
+
+/// Longest time step, and longest mean of uneven ones, in s.
+pub const MAX_STEP_S: f64 = 1000.0;
+
+/// Usual steps that a motion of `n` samples may take with its gaps: `USUAL + n USUAL_A_SAMPLE`. Steps
+/// below `SHORTEST_USUAL_S` are edges of jumps and not usual.
+const USUAL: f64 = 1e6;
+const USUAL_A_SAMPLE: f64 = 10.0;
+const SHORTEST_USUAL_S: f64 = 1e-3;
 
 /// Acceleration of the table, linear between samples.
 ///
@@ -43,7 +53,8 @@ impl GroundMotion {
     ///
     /// # Errors
     /// [`MotionError`] for fewer than two samples, lists of different lengths, values that are not
-    /// finite, times that decrease or stand still for more than two samples, no duration.
+    /// finite, times that decrease or stand still for more than two samples, no duration, and a
+    /// duration out of proportion to the samples.
     pub fn new(
         mut times_s: Vec<f64>,
         horizontal: Vec<f64>,
@@ -71,6 +82,10 @@ impl GroundMotion {
         if times_s[n - 1] <= 0.0 {
             return Err(MotionError::TimeOrder { index: n - 1, previous_s: 0.0, found_s: 0.0 });
         }
+        if let Some(Gap { index, longest_s }) = gap(&times_s) {
+            let [from_s, to_s] = [times_s[index - 1], times_s[index]];
+            return Err(MotionError::Gap { index, from_s, to_s, longest_s });
+        }
         let dt_s = constant_step(&times_s);
         Ok(Self { times_s, horizontal_m_per_s2: horizontal, vertical_m_per_s2: vertical, dt_s })
     }
@@ -78,7 +93,8 @@ impl GroundMotion {
     /// A motion with samples at `0, dt, 2 dt, …`.
     ///
     /// # Errors
-    /// As [`GroundMotion::new`], and [`MotionError::OutOfRange`] unless `dt_s` is finite and > 0.
+    /// As [`GroundMotion::new`], and [`MotionError::OutOfRange`] unless `dt_s` is > 0 and at most
+    /// [`MAX_STEP_S`].
     pub fn evenly_spaced(
         dt_s: f64,
         horizontal: Vec<f64>,
@@ -88,13 +104,13 @@ impl GroundMotion {
             let expected = "a finite time step > 0";
             return Err(MotionError::OutOfRange { quantity: "dt_s", expected, found: dt_s });
         }
+        if dt_s > MAX_STEP_S {
+            let expected = "a time step of at most 1000 s";
+            return Err(MotionError::OutOfRange { quantity: "dt_s", expected, found: dt_s });
+        }
         let n = horizontal.len();
         check_values(n, &horizontal, vertical.as_deref())?;
         let times_s: Vec<f64> = (0..n).map(|i| i as f64 * dt_s).collect();
-        if !times_s[n - 1].is_finite() {
-            let expected = "a time step whose multiples are finite";
-            return Err(MotionError::OutOfRange { quantity: "dt_s", expected, found: dt_s });
-        }
         Ok(Self {
             times_s,
             horizontal_m_per_s2: horizontal,
@@ -167,6 +183,35 @@ fn check_values(n: usize, horizontal: &[f64], vertical: Option<&[f64]>) -> Resul
     Ok(())
 }
 
+/// A step that makes a motion longer than its samples can tell of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Gap {
+    /// Index of the sample after it.
+    pub index: usize,
+    /// How long the whole motion may be, in s.
+    pub longest_s: f64,
+}
+
+/// The longest step of times in s (two or more, which do not decrease), where they last out of
+/// proportion to their number.
+///
+/// What is computed of a motion takes time for its samples and for its duration; so a few lines may
+/// not ask for hours of it.
+pub(crate) fn gap(times_s: &[f64]) -> Option<Gap> {
+    let n = times_s.len() as f64;
+    let duration_s = times_s[times_s.len() - 1] - times_s[0];
+    if duration_s <= SHORTEST_USUAL_S * USUAL {
+        return None;
+    }
+    let steps = || times_s.windows(2).map(|t| t[1] - t[0]);
+    let usual_s = upper_median(steps().filter(|&h| h > 0.0)).unwrap_or(0.0);
+    let filled_s = usual_s.max(SHORTEST_USUAL_S) * (USUAL + n * USUAL_A_SAMPLE);
+    let longest_s = libm::floor(filled_s.min(MAX_STEP_S * (n - 1.0)));
+    let longer = |best: (usize, f64), (i, h): (usize, f64)| if h > best.1 { (i, h) } else { best };
+    let (step, _) = steps().enumerate().fold((0, 0.0), longer);
+    (duration_s > longest_s).then_some(Gap { index: step + 1, longest_s })
+}
+
 /// The step of `times_s` (two or more, which start at 0) if every time is a multiple of it to within rounding.
 pub(crate) fn constant_step(times_s: &[f64]) -> Option<f64> {
     let n = times_s.len();
@@ -178,4 +223,38 @@ pub(crate) fn constant_step(times_s: &[f64]) -> Option<f64> {
     let written_s = times_s[1];
     let as_written = even && ((n - 1) as f64 * written_s - end_s).abs() <= slack_s;
     even.then_some(if as_written { written_s } else { dt_s })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(times_s: &[f64]) -> Option<(usize, f64)> {
+        match GroundMotion::new(times_s.to_vec(), vec![0.0; times_s.len()], None) {
+            Err(MotionError::Gap { index, longest_s, .. }) => Some((index, longest_s)),
+            Err(error) => panic!("{error}"),
+            Ok(_) => None,
+        }
+    }
+
+    /// A few samples cannot last for days: work grows with the duration.
+    #[test]
+    fn exact_durations_are_in_proportion_to_the_samples() {
+        // 5 samples may last 4 × 1000 s.
+        assert_eq!(refused(&[0.0, 0.01, 0.02, 0.03, 1e5]), Some((4, 4000.0)));
+        assert_eq!(refused(&[0.0, 0.01, 2e9, 2e9 + 0.01, 2e9 + 0.02]), Some((2, 4000.0)));
+        assert_eq!(refused(&[0.0, 0.01, 0.02, 0.03, 900.0]), None);
+        assert_eq!(refused(&[0.0, 1e12]), Some((1, 1000.0)));
+        // A thousand samples at 0.01 s: 0.01 s × (10⁶ + 10 × 1001).
+        let mut times_s: Vec<f64> = (0..1000).map(|k| f64::from(k) * 0.01).collect();
+        times_s.push(9.99 + 10_000.0);
+        assert_eq!(refused(&times_s), None);
+        times_s[1000] += 1000.0;
+        assert_eq!(refused(&times_s), Some((1000, 10_100.0)));
+        // Edges of a jump are no usual steps.
+        assert_eq!(refused(&[0.0, 1e-9, 500.0, 500.0 + 1e-9]), None);
+        let even = |dt_s| GroundMotion::evenly_spaced(dt_s, vec![0.0; 3], None);
+        assert!(even(1000.0).is_ok());
+        assert!(matches!(even(1e12), Err(MotionError::OutOfRange { quantity: "dt_s", .. })));
+    }
 }

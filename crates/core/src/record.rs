@@ -42,7 +42,7 @@ mod write;
 use std::collections::BTreeMap;
 
 use crate::error::{MotionError, RecordError};
-use crate::motion::{GroundMotion, Series};
+use crate::motion::{GroundMotion, MAX_STEP_S, Series};
 
 pub(crate) use delimited::bracket;
 pub use delimited::{Column, Columns};
@@ -333,6 +333,12 @@ fn read_text(text: &Text, options: &Options) -> Result<Record, RecordError> {
         && !(dt_s.is_finite() && dt_s > 0.0)
     {
         return Err(text.error_at_start("a time step > 0 s given as dt", &format!("{dt_s} s")));
+    }
+    if let Some(dt_s) = options.dt_s
+        && dt_s > MAX_STEP_S
+    {
+        let expected = "a time step of at most 1000 s given as dt";
+        return Err(text.error_at_start(expected, &format!("{dt_s} s")));
     }
     match options.format.unwrap_or_else(|| recognise(text)) {
         Format::Peer => peer::read(text, options),

@@ -2,6 +2,8 @@
 //!
 //! Studies and analyses over suites return them; files hold them as CSV and Parquet.
 
+use std::borrow::Cow;
+
 /// What the cells of a column are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -57,6 +59,34 @@ pub enum Cells {
 pub struct Table {
     /// The columns in their order.
     pub columns: Vec<Column>,
+}
+
+/// A text as a cell of CSV that a spreadsheet shows and does not run: behind an apostrophe where it
+/// begins as a formula does, with `=`, `+`, `-`, `@`, a tab or a line end, and is no number.
+///
+/// ```
+/// use slipstick::table::{from_cell, to_cell};
+/// assert_eq!(to_cell("=1+1"), "'=1+1");
+/// assert_eq!(to_cell("-1.5"), "-1.5");
+/// assert_eq!(from_cell("'=1+1"), "=1+1");
+/// ```
+#[must_use]
+pub fn to_cell(text: &str) -> Cow<'_, str> {
+    let is_run = is_formula(text.trim_start_matches('\'')) && text.parse::<f64>().is_err();
+    if is_run { format!("'{text}").into() } else { text.into() }
+}
+
+/// The text of a cell that [`to_cell`] wrote.
+#[must_use]
+pub fn from_cell(cell: &str) -> &str {
+    match cell.strip_prefix('\'') {
+        Some(text) if is_formula(text.trim_start_matches('\'')) => text,
+        _ => cell,
+    }
+}
+
+fn is_formula(text: &str) -> bool {
+    text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n'])
 }
 
 impl Field {
@@ -239,6 +269,27 @@ impl Table {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What a spreadsheet would run stands behind an apostrophe, and is read back as it was.
+    #[test]
+    fn exact_cells_that_are_formulas() {
+        for (text, cell) in [
+            ("=HYPERLINK(\"x\")", "'=HYPERLINK(\"x\")"),
+            ("+cmd", "'+cmd"),
+            ("-cmd", "'-cmd"),
+            ("@sum", "'@sum"),
+            ("\tx", "'\tx"),
+            ("'=x", "''=x"),
+            ("-1.5e3", "-1.5e3"),
+            ("+2", "+2"),
+            ("'x", "'x"),
+            ("a=b", "a=b"),
+            ("", ""),
+        ] {
+            assert_eq!(to_cell(text), cell);
+            assert_eq!(from_cell(cell), text);
+        }
+    }
 
     #[test]
     fn exact_columns_are_found_by_name_and_kind() {

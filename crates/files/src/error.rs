@@ -1,15 +1,15 @@
 //! What can go wrong with files.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use slipstick::error::{MotionError, RecordError, RecordWriteError};
+use slipstick::error::{MotionError, RecordError, RecordWriteError, visible};
 
 /// A file that cannot be read, understood or written.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     /// Nothing there, or nothing that may be read.
-    #[error("{}: cannot be read: {}", path.display(), reason(source))]
+    #[error("{}: cannot be read: {}", shown(path), reason(source))]
     Read {
         /// The file.
         path: PathBuf,
@@ -17,7 +17,7 @@ pub enum FileError {
         source: io::Error,
     },
     /// A folder where a file was expected.
-    #[error("{}: expected a file, found a folder", path.display())]
+    #[error("{}: expected a file, found a folder", shown(path))]
     IsFolder {
         /// The folder.
         path: PathBuf,
@@ -25,14 +25,14 @@ pub enum FileError {
     /// Nothing of that name, and nothing that a pattern meets.
     #[error(
         "{}: expected a file, a folder or a pattern that meets files, found nothing",
-        pattern.display()
+        shown(pattern)
     )]
     NoMatch {
         /// What was looked for.
         pattern: PathBuf,
     },
     /// A file larger than any record.
-    #[error("{}: expected at most {limit} bytes, found more", path.display())]
+    #[error("{}: expected at most {limit} bytes, found more", shown(path))]
     TooLarge {
         /// The file.
         path: PathBuf,
@@ -43,7 +43,7 @@ pub enum FileError {
     #[error(transparent)]
     Record(#[from] RecordError),
     /// Several channels, or none of the name that was asked for.
-    #[error("{}: expected {expected} (channels: {channels})", path.display())]
+    #[error("{}: expected {expected} (channels: {})", shown(path), visible(channels))]
     Channel {
         /// The record.
         path: PathBuf,
@@ -53,7 +53,7 @@ pub enum FileError {
         channels: String,
     },
     /// Samples that are no ground motion.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}", shown(path))]
     Motion {
         /// The record.
         path: PathBuf,
@@ -61,7 +61,7 @@ pub enum FileError {
         source: MotionError,
     },
     /// A step of processing that has no answer for a channel.
-    #[error("{}: {step}: {source}", path.display())]
+    #[error("{}: {step}: {source}", shown(path))]
     Processing {
         /// The record.
         path: PathBuf,
@@ -71,7 +71,7 @@ pub enum FileError {
         source: MotionError,
     },
     /// A channel that a format cannot hold.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}", shown(path))]
     Unwritable {
         /// The record.
         path: PathBuf,
@@ -79,7 +79,7 @@ pub enum FileError {
         source: RecordWriteError,
     },
     /// Content that is no table in Parquet, or not the one that was expected.
-    #[error("{}: expected a Parquet file: {reason}", path.display())]
+    #[error("{}: expected a Parquet file: {reason}", shown(path))]
     Table {
         /// The file.
         path: PathBuf,
@@ -87,7 +87,7 @@ pub enum FileError {
         reason: String,
     },
     /// A cell of a table in text that is not what it must be.
-    #[error("{}:{line}:{column}: expected {expected}, found {found}", path.display())]
+    #[error("{}:{line}:{column}: expected {expected}, found {found}", shown(path))]
     Cell {
         /// The file.
         path: PathBuf,
@@ -101,7 +101,7 @@ pub enum FileError {
         found: String,
     },
     /// A result that cannot be written.
-    #[error("{}: cannot be written: {}", path.display(), reason(source))]
+    #[error("{}: cannot be written: {}", shown(path), reason(source))]
     Write {
         /// The file or folder.
         path: PathBuf,
@@ -109,17 +109,22 @@ pub enum FileError {
         source: io::Error,
     },
     /// An output folder that is a file.
-    #[error("{}: expected a folder to write to, found a file", path.display())]
+    #[error("{}: expected a folder to write to, found a file", shown(path))]
     NotAFolder {
         /// The file.
         path: PathBuf,
     },
     /// An output that would replace an input.
-    #[error("{}: is an input of this analysis and is not overwritten", path.display())]
+    #[error("{}: is an input of this analysis and is not overwritten", shown(path))]
     IsInput {
         /// The file.
         path: PathBuf,
     },
+}
+
+/// A path as messages show it.
+pub(crate) fn shown(path: &Path) -> String {
+    visible(&path.display().to_string())
 }
 
 /// The reason in words, without the number of the system's error.

@@ -141,7 +141,8 @@ fn walk(folder: PathBuf, parts: &[String], depth: usize, found: &mut Vec<PathBuf
         if hidden || !fits(&pattern, &name.chars().collect::<Vec<_>>()) {
             continue;
         }
-        if rest.is_empty() && !is_folder {
+        // Pipes and devices are no records: who opens one waits for its other end.
+        if rest.is_empty() && path.is_file() {
             found.push(path);
         } else if !rest.is_empty() && is_folder {
             walk(path, rest, depth, found);

@@ -24,7 +24,7 @@ use std::path::PathBuf;
 
 use slipstick::error::{InputError, Stopped};
 
-use crate::error::FileError;
+use crate::error::{FileError, shown};
 
 /// What ends a study early.
 #[derive(Debug, thiserror::Error)]
@@ -44,14 +44,14 @@ pub enum StudyError {
     #[error(
         "{}: belongs to another study (another plan, model, record or version): choose another \
          folder, or start anew with --force",
-        path.display()
+        shown(path)
     )]
     Foreign {
         /// The part.
         path: PathBuf,
     },
     /// A file that is not the part of its name.
-    #[error("{}: {reason}: run the study again with --resume, which replaces it", path.display())]
+    #[error("{}: {reason}: run the study again with --resume, which replaces it", shown(path))]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -59,7 +59,7 @@ pub enum StudyError {
         reason: String,
     },
     /// A file under a name that the study does not give to any part.
-    #[error("{}: the study has no such part: remove it", path.display())]
+    #[error("{}: the study has no such part: remove it", shown(path))]
     Stray {
         /// The file.
         path: PathBuf,

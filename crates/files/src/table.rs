@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use slipstick::error::CellError;
-use slipstick::table::{Cells, Column, Table};
+use slipstick::table::{Cells, Column, Table, from_cell, to_cell};
 
 use crate::error::FileError;
 use crate::parquet::{columns_to_bytes, read_columns};
@@ -15,10 +15,11 @@ use crate::read::read_bytes;
 pub fn to_csv(table: &Table) -> String {
     let mut rows = csv::Writer::from_writer(Vec::new());
     // Rows of one length into a vector of bytes cannot fail.
-    let _ = rows.write_record(table.columns.iter().map(|column| &column.name));
+    let _ =
+        rows.write_record(table.columns.iter().map(|column| to_cell(&column.name).into_owned()));
     for row in 0..table.rows() {
         let cell = |column: &Column| match &column.cells {
-            Cells::Texts(cells) => cells[row].clone(),
+            Cells::Texts(cells) => to_cell(&cells[row]).into_owned(),
             Cells::Numbers(cells) if cells[row].is_nan() => String::new(),
             // Adding 0 takes the sign off a zero.
             Cells::Numbers(cells) => format!("{:?}", cells[row] + 0.0),
@@ -106,8 +107,10 @@ fn of_csv(path: &Path, text: &str) -> Result<ReadTable, FileError> {
     let Some((_, header)) = lines.next() else {
         return Err(cell_error(path, 1, 1, "a header with names of columns", "nothing"));
     };
-    let mut columns: Vec<(String, Vec<String>)> =
-        cells(header).into_iter().map(|cell| (cell.text, Vec::new())).collect();
+    let mut columns: Vec<(String, Vec<String>)> = cells(header)
+        .into_iter()
+        .map(|cell| (from_cell(&cell.text).to_owned(), Vec::new()))
+        .collect();
     let mut places = Vec::new();
     for (number, line) in lines {
         let row = cells(line);
@@ -117,7 +120,7 @@ fn of_csv(path: &Path, text: &str) -> Result<ReadTable, FileError> {
         }
         places.push((number + 1, row.iter().map(|cell| cell.column).collect()));
         for ((_, texts), cell) in columns.iter_mut().zip(row) {
-            texts.push(cell.text);
+            texts.push(from_cell(&cell.text).to_owned());
         }
     }
     if places.is_empty() {
@@ -195,7 +198,7 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("slipstick-tables-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         let mut table = Table::default();
-        table.texts("record", vec!["a, b".to_owned(), "c \"d\"".to_owned()]).numbers(
+        table.texts("record", vec!["=a, b".to_owned(), "c \"d\"".to_owned()]).numbers(
             "level",
             "m/s2",
             vec![0.1, 1.0 / 3.0],
@@ -209,6 +212,7 @@ mod tests {
         let read = read_table(&[csv]).unwrap();
         assert_eq!(read.table.texts_of("record"), table.texts_of("record"));
         assert_eq!(read.table.texts_of("level").unwrap()[1].parse(), Ok(1.0 / 3.0));
+        assert!(std::fs::read_to_string(folder.join("t.csv")).unwrap().contains("\n\"'=a, b\","));
         assert_eq!(read.place(1, "level"), (3, 11));
         std::fs::remove_dir_all(folder).unwrap();
     }

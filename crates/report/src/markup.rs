@@ -3,6 +3,7 @@
 //! [`Markup::raw`] takes `&'static str`, so what a user typed cannot reach it; everything else goes
 //! through [`Markup::text`] and [`Markup::attribute`], which escape.
 
+use slipstick::error::is_hidden;
 use std::fmt;
 
 /// A growing piece of HTML or SVG.
@@ -22,7 +23,8 @@ impl Markup {
         self
     }
 
-    /// Appends text; `< > & " '` become entities, control characters that XML forbids are replaced.
+    /// Appends text; `< > & " '` become entities, control characters that XML forbids and
+    /// marks that turn the direction of writing are replaced.
     pub fn text(&mut self, text: impl fmt::Display) -> &mut Self {
         for character in text.to_string().chars() {
             match character {
@@ -32,7 +34,7 @@ impl Markup {
                 '"' => self.0.push_str("&quot;"),
                 '\'' => self.0.push_str("&#39;"),
                 '\t' | '\n' => self.0.push(character),
-                c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => {
+                c if is_hidden(c) || matches!(c, '\u{fffe}' | '\u{ffff}') => {
                     self.0.push('\u{fffd}');
                 }
                 c => self.0.push(c),
@@ -64,7 +66,7 @@ impl Markup {
         for character in shortened(text, limit).chars() {
             if character.is_ascii_alphanumeric() || character == ' ' {
                 self.0.push(character);
-            } else if character.is_control() {
+            } else if is_hidden(character) {
                 self.0.push(' ');
             } else {
                 self.0.push_str(&format!("\\{:x} ", character as u32));

@@ -1,5 +1,6 @@
 //! The table that `slipstick run` prints: plain characters, aligned, without colour.
 
+use slipstick::error::visible;
 use slipstick::model::Model;
 use slipstick::response::Method;
 
@@ -143,8 +144,7 @@ struct Lines(String);
 impl Lines {
     fn line(&mut self, text: &str) {
         // Names come from users: a control character must not reach a terminal.
-        let clean: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-        self.0.push_str(shortened(&clean, 400).trim_end());
+        self.0.push_str(shortened(&visible(text), 400).trim_end());
         self.0.push('\n');
     }
 

@@ -275,3 +275,90 @@ fn file_plots_are_whole_and_self_contained() {
     let output = folder.output(&["record", "plot", "sine.txt", "-o", "a.png"]);
     assert!(text(&output.stderr).contains("ends in .svg or .html"));
 }
+
+/// Five lines do not keep it busy: a gap out of proportion is refused at its place, one within is
+/// looked at in seconds.
+#[test]
+fn exact_a_long_gap_is_refused_or_soon_done() {
+    let folder = Folder::new("record-gap");
+    let gap = |to: &str| {
+        format!("time_s,acceleration_m_per_s2\n0,0\n0.01,1\n0.02,-1\n0.03,0.5\n{to},0\n")
+    };
+    for to in ["1e5", "1e9", "1e300"] {
+        folder.write("gap.csv", gap(to));
+        let refused = folder.refused(&["record", "info", "gap.csv"]);
+        let expected = format!(
+            "gap.csv:6:1: expected a time in proportion to the samples after 0.03 s, 4000 s from the \
+             first to the last (correct it, or cut the motion there), found {to:?}"
+        );
+        assert_eq!(refused, expected);
+    }
+    folder.write("five.txt", "0\n1\n-1\n0.5\n0\n");
+    let step = ["record", "info", "five.txt", "--units", "m/s2", "--dt"];
+    let refused = folder.refused(&[&step[..], &["1e12 s"]].concat());
+    assert!(refused.contains("expected a time step of at most 1000 s given as dt"), "{refused}");
+    folder.write("gap.csv", gap("3999"));
+    let begun = std::time::Instant::now();
+    folder.stdout(&["record", "info", "gap.csv"]);
+    folder.stdout(&["record", "spectrum", "gap.csv"]);
+    folder.stdout(&[&step[..], &["999 s"]].concat());
+    assert!(begun.elapsed().as_secs() < 30, "{:?}", begun.elapsed());
+    folder.write("model.toml", crate::support::RECORDED);
+    let plan = "model = \"model.toml\"\n[records]\nfiles = [\"five.txt\"]\nunits = \"g\"\n\
+                dt = \"1e12 s\"\nscale = [1.0]\n[vary]\n\"slider.kinetic_friction\" = \
+                { values = [0.1] }\n[sampling]\nmethod = \"grid\"\n";
+    folder.write("plan.toml", plan);
+    let refused = folder.refused(&["study", "plan.toml", "--out", "out"]);
+    assert!(refused.contains("a time step of at most 1000 s"), "{refused}");
+}
+
+/// A pipe in a folder is passed by: who opens one waits for its other end.
+#[cfg(unix)]
+#[test]
+fn file_a_pipe_in_a_folder_is_passed_by() {
+    let folder = Folder::new("record-pipe");
+    folder.write("suite/a.csv", PULSE);
+    let made = std::process::Command::new("mkfifo").arg(folder.path().join("suite/b.csv")).status();
+    assert!(made.is_ok_and(|status| status.success()));
+    for files in ["suite", "suite/*.csv"] {
+        let table = std::process::Command::new("timeout")
+            .args(["20", env!("CARGO_BIN_EXE_slipstick"), "record", "info", files])
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        assert_eq!(table.status.code(), Some(0), "{files}");
+    }
+    std::fs::remove_file(folder.path().join("suite/b.csv")).unwrap();
+}
+
+/// What steers a terminal or turns the direction of writing is shown and not done, in messages as in
+/// results.
+#[cfg(target_os = "linux")]
+#[test]
+fn exact_hidden_characters_are_made_visible() {
+    let folder = Folder::new("record-hidden");
+    let name = "a\u{1b}[2J\n\u{202e}b.csv";
+    let shown = r"a\u{1b}[2J\n\u{202e}b.csv";
+    let hidden = |text: &str| text.contains(['\u{1b}', '\u{202e}']);
+    folder.write(name, "time_s,acceleration_m_per_s2\n0,0\n1,x\n");
+    let refused = folder.refused(&["record", "info", name]);
+    assert!(!hidden(&refused) && refused.starts_with(&format!("{shown}:3:3: ")), "{refused}");
+    let refused = folder.refused(&["run", name]);
+    assert!(!hidden(&refused) && refused.contains(shown), "{refused}");
+    let refused = folder.refused(&["record", "info", "none\u{1b}[2J"]);
+    assert!(refused.starts_with(r"none\u{1b}[2J: expected"), "{refused}");
+    let output = folder.output(&["frag\u{1b}[2J"]);
+    assert!(!hidden(&text(&output.stderr)), "{:?}", text(&output.stderr));
+    folder.write(name, PULSE);
+    let table = folder.stdout(&["record", "info", name]);
+    assert!(!hidden(&table) && table.contains(shown), "{table}");
+}
+
+/// A cell that a spreadsheet would run stands behind an apostrophe.
+#[test]
+fn exact_cells_that_are_formulas_are_quoted() {
+    let folder = Folder::new("record-formula");
+    folder.write("=cmd.csv", PULSE);
+    let csv = folder.stdout(&["record", "spectrum", "=cmd.csv", "--period", "1 s"]);
+    assert!(csv.lines().nth(1).unwrap().starts_with("'=cmd.csv,"), "{csv}");
+}

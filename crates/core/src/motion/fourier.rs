@@ -12,6 +12,10 @@ use super::GroundMotion;
 /// Most points of a transform.
 const MOST: usize = 1 << 26;
 
+/// Points on which an uneven motion is sampled at most: so many, or so many for each of its samples.
+const UNEVEN: usize = 1 << 20;
+const UNEVEN_A_SAMPLE: usize = 16;
+
 /// Amplitudes at evenly spaced frequencies from 0 to the Nyquist frequency.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FourierSpectrum {
@@ -30,7 +34,8 @@ impl FourierSpectrum {
     /// Spectrum of a motion, with frequencies at most `df_hz` apart (in Hz, > 0).
     ///
     /// An evenly spaced motion is taken at its samples. An uneven one is sampled along its straight
-    /// lines at the shortest of its intervals, though never closer than 0.001 s.
+    /// lines at the shortest of its intervals, though never closer than 0.001 s, nor at more than a
+    /// million points or 16 for each sample.
     #[must_use]
     pub fn of(motion: &GroundMotion, df_hz: f64) -> Self {
         let (dt_s, samples) = match motion.dt_s() {
@@ -58,7 +63,8 @@ fn evenly(motion: &GroundMotion) -> (f64, Vec<f64>) {
     let shortest = times_s.windows(2).map(|t| t[1] - t[0]).filter(|&h| h > 0.0);
     let shortest_s = shortest.fold(f64::INFINITY, f64::min);
     let duration_s = motion.duration_s();
-    let dt_s = shortest_s.max(1e-3).max(duration_s / (MOST / 2) as f64).min(duration_s);
+    let most = (UNEVEN_A_SAMPLE * motion.len()).clamp(UNEVEN, MOST / 2);
+    let dt_s = shortest_s.max(1e-3).max(duration_s / most as f64).min(duration_s);
     let count = libm::floor(duration_s / dt_s) as usize + 1;
     let mut samples = Vec::with_capacity(count);
     let mut next = 0;

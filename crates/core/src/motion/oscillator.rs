@@ -2,6 +2,8 @@
 //!
 //! The equations, in the phase `τ = ωt`, are those of [`super::spectrum`].
 
+use core::f64::consts::TAU;
+
 use crate::linear::polynomial::{self, DEGREE, Polynomial};
 
 /// Relative displacement `u` and its derivative by phase, `w = u̇/ω`; both in m.
@@ -188,7 +190,7 @@ impl Overshoot {
     fn sides(&self, attained: f64, line: &Line, end: [f64; 2]) -> [bool; 2] {
         let Self { theta, xi, room, c } = *self;
         if c >= 1.0 {
-            return [true; 2];
+            return line.sides_by_amplitude(attained);
         }
         let ([y0, slope0], [y1, slope1]) = ([line.y, line.slope], end);
         let forcing = line.f[0].abs().max(line.f[1].abs());
@@ -285,8 +287,41 @@ impl Line {
     /// Longest phase that one Taylor polynomial spans: what it leaves out is below 1e-15.
     const LONGEST: f64 = 0.375;
 
+    /// Whether `−y` and `y` may be above `attained`: `y` is a straight line, `−f + 2ξf′`, and a
+    /// sinusoid whose amplitude does not grow.
+    fn sides_by_amplitude(&self, attained: f64) -> [bool; 2] {
+        let Self { xi, theta, y, slope, f } = *self;
+        let rise = (f[1] - f[0]) / theta;
+        let [l0, l1] = f.map(|f| 2.0 * xi * rise - f);
+        let sinusoid = Sinusoid::from_start(xi, y - l0, slope + rise);
+        let amplitude = libm::sqrt(sinusoid.p * sinusoid.p + sinusoid.q * sinusoid.q);
+        let limit = attained * (1.0 - 1e-9);
+        [(-l0).max(-l1) + amplitude > limit, l0.max(l1) + amplitude > limit]
+    }
+
     /// Raises the peak by the largest `−y` and `y`, each where asked for.
-    fn raise(&self, [below, above]: [bool; 2], peak: &mut f64) {
+    ///
+    /// It is in the first or the last period `P = 2π/√(1 − ξ²)`: `y = L + e^(−ξτ) c` with `L` straight
+    /// and `c` of period `P`, so that `y(τ + kP) = a + bk + C rᵏ` with `0 < r ≤ 1`. Where `C ≥ 0` that
+    /// is convex in `k`, and largest at the first or the last. Where `C < 0` it is below `L`, and
+    /// less than `P/2` away, where `L` is no lower, `c = 0` and `y = L` is higher.
+    fn raise(&self, sides: [bool; 2], peak: &mut f64) {
+        let Self { xi, theta, y, slope, f: [f0, f1] } = *self;
+        let period = TAU / libm::sqrt((1.0 - xi) * (1.0 + xi));
+        if theta <= 2.0 * period {
+            return self.raise_throughout(sides, peak);
+        }
+        let at = |tau: f64| f0 + (f1 - f0) * (tau / theta);
+        let first = Self { theta: period, f: [f0, at(period)], ..*self };
+        first.raise_throughout(sides, peak);
+        let before = theta - period;
+        let start = Step::new(before, xi).apply(State { u: y, w: slope }, f0, at(before));
+        let f = [at(before), f1];
+        Self { xi, theta: period, y: start.u, slope: start.w, f }.raise_throughout(sides, peak);
+    }
+
+    /// The same, looked for all along.
+    fn raise_throughout(&self, [below, above]: [bool; 2], peak: &mut f64) {
         let parts = libm::ceil(self.theta / Self::LONGEST).max(1.0);
         let theta = self.theta / parts;
         let (mut y, mut slope) = (self.y, self.slope);
@@ -366,6 +401,34 @@ mod tests {
                 ] {
                     assert!((x.u - y.u).abs() < 1e-13 && (x.w - y.w).abs() < 1e-13, "{xi} {theta}");
                 }
+            }
+        }
+    }
+
+    /// Over intervals of many periods the first and the last give what a search all along gives.
+    #[test]
+    fn prop_long_intervals_peak_in_the_first_or_the_last_period() {
+        let mut seed = 7_u64;
+        let mut random = || {
+            seed = seed
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        };
+        for k in 0..4000 {
+            let xi = if k % 3 == 0 { 0.0 } else { 0.2 * (random() + 1.0) };
+            let theta = 13.0 + 60.0 * (random() + 1.0);
+            // Small slopes and large, so that either the line or the sinusoid decides.
+            let scale = libm::pow(10.0, 2.0 * random());
+            let f = [scale * random(), scale * random()];
+            let line = Line { xi, theta, y: random(), slope: random(), f };
+            for sides in [[true, false], [false, true]] {
+                let (mut quick, mut slow) = (0.0, 0.0);
+                line.raise(sides, &mut quick);
+                line.raise_throughout(sides, &mut slow);
+                assert!((quick - slow).abs() <= 1e-13 * (1.0 + scale), "{k} {quick} {slow}");
+                let may = line.sides_by_amplitude(slow * (1.0 - 1e-12));
+                assert!(may[usize::from(sides[1])] || slow == 0.0, "{k}");
             }
         }
     }

@@ -70,7 +70,9 @@ fn channel(
     }
     let values = cursor.values(FIELDS, n, &npts.line)?;
     let names = names(head, number);
-    Ok(names.channel(head, units, values, Sampling::Dt(dt_s)))
+    let mut channel = names.channel(head, units, values, Sampling::Dt(dt_s));
+    head.check_count(n, &mut channel);
+    Ok(channel)
 }
 
 fn rate(head: &Head) -> Option<f64> {

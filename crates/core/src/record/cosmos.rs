@@ -24,6 +24,9 @@ const TEXT_LINES: usize = 13;
 /// Integers and reals that a header holds, and more than any does.
 const MAX_NUMBERS: usize = 10_000;
 
+/// Position of the number of values among the integers, from 0: integer 70.
+const COUNT: usize = 69;
+
 /// Positions of reals, from 0.
 mod real {
     /// Step of the values in ms: real 62.
@@ -66,6 +69,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
 /// What stands before the blocks of a channel.
 struct Head<'a> {
     text: Vec<Line<'a>>,
+    integers: Vec<Option<f64>>,
     reals: Vec<Option<f64>>,
     reals_line: Line<'a>,
     /// The number that stands for an unknown one.
@@ -92,11 +96,11 @@ impl<'a> Head<'a> {
             let words = line.words().filter(|word| word.start >= at);
             stated_number(line, words.last()?.start).map(|n| n.value)
         });
-        let (_, _) = numbers(cursor, "INTEGER", Fields::new(10, 8))?;
+        let (integers, _) = numbers(cursor, "INTEGER", Fields::new(10, 8))?;
         let (reals, reals_line) = numbers(cursor, "REAL", Fields::new(5, 15))?;
         comments(cursor)?;
         let null = null.unwrap_or(-999.0);
-        Ok(Self { text, reals, reals_line, null })
+        Ok(Self { text, integers, reals, reals_line, null })
     }
 
     fn real(&self, index: usize) -> Option<f64> {
@@ -287,6 +291,15 @@ fn block(
         filter: head.filter(),
         warnings: vec![],
     };
+    // 0 and -999 say nothing.
+    let stated = head.integers.get(COUNT).copied().flatten().filter(|n| *n > 1.0);
+    if let Some(stated) = stated.filter(|stated| *stated != npts as f64) {
+        let message = format!(
+            "integer 70 of the header states {stated} values, line {} {npts}, which stand there",
+            line.number
+        );
+        channel.warnings.push(RecordWarning { kind: "header_differs", message });
+    }
     let series_s = head.real(real::LENGTH_S).filter(|s| *s > 0.0);
     if let Some(series_s) = series_s.filter(|s| (s - length_s).abs() > 2.0 * dt_s + 1e-3 * s) {
         let message = format!(

@@ -100,6 +100,7 @@ pub(super) fn channel(
     let (values, sampling, warnings) = pairs(cursor, npts, &count.line, options.dt_s)?;
     let mut channel = names.channel(head, units, values, sampling);
     channel.warnings.extend(warnings);
+    head.check_count(npts, &mut channel);
     head.check_peak("MAX ", &mut channel);
     Ok(vec![channel])
 }

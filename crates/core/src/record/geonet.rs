@@ -15,6 +15,8 @@ use super::{
 
 /// Lines of text before the numbers of the header.
 const TEXT_LINES: usize = 16;
+/// Components of an accelerograph.
+const COMPONENTS: usize = 3;
 /// How all numbers stand.
 const FIELDS: Fields = Fields::new(10, 8);
 /// What stands for a value that is missing.
@@ -37,8 +39,10 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
     let mut cursor = Cursor::new(text);
     let mut channels = Vec::new();
     let mut layout = "GeoNet V1A";
+    let mut components = 0;
     loop {
         let corrected = component(&mut cursor, options, &mut channels)?;
+        components += 1;
         if corrected {
             layout = "GeoNet V2A";
         }
@@ -52,6 +56,13 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
                 return Err(text.error(&line, 0, expected, &line.trimmed()));
             }
         }
+    }
+    if let (1..COMPONENTS, Some(last)) = (components, channels.last_mut()) {
+        let message = format!(
+            "the file ends after {components} of the three components that an accelerograph has: it \
+             may be cut"
+        );
+        last.warnings.push(RecordWarning { kind: "truncated", message });
     }
     let layout = layout.to_owned();
     Ok(Record { format: Format::GeoNet, layout, channels, warnings: vec![] })

@@ -10,8 +10,8 @@ use core::ops::Range;
 use super::component::azimuth;
 use super::text::{Line, Text, number};
 use super::{
-    Channel, FilterCorners, Format, Options, Quantity, Record, RecordError, Sampling, Units,
-    keys_to_add, sampling, to_si,
+    Channel, FilterCorners, Format, Options, Quantity, Record, RecordError, RecordWarning,
+    Sampling, Units, keys_to_add, sampling, to_si,
 };
 use crate::motion::MAX_SAMPLES;
 
@@ -53,6 +53,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
         Quantity::Velocity => "PEER VT2",
         Quantity::Displacement => "PEER DT2",
     };
+    let warnings = other_count(&header, &last, count, dt_s).into_iter().collect();
     let channel = Channel {
         name: names.component.clone().unwrap_or_else(|| "1".to_owned()),
         azimuth_deg: names.component.as_deref().and_then(azimuth),
@@ -63,10 +64,31 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
         values: to_si(values, &units),
         sampling: Sampling::Dt(dt_s),
         filter: filter(&header),
-        warnings: vec![],
+        warnings,
     };
     let layout = layout.to_owned();
     Ok(Record { format: Format::Peer, layout, channels: vec![channel], warnings: vec![] })
+}
+
+/// A warning where a line above says another count than the last one: `1559 points at equal spacing`,
+/// or count and step, `2500 0.0100000`.
+fn other_count(header: &[Line], last: &Line, count: usize, dt_s: f64) -> Option<RecordWarning> {
+    header.iter().find_map(|line| {
+        let mut words = line.words();
+        let (first, second) = (words.next()?, words.next()?);
+        let digits = &line.bytes[first];
+        let stated = number(digits).filter(|_| digits.iter().all(u8::is_ascii_digit))?;
+        let is_step = number(&line.bytes[second.clone()])
+            .is_some_and(|step_s| (step_s - dt_s).abs() <= 1e-3 * dt_s);
+        let is_count = is_step || line.str(&second).eq_ignore_ascii_case("points");
+        (is_count && stated != count as f64).then(|| RecordWarning {
+            kind: "header_differs",
+            message: format!(
+                "line {} states {stated} values, line {} {count}, which stand there",
+                line.number, last.number
+            ),
+        })
+    })
 }
 
 /// Number of values and time step in s.

@@ -9,10 +9,13 @@ use super::csmip;
 use super::fixed::Cursor;
 use super::text::{Line, Text};
 use super::volume::{Head, Names, end_of_channel};
-use super::{Format, Options, Record, RecordError};
+use super::{Format, Options, Record, RecordError, RecordWarning};
 
 /// Where the text of a line ends and its length stands.
 const TEXT_WIDTH: usize = 72;
+
+/// Blocks of a component of volume II.
+const VOLUME_TWO: usize = 3;
 
 /// Whether one of the first two lines names the volume.
 pub(super) fn recognises(text: &Text) -> bool {
@@ -30,6 +33,11 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
         let names = names(&head, channels.len() + 1);
         let mut own = csmip::channel(&mut cursor, &head, &names, options)?;
         end_of_channel(&mut cursor, &mut own, false)?;
+        if let (true, 1..VOLUME_TWO, Some(last)) = (corrected, own.len(), own.last_mut()) {
+            let message = "the component has no velocity or no displacement, which a volume II has \
+                           after its acceleration: the file may be cut";
+            last.warnings.push(RecordWarning { kind: "truncated", message: message.to_owned() });
+        }
         channels.append(&mut own);
     }
     if channels.is_empty() {

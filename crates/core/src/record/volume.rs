@@ -22,6 +22,9 @@ const TEXT_LINES: usize = 40;
 /// Most lines of integers or reals.
 const NUMBER_LINES: usize = 20;
 
+/// Columns of an integer.
+const INTEGER_WIDTH: usize = 5;
+
 /// Reals of volume I stand on seven lines.
 const VOLUME_ONE_REALS: usize = 7;
 
@@ -29,6 +32,8 @@ const VOLUME_ONE_REALS: usize = 7;
 pub(super) struct Head<'a> {
     /// Lines of text.
     pub text: Vec<Line<'a>>,
+    /// Lines of integers.
+    pub integers: Vec<Line<'a>>,
     /// Lines of reals.
     pub reals: Vec<Line<'a>>,
     /// Whether the values were corrected: volume II.
@@ -100,11 +105,11 @@ impl<'a> Head<'a> {
             let expected = "lines of text before the header of integers";
             return Err(cursor.text.error(&first, 0, expected, &first.trimmed()));
         }
-        let mut integers = 0;
-        while cursor.peek().is_some_and(|line| is_numeric(&line, false)) && integers < NUMBER_LINES
+        let mut integers = Vec::new();
+        while cursor.peek().is_some_and(|line| is_numeric(&line, false))
+            && integers.len() < NUMBER_LINES
         {
-            cursor.next("integers")?;
-            integers += 1;
+            integers.push(cursor.next("integers")?);
         }
         let limit = if corrected { NUMBER_LINES } else { VOLUME_ONE_REALS };
         let mut reals = Vec::new();
@@ -119,7 +124,24 @@ impl<'a> Head<'a> {
                 None => break,
             }
         }
-        Ok(Some(Self { text, reals, corrected }))
+        Ok(Some(Self { text, integers, reals, corrected }))
+    }
+
+    /// A warning where the integers state another number of values than there is: the twelfth of their
+    /// second line that of volume I, the fifth of the fourth that of volume II.
+    pub fn check_count(&self, count: usize, channel: &mut Channel) {
+        let (row, place) = if self.corrected { (3, 5) } else { (1, 12) };
+        let Some(line) = self.integers.get(row) else { return };
+        let columns = (place - 1) * INTEGER_WIDTH..place * INTEGER_WIDTH;
+        let stated = line.bytes.get(columns).and_then(|field| number(field.trim_ascii()));
+        // 0 and -999 say nothing.
+        if let Some(stated) = stated.filter(|stated| *stated > 1.0 && *stated != count as f64) {
+            let message = format!(
+                "integer {place} of line {} states {stated} values, {count} stand there",
+                line.number
+            );
+            channel.warnings.push(RecordWarning { kind: "header_differs", message });
+        }
     }
 
     /// The number after some words in capitals (and an equals sign) in the text.
@@ -422,6 +444,9 @@ fn check_text(
             count.line.number, count.value, heading.line.number, heading.count
         );
         channel.warnings.push(RecordWarning { kind: "header_differs", message });
+    }
+    if acceleration {
+        head.check_count(heading.count, channel);
     }
     let peak = match (head.corrected, heading.units.quantity()) {
         (false, Quantity::Acceleration) => "MAX ",

@@ -66,6 +66,93 @@ fn exact_changed_headers_are_noticed() {
     }
 }
 
+/// A second count in a header that is not the number of values is said: integers of Caltech's volumes and
+/// of COSMOS, lines above the count of PEER.
+#[test]
+fn exact_second_counts_are_compared() {
+    let integers = |text: &str, row: usize, place: usize, stated: &str| -> String {
+        let full = |line: &str| {
+            line.len() > 60 && line.bytes().all(|b| b.is_ascii_digit() || b.is_ascii_whitespace())
+        };
+        let mut lines: Vec<String> = text.split_inclusive('\n').map(str::to_owned).collect();
+        let at = lines.iter().position(|line| full(line)).unwrap() + row;
+        lines[at].replace_range(5 * (place - 1)..5 * place, stated);
+        lines.concat()
+    };
+    let caltech = |row, place, stated| move |text: &str| integers(text, row, place, stated);
+    type Change = Box<dyn Fn(&str) -> String>;
+    let cases: [(&str, Change, &str); 10] = [
+        ("csmip.V1", Box::new(caltech(1, 12, "   25")), "states 25 values, 24 stand there"),
+        ("csmip-1983.V2", Box::new(caltech(3, 5, "   23")), "states 23 values, 24 stand there"),
+        ("bhrc.V1", Box::new(caltech(1, 12, "   25")), "integer 12 of line"),
+        ("renadic.v1", Box::new(caltech(1, 12, " 9999")), "states 9999 values, 24 stand there"),
+        ("usc.m0a", Box::new(caltech(1, 12, "   25")), "states 25 values, 24 stand there"),
+        ("usc.s0a", Box::new(caltech(3, 5, "   25")), "states 25 values, 24 stand there"),
+        (
+            "cosmos.V2c",
+            Box::new(|text: &str| {
+                let at = text.find(" 100 Real-header").unwrap() - 3 * 81;
+                format!("{}      25{}", &text[..at - 9], &text[at - 1..])
+            }),
+            "integer 70 of the header states 25 values",
+        ),
+        (
+            "nga-west2.AT2",
+            Box::new(|text: &str| text.replace("Made Up,", "25 points of Made Up,")),
+            "line 2 states 25 values, line 4 24, which stand there",
+        ),
+        (
+            "nga-west2.AT2",
+            Box::new(|text: &str| text.replace("Made Up,", "25 0.0200000 1. Made Up,")),
+            "line 2 states 25 values, line 4 24, which stand there",
+        ),
+        (
+            "nga-west1.AT2",
+            Box::new(|text: &str| text.replace("MADE UP", "23 points of MADE UP")),
+            "line 2 states 23 values, line 4 24, which stand there",
+        ),
+    ];
+    for (file, change, expected) in cases {
+        let text = String::from_utf8(bytes(&samples(), file)).unwrap();
+        let differs = |text: &str| {
+            let record = record::read(file, text.as_bytes(), &NOTHING).unwrap();
+            let all = record.channels[0].warnings.clone().into_iter();
+            all.filter(|w| w.kind == "header_differs").map(|w| w.message).collect::<Vec<_>>()
+        };
+        assert_eq!(differs(&text), Vec::<String>::new(), "{file}");
+        let changed = change(&text);
+        assert_ne!(changed, text, "{file}");
+        let said = differs(&changed);
+        assert!(said.len() == 1 && said[0].contains(expected), "{file}: {said:?}");
+    }
+}
+
+/// A file that ends with a whole block and lacks the ones after it says that it may be cut.
+#[test]
+fn exact_files_cut_at_the_end_of_a_channel_say_so() {
+    let truncated = |file: &str, text: &str| {
+        let record = record::read(file, text.as_bytes(), &NOTHING).unwrap();
+        let all = record.channels.iter().flat_map(kinds).collect::<Vec<_>>();
+        (record.channels.len(), all.iter().filter(|kind| **kind == "truncated").count())
+    };
+    let usc = String::from_utf8(bytes(&samples(), "usc.s0a")).unwrap();
+    assert_eq!(truncated("usc.s0a", &usc), (3, 0));
+    for (block, left) in [("POINTS OF VEL", 1), ("POINTS OF DIS", 2)] {
+        let at = usc.find(block).unwrap();
+        let end = usc[..at].rfind('\n').unwrap() + 1;
+        assert_eq!(truncated("usc.s0a", &usc[..end]), (left, 1), "{block}");
+    }
+    let Some(folder) = folder("exact_files_cut_at_the_end_of_a_channel_say_so") else { return };
+    let file = "geonet/20180212_211557_WPWS_20.V2A";
+    let geonet = String::from_utf8(bytes(&folder, file)).unwrap();
+    assert_eq!(truncated(file, &geonet), (9, 0));
+    let titles: Vec<usize> =
+        geonet.match_indices("Corrected accelerogram").map(|(at, _)| at).collect();
+    assert_eq!(titles.len(), 3);
+    assert_eq!(truncated(file, &geonet[..titles[2]]), (6, 1));
+    assert_eq!(truncated(file, &geonet[..titles[1]]), (3, 1));
+}
+
 /// A header of SAC that promises more or fewer values than there are, or other steps.
 #[test]
 fn exact_changed_sac_headers_are_noticed() {

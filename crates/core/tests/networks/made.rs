@@ -16,7 +16,7 @@ fn motion_g() -> Vec<f64> {
 type Sample = (&'static str, Option<&'static str>, &'static str, &'static str, f64, f64);
 
 #[rustfmt::skip]
-const SAMPLES: [Sample; 31] = [
+const SAMPLES: [Sample; 33] = [
     ("esm.ASC", None, "ESM DYNA, 24 values, 0.02 s, cm/s²", "HNE", 1.0, 1e-8),
     ("afad.asc", None, "AFAD DYNA, 24 values, 0.02 s, cm/s²", "HNN", 1.0, 1e-8),
     ("itaca.acc", None, "ITACA .acc, 24 values, 0.02 s, m/s²", "N90E", 1.0, 1e-7),
@@ -25,8 +25,10 @@ const SAMPLES: [Sample; 31] = [
     ("nsmn.txt", None, "NSMN text, 24 values, 0.02 s, cm/s²", "U-D", 0.25, 1e-8),
     ("geonet.V1A", None, "GeoNet V1A, 24 values, 0.02 s, mm/s²", "S14E", 0.5, 1e-6),
     ("geonet.V1A", None, "GeoNet V1A, 24 values, 0.02 s, mm/s²", "Up", 0.25, 1e-6),
+    ("geonet.V1A", None, "GeoNet V1A, 24 values, 0.02 s, mm/s²", "N76E", 0.5, 1e-6),
     ("geonet.V2A", None, "GeoNet V2A, 24 values, 0.02 s, mm/s²", "S16W", 0.5, 1e-6),
     ("geonet.V2A", None, "GeoNet V2A, 24 values, 0.02 s, mm/s²", "Up", -0.25, 1e-6),
+    ("geonet.V2A", None, "GeoNet V2A, 24 values, 0.02 s, mm/s²", "S74E", 0.5, 1e-6),
     ("unam.asa", None, "UNAM ASA 2.0, 24 values, 0.02 s, cm/s²", "V", 0.25, 1e-5),
     ("unam.asa", None, "UNAM ASA 2.0, 24 values, 0.02 s, cm/s²", "N90E", 1.0, 1e-5),
     ("unam.asa", None, "UNAM ASA 2.0, 24 values, 0.02 s, cm/s²", "N00E", -0.5, 1e-5),
@@ -114,7 +116,7 @@ fn exact_what_the_samples_say_beside_their_values() {
     let geonet = read(&samples(), "geonet.V2A", &NOTHING);
     let names: Vec<&str> = geonet.channels.iter().map(|c| c.name.as_str()).collect();
     let up = ["Up", "Up velocity", "Up displacement"];
-    assert_eq!((names.len(), &names[3..]), (6, &up[..]));
+    assert_eq!((names.len(), &names[3..6]), (9, &up[..]));
     integral(&geonet.channels[0].values, &geonet.channels[1].values, 1e-6);
     let unam = read(&samples(), "unam.asa", &NOTHING);
     assert_eq!(kinds(&unam.channels[1])[0], "duplicate_rows");

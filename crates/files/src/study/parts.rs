@@ -153,6 +153,9 @@ pub(super) fn find(folder: &Path) -> Result<Found, FileError> {
 
 /// The part in a file, or why it is none.
 fn judge(path: &Path, part: u64) -> Result<Result<PartFile, String>, FileError> {
+    if !path.is_file() {
+        return Ok(Err("no file".to_owned()));
+    }
     let bytes = read_bytes(path)?;
     let sha256 = sha256_hex(&bytes);
     if !is_sealed(bytes) {

@@ -11,6 +11,7 @@ use slipstick::study::{Row, Verdict};
 use super::part::{self, Checks, Notes, part_count, part_name, rows_of};
 use super::parts::{Damaged, Found, find, remove_leftovers};
 use super::{OpenStudy, StudyError};
+use crate::error::shown;
 use crate::parquet::at;
 use crate::write::{OutputFolder, write_whole};
 
@@ -192,7 +193,7 @@ impl OpenStudy {
 /// What becomes of files that are not the parts of their names.
 fn notices(found: &Found, wanted: &Range<u64>, count: u64) -> Vec<String> {
     let stray = |path: &Path| {
-        format!("{}: the study has no such part; left out of the summary", path.display())
+        format!("{}: the study has no such part; left out of the summary", shown(path))
     };
     let damaged = found.damaged.iter().map(|Damaged { path, part, reason }| {
         let what = match wanted.contains(part) {
@@ -200,7 +201,7 @@ fn notices(found: &Found, wanted: &Range<u64>, count: u64) -> Vec<String> {
             false if *part >= count => return stray(path),
             false => "left out of the summary until its shard is run again",
         };
-        format!("{}: {reason}; {what}", path.display())
+        format!("{}: {reason}; {what}", shown(path))
     });
     damaged.chain(found.strays.iter().map(|path| stray(path))).collect()
 }

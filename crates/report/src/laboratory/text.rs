@@ -1,5 +1,7 @@
 //! Aligned columns of plain text.
 
+use slipstick::error::visible;
+
 /// Lines of cells, each column as wide as its widest; the first column left, the others right.
 pub fn aligned(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
@@ -62,7 +64,7 @@ pub fn field(name: &str, sentence: &str) -> String {
 
 /// Names come from users: a control character must not reach a terminal.
 fn clean(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() && c != '\n' { ' ' } else { c }).collect()
+    text.split('\n').map(visible).collect::<Vec<_>>().join("\n")
 }
 
 #[cfg(test)]

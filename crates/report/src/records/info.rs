@@ -1,5 +1,6 @@
 //! What `slipstick record info` says of every channel.
 
+use slipstick::error::visible;
 use slipstick::motion::intensity::IntensityMeasures;
 use slipstick::record::{Channel, Quantity, Record, RecordWarning, Sampling};
 
@@ -151,11 +152,11 @@ pub fn info_table(channels: &[ChannelInfo], display: DisplayUnits) -> String {
 /// The channels of one file.
 fn file_table(out: &mut String, channels: &[ChannelInfo], display: DisplayUnits) {
     let first = &channels[0];
-    out.push_str(&format!("{}  ({})\n", plain(&first.file), plain(&first.layout)));
+    out.push_str(&format!("{}  ({})\n", visible(&first.file), visible(&first.layout)));
     let said = [("Event", &first.event), ("Station", &first.station)];
     for (name, value) in said {
         if let Some(value) = value {
-            out.push_str(&format!("{name:<9}{}\n", plain(value)));
+            out.push_str(&format!("{name:<9}{}\n", visible(value)));
         }
     }
     let mut rows = vec![
@@ -173,7 +174,7 @@ fn file_table(out: &mut String, channels: &[ChannelInfo], display: DisplayUnits)
         };
         let dt = channel.dt_s.map_or("uneven".to_owned(), |dt_s| format!("{dt_s} s"));
         let mut row = vec![
-            plain(&channel.channel),
+            visible(&channel.channel),
             channel.units.clone(),
             channel.npts.to_string(),
             dt,
@@ -216,16 +217,15 @@ fn file_table(out: &mut String, channels: &[ChannelInfo], display: DisplayUnits)
             }
             told.push(warning);
             let of = if channels.len() > 1 {
-                format!("{}: ", plain(&channel.channel))
+                format!("{}: ", visible(&channel.channel))
             } else {
                 String::new()
             };
-            out.push_str(&format!("Warning  {of}{}: {}\n", warning.kind, plain(&warning.message)));
+            out.push_str(&format!(
+                "Warning  {of}{}: {}\n",
+                warning.kind,
+                visible(&warning.message)
+            ));
         }
     }
-}
-
-/// Text of a file without characters that would move a terminal's cursor.
-fn plain(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

@@ -1,6 +1,7 @@
 //! Response spectra and Fourier spectra of channels as tables for other programs.
 
 use slipstick::motion::{FourierSpectrum, Ordinates, Spectrum};
+use slipstick::table::to_cell;
 
 use crate::json::Json;
 
@@ -101,7 +102,7 @@ fn text(rows: &[Vec<String>]) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in rows {
         // Into a vector of bytes it cannot fail.
-        let _ = writer.write_record(row);
+        let _ = writer.write_record(row.iter().map(|cell| to_cell(cell).into_owned()));
     }
     String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
 }

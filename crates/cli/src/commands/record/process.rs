@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
+use slipstick::error::visible;
 use slipstick::motion::Series;
 use slipstick::motion::processing::{self, Step};
 use slipstick::record::{Channel, Record};
@@ -67,7 +68,7 @@ pub fn process(args: &ProcessArgs) -> Result<ExitCode, Failure> {
 /// What a processed file says of itself, in one line.
 fn title(path: &Path, said: &[String]) -> String {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let name: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let name = visible(&name);
     let steps = if said.is_empty() { "no steps".to_owned() } else { said.join("; ") };
     format!("Processed from {name}: {steps}")
 }

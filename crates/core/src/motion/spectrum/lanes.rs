@@ -20,8 +20,11 @@ const BLOCK: usize = 32;
 /// One number for each oscillator.
 type Lanes = [f64; LANES];
 
-/// Most samples that straight lines are cut into for short periods.
+/// Most samples that straight lines are cut into for short periods, and most of them a sample of a
+/// long record: beyond, one interval after the other is looked at, which costs no more.
 const MOST_SAMPLES: usize = 1 << 24;
+const MOST_CUTS: usize = 64;
+const FEW_SAMPLES: usize = 1 << 18;
 
 /// Peaks of every oscillator under an acceleration sampled every `dt_s`; `None` for those whose
 /// period is too short for it.
@@ -40,9 +43,10 @@ pub(super) fn peaks(
     let mut all = vec![None; oscillators.len()];
     let mut blocks = Vec::new();
     let level = Level::new();
+    let most = (MOST_CUTS * acceleration.len()).clamp(FEW_SAMPLES, MOST_SAMPLES) as f64;
     for alike in order.chunk_by(|&i, &j| parts[i] == parts[j]) {
         let cuts = parts[alike[0]];
-        if !(cuts * acceleration.len() as f64 <= MOST_SAMPLES as f64) {
+        if !(cuts * acceleration.len() as f64 <= most) {
             break;
         }
         let fine;

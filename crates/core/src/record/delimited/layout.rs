@@ -3,7 +3,7 @@
 use super::header::{Header, Name, Unit};
 use super::table::Table;
 use crate::error::RecordError;
-use crate::motion::MAX_SAMPLES;
+use crate::motion::{Gap, MAX_SAMPLES, gap};
 use crate::record::sampling;
 use crate::record::text::Text;
 
@@ -127,6 +127,14 @@ fn times(
     let last = times_s.len() - 1;
     if times_s[last] == times_s[0] {
         return Err(table.error_at(text, last, column, "times that increase"));
+    }
+    if let Some(Gap { index, longest_s }) = gap(&times_s) {
+        let before_s = times_s[index - 1];
+        let expected = format!(
+            "a time in proportion to the samples after {before_s} s, {longest_s} s from the first to \
+             the last (correct it, or cut the motion there)"
+        );
+        return Err(table.error_at(text, index, column, expected));
     }
     Ok(times_s)
 }
