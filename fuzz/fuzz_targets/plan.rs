@@ -2,27 +2,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use slipstick::input::Variation;
-use slipstick::input::plan::Plan;
-use slipstick::study::Design;
 
-const MODEL: &str = include_str!("../../examples/studies/mock-up.toml");
+#[path = "../shared/plan.rs"]
+mod plan;
 
-fuzz_target!(|bytes: &[u8]| {
-    match Plan::from_bytes("fuzz.toml", bytes) {
-        Ok(plan) => {
-            let Ok(mut model) = Variation::new("m.toml", MODEL, &plan.vary) else { return };
-            let Ok(design) = Design::new(&plan, &model) else { return };
-            for index in [0, design.count() / 2, design.count() - 1] {
-                let values = design.values(index);
-                if let Ok(parts) = model.parts(&values) {
-                    assert_eq!(model.analysis(&values).unwrap().model, parts.model);
-                }
-            }
-        }
-        Err(error) => {
-            assert!(error.place.line > 0 && error.place.column > 0, "{error}");
-            assert!(error.place.span.end <= bytes.len(), "{error}");
-        }
-    }
-});
+fuzz_target!(|bytes: &[u8]| plan::check(bytes));

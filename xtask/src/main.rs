@@ -40,6 +40,7 @@ Usage: cargo xtask TASK
                                  times reading and response spectra beside NumPy, ObsPy, eqsig
                                  and pyrotd (--write: into book/src/generated/records.md)
   fuzz [TARGET] [--seconds N]    all fuzz targets or one, 60 s each (installs cargo-fuzz)
+  fuzz --minutes N               all fuzz targets in so many minutes together
   coverage                       how often intervals of identify cover the truth, 200 tests a
                                  parameter, and that silent tests are refused
   deny                           licences, advisories, doubles (installs cargo-deny)

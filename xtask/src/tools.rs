@@ -36,26 +36,36 @@ pub fn man() -> Outcome {
     Ok(())
 }
 
-/// Runs fuzz targets, all or the one named, each for a while.
+/// How long one input may take, in s: what is accepted has its results within seconds.
+const FUZZ_TIMEOUT_S: u32 = 60;
+
+/// Runs fuzz targets, all or the one named, each for a while, or all of them for some minutes together.
 pub fn fuzz(options: &[&str]) -> Outcome {
-    let (chosen, seconds) = match options {
-        [] => (None, "60"),
-        ["--seconds", seconds] => (None, *seconds),
-        [target] => (Some(*target), "60"),
-        [target, "--seconds", seconds] => (Some(*target), *seconds),
-        _ => return Err("fuzz: expected [TARGET] [--seconds N]".to_owned()),
+    let number = |option: &str, text: &str| -> Result<u64, String> {
+        text.parse().map_err(|_| format!("fuzz {option}: expected a whole number, found {text}"))
     };
-    let seconds: u32 = seconds
-        .parse()
-        .map_err(|_| format!("fuzz --seconds: expected a whole number, found {seconds}"))?;
+    let (chosen, time) = match options {
+        [target, time @ ..] if !target.starts_with("--") => (Some(*target), time),
+        time => (None, time),
+    };
     let targets = fuzz_targets()?;
+    let count = if chosen.is_some() { 1 } else { targets.len() as u64 };
+    let seconds = match time {
+        [] => 60,
+        ["--seconds", seconds] => number("--seconds", seconds)?,
+        ["--minutes", minutes] => 60 * number("--minutes", minutes)? / count,
+        _ => return Err("fuzz: expected [TARGET] [--seconds N | --minutes N]".to_owned()),
+    };
     if let Some(target) = chosen.filter(|target| !targets.iter().any(|t| t == target)) {
         return Err(format!("fuzz: expected one of {}, found {target}", targets.join(", ")));
     }
     shell::ensure_installed("cargo-fuzz", "--version", "cargo-fuzz")?;
     let mut failed = Vec::new();
     for target in targets.iter().filter(|target| chosen.is_none_or(|c| c == *target)) {
-        let run = format!("fuzz run {target} -- -max_total_time={seconds}");
+        let run = format!(
+            "fuzz run {target} -- -max_total_time={seconds} -timeout={FUZZ_TIMEOUT_S} \
+             -print_final_stats=1"
+        );
         seed(target)?;
         // Sanitizers are still behind a flag of the nightly compiler; this opens it on stable.
         if shell::run(shell::cargo(&run).env("RUSTC_BOOTSTRAP", "1")).is_err() {
@@ -77,6 +87,8 @@ fn seed(target: &str) -> Outcome {
     let sources: &[&str] = match target {
         "model" => &["crates/cli/models", "examples"],
         "plan" => &["examples/studies"],
+        // Edits of plans that are part of the target.
+        "plan_edited" => &[],
         _ => &["data/records"],
     };
     for source in sources {
