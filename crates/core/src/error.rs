@@ -146,18 +146,16 @@ pub enum SolveError {
         /// The limit.
         limit: u32,
     },
-    /// A system so stiff that the phase of its fastest mode is lost to rounding.
-    #[error(
-        "the fastest mode turns {radians:e} rad in {duration_s} s: expected at most {limit:e}; \
-         a spring, damper or storey is too stiff for its mass"
-    )]
-    TooStiff {
-        /// Bound on the fastest rate times the duration.
-        radians: f64,
-        /// Duration of the motion, in s.
-        duration_s: f64,
+    /// An analysis that would take hours: the motion has more radians of the fastest mode than samples
+    /// tell of, or the model has more storeys than that.
+    #[error("the analysis would take {work:.1e} steps, where {limit:.0e} are the most: {advice}")]
+    TooMuchWork {
+        /// Radians that the fastest mode turns, times the square of the number of masses.
+        work: f64,
         /// The limit.
         limit: f64,
+        /// What makes it long, and what to do.
+        advice: String,
     },
     /// A state that left the range of numbers.
     #[error("the response is not finite at {time_s} s: check masses, stiffnesses and the motion")]

@@ -15,10 +15,15 @@ use crate::friction::Law;
 use crate::linear::lanes::{Many, One, Width};
 use crate::model::Model;
 use crate::motion::GroundMotion;
+use crate::numerics::fractile::upper_median;
 use crate::response::{Method, Response};
 
-/// Most radians that the fastest mode may turn: beyond, its phase is lost to rounding.
-const RADIANS_LIMIT: f64 = 1e9;
+/// Most work of an analysis: radians that the fastest mode turns, times the square of the number of
+/// masses. That is some minutes; at ten times as many radians of one mode its phase is lost to rounding.
+const WORK_LIMIT: f64 = 3e8;
+
+/// Radians of the fastest mode in a usual step of the motion beyond which it is no mode but a rigid link.
+const RIGID_RADIANS: f64 = 100.0;
 
 /// A ground motion with what the solver needs to know of it, for any number of models. Copies share
 /// both.
@@ -176,10 +181,10 @@ fn solve(
     with_history: bool,
 ) -> Result<Response, SolveError> {
     let rate = tables.slip.iter().fold(0.0, |rate: f64, p| rate.max(p.system.slip_rate_rad_per_s));
-    let (duration_s, limit) = (motion.duration_s(), RADIANS_LIMIT);
-    let radians = rate * duration_s;
-    if !(radians <= limit) {
-        return Err(SolveError::TooStiff { radians, duration_s, limit });
+    let masses = (1 + model.storeys()) as f64;
+    let (work, limit) = (rate * motion.duration_s() * masses * masses, WORK_LIMIT);
+    if !(work <= limit) {
+        return Err(SolveError::TooMuchWork { work, limit, advice: advice(model, motion, rate) });
     }
     let slope = tables.slope;
     let (mass_kg, gravity) = (model.total_mass_kg(), model.normal_gravity_m_per_s2());
@@ -224,6 +229,36 @@ fn solve(
         iterations: None,
         warnings,
     })
+}
+
+/// What makes an analysis long, and what to do: a link that is rigid beside the motion's steps, a gap
+/// in the motion, or the length of both.
+fn advice(model: &Model, motion: &GroundMotion, rate: f64) -> String {
+    let steps = || motion.times_s().windows(2).map(|t| t[1] - t[0]).filter(|&h| h > 0.0);
+    let usual_s = upper_median(steps()).unwrap_or(0.0);
+    let longest_s = steps().fold(0.0, f64::max);
+    let duration_s = motion.duration_s();
+    if rate * usual_s <= RIGID_RADIANS {
+        return if longest_s > 0.5 * duration_s && longest_s > 10.0 * usual_s {
+            format!("the motion has a gap of {longest_s} s; cut it there")
+        } else {
+            format!("shorten the motion of {duration_s} s, or join storeys")
+        };
+    }
+    let frame = model.frame();
+    let own = |i: usize| (frame.stiffnesses_n_per_m[i] / frame.masses_kg[i]).sqrt();
+    let stiffest = (0..model.storeys()).max_by(|&i, &j| own(i).total_cmp(&own(j)));
+    match stiffest {
+        Some(storey) if 4.0 * own(storey) > rate => format!(
+            "storey {} is a rigid link; leave it out and add its mass to the one below",
+            storey + 1
+        ),
+        _ if model.slider().stiffness_n_per_m > 0.25 * rate * rate * model.block().mass_kg => {
+            "the slider's spring is a rigid link; check its stiffness".to_owned()
+        }
+        _ => "a damper or a stop acts within a millionth of a step; check damping and stiffnesses"
+            .to_owned(),
+    }
 }
 
 struct Analysis<'a> {
