@@ -7,13 +7,16 @@ mod progress;
 mod record_args;
 
 use std::io::{self, IsTerminal};
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use args::{Cli, Command};
 use clap::Parser;
+use clap::error::ErrorKind;
 use failure::{Failure, print, say};
 use slipstick::error::is_hidden;
+use slipstick::input::MAX_TEXT_BYTES;
 
 /// Exit status after Ctrl-C, as shells have it.
 const INTERRUPTED: i32 = 130;
@@ -27,6 +30,9 @@ fn main() -> ExitCode {
         ENDING.store(true, Ordering::SeqCst);
         slipstick_files::remove_temporaries();
         progress::clear();
+        if let Some(how) = progress::interrupted() {
+            say(format_args!("{how}"));
+        }
         std::process::exit(INTERRUPTED);
     });
     let failure = match run() {
@@ -45,6 +51,26 @@ fn main() -> ExitCode {
     }
 }
 
+/// What to write, where the first word is a file.
+fn meant() -> Option<String> {
+    let word = std::env::args_os().nth(1)?;
+    let path = Path::new(&word);
+    let name = word.to_string_lossy();
+    let is_toml = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
+    let command = match slipstick_files::read_at_most(path, MAX_TEXT_BYTES as u64) {
+        Ok(bytes) if is_toml => {
+            let text = String::from_utf8_lossy(&bytes);
+            let is_plan =
+                text.lines().any(|line| line.split('=').next().unwrap_or("").trim() == "model");
+            if is_plan { "study" } else { "run" }
+        }
+        Err(_) if is_toml => "run",
+        _ if path.exists() => "record info",
+        _ => return None,
+    };
+    Some(format!("expected a command, found the file {name}: write \"slipstick {command} {name}\""))
+}
+
 fn run() -> Result<ExitCode, Failure> {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
@@ -52,6 +78,10 @@ fn run() -> Result<ExitCode, Failure> {
         Err(error) if !error.use_stderr() && !io::stdout().is_terminal() => {
             print(&error.render().to_string())?;
             return Ok(ExitCode::SUCCESS);
+        }
+        Err(error) if error.kind() == ErrorKind::InvalidSubcommand && meant().is_some() => {
+            say(format_args!("error: {}", meant().unwrap_or_default()));
+            return Ok(ExitCode::from(2));
         }
         Err(error)
             if std::env::args_os().any(|word| word.to_string_lossy().contains(is_hidden)) =>

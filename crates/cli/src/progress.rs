@@ -3,9 +3,9 @@
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::mpsc;
+use std::sync::{Mutex, PoisonError, mpsc};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use slipstick::study::engine::Engine;
@@ -23,6 +23,20 @@ pub fn clear() {
     if wanted() {
         let _ = write!(io::stderr(), "\r\u{1b}[2K");
     }
+}
+
+/// What to say where Ctrl-C ends the work in hand.
+static ON_INTERRUPT: Mutex<Option<Box<dyn Fn() -> String + Send>>> = Mutex::new(None);
+
+/// Says what is done and how to go on, should Ctrl-C end what follows.
+pub fn on_interrupt(tell: impl Fn() -> String + Send + 'static) {
+    *ON_INTERRUPT.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(tell));
+}
+
+/// What was left to be said.
+pub fn interrupted() -> Option<String> {
+    let tell = ON_INTERRUPT.lock().unwrap_or_else(PoisonError::into_inner);
+    tell.as_ref().map(|tell| tell())
 }
 
 /// A bar with rate and time left for so many steps, where a person watches.
@@ -57,12 +71,16 @@ impl Steps {
     }
 }
 
+/// What is shown while no end is known.
+const SPINNER: &str = "{spinner} {msg}, {elapsed}";
+
 /// Runs `work` and, where a person watches and it takes long, shows what is going on.
 pub fn watched<T: Send>(what: &'static str, quiet: bool, work: impl FnOnce() -> T + Send) -> T {
-    with_sign(what, "{spinner} {msg}, {elapsed}", quiet, &|| 0, work)
+    with_sign(what, quiet, &|bar| bar.tick(), SPINNER, &|| None, work)
 }
 
-/// The same for work by an engine, with the number of runs that are done.
+/// The same for work by an engine: a bar with the runs that are done, of those that are planned, and
+/// the time left.
 pub fn counted<T: Send>(
     what: &'static str,
     quiet: bool,
@@ -73,16 +91,31 @@ pub fn counted<T: Send>(
         done.fetch_add(runs, Ordering::Relaxed);
         ControlFlow::Continue(())
     };
-    let position = || done.load(Ordering::Relaxed);
-    let template = "{spinner} {msg}, {human_pos} runs, {elapsed}";
-    with_sign(what, template, quiet, &position, || work(&Engine::new(&follow)))
+    let engine = Engine::new(&follow);
+    let show = |bar: &ProgressBar| {
+        bar.set_length(engine.planned().max(1));
+        bar.set_position(done.load(Ordering::Relaxed));
+    };
+    let template = "{msg} {wide_bar} {human_pos}/{human_len} runs, {eta} left";
+    with_sign(what, quiet, &show, template, &|| None, || work(&engine))
+}
+
+/// The same for work whose time is estimated once it takes long: a bar with the time left.
+pub fn estimated<T: Send>(
+    what: &'static str,
+    quiet: bool,
+    estimate: &(dyn Fn() -> Option<Duration> + Sync),
+    work: impl FnOnce() -> T + Send,
+) -> T {
+    with_sign(what, quiet, &|bar| bar.tick(), SPINNER, estimate, work)
 }
 
 fn with_sign<T: Send>(
     what: &'static str,
-    template: &str,
     quiet: bool,
-    position: &(dyn Fn() -> u64 + Sync),
+    show: &(dyn Fn(&ProgressBar) + Sync),
+    template: &str,
+    estimate: &(dyn Fn() -> Option<Duration> + Sync),
     work: impl FnOnce() -> T + Send,
 ) -> T {
     if quiet || !wanted() {
@@ -92,18 +125,31 @@ fn with_sign<T: Send>(
         let (done, wait) = mpsc::channel::<()>();
         scope.spawn(move || {
             const TICK: Duration = Duration::from_millis(100);
+            let begun = Instant::now();
             let waiting = |time| wait.recv_timeout(time) == Err(mpsc::RecvTimeoutError::Timeout);
-            if waiting(PATIENCE) {
-                let style = ProgressStyle::with_template(template);
-                let style = style.unwrap_or_else(|_| ProgressStyle::default_spinner());
-                let bar = ProgressBar::new_spinner().with_style(style).with_message(what);
-                bar.set_elapsed(PATIENCE);
-                bar.enable_steady_tick(TICK);
-                while waiting(TICK) {
-                    bar.set_position(position());
-                }
-                bar.finish_and_clear();
+            if !waiting(PATIENCE) {
+                return;
             }
+            let whole = estimate();
+            let template =
+                if whole.is_some() { "{msg} {wide_bar} about {prefix} left" } else { template };
+            let style = ProgressStyle::with_template(template);
+            let style = style.unwrap_or_else(|_| ProgressStyle::default_spinner());
+            let bar = ProgressBar::new(1000).with_style(style).with_message(what);
+            bar.set_elapsed(begun.elapsed());
+            bar.enable_steady_tick(TICK);
+            while waiting(TICK) {
+                match whole {
+                    Some(whole) => {
+                        let left = whole.saturating_sub(begun.elapsed()).max(TICK);
+                        let share = begun.elapsed().as_secs_f64() / whole.as_secs_f64();
+                        bar.set_position((1000.0 * share.min(0.999)) as u64);
+                        bar.set_prefix(format!("{:.0} s", left.as_secs_f64().ceil()));
+                    }
+                    None => show(&bar),
+                }
+            }
+            bar.finish_and_clear();
         });
         let result = work();
         drop(done);

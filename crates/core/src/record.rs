@@ -46,7 +46,7 @@ use crate::motion::{GroundMotion, MAX_STEP_S, Series};
 
 pub(crate) use delimited::bracket;
 pub use delimited::{Column, Columns};
-pub use quality::{REST_KINDS, rest};
+pub use quality::{REST_KINDS, is_note, rest};
 pub(crate) use sampling::of_times;
 use text::Text;
 pub use unit::{Quantity, Units};
@@ -258,6 +258,14 @@ impl Record {
         };
         let numbered = || self.channels.get(name.parse::<usize>().ok()?.checked_sub(1)?);
         named.or_else(bare).or_else(numbered)
+    }
+}
+
+impl RecordWarning {
+    /// Whether it says how something was read and changes no decision.
+    #[must_use]
+    pub fn is_note(&self) -> bool {
+        is_note(self.kind)
     }
 }
 

@@ -7,6 +7,7 @@ pub use registry::{
 };
 
 use crate::friction::Direction;
+use crate::record;
 
 pub use crate::friction::Contact;
 
@@ -290,6 +291,20 @@ pub struct Warning {
     pub time_s: Option<f64>,
     /// One sentence.
     pub message: String,
+}
+
+impl Warning {
+    /// Whether it says how something was read and changes no decision.
+    #[must_use]
+    pub fn is_note(&self) -> bool {
+        record::is_note(self.kind)
+    }
+
+    /// What stands before it in a text.
+    #[must_use]
+    pub fn label(&self) -> &'static str {
+        if self.is_note() { "Note" } else { "Warning" }
+    }
 }
 
 /// The result of one analysis.

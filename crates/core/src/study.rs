@@ -75,6 +75,8 @@ struct Sample {
     parts: Result<Parts, RunError>,
     /// Frequency of the highest mode of the model; 0 without a model.
     highest_hz: f64,
+    /// Kinds of what is hardly meant in it.
+    suspicious: Vec<&'static str>,
 }
 
 impl Study {
@@ -257,7 +259,10 @@ impl Study {
         let values = self.design.values(index);
         let parts = self.variation.parts(&values).map_err(RunError::from);
         let highest_hz = parts.as_ref().map_or(0.0, |parts| notices::highest_hz(&parts.model));
-        Sample { values, parts, highest_hz }
+        let of_model = |parts: &Parts| notices::suspicious(&parts.model);
+        let suspicious = parts.as_ref().map_or_else(|_| Vec::new(), of_model);
+        let suspicious = suspicious.into_iter().map(|warning| warning.kind).collect();
+        Sample { values, parts, highest_hz, suspicious }
     }
 
     /// The samples in a range: from the store, where they are few enough to be kept.

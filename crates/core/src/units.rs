@@ -267,6 +267,11 @@ pub fn parse_quantity(text: &str, dimension: Dimension) -> Result<f64, UnitError
         nearest: None,
     };
     let Ok(value) = number.parse::<f64>() else { return Err(malformed()) };
+    let mended = text.replacen(',', ".", 1);
+    if unit.starts_with(',') && parse_quantity(&mended, dimension).is_ok() {
+        let expected = format!("a decimal point, {}", quoted(&mended));
+        return Err(UnitError { expected, found: quoted(text), nearest: None });
+    }
     let unit = unit.trim_start();
     // "1,5 m" and "1_000 m" are numbers written in another way, not numbers with a strange unit.
     if !unit.starts_with(char::is_alphabetic) {

@@ -33,7 +33,7 @@ pub use records::{
 pub use run::{JobError, OpenJob};
 pub use study::{
     Checks, Merged, OpenStudy, Shard, ShardOutcome, StudyError, clear, conclude, estimate,
-    has_parts, merge, part_rows, run_shard,
+    has_parts, kept_runs, merge, part_rows, quoted, run_shard,
 };
 pub use suite::{OpenSuite, SuiteError, SuiteRequest};
 pub use table::{ReadTable, read_table, to_csv, to_parquet};

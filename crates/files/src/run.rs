@@ -1,6 +1,7 @@
 //! One analysis from model text to results: what the command and other front ends share.
 
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use slipstick::assessment::single::{Job, Outcome, described};
 use slipstick::error::{InputError, MotionError, SolveError};
@@ -72,6 +73,24 @@ impl OpenJob {
         let name = analysis.name.clone().or(stem).unwrap_or_else(|| "model".to_owned());
         let job = Job::new(analysis, loaded.motion.clone(), loaded.warnings.clone())?;
         Ok(Self { name, job, loaded })
+    }
+
+    /// Time that [`OpenJob::run`] may take, from the first samples, of which more and more are solved
+    /// until that takes `budget`; `None` where they cannot be.
+    #[must_use]
+    pub fn estimate(&self, budget: Duration) -> Option<Duration> {
+        let motion = &self.job.motion;
+        let mut samples = 32.min(motion.len());
+        loop {
+            let first = Job { motion: motion.first(samples)?, ..self.job.clone() };
+            let start = Instant::now();
+            first.run(false).ok()?;
+            let taken = start.elapsed();
+            if 4 * taken > budget || samples == motion.len() {
+                return Some(taken.mul_f64(motion.len() as f64 / samples as f64));
+            }
+            samples = (4 * samples).min(motion.len());
+        }
     }
 
     /// Solves and judges, and gathers the figures.

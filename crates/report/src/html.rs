@@ -98,13 +98,26 @@ fn warnings(out: &mut Markup, report: &Report) {
     warning_list(out, &all);
 }
 
-/// Warnings, each with the run it belongs to, or a line that says there are none.
+/// Warnings, each with the run it belongs to, or a line that says there are none; then notes.
 pub(crate) fn warning_list(out: &mut Markup, warnings: &[(Option<&'static str>, &Warning)]) {
+    let (notes, warnings): (Vec<_>, Vec<_>) =
+        warnings.iter().copied().partition(|(_, warning)| warning.is_note());
     if warnings.is_empty() {
         out.raw("<p class=\"quiet\">No warnings.</p>\n");
-        return;
+    } else {
+        out.raw("<section class=\"warnings\">\n<h2>Warnings</h2>\n");
+        told(out, &warnings);
+        out.raw("</section>\n");
     }
-    out.raw("<section class=\"warnings\">\n<h2>Warnings</h2>\n<ul>\n");
+    if !notes.is_empty() {
+        out.raw("<section class=\"notes\">\n<h2>Notes</h2>\n");
+        told(out, &notes);
+        out.raw("</section>\n");
+    }
+}
+
+fn told(out: &mut Markup, warnings: &[(Option<&'static str>, &Warning)]) {
+    out.raw("<ul>\n");
     for (run, warning) in warnings {
         out.raw("<li>").element("strong", warning.kind.replace('_', " "));
         if let Some(name) = run {
@@ -115,7 +128,7 @@ pub(crate) fn warning_list(out: &mut Markup, warnings: &[(Option<&'static str>, 
         }
         out.raw(": ").text(&warning.message).raw("</li>\n");
     }
-    out.raw("</ul>\n</section>\n");
+    out.raw("</ul>\n");
 }
 
 /// Numbered figures with their captions.

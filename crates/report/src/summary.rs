@@ -1,6 +1,6 @@
 //! One analysis in figures: what `--json` prints, the table shows and the report begins with.
 
-mod keys;
+pub(crate) mod keys;
 mod warnings;
 
 use slipstick::assessment::single::{FloorSpectra, Job, Judged, Outcome};

@@ -88,7 +88,8 @@ pub(super) fn tell(args: &ResultArgs, warnings: &[slipstick::response::Warning])
     }
     if args.json {
         for warning in warnings {
-            say(format_args!("warning: {}: {}", warning.kind, warning.message));
+            let label = warning.label().to_lowercase();
+            say(format_args!("{label}: {}: {}", warning.kind, warning.message));
         }
     }
     if let Some(out) = &args.out {

@@ -3,6 +3,7 @@
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Duration;
 
 use slipstick::assessment::single::Outcome;
 use slipstick::input::{self, Override, Scale};
@@ -16,7 +17,10 @@ use slipstick_report::{FileNote, InputText, Report, Summary, table};
 
 use crate::args::{MethodName, RunArgs};
 use crate::failure::{Failure, print, say};
-use crate::progress::watched;
+use crate::progress::{estimated, watched};
+
+/// How long the first samples of an analysis that takes long are solved to know how long it takes.
+const TRIAL: Duration = Duration::from_millis(400);
 
 /// Runs one analysis, prints it and writes its files.
 pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
@@ -43,8 +47,10 @@ pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
             OutputFolder::create(out, &inputs)
         })
         .transpose()?;
-    let (outcome, summary) =
-        watched("computing", args.quiet, || job.run(args.floor_spectrum)).map_err(in_model)?;
+    let (outcome, summary) = estimated("computing", args.quiet, &|| job.estimate(TRIAL), || {
+        job.run(args.floor_spectrum)
+    })
+    .map_err(in_model)?;
     if let Some(folder) = folder {
         let write = || write_files(folder, args, &model, &job, &outcome, &summary);
         watched("writing", args.quiet, write)?;
@@ -169,7 +175,8 @@ fn show(args: &RunArgs, job: &OpenJob, summary: &Summary) -> Result<(), Failure>
     if args.json {
         for (run, warning) in summary.all_warnings() {
             let run = run.map_or(String::new(), |run| format!(" ({run} friction)"));
-            say(format_args!("warning: {}{run}: {}", warning.kind, warning.message));
+            let label = warning.label().to_lowercase();
+            say(format_args!("{label}: {}{run}: {}", warning.kind, warning.message));
         }
     }
     if let Some(out) = &args.out {

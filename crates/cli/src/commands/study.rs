@@ -7,15 +7,15 @@ use std::time::Duration;
 
 use slipstick::study::engine::Engine;
 use slipstick_files::{
-    FileError, OpenStudy, Shard, StudyError, clear, conclude, estimate, has_parts, merge,
-    on_threads, part_rows,
+    FileError, OpenStudy, Shard, StudyError, clear, conclude, estimate, has_parts, kept_runs,
+    merge, on_threads, part_rows, quoted,
 };
 use slipstick_report::number::count;
 use slipstick_report::study::table;
 
 use crate::args::{StudyArgs, StudyCommand};
 use crate::failure::{Failure, print, say};
-use crate::progress::{Steps, watched};
+use crate::progress::{Steps, on_interrupt, watched};
 
 /// How long `--dry-run` runs samples to know how fast they are.
 const TRIAL: Duration = Duration::from_secs(1);
@@ -78,6 +78,15 @@ fn run(args: &StudyArgs, study: &OpenStudy, shard: Shard, out: &Path) -> Result<
             out.display()
         )));
     }
+    let (total, folder) = (study.study.runs(), out.to_owned());
+    let again = resumed();
+    on_interrupt(move || {
+        let done = count(kept_runs(&folder, total));
+        let (folder, total) = (folder.display(), count(total));
+        format!(
+            "interrupted: {done} of {total} runs are done and kept in {folder}; go on with\n  {again}"
+        )
+    });
     let bar = Steps::new(study.shard_runs(shard), args.quiet);
     let follow = |runs: u64| {
         bar.advance(runs);
@@ -110,6 +119,14 @@ fn run(args: &StudyArgs, study: &OpenStudy, shard: Shard, out: &Path) -> Result<
         say(format_args!("wrote {}", out.join("summary.csv").display()));
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The command as it was typed, to go on with it.
+fn resumed() -> String {
+    let typed = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
+    let kept = typed.filter(|word| word != "--force" && word != "--resume");
+    let words = ["slipstick".to_owned()].into_iter().chain(kept).chain(["--resume".to_owned()]);
+    words.map(|word| quoted(&word)).collect::<Vec<_>>().join(" ")
 }
 
 /// Counts, and the time that the runs may take.

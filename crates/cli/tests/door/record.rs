@@ -362,3 +362,24 @@ fn exact_cells_that_are_formulas_are_quoted() {
     let csv = folder.stdout(&["record", "spectrum", "=cmd.csv", "--period", "1 s"]);
     assert!(csv.lines().nth(1).unwrap().starts_with("'=cmd.csv,"), "{csv}");
 }
+
+/// Names on one line and their units on the next, as data loggers write them.
+#[test]
+fn exact_two_header_rows_are_one() {
+    let folder = Folder::new("record-two-rows");
+    for (text, name) in [
+        ("Time;Acc X\ns;m/s2\n0,0;0,0\n0,1;1,5\n0,2;0,0\n", "Acc X (m/s2)"),
+        ("Time,Accel\n(s),(cm/s2)\n0.0,0.0\n0.1,150\n0.2,0.0\n", "Accel (cm/s2)"),
+        ("\"Time\",\"X\"\n\"sec\",\"m/s^2\"\n0.0,0.0\n0.1,1.5\n0.2,0.0\n", "X (m/s^2)"),
+        ("Logger 7\nt X\n[s] [m/s2]\n0.0 0.0\n0.1 1.5\n0.2 0.0\n", "X (m/s2)"),
+    ] {
+        folder.write("two.csv", text);
+        let printed = folder.stdout(&["record", "info", "two.csv", "--json"]);
+        let list: serde_json::Value = serde_json::from_str(&printed).unwrap();
+        assert_eq!(
+            (list[0]["channel"].as_str(), list[0]["dt_s"].as_f64()),
+            (Some(name), Some(0.1))
+        );
+        assert_eq!(list[0]["pga_m_per_s2"].as_f64(), Some(1.5), "{text}");
+    }
+}

@@ -245,3 +245,121 @@ fn exact_init_replaces_nothing_unasked() {
     folder.stdout(&["init", "--force"]);
     assert!(folder.read("model.toml").contains("[block]"));
 }
+
+/// What is often written in another way is answered with the way to write it.
+#[test]
+fn exact_messages_name_the_mend() {
+    let one =
+        format!("{BLOCK}\n[storey]\nmass = \"45 kg\"\nperiod = \"0.5 s\"\ndamping_ratio = 0.05\n");
+    let refused = of_model("mend-storey", &one);
+    let expected = "storey: expected [[storey]] in two brackets, one for each, found [storey]";
+    assert!(refused.contains(expected), "{refused}");
+    let refused = of_change("mend-block", "[block]", "[[block]]");
+    let expected = "block: expected [block] in single brackets: there is one, found [[block]]";
+    assert!(refused.contains(expected), "{refused}");
+    let refused = of_change("mend-comma", "\"124 kg\"", "\"124,5 kg\"");
+    assert!(
+        refused.contains("block.mass: expected a decimal point, \"124.5 kg\", found \"124,5 kg\""),
+        "{refused}"
+    );
+    let refused = of_change("mend-comma-bare", "0.165", "0,165");
+    assert!(
+        refused.contains("model.toml:7:19: expected a decimal point, 0.165, found 0,165"),
+        "{refused}"
+    );
+    let folder = Folder::with_model("mend-command", BLOCK);
+    folder.write("plan.toml", "model = \"model.toml\"\n");
+    folder.write("record.csv", RECORD);
+    for (file, command) in
+        [("model.toml", "run"), ("plan.toml", "study"), ("record.csv", "record info")]
+    {
+        let expected = format!(
+            "expected a command, found the file {file}: write \"slipstick {command} {file}\""
+        );
+        assert_eq!(folder.refused(&[file]), expected);
+    }
+}
+
+/// A ratio may be written in percent wherever one is taken.
+#[test]
+fn exact_ratios_in_percent() {
+    let folder = Folder::with_model("percent", BLOCK);
+    let plain =
+        ["model.toml", "--set", "slider.asymmetry=0.05", "--set", "slider.kinetic_friction=0.125"];
+    let percent =
+        ["model.toml", "--set", "slider.asymmetry=5 %", "--set", "slider.kinetic_friction=12.5 %"];
+    assert_eq!(folder.json(&plain)["block"], folder.json(&percent)["block"]);
+    folder.write("model.toml", BLOCK.replace("0.165", "\"16.5%\"").replace("0.153", "\"15.3 %\""));
+    let in_percent = folder.json(&["model.toml"]);
+    folder.write("model.toml", BLOCK);
+    assert_eq!(folder.json(&["model.toml"])["block"], in_percent["block"]);
+    folder.write("model.toml", BLOCK.replace("0.165", "\"16.5 percent\""));
+    let refused = folder.refused(&["run", "model.toml"]);
+    assert!(refused.contains("slider.static_friction: expected a finite number"), "{refused}");
+}
+
+/// Notes stand apart from warnings, and what is hardly meant is said.
+#[test]
+fn exact_notes_are_not_warnings() {
+    let folder = Folder::with_model("notes", RECORDED);
+    let kinds = |list: &serde_json::Value| -> Vec<String> {
+        let list = list.as_array().unwrap().iter();
+        list.map(|warning| warning["kind"].as_str().unwrap().to_owned()).collect()
+    };
+    let record = |first: &str| format!("time_s,acceleration_m_per_s2\n0,{first}\n1,5\n2,-5\n3,0\n");
+    folder.write("record.csv", record("0.05"));
+    let small = folder.json(&["model.toml"]);
+    assert_eq!(
+        (kinds(&small["notes"]), kinds(&small["warnings"])),
+        (vec!["first_sample_small".to_owned()], vec![])
+    );
+    let table = folder.stdout(&["run", "model.toml"]);
+    assert!(table.contains("\nNote") && !table.contains("Warning"), "{table}");
+    folder.write("record.csv", record("0.06"));
+    let large = folder.json(&["model.toml"]);
+    assert_eq!(kinds(&large["warnings"]), ["first_sample_not_zero"]);
+
+    folder.write("record.csv", RECORD);
+    let with = |set: &[&str]| {
+        let words: Vec<&str> = set.iter().flat_map(|pair| ["--set", pair]).collect();
+        kinds(&folder.json(&[&["model.toml"][..], &words[..]].concat())["warnings"])
+    };
+    assert_eq!(with(&["slider.static_friction=0.51"]), ["nothing_slides", "high_friction"]);
+    assert_eq!(with(&["slider.static_friction=0.5"]), ["nothing_slides"][..0]);
+    let storey = "\n[[storey]]\nmass = \"45 kg\"\nperiod = \"0.5 s\"\ndamping_ratio = 0.31\n";
+    folder.write("model.toml", format!("{RECORDED}{storey}"));
+    assert!(with(&[]).contains(&"high_damping".to_owned()));
+    folder.write("record.csv", "time_s,acceleration_m_per_s2\n0,0\n1,50\n2,-50\n3,0\n");
+    assert!(with(&[]).contains(&"absurd_peak".to_owned()));
+}
+
+/// An analysis that would take hours says why and what to do, before it starts.
+#[test]
+fn exact_endless_analyses_are_refused_with_advice() {
+    let folder = Folder::new("endless");
+    let model = |mass: &str, stiffness: &str, damping: &str, storeys: usize| {
+        let storey = format!(
+            "\n[[storey]]\nmass = \"{mass}\"\nstiffness = \"{stiffness}\"\ndamping_ratio = {damping}\n"
+        );
+        format!("{RECORDED}{}", storey.repeat(storeys))
+    };
+    folder.write("record.csv", RECORD);
+    folder.write("model.toml", model("45 kg", "1e16 kN/m", "0.02", 1));
+    let begun = std::time::Instant::now();
+    let refused = folder.refused(&["run", "model.toml"]);
+    let advice = "storey 1 is a rigid link; leave it out and add its mass to the one below";
+    assert!(refused.starts_with("model.toml: the analysis would take "), "{refused}");
+    assert!(refused.ends_with(advice), "{refused}");
+    folder.write("model.toml", model("45 t", "1e5 kN/m", "1e6", 60));
+    let refused = folder.refused(&["run", "model.toml"]);
+    assert!(refused.contains("a damper or a stop acts within"), "{refused}");
+    // Sixty ordinary storeys and an hour without a sample: that is the motion's.
+    let samples: String =
+        (0..1000).map(|k| format!("{},{}\n", f64::from(k) * 0.01, k % 7 - 3)).collect();
+    let gap = format!("time_s,acceleration_m_per_s2\n{samples}9000,0\n");
+    folder.write("record.csv", gap);
+    folder.write("model.toml", model("45 t", "1e5 kN/m", "0.05", 60));
+    let refused = folder.refused(&["run", "model.toml"]);
+    assert!(refused.contains("the motion has a gap of 8990.01 s; cut it there"), "{refused}");
+    assert!(begun.elapsed().as_secs() < 60, "{:?}", begun.elapsed());
+}

@@ -251,6 +251,32 @@ fn exact_killed_study_is_resumed_to_the_same_bytes() {
     }
 }
 
+/// Ctrl-C says what is done and how to go on; the line that it prints does so.
+#[cfg(unix)]
+#[test]
+fn exact_interrupted_study_says_how_to_go_on() {
+    let folder = folder("study-interrupted");
+    folder.write("plan.toml", PLAN.replace("count = 250", "count = 25000"));
+    let arguments = ["study", "plan.toml", "--out", "o u t", "--force", "-q"];
+    let child = start(&mut folder.command(&arguments));
+    let begun = Instant::now();
+    while part_count(&folder, "o u t") < 2 {
+        assert!(begun.elapsed() < Duration::from_secs(60), "no part after a minute");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let mut kill = std::process::Command::new("kill");
+    start(kill.args(["-INT", &child.id().to_string()])).wait().unwrap();
+    let output = child.wait_with_output().unwrap();
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    let done = part_count(&folder, "o u t") * 1172;
+    let (head, line) = said.trim_end().split_once("\n  ").unwrap();
+    let digits: String = head.chars().filter(char::is_ascii_digit).collect();
+    assert_eq!(digits, format!("{done}150000"), "{said}");
+    assert!(head.ends_with("runs are done and kept in o u t; go on with"), "{said}");
+    assert_eq!(line, "slipstick study plan.toml --out 'o u t' -q --resume");
+}
+
 /// What a disk or a hand did to a part is found, said and run again, to the same bytes.
 #[test]
 fn exact_damaged_parts_are_run_again() {

@@ -469,6 +469,7 @@ impl<'a> Runner<'a> {
         parts: &[Result<Parts, RunError>],
     ) -> Result<Vec<Result<Demand, RunError>>, Stopped> {
         let groups: Vec<&[(usize, usize)]> = pairs.chunk_by(|a, b| a.0 == b.0).collect();
+        self.engine.plan(pairs.len() as u64);
         let runs = self.engine.map(groups.len(), |i| {
             let runs: Vec<Result<Demand, RunError>> = match &parts[groups[i][0].0] {
                 Err(error) => groups[i].iter().map(|_| Err(error.clone())).collect(),
@@ -493,6 +494,7 @@ impl<'a> Runner<'a> {
         target: &Target,
     ) -> Result<Vec<Bounded>, AssessmentError> {
         let records = self.suite.records.len();
+        self.engine.plan((designs.len() * 2 * records) as u64);
         let demands = self.engine.map(designs.len() * 2, |i| {
             let (design, factor) = (designs[i / 2], factors[i % 2]);
             let failed = vec![FAILED; records];
@@ -527,6 +529,7 @@ impl<'a> Runner<'a> {
             Err(error) => return Ok(Some(Err(error.into()))),
         };
         let records = self.suite.records.len();
+        self.engine.plan((rows.len() * records) as u64);
         let figures = self.engine.map(rows.len(), |i| {
             let value = |(axis, u): (&Axis, &f64)| {
                 let [low, high] = axis.ends();

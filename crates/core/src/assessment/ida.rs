@@ -17,6 +17,9 @@ use crate::response::demand_values;
 use crate::study::engine::{Engine, Running, Shaking};
 use crate::table::Table;
 
+/// Runs that a hunt on one record is thought to take, for those who wait.
+const RUNS_OF_A_HUNT: u64 = 30;
+
 /// Demands of one record at rising intensities.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curve {
@@ -298,19 +301,23 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
                 .into_iter();
             (0..records).map(|_| runs.by_ref().take(n).collect()).collect()
         }
-        (_, Some(hunt)) => engine.map(records, |record| {
-            let mut runs: Vec<Run> = Vec::new();
-            let mut running = Running::new(&parts.model);
-            hunt.try_run(|level| {
-                let run = one(&mut running, record, level);
-                let demand = run.demands.as_ref().map_or(f64::NAN, |values| values[column]);
-                runs.push(run);
-                engine.done(1)?;
-                Ok::<_, Stopped>(demand.abs())
-            })?;
-            runs.sort_by(|a, b| a.level.total_cmp(&b.level));
-            Ok(runs)
-        })?,
+        (_, Some(hunt)) => {
+            engine.plan(records as u64 * RUNS_OF_A_HUNT);
+            engine.map(records, |record| {
+                let mut runs: Vec<Run> = Vec::new();
+                let mut running = Running::new(&parts.model);
+                hunt.try_run(|level| {
+                    let run = one(&mut running, record, level);
+                    let demand = run.demands.as_ref().map_or(f64::NAN, |values| values[column]);
+                    runs.push(run);
+                    engine.done(1)?;
+                    Ok::<_, Stopped>(demand.abs())
+                })?;
+                engine.replan(RUNS_OF_A_HUNT, runs.len() as u64);
+                runs.sort_by(|a, b| a.level.total_cmp(&b.level));
+                Ok(runs)
+            })?
+        }
         (IdaLevels::Hunt { .. }, None) => Vec::new(),
     };
     let curves: Vec<Curve> = all

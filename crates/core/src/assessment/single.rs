@@ -9,7 +9,7 @@ use crate::motion::{GroundMotion, spectrum};
 use crate::response::{History, Response, Warning};
 use crate::solver;
 use crate::study::notices::{
-    coarse_sampling, highest_hz, longest_step_s, pendulum_under_vertical_motion,
+    coarse_sampling, highest_hz, longest_step_s, pendulum_under_vertical_motion, suspicious,
 };
 
 /// Damping ratio of floor spectra.
@@ -82,6 +82,7 @@ impl Job {
             tail_s => bare.with_tail(tail_s).map_err(|error| of_tail(&analysis, &error))?,
         };
         let mut warnings = noticed;
+        warnings.extend(suspicious(&analysis.model));
         let (highest_hz, step_s) = (highest_hz(&analysis.model), longest_step_s(&bare));
         warnings.extend(coarse_sampling(highest_hz, step_s));
         let has_radius = analysis.value("slider.radius").is_some();

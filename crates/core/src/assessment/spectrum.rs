@@ -362,6 +362,7 @@ fn run_all(
     };
     // A piece is one design on some records: its model is prepared once for all of them.
     let pieces = records.div_ceil(PIECE);
+    engine.plan((parts.len() * records) as u64);
     let runs = engine.map(parts.len() * pieces, |i| {
         let (design, first) = (i / pieces, i % pieces * PIECE);
         let these = first..(first + PIECE).min(records);

@@ -100,9 +100,12 @@ fn key(key: &Key) -> Json {
             let index = vec![("type", Json::text("integer")), ("minimum", Json::Number(1.0))];
             entries.push(("anyOf", Json::List(vec![a("string"), Json::Object(index)])));
         }
-        Kind::Number(range) => entries.extend(number(*range)),
+        Kind::Number(range) => {
+            let either = vec![Json::Object(number(*range)), percent()];
+            entries.push(("anyOf", Json::List(either)));
+        }
         Kind::NumberOr(range, both) => {
-            let either = vec![Json::Object(number(*range)), section(both)];
+            let either = vec![Json::Object(number(*range)), percent(), section(both)];
             entries.push(("anyOf", Json::List(either)));
         }
         Kind::Quantity(dimension, _) => entries.extend(quantity(*dimension)),
@@ -197,9 +200,21 @@ fn number(range: Range) -> Vec<(&'static str, Json)> {
     entries
 }
 
+/// A number as text.
+const NUMBER: &str = r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?";
+
+/// A ratio in percent.
+fn percent() -> Json {
+    let pattern = format!(r"^\s*{NUMBER}\s*%\s*$");
+    Json::Object(vec![
+        ("type", Json::text("string")),
+        ("pattern", Json::Text(pattern)),
+        ("examples", Json::texts(["6 %"])),
+    ])
+}
+
 fn quantity(dimension: Dimension) -> Vec<(&'static str, Json)> {
-    let number = r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?";
-    let pattern = format!(r"^\s*{number}\s*{}\s*$", unit_pattern(dimension));
+    let pattern = format!(r"^\s*{NUMBER}\s*{}\s*$", unit_pattern(dimension));
     vec![
         ("type", Json::text("string")),
         ("pattern", Json::Text(pattern)),

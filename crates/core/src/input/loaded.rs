@@ -160,9 +160,9 @@ fn of_motion(motion: &GroundMotion, figures: &Figures, lengths_differ: bool) -> 
     let mut warnings = Vec::new();
     let mut warn = |kind, time_s, message| warnings.push(Warning { kind, time_s, message });
     let first = motion.horizontal_m_per_s2()[0];
-    let Figures { pgv_m_per_s, end_velocity_m_per_s, .. } = *figures;
-    for w in record::rest(first, end_velocity_m_per_s, pgv_m_per_s) {
-        let at_start = w.kind == record::REST_KINDS[0];
+    let Figures { pga_m_per_s2, pgv_m_per_s, end_velocity_m_per_s, .. } = *figures;
+    for w in record::rest(first, pga_m_per_s2, end_velocity_m_per_s, pgv_m_per_s) {
+        let at_start = w.kind != record::REST_KINDS[2];
         warn(w.kind, Some(if at_start { 0.0 } else { motion.duration_s() }), w.message);
     }
     if lengths_differ {

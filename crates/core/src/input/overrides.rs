@@ -240,7 +240,7 @@ fn set(
     });
     let Some(entry) = table.0.get_mut(index) else { return Ok(()) };
     // A value for both directions becomes a table of two before one of them is set.
-    if let (Kind::NumberOr(_, both), Value::Number(..))
+    if let (Kind::NumberOr(_, both), Value::Number(..) | Value::Text(_))
     | (Kind::QuantityOr(_, _, both), Value::Text(_) | Value::Si(..)) =
         (&key.kind, &entry.node.value)
     {

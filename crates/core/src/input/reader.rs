@@ -334,10 +334,22 @@ impl Values {
                 let unit = units::parse_unit(after_count(text), *dimension);
                 Given::Unit(unit.map_err(|error| self.bad_unit(path, node, error))?)
             }
-            (
-                Kind::Number(range) | Kind::NumberOr(range, _) | Kind::QuantityOrRatio(_, range),
-                Value::Number(value, _),
-            ) => self.number_in_range(path, node, *value, *range)?,
+            (Kind::QuantityOrRatio(_, range), Value::Number(value, _)) => {
+                self.number_in_range(path, node, *value, *range)?
+            }
+            (Kind::Number(range) | Kind::NumberOr(range, _), _) if node.ratio().is_some() => {
+                self.number_in_range(path, node, node.ratio().unwrap_or(f64::NAN), *range)?
+            }
+            (Kind::Sections(_), Value::Table(_)) => {
+                let expected = format!("[[{path}]] in two brackets, one for each");
+                return Err(self.sources.error(&node.spot, path, expected, format!("[{path}]")));
+            }
+            (Kind::Section(_), Value::List(items))
+                if items.iter().all(|item| matches!(item.value, Value::Table(_))) =>
+            {
+                let expected = format!("[{path}] in single brackets: there is one");
+                return Err(self.sources.error(&node.spot, path, expected, format!("[[{path}]]")));
+            }
             (Kind::QuantityOr(dimension, range, _), Value::Text(_) | Value::Si(..))
             | (Kind::Quantity(dimension, range) | Kind::QuantityOrRatio(dimension, range), _) => {
                 unit = dimension.si_unit();
@@ -387,11 +399,11 @@ impl Values {
         Err(self.mistyped(path, node, range.expected(dimension.name())))
     }
 
-    /// A number without a unit.
+    /// A number without a unit, perhaps in percent.
     pub fn bare_number(&self, path: &str, node: &Node, range: Range) -> Result<Given, InputError> {
-        match node.value {
-            Value::Number(value, _) => self.number_in_range(path, node, value, range),
-            _ => Err(self.mistyped(path, node, range.expected("number"))),
+        match node.ratio() {
+            Some(value) => self.number_in_range(path, node, value, range),
+            None => Err(self.mistyped(path, node, range.expected("number"))),
         }
     }
 

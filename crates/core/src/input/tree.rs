@@ -139,6 +139,18 @@ impl Node {
         Self { spot, value }
     }
 
+    /// A number without a unit: as it stands, or in percent, `"6 %"`.
+    pub fn ratio(&self) -> Option<f64> {
+        match &self.value {
+            Value::Number(value, _) => Some(*value),
+            Value::Text(text) => {
+                let percent = text.trim().strip_suffix('%')?.trim_end();
+                percent.parse::<f64>().ok().map(|percent| percent / 100.0)
+            }
+            _ => None,
+        }
+    }
+
     /// What stands here, for a message.
     pub fn found(&self) -> String {
         match &self.value {
@@ -202,6 +214,10 @@ fn syntax_error(
     error: &toml::de::Error,
 ) -> InputError {
     let span = error.span().unwrap_or(text.len()..text.len());
+    if let Some((spot, found)) = decimal_comma(text, span.start) {
+        let expected = format!("a decimal point, {}", found.replace(',', "."));
+        return sources.error(&Spot { source, span: spot }, "", expected, found);
+    }
     let (wrong, expected) = match error.message() {
         message if message.starts_with("string values must be quoted") => {
             ("", "a number, or text in double quotes")
@@ -217,4 +233,16 @@ fn syntax_error(
         (wrong, word) => format!("{wrong}: \"{}\"", cut(word)),
     };
     sources.error(&Spot { source, span }, "", expected, found)
+}
+
+/// A number whose decimals follow a comma, which stands at a byte of the text or begins there.
+fn decimal_comma(text: &str, at: usize) -> Option<(Range<usize>, String)> {
+    let bytes = text.as_bytes();
+    let part = |b: &u8| b.is_ascii_digit() || *b == b',';
+    let before = bytes.get(..at)?.iter().rev().take_while(|b| part(b)).count();
+    let after = bytes.get(at..)?.iter().take_while(|b| part(b)).count();
+    let span = at - before..at + after;
+    let (whole, decimals) = text.get(span.clone())?.split_once(',')?;
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    (digits(whole) && digits(decimals)).then(|| (span, format!("{whole},{decimals}")))
 }

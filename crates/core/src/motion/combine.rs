@@ -28,6 +28,14 @@ impl GroundMotion {
         })
     }
 
+    /// The first samples of the motion, two or more of them; `None` for fewer, or more than there are.
+    #[must_use]
+    pub fn first(&self, samples: usize) -> Option<Self> {
+        let cut = |values: &[f64]| values.get(..samples).map(<[f64]>::to_vec);
+        let vertical = self.vertical_m_per_s2.as_deref().map(cut);
+        Self::new(cut(&self.times_s)?, cut(&self.horizontal_m_per_s2)?, vertical.flatten()).ok()
+    }
+
     /// The motion scaled so that its largest horizontal acceleration is `peak_m_per_s2`; the
     /// vertical component takes the same factor.
     ///

@@ -2,6 +2,7 @@
 //! clipped peaks, gaps and repeated rows.
 
 use crate::numerics::fractile::upper_median;
+use crate::units::STANDARD_GRAVITY_M_PER_S2;
 
 use super::{Channel, Quantity, RecordWarning, Sampling, Units};
 
@@ -10,25 +11,45 @@ const CLIPPED_RUN: usize = 4;
 
 /// The warnings of [`rest`]: what is said of a motion as it is used, scaled or processed, rather
 /// than of the file.
-pub const REST_KINDS: [&str; 2] = ["first_sample_not_zero", "record_drift"];
+pub const REST_KINDS: [&str; 3] = ["first_sample_not_zero", "first_sample_small", "record_drift"];
 
-/// Warnings about a motion that does not begin or end at rest: a first acceleration other than 0,
-/// and a velocity at the end beyond 5 % of the peak velocity.
+/// Kinds that say how a file was read and change no decision.
+const NOTE_KINDS: [&str; 4] =
+    ["first_sample_small", "column_skipped", "read_along_lines", "mean_removed"];
+
+/// Share of the peak up to which a first sample is worth a note only.
+const SMALL_FIRST_SAMPLE: f64 = 0.01;
+
+/// Peaks that no earthquake has, in m/s²: the units are not those of the values. The largest that were
+/// recorded are about 4 g, the smallest that are kept some ten-thousandths of it.
+const ABSURD_PEAKS_M_PER_S2: [f64; 2] =
+    [5e-5 * STANDARD_GRAVITY_M_PER_S2, 5.0 * STANDARD_GRAVITY_M_PER_S2];
+
+/// Whether a kind of warning is a note: it says how something was read and changes no decision.
+#[must_use]
+pub fn is_note(kind: &str) -> bool {
+    NOTE_KINDS.contains(&kind)
+}
+
+/// Warnings about a motion that does not begin or end at rest: a first acceleration other than 0, which
+/// up to 1 % of the peak is a note, and a velocity at the end beyond 5 % of the peak velocity.
 #[must_use]
 pub fn rest(
     first_m_per_s2: f64,
+    pga_m_per_s2: f64,
     end_velocity_m_per_s: f64,
     pgv_m_per_s: f64,
 ) -> Vec<RecordWarning> {
     let mut warnings = Vec::new();
-    let [not_zero, drift] = REST_KINDS;
+    let [not_zero, small, drift] = REST_KINDS;
     if first_m_per_s2 != 0.0 {
+        let is_small = first_m_per_s2.abs() <= SMALL_FIRST_SAMPLE * pga_m_per_s2;
         let message = format!(
             "the first sample is {} m/s², not 0: taken as a jump at the start of \
              the motion",
             figures(first_m_per_s2)
         );
-        warnings.push(RecordWarning { kind: not_zero, message });
+        warnings.push(RecordWarning { kind: if is_small { small } else { not_zero }, message });
     }
     if end_velocity_m_per_s.abs() > 0.05 * pgv_m_per_s {
         let percent = 100.0 * end_velocity_m_per_s.abs() / pgv_m_per_s;
@@ -40,6 +61,20 @@ pub fn rest(
         warnings.push(RecordWarning { kind: drift, message });
     }
     warnings
+}
+
+/// A peak that the values can only have in another unit.
+fn absurd(pga_m_per_s2: f64, units: &Units) -> Option<RecordWarning> {
+    let [least, largest] = ABSURD_PEAKS_M_PER_S2;
+    let is_absurd = pga_m_per_s2 > largest || (pga_m_per_s2 > 0.0 && pga_m_per_s2 < least);
+    is_absurd.then(|| RecordWarning {
+        kind: "absurd_peak",
+        message: format!(
+            "the largest acceleration is {:.4} {units}, {:.3e} g: check the units",
+            pga_m_per_s2 / units.si(),
+            pga_m_per_s2 / STANDARD_GRAVITY_M_PER_S2
+        ),
+    })
 }
 
 /// Four decimals, or by a power of ten where the number is small.
@@ -54,7 +89,9 @@ pub(super) fn inspect(channel: &mut Channel) {
         && let Some(&first) = channel.values.first()
     {
         let (end, peak) = velocity(channel);
-        warnings.extend(rest(first, end, peak));
+        let pga = channel.values.iter().fold(0.0_f64, |pga, a| pga.max(a.abs()));
+        warnings.extend(rest(first, pga, end, peak));
+        warnings.extend(absurd(pga, &channel.units));
     }
     warnings.extend(clipped(&channel.values, channel.units.si()));
     if let Sampling::Times(times_s) = &channel.sampling {
@@ -194,9 +231,21 @@ mod tests {
         assert!(kinds(&[0.0, 1.0, -1.0, 0.0], Sampling::Dt(0.1)).is_empty());
         assert_eq!(kinds(&[1.0, -1.0], Sampling::Dt(0.1)), ["first_sample_not_zero"]);
         assert_eq!(kinds(&[0.0, 1.0, 0.0], Sampling::Dt(0.1)), ["record_drift"]);
-        let messages = rest(0.5, -0.02, 0.1).into_iter().map(|w| w.message).collect::<Vec<_>>();
+        assert_eq!(kinds(&[0.01, 1.0, -1.0], Sampling::Dt(0.1))[0], "first_sample_small");
+        assert_eq!(kinds(&[0.0101, 1.0, -1.0], Sampling::Dt(0.1))[0], "first_sample_not_zero");
+        assert!(is_note("first_sample_small") && !is_note("first_sample_not_zero"));
+        let messages =
+            rest(0.5, 2.0, -0.02, 0.1).into_iter().map(|w| w.message).collect::<Vec<_>>();
         assert!(messages[0].starts_with("the first sample is 0.5000 m/s²"), "{messages:?}");
         assert!(messages[1].contains("-0.0200 m/s, 20 % of its peak"), "{messages:?}");
+    }
+
+    /// 100 g and a millionth of g are other units.
+    #[test]
+    fn exact_absurd_peaks() {
+        let of = |peak: f64| kinds(&[0.0, peak, -peak, 0.0], Sampling::Dt(0.1));
+        assert_eq!([of(981.0), of(1e-5)], [["absurd_peak"], ["absurd_peak"]]);
+        assert!(of(40.0).is_empty() && of(2e-3).is_empty() && of(0.0).is_empty());
     }
 
     #[test]

@@ -7,7 +7,7 @@
 //! `parallel`, it is done on the caller's own thread. The results are the same.
 
 use core::ops::ControlFlow;
-use core::sync::atomic::{AtomicBool, Ordering};
+use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use crate::error::{MotionError, RunError, SolveError, Stopped};
 use crate::input::MotionSource;
@@ -23,6 +23,7 @@ pub type Follow<'a> = &'a (dyn Fn(u64) -> ControlFlow<()> + Sync);
 pub struct Engine<'a> {
     follow: Follow<'a>,
     stopped: AtomicBool,
+    planned: AtomicU64,
 }
 
 impl Engine<'static> {
@@ -37,7 +38,23 @@ impl<'a> Engine<'a> {
     /// An engine that tells of its runs as they are done.
     #[must_use]
     pub fn new(follow: Follow<'a>) -> Self {
-        Self { follow, stopped: AtomicBool::new(false) }
+        Self { follow, stopped: AtomicBool::new(false), planned: AtomicU64::new(0) }
+    }
+
+    /// Tells that so many more runs are to be done.
+    pub fn plan(&self, runs: u64) {
+        self.planned.fetch_add(runs, Ordering::Relaxed);
+    }
+
+    /// The same where so many were thought to be, and are not.
+    pub fn replan(&self, thought: u64, runs: u64) {
+        self.planned.fetch_add(runs.wrapping_sub(thought), Ordering::Relaxed);
+    }
+
+    /// Number of runs that are known to be done or to be to do.
+    #[must_use]
+    pub fn planned(&self) -> u64 {
+        self.planned.load(Ordering::Relaxed)
     }
 
     /// Tells that so many more runs are done.
@@ -90,6 +107,7 @@ impl<'a> Engine<'a> {
         count: usize,
         run: impl Fn(usize) -> R + Sync + Send,
     ) -> Result<Vec<R>, Stopped> {
+        self.plan(count as u64);
         self.map(count, |i| {
             let result = run(i);
             self.done(1)?;
@@ -185,7 +203,12 @@ mod tests {
             told.fetch_add(runs, Ordering::Relaxed);
             ControlFlow::Continue(())
         };
-        let squares = Engine::new(&follow).runs(1500, |i| i * i);
+        let engine = Engine::new(&follow);
+        let squares = engine.runs(1500, |i| i * i);
+        assert_eq!(engine.planned(), 1500);
+        engine.plan(30);
+        engine.replan(30, 7);
+        assert_eq!(engine.planned(), 1507);
         assert_eq!(squares, Ok((0..1500).map(|i| i * i).collect()));
         assert_eq!(told.into_inner(), 1500);
     }

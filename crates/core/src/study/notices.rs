@@ -1,9 +1,49 @@
 //! What is noticed of a model and the motion under it, before anything is run.
 
+use crate::friction::Direction;
 use crate::linear::shear_frame_frequencies;
-use crate::model::Model;
+use crate::model::{Damping, Model};
 use crate::motion::GroundMotion;
 use crate::response::Warning;
+
+/// Nyquist frequencies of the motion in the highest mode of a model that has a rigid link in it.
+const RIGID_LINK: f64 = 100.0;
+
+/// Coefficient of friction above which it is said that it is high.
+const HIGH_FRICTION: f64 = 0.5;
+
+/// Damping ratio of the storeys above which it is said that it is high.
+const HIGH_DAMPING: f64 = 0.3;
+
+/// Values that are possible and hardly meant.
+pub(crate) fn suspicious(model: &Model) -> Vec<Warning> {
+    let friction = &model.slider().friction;
+    let both = [Direction::Positive, Direction::Negative];
+    let coefficient = both
+        .iter()
+        .fold(0.0, |largest: f64, direction| largest.max(friction.static_coefficient(*direction)));
+    let ratio = match model.frame().damping {
+        Damping::Ratio(ratio) if model.storeys() > 0 => ratio,
+        _ => 0.0,
+    };
+    let high_friction = (coefficient > HIGH_FRICTION).then(|| Warning {
+        kind: "high_friction",
+        time_s: None,
+        message: format!(
+            "the static friction is {coefficient}: above {HIGH_FRICTION} nothing is made to slide; \
+             was percent meant?"
+        ),
+    });
+    let high_damping = (ratio > HIGH_DAMPING).then(|| Warning {
+        kind: "high_damping",
+        time_s: None,
+        message: format!(
+            "the storeys' damping ratio is {ratio}: above {HIGH_DAMPING} is no structure's; was \
+             percent meant?"
+        ),
+    });
+    [high_friction, high_damping].into_iter().flatten().collect()
+}
 
 /// Frequency of the highest mode, or of the block on its spring, in Hz.
 pub(crate) fn highest_hz(model: &Model) -> f64 {
@@ -21,12 +61,16 @@ pub(crate) fn longest_step_s(motion: &GroundMotion) -> f64 {
 /// Samples further apart than a tenth of the shortest period say little of the highest mode.
 pub(crate) fn coarse_sampling(highest_hz: f64, longest_step_s: f64) -> Option<Warning> {
     let nyquist_hz = 0.5 / longest_step_s;
+    let rigid = match highest_hz > RIGID_LINK * nyquist_hz {
+        true => "; a storey or spring as stiff as that is a rigid link: leave it out",
+        false => "",
+    };
     (nyquist_hz < 5.0 * highest_hz).then(|| Warning {
         kind: "coarse_sampling",
         time_s: None,
         message: format!(
             "the Nyquist frequency of the motion, {nyquist_hz:.4} Hz, is below 5 times the highest \
-             mode, {highest_hz:.4} Hz: the motion may lack what excites that mode"
+             mode, {highest_hz:.4} Hz: the motion may lack what excites that mode{rigid}"
         ),
     })
 }

@@ -10,6 +10,7 @@ use crate::error::{RunError, Stopped};
 use crate::input::{MotionSource, Parts};
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{IntensityMeasures, Measure};
+use crate::record::is_note;
 use crate::response::{Response, demand_values};
 
 /// Most samples of scaled copies of a record that are held at a time.
@@ -220,7 +221,8 @@ impl Study {
                     |_| Vec::new(),
                     |ready| {
                         let (highest_hz, step_s) = (sample.highest_hz, ready.longest_step_s);
-                        self.noticed(case, highest_hz, step_s, ready.motion.motion())
+                        let motion = ready.motion.motion();
+                        self.noticed(case, &sample.suspicious, highest_hz, step_s, motion)
                     },
                 );
                 (demand_values(&response.demands), warnings(&noticed, &response), None)
@@ -234,6 +236,7 @@ impl Study {
     pub(super) fn noticed(
         &self,
         case: Case,
+        suspicious: &[&'static str],
         highest_hz: f64,
         longest_step_s: f64,
         motion: &GroundMotion,
@@ -247,7 +250,8 @@ impl Study {
             pendulum_under_vertical_motion(has_radius, motion),
         ];
         let of_model = of_model.into_iter().flatten().map(|warning| warning.kind);
-        of_record.into_iter().flatten().copied().chain(of_model).collect()
+        let of_record = of_record.into_iter().flatten();
+        of_record.chain(suspicious).copied().chain(of_model).collect()
     }
 
     fn with_tail(
@@ -301,10 +305,12 @@ impl Study {
 pub(super) fn warnings(of_record: &[&'static str], response: &Response) -> Vec<&'static str> {
     let gap = response.demands.gap_ratio.is_some_and(|ratio| ratio > 1.0);
     let gap = gap.then_some("gap_exceeded");
+    let slides = response.demands.slip_count > 0 || response.demands.sliding_path_m > 0.0;
+    let gap = gap.into_iter().chain((!slides).then_some("nothing_slides"));
     let of_solver = response.warnings.iter().map(|warning| warning.kind);
     let mut kinds = Vec::new();
     for kind in of_record.iter().copied().chain(gap).chain(of_solver) {
-        if !kinds.contains(&kind) {
+        if !kinds.contains(&kind) && !is_note(kind) {
             kinds.push(kind);
         }
     }

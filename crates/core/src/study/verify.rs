@@ -1,7 +1,7 @@
 //! Rows under test: run again alone, from the model's text, with history and certificate.
 
 use super::engine::{made_motion, scaled_with_tail};
-use super::notices::{highest_hz, longest_step_s};
+use super::notices::{highest_hz, longest_step_s, suspicious};
 use super::rows::warnings;
 use super::{Row, Study};
 use crate::check::{self, Certificate};
@@ -55,7 +55,10 @@ impl Study {
             Some(record) => longest_step_s(&record.motion),
             None => made_motion(analysis.motion.as_ref()).map_or(0.0, |made| longest_step_s(&made)),
         };
-        let noticed = self.noticed(row.case, highest_hz(&analysis.model), step_s, &motion);
+        let suspicious: Vec<_> =
+            suspicious(&analysis.model).into_iter().map(|warning| warning.kind).collect();
+        let highest_hz = highest_hz(&analysis.model);
+        let noticed = self.noticed(row.case, &suspicious, highest_hz, step_s, &motion);
         let same = row.error.is_none()
             && bits(&demand_values(&response.demands)) == bits(&row.demands)
             && warnings(&noticed, &response) == row.warnings;

@@ -67,10 +67,11 @@ fn exact_no_unit_name_stands_twice_and_grams_do_not_exist() {
 fn exact_messages_say_what_to_write() {
     let length = Dimension::Length;
     let with_unit = "expected a length with its unit, such as \"150 mm\", found";
-    for text in ["150", "", "mm", "1,5 m", "1_000 m", "−5 m", "--5 m", "NaN m", "inf m", "5 5 m"]
-    {
+    for text in ["150", "", "mm", "1_000 m", "−5 m", "--5 m", "NaN m", "inf m", "5 5 m"] {
         assert_eq!(message(text, length), format!("{with_unit} \"{text}\""));
     }
+    let comma = "expected a decimal point, \"1.5 m\", found \"1,5 m\"";
+    assert_eq!(message("1,5 m", length), comma);
     assert_eq!(
         message("5 mmm", length),
         "expected a unit of length (m, mm, cm, in, ft), found \"mmm\"; nearest is \"mm\""

@@ -45,6 +45,15 @@ pub fn has_parts(folder: &Path) -> Result<bool, FileError> {
     Ok(names(folder)?.iter().any(|name| leftover(name).is_none()))
 }
 
+/// Number of runs in the parts that a folder holds of a study with so many runs.
+#[must_use]
+pub fn kept_runs(folder: &Path, runs: u64) -> u64 {
+    let names = names(folder).unwrap_or_default();
+    let parts = names.iter().filter_map(|name| part_of_name(name));
+    let rows = parts.filter(|part| *part < part_count(runs)).map(|part| rows_of(part, runs));
+    rows.map(|rows| rows.end - rows.start).sum()
+}
+
 /// Removes what a study wrote into a folder; other files stay.
 ///
 /// # Errors

@@ -72,7 +72,10 @@ impl Sheet {
         }
         for warning in &self.warnings {
             text.push('\n');
-            text.push_str(&field("Warning", &format!("{}: {}", warning.kind, warning.message)));
+            text.push_str(&field(
+                warning.label(),
+                &format!("{}: {}", warning.kind, warning.message),
+            ));
         }
         text
     }

@@ -17,6 +17,7 @@ use crate::markup::Markup;
 use crate::number::{significant, typeset};
 use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
 use crate::report::{FileNote, InputText};
+use crate::summary::keys::listed;
 use crate::summary::method_name;
 
 /// The table's own acceleration: there to be seen, not to hide the others.
@@ -158,7 +159,10 @@ impl CompareReport<'_> {
         if !self.comparison.warnings.is_empty() {
             text.push('\n');
             for warning in &self.comparison.warnings {
-                text.push_str(&field("Warning", &format!("{}: {}", warning.kind, warning.message)));
+                text.push_str(&field(
+                    warning.label(),
+                    &format!("{}: {}", warning.kind, warning.message),
+                ));
             }
         }
         text
@@ -227,7 +231,8 @@ impl CompareReport<'_> {
             ("table_peak_acceleration_m_per_s2", figures.pga_m_per_s2.into()),
             ("quantities", Json::List(quantities.collect())),
             ("within", Json::List(within.collect())),
-            ("warnings", Json::List(c.warnings.iter().map(warning_json).collect())),
+            ("warnings", listed(&c.warnings, false, warning_json)),
+            ("notes", listed(&c.warnings, true, warning_json)),
         ])
         .to_pretty()
     }

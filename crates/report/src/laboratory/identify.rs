@@ -12,6 +12,7 @@ use crate::json::Json;
 use crate::markup::Markup;
 use crate::number::{fixed, significant};
 use crate::report::{FileNote, InputText};
+use crate::summary::keys::listed;
 
 /// What was identified, and from what.
 #[derive(Clone, Debug)]
@@ -136,7 +137,10 @@ impl IdentifyReport<'_> {
         text.push('\n');
         text.push_str(&field("Interval", &self.assumption));
         for warning in &self.warnings {
-            text.push_str(&field("Warning", &format!("{}: {}", warning.kind, warning.message)));
+            text.push_str(&field(
+                warning.label(),
+                &format!("{}: {}", warning.kind, warning.message),
+            ));
         }
         text
     }
@@ -152,7 +156,8 @@ impl IdentifyReport<'_> {
             ("estimates", Json::List(self.estimates.iter().map(estimate_json).collect())),
         ];
         keys.extend(self.json.iter().cloned());
-        keys.push(("warnings", Json::List(self.warnings.iter().map(warning_json).collect())));
+        keys.push(("warnings", listed(&self.warnings, false, warning_json)));
+        keys.push(("notes", listed(&self.warnings, true, warning_json)));
         Json::Object(keys).to_pretty()
     }
 

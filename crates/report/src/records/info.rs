@@ -96,9 +96,12 @@ impl ChannelInfo {
 
     fn json(&self) -> Json {
         let text = |value: &Option<String>| value.as_deref().map_or(Json::Null, Json::from);
-        let warnings = self.warnings.iter().map(|w| {
-            Json::Object(vec![("kind", w.kind.into()), ("message", w.message.as_str().into())])
-        });
+        let listed = |notes: bool| {
+            let all = self.warnings.iter().filter(|warning| warning.is_note() == notes).map(|w| {
+                Json::Object(vec![("kind", w.kind.into()), ("message", w.message.as_str().into())])
+            });
+            Json::List(all.collect())
+        };
         let mut keys = vec![
             ("file", self.file.as_str().into()),
             ("format", self.format.into()),
@@ -121,7 +124,8 @@ impl ChannelInfo {
         keys.push(("end_velocity_m_per_s", self.measures.map(|(_, end)| end).into()));
         keys.push(("event", text(&self.event)));
         keys.push(("station", text(&self.station)));
-        keys.push(("warnings", Json::List(warnings.collect())));
+        keys.push(("warnings", listed(false)));
+        keys.push(("notes", listed(true)));
         Json::Object(keys)
     }
 }
@@ -222,7 +226,8 @@ fn file_table(out: &mut String, channels: &[ChannelInfo], display: DisplayUnits)
                 String::new()
             };
             out.push_str(&format!(
-                "Warning  {of}{}: {}\n",
+                "{}  {of}{}: {}\n",
+                if warning.is_note() { "Note" } else { "Warning" },
                 warning.kind,
                 visible(&warning.message)
             ));

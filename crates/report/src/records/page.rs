@@ -59,9 +59,14 @@ fn channel(
         }
     }
     out.raw("</p>\n");
-    if !info.warnings.is_empty() {
-        out.raw("<section class=\"warnings\">\n<h2>Warnings</h2>\n<ul>\n");
-        for warning in &info.warnings {
+    for (notes, class, heading) in [(false, "warnings", "Warnings"), (true, "notes", "Notes")] {
+        let all = info.warnings.iter().filter(|warning| warning.is_note() == notes);
+        if all.clone().next().is_none() {
+            continue;
+        }
+        out.raw("<section").attribute("class", class).raw(">\n").element("h2", heading);
+        out.raw("\n<ul>\n");
+        for warning in all {
             out.raw("<li>")
                 .element("strong", warning.kind.replace('_', " "))
                 .raw(": ")

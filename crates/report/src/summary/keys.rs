@@ -31,7 +31,8 @@ pub fn object(summary: &Summary) -> Json {
                     .collect(),
             ),
         ),
-        ("warnings", Json::List(summary.warnings.iter().map(warning).collect())),
+        ("warnings", listed(&summary.warnings, false, warning)),
+        ("notes", listed(&summary.warnings, true, warning)),
         ("checks", checks(&summary.checks)),
     ]);
     if let Some(iterations) = summary.iterations {
@@ -113,6 +114,11 @@ fn json(kind: DemandKind, value: Option<f64>) -> Json {
         (DemandKind::Flag, Some(value)) => Json::Bool(value != 0.0),
         (_, value) => value.into(),
     }
+}
+
+/// The warnings among some, or the notes.
+pub(crate) fn listed(all: &[Warning], notes: bool, json: fn(&Warning) -> Json) -> Json {
+    Json::List(all.iter().filter(|warning| warning.is_note() == notes).map(json).collect())
 }
 
 fn warning(warning: &Warning) -> Json {

@@ -9,12 +9,13 @@ use crate::number::{compact, rounded, significant};
 /// Below this margin a slightly different record would tell another story.
 const CLOSE_CALL_MARGIN: f64 = 1e-6;
 
-/// Those that follow from the figures, then the solver's, then those given; each once.
+/// Those that follow from the figures, then the solver's, then those given; each once, notes last.
 pub fn assemble(inputs: &SummaryInputs) -> Vec<Warning> {
     let derived = [
         check_failed(inputs.response, inputs.certificate),
         gap_exceeded(inputs),
         close_call(inputs.response, inputs.certificate),
+        nothing_slides(inputs.response),
     ];
     let mut all: Vec<Warning> = derived.into_iter().flatten().collect();
     for warning in inputs.response.warnings.iter().chain(inputs.warnings) {
@@ -28,7 +29,21 @@ pub fn assemble(inputs: &SummaryInputs) -> Vec<Warning> {
             all.push(warning.clone());
         }
     }
+    all.sort_by_key(Warning::is_note);
     all
+}
+
+/// A motion under which the slider might as well be fixed.
+fn nothing_slides(response: &Response) -> Option<Warning> {
+    let demands = &response.demands;
+    (demands.slip_count == 0 && demands.sliding_path_m == 0.0).then(|| Warning {
+        kind: "nothing_slides",
+        time_s: None,
+        message: format!(
+            "the block never slides under this motion: the friction force reaches {} of the weight",
+            significant(demands.friction_coefficient_used, 3)
+        ),
+    })
 }
 
 fn check_failed(response: &Response, certificate: &Certificate) -> Option<Warning> {

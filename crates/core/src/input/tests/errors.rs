@@ -191,7 +191,11 @@ fn exact_wrong_types() {
             "m.toml:35:25: initial.storey_displacement.1: expected a length with its unit, such as \
              \"150 mm\", found 5",
         ),
-        ("[[storey]]", "[storey]", "m.toml:17:1: storey: expected a list of tables, found a table"),
+        (
+            "[[storey]]",
+            "[storey]",
+            "m.toml:17:1: storey: expected [[storey]] in two brackets, one for each, found [storey]",
+        ),
         (
             "name = \"Section 6 mock-up\"",
             "name = 6",

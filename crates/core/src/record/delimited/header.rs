@@ -12,7 +12,9 @@ const TEXT_LINES: usize = 8;
 pub(super) struct Header<'a> {
     /// The last line of text, else of comment: perhaps the names of the columns.
     last: Option<Line<'a>>,
-    /// Whether that line is text, not a comment.
+    /// The line of text before that: the names, where the last one holds their units.
+    before: Option<Line<'a>>,
+    /// Whether the last line is text, not a comment.
     is_text: bool,
     /// Lines before the first of numbers.
     pub lines: usize,
@@ -67,7 +69,7 @@ impl<'a> Header<'a> {
     /// # Errors
     /// Where no numbers follow soon.
     pub fn of(text: &Text<'a>) -> Result<Self, RecordError> {
-        let mut header = Self { last: None, is_text: false, lines: 0 };
+        let mut header = Self { last: None, before: None, is_text: false, lines: 0 };
         let mut texts = 0;
         for line in text.lines() {
             if !line.is_blank() && !is_comment(&line) && !is_text(&line) {
@@ -78,6 +80,7 @@ impl<'a> Header<'a> {
                 header.last = Some(line);
             } else if is_text(&line) {
                 texts += 1;
+                header.before = header.last.filter(|_| header.is_text);
                 (header.last, header.is_text) = (Some(line), true);
             }
             if texts > TEXT_LINES {
@@ -103,6 +106,9 @@ impl<'a> Header<'a> {
         columns: usize,
     ) -> Result<Option<Vec<Name>>, RecordError> {
         let Some(line) = &self.last else { return Ok(None) };
+        if let Some(names) = self.with_units(separator, columns) {
+            return Ok(Some(names));
+        }
         let words = split(&comment_mark_cut(line), separator);
         let begins = words.first().map_or(String::new(), |word| word.to_lowercase());
         if begins.starts_with("period") || begins.starts_with("freq") {
@@ -116,6 +122,31 @@ impl<'a> Header<'a> {
             return Err(text.error(line, 0, expected, &format!("{} names", words.len())));
         }
         Ok(None)
+    }
+
+    /// Names on one line and their units on the next, as data loggers write them.
+    fn with_units(&self, separator: Separator, columns: usize) -> Option<Vec<Name>> {
+        let names = split(&self.before?.trimmed(), separator);
+        let units = self.last?.trimmed();
+        let units: Vec<String> = match separator {
+            Separator::Blank if !units.contains('\t') => {
+                units.split_whitespace().map(str::to_owned).collect()
+            }
+            separator => split(&units, separator),
+        };
+        let bare = |unit: &String| unit.trim_matches(['(', ')', '[', ']']).trim().to_owned();
+        let units: Vec<String> = units.iter().map(bare).collect();
+        let known = |unit: &String| Units::parse(unit).is_some() || seconds(unit).is_some();
+        let nothing = |unit: &String| unit.is_empty() || unit == "-";
+        let are_units = units.iter().all(|unit| known(unit) || nothing(unit));
+        if names.len() != columns || units.len() != columns || !are_units {
+            return None;
+        }
+        let both = |(name, unit): (&String, &String)| match known(unit) {
+            true => Name::of(format!("{name} ({unit})")),
+            false => Name::of(name.clone()),
+        };
+        units.iter().any(known).then(|| names.iter().zip(&units).map(both).collect())
     }
 
     /// How many names the last line has with a separator.
