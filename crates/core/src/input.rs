@@ -32,7 +32,7 @@ mod write;
 pub use build::Parts;
 pub use json_schema::{json_schema, plan_json_schema};
 pub use keys::MAX_STOREYS;
-pub use mapping::{Channel, ColumnRef, MappedColumn, Mapping};
+pub use mapping::{Channel, ColumnRef, MappedColumn, Mapping, Zero};
 pub use motion::{MotionSource, RecordSource, Scale};
 pub use overrides::{InputValue, Override, dimension_of};
 pub use plan_keys::MAX_RUNS;

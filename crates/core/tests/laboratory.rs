@@ -120,6 +120,7 @@ fn file_cyclic_tests_of_a_friction_damper() {
             slack_m: None,
             spring: false,
             damper: false,
+            zero_known: true,
         };
         let fit = cyclic(&test).unwrap();
         // Seven seconds at 1 Hz, which swell and die.

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::support::{BLOCK, Folder};
+use super::support::{BLOCK, Folder, text};
 
 /// A folder with a model and the history of its own run, which is what a test might have measured.
 fn tested(name: &str) -> Folder {
@@ -142,4 +142,49 @@ fn exact_what_cannot_be_told_is_status_1() {
     let output = folder.output(&["identify", "cyclic", "stuck.csv"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(stderr(&output).contains("no sliding in the record"), "{}", stderr(&output));
+}
+
+/// The zero of a sensor is stated as a quantity, by a stretch at rest, or taken as it is; else friction by
+/// direction is not told, and that is said.
+#[test]
+fn exact_zeros_of_sensors_are_stated() {
+    let folder = Folder::new("sensor-zeros");
+    let example = |name: &str| {
+        let path = format!("{}/../../examples/laboratory/{name}", env!("CARGO_MANIFEST_DIR"));
+        std::fs::read_to_string(path).unwrap()
+    };
+    let made = example("cyclic-1hz.csv");
+    let (head, rows) = made.split_once('\n').unwrap();
+    assert_eq!(head, "time (s),displacement (mm),force (N)");
+    let off = rows.lines().map(|row| {
+        let (rest, force) = row.rsplit_once(',').unwrap();
+        format!("{rest},{}\n", force.parse::<f64>().unwrap() + 30.0)
+    });
+    folder.write("test.csv", format!("{head}\n{rows}"));
+    folder.write("off.csv", format!("{head}\n{}", off.collect::<String>()));
+    let of = |file: &str, more: &[&str]| -> (Vec<(String, f64)>, String) {
+        let all =
+            [&["identify", "cyclic", file, "--without", "spring,damper", "--json"], more].concat();
+        let output = folder.output(&all);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let found: serde_json::Value = serde_json::from_str(&text(&output.stdout)).unwrap();
+        let estimate = |e: &serde_json::Value| {
+            (e["parameter"].as_str().unwrap().to_owned(), e["value"].as_f64().unwrap())
+        };
+        let estimates = found["estimates"].as_array().unwrap().iter().map(estimate).collect();
+        (estimates, text(&output.stderr))
+    };
+    let (unknown, said) = of("off.csv", &[]);
+    assert!(said.contains("zero_not_stated") && !said.contains("force_drift"), "{said}");
+    assert!(unknown.iter().all(|(path, _)| !path.ends_with("tive")), "{unknown:?}");
+    let (right, _) = of("test.csv", &["--map", "zero=as measured"]);
+    assert!(right.iter().any(|(path, _)| path.ends_with(".positive")), "{right:?}");
+    let (stated, said) = of("off.csv", &["--map", "force=force - 30 N"]);
+    assert!(!said.contains("zero_not_stated"), "{said}");
+    for ((path, found), (_, expected)) in stated.iter().zip(&right) {
+        assert!((found / expected - 1.0).abs() < 1e-9, "{path}: {found} for {expected}");
+    }
+    assert!((unknown[0].1 / right[0].1 - 1.0).abs() < 1e-9);
+    let refused = folder.refused(&["identify", "cyclic", "off.csv", "--map", "zero=first 2"]);
+    assert!(refused.contains("zero: expected \"first 2 s\""), "{refused}");
 }

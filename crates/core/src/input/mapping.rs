@@ -6,6 +6,8 @@
 //! block_acceleration   = "A1 [g] * -1"           # the sensor points the other way
 //! sliding_displacement = "X1 - U [mm]"           # difference of two columns
 //! storey1_acceleration = "'roof acc' [g] @ 12 ms"  # its clock is 12 ms slow
+//! displacement         = "LVDT [mm] - 12.3 mm"   # the sensor shows 12.3 mm at rest
+//! zero                 = "first 2 s"             # all sensors are at rest there; or "as measured"
 //! ```
 
 use super::tree::{self, Sources, Spot, Value};
@@ -138,6 +140,8 @@ pub struct MappedColumn {
     pub column: ColumnRef,
     /// The column to be subtracted.
     pub minus: Option<ColumnRef>,
+    /// What the sensor shows at zero, in SI: subtracted before the factor. `None`: not known.
+    pub zero: Option<f64>,
     /// The unit of both; `None`: as the header says.
     pub unit: Option<&'static Unit>,
     /// Factor, −1 for a sensor that points the other way.
@@ -147,6 +151,18 @@ pub struct MappedColumn {
     spot: Spot,
 }
 
+/// What is known of the zero of sensors that no entry states.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Zero {
+    /// Nothing: a sensor may be off by any constant.
+    #[default]
+    Unknown,
+    /// They are right as measured.
+    AsMeasured,
+    /// All is at rest in the first so many seconds, whose mean is the zero.
+    First(f64),
+}
+
 /// What the columns of a measured file are, where their names do not say it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mapping {
@@ -154,6 +170,9 @@ pub struct Mapping {
     pub columns: Vec<MappedColumn>,
     /// The time step in s, of a file without a column of times.
     pub dt_s: Option<f64>,
+    /// The zero of the sensors.
+    pub zero: Zero,
+    zero_spot: Option<Spot>,
     sources: Sources,
 }
 
@@ -200,6 +219,14 @@ impl Mapping {
     }
 
     fn add(&mut self, name: &str, key: &Spot, value: &str, at: &Spot) -> Result<(), InputError> {
+        if name == "zero" {
+            self.zero = parse_zero(value).ok_or_else(|| {
+                let expected = "\"first 2 s\", in which all is at rest, or \"as measured\"";
+                self.sources.error(at, name, expected, format!("\"{}\"", cut(value)))
+            })?;
+            self.zero_spot = Some(at.clone());
+            return Ok(());
+        }
         let Some(channel) = Channel::parse(name) else {
             let storeys = [
                 Channel::StoreyDisplacement(1),
@@ -235,7 +262,8 @@ impl Mapping {
         Ok(())
     }
 
-    /// Reads `COLUMN [- COLUMN] [[UNIT]] [* FACTOR] [@ SHIFT]`.
+    /// Reads `COLUMN [- COLUMN] [[UNIT]] [- ZERO] [* FACTOR] [@ SHIFT]`; the zero may also stand before
+    /// the unit.
     fn entry(&self, channel: Channel, text: &str, at: &Spot) -> Result<MappedColumn, InputError> {
         let path = channel.name();
         let spot = |from: usize, to: usize| Spot {
@@ -257,7 +285,27 @@ impl Mapping {
             Ok(ColumnRef { name, spot: spot(from, to) })
         };
         let first = column(&mut rest)?;
-        let minus = if rest.take('-') { Some(column(&mut rest)?) } else { None };
+        let (mut minus, mut zero) = (None, None);
+        // What follows a minus is a quantity where it reads as one, else a column.
+        let subtracted = |rest: &mut Rest, zero: &mut Option<f64>| -> Result<_, InputError> {
+            let next = column(rest)?;
+            match units::parse_quantity(&next.name.replace('−', "-"), channel.dimension()) {
+                Ok(value) if zero.is_none() => {
+                    *zero = Some(value);
+                    Ok(None)
+                }
+                _ => Ok(Some(next)),
+            }
+        };
+        if rest.take('-') {
+            minus = subtracted(&mut rest, &mut zero)?;
+            if minus.is_some() && rest.take('-') {
+                let (from, to) = (rest.at, text.len());
+                if subtracted(&mut rest, &mut zero)?.is_some() {
+                    return Err(fault(from, to, "a zero such as 12.3 mm after the second column"));
+                }
+            }
+        }
         let mut unit = None;
         if rest.take('[') {
             let (from, to) = rest.until(&[']']);
@@ -269,6 +317,13 @@ impl Mapping {
                 let place = self.sources.error(&spot(from, to), &path, error.expected, error.found);
                 InputError { nearest: error.nearest, ..place }
             })?);
+        }
+        if unit.is_some() && zero.is_none() && rest.take('-') {
+            let (from, to) = (rest.at, text.len());
+            if subtracted(&mut rest, &mut zero)?.is_some() {
+                let expected = format!("a zero such as {}", channel.dimension().example());
+                return Err(fault(from, to, &expected));
+            }
         }
         let mut factor = 1.0;
         if rest.take('*') {
@@ -291,7 +346,7 @@ impl Mapping {
         }
         rest.blanks();
         if rest.at < text.len() {
-            let expected = "COLUMN [- COLUMN] [UNIT] * FACTOR @ SHIFT, each part after the first \
+            let expected = "COLUMN [- COLUMN] [UNIT] - ZERO * FACTOR @ SHIFT, each part after the first \
                             optional; names with blanks, dashes or brackets in single quotes";
             return Err(fault(rest.at, text.len(), expected));
         }
@@ -299,6 +354,7 @@ impl Mapping {
             channel,
             column: first,
             minus,
+            zero,
             unit,
             factor,
             offset_s,
@@ -326,11 +382,28 @@ impl Mapping {
         InputError { nearest, ..error }
     }
 
+    /// The error at the zero of all sensors.
+    #[must_use]
+    pub fn error_at_zero(&self, expected: &str, found: String) -> InputError {
+        let spot = self.zero_spot.clone().unwrap_or(Spot { source: 0, span: 0..0 });
+        self.sources.error(&spot, "zero", expected, found)
+    }
+
     /// The error at an entry as a whole.
     #[must_use]
     pub fn error_at(&self, entry: &MappedColumn, expected: String, found: String) -> InputError {
         self.sources.error(&entry.spot, &entry.channel.name(), expected, found)
     }
+}
+
+/// Reads `first 2 s` or `as measured`.
+fn parse_zero(text: &str) -> Option<Zero> {
+    if text.trim() == "as measured" {
+        return Some(Zero::AsMeasured);
+    }
+    let span = text.trim().strip_prefix("first ")?;
+    let span_s = units::parse_quantity(span, Dimension::Time).ok()?;
+    (span_s > 0.0).then_some(Zero::First(span_s))
 }
 
 /// What is left of a text.
@@ -407,6 +480,16 @@ mod tests {
         assert_eq!(plain.columns[0].column.name, "acc block");
         assert_eq!((plain.columns[0].unit, plain.columns[0].factor), (None, 1.0));
         assert_eq!(option("time=0.005 s").unwrap().dt_s, Some(0.005));
+        for text in ["LVDT - 12.3 mm [mm]", "LVDT [mm] - 12.3 mm", "LVDT - U - 12.3 mm [mm] * -1"] {
+            let entry = option(&format!("sliding_displacement={text}")).unwrap().columns.remove(0);
+            assert_eq!((entry.column.name.as_str(), entry.zero), ("LVDT", Some(0.0123)), "{text}");
+            assert_eq!(entry.minus.is_some(), text.contains('U'), "{text}");
+        }
+        assert_eq!(option("force=F [N] - -3 N").unwrap().columns[0].zero, Some(-3.0));
+        assert_eq!(option("zero=first 2 s").unwrap().zero, Zero::First(2.0));
+        assert_eq!(option("zero=as measured").unwrap().zero, Zero::AsMeasured);
+        assert!(option("zero=first 2").unwrap_err().contains("zero: expected \"first 2 s\""));
+        assert!(option("force=F [N] - 3 mm").unwrap_err().contains("expected a zero such as"));
         assert_eq!(option("storey12_acceleration=#4 [g]").unwrap().columns[0].column.name, "#4");
     }
 

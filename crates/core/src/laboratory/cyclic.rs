@@ -8,16 +8,19 @@
 //!
 //! with friction forces `f = μ_k N`. Each cycle (one stroke each way) is fitted by least squares over
 //! the samples that slide; estimates are means over cycles with Student's interval, so that they
-//! need no assumption on the noise within a cycle, only that cycles are independent. The static
+//! need no assumption on the noise within a cycle, only that cycles are independent. An offset of a
+//! sensor adds to `f⁺` what it takes from `f⁻`: friction by direction is told only where the zero is
+//! known, and a zero that moves from cycle to cycle is a drift, which is looked for. The static
 //! friction is read where a stroke breaks away: the force rises while the block is stuck, then drops.
 //! Breakaway falls between two samples; the curve of the last samples before it is carried on to
 //! the middle between the two.
 
 mod stroke;
 
-use super::estimate::{Estimate, mean_interval};
+use super::estimate::{Estimate, mean_interval, mean_interval_with_common};
 use crate::numerics::algebra::linear_fit;
 use crate::numerics::fractile::upper_median;
+use crate::response::Warning;
 use stroke::{Breakaway, Stroke, strokes};
 
 /// Fewest cycles that give an interval.
@@ -47,6 +50,9 @@ pub struct CyclicTest<'a> {
     pub spring: bool,
     /// Whether a damper is.
     pub damper: bool,
+    /// Whether the zeros of force and displacement are known: without them friction by direction
+    /// cannot be told from an offset.
+    pub zero_known: bool,
 }
 
 /// One cycle: a stroke towards +x and one towards −x.
@@ -88,6 +94,41 @@ pub struct CyclicFit {
     /// How far a value of the static friction may be off for want of samples, in N (standard
     /// deviation).
     pub sampling_n: f64,
+    /// Whether samples fall on the same part of every cycle, so that the sampling of the breakaway
+    /// is one error for all of them; the second of every half cycle.
+    pub locked: [bool; 2],
+    /// Whether the zeros of the sensors are known.
+    pub zero_known: bool,
+    /// How the middle of the force loop drifts, where it does.
+    pub drift: Option<Drift>,
+}
+
+/// A drift of the middle of the force loop, `(f⁺ − f⁻)/2`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drift {
+    /// Its rate in N/s.
+    pub n_per_s: f64,
+    /// Ends of its 95 % interval in N/s.
+    pub interval_n_per_s: [f64; 2],
+    /// What it makes from the first cycle to the last, in N.
+    pub over_test_n: f64,
+}
+
+impl CyclicFit {
+    /// What a reader must know of it.
+    #[must_use]
+    pub fn warning(&self) -> Option<Warning> {
+        let Drift { n_per_s, interval_n_per_s: [low, high], over_test_n } = self.drift?;
+        let message = format!(
+            "the middle of the force loop drifts by {over_test_n:.3} N over the test ({:.3} N/min, 95 % \
+             from {:.3} to {:.3}): the zero of the force cell moves, and friction by direction is not \
+             told",
+            60.0 * n_per_s,
+            60.0 * low,
+            60.0 * high
+        );
+        Some(Warning { kind: "force_drift", time_s: None, message })
+    }
 }
 
 /// Why a cyclic test says nothing.
@@ -118,7 +159,7 @@ pub enum CyclicError {
     },
 }
 
-/// Fits one test.
+/// Fits one test. A drift of the force that shows is taken off, and the test is fitted again.
 ///
 /// # Errors
 /// [`CyclicError`] where nothing slides or there are too few cycles.
@@ -127,6 +168,19 @@ pub fn cyclic(test: &CyclicTest) -> Result<CyclicFit, CyclicError> {
     if n < 32 || test.displacement_m.len() != n || test.force_n.len() != n {
         return Err(CyclicError::TooShort { found: n });
     }
+    let fit = of_steady_zero(test)?;
+    let Some(drift) = fit.drift else { return Ok(fit) };
+    let middle_s = 0.5 * (test.times_s[0] + test.times_s[n - 1]);
+    let drifted: Vec<f64> = test.times_s.iter().map(|t| drift.n_per_s * (t - middle_s)).collect();
+    let force_n: Vec<f64> = test.force_n.iter().zip(&drifted).map(|(f, d)| f - d).collect();
+    let mut steady = of_steady_zero(&CyclicTest { force_n: &force_n, ..*test })?;
+    steady.fitted_n.iter_mut().zip(&drifted).for_each(|(fitted, d)| *fitted += d);
+    Ok(CyclicFit { drift: Some(drift), ..steady })
+}
+
+/// The fit of a test whose force cell keeps its zero.
+fn of_steady_zero(test: &CyclicTest) -> Result<CyclicFit, CyclicError> {
+    let n = test.times_s.len();
     let (strokes, strokes_left_out) = strokes(test)?;
     let pairs: Vec<[&Stroke; 2]> = strokes
         .windows(2)
@@ -196,7 +250,58 @@ pub fn cyclic(test: &CyclicTest) -> Result<CyclicFit, CyclicError> {
     }
     let sampling_n = upper_median(sampling).unwrap_or(0.0);
     let damper_sought = test.damper;
-    Ok(CyclicFit { cycles, slack_m, strokes_left_out, fitted_n, damper_sought, sampling_n })
+    let (locked, drift) = (locked(test, &cycles), drift(&cycles));
+    let zero_known = test.zero_known;
+    Ok(CyclicFit {
+        cycles,
+        slack_m,
+        strokes_left_out,
+        fitted_n,
+        damper_sought,
+        sampling_n,
+        locked,
+        zero_known,
+        drift,
+    })
+}
+
+/// Whether the samples move by less than a step through the cycles of a test, and through its half
+/// cycles: then every breakaway falls on the same part of a step.
+fn locked(test: &CyclicTest, cycles: &[Cycle]) -> [bool; 2] {
+    let n = test.times_s.len();
+    let dt_s = (test.times_s[n - 1] - test.times_s[0]) / (n - 1) as f64;
+    let count = cycles.len() as f64;
+    let steps = cycles.iter().map(|cycle| 1.0 / cycle.frequency_hz).sum::<f64>() / count / dt_s;
+    let off = |steps: f64| (steps - libm::round(steps)).abs();
+    let all = off(steps) * (count - 1.0) < 1.0;
+    [all, all && off(0.5 * steps) < 0.25]
+}
+
+/// Fewest standard errors of a drift, and least part of the friction that it makes over a test.
+const CLEAR_DRIFT: (f64, f64) = (4.0, 0.005);
+
+/// The slope of the middle of the force loop over time, where it is clear of the cycles' scatter.
+fn drift(cycles: &[Cycle]) -> Option<Drift> {
+    let middle = |cycle: &Cycle| 0.5 * (cycle.kinetic_n[0] - cycle.kinetic_n[1]);
+    let time_s = |cycle: &Cycle| 0.5 * (cycle.span_s[0] + cycle.span_s[1]);
+    let start_s = cycles.first().map(time_s)?;
+    let rows: Vec<([f64; 2], f64)> =
+        cycles.iter().map(|cycle| ([1.0, time_s(cycle) - start_s], middle(cycle))).collect();
+    if rows.len() < LEAST_CYCLES + 1 {
+        return None;
+    }
+    let fit = linear_fit(&rows)?;
+    let freedom = rows.len() as f64 - 2.0;
+    let error = (fit.sse / freedom * fit.covariance[1][1]).sqrt();
+    let n_per_s = fit.coefficients[1];
+    let over_test_n = n_per_s * rows.last().map_or(0.0, |(x, _)| x[1]);
+    let kinetic_n = |cycle: &Cycle| 0.5 * (cycle.kinetic_n[0] + cycle.kinetic_n[1]);
+    let mean_n = cycles.iter().map(kinetic_n).sum::<f64>() / cycles.len() as f64;
+    let clear =
+        n_per_s.abs() > CLEAR_DRIFT.0 * error && over_test_n.abs() > CLEAR_DRIFT.1 * mean_n.abs();
+    let half = crate::numerics::distribution::student_quantile(0.95, freedom) * error;
+    let interval_n_per_s = [n_per_s - half, n_per_s + half];
+    clear.then_some(Drift { n_per_s, interval_n_per_s, over_test_n })
 }
 
 /// Fits the sliding samples of two strokes; `None` where they do not determine the unknowns.
@@ -269,7 +374,8 @@ pub struct CyclicEstimates {
 ///
 /// `normal_force_n` turns forces into coefficients. Refused are: friction that is not clear of 0
 /// (less than 2 % of the largest force or six standard errors), which means that nothing slid;
-/// static friction where fewer than three strokes show a breakaway.
+/// static friction where fewer than three strokes show a breakaway. Friction by direction is left out
+/// where the zeros of the sensors are not known ([`zero_not_stated`]), and refused where one drifts.
 #[must_use]
 pub fn estimates(
     fits: &[&CyclicFit],
@@ -287,20 +393,23 @@ pub fn estimates(
     let widths: Vec<f64> = cycles.iter().map(mean).collect();
     let why_not = not_sliding(&widths, largest_force_n);
     let slides = why_not.is_none();
+    let by_way = by_way(fits);
+    let told_ways = if fits.iter().all(|fit| fit.zero_known) { 3 } else { 1 };
     let mut estimates = Vec::new();
     let ways = ["", ".positive", ".negative"];
-    for way in 0..3 {
+    for way in 0..told_ways {
         let values: Vec<f64> = cycles
             .iter()
             .map(|cycle| if way == 0 { mean(cycle) } else { cycle.kinetic_n[way - 1] } / over_n)
             .collect();
         let path = name("kinetic", ways[way]);
-        estimates.push(match mean_interval(&values, 0.0) {
-            Some((value, ends)) if slides => Estimate::told(path, unit, value, ends),
+        estimates.push(match (mean_interval(&values, 0.0), &by_way) {
+            (_, Err(why)) if way > 0 && slides => Estimate::refused(path, unit, *why),
+            (Some((value, ends)), _) if slides => Estimate::told(path, unit, value, ends),
             _ => Estimate::refused(path, unit, why_not.clone().unwrap_or_default()),
         });
     }
-    for way in 0..3 {
+    for way in 0..told_ways {
         let values: Vec<f64> = cycles
             .iter()
             .filter_map(|cycle| match way {
@@ -312,8 +421,20 @@ pub fn estimates(
         let path = name("static", ways[way]);
         let enough = values.len() >= LEAST_CYCLES;
         let floor = if way == 0 { sampling_n / 2.0_f64.sqrt() } else { sampling_n } / over_n;
-        estimates.push(match mean_interval(&values, floor) {
-            Some((value, ends)) if slides && enough => Estimate::told(path, unit, value, ends),
+        // Half a step of the rise before breakaway, in which all cycles of a locked test agree; the two
+        // ways are half a cycle apart, and where that is no whole number of steps they share half of it.
+        let half_step = 3.0_f64.sqrt() * sampling_n / over_n;
+        let locked = |half: usize| fits.iter().any(|fit| fit.locked[half]);
+        let interval = match (locked(0), way == 0 && !locked(1)) {
+            (false, _) => mean_interval(&values, floor),
+            (true, true) => mean_interval_with_common(&values, 0.5 * half_step),
+            (true, false) => mean_interval_with_common(&values, half_step),
+        };
+        estimates.push(match (interval, &by_way) {
+            (Some(_), Err(why)) if way > 0 && slides && enough => {
+                Estimate::refused(path, unit, *why)
+            }
+            (Some((value, ends)), _) if slides && enough => Estimate::told(path, unit, value, ends),
             _ => {
                 let why = format!(
                     "only {} of {} cycles show a breakaway that is clear of noise and sampling",
@@ -341,6 +462,29 @@ pub fn estimates(
         _ => {}
     }
     CyclicEstimates { estimates, per_hz: per_hz(&cycles, over_n, unit) }
+}
+
+/// What a reader must know of tests whose sensors may be off by a constant.
+#[must_use]
+pub fn zero_not_stated(fits: &[&CyclicFit]) -> Option<Warning> {
+    let message = "friction by direction is not told: an offset of the force cell, or of the \
+                   displacement of a spring, looks the same; state the zeros of the sensors with \
+                   --map \"zero=first 2 s\", \"force=COLUMN - 12 N\" or \"zero=as measured\"";
+    fits.iter().any(|fit| !fit.zero_known).then(|| Warning {
+        kind: "zero_not_stated",
+        time_s: None,
+        message: message.to_owned(),
+    })
+}
+
+/// Whether friction by direction can be told from a drift of the force.
+fn by_way(fits: &[&CyclicFit]) -> Result<(), &'static str> {
+    if fits.iter().any(|fit| fit.drift.is_some()) {
+        return Err(
+            "the zero of the force drifts, which looks like friction that differs by direction",
+        );
+    }
+    Ok(())
 }
 
 /// Why friction (one value a cycle, in N) does not show, if it does not.

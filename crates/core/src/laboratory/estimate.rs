@@ -88,6 +88,33 @@ pub fn mean_interval(values: &[f64], floor: f64) -> Option<(f64, [f64; 2])> {
     Some((mean, [mean - half, mean + half]))
 }
 
+/// The 95 % interval of a mean to which one error is common: the error lies anywhere within ± `reach`,
+/// as likely here as there, and does not average out.
+///
+/// Its half width `w` is where the sum of both errors, uniform and normal with the standard error `s` of
+/// the mean (Student's `t` over 1.96 counting for few values), lies within ± `w` with 95 %.
+#[must_use]
+pub fn mean_interval_with_common(values: &[f64], reach: f64) -> Option<(f64, [f64; 2])> {
+    use crate::numerics::distribution::{bisect, normal_cdf, normal_density, normal_quantile};
+    let (mean, [_, high]) = mean_interval(values, 0.0)?;
+    let s = (high - mean) / normal_quantile(0.975);
+    if !(reach > 0.0) {
+        return Some((mean, [mean - (high - mean), high]));
+    }
+    let half = if s < 1e-6 * reach {
+        0.95 * reach
+    } else {
+        // ∫ Φ = x Φ(x) + φ(x).
+        let g = |x: f64| x * normal_cdf(x) + normal_density(x);
+        let within = |w: f64| {
+            let [a, b] = [(w + reach) / s, (w - reach) / s];
+            s / (2.0 * reach) * (g(a) - g(b) - g(-b) + g(-a))
+        };
+        bisect(0.0, reach + 10.0 * s, |w| within(w) < 0.95)
+    };
+    Some((mean, [mean - half, mean + half]))
+}
+
 /// How many samples one independent sample is worth, 1 for noise without memory: the integrated
 /// autocorrelation `1 + 2 Σ ρ_k` of residuals, summed up to the first lag at which `ρ` is below what
 /// independent samples show by chance (`2/√n`), a tenth of the samples at most.
@@ -123,6 +150,29 @@ mod tests {
         assert!((high - 2.0 - 4.302_652_729_911 / 3.0_f64.sqrt()).abs() < 1e-9);
         assert!((low + high - 4.0).abs() < 1e-12);
         assert!(mean_interval(&[1.0], 0.0).is_none());
+    }
+
+    /// Alone the common error is uniform, alone the values are a mean; both together exceed either.
+    #[test]
+    fn exact_interval_with_a_common_error() {
+        let half = |values: &[f64], reach: f64| {
+            let (mean, [_, high]) = mean_interval_with_common(values, reach).unwrap();
+            high - mean
+        };
+        assert!((half(&[2.0, 2.0, 2.0], 0.3) - 0.95 * 0.3).abs() < 1e-12);
+        let plain = half(&[1.0, 2.0, 3.0], 0.0);
+        assert!((plain - 4.302_652_729_911 / 3.0_f64.sqrt()).abs() < 1e-9);
+        assert!((half(&[1.0, 2.0, 3.0], 1e-6) / plain - 1.0).abs() < 1e-9);
+        let both = half(&[1.0, 2.0, 3.0], 2.0);
+        assert!(both > plain && both < plain + 2.0, "{both}");
+        // Drawn: 1.2 uniform within ± 0.5 and normal with 0.2.
+        let mut random = crate::numerics::random::Random::new(3);
+        let s = 0.2 * 3.0_f64.sqrt() / 4.302_652_729_911 * 1.959_963_985;
+        let half = half(&[-s, 0.0, s], 0.5);
+        let inside = (0..100_000)
+            .filter(|_| (random.uniform() - 0.5 + 0.2 * random.normal()).abs() < half)
+            .count();
+        assert!((inside as f64 / 1e5 - 0.95).abs() < 0.003, "{inside}");
     }
 
     /// A process `r_k = φ r_{k−1} + noise` has `ρ_k = φᵏ`, so a length of `(1 + φ)/(1 − φ)`.

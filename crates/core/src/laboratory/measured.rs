@@ -1,7 +1,7 @@
 //! Measured histories: columns of a file with what they mean, in SI, each on its own clock.
 
 use crate::error::{InputError, RecordError, similar};
-use crate::input::{Channel, ColumnRef, MappedColumn, Mapping};
+use crate::input::{Channel, ColumnRef, MappedColumn, Mapping, Zero};
 use crate::numerics::fractile::upper_median;
 use crate::record::{self, Column, Columns, Sampling, bracket};
 use crate::response::Warning;
@@ -18,6 +18,8 @@ pub struct Series {
     pub times_s: Vec<f64>,
     /// Its values in SI.
     pub values: Vec<f64>,
+    /// Whether the mapping states the zero of its sensor.
+    pub zero_known: bool,
 }
 
 /// The measured quantities of a file.
@@ -102,7 +104,9 @@ impl Measured {
                 continue;
             }
             let origin = format!("column {:?}, in {}", column.name, unit.name());
-            found.push((index, Series { channel, origin, times_s: Vec::new(), values }));
+            let zero_known = false;
+            let times_s = Vec::new();
+            found.push((index, Series { channel, origin, times_s, values, zero_known }));
         }
         let names = columns.names();
         let (times_s, dt_s, warnings) = clock(&columns, mapping, time)?;
@@ -112,8 +116,27 @@ impl Measured {
             series.times_s = times_s.iter().map(|t| t + offset_s).collect();
             series
         });
+        let mut series: Vec<Series> = series.collect();
+        match mapping.zero {
+            Zero::Unknown => {}
+            Zero::AsMeasured => series.iter_mut().for_each(|series| series.zero_known = true),
+            Zero::First(span_s) => {
+                let count = times_s.iter().take_while(|t| **t <= span_s).count();
+                if count < 2 || count == times_s.len() {
+                    let expected = "a span with two samples or more that ends before the file does";
+                    return Err(mapping.error_at_zero(expected, format!("{count} samples")).into());
+                }
+                // Sensors whose zero the mapping states have it already.
+                for series in series.iter_mut().filter(|series| !series.zero_known) {
+                    let mean = series.values[..count].iter().sum::<f64>() / count as f64;
+                    series.values.iter_mut().for_each(|value| *value -= mean);
+                    series.origin.push_str(&format!(", less the mean of its first {span_s} s"));
+                    series.zero_known = true;
+                }
+            }
+        }
         let source_name = columns.source_name.clone();
-        Ok(Self { source_name, dt_s, series: series.collect(), warnings, names })
+        Ok(Self { source_name, dt_s, series, warnings, names })
     }
 
     /// The series of a quantity.
@@ -231,6 +254,10 @@ fn mapped(
         origin.push_str(&format!(" − {:?}", columns.columns[minus].name));
     }
     origin.push_str(&format!(", in {}", unit.name()));
+    if let Some(zero) = entry.zero {
+        values.iter_mut().for_each(|value| *value -= zero);
+        origin.push_str(&format!(", less {zero} {}", dimension.si_unit()));
+    }
     if entry.factor != 1.0 {
         values.iter_mut().for_each(|value| *value *= entry.factor);
         origin.push_str(&format!(", × {}", entry.factor));
@@ -238,7 +265,8 @@ fn mapped(
     if entry.offset_s != 0.0 {
         origin.push_str(&format!(", {:+} s", entry.offset_s));
     }
-    Ok(Series { channel: entry.channel, origin, times_s: Vec::new(), values })
+    let zero_known = entry.zero.is_some();
+    Ok(Series { channel: entry.channel, origin, times_s: Vec::new(), values, zero_known })
 }
 
 /// What a column's name says of its unit.

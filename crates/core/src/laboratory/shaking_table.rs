@@ -6,7 +6,13 @@
 //! those of profile likelihood for residuals that are normal, of one variance a quantity, and whose
 //! memory is as long as measured: the rise of the sum of squares that is allowed is multiplied by
 //! their correlation length.
+//!
+//! A sensor of displacement or force whose zero is not stated may be off by any constant: that is
+//! fitted with the rest. The table acceleration drives the model, so its noise, and what happens
+//! between its samples, move the estimates: both are carried to them by derivatives and widen the
+//! intervals ([`drive`]).
 
+mod drive;
 mod parameter;
 
 use core::cell::Cell;
@@ -16,7 +22,7 @@ pub use parameter::{Builder, Parameter, ParameterError};
 use super::compare::{self, CompareError, Comparison};
 use super::estimate::{Estimate, correlation_length};
 use super::fit::{Interval, Minimum, Problem, Profile, global, profile, refine};
-use super::measured::Measured;
+use super::measured::{Measured, Series};
 use super::metrics::rms;
 use crate::error::{RecordError, Stopped};
 use crate::friction::{Coulomb, Friction};
@@ -24,7 +30,7 @@ use crate::input::Channel;
 use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::numerics::distribution::student_quantile;
-use crate::response::Method;
+use crate::response::{Method, Warning};
 use crate::solver;
 use crate::study::engine::Engine;
 
@@ -69,6 +75,12 @@ pub struct TableFit {
     pub correlation_length: f64,
     /// How much better than a stuck block the fit is, in variances.
     pub sliding_evidence: f64,
+    /// Fitted offsets of sensors whose zero is not stated: measured less true, in SI.
+    pub offsets: Vec<(Channel, f64)>,
+    /// Standard deviation of the noise of the table acceleration, in m/s².
+    pub table_noise_m_per_s2: f64,
+    /// What a reader must know.
+    pub warnings: Vec<Warning>,
 }
 
 /// Why nothing was fitted.
@@ -116,7 +128,9 @@ pub fn shaking_table(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, 
 fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
     let (motion, start_s) = compare::table_motion(test.measured)?;
     let chosen = chosen(test)?;
-    let data = Data { motion: &motion, start_s, measured: &chosen, build: test.build, engine };
+    let free: Vec<bool> = chosen.series.iter().map(has_free_zero).collect();
+    let data =
+        Data { motion: &motion, start_s, measured: &chosen, free, build: test.build, engine };
     let names = || {
         let names: Vec<&str> = test.parameters.iter().map(|p| p.path.as_str()).collect();
         names.join(", ")
@@ -157,7 +171,9 @@ fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
     let residuals = |p: &[f64]| data.residuals(p, &scales);
     let problem = Problem { bounds, residuals: &residuals };
     let minimum = minimum.and_then(|minimum| refine(&problem, &minimum.unit));
-    let found = intervals(&problem, &data, minimum.ok_or_else(no_response)?);
+    let mut found = intervals(&problem, &data, minimum.ok_or_else(no_response)?);
+    let table_noise_m_per_s2 = drive::noise(&motion);
+    drive::widen(&mut found, &problem, &data, &scales, table_noise_m_per_s2, test.seed);
     let values = problem.parameters(&found.minimum.unit);
     let model = (test.build)(&values).ok_or_else(no_response)?;
     let evidence = evidence(&data, &model, &scales, &found);
@@ -178,6 +194,15 @@ fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
     let estimates = estimates.collect();
     let comparison = compare::compare(test.measured, &model, Method::Exact)?;
     let noise = chosen.series.iter().map(|s| s.channel).zip(scales.iter().copied()).collect();
+    let raw = data.of_motion(&model, &motion).ok_or_else(no_response)?;
+    let offsets: Vec<(Channel, f64)> = raw
+        .iter()
+        .zip(&chosen.series)
+        .zip(&data.free)
+        .filter(|(_, free)| **free)
+        .map(|((left, series), _)| (series.channel, -mean(left)))
+        .collect();
+    let warnings = warnings(&raw, &chosen, &offsets, found.length);
     Ok(TableFit {
         estimates,
         values,
@@ -186,7 +211,67 @@ fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
         noise,
         correlation_length: found.length,
         sliding_evidence: evidence,
+        offsets,
+        table_noise_m_per_s2,
+        warnings,
     })
+}
+
+/// Whether the zero of a sensor is to be fitted.
+fn has_free_zero(series: &Series) -> bool {
+    let by_kind = matches!(
+        series.channel,
+        Channel::SlidingDisplacement | Channel::StoreyDisplacement(_) | Channel::FrictionForce
+    );
+    by_kind && !series.zero_known
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
+}
+
+/// Offsets and drifts that are clear of what chance makes of the residuals.
+fn warnings(
+    raw: &[Vec<f64>],
+    measured: &Measured,
+    offsets: &[(Channel, f64)],
+    length: f64,
+) -> Vec<Warning> {
+    const CLEAR: f64 = 5.0;
+    let mut all = Vec::new();
+    for (left, series) in raw.iter().zip(&measured.series) {
+        let n = left.len() as f64;
+        let independent = (n / length).max(2.0);
+        let (name, unit) = (series.channel.name(), series.channel.dimension().si_unit());
+        let middle = mean(left);
+        let deviation = (left.iter().map(|r| (r - middle) * (r - middle)).sum::<f64>() / n).sqrt();
+        let offset = offsets.iter().find(|(channel, _)| *channel == series.channel);
+        if let Some((_, offset)) = offset
+            && offset.abs() > CLEAR * deviation / independent.sqrt()
+        {
+            let message = format!(
+                "the sensor of {name} is off by {offset:.4e} {unit}, which was fitted with the rest: \
+                 --map \"{name}=… - {offset:.4e} {unit}\" or \"zero=first 2 s\" states its zero"
+            );
+            all.push(Warning { kind: "sensor_offset", time_s: None, message });
+        }
+        if series.channel != Channel::FrictionForce {
+            continue;
+        }
+        // A slope over the record, the time running from −1 to 1.
+        let t = |i: usize| 2.0 * i as f64 / (n - 1.0) - 1.0;
+        let square: f64 = (0..left.len()).map(|i| t(i) * t(i)).sum();
+        let slope = -left.iter().enumerate().map(|(i, r)| t(i) * r).sum::<f64>() / square;
+        if slope.abs() > CLEAR * deviation * (length / square).sqrt() {
+            let message = format!(
+                "the measured {name} drifts by {:.4e} {unit} over the record: the zero of the force \
+                 cell moves",
+                2.0 * slope
+            );
+            all.push(Warning { kind: "force_drift", time_s: None, message });
+        }
+    }
+    all
 }
 
 /// The measured quantities to fit.
@@ -220,15 +305,32 @@ struct Data<'a> {
     motion: &'a GroundMotion,
     start_s: f64,
     measured: &'a Measured,
+    /// Of which quantities the zero is fitted.
+    free: Vec<bool>,
     build: &'a dyn Fn(&[f64]) -> Option<Model>,
     engine: &'a Engine<'a>,
 }
 
 impl Data<'_> {
-    /// Predicted less measured values, a list a quantity, in SI.
+    /// Predicted less measured values, a list a quantity, in SI; less their mean where the zero of the
+    /// sensor is fitted, which is its best value.
     fn of_model(&self, model: &Model) -> Option<Vec<Vec<f64>>> {
+        self.of_model_under(model, self.motion)
+    }
+
+    fn of_model_under(&self, model: &Model, motion: &GroundMotion) -> Option<Vec<Vec<f64>>> {
+        let mut lists = self.of_motion(model, motion)?;
+        for (list, _) in lists.iter_mut().zip(&self.free).filter(|(_, free)| **free) {
+            let mean = mean(list);
+            list.iter_mut().for_each(|r| *r -= mean);
+        }
+        Some(lists)
+    }
+
+    /// Predicted less measured values under a motion.
+    fn of_motion(&self, model: &Model, motion: &GroundMotion) -> Option<Vec<Vec<f64>>> {
         self.engine.done(1).ok()?;
-        let response = solver::exact(model, self.motion).ok()?;
+        let response = solver::exact(model, motion).ok()?;
         let pairs = compare::pairs(self.measured, self.start_s, response.history.as_ref()?);
         let all = pairs.len() == self.measured.series.len();
         let left = |pair: &compare::Pair| {
@@ -271,7 +373,8 @@ fn intervals(problem: &Problem, data: &Data, minimum: Minimum) -> Found {
         let lists = data.by_quantity(&values).unwrap_or_default();
         let lengths = lists.iter().map(|list| correlation_length(list));
         length = lengths.fold(1.0, f64::max);
-        let freedom = minimum.count.saturating_sub(count + lists.len()).max(1) as f64;
+        let zeros = data.free.iter().filter(|free| **free).count();
+        let freedom = minimum.count.saturating_sub(count + lists.len() + zeros).max(1) as f64;
         variance = (minimum.sse / freedom).max(1e-24);
         let t = student_quantile(0.95, freedom);
         let better: Cell<Option<Minimum>> = Cell::new(None);

@@ -16,9 +16,10 @@ pub fn assumption(fit: &TableFit) -> String {
     format!(
         "95 % intervals by profile likelihood: residuals are normal, with one standard deviation a \
          quantity, which is estimated from them; they are correlated over {} samples, by which the \
-         rise of the sum of squares that is allowed was multiplied. The table acceleration is \
-         taken as exact.",
-        significant(fit.correlation_length, 3)
+         rise of the sum of squares that is allowed was multiplied. They include the noise of the \
+         table acceleration, {} m/s², and what it may do between its samples.",
+        significant(fit.correlation_length, 3),
+        significant(fit.table_noise_m_per_s2, 2)
     )
 }
 
@@ -34,6 +35,13 @@ pub fn facts(fit: &TableFit, display: DisplayUnits) -> Vec<(&'static str, String
         facts.push((
             "Standard deviation of the residuals",
             format!("{}: {} {}", title(*channel), significant(unit.of(*noise), 3), unit.symbol),
+        ));
+    }
+    for (channel, offset) in &fit.offsets {
+        let unit = display.unit(quantity(*channel), offset.abs());
+        facts.push((
+            "Offset of the sensor, fitted",
+            format!("{}: {} {}", title(*channel), significant(unit.of(*offset), 3), unit.symbol),
         ));
     }
     facts
@@ -57,10 +65,19 @@ pub fn json(fit: &TableFit, parameters: &[Parameter], seed: u64) -> Vec<(&'stati
             ("residual_rms", (*noise).into()),
         ])
     });
+    let offsets = fit.offsets.iter().map(|(channel, offset)| {
+        Json::Object(vec![
+            ("quantity", channel.name().as_str().into()),
+            ("unit", channel.dimension().si_unit().into()),
+            ("offset", (*offset).into()),
+        ])
+    });
     vec![
         ("seed", seed.into()),
         ("ranges", Json::List(ranges.collect())),
         ("residuals", Json::List(noise.collect())),
+        ("sensor_offsets", Json::List(offsets.collect())),
+        ("table_noise_m_per_s2", fit.table_noise_m_per_s2.into()),
         ("correlation_length_samples", fit.correlation_length.into()),
         ("sliding_evidence", fit.sliding_evidence.into()),
     ]

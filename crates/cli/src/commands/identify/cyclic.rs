@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use slipstick::input::Channel;
-use slipstick::laboratory::cyclic::{CyclicTest, cyclic as fit_cyclic, estimates};
+use slipstick::laboratory::cyclic::{CyclicTest, cyclic as fit_cyclic, estimates, zero_not_stated};
 use slipstick::laboratory::measured::{Measured, Series};
 use slipstick::units::{Dimension, STANDARD_GRAVITY_M_PER_S2};
 use slipstick_files::{expand_all, read_mapping, read_measured};
@@ -65,6 +65,9 @@ pub fn cyclic(args: &CyclicArgs) -> Result<ExitCode, Failure> {
             slack_m,
             spring: !args.without.contains(&Part::Spring),
             damper: !args.without.contains(&Part::Damper),
+            // An offset of the displacement is one of the force where a spring is fitted.
+            zero_known: force.zero_known
+                && (displacement.zero_known || args.without.contains(&Part::Spring)),
         };
         let fit = fit_cyclic(&test);
         let name = &measured.source_name;
@@ -84,6 +87,8 @@ pub fn cyclic(args: &CyclicArgs) -> Result<ExitCode, Failure> {
     let largest_n = tests.iter().flat_map(|t| t.force_n).fold(0.0, |m: f64, f| m.max(f.abs()));
     let found = estimates(&all, largest_n, normal_n);
     let mut warnings: Vec<_> = files.iter().flat_map(|(m, _)| m.warnings.clone()).collect();
+    warnings.extend(fits.iter().filter_map(|fit| fit.warning()));
+    warnings.extend(zero_not_stated(&all));
     let base = model.or_else(|| args.mass.as_deref().map(plain_model));
     let mut more = Vec::new();
     if let Some(base) = base.filter(|_| found.estimates[0].value().is_some()) {

@@ -57,6 +57,7 @@ pub fn shaking_table(args: &ShakingTableArgs) -> Result<ExitCode, Failure> {
     let fit = fit.map_err(|error| message(&error))?;
     let (fitted, decided) = fitted_model(&model, &set, &fit.estimates)?;
     let mut warnings = fit.comparison.warnings.clone();
+    warnings.extend(fit.warnings.clone());
     warnings.extend(decided);
     let display = args.result.display_units.into();
     let version = env!("CARGO_PKG_VERSION");

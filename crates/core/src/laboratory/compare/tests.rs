@@ -121,6 +121,7 @@ fn exact_interpolation_of_a_cubic() {
         ..History::default()
     };
     let series = |channel| Series {
+        zero_known: false,
         channel,
         origin: String::new(),
         times_s: vec![4.9, 5.0, 5.1, 5.4, 5.75, 6.0, 6.5],
