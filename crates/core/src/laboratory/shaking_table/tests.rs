@@ -7,13 +7,13 @@ use crate::numerics::random::Random;
 pub const BLOCK: &str = "[block]\nmass = \"124 kg\"\n[slider]\nstatic_friction = 0.12\n\
                          kinetic_friction = 0.1\nspring = \"20 kN/m\"\n";
 
-/// The motion of a test: a sine of 1.3 Hz that swells and dies.
-fn table(amplitude: f64) -> Vec<f64> {
+/// The motion of a test, so many samples in each of 0.01 s: a sine of 1.3 Hz that swells and dies.
+fn table(amplitude: f64, finer: usize) -> Vec<f64> {
     let value = |i: usize| {
-        let t = 0.01 * i as f64;
+        let t = 0.01 * i as f64 / finer as f64;
         amplitude * libm::sin(TAU * 1.3 * t) * libm::sin(TAU * t / 12.0)
     };
-    (0..400).map(value).collect()
+    (0..=399 * finer).map(value).collect()
 }
 
 /// A measured file: the response of a model with noise on block and slider.
@@ -30,8 +30,10 @@ fn made_by(
     [offset_m, of_table]: [f64; 2],
 ) -> Measured {
     let model = parse("true.toml", text, &[]).unwrap().model;
-    let a = table(amplitude);
-    let motion = GroundMotion::evenly_spaced(0.01, a.clone(), None).unwrap();
+    // With noise, as a table moves: between the samples that are taken of it too.
+    let finer = if noise[0] > 0.0 { 5 } else { 1 };
+    let a = table(amplitude, finer);
+    let motion = GroundMotion::evenly_spaced(0.01 / finer as f64, a.clone(), None).unwrap();
     let history = solver::exact(&model, &motion).unwrap().history.unwrap();
     let mut random = Random::new(seed);
     let mut file = "time_s,table_acceleration_m_per_s2,block_acceleration_m_per_s2,\
@@ -39,10 +41,11 @@ fn made_by(
         .to_owned();
     let storey = history.storeys > 0;
     file.push_str(if storey { ",storey1_acceleration_m_per_s2\n" } else { "\n" });
-    for (i, &knot) in history.rows.iter().enumerate() {
+    for (i, &knot) in history.rows.iter().step_by(finer).enumerate() {
+        let a = a[i * finer];
         let block = history.block_acceleration_m_per_s2[knot] + noise[0] * random.normal();
         let sliding = history.sliding_displacement_m[knot] + noise[1] * random.normal() + offset_m;
-        let table = if of_table > 0.0 { a[i] + of_table * random.normal() } else { a[i] };
+        let table = if of_table > 0.0 { a + of_table * random.normal() } else { a };
         file.push_str(&format!("{:.2},{table:e},{block:e},{sliding:e}", 0.01 * i as f64));
         if storey {
             let floor = history.storey_accelerations(knot)[0] + noise[0] * random.normal();
