@@ -20,6 +20,14 @@ use crate::motion::oscillator::{State, Step, Steps};
 /// Least number of points a period at which the slope of `V` is looked at, and most of all.
 const POINTS_PER_PERIOD: f64 = 50.0;
 const MOST_POINTS: f64 = 4e6;
+/// Total variation of the filter's response to an impulse over ω, by which a bounded acceleration bounds
+/// the rate of the filtered one: 2 e^{−π/4}/(1 − e^{−π}) = 0.9530, rounded up.
+const VARIATION: f64 = 0.954;
+/// Steps that differ by less than this are one and a remainder of the first order, whose square is lost
+/// to rounding.
+const NEAR: f64 = 1e-9;
+/// Steps that are kept: evenly spaced samples have two or three.
+const KEPT: usize = 4;
 
 /// FIV3 in m/s; extremes are those of `V` inside the time from 0 to the end of the motion less
 /// the window. Where there are fewer than three, those there are.
@@ -31,27 +39,38 @@ pub(super) fn fiv3(motion: &GroundMotion, period_s: f64, alpha: f64, beta: f64) 
     }
     let filtered = Filtered::new(motion, TAU * beta / period_s);
     let times_s = motion.times_s();
-    // V is smooth between these: its slope a_f(t + αT) − a_f(t) has kinks where either has.
+    // V is smooth between these: its slope a_f(t + αT) − a_f(t) has kinks where either has. Samples that
+    // lie a window apart but for rounding are one kink.
     let mut kinks_s: Vec<f64> = times_s.iter().flat_map(|t| [*t, t - window_s]).collect();
     kinks_s.retain(|t| *t > 0.0 && *t < end_s);
     kinks_s.push(end_s);
     kinks_s.sort_by(f64::total_cmp);
-    kinks_s.dedup();
+    kinks_s.dedup_by(|later, kept| *later - *kept <= 4.0 * f64::EPSILON * end_s);
 
     let longest_s = (period_s / beta.max(1.0) / POINTS_PER_PERIOD).max(end_s / MOST_POINTS);
-    let mut window = Window { filtered: &filtered, window_s, cursors: [0, 0] };
+    let mut window =
+        Window { filtered: &filtered, window_s, cursors: [0, 0], known: Vec::with_capacity(KEPT) };
     let mut largest = Largest::default();
-    let mut left = Point { t: 0.0, slope: window.slope(0.0) };
+    let largest_a = motion.horizontal_m_per_s2().iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+    let bend = VARIATION * filtered.omega * largest_a;
+    let mut left = window.point(0.0);
     let mut last_sign = left.slope;
     let mut from_s = 0.0;
     for to_s in kinks_s {
         let parts = libm::ceil((to_s - from_s) / longest_s).max(1.0);
         for part in 1..=parts as usize {
             let t = from_s + (to_s - from_s) * (part as f64 / parts);
-            let right = Point { t, slope: window.slope(t) };
+            let right = if part == parts as usize { window.kink(t) } else { window.point(t) };
             if right.slope * last_sign < 0.0 {
-                let at = if left.slope == 0.0 { left.t } else { window.root(left, right) };
-                largest.add(window.value(at), last_sign > 0.0);
+                let is_maximum = last_sign > 0.0;
+                // |V″| ≤ 2 VARIATION ω max|a|, so |V(t) − V(left)| ≤ |V′(left)| h + VARIATION ω max|a| h².
+                let h = right.t - left.t;
+                let beyond = (left.slope.abs() + bend * h) * h;
+                let end = left.value + if is_maximum { beyond } else { -beyond };
+                if largest.takes(end, is_maximum) {
+                    let at = if left.slope == 0.0 { left.t } else { window.root(left, right) };
+                    largest.add(window.point(at).value, is_maximum);
+                }
             }
             if right.slope != 0.0 {
                 last_sign = right.slope;
@@ -63,11 +82,12 @@ pub(super) fn fiv3(motion: &GroundMotion, period_s: f64, alpha: f64, beta: f64) 
     largest.fiv3()
 }
 
-/// The slope of `V` at a time.
+/// `V` and its slope at a time.
 #[derive(Clone, Copy)]
 struct Point {
     t: f64,
     slope: f64,
+    value: f64,
 }
 
 /// The three largest maxima, and the three smallest minima with their sign turned.
@@ -87,6 +107,12 @@ impl Largest {
                 core::mem::swap(kept, &mut value);
             }
         }
+    }
+
+    /// Whether a value would be among the three.
+    fn takes(&self, value: f64, is_maximum: bool) -> bool {
+        let (list, value) = if is_maximum { (&self.maxima, value) } else { (&self.minima, -value) };
+        list[2].is_none_or(|third| value > third)
     }
 
     fn fiv3(&self) -> f64 {
@@ -127,7 +153,8 @@ impl<'a> Filtered<'a> {
     /// `a_f` and `∫ a_f dt` at a time; `cursor` is a sample, best one near it.
     ///
     /// The integral of the oscillator's equation gives `∫ a_f dt = ∫ a dt + u̇ + 2ξω u`.
-    fn at(&self, t: f64, cursor: &mut usize) -> [f64; 2] {
+    /// Where `known` is given, it holds steps that occur again and again.
+    fn at(&self, t: f64, cursor: &mut usize, known: Option<&mut Vec<(f64, Step)>>) -> [f64; 2] {
         let last = self.times_s.len() - 1;
         while *cursor > 0 && self.times_s[*cursor] > t {
             *cursor -= 1;
@@ -142,8 +169,17 @@ impl<'a> Filtered<'a> {
             let [a, b] = [self.acceleration[i], self.acceleration[i + 1]];
             let here = a + (b - a) * (tau / (self.times_s[i + 1] - self.times_s[i]));
             let compliance = 1.0 / (self.omega * self.omega);
-            let step = Step::new(self.omega * tau, FRAC_1_SQRT_2);
-            state = step.apply(state, compliance * a, compliance * here);
+            let theta = self.omega * tau;
+            let (step, rest) = match known {
+                None => (Step::new(theta, FRAC_1_SQRT_2), 0.0),
+                Some(known) => near(known, theta),
+            };
+            // The load at the end of the step, and on by the rest: u' = w, w' = −u − 2ξw − load.
+            let rate = (b - a) / (self.times_s[i + 1] - self.times_s[i]);
+            let load = compliance * (here - rate * (rest / self.omega));
+            state = step.apply(state, compliance * a, load);
+            let bent = -state.u - 2.0 * FRAC_1_SQRT_2 * state.w - load;
+            state = State { u: state.u + rest * state.w, w: state.w + rest * bent };
             velocity += 0.5 * tau * (a + here);
         }
         let omega = self.omega;
@@ -152,22 +188,41 @@ impl<'a> Filtered<'a> {
     }
 }
 
+/// The step nearest to an angle, made where none is near, and what is left of the angle.
+fn near(known: &mut Vec<(f64, Step)>, theta: f64) -> (Step, f64) {
+    if let Some((angle, step)) = known.iter().find(|(angle, _)| (angle - theta).abs() < NEAR) {
+        return (*step, theta - angle);
+    }
+    let step = Step::new(theta, FRAC_1_SQRT_2);
+    if known.len() == KEPT {
+        known.remove(0);
+    }
+    known.push((theta, step));
+    (step, 0.0)
+}
+
 /// `V` and its slope.
 struct Window<'a> {
     filtered: &'a Filtered<'a>,
     window_s: f64,
     cursors: [usize; 2],
+    known: Vec<(f64, Step)>,
 }
 
 impl Window<'_> {
-    fn slope(&mut self, t: f64) -> f64 {
+    fn point(&mut self, t: f64) -> Point {
         let [from, to] = &mut self.cursors;
-        self.filtered.at(t + self.window_s, to)[0] - self.filtered.at(t, from)[0]
+        let [a, after] = self.filtered.at(t + self.window_s, to, None);
+        let [b, before] = self.filtered.at(t, from, None);
+        Point { t, slope: a - b, value: after - before }
     }
 
-    fn value(&mut self, t: f64) -> f64 {
+    /// The same at a kink, as far from a sample as many others.
+    fn kink(&mut self, t: f64) -> Point {
         let [from, to] = &mut self.cursors;
-        self.filtered.at(t + self.window_s, to)[1] - self.filtered.at(t, from)[1]
+        let [a, after] = self.filtered.at(t + self.window_s, to, Some(&mut self.known));
+        let [b, before] = self.filtered.at(t, from, Some(&mut self.known));
+        Point { t, slope: a - b, value: after - before }
     }
 
     /// Where the slope is 0 between two points at which its signs differ, by bisection to 1e-9 of
@@ -179,7 +234,7 @@ impl Window<'_> {
             if middle <= a || middle >= b {
                 break;
             }
-            if self.slope(middle) * left.slope > 0.0 {
+            if self.point(middle).slope * left.slope > 0.0 {
                 a = middle;
             } else {
                 b = middle;
