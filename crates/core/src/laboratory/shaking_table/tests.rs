@@ -18,20 +18,20 @@ fn table(amplitude: f64, finer: usize) -> Vec<f64> {
 
 /// A measured file: the response of a model with noise on block and slider.
 fn made(text: &str, amplitude: f64, noise: [f64; 2], seed: u64) -> Measured {
-    made_by(text, amplitude, noise, seed, [0.0; 2])
+    made_by(text, amplitude, noise, seed, [0.0; 2], 1)
 }
 
-/// The same with an offset of the displacement and noise of the table's accelerometer.
+/// The same with an offset of the displacement and noise of the table's accelerometer, under a table that
+/// moves between the samples that are taken of it: so many times finer.
 fn made_by(
     text: &str,
     amplitude: f64,
     noise: [f64; 2],
     seed: u64,
     [offset_m, of_table]: [f64; 2],
+    finer: usize,
 ) -> Measured {
     let model = parse("true.toml", text, &[]).unwrap().model;
-    // With noise, as a table moves: between the samples that are taken of it too.
-    let finer = if noise[0] > 0.0 { 5 } else { 1 };
     let a = table(amplitude, finer);
     let motion = GroundMotion::evenly_spaced(0.01 / finer as f64, a.clone(), None).unwrap();
     let history = solver::exact(&model, &motion).unwrap().history.unwrap();
@@ -166,7 +166,7 @@ fn covered_by(
     let names: Vec<&str> = truth.iter().map(|(path, _)| *path).collect();
     let mut counts = vec![0; truth.len()];
     for seed in 0..seeds {
-        let measured = made_by(text, 3.0, noise, seed, wrong);
+        let measured = made_by(text, 3.0, noise, seed, wrong, 5);
         let found = fitted(&measured, text, &names, seed);
         for (k, (_, truth)) in truth.iter().enumerate() {
             let inside =
@@ -193,8 +193,8 @@ fn covered_by_noisy_table(seeds: u64) -> Vec<(&'static str, u64)> {
 #[test]
 fn exact_an_offset_of_a_sensor_is_no_tilt() {
     let fit = ["slider.kinetic_friction", "slider.tilt"];
-    let plain = fitted(&made_by(TILTED, 3.0, [0.05, 3e-4], 1, [0.0; 2]), TILTED, &fit, 1);
-    let off = fitted(&made_by(TILTED, 3.0, [0.05, 3e-4], 1, [0.0123, 0.0]), TILTED, &fit, 1);
+    let plain = fitted(&made_by(TILTED, 3.0, [0.05, 3e-4], 1, [0.0; 2], 5), TILTED, &fit, 1);
+    let off = fitted(&made_by(TILTED, 3.0, [0.05, 3e-4], 1, [0.0123, 0.0], 5), TILTED, &fit, 1);
     let tilt = off.estimates[1].value().unwrap();
     assert!((tilt - 1e-3).abs() < 2e-4, "{tilt}");
     assert!((tilt / plain.estimates[1].value().unwrap() - 1.0).abs() < 1e-3);
