@@ -38,6 +38,8 @@ Examples:
   slipstick run tank.toml --set slider.kinetic_friction=0.05 --set storey.1.mass=\"90 kg\"
   slipstick run tank.toml --set analysis.tail=\"5 s\" --display-units kN-mm
   slipstick run - --json < tank.toml
+  slipstick run tank.toml --records 'suite/*.AT2' --scale-to \"0.4 g\" --out out
+  slipstick run flat.toml pendulum.toml --records suite --measure \"Sa(1.2 s)\" --scale-to \"0.5 g\"
 
 Values are numbers with a unit, \"0.3 g\"; slipstick schema --units lists the units. Paths of
 keys are joined by dots, storeys counted from 1. The model's record lies relative to the
@@ -47,7 +49,9 @@ Writes with --out, each file whole or not at all:
   summary.json  the object that --json prints
   history.csv   one row a sample: table, block, friction force, storeys; SI
   events.csv    every slip, stick and reversal
-  report.html   one self-contained page to read and print";
+  report.html   one self-contained page to read and print
+Of several records or models runs.csv and governing.csv (with the bounds of friction, their mean
+over seven records or more, else the maximum), figures (SVG), summary.json and report.html.";
 
 const STUDY_EXAMPLES: &str = "\
 Examples:
@@ -151,21 +155,31 @@ pub enum Command {
 /// `slipstick run`.
 #[derive(Debug, Args)]
 pub struct RunArgs {
-    /// Model file (TOML), or - to read it from standard input
-    pub model: PathBuf,
+    /// Model file (TOML), or - to read it from standard input; several are set side by side
+    #[arg(required = true, value_name = "MODEL")]
+    pub models: Vec<PathBuf>,
 
     /// Record to use instead of the model's [motion]; its format is recognised
     #[arg(long, value_name = "FILE", help_heading = "Ground motion")]
     pub motion: Option<PathBuf>,
+    /// A suite of records: files, folders or patterns such as 'far-field/*.AT2'; repeatable
+    #[arg(long, value_name = "PATTERN", num_args = 1.., conflicts_with = "motion", help_heading = "Ground motion")]
+    pub records: Vec<String>,
+    /// Vertical components of the suite, as many and in the same order; repeatable
+    #[arg(long, value_name = "PATTERN", num_args = 1.., requires = "records", help_heading = "Ground motion")]
+    pub vertical: Vec<String>,
     /// What its file does not say
     #[command(flatten)]
     pub record: RecordArgs,
     /// Factor on the record, that of the model or of --motion; may be negative
     #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, help_heading = "Ground motion")]
     pub scale: Option<String>,
-    /// Peak acceleration to scale the record to: "0.3 g"
+    /// Peak acceleration to scale the record to: "0.3 g"; of a suite the value of --measure
     #[arg(long, value_name = "PEAK", conflicts_with = "scale", help_heading = "Ground motion")]
     pub scale_to: Option<String>,
+    /// Intensity measure by which a suite is scaled: PGA where none is given, Sa(1.2 s), …
+    #[arg(long, value_name = "NAME", requires = "scale_to", help_heading = "Ground motion")]
+    pub measure: Option<String>,
 
     /// How to compute: exact, or stepwise as the paper's own program did
     #[arg(long, value_enum)]
@@ -177,22 +191,13 @@ pub struct RunArgs {
     #[arg(long)]
     pub floor_spectrum: bool,
 
-    /// Print the result as one JSON object
-    #[arg(long, help_heading = "Output")]
-    pub json: bool,
-    /// Folder to write summary.json, history.csv, events.csv and report.html into
-    #[arg(short, long, value_name = "DIR", help_heading = "Output")]
-    pub out: Option<PathBuf>,
-    /// Units of the table and the report; files and JSON are always SI
-    #[arg(long, value_name = "SYSTEM", value_enum, default_value = "si", help_heading = "Output")]
-    pub display_units: UnitSystem,
-    /// No messages and no progress on standard error, errors excepted
-    #[arg(short, long, help_heading = "Output")]
-    pub quiet: bool,
+    /// What becomes of the result
+    #[command(flatten)]
+    pub result: ResultArgs,
 }
 
 /// What files of records do not say themselves: wherever one is read.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct RecordArgs {
     /// Unit of the values, where a file does not state it: g, gal, m/s2, …; of counts the value of
     /// one: "4.67e-6 m/s2"

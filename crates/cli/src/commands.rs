@@ -4,6 +4,7 @@ mod assessment;
 pub mod compare;
 pub mod design;
 pub mod fragility;
+pub mod histories;
 pub mod ida;
 pub mod identify;
 pub mod init;

@@ -1,4 +1,5 @@
-//! What engineers ask of many runs: sliding spectra, incremental dynamic analysis, fragility, design.
+//! What engineers ask of many runs: histories over a suite, sliding spectra, incremental dynamic
+//! analysis, fragility, design.
 //!
 //! Statistics on results, searches that say which runs they need next, and the runs themselves: the
 //! models of a [`grid`], the records of a [`suite`], each run by the [engine](crate::study::engine),
@@ -9,6 +10,7 @@ pub mod censored;
 pub mod design;
 pub mod fragility;
 pub mod grid;
+pub mod histories;
 pub mod ida;
 pub mod models;
 pub mod observed;
@@ -49,9 +51,18 @@ pub enum AssessmentError {
     /// A motion that cannot be made or scaled.
     #[error(transparent)]
     Motion(#[from] MotionError),
+    /// A run without an answer, where every one is needed.
+    #[error("{0}")]
+    Run(Box<FailedRun>),
     /// The callback that followed it stopped it.
     #[error(transparent)]
     Stopped(#[from] Stopped),
+}
+
+impl From<Box<FailedRun>> for AssessmentError {
+    fn from(run: Box<FailedRun>) -> Self {
+        Self::Run(run)
+    }
 }
 
 /// A run without an answer.

@@ -1,10 +1,11 @@
-//! What is told of many runs: spectra, incremental dynamic analysis, fragility, design.
+//! What is told of many runs: histories over a suite, spectra, incremental dynamic analysis, fragility, design.
 //!
 //! Each result is laid out once, as a [`Sheet`]: tables, figures, notes and JSON, from which the
 //! printed text, `result.json` and `report.html` come.
 
 pub mod design;
 pub mod fragility;
+pub mod histories;
 pub mod ida;
 pub mod key;
 mod lines;

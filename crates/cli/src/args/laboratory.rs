@@ -46,8 +46,8 @@ pub struct MappingArgs {
     pub map: Vec<String>,
 }
 
-/// What becomes of a result of the laboratory.
-#[derive(Debug, Args)]
+/// What becomes of a result.
+#[derive(Clone, Debug, Args)]
 pub struct ResultArgs {
     /// Print the result as one JSON object
     #[arg(long, help_heading = "Output")]

@@ -155,18 +155,28 @@ fn suite_request(args: &SuiteArgs) -> Result<SuiteRequest, Failure> {
 
 /// How the records are scaled, and that in words.
 pub fn scaling(args: &ScaleArgs) -> Result<(Scaling, String), Failure> {
-    let Some(level) = &args.level else {
-        let factor = args.scale.unwrap_or(1.0);
+    scaling_by("level", &args.measure, args.level.as_deref(), args.scale)
+}
+
+/// The same, the level being that of an option.
+pub fn scaling_by(
+    option: &str,
+    name: &str,
+    level: Option<&str>,
+    factor: Option<f64>,
+) -> Result<(Scaling, String), Failure> {
+    let Some(level) = level else {
+        let factor = factor.unwrap_or(1.0);
         if !(factor.is_finite() && factor != 0.0) {
             return Err(message("--scale", "a factor other than 0", &factor.to_string()));
         }
         let words = if factor == 1.0 { " as recorded".to_owned() } else { format!(" × {factor}") };
         return Ok((Scaling::Factor(factor), words));
     };
-    let measure = measure(&args.measure)?;
-    let values = levels("level", level, &measure).map_err(failure)?;
+    let measure = measure(name)?;
+    let values = levels(option, level, &measure).map_err(failure)?;
     let [value] = values[..] else {
-        return Err(message("--level", "one level", level));
+        return Err(message(&format!("--{option}"), "one level", level));
     };
     Ok((Scaling::Level(measure, value), format!(" scaled to {measure} = {}", level.trim())))
 }

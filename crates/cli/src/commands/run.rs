@@ -15,6 +15,7 @@ use slipstick_files::{
 };
 use slipstick_report::{FileNote, InputText, Report, Summary, table};
 
+use super::histories::histories;
 use crate::args::{MethodName, RunArgs};
 use crate::failure::{Failure, print, say};
 use crate::progress::{estimated, watched};
@@ -24,7 +25,19 @@ const TRIAL: Duration = Duration::from_millis(400);
 
 /// Runs one analysis, prints it and writes its files.
 pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
-    let model = read_model(&args.model)?;
+    match args.models.as_slice() {
+        [model] if args.records.is_empty() => one(args, model),
+        _ => histories(args),
+    }
+}
+
+/// One model on one motion.
+fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
+    if args.measure.is_some() {
+        let mend = "a suite beside it, --records <PATTERN>: one record is scaled by its peak";
+        return Err(Failure::Message(format!("--measure: expected {mend}")));
+    }
+    let model = read_model(model)?;
     let mut overrides = overrides(&args.set, args.method)?;
     if args.motion.is_none() {
         overrides.extend(scale_of_model(args)?);
@@ -34,11 +47,13 @@ pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     args.record.only_with("--motion <FILE>", args.motion.is_some())?;
     let record = args.motion.as_deref().map(|path| record_request(args, path)).transpose()?;
     let in_model = |error| Failure::job(error, &model.name, &model.text());
-    let job =
-        watched("reading", args.quiet, || OpenJob::new(&model.path, analysis, record.as_ref()))
-            .map_err(in_model)?;
+    let job = watched("reading", args.result.quiet, || {
+        OpenJob::new(&model.path, analysis, record.as_ref())
+    })
+    .map_err(in_model)?;
     // An output folder that cannot be written is told before the work, not after it.
     let folder = args
+        .result
         .out
         .as_deref()
         .map(|out| {
@@ -47,13 +62,14 @@ pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
             OutputFolder::create(out, &inputs)
         })
         .transpose()?;
-    let (outcome, summary) = estimated("computing", args.quiet, &|| job.estimate(TRIAL), || {
-        job.run(args.floor_spectrum)
-    })
-    .map_err(in_model)?;
+    let (outcome, summary) =
+        estimated("computing", args.result.quiet, &|| job.estimate(TRIAL), || {
+            job.run(args.floor_spectrum)
+        })
+        .map_err(in_model)?;
     if let Some(folder) = folder {
         let write = || write_files(folder, args, &model, &job, &outcome, &summary);
-        watched("writing", args.quiet, write)?;
+        watched("writing", args.result.quiet, write)?;
     }
     show(args, &job, &summary)?;
     Ok(ExitCode::from(status(&summary)))
@@ -162,24 +178,24 @@ fn record_request(args: &RunArgs, path: &Path) -> Result<RecordRequest, Failure>
 /// The result on standard output; what was noticed, on standard error, where the table has not
 /// said it already.
 fn show(args: &RunArgs, job: &OpenJob, summary: &Summary) -> Result<(), Failure> {
-    if args.json {
+    if args.result.json {
         print(&summary.to_json())?;
     } else {
         let record = job.loaded.description.join("; ");
-        let display = args.display_units.into();
+        let display = args.result.display_units.into();
         print(&table::table(summary, &job.job.analysis.model, &record, display))?;
     }
-    if args.quiet {
+    if args.result.quiet {
         return Ok(());
     }
-    if args.json {
+    if args.result.json {
         for (run, warning) in summary.all_warnings() {
             let run = run.map_or(String::new(), |run| format!(" ({run} friction)"));
             let label = warning.label().to_lowercase();
             say(format_args!("{label}: {}{run}: {}", warning.kind, warning.message));
         }
     }
-    if let Some(out) = &args.out {
+    if let Some(out) = &args.result.out {
         say(format_args!("wrote {}", out.join("report.html").display()));
     }
     Ok(())
@@ -222,7 +238,7 @@ fn write_files(
         inputs: &inputs,
         files: &files,
         command_line: &command_line,
-        display: args.display_units.into(),
+        display: args.result.display_units.into(),
     };
     folder.write("summary.json", summary.to_json().as_bytes())?;
     let empty = History::default();

@@ -8,6 +8,7 @@ mod cases;
 mod endings;
 mod files;
 mod fragility;
+mod histories;
 mod json;
 mod laboratory;
 mod options;

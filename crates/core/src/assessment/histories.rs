@@ -1,0 +1,252 @@
+//! Response-history analyses side by side: models on the records of suites, with lower- and
+//! upper-bound friction, and what governs.
+
+use super::single::{Job, Judged};
+use super::suite::{Scaling, Suite};
+use super::{AssessmentError, FailedRun};
+use crate::error::RunError;
+use crate::input::Analysis;
+use crate::response::{DemandColumn, DemandShape, Demands, Method, Response, Warning};
+use crate::study::engine::Engine;
+use crate::table::{Cells, Column, Table};
+
+/// From this number of records on their mean governs, of fewer the maximum (ASCE/SEI 7, chapter 17).
+pub const RECORDS_OF_A_MEAN: usize = 7;
+
+/// A model and the records that it is run on.
+#[derive(Clone, Copy, Debug)]
+pub struct ModelOn<'a> {
+    /// Its name in tables.
+    pub name: &'a str,
+    /// The model and how it is analysed.
+    pub analysis: &'a Analysis,
+    /// The records.
+    pub suite: &'a Suite,
+}
+
+/// A bound of friction: its name, lower, nominal or upper, and the factor on both coefficients.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bound {
+    /// Its name.
+    pub name: &'static str,
+    /// The factor.
+    pub friction_factor: f64,
+}
+
+/// A model on a record.
+#[derive(Clone, Debug)]
+pub struct OnRecord {
+    /// Name of the record.
+    pub record: String,
+    /// Factor on it.
+    pub scale: f64,
+    /// Peak of the horizontal acceleration as it was run, in m/s².
+    pub pga_m_per_s2: f64,
+    /// Demands with each bound of friction, in the order of [`ModelHistories::bounds`].
+    pub demands: Vec<Demands>,
+    /// Whether the certificate of each holds.
+    pub holds: Vec<bool>,
+    /// Times in s and sliding displacements in m with nominal friction.
+    pub sliding: [Vec<f64>; 2],
+    /// What was noticed of it.
+    pub warnings: Vec<Warning>,
+}
+
+/// A model on all its records.
+#[derive(Clone, Debug)]
+pub struct ModelHistories {
+    /// Its name.
+    pub name: String,
+    /// The gap of its slider in m, where it has one.
+    pub gap_m: Option<f64>,
+    /// The bounds of friction that were run.
+    pub bounds: Vec<Bound>,
+    /// Its records in their order.
+    pub records: Vec<OnRecord>,
+}
+
+/// What came of all models.
+#[derive(Clone, Debug)]
+pub struct Histories {
+    /// The models in their order.
+    pub models: Vec<ModelHistories>,
+    /// What the models have that demands are asked of.
+    pub shape: DemandShape,
+    /// Every run: model, record, bound, scale, peak acceleration, whether its certificate holds, demands.
+    pub runs: Table,
+    /// What governs: model, bound, statistic, demands.
+    pub governing: Table,
+}
+
+impl ModelHistories {
+    /// What the model has that demands are asked of.
+    #[must_use]
+    pub fn shape(&self) -> DemandShape {
+        let first = self.records.first().and_then(|on| on.demands.first());
+        first.map_or_else(DemandShape::default, Demands::shape)
+    }
+
+    /// Name of the statistic that governs: `mean` from [`RECORDS_OF_A_MEAN`] records on, else
+    /// `maximum`.
+    #[must_use]
+    pub fn statistic(&self) -> &'static str {
+        if self.records.len() >= RECORDS_OF_A_MEAN { "mean" } else { "maximum" }
+    }
+
+    /// The sizes of a demand with a bound of friction, record by record; NaN where there is none.
+    #[must_use]
+    pub fn sizes(&self, column: &DemandColumn, bound: usize) -> Vec<f64> {
+        let size = |on: &OnRecord| column.value(&on.demands[bound]).map_or(f64::NAN, f64::abs);
+        self.records.iter().map(size).collect()
+    }
+
+    /// The mean of these sizes, or their maximum; NaN where a record has none.
+    #[must_use]
+    pub fn governing(&self, column: &DemandColumn, bound: usize) -> f64 {
+        let sizes = self.sizes(column, bound);
+        if sizes.iter().any(|size| size.is_nan()) {
+            return f64::NAN;
+        }
+        match self.statistic() {
+            "mean" => sizes.iter().sum::<f64>() / sizes.len() as f64,
+            _ => sizes.iter().fold(0.0, |most: f64, size| most.max(*size)),
+        }
+    }
+
+    /// The bound with which a demand governs, and the demand; `None` where no record has it.
+    #[must_use]
+    pub fn governs(&self, column: &DemandColumn) -> Option<(&Bound, f64)> {
+        let all = self.bounds.iter().enumerate().map(|(i, b)| (b, self.governing(column, i)));
+        all.filter(|(_, value)| !value.is_nan()).reduce(|a, b| if b.1 > a.1 { b } else { a })
+    }
+}
+
+/// Runs every model on every one of its records, and with the bounds of friction that it gives.
+///
+/// # Errors
+/// [`AssessmentError`] for records that cannot be scaled so, and for the first run without an answer.
+pub fn run_histories(
+    models: &[ModelOn<'_>],
+    scaling: Scaling,
+    engine: &Engine<'_>,
+) -> Result<Histories, AssessmentError> {
+    let mut done = Vec::with_capacity(models.len());
+    for model in models {
+        let factors = model.suite.factors(&scaling, engine)?;
+        let run = |i: usize| {
+            let record = &model.suite.records[i].name;
+            let failed = |error| Box::new(FailedRun { record: record.clone(), error });
+            on_record(model, i, factors[i]).map_err(failed)
+        };
+        let records = engine.runs(model.suite.records.len(), run)?;
+        let records = records.into_iter().collect::<Result<Vec<_>, Box<FailedRun>>>()?;
+        done.push(ModelHistories {
+            name: model.name.to_owned(),
+            gap_m: model.analysis.model.slider().gap_m,
+            bounds: bounds(model.analysis),
+            records,
+        });
+    }
+    let shapes = done.iter().map(ModelHistories::shape);
+    let shape = shapes.fold(DemandShape::default(), |all, shape| DemandShape {
+        storeys: all.storeys.max(shape.storeys),
+        stop: all.stop || shape.stop,
+    });
+    let (runs, governing) = (table_of_runs(&done, shape), table_of_governing(&done, shape));
+    Ok(Histories { models: done, shape, runs, governing })
+}
+
+/// The bounds of friction that an analysis asks for.
+fn bounds(analysis: &Analysis) -> Vec<Bound> {
+    let bound = |name, friction_factor| Bound { name, friction_factor };
+    match analysis.friction_bounds {
+        None => vec![bound("nominal", 1.0)],
+        Some(factors) => vec![
+            bound("lower", factors.lower),
+            bound("nominal", 1.0),
+            bound("upper", factors.upper),
+        ],
+    }
+}
+
+fn on_record(model: &ModelOn<'_>, record: usize, scale: f64) -> Result<OnRecord, RunError> {
+    let motion = model.suite.motion(record, scale, 0.0)?;
+    let pga_m_per_s2 = motion.figures().pga_m_per_s2;
+    let job = Job::new(model.analysis.clone(), motion, Vec::new())?;
+    let outcome = job.run(false)?;
+    let mut judged: Vec<Judged> = Vec::with_capacity(3);
+    match outcome.bounds {
+        None => judged.push(outcome.nominal),
+        Some([lower, upper]) => judged.extend([lower, outcome.nominal, upper]),
+    }
+    let nominal = judged.iter().find(|judged| judged.friction_factor == 1.0);
+    let sliding = nominal.and_then(|judged| sliding(&judged.response)).unwrap_or_default();
+    let noticed = judged.iter().flat_map(|judged| judged.response.warnings.iter().cloned());
+    let holds =
+        |judged: &Judged| judged.response.method == Method::Stepwise || judged.certificate.holds();
+    Ok(OnRecord {
+        record: model.suite.records[record].name.clone(),
+        scale,
+        pga_m_per_s2,
+        holds: judged.iter().map(holds).collect(),
+        sliding,
+        warnings: job.warnings.iter().cloned().chain(noticed).collect(),
+        demands: judged.into_iter().map(|judged| judged.response.demands).collect(),
+    })
+}
+
+/// Times and sliding displacements of a response.
+fn sliding(response: &Response) -> Option<[Vec<f64>; 2]> {
+    let history = response.history.as_ref()?;
+    Some([history.time_s.clone(), history.sliding_displacement_m.clone()])
+}
+
+/// Every run as a row.
+fn table_of_runs(models: &[ModelHistories], shape: DemandShape) -> Table {
+    let mut rows = Vec::new();
+    for model in models {
+        for on in &model.records {
+            rows.extend((0..model.bounds.len()).map(|i| (model, on, i)));
+        }
+    }
+    let mut table = Table::default();
+    table
+        .texts("model", rows.iter().map(|(model, ..)| model.name.clone()).collect())
+        .texts("record", rows.iter().map(|(_, on, _)| on.record.clone()).collect())
+        .texts("friction", rows.iter().map(|(m, _, i)| m.bounds[*i].name.to_owned()).collect())
+        .numbers("scale", "", rows.iter().map(|(_, on, _)| on.scale).collect())
+        .numbers("pga_m_per_s2", "m/s2", rows.iter().map(|(_, on, _)| on.pga_m_per_s2).collect());
+    let holds = rows.iter().map(|(_, on, i)| Some(on.holds[*i])).collect();
+    table.columns.push(Column {
+        name: "holds".to_owned(),
+        unit: String::new(),
+        cells: Cells::Flags(holds),
+    });
+    let mut values: Vec<Vec<f64>> = vec![Vec::with_capacity(rows.len()); shape.columns().len()];
+    for (_, on, i) in &rows {
+        for (values, column) in values.iter_mut().zip(shape.columns()) {
+            values.push(column.value(&on.demands[*i]).unwrap_or(f64::NAN));
+        }
+    }
+    for (values, column) in values.into_iter().zip(shape.columns()) {
+        table.numbers(&column.name(), column.unit(), values);
+    }
+    table
+}
+
+/// What governs, a row a model and bound.
+fn table_of_governing(models: &[ModelHistories], shape: DemandShape) -> Table {
+    let rows: Vec<(&ModelHistories, usize)> =
+        models.iter().flat_map(|model| (0..model.bounds.len()).map(move |i| (model, i))).collect();
+    let mut table = Table::default();
+    table
+        .texts("model", rows.iter().map(|(model, _)| model.name.clone()).collect())
+        .texts("friction", rows.iter().map(|(m, i)| m.bounds[*i].name.to_owned()).collect())
+        .texts("statistic", rows.iter().map(|(model, _)| model.statistic().to_owned()).collect());
+    let governs = |column: &DemandColumn| column.demand.row.is_some_and(|row| row.governs);
+    for column in shape.columns().iter().filter(|column| governs(column)) {
+        let values = rows.iter().map(|(model, i)| model.governing(column, *i)).collect();
+        table.numbers(&column.name(), column.unit(), values);
+    }
+    table
+}

@@ -1,0 +1,373 @@
+//! Models on the records of suites, side by side, and what governs.
+
+use slipstick::assessment::histories::{
+    Bound, Histories, ModelHistories, OnRecord, RECORDS_OF_A_MEAN,
+};
+use slipstick::response::{DemandColumn, Warning};
+use slipstick::table::{Cells, Column, Table};
+
+use super::lines::{GROUPS, RECORD, line, panel, stacked};
+use super::sheet::{Sheet, cell};
+use crate::display::{DisplayUnits, Quantity, Unit};
+use crate::figures::Drawn;
+use crate::json::Json;
+use crate::number::compact;
+use crate::plot::{Axis, Limit, Panel, Series, Shape, Style};
+
+/// What the histories of a suite are told from.
+#[derive(Clone, Debug)]
+pub struct HistoriesReport<'a> {
+    /// Version of this program.
+    pub version: &'static str,
+    /// The runs.
+    pub histories: &'a Histories,
+    /// How the records were scaled, in words.
+    pub scaled: &'a str,
+    /// What reading the records gave notice of.
+    pub warnings: &'a [Warning],
+    /// Units to show results in.
+    pub display: DisplayUnits,
+}
+
+/// A column of a table: its head, the model, its demand, and the bounds of friction whose largest value
+/// is shown.
+type Shown<'a> = (String, &'a ModelHistories, DemandColumn, Vec<usize>);
+
+/// Demands that have a table, of those that there are; the last one of models with storeys alone.
+const SHOWN: [&str; 5] = [
+    "peak_sliding_displacement_m",
+    "residual_sliding_displacement_m",
+    "gap_ratio",
+    "block.peak_acceleration_m_per_s2",
+    "base_shear_coefficient",
+];
+
+impl HistoriesReport<'_> {
+    /// The result laid out.
+    #[must_use]
+    pub fn sheet(&self) -> Sheet {
+        let models = &self.histories.models;
+        let names: Vec<&str> = models.iter().map(|model| model.name.as_str()).collect();
+        let runs: usize = models.iter().map(|model| model.records.len() * model.bounds.len()).sum();
+        let most = models.iter().map(|model| model.records.len()).max().unwrap_or(0);
+        let records = if most == 1 { "one record".to_owned() } else { format!("{most} records") };
+        let failed = models.iter().flat_map(|m| &m.records).flat_map(|on| &on.holds);
+        let certificate = match failed.filter(|holds| !**holds).count() {
+            0 => "every certificate holds".to_owned(),
+            n => format!("{n} certificates do not hold"),
+        };
+        Sheet {
+            kind: "Response histories",
+            name: names.join(", "),
+            first: Some(("Governs", self.governing())),
+            line: format!("{runs} runs: {records}{}; {certificate}", self.scaled),
+            warnings: self.warnings(),
+            tables: self.columns().iter().map(|columns| self.table(columns)).collect(),
+            notes: self.notes(),
+            figures: self.figures(),
+            method: method(),
+            json: self.json(),
+        }
+    }
+
+    /// The demands that have a table, each as the column of every model: those of the block, and the
+    /// acceleration of the roof and the drift of the first storey where there are storeys.
+    fn columns(&self) -> Vec<Vec<DemandColumn>> {
+        let (shape, models) = (self.histories.shape, &self.histories.models);
+        let roofs = models.iter().map(|model| model.shape().roof_acceleration()).collect();
+        let drift = "storey1_peak_drift_m";
+        let (block, rest) = SHOWN.split_at(SHOWN.len() - 1);
+        let named = |name: &&str| Some(vec![shape.find(name)?.1; models.len()]);
+        let mut columns: Vec<Vec<DemandColumn>> = block.iter().filter_map(named).collect();
+        if shape.storeys > 0 {
+            columns.push(roofs);
+            columns.extend([drift].iter().chain(rest).filter_map(named));
+        }
+        let has = |columns: &Vec<DemandColumn>| {
+            models.iter().zip(columns).any(|(model, column)| model.governs(column).is_some())
+        };
+        columns.retain(has);
+        columns
+    }
+
+    fn unit_of(&self, columns: &[DemandColumn]) -> Unit {
+        let models = self.histories.models.iter().zip(columns);
+        let sizes = models.flat_map(|(m, c)| (0..m.bounds.len()).flat_map(|i| m.sizes(c, i)));
+        let largest = sizes.filter(|size| size.is_finite()).fold(0.0, f64::max);
+        let dimension = columns.first().and_then(DemandColumn::dimension);
+        self.display.unit(Quantity::from(dimension), largest)
+    }
+
+    /// Peak sliding displacements, the first demand of all.
+    fn peaks(&self) -> Vec<DemandColumn> {
+        self.columns().into_iter().next().unwrap_or_default()
+    }
+
+    /// `Peak sliding displacement 182 mm (lower friction, mean of 11 records)`, a model a clause.
+    fn governing(&self) -> String {
+        let peaks = self.peaks();
+        let unit = self.unit_of(&peaks);
+        let of = |model: &ModelHistories| {
+            let (bound, value) = model.governs(peaks.first()?)?;
+            let name = if self.histories.models.len() > 1 {
+                format!("{}: ", model.name)
+            } else {
+                String::new()
+            };
+            let friction = match model.bounds.len() {
+                1 => String::new(),
+                _ => format!("{} friction, ", bound.name),
+            };
+            let gap = model.gap_m.map_or(String::new(), |gap_m| {
+                format!(", {} % of the gap", cell(100.0 * value / gap_m))
+            });
+            let records = match model.records.as_slice() {
+                [one] => one.record.clone(),
+                all => format!("{} of {} records", model.statistic(), all.len()),
+            };
+            Some(format!(
+                "{name}peak sliding displacement {} {} ({friction}{records}){gap}",
+                cell(unit.of(value)),
+                unit.symbol
+            ))
+        };
+        self.histories.models.iter().filter_map(of).collect::<Vec<_>>().join("; ")
+    }
+
+    /// A demand: a row a record, and what governs below. Of one model a column a bound of friction, of
+    /// several a column a model with the largest value over the bounds.
+    fn table(&self, demand: &[DemandColumn]) -> (String, Vec<Vec<String>>) {
+        let (unit, models) = (self.unit_of(demand), &self.histories.models);
+        let columns: Vec<Shown<'_>> = match models.as_slice() {
+            [model] => {
+                let bounds = model.bounds.iter().enumerate();
+                let of = |(i, bound): (usize, &Bound)| {
+                    (bound.name.to_owned(), model, demand[0], vec![i])
+                };
+                bounds.map(of).collect()
+            }
+            _ => {
+                let all = |m: &ModelHistories| (0..m.bounds.len()).collect();
+                let models = models.iter().zip(demand);
+                models.map(|(m, column)| (m.name.clone(), m, *column, all(m))).collect()
+            }
+        };
+        let mut names: Vec<&str> = Vec::new();
+        for on in models.iter().flat_map(|model| &model.records) {
+            if !names.contains(&on.record.as_str()) {
+                names.push(&on.record);
+            }
+        }
+        let largest = |values: &mut dyn Iterator<Item = f64>| {
+            cell(unit.of(values.filter(|value| !value.is_nan()).fold(f64::NAN, f64::max)))
+        };
+        let row = |name: &str, cells: &mut dyn Iterator<Item = String>| {
+            core::iter::once(name.to_owned()).chain(cells).collect::<Vec<_>>()
+        };
+        let mut rows = vec![row("Record", &mut columns.iter().map(|(head, ..)| head.clone()))];
+        for name in &names {
+            let value = |(_, model, column, bounds): &Shown<'_>| {
+                let on = model.records.iter().find(|on| on.record == **name);
+                let of = |i: &usize| column.value(&on?.demands[*i]).map(f64::abs);
+                largest(&mut bounds.iter().filter_map(of))
+            };
+            rows.push(row(name, &mut columns.iter().map(value)));
+        }
+        if names.len() > 1 {
+            let mut statistics: Vec<&str> = models.iter().map(ModelHistories::statistic).collect();
+            statistics.dedup();
+            let name = match statistics.as_slice() {
+                ["mean"] => "Mean",
+                ["maximum"] => "Maximum",
+                _ => "Mean or maximum",
+            };
+            let value = |(_, model, column, bounds): &Shown<'_>| {
+                largest(&mut bounds.iter().map(|i| model.governing(column, *i)))
+            };
+            rows.push(row(name, &mut columns.iter().map(value)));
+        }
+        let alike = demand.iter().all(|column| *column == demand[0]);
+        let title = if alike { demand[0].title() } else { "Roof peak acceleration".to_owned() };
+        (unit.label(&title), rows)
+    }
+
+    /// What the tables leave out.
+    fn notes(&self) -> Vec<String> {
+        let models = &self.histories.models;
+        if models.len() < 2 || models.iter().all(|model| model.bounds.len() == 1) {
+            return Vec::new();
+        }
+        vec![
+            "Of each record the largest value over lower-bound, nominal and upper-bound friction, and of \
+             these bounds the one that governs; runs.csv has every run."
+                .to_owned(),
+        ]
+    }
+
+    /// Warnings of reading and of the runs, each kind once with the record that gave it first.
+    fn warnings(&self) -> Vec<Warning> {
+        let mut all: Vec<(Warning, usize)> =
+            self.warnings.iter().map(|warning| (warning.clone(), 0)).collect();
+        for on in self.histories.models.iter().flat_map(|model| &model.records) {
+            for warning in &on.warnings {
+                match all.iter_mut().find(|(seen, _)| seen.kind == warning.kind) {
+                    Some((_, more)) => *more += 1,
+                    None => {
+                        let message = format!("{}: {}", on.record, warning.message);
+                        all.push((Warning { message, ..warning.clone() }, 0));
+                    }
+                }
+            }
+        }
+        let told = |(warning, more): (Warning, usize)| match more {
+            0 => warning,
+            _ => Warning { message: format!("{} (and {more} more)", warning.message), ..warning },
+        };
+        all.into_iter().map(told).collect()
+    }
+
+    /// Sliding displacement over time, a panel a model; and the share of records that stay below a peak.
+    fn figures(&self) -> Vec<Drawn> {
+        let models = &self.histories.models;
+        let peaks = self.peaks();
+        let unit = self.unit_of(&peaks);
+        let label = unit.label("Sliding displacement");
+        let end_s = models.iter().flat_map(|model| &model.records);
+        let end_s = end_s.filter_map(|on| on.sliding[0].last()).fold(0.0, |a: f64, b| a.max(*b));
+        let all = models.iter().flat_map(|model| &model.records);
+        let all: Vec<f64> = all.flat_map(|on| on.sliding[1].iter().map(|s| unit.of(*s))).collect();
+        // A gap far away would flatten every curve.
+        let largest = all.iter().fold(0.0, |largest: f64, s| largest.max(s.abs()));
+        let gaps = models.iter().filter_map(|model| model.gap_m).map(|gap_m| unit.of(gap_m));
+        let y =
+            Axis::symmetric(label, all.into_iter().chain(gaps.filter(|gap| *gap < 2.0 * largest)));
+        let panels = models.iter().map(|model| self.history_panel(model, &y, end_s, &unit));
+        let caption = if models.iter().any(|model| model.records.len() > 1) {
+            "Sliding displacement with nominal friction: every record thin, that of the largest peak bold."
+        } else {
+            "Sliding displacement with nominal friction."
+        };
+        let mut figures = vec![stacked(
+            "histories",
+            "Sliding displacement",
+            caption.to_owned(),
+            panels.collect(),
+        )];
+        if models.iter().any(|model| model.records.len() > 1) {
+            figures.extend(peaks.first().map(|peak| self.shares(peak, &unit)));
+        }
+        figures
+    }
+
+    fn history_panel(&self, model: &ModelHistories, y: &Axis, end_s: f64, unit: &Unit) -> Panel {
+        let peak =
+            |on: &&OnRecord| on.sliding[1].iter().fold(0.0, |peak: f64, s| peak.max(s.abs()));
+        let largest = model.records.iter().max_by(|a, b| peak(a).total_cmp(&peak(b)));
+        let curve = |on: &OnRecord, label: String, style: Style| {
+            let [times_s, s] = &on.sliding;
+            let points = times_s.iter().zip(s).map(|(t, s)| [*t, unit.of(*s)]).collect();
+            Series { label, style, shape: Shape::History, points }
+        };
+        let mut series: Vec<Series> = Vec::new();
+        for on in &model.records {
+            if largest.is_none_or(|largest| !core::ptr::eq(on, largest)) {
+                series.push(curve(on, String::new(), RECORD));
+            }
+        }
+        series.extend(largest.map(|on| curve(on, on.record.clone(), GROUPS[0])));
+        let limit = |value: f64| Limit { value, label: "gap".to_owned(), style: Style::LIMIT };
+        let near = model.gap_m.filter(|gap_m| unit.of(*gap_m) < y.max);
+        let limits = near.into_iter().flat_map(|gap_m| {
+            [limit(unit.of(gap_m)), Limit { label: String::new(), ..limit(-unit.of(gap_m)) }]
+        });
+        let note = if self.histories.models.len() > 1 { model.name.clone() } else { String::new() };
+        Panel {
+            limits: limits.collect(),
+            note,
+            ..panel(Axis::linear("Time (s)", 0.0, end_s), y.clone(), 150.0, series)
+        }
+    }
+
+    /// Share of the records whose peak is at most a value, with every bound of friction.
+    fn shares(&self, column: &DemandColumn, unit: &Unit) -> Drawn {
+        let mut series = Vec::new();
+        let mut largest = Vec::new();
+        for (model, style) in self.histories.models.iter().zip(GROUPS.iter().cycle()) {
+            for (i, bound) in model.bounds.iter().enumerate() {
+                let mut sizes: Vec<f64> =
+                    model.sizes(column, i).iter().map(|size| unit.of(*size)).collect();
+                sizes.sort_by(f64::total_cmp);
+                largest.extend(sizes.last().copied());
+                let mut points = vec![[0.0, 0.0]];
+                for (k, size) in sizes.iter().enumerate() {
+                    points.push([*size, k as f64 / sizes.len() as f64]);
+                    points.push([*size, (k + 1) as f64 / sizes.len() as f64]);
+                }
+                let nominal = bound.name == "nominal";
+                let style = if nominal { *style } else { Style { width: 0.7, ..*style } };
+                let label = match (nominal, self.histories.models.len()) {
+                    (true, 1) => "nominal friction".to_owned(),
+                    (true, _) => model.name.clone(),
+                    _ => String::new(),
+                };
+                series.push(line(label, style, points));
+            }
+        }
+        let bounds = if self.histories.models.iter().any(|model| model.bounds.len() > 1) {
+            " Thin: lower- and upper-bound friction."
+        } else {
+            ""
+        };
+        let x = Axis::from_zero(unit.label(&column.title()), largest);
+        let y = Axis::linear("Share of the records", 0.0, 1.0);
+        let caption = format!(
+            "Share of the records whose peak sliding displacement is at most a value.{bounds}"
+        );
+        stacked("shares", "Peaks over the suite", caption, vec![panel(x, y, 190.0, series)])
+    }
+
+    fn json(&self) -> Json {
+        Json::Object(vec![
+            ("slipstick", self.version.into()),
+            ("runs", columns(&self.histories.runs)),
+            ("governing", columns(&self.histories.governing)),
+        ])
+    }
+}
+
+fn method() -> Vec<String> {
+    vec![
+        "Every run is an exact analysis of its own, judged by an independent check of its whole history."
+            .to_owned(),
+        format!(
+            "Of {} records or more the mean of the peaks governs, of fewer the maximum, each with the \
+             bound of friction that gives the larger value, as chapter 17 of ASCE/SEI 7 has it for \
+             isolated structures. Residual displacements are taken without their sign.",
+            compact(RECORDS_OF_A_MEAN as f64)
+        ),
+    ]
+}
+
+/// A table as its columns: name, unit, values.
+fn columns(table: &Table) -> Json {
+    let values = |cells: &Cells| -> Vec<Json> {
+        match cells {
+            Cells::Texts(texts) => texts.iter().map(|text| text.as_str().into()).collect(),
+            Cells::Flags(flags) => {
+                flags.iter().map(|flag| flag.map_or(Json::Null, Json::Bool)).collect()
+            }
+            Cells::Counts(counts) => {
+                counts.iter().map(|count| Json::from(count.map(|n| n as f64))).collect()
+            }
+            Cells::Numbers(numbers) => numbers.iter().map(|number| Json::from(*number)).collect(),
+        }
+    };
+    let column = |column: &Column| {
+        Json::Object(vec![
+            ("name", column.name.as_str().into()),
+            ("unit", column.unit.as_str().into()),
+            ("values", Json::List(values(&column.cells))),
+        ])
+    };
+    Json::List(table.columns.iter().map(column).collect())
+}
