@@ -10,8 +10,7 @@ use slipstick_files::{OpenJob, read_bytes, write_whole};
 use slipstick_report::{DisplayUnits, Report, figures};
 
 /// Figures that the README and the manual show.
-const SHOWN: [&str; 4] =
-    ["sliding-displacement", "accelerations", "friction-loop", "floor-spectra"];
+const SHOWN: [&str; 4] = ["sliding-displacement", "accelerations", "hysteresis", "floor-spectra"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = Path::new("examples/taft.toml");

@@ -25,6 +25,9 @@ pub struct Drawn {
     pub svg: Svg,
 }
 
+/// How many figures, from the first, stand before the table of peaks.
+pub(crate) const ANSWERS: usize = 2;
+
 /// All figures that the report has data for, in order; none over time without a history.
 #[must_use]
 pub fn all(report: &Report) -> Vec<Drawn> {
@@ -33,9 +36,10 @@ pub fn all(report: &Report) -> Vec<Drawn> {
         let scene = Scene::new(report, history);
         [
             Some(histories::sliding_displacement(&scene)),
+            Some(force::loops(&scene)),
             Some(histories::accelerations(&scene)),
             histories::drifts(&scene),
-            Some(force::loops(&scene)),
+            report.floor_spectra.and_then(|spectra| spectra::floors(report, spectra)),
             Some(force::demand(&scene)),
             energy::by_kind(&scene),
         ]
@@ -43,8 +47,7 @@ pub fn all(report: &Report) -> Vec<Drawn> {
         .flatten()
         .collect()
     });
-    let spectra = report.floor_spectra.and_then(|spectra| spectra::floors(report, spectra));
-    over_time.into_iter().chain(spectra).collect()
+    over_time
 }
 
 /// What all figures over time share.

@@ -2,6 +2,7 @@
 
 pub(crate) mod inputs;
 mod results;
+mod verdict;
 
 use slipstick::response::Warning;
 
@@ -15,19 +16,26 @@ use crate::summary::method_name;
 pub fn page(report: &Report) -> String {
     let summary = report.summary;
     let mut body = Markup::new();
+    verdict::section(&mut body, report);
     warnings(&mut body, report);
-    inputs::section(&mut body, report);
+    let all = figures::all(report);
+    let (answers, others) = all.split_at(figures::ANSWERS.min(all.len()));
+    figure_list(&mut body, answers, 1);
     results::peaks(&mut body, report);
-    results::events(&mut body, report);
+    figure_section(&mut body, "Accelerations, spectra, energy", others, answers.len() + 1);
     results::certificate(&mut body, report);
     inputs::assumptions(&mut body, report);
-    figure_section(&mut body, &figures::all(report));
+    appendix(&mut body);
+    inputs::section(&mut body, report);
+    results::events(&mut body, report);
+    inputs::provenance(&mut body, report.files, report.command_line, report.inputs);
+    body.raw("</section>\n");
     document(&Frame {
         kind: "Sliding response analysis",
         title_end: ": sliding response",
         name: &summary.model,
         line: &format!(
-            "Slipstick {}, {} method. {}",
+            "Slipstick {}, {} method; ground motion: {}",
             summary.slipstick,
             method_name(summary.method),
             report.record
@@ -131,21 +139,36 @@ fn told(out: &mut Markup, warnings: &[(Option<&'static str>, &Warning)]) {
     out.raw("</ul>\n");
 }
 
-/// Numbered figures with their captions.
-pub(crate) fn figure_section(out: &mut Markup, figures: &[Drawn]) {
-    out.raw("<section class=\"figures\">\n<h2>Figures</h2>\n");
+/// Opens the last section: what went in, and what is too long to stand before.
+pub(crate) fn appendix(out: &mut Markup) {
+    out.raw("<section class=\"appendix\">\n<h2>Appendix</h2>\n");
+}
+
+/// A section of numbered figures; nothing where there are none.
+pub(crate) fn figure_section(
+    out: &mut Markup,
+    heading: &'static str,
+    figures: &[Drawn],
+    first: usize,
+) {
     if figures.is_empty() {
-        out.raw("<p>No history was kept, so there is nothing to draw.</p>\n");
+        return;
     }
+    out.raw("<section>\n").element("h2", heading).raw("\n");
+    figure_list(out, figures, first);
+    out.raw("</section>\n");
+}
+
+/// Figures with their captions, numbered from `first`.
+pub(crate) fn figure_list(out: &mut Markup, figures: &[Drawn], first: usize) {
     for (i, figure) in figures.iter().enumerate() {
-        out.raw("<figure").attribute("id", figure.id).raw(">\n").append(figure.svg.markup());
-        out.raw("<figcaption><strong>")
-            .text(format!("Figure {}.", i + 1))
+        out.raw("<figure").attribute("id", figure.id).raw(">\n<div>\n").append(figure.svg.markup());
+        out.raw("</div>\n<figcaption><strong>")
+            .text(format!("Figure {}.", first + i))
             .raw("</strong> ")
             .text(&figure.caption)
             .raw("</figcaption>\n</figure>\n");
     }
-    out.raw("</section>\n");
 }
 
 /// Opens a table with a row of heads; those marked are over numbers.

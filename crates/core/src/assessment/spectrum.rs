@@ -126,6 +126,9 @@ pub struct DemandCurves {
     pub key: String,
     /// Fractiles of 16, 50 and 84 %, SI: group by group, one entry a value along the axis.
     pub fractiles: Vec<Vec<[f64; 3]>>,
+    /// Curves of the single records, SI: group by group, record by record, one entry a value along
+    /// the axis; NaN where a run failed.
+    pub singles: Vec<Vec<Vec<f64>>>,
 }
 
 /// Demands that are always told, besides those of the roof.
@@ -212,7 +215,15 @@ pub fn run_spectrum(
                 )
             };
             let of_group = |group: usize| (0..length).map(|i| of(group, i)).collect();
-            DemandCurves { key: key.clone(), fractiles: (0..group_count).map(of_group).collect() }
+            let single = |group: usize, record: usize| -> Vec<f64> {
+                (0..length).map(|i| value(&runs[at(group, i) + record], k)).collect()
+            };
+            let singles = |group: usize| (0..records).map(|r| single(group, r)).collect();
+            DemandCurves {
+                key: key.clone(),
+                fractiles: (0..group_count).map(of_group).collect(),
+                singles: (0..group_count).map(singles).collect(),
+            }
         })
         .collect();
     let groups = (0..group_count)

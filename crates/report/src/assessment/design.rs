@@ -103,6 +103,7 @@ impl DesignReport<'_> {
                 self.found.runs,
                 designs * self.records
             ),
+            verdict: self.verdict(),
             warnings: self.all_warnings(),
             tables: self.tables(),
             notes: self.notes(),
@@ -110,6 +111,42 @@ impl DesignReport<'_> {
             method: self.method(),
             json: self.json(),
         }
+    }
+
+    /// The chosen design with its figures, or that there is none.
+    fn verdict(&self) -> Vec<String> {
+        let (l, a) = (self.length(), self.acceleration_unit());
+        let design = |what: &str, point: &Point| {
+            let values = self.values(point.design).into_iter().zip(self.variables);
+            let values = values.map(|(value, variable)| {
+                let value = crate::number::rounded(value, 4);
+                format!("{} {value} {}", name(variable), variable.unit).trim_end().to_owned()
+            });
+            format!(
+                "{what}: {}. Displacement {} {} of {} {}, acceleration {} {}.",
+                values.collect::<Vec<_>>().join(", "),
+                cell(l.of(point.figures.displacement_m)),
+                l.symbol,
+                compact(l.of(self.target.gap_m)),
+                l.symbol,
+                cell(a.of(point.figures.acceleration_m_per_s2)),
+                a.symbol
+            )
+        };
+        let Some(chosen) = self.found.chosen() else {
+            let none = "No design of the grid keeps the gap.".to_owned();
+            let nearest = self.found.nearest.map(|point| design("Nearest", &point));
+            return std::iter::once(none).chain(nearest).collect();
+        };
+        let mut verdict = vec![design("Chosen design", &chosen)];
+        if let Some(robust) = self.robust() {
+            verdict.push(if robust == chosen {
+                "It keeps the gap with lower- and upper-bound friction too.".to_owned()
+            } else {
+                design("Robust to lower- and upper-bound friction", &robust)
+            });
+        }
+        verdict
     }
 
     fn all_warnings(&self) -> Vec<Warning> {
@@ -415,11 +452,16 @@ impl DesignReport<'_> {
     }
 }
 
-/// The last words of a path that say enough, with the unit: `kinetic friction`, `radius (m)`.
-fn label(variable: &Axis) -> String {
-    let name = match variable.path.split_once('.') {
+/// The last words of a path that say enough.
+fn name(variable: &Axis) -> String {
+    match variable.path.split_once('.') {
         Some(("slider", key)) => key.replace('_', " "),
         _ => variable.path.clone(),
-    };
+    }
+}
+
+/// The last words of a path that say enough, with the unit: `kinetic friction`, `radius (m)`.
+fn label(variable: &Axis) -> String {
+    let name = name(variable);
     if variable.unit.is_empty() { name } else { format!("{name} ({})", variable.unit) }
 }

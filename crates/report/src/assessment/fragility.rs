@@ -116,6 +116,7 @@ impl FragilityReport<'_> {
             name: self.name.to_owned(),
             first: Some(("Fitted", self.fitted())),
             line: format!("{} over {}, from {from}", self.exceedance(), &self.run.measure),
+            verdict: vec![self.verdict(unit)],
             warnings: self.run.warnings.clone(),
             tables: self.tables(unit),
             notes: self.goodness().1,
@@ -123,6 +124,28 @@ impl FragilityReport<'_> {
             method: self.method(),
             json: self.json(),
         }
+    }
+
+    /// Median with its interval, and dispersion.
+    fn verdict(&self, unit: Unit) -> String {
+        let curve = self.run.fragility.curve();
+        let interval = match self.run.fragility.median_interval(self.confidence) {
+            [Some(low), Some(high)] => format!(
+                " ({} % interval {} to {} {})",
+                compact(100.0 * self.confidence),
+                cell(unit.of(low)),
+                cell(unit.of(high)),
+                unit.symbol
+            ),
+            _ => String::new(),
+        };
+        format!(
+            "Median {} θ = {} {}{interval}, dispersion β = {}.",
+            self.run.measure,
+            cell(unit.of(curve.median)),
+            unit.symbol,
+            cell(curve.dispersion)
+        )
     }
 
     /// What was fitted and why, and over what it averages.

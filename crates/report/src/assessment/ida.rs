@@ -125,6 +125,7 @@ impl IdaReport<'_> {
                 title(self.demand),
                 self.measure
             ),
+            verdict: self.verdict(),
             warnings: self.all_warnings(),
             tables: self.tables(),
             notes: self.notes(),
@@ -132,6 +133,36 @@ impl IdaReport<'_> {
             method: self.method(),
             json: self.json(),
         }
+    }
+
+    /// The intensity at which records reach the limit, or the demand at the highest level.
+    fn verdict(&self) -> Vec<String> {
+        let (im, edp) = (self.measure_unit(), self.demand_unit());
+        let what = title(self.demand).to_lowercase();
+        if let Some(limit) = self.limit {
+            let [low, middle, high] = level_fractiles(self.curves, limit).map(|v| cell(im.of(v)));
+            let limit = format!("{} {}", cell(edp.of(limit)), edp.symbol);
+            return vec![format!(
+                "Half of the records reach a {what} of {} at {} = {middle} {} (16 to 84 %: {low} to \
+                 {high} {}).",
+                limit.trim_end(),
+                self.measure,
+                im.symbol,
+                im.symbol
+            )];
+        }
+        let by_level = self.demands_by_level();
+        let of = |(level, values): &(f64, [f64; 3])| {
+            let [low, middle, high] = values.map(|v| cell(edp.of(v)));
+            format!(
+                "Median {what} at {} = {} {}: {middle} {} (16 to 84 %: {low} to {high}).",
+                self.measure,
+                cell(im.of(*level)),
+                im.symbol,
+                edp.symbol
+            )
+        };
+        by_level.last().map(of).into_iter().collect()
     }
 
     fn all_warnings(&self) -> Vec<Warning> {

@@ -5,7 +5,7 @@ use std::fmt::Display;
 use slipstick::response::Warning;
 
 use crate::figures::Drawn;
-use crate::html::{Frame, document, figure_section, inputs, warning_list};
+use crate::html::{Frame, appendix, document, figure_list, inputs, warning_list};
 use crate::json::Json;
 use crate::laboratory::compare::number_table;
 use crate::laboratory::text::{aligned, field};
@@ -23,6 +23,8 @@ pub struct Sheet {
     pub first: Option<(&'static str, String)>,
     /// What was done, in a line.
     pub line: String,
+    /// The answer in sentences, the shortest first: what the page begins with.
+    pub verdict: Vec<String>,
     /// All that a reader must know.
     pub warnings: Vec<Warning>,
     /// Headings with their tables: the first row are heads, the first column names.
@@ -90,26 +92,35 @@ impl Sheet {
     #[must_use]
     pub fn to_html(&self, went: &Went) -> String {
         let mut body = Markup::new();
-        if let Some((name, sentence)) = &self.first {
-            body.element("p", format!("{name}: {sentence}")).raw("\n");
+        body.raw("<section class=\"verdict\">\n");
+        for (i, sentence) in self.verdict.iter().enumerate() {
+            body.raw(if i == 0 { "<p class=\"lead\">" } else { "<p>" })
+                .text(sentence)
+                .raw("</p>\n");
         }
+        if let Some((name, sentence)) = &self.first {
+            body.element("p", format!("{name} {sentence}."));
+        }
+        body.raw("</section>\n");
         let warnings: Vec<_> = self.warnings.iter().map(|warning| (None, warning)).collect();
         warning_list(&mut body, &warnings);
-        body.raw("<section>\n<h2>Results</h2>\n");
-        for (heading, rows) in &self.tables {
-            body.element("h3", heading).raw("\n");
-            number_table(&mut body, rows);
-        }
+        // The first figure and table answer; the rest supports them.
+        let (figure, figures) = self.figures.split_at(self.figures.len().min(1));
+        let (table, tables) = self.tables.split_at(self.tables.len().min(1));
+        body.raw("<section>\n");
+        figure_list(&mut body, figure, 1);
+        table_list(&mut body, table);
         for note in &self.notes {
             body.element("p", note).raw("\n");
         }
-        body.raw("</section>\n");
-        figure_section(&mut body, &self.figures);
-        body.raw("<section>\n<h2>Method and limits</h2>\n<ul>\n");
+        figure_list(&mut body, figures, 2);
+        table_list(&mut body, tables);
+        body.raw("</section>\n<section>\n<h2>Method and limits</h2>\n<ul>\n");
         for line in &self.method {
             body.element("li", line).raw("\n");
         }
-        body.raw("</ul>\n</section>\n<section>\n<h2>What went in</h2>\n");
+        body.raw("</ul>\n</section>\n");
+        appendix(&mut body);
         inputs::provenance(&mut body, went.files, went.command_line, went.inputs);
         body.raw("</section>\n");
         document(&Frame {
@@ -124,8 +135,15 @@ impl Sheet {
     }
 }
 
+fn table_list(out: &mut Markup, tables: &[(String, Vec<Vec<String>>)]) {
+    for (heading, rows) in tables {
+        out.element("h3", heading).raw("\n");
+        number_table(out, rows);
+    }
+}
+
 /// A number of a table: four digits, or a dash where there is none.
-pub(super) fn cell(value: f64) -> String {
+pub(in crate::assessment) fn cell(value: f64) -> String {
     if value.is_finite() { crate::number::significant(value, 4) } else { "—".to_owned() }
 }
 

@@ -5,7 +5,7 @@ use slipstick::assessment::spectrum::{DemandCurves, SpectrumRun};
 use slipstick::response::Warning;
 
 use super::key::{quantity, title};
-use super::lines::{BAND, FRACTILES, GROUPS, band, line, panel, share_names, stacked};
+use super::lines::{BAND, FRACTILES, GROUPS, RECORD, band, line, panel, share_names, stacked};
 use super::sheet::{Sheet, cell, counted};
 use crate::display::{DisplayUnits, Unit};
 use crate::json::Json;
@@ -77,6 +77,7 @@ impl<'s> SpectrumReport<'s> {
             name: self.name.to_owned(),
             first: None,
             line: format!("{} runs: {records}{}", self.runs, self.scaled),
+            verdict: self.verdict(),
             warnings: counted("failed_runs", self.failures)
                 .into_iter()
                 .chain(self.warnings.iter().cloned())
@@ -87,6 +88,34 @@ impl<'s> SpectrumReport<'s> {
             method: self.method(),
             json: self.json(),
         }
+    }
+
+    /// Where along the axis the first demand is least and greatest.
+    fn verdict(&self) -> Vec<String> {
+        let of = |curves: &DemandCurves| {
+            let unit = self.unit_of(curves);
+            let all = curves
+                .fractiles
+                .iter()
+                .flat_map(|group| group.iter().zip(self.values).map(|(f, at)| (f[MEDIAN], *at)));
+            let finite: Vec<(f64, f64)> = all.filter(|(value, _)| value.is_finite()).collect();
+            let least = finite.iter().copied().min_by(|a, b| a.0.total_cmp(&b.0))?;
+            let most = finite.iter().copied().max_by(|a, b| a.0.total_cmp(&b.0))?;
+            let median = if self.records.len() > 1 { "Median " } else { "" };
+            let what = title(&curves.key);
+            let what = if median.is_empty() { what } else { what.to_lowercase() };
+            let at = |x: f64| format!("{} {}", compact(x), self.unit).trim_end().to_owned();
+            Some(format!(
+                "{median}{what}: {} {} at {} to {} {} at {}.",
+                cell(unit.of(least.0)),
+                unit.symbol,
+                at(least.1),
+                cell(unit.of(most.0)),
+                unit.symbol,
+                at(most.1)
+            ))
+        };
+        self.curves.first().and_then(of).into_iter().collect()
     }
 
     /// At most this many rows of a table: the ends and what lies evenly between.
@@ -199,6 +228,12 @@ impl<'s> SpectrumReport<'s> {
         let mut series: Vec<Series> = Vec::new();
         if !single && !many {
             series.push(band(x, &of(0, 0), &of(0, 2), "16 to 84 %", BAND));
+            // Of a long suite the curves of single records would be a grey field.
+            for (i, single) in curves.singles[0].iter().take(MOST_SINGLES).enumerate() {
+                let values: Vec<f64> = single.iter().map(|value| unit.of(*value)).collect();
+                let label = if i == 0 { "record" } else { "" };
+                series.push(line(label, RECORD, finite(points(&values))));
+            }
         }
         for (group, name) in self.groups.iter().enumerate() {
             let style = if many { GROUPS[group % GROUPS.len()] } else { FRACTILES[1] };
@@ -232,7 +267,9 @@ impl<'s> SpectrumReport<'s> {
             (false, true) => {
                 " Thick: median over the records; thin, in the same dashes: 16 and 84 %."
             }
-            (false, false) => " Line: median over the records; band: 16 to 84 %.",
+            (false, false) => {
+                " Thick line: median over the records; band: 16 to 84 %; thin lines: single records."
+            }
         };
         let id: &'static str = FIGURES
             .iter()
@@ -303,6 +340,14 @@ impl<'s> SpectrumReport<'s> {
             ("windows", windows),
         ])
     }
+}
+
+/// Most curves of single records in a figure.
+const MOST_SINGLES: usize = 60;
+
+/// Points up to the first that is not finite.
+fn finite(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    points.into_iter().take_while(|point| point[1].is_finite()).collect()
 }
 
 /// A column of a table: its head, and which fractile of which group it is.

@@ -6,18 +6,26 @@ use super::{Drawn, Scene, drawn};
 use crate::display::Quantity;
 use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
 
-/// `T` over `s`; with a spring or damper beside it the force of the whole slider.
+/// The force with which the block pushes its slider over `s`: it rises, as a data sheet draws it.
+///
+/// With a spring, damper or stop, that of the whole slider first and friction alone beside it.
 pub fn loops(scene: &Scene) -> Drawn {
     let (report, history) = (scene.report, scene.history);
-    let slider = report.model.slider();
+    let (model, slider) = (report.model, report.model.slider());
     let demands = &report.summary.demands;
-    let restrained = slider.stiffness_n_per_m > 0.0 || slider.damper_n_s_per_m > 0.0;
+    let restrained =
+        slider.stiffness_n_per_m > 0.0 || slider.damper_n_s_per_m > 0.0 || slider.stop.is_some();
     let length = report.display.unit(Quantity::Length, demands.peak_sliding_displacement_m);
-    let slider_force = |knot: usize| {
-        history.friction_force_n[knot]
-            - slider.stiffness_n_per_m * history.sliding_displacement_m[knot]
-            - slider.damper_n_s_per_m * history.sliding_velocity_m_per_s[knot]
+    let floors_kg = &model.frame().masses_kg;
+    let tilt_n = model.total_mass_kg() * model.gravity_m_per_s2() * libm::sin(slider.tilt_rad);
+    // −(M₁ (Ẍ₁ + g sinθ) + Σ mᵢ (Ẍᵢ + g sinθ)): friction, spring, damper and stop together.
+    let whole = |knot: usize| {
+        let floors = floors_kg.iter().zip(history.storey_accelerations(knot));
+        let inertia = model.block().mass_kg * history.block_acceleration_m_per_s2[knot]
+            + floors.map(|(m, a)| m * a).sum::<f64>();
+        -(inertia + tilt_n)
     };
+    let friction = |knot: usize| -history.friction_force_n[knot];
     let panel = |label: &str, peak_n: f64, force: &dyn Fn(usize) -> f64| {
         let unit = report.display.unit(Quantity::Force, peak_n);
         let points: Vec<[f64; 2]> = (0..history.len())
@@ -29,7 +37,7 @@ pub fn loops(scene: &Scene) -> Drawn {
                 points.iter().map(|p| p[0]).chain([0.0]),
             ),
             y: Axis::symmetric(unit.label(label), points.iter().map(|p| p[1])),
-            height: 230.0,
+            height: 150.0,
             series: vec![Series {
                 label: String::new(),
                 style: Style::MAIN,
@@ -41,29 +49,25 @@ pub fn loops(scene: &Scene) -> Drawn {
             note: String::new(),
         }
     };
-    let friction = &|knot: usize| history.friction_force_n[knot];
-    let mut panels = vec![panel("Friction force T", demands.peak_friction_force_n, friction)];
-    let mut caption = String::from(
-        "Friction force T of the table on the block against sliding displacement s. Upright lines \
-         are sticks, in which T follows the demand; level lines are slips, in which T opposes the \
-         sliding. The area inside is the energy that friction takes.",
-    );
+    let mut panels = Vec::new();
+    let mut caption = String::from("Force of the block on its slider");
     if restrained {
-        panels.push(panel(
-            "Slider force T − K₁s − C₁ṡ",
-            demands.peak_slider_force_n,
-            &slider_force,
-        ));
-        caption.push_str(
-            " Right: the force of the whole slider, friction, spring and damper together.",
-        );
+        panels.push(panel("Slider force", demands.peak_slider_force_n, &whole));
+        panels.push(panel("Friction force alone", demands.peak_friction_force_n, &friction));
+        caption.push_str(" (left; right: its friction alone)");
+    } else {
+        panels.push(panel("Slider force", demands.peak_friction_force_n, &friction));
     }
+    caption.push_str(
+        " over sliding displacement, with the sign of a data sheet: it rises with the displacement. \
+         Upright lines are sticks; the area inside is the energy lost.",
+    );
     if report.motion.vertical_m_per_s2().is_some() {
         caption.push_str(" Slips bend where the vertical motion changes the normal force.");
     }
     let figure = Figure {
-        id: "friction-loop",
-        title: "Friction force against sliding displacement".to_owned(),
+        id: "hysteresis",
+        title: "Slider force over sliding displacement".to_owned(),
         description: caption.clone(),
         layout: Layout::Beside,
         panels,

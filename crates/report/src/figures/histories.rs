@@ -46,7 +46,7 @@ pub fn sliding_displacement(scene: &Scene) -> Drawn {
     let panel = Panel {
         x: scene.time_axis(),
         y: Axis::covering(unit.label("Sliding displacement s"), values),
-        height: 170.0,
+        height: 140.0,
         series,
         limits,
         peak,
@@ -54,21 +54,17 @@ pub fn sliding_displacement(scene: &Scene) -> Drawn {
     };
     let demands = &report.summary.demands;
     let mut caption = format!(
-        "Sliding displacement s of the block relative to the table (positive towards +x). {SHADING} \
-         Level stretches on white are sticks. The block ends {} {} from where its spring is \
-         unstressed.",
-        printed(unit.of(demands.residual_sliding_displacement_m), 4),
-        unit.symbol,
+        "Sliding displacement s of the block relative to the table, positive towards +x. {SHADING}"
     );
     if let Some(ratio) = demands.gap_ratio {
         caption.push_str(&format!(
-            " The peak uses {} % of the gap{}.",
+            " Its peak uses {} % of the gap{}.",
             printed(100.0 * ratio, 3),
             if gap_shown.is_some() { "" } else { ", whose lines lie outside the drawing" }
         ));
     }
     if report.bounds.is_some() {
-        caption.push_str(" Shading and ringed peak belong to the nominal friction.");
+        caption.push_str(" Shading and ringed peak: nominal friction.");
     }
     let figure = Figure {
         id: "sliding-displacement",

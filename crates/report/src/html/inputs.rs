@@ -9,9 +9,9 @@ use crate::markup::Markup;
 use crate::number::{compact, count, printed, significant};
 use crate::report::{FileNote, InputText, Report};
 
-/// Model and record, with hashes, version and command line.
+/// Model and record in numbers.
 pub fn section(out: &mut Markup, report: &Report) {
-    out.raw("<section>\n<h2>Model and record</h2>\n<div class=\"pair\">\n<div>\n");
+    out.raw("<h3>Model and record</h3>\n<div class=\"pair\">\n<div>\n");
     name_table(out, "Model", &model_rows(report.model, report.display));
     out.raw("</div>\n<div>\n");
     name_table(out, "Ground motion", &record_rows(report));
@@ -28,8 +28,6 @@ pub fn section(out: &mut Markup, report: &Report) {
         }
         out.raw("</tbody>\n</table>\n");
     }
-    provenance(out, report.files, report.command_line, report.inputs);
-    out.raw("</section>\n");
 }
 
 fn record_rows(report: &Report) -> Vec<(&'static str, String)> {
@@ -76,7 +74,11 @@ pub(crate) fn provenance(
     file_table(out, files);
     out.raw("<h3>Command</h3>\n<p class=\"command\">").text(command_line).raw("</p>\n");
     for input in inputs {
-        out.raw("<h3>").text(input.path).raw("</h3>\n<pre>").text(input.text).raw("</pre>\n");
+        out.raw("<h3 class=\"path\">")
+            .text(input.path)
+            .raw("</h3>\n<pre>")
+            .text(input.text)
+            .raw("</pre>\n");
     }
 }
 
@@ -88,7 +90,7 @@ fn file_table(out: &mut Markup, files: &[FileNote]) {
     let heads = ["File", "What", "SHA-256"].map(|head| (head.to_owned(), false));
     table_head(out, &heads);
     for file in files {
-        out.raw("<tr><td>")
+        out.raw("<tr><td class=\"path\">")
             .text(file.path)
             .raw("</td><td>")
             .text(file.description)

@@ -12,18 +12,16 @@ use crate::report::Report;
 use crate::summary::{Summary, exceeds};
 
 /// Most rows of the table of events; of more, the first and the last are shown.
-pub const EVENT_ROWS: usize = 200;
-const LAST_EVENTS: usize = 40;
+pub const EVENT_ROWS: usize = 60;
+const LAST_EVENTS: usize = 20;
 
 /// The peaks: the governing value first, then the runs side by side.
 pub fn peaks(out: &mut Markup, report: &Report) {
     let summary = report.summary;
     let runs = summary.runs();
-    out.raw("<section>\n<h2>Peaks</h2>\n");
+    out.raw("<section class=\"peaks\">\n<h2>Peaks</h2>\n");
     let mut heads = vec![("Quantity".to_owned(), false), ("Unit".to_owned(), false)];
     if runs.len() > 1 {
-        out.raw("<p>Run with lower, nominal and upper coefficients of friction. The value that ")
-            .raw("governs stands first, and is marked in its column.</p>\n");
         heads.push(("Governing".to_owned(), true));
         heads.push(("from".to_owned(), false));
         heads.extend(
@@ -61,7 +59,7 @@ pub fn peaks(out: &mut Markup, report: &Report) {
         }
         out.raw("</tr>\n");
     }
-    out.raw("</tbody>\n</table>\n<p>Peaks are absolute values of the continuous motion over the ")
+    out.raw("</tbody>\n</table>\n<p class=\"note\">Peaks are absolute values of the continuous motion over the ")
         .raw("whole run, both sides of jumps included; accelerations are total. The residual ")
         .raw("sliding displacement is that of the last instant.</p>\n</section>\n");
 }
@@ -69,7 +67,7 @@ pub fn peaks(out: &mut Markup, report: &Report) {
 /// Counts, and the events themselves as far as they fit.
 pub fn events(out: &mut Markup, report: &Report) {
     let (summary, events) = (report.summary, &report.response.events);
-    out.raw("<section>\n<h2>Events</h2>\n");
+    out.raw("<h3>Events</h3>\n");
     for (name, run) in summary.runs() {
         let prefix =
             if summary.bounds.is_some() { format!("{name} friction: ") } else { String::new() };
@@ -124,7 +122,6 @@ pub fn events(out: &mut Markup, report: &Report) {
         }
         out.raw("</tbody>\n</table>\n</div>\n");
     }
-    out.raw("</section>\n");
 }
 
 fn event_line(run: &Summary) -> String {

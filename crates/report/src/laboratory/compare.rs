@@ -241,8 +241,16 @@ impl CompareReport<'_> {
     #[must_use]
     pub fn to_html(&self) -> String {
         let mut body = Markup::new();
+        body.raw("<section class=\"verdict\">\n");
+        for (i, sentence) in self.verdict().iter().enumerate() {
+            body.raw(if i == 0 { "<p class=\"lead\">" } else { "<p>" })
+                .text(sentence)
+                .raw("</p>\n");
+        }
+        body.raw("</section>\n");
         let warnings: Vec<_> = self.comparison.warnings.iter().map(|w| (None, w)).collect();
         warning_list(&mut body, &warnings);
+        html::figure_list(&mut body, &self.figures(), 1);
         body.raw("<section>\n<h2>Agreement</h2>\n");
         for group in in_groups(&self.rows(), 3) {
             number_table(&mut body, &group);
@@ -256,10 +264,10 @@ impl CompareReport<'_> {
             body.raw("</ul>\n");
         }
         body.raw("</section>\n");
-        html::figure_section(&mut body, &self.figures());
         body.raw("<section>\n<h2>Anderson's scores</h2>\n");
         self.anderson(&mut body);
-        body.raw("</section>\n<section>\n<h2>What went in</h2>\n");
+        body.raw("</section>\n");
+        html::appendix(&mut body);
         name_table(&mut body, "Model", &model_rows(self.model, self.display));
         let origins: Vec<(String, String)> = self
             .comparison
@@ -286,6 +294,42 @@ impl CompareReport<'_> {
             command_line: self.command_line,
             body: &body,
         })
+    }
+
+    /// How near the prediction is, quantity by quantity, and whether the bounds are kept.
+    fn verdict(&self) -> Vec<String> {
+        let of = |c: &Compared| {
+            let unit = self.unit(c);
+            let m = &c.metrics;
+            let peak = |si: f64| typeset(&significant(unit.of(si), 4));
+            format!(
+                "{}: predicted peak {} {}, measured {} {}; RMS error {}.",
+                title(c.pair.channel),
+                peak(m.predicted_peak),
+                unit.symbol,
+                peak(m.measured_peak),
+                unit.symbol,
+                m.normalised_rms_error.map_or("n/a".to_owned(), |error| format!(
+                    "{} % of the RMS measured",
+                    significant(100.0 * error, 3)
+                ))
+            )
+        };
+        // What slides comes first.
+        let mut all: Vec<&Compared> = self.comparison.compared.iter().collect();
+        all.sort_by_key(|c| c.pair.channel != Channel::SlidingDisplacement);
+        let mut verdict: Vec<String> = all.into_iter().take(3).map(of).collect();
+        if !self.within.is_empty() {
+            let (missed, of) = (self.missed().len(), self.within.len());
+            verdict.insert(
+                0,
+                match missed {
+                    0 => format!("All {of} bounds are kept."),
+                    n => format!("{n} of {of} bounds are missed."),
+                },
+            );
+        }
+        verdict
     }
 
     fn anderson(&self, out: &mut Markup) {

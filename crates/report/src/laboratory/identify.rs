@@ -178,7 +178,7 @@ impl IdentifyReport<'_> {
             body.raw("</ul>\n");
         }
         body.raw("<p>").text(&self.assumption).raw("</p>\n</section>\n");
-        html::figure_section(&mut body, &self.figures);
+        html::figure_section(&mut body, "Figures", &self.figures, 1);
         body.raw("<section>\n<h2>Details</h2>\n");
         let facts: Vec<(&str, String)> =
             self.facts.iter().map(|(name, fact)| (*name, fact.clone())).collect();
@@ -187,6 +187,8 @@ impl IdentifyReport<'_> {
             body.element("h3", caption).raw("\n");
             number_table(&mut body, rows);
         }
+        body.raw("</section>\n");
+        html::appendix(&mut body);
         inputs::provenance(&mut body, self.files, self.command_line, self.inputs);
         body.raw("</section>\n");
         html::document(&Frame {

@@ -186,7 +186,8 @@ fn exact_units_stand_on_both_axes() {
     for (id, labels) in [
         ("sliding-displacement", ["Sliding displacement s (in)", "Time (s)"]),
         ("accelerations", ["Storey 1 acceleration (g)", "Time (s)"]),
-        ("friction-loop", ["Friction force T (kip)", "Sliding displacement s (in)"]),
+        ("hysteresis", ["Slider force (kip)", "Sliding displacement s (in)"]),
+        ("hysteresis", ["Friction force alone (kip)", "Sliding displacement s (in)"]),
         ("demand", ["Friction force T (kip)", "Time (s)"]),
         ("energy", ["Energy (kip in)", "Time (s)"]),
     ] {
@@ -195,6 +196,23 @@ fn exact_units_stand_on_both_axes() {
             assert!(texts(svg).iter().any(|text| text.content == label), "{id}: {label}");
         }
     }
+}
+
+/// A data sheet draws force rising with displacement: the slope of the loop is that of the spring.
+#[test]
+fn exact_the_hysteresis_loop_rises() {
+    let case = run("m", frame_model(2, 1.0), rough_motion(12.0, 0.02));
+    let all = figures::all(&report(&case, &case.summary));
+    let svg = figure(&all, "hysteresis");
+    let d = &case.summary.demands;
+    let unit = if d.peak_slider_force_n >= 1e3 { 1e3 } else { 1.0 };
+    assert_close(drawn_peak(svg, 0), d.peak_slider_force_n / unit);
+    let line = &main_lines(svg)[0];
+    // In the drawing y falls as the force rises.
+    let mean = |i: usize| line.iter().map(|p| p[i]).sum::<f64>() / line.len() as f64;
+    let (x, y) = (mean(0), mean(1));
+    let along: f64 = line.iter().map(|p| (p[0] - x) * (y - p[1])).sum();
+    assert!(along > 0.0, "falls: {along}");
 }
 
 #[test]

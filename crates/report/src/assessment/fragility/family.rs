@@ -112,6 +112,13 @@ impl FragilityFamily<'_> {
                 reports.len(),
                 self.by
             ),
+            verdict: reports
+                .iter()
+                .map(|(group, report)| {
+                    format!("{} = {}: {}", self.by, self.label(group), report.verdict(unit))
+                })
+                .take(6)
+                .collect(),
             warnings,
             tables: vec![self.table(&reports, unit)],
             notes: Vec::new(),

@@ -42,6 +42,10 @@ impl FragilityReport<'_> {
             }
             Data::Cloud(_) => "from the cloud of the next figure",
         };
+        let theta = unit.of(self.run.fragility.curve().median);
+        let mark = vec![[0.0, 0.5], [theta, 0.5], [theta, 0.0]];
+        let label = format!("θ = {} {}", crate::assessment::sheet::cell(theta), unit.symbol);
+        series.push(line(label.trim_end(), Style::LIMIT, clip_at(&mark, &x)));
         let last = x.last().copied().unwrap_or(1.0);
         let axes = [
             Axis::linear(unit.label(&self.run.measure), 0.0, last),
@@ -115,6 +119,12 @@ impl FragilityReport<'_> {
         );
         single("cloud", "Cloud", caption, panel(x, y, 260.0, series))
     }
+}
+
+/// The mark of θ, as far as the axis goes.
+fn clip_at(mark: &[[f64; 2]], x: &[f64]) -> Vec<[f64; 2]> {
+    let last = x.last().copied().unwrap_or(1.0);
+    if mark.iter().all(|point| point[0] <= last) { mark.to_vec() } else { Vec::new() }
 }
 
 /// Reached capacities at their rank over all records: `(i − 1/2)/n`, those not reached above all

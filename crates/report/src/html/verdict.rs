@@ -1,0 +1,144 @@
+//! The answer in a few lines: how far the block slides, what governs, whether the check holds.
+
+use crate::display::{Quantity, Unit};
+use crate::markup::Markup;
+use crate::number::{compact, count, printed, typeset};
+use crate::report::Report;
+use crate::summary::Summary;
+
+/// Gap used, governing run and certificate.
+pub fn section(out: &mut Markup, report: &Report) {
+    let failed = report.summary.check_failed();
+    out.raw(if failed {
+        "<section class=\"verdict failed\">\n"
+    } else {
+        "<section class=\"verdict\">\n"
+    });
+    out.raw("<p class=\"lead\">").text(sliding(report)).raw("</p>\n");
+    out.element("p", rest(report)).raw("\n");
+    out.element("p", certificate(report.summary)).raw("\n</section>\n");
+}
+
+/// The run with the largest sliding displacement, with its name.
+fn governing(summary: &Summary) -> (&'static str, &Summary) {
+    let slides = |run: &Summary| run.demands.peak_sliding_displacement_m;
+    let mut runs = summary.runs();
+    // Of equal ones the nominal run.
+    runs.sort_by_key(|(name, _)| *name != "nominal");
+    let mut governing = runs[0];
+    for run in &runs[1..] {
+        if slides(run.1) > slides(governing.1) {
+            governing = *run;
+        }
+    }
+    governing
+}
+
+fn with_unit(unit: Unit, si: f64) -> String {
+    format!("{} {}", printed(unit.of(si), 4), unit.symbol)
+}
+
+fn sliding(report: &Report) -> String {
+    let (name, run) = governing(report.summary);
+    let d = &run.demands;
+    if d.sliding_path_m == 0.0 {
+        return "The block does not slide: friction holds it throughout the motion.".to_owned();
+    }
+    let peak_m = d.peak_sliding_displacement_m;
+    let length = report.display.unit(Quantity::Length, peak_m);
+    let mut text = format!(
+        "The block slides {} at most, at {} s",
+        with_unit(length, peak_m),
+        printed(d.peak_sliding_displacement_time_s, 4)
+    );
+    if let (Some(gap_m), Some(ratio)) = (report.model.slider().gap_m, d.gap_ratio) {
+        let gap = report.display.unit(Quantity::Length, gap_m);
+        let gap = format!("{} {}", compact(gap.of(gap_m)), gap.symbol);
+        let percent = printed(100.0 * ratio, 3);
+        text.push_str(&if ratio > 1.0 {
+            format!(": {percent} % of its gap of {gap}. The gap is NOT sufficient")
+        } else {
+            format!(": {percent} % of its gap of {gap}")
+        });
+    }
+    text.push('.');
+    if report.summary.bounds.is_some() {
+        text.push_str(&match name {
+            "nominal" => " Nominal friction governs.".to_owned(),
+            name => format!(
+                " {} friction (× {}) governs.",
+                if name == "lower" { "Lower-bound" } else { "Upper-bound" },
+                compact(run.friction_factor)
+            ),
+        });
+    }
+    text
+}
+
+fn rest(report: &Report) -> String {
+    let (_, run) = governing(report.summary);
+    let d = &run.demands;
+    let length = report.display.unit(Quantity::Length, d.peak_sliding_displacement_m);
+    let largest = |of: &dyn Fn(&Summary) -> f64| {
+        report.summary.runs().into_iter().map(|(_, run)| of(run)).fold(0.0, f64::max)
+    };
+    let acceleration = |si: f64| with_unit(report.display.unit(Quantity::Acceleration, si), si);
+    let block = largest(&|run| run.demands.peak_block_acceleration_m_per_s2);
+    let mut text = format!("Peak acceleration of the block {}", acceleration(block));
+    if report.model.storeys() > 0 {
+        let floors = |run: &Summary| {
+            let all = run.demands.storeys.iter().map(|s| s.peak_acceleration_m_per_s2);
+            all.fold(0.0, f64::max)
+        };
+        text.push_str(&format!(", of the floors {}", acceleration(largest(&floors))));
+    }
+    text.push_str(&format!(
+        "; peak ground acceleration {}.",
+        acceleration(report.summary.record.pga_m_per_s2)
+    ));
+    if d.sliding_path_m > 0.0 {
+        text.push_str(&if d.sliding_at_end {
+            " The block is still sliding at the end of the analysis.".to_owned()
+        } else {
+            let residual = with_unit(length, d.residual_sliding_displacement_m);
+            format!(" It comes to rest at {residual}.")
+        });
+    }
+    if let Some(stop) = &d.stop {
+        let force = report.display.unit(Quantity::Force, stop.peak_force_n);
+        text.push_str(&match stop.contact_count {
+            0 => " The stops are not reached.".to_owned(),
+            n => format!(
+                " The stops are reached {} times, with a force of {} at most.",
+                count(n),
+                with_unit(force, stop.peak_force_n)
+            ),
+        });
+    }
+    text
+}
+
+/// One sentence on the independent check.
+pub fn certificate(summary: &Summary) -> String {
+    let figures = |run: &Summary| {
+        let c = &run.checks;
+        let all =
+            [c.equilibrium_residual, c.friction_excess, c.energy_balance_error, c.demands_error];
+        all.into_iter().fold(0.0, f64::max)
+    };
+    let largest = summary.runs().into_iter().map(|(_, run)| figures(run)).fold(0.0, f64::max);
+    match summary.checks.holds {
+        Some(_) if summary.check_failed() => "Certificate: NOT CONFIRMED. An independent check \
+             disagrees with this response. Do not use it."
+            .to_owned(),
+        Some(_) => format!(
+            "Certificate: confirmed. An independent check of equilibrium, friction, energy and \
+             every peak agrees to {} (limit {}).",
+            printed(largest, 2),
+            typeset(&crate::number::rounded(summary.checks.bound, 2))
+        ),
+        None => "Certificate: none. The stepwise method is approximate; its errors are reported, \
+                 not judged."
+            .to_owned(),
+    }
+}
