@@ -24,7 +24,7 @@ const ABOUT: &str = "Exact stick-slip response of structures on sliding bearings
 
 const EXAMPLES: &str = "\
 Start here:
-  slipstick init tank                    write tank.toml, a model that runs as it stands
+  slipstick init tank                    write tank.toml, an example ready to run
   slipstick run tank.toml --out out      print the result, write out/report.html
   slipstick schema --units               the units that values may have
 
@@ -45,11 +45,11 @@ Values are numbers with a unit, \"0.3 g\"; slipstick schema --units lists the un
 keys are joined by dots, storeys counted from 1. The model's record lies relative to the
 model file, that of --motion relative to the working folder.
 
-Writes with --out, each file whole or not at all:
+Writes with --out, complete files only, never a part of one:
   summary.json  the object that --json prints
-  history.csv   one row a sample: table, block, friction force, storeys; SI
+  history.csv   one row per sample: ground, block, friction force, storeys; SI
   events.csv    every slip, stick and reversal
-  report.html   one self-contained page to read and print
+  report.html   one self-contained page, ready to print
 Of several records or models runs.csv and governing.csv (with the bounds of friction, their mean
 over seven records or more, else the maximum), figures (SVG), summary.json and report.html.";
 
@@ -57,28 +57,28 @@ const STUDY_EXAMPLES: &str = "\
 Examples:
   slipstick study plan.toml --dry-run              count the runs, estimate the time
   slipstick study plan.toml --out out              run them on all processors
-  slipstick study plan.toml --out out --resume     finish what was interrupted
+  slipstick study plan.toml --out out --resume     continue an interrupted study
   slipstick study plan.toml --repeat 4711          the command that reproduces one row
   slipstick study plan.toml --out out1 --shard 1/2     on one machine, and on another
   slipstick study plan.toml --out out2 --shard 2/2
   slipstick study merge out1 out2 --out study.parquet  one file of all
 
-Writes into the folder, each file whole or not at all:
-  part-*.parquet  one row a run: record, level, scale, intensity measures, varied values, demands
+Writes into the folder, complete files only, never a part of one:
+  part-*.parquet  one row per run: record, level, scale, intensity measures, varied values, demands
   summary.csv     each demand at each level: mean, quantiles, maximum with its record and run
-  manifest.json   the plan, hashes of all inputs, counts, and what came of running rows again
+  manifest.json   the plan, hashes of all inputs, counts, and the outcome of rows that were run again
 
 slipstick schema --plan prints the JSON schema of a plan.";
 
 const PAPER_EXAMPLES: &str = "\
 Examples:
-  slipstick paper                        the verdicts, one line a claim
+  slipstick paper                        the verdicts, one line per claim
   slipstick paper --out out              the chapter with its figures, and claims.json
   slipstick paper --quick --json         coarser ranges, the same verdicts, as JSON
 
 Takes a minute or two, --quick some seconds. Two runs write the same bytes.
 
-Writes with --out, each file whole or not at all:
+Writes with --out, complete files only, never a part of one:
   chapter.md    the chapter of the manual, with tables
   figures/      its figures (SVG)
   claims.json   the array that --json prints";
@@ -113,28 +113,28 @@ pub enum Command {
     /// Raise the intensity of every record of a suite until a demand reaches its limit
     #[command(after_help = assessment::IDA_EXAMPLES)]
     Ida(IdaArgs),
-    /// Fit the probability of passing a limit over intensity, with its certainty
+    /// Fit fragility curves, the probability of exceeding a limit, with confidence intervals
     #[command(after_help = assessment::FRAGILITY_EXAMPLES)]
     Fragility(FragilityArgs),
-    /// Choose friction and stiffness that keep a gap with a stated probability over a suite
+    /// Find the friction and stiffness that stay within a gap with a given probability
     #[command(after_help = assessment::DESIGN_EXAMPLES)]
     Design(DesignArgs),
-    /// Look into records, convert, process and plot them
+    /// Inspect, convert, process and plot records
     #[command(subcommand, after_help = crate::record_args::EXAMPLES)]
     Record(crate::record_args::RecordCommand),
     /// Run many analyses: records, levels and samples of a plan
     #[command(after_help = STUDY_EXAMPLES)]
     Study(StudyArgs),
-    /// Find friction, stiffness, damping and the like from tests
+    /// Identify friction, stiffness and damping from tests
     #[command(after_help = laboratory::IDENTIFY_EXAMPLES)]
     Identify {
-        /// From what kind of test
+        /// The kind of test
         #[command(subcommand)]
         job: IdentifyCommand,
     },
-    /// Write an example model that runs as it stands
+    /// Write an example model, ready to run
     Init(InitArgs),
-    /// Reproduce the paper that the model comes from: every experiment, every claim, its verdict
+    /// Reproduce the paper behind the model: every experiment and claim, with a verdict
     #[command(after_help = PAPER_EXAMPLES)]
     Paper(PaperArgs),
     /// Print the JSON schema of the model file, or the table of units
@@ -159,16 +159,16 @@ pub struct RunArgs {
     #[arg(required = true, value_name = "MODEL")]
     pub models: Vec<PathBuf>,
 
-    /// Record to use instead of the model's [motion]; its format is recognised
+    /// Record to use instead of the model's [motion]; the format is recognised
     #[arg(long, value_name = "FILE", help_heading = "Ground motion")]
     pub motion: Option<PathBuf>,
-    /// A suite of records: files, folders or patterns such as 'far-field/*.AT2'; repeatable
+    /// A suite of records: files, folders or patterns such as 'far-field/*.AT2'; may be repeated
     #[arg(long, value_name = "PATTERN", num_args = 1.., conflicts_with = "motion", help_heading = "Ground motion")]
     pub records: Vec<String>,
-    /// Vertical components of the suite, as many and in the same order; repeatable
+    /// Vertical components of the suite, as many and in the same order; may be repeated
     #[arg(long, value_name = "PATTERN", num_args = 1.., requires = "records", help_heading = "Ground motion")]
     pub vertical: Vec<String>,
-    /// What its file does not say
+    /// What the file does not state
     #[command(flatten)]
     pub record: RecordArgs,
     /// Factor on the record, that of the model or of --motion; may be negative
@@ -181,13 +181,13 @@ pub struct RunArgs {
     #[arg(long, value_name = "NAME", requires = "scale_to", help_heading = "Ground motion")]
     pub measure: Option<String>,
 
-    /// How to compute: exact, or stepwise as the paper's own program did
+    /// Method: exact, or stepwise as in the program of the paper
     #[arg(long, value_enum)]
     pub method: Option<MethodName>,
-    /// Set a key of the model by its path, such as slider.gap="150 mm"; repeatable, the last holds
+    /// Set a key of the model by its path, such as slider.gap="150 mm"; may be repeated, the last one counts
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// Add acceleration response spectra (5 %) of table, block and storeys to report and JSON
+    /// Add 5 % floor response spectra of ground, block and storeys to report and JSON
     #[arg(long)]
     pub floor_spectrum: bool,
 
@@ -206,7 +206,7 @@ pub struct RecordArgs {
     /// Time step, where a file does not state it: "0.01 s"
     #[arg(long, value_name = "TIME", help_heading = "Ground motion")]
     pub dt: Option<String>,
-    /// Channel, by name or by number from 1
+    /// Channel, by name or number (from 1)
     #[arg(long, value_name = "NAME", help_heading = "Ground motion")]
     pub channel: Option<String>,
 }
@@ -258,28 +258,28 @@ impl RecordArgs {
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub struct StudyArgs {
-    /// What to do instead of running a plan
+    /// Another command instead of running a plan
     #[command(subcommand)]
     pub command: Option<StudyCommand>,
     /// Study plan (TOML)
     #[arg(required = true)]
     pub plan: Option<PathBuf>,
-    /// Folder to write parts, summary.csv and manifest.json into
+    /// Folder for the parts, summary.csv and manifest.json
     #[arg(short, long, value_name = "DIR", required_unless_present_any = ["dry_run", "repeat"])]
     pub out: Option<PathBuf>,
-    /// Go on where a study in this folder was interrupted
+    /// Continue an interrupted study in this folder
     #[arg(long, conflicts_with = "force")]
     pub resume: bool,
-    /// Start anew: remove what a study wrote into this folder before
+    /// Start over: remove what an earlier study wrote into this folder
     #[arg(long)]
     pub force: bool,
-    /// Number of threads; default one a processor
+    /// Number of threads; default: one per processor
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub jobs: Option<u16>,
-    /// Run the i-th of n shards only, from 1
+    /// Run only shard i of n, counted from 1
     #[arg(long, value_name = "i/n")]
     pub shard: Option<String>,
-    /// Count the runs and estimate the time, and run nothing
+    /// Count the runs and estimate the time without running anything
     #[arg(long)]
     pub dry_run: bool,
     /// Print the command that reproduces a row, by its number in the column run
@@ -288,7 +288,7 @@ pub struct StudyArgs {
     /// Units of the table; files are always SI
     #[arg(long, value_name = "SYSTEM", value_enum, default_value = "si")]
     pub display_units: UnitSystem,
-    /// No messages and no progress on standard error, errors excepted
+    /// Print nothing on standard error but errors
     #[arg(short, long)]
     pub quiet: bool,
 }
@@ -296,7 +296,7 @@ pub struct StudyArgs {
 /// `slipstick study merge`.
 #[derive(Debug, Subcommand)]
 pub enum StudyCommand {
-    /// Join the parts of one study, from one folder or many, to one file
+    /// Join the parts of a study, from one or several folders, in one file
     Merge {
         /// Folders that together hold all parts
         #[arg(required = true, value_name = "DIR")]
@@ -310,7 +310,7 @@ pub enum StudyCommand {
 /// `slipstick paper`.
 #[derive(Debug, Args)]
 pub struct PaperArgs {
-    /// Folder to write chapter.md, figures and claims.json into
+    /// Folder for chapter.md, its figures and claims.json
     #[arg(short, long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Print the claims as a JSON array
@@ -333,7 +333,7 @@ pub struct InitArgs {
     /// Name of the model; the file is NAME.toml
     #[arg(default_value = "model")]
     pub name: String,
-    /// Which example
+    /// The example to write
     #[arg(long, value_enum, default_value = "mock-up")]
     pub example: Example,
     /// Replace a file of that name
@@ -366,6 +366,9 @@ pub enum MethodName {
 pub enum UnitSystem {
     /// m, m/s, m/s², N
     Si,
+    /// As si, accelerations in g
+    #[value(name = "si-g")]
+    SiG,
     /// kN and mm
     #[value(name = "kN-mm", alias = "kn-mm")]
     KnMm,
@@ -377,6 +380,7 @@ impl From<UnitSystem> for DisplayUnits {
     fn from(system: UnitSystem) -> Self {
         match system {
             UnitSystem::Si => Self::Si,
+            UnitSystem::SiG => Self::SiG,
             UnitSystem::KnMm => Self::KnMm,
             UnitSystem::Us => Self::Us,
         }

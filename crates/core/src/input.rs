@@ -46,6 +46,8 @@ pub const MAX_TEXT_BYTES: usize = 1 << 20;
 pub struct Analysis {
     /// The model's name, where it has one.
     pub name: Option<String>,
+    /// What its parts are called.
+    pub names: Names,
     /// The checked model.
     pub model: Model,
     /// Factors on both coefficients of friction for which it is run besides.
@@ -57,6 +59,30 @@ pub struct Analysis {
     /// Free vibration after the motion ends, in s.
     pub tail_s: f64,
     values: reader::Values,
+}
+
+/// Names of the parts of a model, where they have one.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Names {
+    /// Of the block, such as `Base mat`.
+    pub block: Option<String>,
+    /// Of the storeys from the block up, such as `Roof`.
+    pub storeys: Vec<Option<String>>,
+}
+
+impl Names {
+    /// What the block is called; `Block` without a name.
+    #[must_use]
+    pub fn block(&self) -> &str {
+        self.block.as_deref().unwrap_or("Block")
+    }
+
+    /// What a storey (from 1) is called; `Storey 2` without a name.
+    #[must_use]
+    pub fn storey(&self, storey: usize) -> String {
+        let name = self.storeys.get(storey.wrapping_sub(1)).and_then(Option::as_ref);
+        name.cloned().unwrap_or_else(|| format!("Storey {storey}"))
+    }
 }
 
 /// Factors on both coefficients of friction, `0 ≤ lower ≤ upper`.

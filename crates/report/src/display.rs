@@ -8,6 +8,8 @@ pub enum DisplayUnits {
     /// SI, in the multiple that reads well: mm or m, N, kN or MN, m/s².
     #[default]
     Si,
+    /// As SI, accelerations in g.
+    SiG,
     /// mm, kN, t, and m/s² for accelerations.
     KnMm,
     /// in, kip, lb, and g for accelerations.
@@ -98,11 +100,56 @@ impl DisplayUnits {
     pub fn unit(self, quantity: Quantity, largest_si: f64) -> Unit {
         let (in_si, symbol) = match self {
             Self::Si => si(quantity, largest_si.abs()),
+            Self::SiG if quantity == Quantity::Acceleration => (STANDARD_GRAVITY_M_PER_S2, "g"),
+            Self::SiG => si(quantity, largest_si.abs()),
             Self::KnMm => kn_mm(quantity),
             Self::Us => us(quantity),
         };
         Unit { in_si, symbol }
     }
+
+    /// A sentence with its quantities in these units: `a gap of 150 mm` becomes `a gap of 5.906 in`.
+    ///
+    /// A quantity is a number, a blank and one of the units that messages use.
+    #[must_use]
+    pub fn sentence(self, text: &str) -> String {
+        let mut words: Vec<String> = text.split(' ').map(str::to_owned).collect();
+        for i in 1..words.len() {
+            let (unit, after) = split_end(&words[i]);
+            let Some((_, quantity, in_si)) = MESSAGE_UNITS.iter().find(|(name, ..)| *name == unit)
+            else {
+                continue;
+            };
+            let Ok(value) = words[i - 1].replace('−', "-").parse::<f64>() else { continue };
+            let shown = self.unit(*quantity, value * in_si);
+            if self == Self::Si || shown.symbol == unit {
+                continue;
+            }
+            let (symbol, after) = (shown.symbol, after.to_owned());
+            words[i - 1] = crate::number::rounded(shown.of(value * in_si), 4);
+            words[i] = format!("{symbol}{after}");
+        }
+        words.join(" ")
+    }
+}
+
+/// Units in messages, with their quantity and SI value.
+const MESSAGE_UNITS: [(&str, Quantity, f64); 9] = [
+    ("mm", Quantity::Length, 1e-3),
+    ("m", Quantity::Length, 1.0),
+    ("m/s", Quantity::Velocity, 1.0),
+    ("mm/s", Quantity::Velocity, 1e-3),
+    ("m/s²", Quantity::Acceleration, 1.0),
+    ("m/s2", Quantity::Acceleration, 1.0),
+    ("N", Quantity::Force, 1.0),
+    ("kN", Quantity::Force, 1e3),
+    ("N/m", Quantity::Stiffness, 1.0),
+];
+
+/// A word and the punctuation at its end.
+fn split_end(word: &str) -> (&str, &str) {
+    let end = word.trim_end_matches([',', ';', ':', '.', ')']).len();
+    word.split_at(end)
 }
 
 fn si(quantity: Quantity, largest: f64) -> (f64, &'static str) {
@@ -177,6 +224,24 @@ mod tests {
         let g = DisplayUnits::Us.unit(Quantity::Acceleration, 3.0);
         assert_eq!((g.of(9.80665), g.symbol), (1.0, "g"));
         assert_eq!(DisplayUnits::KnMm.unit(Quantity::Stiffness, 0.0).of(143e3), 0.143);
+    }
+
+    #[test]
+    fn exact_sentences_take_the_units_of_the_display() {
+        let text = "past its gap of 150 mm: peak 165.1 mm, 1.101 of the gap; -0.98 m/s², at 3 s";
+        assert_eq!(
+            DisplayUnits::Us.sentence(text),
+            "past its gap of 5.906 in: peak 6.5 in, 1.101 of the gap; -0.09993 g, at 3 s"
+        );
+        assert_eq!(DisplayUnits::SiG.sentence("0.98 m/s² and 2 mm"), "0.09993 g and 2 mm");
+        assert_eq!(DisplayUnits::Si.sentence(text), text);
+    }
+
+    #[test]
+    fn exact_si_may_show_accelerations_in_g() {
+        let g = DisplayUnits::SiG.unit(Quantity::Acceleration, 3.0);
+        assert_eq!((g.of(9.80665), g.symbol), (1.0, "g"));
+        assert_eq!(DisplayUnits::SiG.unit(Quantity::Length, 0.15).symbol, "mm");
     }
 
     #[test]

@@ -6,6 +6,7 @@ mod verdict;
 
 use slipstick::response::Warning;
 
+use crate::display::DisplayUnits;
 use crate::figures::{self, Drawn};
 use crate::markup::Markup;
 use crate::number::{compact, typeset};
@@ -103,28 +104,32 @@ fn page_margins(out: &mut Markup, frame: &Frame) {
 
 fn warnings(out: &mut Markup, report: &Report) {
     let all = report.summary.all_warnings();
-    warning_list(out, &all);
+    warning_list(out, &all, report.display);
 }
 
 /// Warnings, each with the run it belongs to, or a line that says there are none; then notes.
-pub(crate) fn warning_list(out: &mut Markup, warnings: &[(Option<&'static str>, &Warning)]) {
+pub(crate) fn warning_list(
+    out: &mut Markup,
+    warnings: &[(Option<&'static str>, &Warning)],
+    display: DisplayUnits,
+) {
     let (notes, warnings): (Vec<_>, Vec<_>) =
         warnings.iter().copied().partition(|(_, warning)| warning.is_note());
     if warnings.is_empty() {
         out.raw("<p class=\"quiet\">No warnings.</p>\n");
     } else {
         out.raw("<section class=\"warnings\">\n<h2>Warnings</h2>\n");
-        told(out, &warnings);
+        told(out, &warnings, display);
         out.raw("</section>\n");
     }
     if !notes.is_empty() {
         out.raw("<section class=\"notes\">\n<h2>Notes</h2>\n");
-        told(out, &notes);
+        told(out, &notes, display);
         out.raw("</section>\n");
     }
 }
 
-fn told(out: &mut Markup, warnings: &[(Option<&'static str>, &Warning)]) {
+fn told(out: &mut Markup, warnings: &[(Option<&'static str>, &Warning)], display: DisplayUnits) {
     out.raw("<ul>\n");
     for (run, warning) in warnings {
         out.raw("<li>").element("strong", warning.kind.replace('_', " "));
@@ -134,7 +139,7 @@ fn told(out: &mut Markup, warnings: &[(Option<&'static str>, &Warning)]) {
         if let Some(time_s) = warning.time_s {
             out.text(format!(" at {} s", typeset(&compact(time_s))));
         }
-        out.raw(": ").text(&warning.message).raw("</li>\n");
+        out.raw(": ").text(display.sentence(&warning.message)).raw("</li>\n");
     }
     out.raw("</ul>\n");
 }

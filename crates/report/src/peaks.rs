@@ -3,6 +3,7 @@
 use slipstick::response::{DemandColumn, DemandKind, PrintedRow};
 
 use crate::display::{DisplayUnits, Unit};
+use crate::markup::shortened;
 use crate::number::significant;
 use crate::summary::Summary;
 
@@ -69,8 +70,11 @@ fn row(
         DemandKind::Flag => if *value != 0.0 { "yes" } else { "no" }.to_owned(),
     };
     let label = match column.storey {
-        0 => printed.label.to_owned(),
-        storey => format!("Storey {storey} {}", printed.label),
+        0 => match &summary.names.block {
+            Some(name) => printed.label.replace("block", &shortened(name, 24)),
+            None => printed.label.to_owned(),
+        },
+        storey => format!("{} {}", shortened(&summary.names.storey(storey), 24), printed.label),
     };
     Row {
         label,

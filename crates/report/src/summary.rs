@@ -5,6 +5,7 @@ mod warnings;
 
 use slipstick::assessment::single::{FloorSpectra, Job, Judged, Outcome};
 use slipstick::check::{Certificate, ClosestCall};
+use slipstick::input::Names;
 use slipstick::model::Model;
 use slipstick::motion::{Figures, GroundMotion};
 use slipstick::response::{Demands, Iterations, Method, Response, Warning};
@@ -91,6 +92,8 @@ pub struct Summary {
     pub bounds: Option<Box<Bounds>>,
     /// Response spectra of table, block and floors, where they were asked for.
     pub floor_spectra: Option<FloorSpectra>,
+    /// What the parts of the model are called.
+    pub names: Names,
 }
 
 impl Summary {
@@ -127,6 +130,7 @@ impl Summary {
             warnings: warnings::assemble(inputs),
             bounds: None,
             floor_spectra: None,
+            names: Names::default(),
         }
     }
 
@@ -145,7 +149,8 @@ impl Summary {
                 warnings: &job.warnings,
             });
             // The step is that of the record: a tail may start with a jump or end between two steps.
-            Self { dt_s: job.bare.dt_s(), ..summary }
+            let names = job.analysis.names.clone();
+            Self { dt_s: job.bare.dt_s(), names, ..summary }
         };
         let summary = one(&outcome.nominal);
         let summary = match &outcome.bounds {

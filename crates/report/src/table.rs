@@ -39,7 +39,8 @@ pub fn table(summary: &Summary, model: &Model, record: &str, display: DisplayUni
         for (run, warning) in warnings {
             let run = run.map_or(String::new(), |name| format!(" ({name} friction)"));
             let time = warning.time_s.map_or(String::new(), |t| format!(" at {} s", compact(t)));
-            let told = format!("{}{run}{time}: {}", warning.kind, warning.message);
+            let told =
+                format!("{}{run}{time}: {}", warning.kind, display.sentence(&warning.message));
             out.field(warning.label(), &told);
         }
     }

@@ -18,10 +18,10 @@ Values are a list, \"1, 2 m\", or a range FROM..TO with a count, \"0.1..3s:30\",
 log\" at equal ratios. isolator.period is 2 pi sqrt(R/g) and sets slider.radius. --friction
 sets the kinetic coefficient and keeps the model's ratio of static to kinetic. Without
 --records the model's own motion is used; over motion.sine.frequency that gives response
-curves, with the window in which the structure amplifies.
+curves and the window of frequencies in which the structure amplifies.
 
 Writes with --out: spectrum.csv and spectrum.parquet (16, 50, 84 % fractiles), runs.parquet
-(every run), a figure a demand (SVG), summary.json, report.html.";
+(every run), a figure per demand (SVG), summary.json, report.html.";
 
 pub const IDA_EXAMPLES: &str = "\
 Examples:
@@ -30,7 +30,7 @@ Examples:
   slipstick ida tank.toml --records far-field --hunt --out out
   slipstick ida tank.toml --records far-field --hunt --demand storey1_peak_drift_m --to \"20 mm\"
 
---hunt seeks, for each record, the level at which the demand first reaches --to (slider.gap
+--hunt searches, for each record, for the level at which the demand first reaches --to (slider.gap
 of the model where that is not given), to 1 %. Demands are keys of summary.json, those of
 storeys as storey1_peak_acceleration_m_per_s2.
 
@@ -59,12 +59,12 @@ Examples:
   slipstick design tank.toml --records far-field --measure \"Sa(1.2 s)\" --level \"0.6 g\" \\
       --friction 0.02..0.12:50 --vary slider.radius=\"1, 2, 3, 4 m\" --probability 0.84
 
-Every design of the grid is judged by the sliding displacement that the stated share of the
-records keeps, and by the floor acceleration that half of them keep (--share). Chosen is the
-design within the gap with the least acceleration; with slider.bounds in the model, or
+Designs of the grid are compared by two figures: the sliding displacement not exceeded in the
+stated share of the records, and the floor acceleration not exceeded in half of them (--share).
+The design within the gap with the least acceleration is chosen; with slider.bounds in the model, or
 --bounds, the front is run again with lower and upper friction.
 
-Exit status 1 where no design keeps the gap.
+The exit status is 1 if no design stays within the gap.
 
 Writes with --out: front.csv and front.parquet, runs.parquet (every run of the front), figures
 (SVG), summary.json, report.html.";
@@ -74,19 +74,19 @@ Writes with --out: front.csv and front.parquet, runs.parquet (every run of the f
 pub struct SuiteArgs {
     /// Model file (TOML), or - to read it from standard input
     pub model: PathBuf,
-    /// Records: files, folders or patterns such as 'far-field/*.AT2'; repeatable
+    /// Records: files, folders or patterns such as 'far-field/*.AT2'; may be repeated
     #[arg(long, value_name = "PATTERN", num_args = 1.., help_heading = "Ground motion")]
     pub records: Vec<String>,
-    /// Vertical components, as many and in the same order; repeatable
+    /// Vertical components, as many and in the same order; may be repeated
     #[arg(long, value_name = "PATTERN", num_args = 1.., requires = "records", help_heading = "Ground motion")]
     pub vertical: Vec<String>,
-    /// What their files do not say
+    /// What the files do not state
     #[command(flatten)]
     pub record: RecordArgs,
-    /// Set a key of the model by its path, such as slider.gap="150 mm"; repeatable, the last holds
+    /// Set a key of the model by its path, such as slider.gap="150 mm"; may be repeated, the last one counts
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// Number of threads; default one a processor
+    /// Number of threads; default: one per processor
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub jobs: Option<u16>,
     /// What becomes of the result
@@ -117,16 +117,16 @@ pub struct SpectrumArgs {
     /// Scale
     #[command(flatten)]
     pub scale: ScaleArgs,
-    /// What runs along the axis: storey.1.period=0.1..3s:30, isolator.period=1..5s:40, …
+    /// Parameter along the axis: storey.1.period=0.1..3s:30, isolator.period=1..5s:40, …
     #[arg(long, value_name = "PATH=VALUES")]
     pub over: String,
     /// Friction of each group of curves: 0.02,0.05,0.10
     #[arg(long, value_name = "VALUES")]
     pub friction: Option<String>,
-    /// Any other path that makes groups of curves; repeatable
+    /// Another parameter, with one group of curves for each value; may be repeated
     #[arg(long, value_name = "PATH=VALUES")]
     pub vary: Vec<String>,
-    /// Demands besides displacement, residual, path and roof acceleration; repeatable
+    /// Further demands, besides displacement, residual, path and roof acceleration; may be repeated
     #[arg(long, value_name = "KEY")]
     pub demand: Vec<String>,
 }
@@ -143,7 +143,7 @@ pub struct IdaArgs {
     /// Levels for all records: "0.1, 0.2, 0.4 g" or "0.1..1.5 g:15"
     #[arg(long, value_name = "VALUES", required_unless_present = "hunt")]
     pub levels: Option<String>,
-    /// Seek for each record the level at which the demand first reaches its limit
+    /// Search, record by record, for the level at which the demand first reaches its limit
     #[arg(long, conflicts_with = "levels")]
     pub hunt: bool,
     /// First and highest level of the hunt: "0.05..10 g"; without it, a twentieth and twenty times the
@@ -179,16 +179,16 @@ pub struct FragilityArgs {
     #[arg(long, value_enum, value_name = "DATA")]
     pub fit_to: Option<FitToName>,
     /// Take only rows with this value or within this range: slider.radius="1..2 m", record=taft-111;
-    /// repeatable
+    /// may be repeated
     #[arg(long = "where", value_name = "PATH=VALUE|FROM..TO")]
     pub keep: Vec<String>,
     /// One curve for each value of this column: slider.radius
     #[arg(long, value_name = "PATH")]
     pub by: Option<String>,
-    /// Intervals by so many draws of the records with replacement, in place of the sandwich
+    /// Bootstrap intervals from this many resamples of the records
     #[arg(long, value_name = "DRAWS", value_parser = clap::value_parser!(u32).range(50..=100_000))]
     pub bootstrap: Option<u32>,
-    /// Seed of those draws
+    /// Seed of the bootstrap
     #[arg(long, value_name = "SEED", default_value_t = 1, requires = "bootstrap")]
     pub seed: u64,
     /// Demands below this count as below it only, in a cloud: "1 mm"
@@ -217,22 +217,22 @@ pub struct DesignArgs {
     /// Kinetic friction, the model's ratio of static to kinetic kept: 0.02..0.12:200
     #[arg(long, value_name = "VALUES")]
     pub friction: Option<String>,
-    /// A path that is varied: slider.radius=1..5m:200, slider.spring=…; repeatable
+    /// Parameter to vary: slider.radius=1..5m:200, slider.spring=…; may be repeated
     #[arg(long, value_name = "PATH=VALUES")]
     pub vary: Vec<String>,
-    /// Sliding displacement to be kept; slider.gap of the model where not given
+    /// Sliding displacement not to be exceeded; by default slider.gap of the model
     #[arg(long, value_name = "LENGTH")]
     pub gap: Option<String>,
-    /// Share of the records in which the gap must be kept
+    /// Share of the records that must stay within the gap
     #[arg(long, value_name = "SHARE", default_value_t = 0.9)]
     pub probability: f64,
-    /// Key of the acceleration to be made least; the roof's, or the block's, where not given
+    /// Key of the acceleration to minimise; by default the roof's, or the block's
     #[arg(long, value_name = "KEY")]
     pub demand: Option<String>,
     /// Share of the records that must not exceed that acceleration
     #[arg(long, value_name = "SHARE", default_value_t = 0.5)]
     pub share: f64,
-    /// Factors on friction for the robustness check: 0.8,1.3; slider.bounds where not given
+    /// Factors on friction for the robustness check: 0.8,1.3; by default slider.bounds
     #[arg(long, value_name = "LOWER,UPPER")]
     pub bounds: Option<String>,
     /// Sample points of the sensitivity (Sobol' indices); 0 for none

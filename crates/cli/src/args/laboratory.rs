@@ -12,8 +12,8 @@ Examples:
       --map \"sliding_displacement = X1 - U [mm]\" --map \"time = 0.005 s\"
   slipstick compare test12.csv mock-up.toml --within peak_ratio.sliding_displacement=0.9..1.1
 
-The prediction is driven by the measured table acceleration; the model's [motion] plays no
-part. Columns that are named as in history.csv, perhaps in another unit
+The prediction is driven by the measured table acceleration; the model's [motion] is
+ignored. Columns that are named as in history.csv, perhaps in another unit
 (block_acceleration_g), need no mapping. Others are named by QUANTITY = COLUMN [- COLUMN]
 [UNIT] * FACTOR @ SHIFT, as an option or in a mapping file (TOML, QUANTITY = \"COLUMN …\");
 all parts but the first column are optional, and #3 is the third column. Quantities: time,
@@ -31,17 +31,17 @@ Examples:
   slipstick identify shaking-table test12.csv mock-up.toml \\
       --fit slider.static_friction,slider.kinetic_friction,slider.tilt --out fitted
 
-Every value comes with its 95 % interval of confidence; what the data cannot tell is refused
-with the reason, and the exit status is then 1. Columns are named as for slipstick compare;
+Every value comes with its 95 % confidence interval; a parameter that the data do not determine
+is reported as such, with the reason, and the exit status is 1. Columns are named as for slipstick compare;
 a cyclic test has the quantities displacement and force. With --out: identified.json,
 report.html and, where a model is known, model.toml, which run and compare read.";
-/// What the columns of a measured file are.
+/// The columns of a measured file.
 #[derive(Debug, Args)]
 pub struct MappingArgs {
-    /// File (TOML) that says which column is which quantity
+    /// Mapping file (TOML): which column holds which quantity
     #[arg(long, value_name = "FILE", help_heading = "Measured file")]
     pub mapping: Option<PathBuf>,
-    /// Say which column is a quantity: "block_acceleration = A1 [g] * -1"; repeatable
+    /// Column of a quantity: "block_acceleration = A1 [g] * -1"; may be repeated
     #[arg(long, value_name = "QUANTITY=COLUMN", help_heading = "Measured file")]
     pub map: Vec<String>,
 }
@@ -58,7 +58,7 @@ pub struct ResultArgs {
     /// Units of the table and the report; files and JSON are always SI
     #[arg(long, value_name = "SYSTEM", value_enum, default_value = "si", help_heading = "Output")]
     pub display_units: UnitSystem,
-    /// No messages and no progress on standard error, errors excepted
+    /// Print nothing on standard error but errors
     #[arg(short, long, help_heading = "Output")]
     pub quiet: bool,
 }
@@ -73,13 +73,13 @@ pub struct CompareArgs {
     /// The columns
     #[command(flatten)]
     pub mapping: MappingArgs,
-    /// How to compute: exact, or stepwise as the paper's own program did
+    /// Method: exact, or stepwise as in the program of the paper
     #[arg(long, value_enum)]
     pub method: Option<MethodName>,
-    /// Set a key of the model by its path, such as slider.tilt="1 mrad"; repeatable, the last holds
+    /// Set a key of the model by its path, such as slider.tilt="1 mrad"; may be repeated, the last one counts
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// A bound to keep: "peak_ratio.sliding_displacement=0.9..1.1"; repeatable
+    /// A bound to keep: "peak_ratio.sliding_displacement=0.9..1.1"; may be repeated
     #[arg(long, value_name = "METRIC.QUANTITY=LEAST..MOST", allow_hyphen_values = true)]
     pub within: Vec<String>,
     /// The result
@@ -175,7 +175,7 @@ pub struct ShakingTableArgs {
     /// Measured quantities to fit; all if not given
     #[arg(long, value_name = "QUANTITY", value_delimiter = ',')]
     pub using: Vec<String>,
-    /// Set a key of the model by its path; repeatable, the last holds
+    /// Set a key of the model by its path; may be repeated, the last one counts
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
     /// Seed of the random starts

@@ -136,7 +136,7 @@ fn exact_what_cannot_be_told_is_status_1() {
     ]);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(text.contains("The data cannot tell:"), "{text}");
+    assert!(text.contains("Not determined by the data:"), "{text}");
     let rows: String = (0..200).map(|i| format!("{},0,{}\n", 0.01 * f64::from(i), i % 7)).collect();
     folder.write("stuck.csv", format!("time_s,displacement_mm,force_n\n{rows}"));
     let output = folder.output(&["identify", "cyclic", "stuck.csv"]);

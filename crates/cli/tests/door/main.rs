@@ -13,6 +13,7 @@ mod json;
 mod laboratory;
 mod options;
 mod paper;
+mod readme;
 mod record;
 mod records;
 mod refused;

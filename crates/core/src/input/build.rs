@@ -1,9 +1,11 @@
 //! Checked values to an analysis: what no key can say alone.
 
+use core::f64::consts::TAU;
+
 use super::frame;
 use super::motion::{self, MotionSource};
 use super::reader::Values;
-use super::{Analysis, FrictionBounds};
+use super::{Analysis, FrictionBounds, Names};
 use crate::error::{InputError, ModelError};
 use crate::friction::{Coulomb, Friction};
 use crate::model::{Block, Frame, InitialState, Model, Slider, Stop, StopKind};
@@ -24,11 +26,11 @@ pub struct Parts {
 pub(super) fn parts(values: &Values) -> Result<Parts, InputError> {
     let gravity_m_per_s2 = values.number("analysis.gravity").unwrap_or(STANDARD_GRAVITY_M_PER_S2);
     let block = Block {
-        mass_kg: values.required("block.mass")?,
+        mass_kg: mass_kg(values, "block", gravity_m_per_s2)?,
         width_m: values.number("block.width"),
         height_m: values.number("block.height"),
     };
-    let frame = frame::frame(values)?;
+    let frame = frame::frame(values, gravity_m_per_s2)?;
     let slider = slider(values, &block, &frame, gravity_m_per_s2)?;
     let initial = initial(values, frame.masses_kg.len())?;
     let model = Model::new(block, slider, frame, gravity_m_per_s2, initial)
@@ -46,6 +48,12 @@ pub(super) fn analysis(values: Values) -> Result<Analysis, InputError> {
     };
     Ok(Analysis {
         name: values.text("name").map(str::to_owned),
+        names: Names {
+            block: values.text("block.name").map(str::to_owned),
+            storeys: (1..=model.storeys())
+                .map(|i| values.text(&format!("storey.{i}.name")).map(str::to_owned))
+                .collect(),
+        },
         model,
         friction_bounds,
         motion,
@@ -55,6 +63,19 @@ pub(super) fn analysis(values: Values) -> Result<Analysis, InputError> {
     })
 }
 
+/// The mass of a part, given as such or as its weight.
+pub(super) fn mass_kg(
+    values: &Values,
+    part: &str,
+    gravity_m_per_s2: f64,
+) -> Result<f64, InputError> {
+    let path = format!("{part}.weight");
+    match values.number(&path) {
+        Some(weight_n) => derived(values, &path, "mass, weight / g,", weight_n / gravity_m_per_s2),
+        None => values.required(&format!("{part}.mass")),
+    }
+}
+
 fn slider(
     values: &Values,
     block: &Block,
@@ -62,16 +83,19 @@ fn slider(
     gravity_m_per_s2: f64,
 ) -> Result<Slider, InputError> {
     let total_mass_kg = frame.masses_kg.iter().fold(block.mass_kg, |sum, m| sum + m);
-    let stiffness_n_per_m = match values.number("slider.radius") {
-        Some(radius_m) => {
-            let stiffness = total_mass_kg * gravity_m_per_s2 / radius_m;
-            derived(values, "slider.radius", "stiffness M_tot g / R", stiffness)?
-        }
-        None => values.number("slider.spring").unwrap_or(0.0),
+    let (radius_m, period_s) = (values.number("slider.radius"), values.number("slider.period"));
+    let stiffness_n_per_m = if let Some(radius_m) = radius_m {
+        let stiffness = total_mass_kg * gravity_m_per_s2 / radius_m;
+        derived(values, "slider.radius", "stiffness M_tot g / R", stiffness)?
+    } else if let Some(period_s) = period_s {
+        let stiffness = total_mass_kg * (TAU / period_s) * (TAU / period_s);
+        derived(values, "slider.period", "stiffness M_tot (2 π / T)²", stiffness)?
+    } else {
+        values.number("slider.spring").unwrap_or(0.0)
     };
     let damper_n_s_per_m = match values.number("slider.damping_ratio") {
         Some(_) if stiffness_n_per_m == 0.0 => {
-            let expected = "a spring or radius > 0 of which to take the critical damping";
+            let expected = "a spring, radius or period > 0 of which to take the critical damping";
             return Err(values.error("slider.damping_ratio", expected, "none"));
         }
         Some(ratio) => {
@@ -192,10 +216,10 @@ fn initial(values: &Values, storeys: usize) -> Result<InitialState, InputError> 
 fn model_error(values: &Values, error: &ModelError) -> InputError {
     // What the constructors call a quantity, and the keys that it may come from.
     const KEYS: [(&str, &[&str]); 22] = [
-        ("block mass_kg", &["block.mass"]),
+        ("block mass_kg", &["block.mass", "block.weight"]),
         ("block width_m", &["block.width"]),
         ("block height_m", &["block.height"]),
-        ("slider stiffness_n_per_m", &["slider.spring", "slider.radius"]),
+        ("slider stiffness_n_per_m", &["slider.spring", "slider.radius", "slider.period"]),
         ("slider damper_n_s_per_m", &["slider.damper", "slider.damping_ratio"]),
         ("slider gap_m", &["slider.gap"]),
         ("stop gap_m", &["slider.stop.gap"]),

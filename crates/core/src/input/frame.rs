@@ -2,14 +2,14 @@
 
 use core::f64::consts::TAU;
 
-use super::build::derived;
+use super::build::{derived, mass_kg};
 use super::keys::MAX_STOREYS;
 use super::reader::Values;
 use crate::error::InputError;
 use crate::linear::shear_frame_frequencies;
 use crate::model::{Damping, Frame};
 
-pub(super) fn frame(values: &Values) -> Result<Frame, InputError> {
+pub(super) fn frame(values: &Values, gravity_m_per_s2: f64) -> Result<Frame, InputError> {
     let storeys = values.count("storey");
     if storeys == 0 {
         if values.has("frame.period") {
@@ -23,7 +23,7 @@ pub(super) fn frame(values: &Values) -> Result<Frame, InputError> {
         let expected = format!("at most {MAX_STOREYS} storeys");
         return Err(values.error(&path, expected, storeys.to_string()));
     }
-    let masses_kg = each(storeys, |i| values.required(&key(i, "mass")))?;
+    let masses_kg = each(storeys, |i| mass_kg(values, &format!("storey.{i}"), gravity_m_per_s2))?;
     let stiffnesses_n_per_m = stiffnesses(values, &masses_kg)?;
     Ok(Frame {
         damping: damping(values, storeys)?,

@@ -2,7 +2,7 @@
 
 use super::schema::{Exclusive, Key, Kind, Range, Section};
 use crate::units::Dimension::{
-    Acceleration, Angle, Damper, Frequency, Length, Mass, Stiffness, Time, Velocity,
+    Acceleration, Angle, Damper, Force, Frequency, Length, Mass, Stiffness, Time, Velocity,
 };
 
 /// The most storeys a model may have: more than any building has, few enough that finding all their
@@ -34,11 +34,17 @@ pub static MODEL: Section = Section {
 
 static BLOCK: Section = Section {
     keys: &[
-        Key::required(
+        Key::optional(
             "mass",
             Kind::Quantity(Mass, Range::Positive),
             "Mass of the block, without the storeys.",
         ),
+        Key::optional(
+            "weight",
+            Kind::Quantity(Force, Range::Positive),
+            "Weight of the block instead of its mass: M1 = weight / g.",
+        ),
+        Key::optional("name", Kind::Text("Base mat"), "Name of the block in results."),
         Key::optional(
             "width",
             Kind::Quantity(Length, Range::Positive),
@@ -52,7 +58,7 @@ static BLOCK: Section = Section {
              is taken as thin.",
         ),
     ],
-    choices: &[],
+    choices: &[Exclusive::one_of(&["mass", "weight"])],
 };
 
 static SLIDER: Section = Section {
@@ -78,6 +84,11 @@ static SLIDER: Section = Section {
             "Radius R of a pendulum slider: the spring K1 = M_tot g / R.",
         ),
         Key::optional(
+            "period",
+            Kind::Quantity(Time, Range::Positive),
+            "Period T of sliding on the spring or pendulum: the spring K1 = M_tot (2 π / T)².",
+        ),
+        Key::optional(
             "damper",
             Kind::Quantity(Damper, Range::NotNegative),
             "Damper C1 between table and block.",
@@ -85,7 +96,7 @@ static SLIDER: Section = Section {
         Key::optional(
             "damping_ratio",
             Kind::Number(Range::NotNegative),
-            "Damper as a ratio ξ of critical damping: C1 = 2 ξ √(K1 M_tot). Needs spring or radius.",
+            "Damper as a ratio ξ of critical damping: C1 = 2 ξ √(K1 M_tot). Needs spring, radius or period.",
         ),
         Key::optional(
             "tilt",
@@ -116,7 +127,7 @@ static SLIDER: Section = Section {
         ),
     ],
     choices: &[
-        Exclusive::at_most(&["spring", "radius"]),
+        Exclusive::at_most(&["spring", "radius", "period"]),
         Exclusive::at_most(&["damper", "damping_ratio"]),
         Exclusive::at_most(&["asymmetry", "static_friction.*"]),
         Exclusive::at_most(&["asymmetry", "kinetic_friction.*"]),
@@ -180,7 +191,13 @@ static BOUNDS: Section = Section {
 
 static STOREY: Section = Section {
     keys: &[
-        Key::required("mass", Kind::Quantity(Mass, Range::Positive), "Mass of the floor."),
+        Key::optional("mass", Kind::Quantity(Mass, Range::Positive), "Mass of the floor."),
+        Key::optional(
+            "weight",
+            Kind::Quantity(Force, Range::Positive),
+            "Weight of the floor instead of its mass: mass = weight / g.",
+        ),
+        Key::optional("name", Kind::Text("Roof"), "Name of the storey in results."),
         Key::optional(
             "frequency",
             Kind::Quantity(Frequency, Range::Positive),
@@ -214,6 +231,7 @@ static STOREY: Section = Section {
         ),
     ],
     choices: &[
+        Exclusive::one_of(&["mass", "weight"]),
         Exclusive::one_of(&["frequency", "period", "stiffness"]),
         Exclusive::one_of(&["damping_ratio", "damper"]),
     ],

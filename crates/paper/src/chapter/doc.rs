@@ -91,7 +91,6 @@ impl Doc {
             if claim.verdict != Verdict::CannotBeChecked {
                 text.push_str(&format!(" *Rule: {}.*", claim.rule));
             }
-            text.push_str(&format!(" `{}`", claim.id));
             self.filled(&text, "- ", "  ");
         }
         self.text.push('\n');

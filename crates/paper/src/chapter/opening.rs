@@ -51,7 +51,7 @@ pub fn write(doc: &mut Doc, paper: &Paper) {
     let rows = paper.claims.iter().filter(|claim| claim.verdict == Verdict::Differs).map(|claim| {
         vec![
             claim.section.to_owned(),
-            format!("{} (`{}` below)", claim.claim, claim.id),
+            claim.claim.clone(),
             paper_value(claim),
             computed_value(claim),
         ]

@@ -103,6 +103,7 @@ impl DesignReport<'_> {
                 self.found.runs,
                 designs * self.records
             ),
+            display: self.display,
             verdict: self.verdict(),
             warnings: self.all_warnings(),
             tables: self.tables(),
@@ -157,7 +158,7 @@ impl DesignReport<'_> {
                 "no_feasible_design",
                 format!(
                     "no design of the grid keeps the gap in {} % of the records; the least \
-                     displacement that can be kept is told instead",
+                     displacement that any design reaches is given instead",
                     compact(100.0 * self.target.probability)
                 ),
             );

@@ -116,6 +116,7 @@ impl FragilityReport<'_> {
             name: self.name.to_owned(),
             first: Some(("Fitted", self.fitted())),
             line: format!("{} over {}, from {from}", self.exceedance(), &self.run.measure),
+            display: self.display,
             verdict: vec![self.verdict(unit)],
             warnings: self.run.warnings.clone(),
             tables: self.tables(unit),
@@ -434,9 +435,9 @@ impl FragilityReport<'_> {
 
 fn verdict(p: f64) -> &'static str {
     if p < 0.05 {
-        "The data speak against a lognormal curve at the 5 % level."
+        "A lognormal curve is rejected at the 5 % level."
     } else {
-        "The data do not speak against a lognormal curve at the 5 % level."
+        "A lognormal curve is not rejected at the 5 % level."
     }
 }
 

@@ -61,6 +61,8 @@ impl HistoriesReport<'_> {
             name: names.join(", "),
             first: Some(("Governs", self.governing())),
             line: format!("{runs} runs: {records}{}; {certificate}", self.scaled),
+            verdict: Vec::new(),
+            display: self.display,
             warnings: self.warnings(),
             tables: self.columns().iter().map(|columns| self.table(columns)).collect(),
             notes: self.notes(),

@@ -125,6 +125,7 @@ impl IdaReport<'_> {
                 title(self.demand),
                 self.measure
             ),
+            display: self.display,
             verdict: self.verdict(),
             warnings: self.all_warnings(),
             tables: self.tables(),
@@ -316,7 +317,7 @@ impl IdaReport<'_> {
              higher the factor, the less the record is like one that was ever recorded."
                 .to_owned(),
             "A capacity is the first crossing of the limit as intensity rises, on straight lines between \
-             runs; what falls below the limit again beyond it is told above and not used."
+             runs; a return below the limit beyond it is reported above and not used."
                 .to_owned(),
             "Fractiles interpolate linearly between sorted values, at position p (n − 1) counted from 0; \
              a failed run, and a record that does not reach, count as above all."

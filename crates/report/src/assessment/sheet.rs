@@ -4,6 +4,7 @@ use std::fmt::Display;
 
 use slipstick::response::Warning;
 
+use crate::display::DisplayUnits;
 use crate::figures::Drawn;
 use crate::html::{Frame, appendix, document, figure_list, inputs, warning_list};
 use crate::json::Json;
@@ -25,6 +26,8 @@ pub struct Sheet {
     pub line: String,
     /// The answer in sentences, the shortest first: what the page begins with.
     pub verdict: Vec<String>,
+    /// Units of the quantities in warnings.
+    pub display: DisplayUnits,
     /// All that a reader must know.
     pub warnings: Vec<Warning>,
     /// Headings with their tables: the first row are heads, the first column names.
@@ -76,7 +79,7 @@ impl Sheet {
             text.push('\n');
             text.push_str(&field(
                 warning.label(),
-                &format!("{}: {}", warning.kind, warning.message),
+                &format!("{}: {}", warning.kind, self.display.sentence(&warning.message)),
             ));
         }
         text
@@ -99,11 +102,14 @@ impl Sheet {
                 .raw("</p>\n");
         }
         if let Some((name, sentence)) = &self.first {
-            body.element("p", format!("{name} {sentence}."));
+            let lead = self.verdict.is_empty();
+            body.raw(if lead { "<p class=\"lead\">" } else { "<p>" })
+                .text(format!("{name}: {sentence}"))
+                .raw("</p>\n");
         }
         body.raw("</section>\n");
         let warnings: Vec<_> = self.warnings.iter().map(|warning| (None, warning)).collect();
-        warning_list(&mut body, &warnings);
+        warning_list(&mut body, &warnings, self.display);
         // The first figure and table answer; the rest supports them.
         let (figure, figures) = self.figures.split_at(self.figures.len().min(1));
         let (table, tables) = self.tables.split_at(self.tables.len().min(1));

@@ -77,6 +77,7 @@ impl<'s> SpectrumReport<'s> {
             name: self.name.to_owned(),
             first: None,
             line: format!("{} runs: {records}{}", self.runs, self.scaled),
+            display: self.display,
             verdict: self.verdict(),
             warnings: counted("failed_runs", self.failures)
                 .into_iter()

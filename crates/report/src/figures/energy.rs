@@ -48,13 +48,13 @@ pub fn by_kind(scene: &Scene) -> Option<Drawn> {
     let last = |values: &[f64]| values.last().copied().unwrap_or(0.0);
     let input_end = last(&energy.input_j);
     let mut caption = String::from(
-        "Energy in the frame of the table, stacked: what friction and dampers have taken so far, \
-         and what springs and motion hold. The stack must fill the input (initial energy and work \
-         of the table, dashed): a gap between them would be an error.",
+        "Energy relative to the ground, stacked: what friction and dampers have dissipated so far, \
+         and what is stored as strain and kinetic energy. The stack must fill the input (initial \
+         energy and work of the ground, dashed): a gap between them would be an error.",
     );
     if input_end > 0.0 {
         caption.push_str(&format!(
-            " At the end friction has taken {} % of the input and the dampers {} %.",
+            " At the end friction has dissipated {} % of the input and the dampers {} %.",
             printed(100.0 * last(&energy.friction_j) / input_end, 3),
             printed(100.0 * last(&energy.damping_j) / input_end, 3),
         ));

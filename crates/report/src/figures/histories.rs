@@ -3,6 +3,7 @@
 use super::trace::Trace;
 use super::{Drawn, Scene, drawn, shown_note, shown_storeys};
 use crate::display::{Quantity, Unit};
+use crate::markup::shortened;
 use crate::number::{compact, printed};
 use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
 
@@ -54,7 +55,7 @@ pub fn sliding_displacement(scene: &Scene) -> Drawn {
     };
     let demands = &report.summary.demands;
     let mut caption = format!(
-        "Sliding displacement s of the block relative to the table, positive towards +x. {SHADING}"
+        "Sliding displacement s of the block relative to the ground, positive towards +x. {SHADING}"
     );
     if let Some(ratio) = demands.gap_ratio {
         caption.push_str(&format!(
@@ -109,10 +110,17 @@ pub fn accelerations(scene: &Scene) -> Drawn {
     let unit = report.display.unit(Quantity::Acceleration, report.summary.record.pga_m_per_s2);
     let table = scene.over_time(unit, |knot| history.table_acceleration_m_per_s2[knot]);
     let block = scene.over_time(unit, |knot| history.block_acceleration_m_per_s2[knot]);
+    let names = &report.summary.names;
+    let acceleration = |name: &str| format!("{} acceleration", shortened(name, 24));
     let block_peak = unit.of(demands.peak_block_acceleration_m_per_s2);
     let mut panels = vec![
-        history_panel(scene, "Table acceleration", Trace::of(table), unit),
-        history_panel(scene, "Block acceleration", Trace::with_peak(block, block_peak), unit),
+        history_panel(scene, "Ground acceleration", Trace::of(table), unit),
+        history_panel(
+            scene,
+            &acceleration(names.block()),
+            Trace::with_peak(block, block_peak),
+            unit,
+        ),
     ];
     let peaks: Vec<f64> =
         demands.storeys.iter().map(|storey| storey.peak_acceleration_m_per_s2).collect();
@@ -120,17 +128,17 @@ pub fn accelerations(scene: &Scene) -> Drawn {
     for &i in &shown {
         let floor = scene.over_time(unit, |knot| history.storey_accelerations(knot)[i]);
         let trace = Trace::with_peak(floor, unit.of(peaks[i]));
-        panels.push(history_panel(scene, &format!("Storey {} acceleration", i + 1), trace, unit));
+        panels.push(history_panel(scene, &acceleration(&names.storey(i + 1)), trace, unit));
     }
     let caption = format!(
         "Total accelerations, each on its own scale. {SHADING} While the block sticks it moves with \
-         the table; while it slides only friction, spring and structure drive it, which caps its \
+         the ground; while it slides only friction, spring and structure drive it, which caps its \
          acceleration.{}",
         shown_note(&shown, history.storeys)
     );
     let figure = Figure {
         id: "accelerations",
-        title: "Accelerations of table, block and storeys over time".to_owned(),
+        title: "Accelerations of ground, block and storeys over time".to_owned(),
         description: describe(&caption, &panels),
         layout: Layout::Stacked,
         panels,
@@ -158,7 +166,12 @@ pub fn drifts(scene: &Scene) -> Option<Drawn> {
                 if i == 0 { q[0] } else { q[i] - q[i - 1] }
             });
             let trace = Trace::with_peak(drift, unit.of(peaks[i]));
-            history_panel(scene, &format!("Storey {} drift", i + 1), trace, unit)
+            history_panel(
+                scene,
+                &format!("{} drift", shortened(&report.summary.names.storey(i + 1), 24)),
+                trace,
+                unit,
+            )
         })
         .collect();
     let caption = format!(

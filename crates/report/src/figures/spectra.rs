@@ -2,6 +2,7 @@
 
 use super::{Drawn, drawn, shown_note, shown_storeys};
 use crate::display::Quantity;
+use crate::markup::shortened;
 use crate::number::printed;
 use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
 use slipstick::assessment::single::FloorSpectra;
@@ -24,22 +25,22 @@ pub fn floors(report: &Report, spectra: &FloorSpectra) -> Option<Drawn> {
         Style::WIDE,
         Style { colour: "#1a1a1a", ..Style::LIMIT },
     ];
+    let names = &report.summary.names;
     let line = |label: String, style: Style, values: &[f64]| Series {
-        label,
+        label: shortened(&label, 24),
         style,
         shape: Shape::History,
         points: periods.iter().zip(values).map(|(&t, &a)| [t, unit.of(a)]).collect(),
     };
-    let storeys = shown
-        .iter()
-        .zip(storey_styles)
-        .map(|(&i, style)| line(format!("storey {}", i + 1), style, &spectra.storeys_m_per_s2[i]));
+    let storeys = shown.iter().zip(storey_styles).map(|(&i, style)| {
+        line(names.storey(i + 1).to_lowercase(), style, &spectra.storeys_m_per_s2[i])
+    });
     let mut series: Vec<Series> = storeys.collect();
     if !spectra.table_m_per_s2.is_empty() {
-        series.push(line("table".to_owned(), Style::DOTTED, &spectra.table_m_per_s2));
+        series.push(line("ground".to_owned(), Style::DOTTED, &spectra.table_m_per_s2));
     }
     let block = Style { width: 1.3, ..Style::MAIN };
-    series.push(line("block".to_owned(), block, &spectra.block_m_per_s2));
+    series.push(line(names.block().to_lowercase(), block, &spectra.block_m_per_s2));
     let values: Vec<f64> = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect();
     let panel = Panel {
         x: Axis::logarithmic("Period (s)", first, last),

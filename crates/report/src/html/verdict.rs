@@ -46,8 +46,9 @@ fn sliding(report: &Report) -> String {
     }
     let peak_m = d.peak_sliding_displacement_m;
     let length = report.display.unit(Quantity::Length, peak_m);
+    let block = report.summary.names.block.as_deref().unwrap_or("The block");
     let mut text = format!(
-        "The block slides {} at most, at {} s",
+        "{block} slides {} at most, at {} s",
         with_unit(length, peak_m),
         printed(d.peak_sliding_displacement_time_s, 4)
     );

@@ -161,7 +161,7 @@ impl CompareReport<'_> {
             for warning in &self.comparison.warnings {
                 text.push_str(&field(
                     warning.label(),
-                    &format!("{}: {}", warning.kind, warning.message),
+                    &format!("{}: {}", warning.kind, self.display.sentence(&warning.message)),
                 ));
             }
         }
@@ -249,7 +249,7 @@ impl CompareReport<'_> {
         }
         body.raw("</section>\n");
         let warnings: Vec<_> = self.comparison.warnings.iter().map(|w| (None, w)).collect();
-        warning_list(&mut body, &warnings);
+        warning_list(&mut body, &warnings, self.display);
         html::figure_list(&mut body, &self.figures(), 1);
         body.raw("<section>\n<h2>Agreement</h2>\n");
         for group in in_groups(&self.rows(), 3) {

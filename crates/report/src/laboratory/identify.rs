@@ -126,7 +126,7 @@ impl IdentifyReport<'_> {
         }
         let refusals = self.refusals();
         if !refusals.is_empty() {
-            text.push_str("\nThe data cannot tell:\n");
+            text.push_str("\nNot determined by the data:\n");
             for refusal in refusals {
                 text.push_str(&field("", &refusal));
             }
@@ -139,7 +139,7 @@ impl IdentifyReport<'_> {
         for warning in &self.warnings {
             text.push_str(&field(
                 warning.label(),
-                &format!("{}: {}", warning.kind, warning.message),
+                &format!("{}: {}", warning.kind, self.display.sentence(&warning.message)),
             ));
         }
         text
@@ -166,12 +166,12 @@ impl IdentifyReport<'_> {
     pub fn to_html(&self) -> String {
         let mut body = Markup::new();
         let warnings: Vec<_> = self.warnings.iter().map(|warning| (None, warning)).collect();
-        warning_list(&mut body, &warnings);
+        warning_list(&mut body, &warnings, self.display);
         body.raw("<section>\n<h2>Parameters</h2>\n");
         number_table(&mut body, &self.rows());
         let refusals = self.refusals();
         if !refusals.is_empty() {
-            body.raw("<h3>The data cannot tell</h3>\n<ul>\n");
+            body.raw("<h3>Not determined by the data</h3>\n<ul>\n");
             for refusal in refusals {
                 body.element("li", refusal).raw("\n");
             }

@@ -27,8 +27,8 @@ pub fn assumption(fit: &TableFit) -> String {
 #[must_use]
 pub fn facts(fit: &TableFit, display: DisplayUnits) -> Vec<(&'static str, String)> {
     let mut facts = vec![(
-        "Better than a stuck block by",
-        format!("{} variances", significant(fit.sliding_evidence, 3)),
+        "Fit against a block that never slides",
+        format!("sum of squares lower by {} noise variances", significant(fit.sliding_evidence, 3)),
     )];
     for (channel, noise) in &fit.noise {
         let unit = display.unit(quantity(*channel), *noise);

@@ -11,7 +11,7 @@ fn exact_columns_are_aligned_and_lines_fit() {
         run_times("mock-up", frame_model(2, factor), rough_motion(10.0, 0.01), factor).summary
     };
     let summary = nominal.summary.clone().with_bounds(bound(0.8), bound(1.3));
-    for display in [DisplayUnits::Si, DisplayUnits::KnMm, DisplayUnits::Us] {
+    for display in [DisplayUnits::Si, DisplayUnits::SiG, DisplayUnits::KnMm, DisplayUnits::Us] {
         let text = table(&summary, &nominal.model, "PEER AT2, 1001 values, 0.01 s, g", display);
         let head = text.lines().find(|line| line.contains("nominal")).expect("a head");
         let end = head.chars().count();

@@ -25,7 +25,7 @@ fn exact_unknown_keys_at_any_depth() {
     assert_eq!(
         changed("spring = ", "sprng = "),
         "m.toml:10:1: slider.sprng: expected one of the keys static_friction, kinetic_friction, \
-         spring, radius, damper, damping_ratio, tilt, asymmetry, gap, stop, bounds, found \"sprng\"; \
+         spring, radius, period, damper, damping_ratio, tilt, asymmetry, gap, stop, bounds, found \"sprng\"; \
          nearest is \"spring\""
     );
     assert_eq!(
@@ -40,8 +40,8 @@ fn exact_unknown_keys_at_any_depth() {
     );
     assert_eq!(
         changed("height = ", "hieght = "),
-        "m.toml:21:1: storey.1.hieght: expected one of the keys mass, frequency, period, stiffness, \
-         damping_ratio, damper, height, found \"hieght\"; nearest is \"height\""
+        "m.toml:21:1: storey.1.hieght: expected one of the keys mass, weight, name, frequency, \
+         period, stiffness, damping_ratio, damper, height, found \"hieght\"; nearest is \"height\""
     );
     // A key of another section: its whole path.
     assert!(changed("width = ", "gravity = ").ends_with("; nearest is \"analysis.gravity\""));
@@ -99,7 +99,7 @@ fn exact_excluding_keys() {
         (
             "damper = \"0 N s/m\"",
             "radius = \"2 m\"",
-            "m.toml:11:1: slider.radius: expected only one of spring, radius, found \"radius\" \
+            "m.toml:11:1: slider.radius: expected only one of spring, radius, period, found \"radius\" \
              besides \"spring\"",
         ),
         (

@@ -202,7 +202,7 @@ fn exact_models_are_made_of_values() {
     ];
     assert_eq!(
         refused(&both),
-        "slider.spring: expected only one of spring, radius, found \"spring\" besides \"radius\""
+        "slider.spring: expected only one of spring, radius, period, found \"spring\" besides \"radius\""
     );
     assert_eq!(refused(&both[..1]), "slider: expected a table [slider], found nothing");
 }

@@ -58,6 +58,28 @@ fn exact_full_example() {
     assert_eq!(analysis.tail_s, 5.0);
 }
 
+/// `M = W/g` with the model's own g; `K1 = M_tot (2π/T)²`; a kip is 4448.2216152605 N.
+#[test]
+fn exact_weights_and_periods_stand_for_masses_and_springs() {
+    let text = "[block]\nweight = \"1200 kip\"\nname = \"Base mat\"\n[slider]\n\
+                static_friction = 0.06\nkinetic_friction = 0.05\nperiod = \"3 s\"\n\
+                [[storey]]\nweight = \"981 kN\"\nname = \"Roof\"\nperiod = \"0.5 s\"\n\
+                damping_ratio = 0.02\n[analysis]\ngravity = \"9.81 m/s2\"\n";
+    let analysis = parse("m.toml", text, &[]).unwrap();
+    let block_kg = 1200.0 * 4_448.221_615_260_5 / 9.81;
+    let model = &analysis.model;
+    assert!((model.block().mass_kg / block_kg - 1.0).abs() < 1e-15);
+    assert!((model.frame().masses_kg[0] / 100e3 - 1.0).abs() < 1e-15);
+    let spring = (block_kg + 100e3) * (TAU / 3.0) * (TAU / 3.0);
+    assert!((model.slider().stiffness_n_per_m / spring - 1.0).abs() < 1e-14);
+    assert_eq!(analysis.names.block(), "Base mat");
+    assert_eq!([analysis.names.storey(1), analysis.names.storey(2)], ["Roof", "Storey 2"]);
+    assert_eq!(read(FULL, &[]).unwrap().names.block(), "Block");
+    // Setting one of two excluding keys removes the other.
+    let set = [crate::input::Override::of_option("--set", "block.mass=1 t").unwrap()];
+    assert_eq!(parse("m.toml", text, &set).unwrap().model.block().mass_kg, 1000.0);
+}
+
 #[test]
 fn exact_inputs_are_given_as_written() {
     let analysis = read(FULL, &["slider.gap=0.2 m"]).unwrap();

@@ -50,14 +50,14 @@ impl DesignReport<'_> {
         series.push(line("gap", Style::LIMIT, vec![[gap, 0.0], [gap, 1.06 * top]]));
         let x = Axis::from_zero(
             l.label(&format!(
-                "Displacement kept by {} %",
+                "Displacement not exceeded in {} % of the records",
                 compact(100.0 * self.target.probability)
             )),
             all.iter().map(|p| p[0]).chain([gap]),
         );
         let y = Axis::linear(
             a.label(&format!(
-                "Acceleration kept by {} %",
+                "Acceleration not exceeded in {} % of the records",
                 compact(100.0 * self.target.acceleration_share)
             )),
             0.0,

@@ -112,6 +112,7 @@ impl FragilityFamily<'_> {
                 reports.len(),
                 self.by
             ),
+            display: self.display,
             verdict: reports
                 .iter()
                 .map(|(group, report)| {
