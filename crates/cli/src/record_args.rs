@@ -99,7 +99,7 @@ pub struct SpectrumArgs {
     pub files: Vec<String>,
     #[command(flatten)]
     pub read: ReadArgs,
-    /// A period, such as "1.2 s"; repeatable
+    /// A period, such as "1.2 s"; may be repeated
     #[arg(long, value_name = "TIME", conflicts_with_all = ["from", "to", "count"])]
     pub period: Vec<String>,
     /// Shortest of periods that are evenly spaced by their logarithm
@@ -111,7 +111,7 @@ pub struct SpectrumArgs {
     /// Their number
     #[arg(long, value_name = "N", default_value_t = 200)]
     pub count: usize,
-    /// Damping, such as "5 %" (which is the default) or 0.05; repeatable
+    /// Damping, such as "5 %" (which is the default) or 0.05; may be repeated
     #[arg(long, value_name = "DAMPING")]
     pub damping: Vec<String>,
     /// RotD50 and RotD100 of two channels at right angles instead
@@ -139,10 +139,10 @@ pub struct ProcessArgs {
     pub input: String,
     #[command(flatten)]
     pub read: ReadArgs,
-    /// A step; repeatable, done in the order in which they are written
+    /// A step; may be repeated, done in the order in which they are written
     #[arg(long, value_name = "STEP")]
     pub step: Vec<String>,
-    /// Sum of channels before the steps: NAME=FACTOR, repeatable
+    /// Sum of channels before the steps: NAME=FACTOR, may be repeated
     #[arg(long, value_name = "NAME=FACTOR", conflicts_with_all = ["channel", "rotate"])]
     pub combine: Vec<String>,
     /// Component at this angle from --channel towards --second, before the steps: "30 deg"
@@ -176,7 +176,7 @@ pub struct PlotArgs {
     /// File to write: .svg for one channel, .html for any number
     #[arg(short, long, value_name = "OUT")]
     pub out: PathBuf,
-    /// Damping of the spectra, such as "5 %" (which is the default); repeatable
+    /// Damping of the spectra, such as "5 %" (which is the default); may be repeated
     #[arg(long, value_name = "DAMPING")]
     pub damping: Vec<String>,
     /// Units of the axes
