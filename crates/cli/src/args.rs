@@ -64,7 +64,8 @@ Examples:
   slipstick study merge out1 out2 --out study.parquet  one file of all
 
 Writes into the folder, complete files only, never a part of one:
-  part-*.parquet  one row per run: record, level, scale, intensity measures, varied values, demands
+  parts/          a table in Parquet files, one row per run: record, level, scale, intensity
+                  measures, varied values, demands
   summary.csv     each demand at each level: mean, quantiles, maximum with its record and run
   manifest.json   the plan, hashes of all inputs, counts, and the outcome of rows that were run again
 
@@ -264,7 +265,7 @@ pub struct StudyArgs {
     /// Study plan (TOML)
     #[arg(required = true)]
     pub plan: Option<PathBuf>,
-    /// Folder for the parts, summary.csv and manifest.json
+    /// Folder for parts/, summary.csv and manifest.json
     #[arg(short, long, value_name = "DIR", required_unless_present_any = ["dry_run", "repeat"])]
     pub out: Option<PathBuf>,
     /// Continue an interrupted study in this folder

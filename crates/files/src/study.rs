@@ -1,9 +1,9 @@
-//! Studies in files: a plan in, a folder of Parquet parts out.
+//! Studies in files: a plan in, a folder with a table in Parquet parts out.
 //!
-//! A study's rows are cut into parts of a fixed size that follows from their number. [`run_shard`]
-//! computes the parts of one shard that a folder does not hold yet, each whole or not at all, so that
-//! it may be killed and called again at any time. [`conclude`] writes the manifest and the summary
-//! of a folder; [`merge`] joins folders to one file.
+//! A study's rows are cut into parts of a fixed size that follows from their number; they stand in
+//! the folder `parts`, and nothing else. [`run_shard`] computes the parts of one shard that it does not
+//! hold yet, each whole or not at all, so that it may be killed and called again at any time.
+//! [`conclude`] writes the manifest and the summary beside `parts`; [`merge`] joins folders to one file.
 
 mod merge;
 mod open;
@@ -64,6 +64,19 @@ pub enum StudyError {
     Stray {
         /// The file.
         path: PathBuf,
+    },
+    /// Parts beside the manifest, as earlier versions wrote them.
+    #[error(
+        "{}: expected the parts of the study in {}, found some beside it, as an earlier version \
+         wrote them: move part-*.parquet there, or start anew with --force",
+        shown(folder),
+        shown(parts)
+    )]
+    OldLayout {
+        /// The folder of the study.
+        folder: PathBuf,
+        /// Where its parts belong.
+        parts: PathBuf,
     },
     /// Folders that do not hold every run.
     #[error("expected the runs 0 to {last}, found none from {missing} on in {folders}")]

@@ -64,6 +64,15 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     Temporary::write(path, |to| to.write_all(bytes))?.rename(&mut live())
 }
 
+/// As [`write_whole`], with the temporary name in a folder of the same file system, for targets in a
+/// folder where only whole files may stand.
+///
+/// # Errors
+/// As [`write_whole`].
+pub(crate) fn write_whole_by(folder: &Path, path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    Temporary::write_in(folder, path, |to| to.write_all(bytes))?.rename(&mut live())
+}
+
 /// As [`write_whole`], for content that is made while it is written.
 ///
 /// # Errors
@@ -96,6 +105,14 @@ impl Temporary {
         target: &Path,
         fill: impl FnOnce(&mut BufWriter<fs::File>) -> io::Result<()>,
     ) -> Result<Self, FileError> {
+        Self::write_in(target.parent().unwrap_or(Path::new("")), target, fill)
+    }
+
+    fn write_in(
+        folder: &Path,
+        target: &Path,
+        fill: impl FnOnce(&mut BufWriter<fs::File>) -> io::Result<()>,
+    ) -> Result<Self, FileError> {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         let failed = |source| FileError::Write { path: target.to_owned(), source };
         if target.is_dir() {
@@ -109,7 +126,7 @@ impl Temporary {
         let mut name = std::ffi::OsString::from(".");
         name.push(file_name);
         name.push(format!(".{}-{count}.tmp", std::process::id()));
-        let name = target.with_file_name(name);
+        let name = folder.join(name);
         let file = {
             // Created under the lock: Ctrl-C finds it in the list or finds no file.
             let mut live = live();
@@ -200,6 +217,14 @@ impl OutputFolder {
         live.folders.insert(folder.to_owned());
         self.made.push(folder.to_owned());
         Ok(())
+    }
+
+    /// Makes a folder inside, where it does not exist.
+    ///
+    /// # Errors
+    /// [`FileError::NotAFolder`], [`FileError::Write`].
+    pub(crate) fn make_inside(&mut self, name: &str) -> Result<(), FileError> {
+        self.make(&self.folder.join(name))
     }
 
     /// The path that a file of the set will have.

@@ -100,7 +100,7 @@ fn study(
     let ended = run.output().map_err(|error| Problem::Failed(format!("{plan}: {error}")))?;
     let message = String::from_utf8_lossy(&ended.stderr);
     match ended.status.code() {
-        Some(0) if out.join("part-00000.parquet").is_file() => tally.passed += 1,
+        Some(0) if out.join("parts/part-00000.parquet").is_file() => tally.passed += 1,
         Some(2) if message.contains(" are missing, found no ") => {
             println!("  {plan}: skipped, its records are not there");
             tally.skipped += 1;

@@ -126,7 +126,7 @@ fn finish(
 type Source = (String, String, String);
 
 /// What the commands write into their folders, the first that is there.
-const TABLES: [&str; 4] = ["part-*.parquet", "parts/part-*.parquet", "ida.parquet", "runs.parquet"];
+const TABLES: [&str; 4] = ["parts/part-*.parquet", "part-*.parquet", "ida.parquet", "runs.parquet"];
 
 /// The table of a file, or of the folder of a command, and the files with their hashes.
 fn read(source: &Path) -> Result<(Vec<Source>, ReadTable), Failure> {

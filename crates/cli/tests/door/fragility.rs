@@ -59,6 +59,10 @@ fn exact_fragility_of_a_study_counts_its_rows() {
     assert_eq!(of_study["stripes"], of_ida["stripes"]);
     assert_eq!(of_study["median"], of_ida["median"]);
     assert_eq!(of("ida/ida.parquet")["median"], of_ida["median"]);
+    // The folder of the parts, and a study that has them beside its manifest.
+    assert_eq!(of("study/parts")["stripes"], of_study["stripes"]);
+    folder.parts_to_old_layout("study");
+    assert_eq!(of("study")["stripes"], of_study["stripes"]);
     // The folder itself is the table, and each form of it fits the same.
     for source in ["ida", "ida/ida.csv", "ida/ida.parquet"] {
         assert_eq!(

@@ -46,6 +46,16 @@ count = 250
 seed = 1
 "#;
 
+/// What that study leaves in its folder: in `parts`, where readers take every file, parts only.
+const WRITTEN: [&str; 6] = [
+    "manifest.json",
+    "parts",
+    "parts/part-00000.parquet",
+    "parts/part-00001.parquet",
+    "parts/part-00002.parquet",
+    "summary.csv",
+];
+
 fn folder(test: &str) -> Folder {
     let folder = Folder::with_model(test, MODEL);
     folder.write("plan.toml", PLAN);
@@ -54,17 +64,18 @@ fn folder(test: &str) -> Folder {
     folder
 }
 
-/// The parts of a folder with their bytes.
+/// The parts of a study with their bytes.
 fn parts(folder: &Folder, out: &str) -> BTreeMap<PathBuf, Vec<u8>> {
     let all = folder.contents().into_iter();
+    let parts = PathBuf::from(out).join("parts");
     let inside =
-        all.filter_map(|(path, bytes)| Some((path.strip_prefix(out).ok()?.to_owned(), bytes?)));
+        all.filter_map(|(path, bytes)| Some((path.strip_prefix(&parts).ok()?.to_owned(), bytes?)));
     inside.filter(|(path, _)| path.extension().is_some_and(|e| e == "parquet")).collect()
 }
 
 /// How many parts stand in a folder, which a study may be writing meanwhile.
 fn part_count(folder: &Folder, out: &str) -> usize {
-    let Ok(entries) = std::fs::read_dir(folder.path().join(out)) else { return 0 };
+    let Ok(entries) = std::fs::read_dir(folder.path().join(out).join("parts")) else { return 0 };
     let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
     names.filter(|name| name.starts_with("part-")).count()
 }
@@ -95,17 +106,7 @@ fn exact_whole_study_has_every_run_in_order() {
     let table = folder.stdout(&["study", "plan.toml", "--out", "out"]);
     assert!(table.contains("peak sliding displacement (m)"), "{table}");
     assert!(table.contains("0.2 g") && table.contains("a.csv"), "{table}");
-    let names = folder.names("out");
-    assert_eq!(
-        names,
-        [
-            "manifest.json",
-            "part-00000.parquet",
-            "part-00001.parquet",
-            "part-00002.parquet",
-            "summary.csv"
-        ]
-    );
+    assert_eq!(folder.names("out"), WRITTEN);
     folder.stdout(&["study", "merge", "out", "--out", "all.parquet"]);
     let columns = numbers(&folder, "all.parquet");
     let of = |name: &str| &columns.iter().find(|column| column.name == name).unwrap().values;
@@ -232,6 +233,8 @@ fn exact_killed_study_is_resumed_to_the_same_bytes() {
         child.kill().unwrap();
         child.wait().unwrap();
         let left = parts(&folder, &out);
+        // What was half-written stands elsewhere: readers take the folder as it is.
+        assert_eq!(folder.names(&format!("{out}/parts")).len(), left.len());
         assert!(left.iter().all(|(name, bytes)| whole[name] == *bytes));
         if left.len() < whole.len() {
             let refused = folder.output(&["study", "plan.toml", "--out", &out]);
@@ -246,8 +249,8 @@ fn exact_killed_study_is_resumed_to_the_same_bytes() {
                 folder.read(&format!("{out}/{file}"))
             );
         }
-        let hidden = folder.names(&out).into_iter().filter(|name| name.starts_with('.')).count();
-        assert_eq!(hidden, 0);
+        let names = folder.names(&out);
+        assert!(names.iter().all(|name| !name.starts_with('.')), "{names:?}");
     }
 }
 
@@ -284,7 +287,7 @@ fn exact_damaged_parts_are_run_again() {
     folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
     let (whole, summary) = (parts(&folder, "out"), folder.read("out/summary.csv"));
     let manifest = folder.read("out/manifest.json");
-    let damaged = "out/part-00001.parquet";
+    let damaged = "out/parts/part-00001.parquet";
     let bytes = whole.get(&PathBuf::from("part-00001.parquet")).unwrap();
     let length = bytes.len();
     // A bit of the data, of the notes at the end, of the hash among them; a file cut off, one that
@@ -321,8 +324,8 @@ fn exact_stray_parts_are_left_out() {
     let folder = folder("study-stray");
     folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
     let summary = folder.read("out/summary.csv");
-    let part = std::fs::read(folder.path().join("out/part-00001.parquet")).unwrap();
-    for name in ["out/part-00003.parquet", "out/part-1.parquet"] {
+    let part = std::fs::read(folder.path().join("out/parts/part-00001.parquet")).unwrap();
+    for name in ["out/parts/part-00003.parquet", "out/parts/part-1.parquet"] {
         folder.write(name, &part);
         let refused = folder.refused(&["study", "merge", "out", "--out", "all.parquet"]);
         assert_eq!(refused, format!("{name}: the study has no such part: remove it"));
@@ -345,6 +348,7 @@ fn exact_manifest_has_the_hash_of_every_part() {
     let listed = manifest["parts"].as_array().unwrap();
     assert_eq!(listed.len(), 3);
     for (index, part) in listed.iter().enumerate() {
+        assert_eq!(part["path"], format!("parts/part-{index:05}.parquet"));
         let path = folder.path().join("out").join(part["path"].as_str().unwrap());
         let hash = slipstick_files::sha256_hex(&std::fs::read(path).unwrap());
         assert_eq!(part["sha256"], hash.as_str());
@@ -512,7 +516,10 @@ fn exact_folders_with_files_need_a_word() {
     // Another seed is another study.
     folder.write("plan.toml", PLAN.replace("seed = 1", "seed = 2"));
     let refused = folder.refused(&["study", "plan.toml", "--out", "out", "--resume"]);
-    assert!(refused.contains("part-00000.parquet: belongs to another study"), "{refused}");
+    assert!(
+        refused.contains("out/parts/part-00000.parquet: belongs to another study"),
+        "{refused}"
+    );
     folder.stdout(&["study", "plan.toml", "--out", "out", "--force", "-q"]);
     let second = parts(&folder, "out");
     assert_eq!(first.len(), second.len());
@@ -521,6 +528,59 @@ fn exact_folders_with_files_need_a_word() {
     folder.write("file", "");
     let refused = folder.refused(&["study", "plan.toml", "--out", "file"]);
     assert!(refused.contains("file: expected a folder to write to, found a file"), "{refused}");
+}
+
+/// What a killed study left half-written in an otherwise empty folder is no study.
+#[test]
+fn exact_leftovers_alone_need_no_word() {
+    let folder = folder("study-leftover");
+    folder.write("out/.part-00001.parquet.4711-0.tmp", "half");
+    std::fs::create_dir(folder.path().join("out/parts")).unwrap();
+    folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
+    assert_eq!(folder.names("out"), WRITTEN);
+    assert_eq!(parts(&folder, "out").len(), 3);
+    folder.write("other/parts/mine.txt", "mine");
+    let refused = folder.refused(&["study", "plan.toml", "--out", "other"]);
+    assert!(refused.contains("other: expected an empty folder, found files"), "{refused}");
+    folder.write("third/parts", "mine");
+    let refused = folder.refused(&["study", "plan.toml", "--out", "third", "--resume"]);
+    let expected = "third/parts: expected a folder to write to, found a file";
+    assert!(refused.contains(expected), "{refused}");
+}
+
+/// Parts beside the manifest are not run a second time: they are merged as they stand, and
+/// `--resume` says where they belong.
+#[test]
+fn exact_studies_of_the_old_layout_are_known() {
+    let folder = folder("study-old-layout");
+    folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
+    let whole = parts(&folder, "out");
+    let bytes = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    folder.stdout(&["study", "merge", "out", "--out", "new.parquet"]);
+    folder.stdout(&["study", "merge", "out/parts", "--out", "inner.parquet"]);
+    assert_eq!(bytes("new.parquet"), bytes("inner.parquet"));
+    folder.parts_to_old_layout("out");
+    folder.stdout(&["study", "merge", "out", "--out", "old.parquet"]);
+    assert_eq!(bytes("new.parquet"), bytes("old.parquet"));
+    let before = folder.contents();
+    let refused = folder.refused(&["study", "plan.toml", "--out", "out", "--resume"]);
+    let expected = "out: expected the parts of the study in out/parts, found some beside it, as an \
+                    earlier version wrote them: move part-*.parquet there, or start anew with --force";
+    assert_eq!(refused, expected);
+    assert_eq!(folder.contents(), before);
+    // The mends: moved they are those of the study; --force leaves none behind.
+    for name in whole.keys() {
+        let (from, to) = (folder.path().join("out"), folder.path().join("out/parts"));
+        std::fs::create_dir_all(&to).unwrap();
+        std::fs::rename(from.join(name), to.join(name)).unwrap();
+    }
+    let output = folder.output(&["study", "plan.toml", "--out", "out", "--resume"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_eq!(parts(&folder, "out"), whole);
+    folder.parts_to_old_layout("out");
+    folder.stdout(&["study", "plan.toml", "--out", "out", "--force", "-q"]);
+    assert_eq!(folder.names("out"), WRITTEN);
+    assert_eq!(parts(&folder, "out"), whole);
 }
 
 #[test]
@@ -640,7 +700,7 @@ fn exact_a_study_warns_as_run_does() {
     let plan = "model = \"model.toml\"\n[records]\nfiles = [\"records/a.csv\"]\nvertical = [\"up/a.csv\"]\n";
     folder.write("plan.toml", plan);
     folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
-    let columns = read_columns(&folder.path().join("out/part-00000.parquet")).unwrap();
+    let columns = read_columns(&folder.path().join("out/parts/part-00000.parquet")).unwrap();
     let of_study = columns.iter().find(|column| column.name == "warnings").unwrap();
     let Cells::Texts(of_study) = &of_study.cells else { panic!("texts") };
     let motion = "record = \"records/a.csv\"\nvertical = \"up/a.csv\"\n";

@@ -97,6 +97,16 @@ impl Folder {
         below.map(|name| name.display().to_string()).filter(|name| !name.is_empty()).collect()
     }
 
+    /// Moves the parts of a study beside its manifest, where earlier versions wrote them.
+    pub fn parts_to_old_layout(&self, out: &str) {
+        let out = self.0.join(out);
+        for entry in std::fs::read_dir(out.join("parts")).unwrap() {
+            let entry = entry.unwrap();
+            std::fs::rename(entry.path(), out.join(entry.file_name())).unwrap();
+        }
+        std::fs::remove_dir(out.join("parts")).unwrap();
+    }
+
     /// The command with these arguments, to be run in the folder.
     pub fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_slipstick"));

@@ -9,7 +9,7 @@ use slipstick::table::Cells;
 use slipstick_report::json::Json;
 
 use super::part::{self, Checks, Notes, PartFile};
-use super::parts::{Found, MANIFEST, SUMMARY, find};
+use super::parts::{Found, MANIFEST, PARTS, SUMMARY, find, held};
 use super::summary;
 use super::{OpenStudy, StudyError};
 use crate::error::FileError;
@@ -33,7 +33,7 @@ pub struct Merged {
 /// # Errors
 /// [`StudyError`] for parts that belong to another study, and files that cannot be written.
 pub fn conclude(study: &OpenStudy, folder: &Path) -> Result<StudySummary, StudyError> {
-    let found = find(folder)?;
+    let found = find(&folder.join(PARTS))?;
     found.refuse_foreign(&study.id)?;
     let files = found.whole;
     let summary = summary::of(study, &files, &Engine::unwatched())?;
@@ -77,11 +77,11 @@ fn manifest(study: &OpenStudy, files: &[PartFile]) -> Json {
     ])
 }
 
-/// A part by its name, its runs and the hash of its file.
+/// A part by its path from the manifest, its runs and the hash of its file.
 fn part_of_manifest(file: &PartFile) -> Json {
     let name = file.table.path.file_name().map_or_else(Default::default, |n| n.to_string_lossy());
     Json::Object(vec![
-        ("path", (&*name).into()),
+        ("path", Json::Text(format!("{PARTS}/{name}"))),
         ("first_run", file.notes.first.into()),
         ("rows", file.notes.rows.into()),
         ("sha256", file.sha256.as_str().into()),
@@ -110,7 +110,8 @@ fn totals(files: &[PartFile]) -> Merged {
 
 /// Joins the parts in some folders to one file: all runs of the study in their order.
 ///
-/// The bytes of the file follow from the rows alone. A part that is in two folders counts once.
+/// The bytes of the file follow from the rows alone. A part that is in two folders counts once. A
+/// folder is that of a study, or the one in it that holds the parts.
 ///
 /// # Errors
 /// [`StudyError::Foreign`] for parts of different studies, [`StudyError::Damaged`] and
@@ -119,7 +120,7 @@ fn totals(files: &[PartFile]) -> Merged {
 pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, StudyError> {
     let mut all = Found::default();
     for folder in folders {
-        let found = find(folder)?;
+        let found = find(&held(folder))?;
         found.refuse_damaged()?;
         all.whole.extend(found.whole);
     }

@@ -13,6 +13,10 @@ use crate::error::FileError;
 use crate::parquet::Table;
 use crate::read::{read_bytes, sha256_hex};
 
+/// The folder of the parts. Nothing else stands in it, so that any reader takes it as one table; a
+/// part has its temporary name beside it.
+pub(super) const PARTS: &str = "parts";
+
 /// What a study writes besides its parts.
 pub(super) const MANIFEST: &str = "manifest.json";
 pub(super) const SUMMARY: &str = "summary.csv";
@@ -31,6 +35,12 @@ fn names(folder: &Path) -> Result<Vec<String>, FileError> {
     Ok(names)
 }
 
+/// Names in the folder of the parts; none where there is no such folder.
+fn names_of_parts(folder: &Path) -> Result<Vec<String>, FileError> {
+    let parts = folder.join(PARTS);
+    if parts.is_dir() { names(&parts) } else { Ok(Vec::new()) }
+}
+
 /// Whether a folder exists and holds anything at all but what a killed study left half-written.
 ///
 /// # Errors
@@ -42,25 +52,48 @@ pub fn has_parts(folder: &Path) -> Result<bool, FileError> {
     if !folder.is_dir() {
         return Err(FileError::NotAFolder { path: folder.to_owned() });
     }
-    Ok(names(folder)?.iter().any(|name| leftover(name).is_none()))
+    let empty = folder.join(PARTS).is_dir() && names_of_parts(folder)?.is_empty();
+    let counts = |name: &String| leftover(name).is_none() && !(empty && name == PARTS);
+    Ok(names(folder)?.iter().any(counts))
 }
 
 /// Number of runs in the parts that a folder holds of a study with so many runs.
 #[must_use]
 pub fn kept_runs(folder: &Path, runs: u64) -> u64 {
-    let names = names(folder).unwrap_or_default();
+    let names = names_of_parts(folder).unwrap_or_default();
     let parts = names.iter().filter_map(|name| part_of_name(name));
     let rows = parts.filter(|part| *part < part_count(runs)).map(|part| rows_of(part, runs));
     rows.map(|rows| rows.end - rows.start).sum()
 }
 
-/// Removes what a study wrote into a folder; other files stay.
+/// Where the parts stand that a folder holds: in `parts`, else in the folder itself, which may be
+/// `parts` or one of the older layout.
+pub(super) fn held(folder: &Path) -> PathBuf {
+    let parts = folder.join(PARTS);
+    if parts.is_dir() { parts } else { folder.to_owned() }
+}
+
+/// Refuses a folder of the older layout, with the parts beside the manifest.
+///
+/// # Errors
+/// [`StudyError::OldLayout`], [`FileError::Read`].
+pub(super) fn refuse_old_layout(folder: &Path) -> Result<(), StudyError> {
+    if folder.is_dir() && names(folder)?.iter().any(|name| part_of_name(name).is_some()) {
+        return Err(StudyError::OldLayout { folder: folder.to_owned(), parts: folder.join(PARTS) });
+    }
+    Ok(())
+}
+
+/// Removes what a study wrote into a folder, in the older layout too; other files stay.
 ///
 /// # Errors
 /// [`FileError::Read`], and [`FileError::Write`] for a file that cannot be removed.
 pub fn clear(folder: &Path) -> Result<(), FileError> {
     if !folder.exists() {
         return Ok(());
+    }
+    for name in names_of_parts(folder)?.into_iter().filter(|name| part_of_name(name).is_some()) {
+        remove(&folder.join(PARTS).join(name))?;
     }
     for name in names(folder)? {
         let ours = part_of_name(&name).is_some()
@@ -84,12 +117,9 @@ fn leftover(name: &str) -> Option<u64> {
 }
 
 /// Removes what a killed study left half-written of some parts.
-pub(super) fn remove_leftovers(
-    folder: &Path,
-    parts: &std::ops::Range<u64>,
-) -> Result<(), FileError> {
+pub(super) fn remove_leftovers(folder: &Path, wanted: &Range<u64>) -> Result<(), FileError> {
     for name in names(folder)? {
-        if leftover(&name).is_some_and(|part| parts.contains(&part)) {
+        if leftover(&name).is_some_and(|part| wanted.contains(&part)) {
             remove(&folder.join(name))?;
         }
     }
@@ -136,19 +166,20 @@ impl Found {
     }
 }
 
-/// Judges every file under a part's name: its hash, and the runs that it holds.
+/// Judges every file under a part's name in the folder of the parts: its hash, and the runs that it
+/// holds.
 ///
 /// # Errors
 /// [`FileError::Read`].
-pub(super) fn find(folder: &Path) -> Result<Found, FileError> {
-    let names = names(folder)?.into_iter();
+pub(super) fn find(parts: &Path) -> Result<Found, FileError> {
+    let names = names(parts)?.into_iter();
     let named: Vec<_> = names.filter_map(|name| Some((part_of_name(&name)?, name))).collect();
-    let judge = |i: usize| Ok(judge(&folder.join(&named[i].1), named[i].0));
+    let judge = |i: usize| Ok(judge(&parts.join(&named[i].1), named[i].0));
     // Nothing stops an engine that nobody follows.
     let judged = Engine::unwatched().map(named.len(), judge).unwrap_or_default();
     let mut found = Found::default();
     for ((part, name), judged) in named.into_iter().zip(judged) {
-        let path = folder.join(&name);
+        let path = parts.join(&name);
         match judged? {
             _ if name != part_name(part) => found.strays.push(path),
             Ok(file) if part >= part_count(file.notes.runs) => found.strays.push(path),

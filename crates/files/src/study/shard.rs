@@ -9,11 +9,11 @@ use slipstick::study::engine::Engine;
 use slipstick::study::{Row, Verdict};
 
 use super::part::{self, Checks, Notes, part_count, part_name, rows_of};
-use super::parts::{Damaged, Found, find, remove_leftovers};
+use super::parts::{Damaged, Found, PARTS, find, refuse_old_layout, remove_leftovers};
 use super::{OpenStudy, StudyError};
 use crate::error::shown;
 use crate::parquet::at;
-use crate::write::{OutputFolder, write_whole};
+use crate::write::{OutputFolder, write_whole_by};
 
 /// One of so many shards of a study, from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,11 +96,14 @@ impl OpenStudy {
         folder: &Path,
         engine: &Engine<'_>,
     ) -> Result<ShardOutcome, StudyError> {
-        OutputFolder::create(folder, &[])?.commit()?;
+        refuse_old_layout(folder)?;
+        let mut output = OutputFolder::create(folder, &[])?;
+        output.make_inside(PARTS)?;
+        output.commit()?;
         let runs = self.study.runs();
         let wanted = shard.parts(part_count(runs));
         remove_leftovers(folder, &wanted)?;
-        let found = find(folder)?;
+        let found = find(&folder.join(PARTS))?;
         found.refuse_foreign(&self.id)?;
         let mut outcome = ShardOutcome {
             notices: notices(&found, &wanted, part_count(runs)),
@@ -165,9 +168,9 @@ impl OpenStudy {
             failures: rows.iter().filter(|row| row.error.is_some()).count() as u64,
             checks: self.check(rows, engine)?,
         };
-        let path = folder.join(part_name(part));
+        let path = folder.join(PARTS).join(part_name(part));
         let bytes = part::sealed(&self.study.fields(), &notes, &self.study.cells(rows));
-        write_whole(&path, &bytes.map_err(at(&path))?)?;
+        write_whole_by(folder, &path, &bytes.map_err(at(&path))?)?;
         Ok(notes)
     }
 
