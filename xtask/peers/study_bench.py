@@ -1,6 +1,6 @@
 """The far-field study: how long it takes, on how many threads, in how much memory; a part of the
-same runs in a numba loop and in OpenSeesPy, scaled to the whole; and its folder as one table in
-DuckDB."""
+same runs in a numba loop and in OpenSeesPy, scaled to the whole; and its parts as one table in
+pandas, Polars and DuckDB."""
 
 import argparse
 import json
@@ -18,6 +18,7 @@ import cases
 import numba_loop
 import opensees
 from machine import machine, note
+from readers import as_one_table
 
 # The study's model takes g as records do.
 cases.GRAVITY = cases.RECORD_G
@@ -65,7 +66,7 @@ def with_count(plan, count):
 
 
 def rows(out, runs):
-    table = f"read_parquet('{out}/*.parquet')"
+    table = f"read_parquet('{out}/parts/*.parquet')"
     columns = ('run, record, scale, "slider.kinetic_friction", "slider.static_friction", '
                '"slider.radius", "storey.1.period", peak_sliding_displacement_m')
     listed = ", ".join(map(str, runs))
@@ -118,16 +119,6 @@ def peers(out, folder, runs, quick):
     }
 
 
-def as_one_table(out, runs):
-    """DuckDB takes the folder as one table that holds every run once."""
-    table = f"read_parquet('{out}/*.parquet')"
-    query = f"select count(*), count(distinct run), min(run), max(run), count(*) filter (status = 'ok') from {table}"
-    found = duckdb.sql(query).fetchall()[0]
-    if found[:4] != (runs, runs, 0, runs - 1):
-        raise SystemExit(f"bench-study: DuckDB finds {found} in {out}, expected {runs} runs")
-    return {"duckdb": duckdb.__version__, "rows": found[0], "ok": found[4]}
-
-
 def thousands(number):
     return f"{number:,.0f}".replace(",", "\u202f")
 
@@ -168,7 +159,7 @@ def markdown(result):
         "|--:|--:|",
     ]
     lines += [f"| {runs} | {size / 2**20:.0f} MiB |" for runs, size in mem]
-    lines += ["", f"DuckDB {result['table']['duckdb']} opens the folder as one table: "
+    lines += ["", f"{result['table']['readers']} open the folder of its parts as one table: "
               f"{result['table']['rows']} rows, {result['table']['ok']} of them ok.", ""]
     return "\n".join(lines)
 
@@ -208,7 +199,7 @@ def main():
         "seconds_a_run_on_one_thread": threads["1"] / (880 * counts[1]),
         "seconds_a_further_run": (took[counts[2]] - took[counts[1]]) / (runs - 880 * counts[1]),
         "memory": memory,
-        "table": as_one_table(out, runs),
+        "table": as_one_table(out / "parts", runs),
         "peers": peers(out, options.folder, runs, options.quick),
     }
     (options.folder / "studies.json").write_text(json.dumps(result, indent=1) + "\n")

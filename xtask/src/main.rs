@@ -34,11 +34,13 @@ Usage: cargo xtask TASK
                                  (--write: into book/src/generated/storeys.md)
   bench-study [--quick] [--write]
                                  times the far-field study on one thread and two, in a numba loop
-                                 and in OpenSeesPy; opens it in DuckDB (needs its records)
+                                 and in OpenSeesPy; reads it as readers does (needs its records)
                                  (--write: into book/src/generated/studies.md)
   bench-records [--quick] [--write]
                                  times reading and response spectra beside NumPy, ObsPy, eqsig
                                  and pyrotd (--write: into book/src/generated/records.md)
+  readers                        reads the parts of a study in pandas, Polars and DuckDB
+                                 (needs python3; makes .venv)
   fuzz [TARGET] [--seconds N]    all fuzz targets or one, 60 s each (installs cargo-fuzz)
   fuzz --minutes N               all fuzz targets in so many minutes together
   coverage                       how often intervals of identify cover the truth, 200 tests a
@@ -63,6 +65,7 @@ fn main() -> ExitCode {
         ["bench-peers", options @ ..] => peers::bench_peers(options),
         ["bench-storeys", options @ ..] => peers::bench_storeys(options),
         ["bench-study", options @ ..] => peers::bench_study(options),
+        ["readers"] => peers::readers(),
         ["bench-records", options @ ..] => peers::bench_records(options),
         ["fuzz", options @ ..] => tools::fuzz(options),
         ["coverage"] => tools::coverage(),

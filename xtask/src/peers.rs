@@ -14,24 +14,37 @@ pub fn bench_peers(options: &[&str]) -> Outcome {
     let mut again = shell::cargo(build);
     again.env("RUSTFLAGS", "-C target-cpu=native").arg("--target-dir").arg(&native);
     shell::run(&mut again)?;
-    let [helper, native] = [&bench.target, &native].map(|t| built(t, "examples/peer_bench"));
+    let [helper, native] =
+        [&bench.target, &native].map(|t| built(t, "release", "examples/peer_bench"));
     bench.run("bench.py", &[("--helper", helper), ("--native-helper", native)])
 }
 
-/// The far-field study timed, on one thread and two, beside numba and OpenSeesPy; its folder opened
-/// by DuckDB.
+/// The far-field study timed, on one thread and two, beside numba and OpenSeesPy; its parts read by
+/// pandas, Polars and DuckDB.
 pub fn bench_study(options: &[&str]) -> Outcome {
     let bench = Bench::new("studies", options, &["--quick", "--write"])?;
     shell::run(&mut shell::cargo("build --release -p slipstick-cli"))?;
-    let slipstick = built(&bench.target, "slipstick");
+    let slipstick = built(&bench.target, "release", "slipstick");
     bench.run("study_bench.py", &[("--slipstick", slipstick)])
+}
+
+/// The parts of a study of the examples read as one table by pandas, Polars and DuckDB.
+pub fn readers() -> Outcome {
+    let python = environment()?;
+    shell::run(&mut shell::cargo("build -p slipstick-cli"))?;
+    let target = shell::target_folder()?;
+    let mut check = shell::command(&python);
+    check.env("PYTHONDONTWRITEBYTECODE", "1").arg("xtask/peers/readers.py");
+    check.arg("--slipstick").arg(built(&target, "debug", "slipstick"));
+    check.arg("--folder").arg(target.join("readers"));
+    shell::run(&mut check)
 }
 
 /// Frames of 0 to 20 storeys timed beside a numba loop.
 pub fn bench_storeys(options: &[&str]) -> Outcome {
     let bench = Bench::new("storeys", options, &["--json", "--quick", "--write"])?;
     shell::run(&mut shell::cargo("build --release -p slipstick --example storeys_bench"))?;
-    let helper = built(&bench.target, "examples/storeys_bench");
+    let helper = built(&bench.target, "release", "examples/storeys_bench");
     bench.run("storeys_bench.py", &[("--helper", helper)])
 }
 
@@ -39,13 +52,13 @@ pub fn bench_storeys(options: &[&str]) -> Outcome {
 pub fn bench_records(options: &[&str]) -> Outcome {
     let bench = Bench::new("records", options, &["--quick", "--write"])?;
     shell::run(&mut shell::cargo("build --release -p slipstick --example record_bench"))?;
-    let helper = built(&bench.target, "examples/record_bench");
+    let helper = built(&bench.target, "release", "examples/record_bench");
     bench.run("record_bench.py", &[("--helper", helper)])
 }
 
-/// A release build in a target folder.
-fn built(target: &Path, program: &str) -> PathBuf {
-    target.join(format!("release/{program}{}", std::env::consts::EXE_SUFFIX))
+/// A program in a target folder.
+fn built(target: &Path, profile: &str, program: &str) -> PathBuf {
+    target.join(profile).join(format!("{program}{}", std::env::consts::EXE_SUFFIX))
 }
 
 /// A bench whose page in the book has its name.
