@@ -32,22 +32,20 @@ pub(crate) const ANSWERS: usize = 2;
 #[must_use]
 pub fn all(report: &Report) -> Vec<Drawn> {
     let history = report.response.history.as_ref().filter(|history| history.len() > 1);
-    let over_time = history.map_or_else(Vec::new, |history| {
-        let scene = Scene::new(report, history);
-        [
-            Some(histories::sliding_displacement(&scene)),
-            Some(force::loops(&scene)),
-            Some(histories::accelerations(&scene)),
-            histories::drifts(&scene),
-            report.floor_spectra.and_then(|spectra| spectra::floors(report, spectra)),
-            Some(force::demand(&scene)),
-            energy::by_kind(&scene),
-        ]
-        .into_iter()
-        .flatten()
-        .collect()
-    });
-    over_time
+    let Some(history) = history else { return Vec::new() };
+    let scene = Scene::new(report, history);
+    [
+        Some(histories::sliding_displacement(&scene)),
+        Some(force::loops(&scene)),
+        Some(histories::accelerations(&scene)),
+        histories::drifts(&scene),
+        report.floor_spectra.and_then(|spectra| spectra::floors(report, spectra)),
+        Some(force::demand(&scene)),
+        energy::by_kind(&scene),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 /// What all figures over time share.
