@@ -10,7 +10,7 @@
 //! A sensor of displacement or force whose zero is not stated may be off by any constant: that is
 //! fitted with the rest. The table acceleration drives the model, so its noise, and what happens
 //! between its samples, move the estimates: both are carried to them by derivatives and widen the
-//! intervals ([`drive`]).
+//! intervals (`drive`).
 
 mod drive;
 mod parameter;

@@ -323,7 +323,8 @@ fn exact_json_schema_is_json_and_describes_every_key() {
         all(section)
     };
     assert_eq!(count(&schema), keys(&crate::input::keys::MODEL));
-    assert_eq!(schema["properties"]["block"]["required"][0], "mass");
+    let either = &schema["properties"]["block"]["allOf"][0]["oneOf"];
+    assert_eq!(either[0]["required"][0], "mass");
     let pattern = schema["properties"]["analysis"]["properties"]["gravity"]["pattern"].as_str();
     assert!(pattern.unwrap().contains(r"m/s(\^?2|²)"), "{pattern:?}");
 }
