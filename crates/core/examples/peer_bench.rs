@@ -90,12 +90,8 @@ fn load(bytes: &[u8]) -> Result<Case, Box<dyn Error>> {
     Ok(Case {
         block: Block { mass_kg: *mass_kg, width_m: None, height_m: None },
         slider: Slider {
-            friction: Friction::Coulomb(Coulomb::new([*mu_s; 2], [*mu_k; 2])?),
             stiffness_n_per_m: *spring,
-            damper_n_s_per_m: 0.0,
-            tilt_rad: 0.0,
-            gap_m: None,
-            stop: None,
+            ..Slider::new(Friction::Coulomb(Coulomb::new([*mu_s; 2], [*mu_k; 2])?))
         },
         frame,
         gravity_m_per_s2: *gravity,

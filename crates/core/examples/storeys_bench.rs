@@ -120,12 +120,8 @@ fn taft() -> Result<[GroundMotion; 2], Box<dyn Error>> {
 fn model(n: usize, period_s: f64, [mu_s, mu_k]: [f64; 2]) -> Result<Model, Box<dyn Error>> {
     let total_kg = MASS_KG * (n + 1) as f64;
     let slider = Slider {
-        friction: Friction::Coulomb(Coulomb::new([mu_s; 2], [mu_k; 2])?),
         stiffness_n_per_m: total_kg * STANDARD_GRAVITY_M_PER_S2 / 2.0,
-        damper_n_s_per_m: 0.0,
-        tilt_rad: 0.0,
-        gap_m: None,
-        stop: None,
+        ..Slider::new(Friction::Coulomb(Coulomb::new([mu_s; 2], [mu_k; 2])?))
     };
     let frame = if n == 0 {
         Frame::none()

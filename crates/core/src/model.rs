@@ -32,6 +32,21 @@ pub struct Slider {
     pub stop: Option<Stop>,
 }
 
+impl Slider {
+    /// Friction alone on a level surface: no spring, damper, gap or stop.
+    #[must_use]
+    pub fn new(friction: Friction) -> Self {
+        Self {
+            friction,
+            stiffness_n_per_m: 0.0,
+            damper_n_s_per_m: 0.0,
+            tilt_rad: 0.0,
+            gap_m: None,
+            stop: None,
+        }
+    }
+}
+
 /// A stop at the end of the slider's travel, on one side or on both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
@@ -198,14 +213,7 @@ impl Model {
     pub fn rigid_block(mass_kg: f64, friction: Friction) -> Result<Self, ModelError> {
         Self::new(
             Block { mass_kg, width_m: None, height_m: None },
-            Slider {
-                friction,
-                stiffness_n_per_m: 0.0,
-                damper_n_s_per_m: 0.0,
-                tilt_rad: 0.0,
-                gap_m: None,
-                stop: None,
-            },
+            Slider::new(friction),
             Frame::none(),
             STANDARD_GRAVITY_M_PER_S2,
             InitialState::rest(),

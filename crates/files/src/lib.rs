@@ -35,7 +35,7 @@ pub use study::{
     Checks, Merged, OpenStudy, Shard, ShardOutcome, StudyError, clear, conclude, estimate,
     has_parts, kept_runs, merge, part_rows, quoted, run_shard,
 };
-pub use suite::{OpenSuite, SuiteError, SuiteRequest};
+pub use suite::{OpenSuite, SuiteError, SuiteRequest, stems_or_paths};
 pub use table::{ReadTable, read_table, to_csv, to_parquet};
 pub use tables::{events_csv, history_csv};
 pub use threads::on_threads;

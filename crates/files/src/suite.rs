@@ -83,7 +83,7 @@ impl OpenSuite {
         // Nothing stops an engine that nobody follows.
         let loaded = Engine::unwatched().map(files.len(), load).unwrap_or_default();
         let loaded = loaded.into_iter().collect::<Result<Vec<_>, FileError>>()?;
-        let mut open = Self::of(&names(&files), loaded, false);
+        let mut open = Self::of(&stems_or_paths(&files), loaded, false);
         let twice = named_twice(&again);
         open.warnings.extend(twice.map(|message| Warning {
             kind: "record_named_twice",
@@ -134,7 +134,8 @@ impl OpenSuite {
 }
 
 /// Stems of files, or paths where stems repeat.
-fn names(files: &[PathBuf]) -> Vec<String> {
+#[must_use]
+pub fn stems_or_paths(files: &[PathBuf]) -> Vec<String> {
     let path = |file: &PathBuf| file.display().to_string().replace('\\', "/");
     let stem = |file: &PathBuf| {
         file.file_stem().map_or_else(|| path(file), |stem| stem.to_string_lossy().into_owned())

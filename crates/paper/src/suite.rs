@@ -109,14 +109,7 @@ fn structure(mass_ratio: f64, friction: f64, period_s: f64) -> Result<Model, Pap
     // Any friction far above the demand holds the block.
     let friction = if friction.is_finite() { friction } else { 1e3 };
     let rate = core::f64::consts::TAU / period_s;
-    let slider = Slider {
-        friction: Friction::Coulomb(Coulomb::new([friction; 2], [friction; 2])?),
-        stiffness_n_per_m: 0.0,
-        damper_n_s_per_m: 0.0,
-        tilt_rad: 0.0,
-        gap_m: None,
-        stop: None,
-    };
+    let slider = Slider::new(Friction::Coulomb(Coulomb::new([friction; 2], [friction; 2])?));
     let frame = Frame {
         masses_kg: vec![mass_ratio],
         stiffnesses_n_per_m: vec![mass_ratio * rate * rate],

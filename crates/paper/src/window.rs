@@ -419,14 +419,7 @@ mod tests {
 
     fn mock_up(mass_kg: f64, frequency_hz: f64) -> Model {
         let friction = Friction::Coulomb(Coulomb::new([0.020; 2], [0.012; 2]).unwrap());
-        let slider = Slider {
-            friction,
-            stiffness_n_per_m: 0.0,
-            damper_n_s_per_m: 0.0,
-            tilt_rad: 0.0,
-            gap_m: None,
-            stop: None,
-        };
+        let slider = Slider::new(friction);
         let frame = Frame {
             masses_kg: vec![mass_kg],
             stiffnesses_n_per_m: vec![1.0],

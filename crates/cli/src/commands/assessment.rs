@@ -41,6 +41,14 @@ pub struct Opened {
 impl Opened {
     /// Reads the model and the records, or the model's own motion.
     pub fn open(args: &SuiteArgs) -> Result<Self, Failure> {
+        Self::open_with(args, || open_records(args))
+    }
+
+    /// Reads the model, then the records by `records`; the model's own motion where it gives none.
+    pub fn open_with(
+        args: &SuiteArgs,
+        records: impl FnOnce() -> Result<Option<OpenSuite>, Failure>,
+    ) -> Result<Self, Failure> {
         let file = read_model(&args.model)?;
         let overrides = overrides(&args.set, None)?;
         let analysis = input::from_bytes(&file.name, &file.bytes, &overrides)
@@ -51,21 +59,16 @@ impl Opened {
             return Err(Failure::input(error, &file.text()));
         }
         let name = model_name(&file, analysis.name.as_deref());
-        let open = if args.records.is_empty() {
-            let job = OpenJob::new(&file.path, analysis.clone(), None)
-                .map_err(|error| Failure::job(error, &file.name, &file.text()))?;
-            let made = job.loaded.sources.is_empty();
-            let record = job.loaded.description.join("; ");
-            OpenSuite::single(&record, job.loaded, made)
-        } else {
-            let request = suite_request(args)?;
-            let read = || on_threads(jobs(args), || OpenSuite::open(&request));
-            watched("reading", args.result.quiet, read).map_err(|error| match error {
-                SuiteError::Choice(error) => choice(&error),
-                SuiteError::File(error) => error.into(),
-            })?
+        let OpenSuite { suite, sources, warnings } = match records()? {
+            Some(records) => records,
+            None => {
+                let job = OpenJob::new(&file.path, analysis.clone(), None)
+                    .map_err(|error| Failure::job(error, &file.name, &file.text()))?;
+                let made = job.loaded.sources.is_empty();
+                let record = job.loaded.description.join("; ");
+                OpenSuite::single(&record, job.loaded, made)
+            }
         };
-        let OpenSuite { suite, sources, warnings } = open;
         Ok(Self { file, name, analysis, overrides, suite, warnings, sources })
     }
 
@@ -112,6 +115,20 @@ impl Opened {
     pub fn inputs(&self) -> Vec<(String, String)> {
         vec![(self.file.name.clone(), self.file.text())]
     }
+}
+
+/// Reads the records that are asked for; `None` where none are.
+pub fn open_records(args: &SuiteArgs) -> Result<Option<OpenSuite>, Failure> {
+    if args.records.is_empty() {
+        return Ok(None);
+    }
+    let request = suite_request(args)?;
+    let read = || on_threads(jobs(args), || OpenSuite::open(&request));
+    let opened = watched("reading", args.result.quiet, read).map_err(|error| match error {
+        SuiteError::Choice(error) => choice(&error),
+        SuiteError::File(error) => error.into(),
+    })?;
+    Ok(Some(opened))
 }
 
 /// The number of threads asked for.

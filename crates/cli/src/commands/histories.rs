@@ -4,9 +4,11 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use slipstick::assessment::histories::{ModelOn, run_histories};
+use slipstick_files::stems_or_paths;
 use slipstick_report::assessment::histories::HistoriesReport;
 
-use super::assessment::{Opened, conclude, folder, scaling_by};
+use super::assessment::{Opened, conclude, folder, open_records, scaling_by};
+use super::run::scale_factor;
 use crate::args::{MethodName, RunArgs, SuiteArgs};
 use crate::failure::Failure;
 
@@ -20,11 +22,20 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
         let expected = "--method: expected exact, the only one over a suite, found stepwise";
         return Err(Failure::Message(expected.to_owned()));
     }
-    let factor = args.scale.as_deref().map(factor).transpose()?;
+    let factor = args.scale.as_deref().map(scale_factor).transpose()?;
     let measure = args.measure.as_deref().unwrap_or("PGA");
     let (scaling, scaled) = scaling_by("scale-to", measure, args.scale_to.as_deref(), factor)?;
     let suites: Vec<SuiteArgs> = args.models.iter().map(|model| suite_of(args, model)).collect();
-    let opened = suites.iter().map(Opened::open).collect::<Result<Vec<_>, Failure>>()?;
+    // Every model has the same records: they are read once.
+    let mut records = None;
+    let mut opened = Vec::with_capacity(suites.len());
+    for suite in &suites {
+        let read = || match &records {
+            Some(read) => Ok(Clone::clone(read)),
+            None => Ok(records.insert(open_records(suite)?).clone()),
+        };
+        opened.push(Opened::open_with(suite, read)?);
+    }
     let mut sources: Vec<(String, String, String)> = Vec::new();
     let mut warnings = Vec::new();
     for opened in &opened {
@@ -80,26 +91,13 @@ fn suite_of(args: &RunArgs, model: &Path) -> SuiteArgs {
     }
 }
 
-/// Names of the models: of several the stems of their files, or the files where stems repeat.
+/// Names of the models: of several the stems of their files, or their paths where stems repeat.
 fn names(opened: &[Opened]) -> Vec<String> {
-    if let [one] = opened {
-        return vec![one.name.clone()];
+    match opened {
+        [one] => vec![one.name.clone()],
+        _ => {
+            let files: Vec<PathBuf> = opened.iter().map(|o| o.file.name.clone().into()).collect();
+            stems_or_paths(&files)
+        }
     }
-    let stem = |opened: &Opened| {
-        let stem = Path::new(&opened.file.name).file_stem();
-        stem.map_or_else(|| opened.file.name.clone(), |stem| stem.to_string_lossy().into_owned())
-    };
-    let stems: Vec<String> = opened.iter().map(stem).collect();
-    let repeats = |name: &String| stems.iter().filter(|other| *other == name).count() > 1;
-    if stems.iter().any(repeats) {
-        return opened.iter().map(|opened| opened.file.name.clone()).collect();
-    }
-    stems
-}
-
-/// The factor of `--scale`.
-fn factor(text: &str) -> Result<f64, Failure> {
-    text.trim()
-        .parse()
-        .map_err(|_| Failure::Message(format!("--scale: expected a factor, found {text:?}")))
 }

@@ -142,6 +142,12 @@ fn scale_of_model(args: &RunArgs) -> Result<Option<Override>, Failure> {
     set.map(Some).map_err(|error| Failure::Message(error.to_string()))
 }
 
+/// The factor of `--scale`.
+pub(super) fn scale_factor(text: &str) -> Result<f64, Failure> {
+    let factor = text.trim().parse::<f64>().ok().filter(|factor| factor.is_finite());
+    factor.ok_or_else(|| Failure::Message(format!("--scale: expected a factor, found {text:?}")))
+}
+
 /// The record of `--motion`, completed by the options beside it.
 fn record_request(args: &RunArgs, path: &Path) -> Result<RecordRequest, Failure> {
     let refuse = |option: &str, reason: String| Failure::Message(format!("{option}: {reason}"));
@@ -149,11 +155,7 @@ fn record_request(args: &RunArgs, path: &Path) -> Result<RecordRequest, Failure>
         parse_quantity(text, dimension).map_err(|error| refuse(option, error.to_string()))
     };
     let scale = match (&args.scale, &args.scale_to) {
-        (Some(factor), _) => {
-            let value = factor.trim().parse::<f64>().ok().filter(|factor| factor.is_finite());
-            let expected = || refuse("--scale", format!("expected a factor, found {factor:?}"));
-            Some(Scale::Factor(value.ok_or_else(expected)?))
-        }
+        (Some(factor), _) => Some(Scale::Factor(scale_factor(factor)?)),
         (None, Some(peak)) => {
             let peak_m_per_s2 = quantity("--scale-to", peak, Dimension::Acceleration)?;
             if !(peak_m_per_s2 > 0.0) {

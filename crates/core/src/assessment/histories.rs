@@ -6,7 +6,7 @@ use super::suite::{Scaling, Suite};
 use super::{AssessmentError, FailedRun};
 use crate::error::RunError;
 use crate::input::Analysis;
-use crate::response::{DemandColumn, DemandShape, Demands, Method, Response, Warning};
+use crate::response::{DemandColumn, DemandShape, Demands, Method, Warning};
 use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
 
@@ -174,13 +174,12 @@ fn on_record(model: &ModelOn<'_>, record: usize, scale: f64) -> Result<OnRecord,
     let pga_m_per_s2 = motion.figures().pga_m_per_s2;
     let job = Job::new(model.analysis.clone(), motion, Vec::new())?;
     let outcome = job.run(false)?;
-    let mut judged: Vec<Judged> = Vec::with_capacity(3);
-    match outcome.bounds {
-        None => judged.push(outcome.nominal),
-        Some([lower, upper]) => judged.extend([lower, outcome.nominal, upper]),
-    }
-    let nominal = judged.iter().find(|judged| judged.friction_factor == 1.0);
-    let sliding = nominal.and_then(|judged| sliding(&judged.response)).unwrap_or_default();
+    let mut nominal = outcome.nominal;
+    let history = nominal.response.history.take().unwrap_or_default();
+    let judged = match outcome.bounds {
+        None => vec![nominal],
+        Some([lower, upper]) => vec![lower, nominal, upper],
+    };
     let noticed = judged.iter().flat_map(|judged| judged.response.warnings.iter().cloned());
     let holds =
         |judged: &Judged| judged.response.method == Method::Stepwise || judged.certificate.holds();
@@ -189,16 +188,10 @@ fn on_record(model: &ModelOn<'_>, record: usize, scale: f64) -> Result<OnRecord,
         scale,
         pga_m_per_s2,
         holds: judged.iter().map(holds).collect(),
-        sliding,
+        sliding: [history.time_s, history.sliding_displacement_m],
         warnings: job.warnings.iter().cloned().chain(noticed).collect(),
         demands: judged.into_iter().map(|judged| judged.response.demands).collect(),
     })
-}
-
-/// Times and sliding displacements of a response.
-fn sliding(response: &Response) -> Option<[Vec<f64>; 2]> {
-    let history = response.history.as_ref()?;
-    Some([history.time_s.clone(), history.sliding_displacement_m.clone()])
 }
 
 /// Every run as a row.
@@ -222,14 +215,10 @@ fn table_of_runs(models: &[ModelHistories], shape: DemandShape) -> Table {
         unit: String::new(),
         cells: Cells::Flags(holds),
     });
-    let mut values: Vec<Vec<f64>> = vec![Vec::with_capacity(rows.len()); shape.columns().len()];
-    for (_, on, i) in &rows {
-        for (values, column) in values.iter_mut().zip(shape.columns()) {
-            values.push(column.value(&on.demands[*i]).unwrap_or(f64::NAN));
-        }
-    }
-    for (values, column) in values.into_iter().zip(shape.columns()) {
-        table.numbers(&column.name(), column.unit(), values);
+    for column in shape.columns() {
+        let value =
+            |(_, on, i): &(_, &OnRecord, usize)| column.value(&on.demands[*i]).unwrap_or(f64::NAN);
+        table.numbers(&column.name(), column.unit(), rows.iter().map(value).collect());
     }
     table
 }

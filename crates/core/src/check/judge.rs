@@ -6,7 +6,7 @@ use super::collocation::{MAX_TURN, Scheme};
 use super::demands::{self, Outputs, Peaks, Rounding, Totals};
 use super::energy::Energy;
 use super::ground::{Ground, Load};
-use super::lanes::{Bench, Brief, Group, Interval, Knots, Map, Reach, Sizes, Work, Worst};
+use super::lanes::{Bench, Group, Interval, Knots, Map, Reach, Sizes, Told, Work, Worst};
 use super::law::{Dips, Law};
 use super::step::{Look, Spread};
 use super::structure::{Phase, Structure, excess, larger};
@@ -198,7 +198,7 @@ impl<'a> Judge<'a> {
         self.start();
         let initial_j = self.structure.kinetic(self.v()) + self.structure.strain(self.x());
         self.energy.start(initial_j, self.model.total_mass_kg() * self.jolt * self.jolt, knots);
-        let briefs = self.side_by_side(&all);
+        let told = self.side_by_side(&all);
         self.dips = self.fresh_dips(0);
         let mut arrives = false;
         for k in 0..knots {
@@ -208,8 +208,8 @@ impl<'a> Judge<'a> {
             self.energy.knot(all.kinetic_j[k], all.strain_j[k]);
             let leaves = k + 1 < knots && times[k + 1] > times[k];
             if leaves {
-                match &briefs[k] {
-                    Some(brief) => self.recall(k, brief),
+                match &told[k] {
+                    Some(told) => self.recall(k, told),
                     None => self.interval(k, Look::All),
                 }
             } else if !arrives {
@@ -227,9 +227,9 @@ impl<'a> Judge<'a> {
 
     /// Judges side by side all intervals of one step in which no stop acts and the loads are linear;
     /// looks for peaks where there may be some.
-    fn side_by_side(&mut self, knots: &Knots) -> Vec<Option<Brief>> {
+    fn side_by_side(&mut self, knots: &Knots) -> Vec<Option<Told<f64>>> {
         let h = self.history;
-        let mut briefs = vec![None; h.len()];
+        let mut told = vec![None; h.len()];
         let mut worst = Worst::NONE;
         let mut work = Work::new(self.structure.degrees());
         let mut groups =
@@ -251,15 +251,15 @@ impl<'a> Judge<'a> {
             let group = &mut groups[which][usize::from(even)];
             if group.push(&interval) {
                 let map = maps[which].as_ref().filter(|_| even);
-                self.flush(group, map, knots, (&mut work, &mut worst), &mut briefs);
+                self.flush(group, map, knots, (&mut work, &mut worst), &mut told);
             }
         }
         for group in groups.iter_mut().flatten().filter(|group| group.count > 0) {
-            self.flush(group, None, knots, (&mut work, &mut worst), &mut briefs);
+            self.flush(group, None, knots, (&mut work, &mut worst), &mut told);
         }
         self.figures.take(&worst);
         self.still = (STILL * worst.sliding.largest()).max(self.still);
-        briefs
+        told
     }
 
     /// The interval from a knot if it is one step under a linear load, and no stop acts in it.
@@ -320,7 +320,7 @@ impl<'a> Judge<'a> {
         map: Option<&Map>,
         knots: &Knots,
         (work, worst): (&mut Work, &mut Worst),
-        briefs: &mut [Option<Brief>],
+        told: &mut [Option<Told<f64>>],
     ) {
         let Some(spread) = &self.spreads[group.phase as usize] else { return };
         group.fill();
@@ -331,8 +331,9 @@ impl<'a> Judge<'a> {
         dispatch!(self.level, simd => bench.group(simd, lanes, map, &reach, work, worst));
         for lane in 0..group.count {
             let k = group.knot(lane);
-            briefs[k] = Some(work.told.brief(lane));
-            if work.told.passes.0[lane] > 0.0 {
+            let of_lane = work.told.lane(lane);
+            told[k] = Some(of_lane);
+            if of_lane.passes > 0.0 {
                 self.interval(k, Look::Peaks);
             }
         }
@@ -340,34 +341,34 @@ impl<'a> Judge<'a> {
     }
 
     /// Takes up what was told of an interval; looks again where a decision may have been close.
-    fn recall(&mut self, k: usize, brief: &Brief) {
+    fn recall(&mut self, k: usize, told: &Told<f64>) {
         let h = self.history;
         let (mode, from_s, to_s) = (h.mode[k], h.time_s[k], h.time_s[k + 1]);
-        self.energy.spend(brief.work, brief.size, brief.damping, brief.friction);
+        self.energy.spend(told.work, told.size, told.damping, told.friction);
         self.totals.add(mode, Contact::Free, to_s - from_s);
         let near = self.closest.map_or(f64::INFINITY, |call| call.margin);
         let (floor, wrong) = match mode {
-            Mode::Stick => (near.min(self.dips.so_far()).max(0.0), brief.least < 0.0),
+            Mode::Stick => (near.min(self.dips.so_far()).max(0.0), told.least < 0.0),
             Mode::Slip(direction) => {
                 let s = &h.sliding_displacement_m;
                 self.totals.path_m += (s[k + 1] - s[k]).abs();
-                let wrong = brief.least.min(brief.low) < -self.still;
+                let wrong = told.least.min(told.low) < -self.still;
                 let drops = self.law.drops(direction);
                 let near = (near * self.peaks.speed()).min(self.dips.so_far());
                 (if drops { near } else { f64::NEG_INFINITY }, wrong)
             }
         };
-        if wrong || brief.low < floor {
+        if wrong || told.low < floor {
             self.interval(k, Look::Law);
             return;
         }
-        let [first, last] = brief.ends;
+        let [first, last] = told.ends;
         if first.min(last) < floor {
             self.resume(k);
             self.dips.feed(from_s, first);
             self.dips.feed(to_s, last);
         }
-        self.dips.see(brief.fastest);
+        self.dips.see(told.fastest);
     }
 
     /// Decisions are looked at from the knot `k` to the next, and perhaps were not before.

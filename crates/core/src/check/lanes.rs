@@ -558,49 +558,45 @@ pub(super) struct Reach<'a> {
     pub(super) knots: &'a Knots,
 }
 
-/// What is told of each interval of a group.
-pub(super) struct Told {
-    pub(super) work: Eight,
-    pub(super) size: Eight,
-    pub(super) damping: Eight,
-    pub(super) friction: Eight,
+/// What is told of the intervals of a group side by side, or of one of them.
+#[derive(Clone, Copy)]
+pub(super) struct Told<T> {
+    pub(super) work: T,
+    pub(super) size: T,
+    pub(super) damping: T,
+    pub(super) friction: T,
     /// Margin in stick, speed in slip: at both ends, the least at any point, and what it cannot fall
     /// below in between where it is not monotone.
-    pub(super) ends: [Eight; 2],
-    pub(super) least: Eight,
-    pub(super) low: Eight,
+    pub(super) ends: [T; 2],
+    pub(super) least: T,
+    pub(super) low: T,
     /// Largest |ṡ|.
-    pub(super) fastest: Eight,
+    pub(super) fastest: T,
     /// 1 where an output may pass what has been attained.
-    pub(super) passes: Eight,
+    pub(super) passes: T,
 }
 
-/// What is told of one interval, as [`Told`] has it.
-#[derive(Clone, Copy)]
-pub(super) struct Brief {
-    pub(super) work: f64,
-    pub(super) size: f64,
-    pub(super) damping: f64,
-    pub(super) friction: f64,
-    pub(super) ends: [f64; 2],
-    pub(super) least: f64,
-    pub(super) low: f64,
-    pub(super) fastest: f64,
-}
-
-impl Told {
-    /// What is told of a lane.
-    pub(super) fn brief(&self, lane: usize) -> Brief {
-        Brief {
-            work: self.work.0[lane],
-            size: self.size.0[lane],
-            damping: self.damping.0[lane],
-            friction: self.friction.0[lane],
-            ends: [self.ends[0].0[lane], self.ends[1].0[lane]],
-            least: self.least.0[lane],
-            low: self.low.0[lane],
-            fastest: self.fastest.0[lane],
+impl<T: Copy> Told<T> {
+    /// The same of something else in place of each number.
+    fn map<U>(&self, of: impl Fn(T) -> U) -> Told<U> {
+        Told {
+            work: of(self.work),
+            size: of(self.size),
+            damping: of(self.damping),
+            friction: of(self.friction),
+            ends: self.ends.map(&of),
+            least: of(self.least),
+            low: of(self.low),
+            fastest: of(self.fastest),
+            passes: of(self.passes),
         }
+    }
+}
+
+impl Told<Eight> {
+    /// What is told of a lane.
+    pub(super) fn lane(&self, lane: usize) -> Told<f64> {
+        self.map(|eight| eight.0[lane])
     }
 }
 
@@ -615,7 +611,7 @@ pub(super) struct Work {
     rates: Vec<Eight>,
     places: Vec<Eight>,
     fastest: Vec<Eight>,
-    pub(super) told: Told,
+    pub(super) told: Told<Eight>,
 }
 
 impl Work {
@@ -1107,7 +1103,7 @@ fn from_state<S: Simd>(
 #[inline(always)]
 fn tell<S: Simd>(
     simd: S,
-    told: &mut Told,
+    told: &mut Told<Eight>,
     [first, last]: [f64x8<S>; 2],
     at: impl Fn(usize) -> f64x8<S>,
 ) {

@@ -5,6 +5,7 @@ use fearless_simd::prelude::*;
 
 use crate::linear::lanes::greatest;
 use crate::linear::{BATCH, QUIET};
+use crate::model::Model;
 use crate::motion::GroundMotion;
 
 /// What screening needs to know of a motion, whatever the model.
@@ -142,6 +143,21 @@ pub(super) struct Ground<'a> {
 pub(super) enum Normal<'a> {
     Constant(f64),
     Varying(&'a [f64]),
+}
+
+/// `M_tot (g cos θ + Üv)` at the samples, where there is vertical motion.
+pub(super) fn varying_normal(model: &Model, motion: &GroundMotion) -> Option<Vec<f64>> {
+    let (mass_kg, gravity) = (model.total_mass_kg(), model.normal_gravity_m_per_s2());
+    let vertical = motion.vertical_m_per_s2()?;
+    Some(vertical.iter().map(|a| mass_kg * (gravity + a)).collect())
+}
+
+impl<'a> Normal<'a> {
+    /// That of a model, varying where there is vertical motion.
+    pub(super) fn new(model: &Model, varying: Option<&'a [f64]>) -> Self {
+        let weight_n = model.total_mass_kg() * model.normal_gravity_m_per_s2();
+        varying.map_or(Self::Constant(weight_n), Self::Varying)
+    }
 }
 
 impl Normal<'_> {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use fearless_simd::Level;
 use fearless_simd::prelude::*;
 
-use super::ground::{Ground, Normal, Windows, contact_loss_s};
+use super::ground::{Ground, Normal, Windows, contact_loss_s, varying_normal};
 use super::recorder::Recorder;
 use super::run::{Outcome, Run};
 use super::summary;
@@ -195,14 +195,8 @@ fn solve(
         sloped = motion.horizontal_m_per_s2().iter().map(|a| a + slope).collect();
         &sloped
     };
-    let varying: Vec<f64>;
-    let normal = match motion.vertical_m_per_s2() {
-        None => Normal::Constant(mass_kg * gravity),
-        Some(vertical) => {
-            varying = vertical.iter().map(|a| mass_kg * (gravity + a)).collect();
-            Normal::Varying(&varying)
-        }
-    };
+    let varying = varying_normal(model, motion);
+    let normal = Normal::new(model, varying.as_deref());
     let ground = Ground {
         times_s: motion.times_s(),
         table: motion.horizontal_m_per_s2(),

@@ -1,6 +1,6 @@
 //! The paper's own program, eqs (5), (6), (15)–(18): what it computed, errors included.
 
-use super::ground::{Normal, contact_loss_s};
+use super::ground::{Normal, contact_loss_s, varying_normal};
 use super::outputs::{self, output};
 use super::recorder::{Recorder, Stored};
 use super::run::{Outcome, Sliding};
@@ -122,14 +122,8 @@ pub(super) fn solve(
         note(sample, &next, next.mode, true);
         step = next;
     }
-    let unclamped: Vec<f64>;
-    let normal = match motion.vertical_m_per_s2() {
-        None => Normal::Constant(mass_kg * gravity),
-        Some(vertical) => {
-            unclamped = vertical.iter().map(|a| mass_kg * (gravity + a)).collect();
-            Normal::Varying(&unclamped)
-        }
-    };
+    let varying = varying_normal(model, motion);
+    let normal = Normal::new(model, varying.as_deref());
     let contact_loss_s = contact_loss_s(motion.times_s(), normal);
     let warnings = summary::warnings(model, &events, &contact_loss_s);
     let outcome = Outcome {

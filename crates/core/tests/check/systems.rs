@@ -17,14 +17,7 @@ pub fn block(mass_kg: f64) -> Block {
 }
 
 pub fn slider(friction: Friction) -> Slider {
-    Slider {
-        friction,
-        stiffness_n_per_m: 0.0,
-        damper_n_s_per_m: 0.0,
-        tilt_rad: 0.0,
-        gap_m: None,
-        stop: None,
-    }
+    Slider::new(friction)
 }
 
 pub fn frame(masses_kg: &[f64], stiffnesses_n_per_m: &[f64], damping: Damping) -> Frame {

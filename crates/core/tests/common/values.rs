@@ -221,14 +221,7 @@ fn fixed_base(case: &Case, solve: Solve, n: usize) -> Numbers {
         heights_m: None,
     };
     let friction = Coulomb::new([p("mu_s"); 2], [p("mu_d"); 2]).expect("friction");
-    let slider = Slider {
-        friction: Friction::Coulomb(friction),
-        stiffness_n_per_m: 0.0,
-        damper_n_s_per_m: 0.0,
-        tilt_rad: 0.0,
-        gap_m: None,
-        stop: None,
-    };
+    let slider = Slider::new(Friction::Coulomb(friction));
     let block = Block { mass_kg: p("M1"), width_m: None, height_m: None };
     // The steady state of the undisturbed sine, H = q/Ü; what sampling leaves of a transient is of
     // the order of what it takes off the sine, and goes with it in the extrapolation.
