@@ -12,7 +12,7 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::lanes::{Eight, Four, combine4, combine8, dot, eight, four};
+use super::lanes::{Eight, Four, combine4, combine8, eight, four};
 use super::polynomial::DEGREE;
 use super::series::{Load, Series, advance};
 use super::system::System;
@@ -63,26 +63,29 @@ pub struct Maps {
 }
 
 /// One number at the samples `1 … 8` of a batch: a constant force, the first sample, the taps, the
-/// state; and first sample and taps of a force that varies.
+/// state; then first sample and taps of a force that varies.
 #[derive(Clone, Debug)]
-pub struct Row {
-    columns: Vec<Eight>,
-    force_columns: Vec<Eight>,
-}
+pub struct Row(Vec<Eight>);
 
-/// What unit inputs leave behind over one step and more, as padded states.
+/// What unit inputs leave behind over one step and more, as padded states one after another.
 #[derive(Debug)]
 pub struct Units {
     stride: usize,
     /// `E^k` from `k = 1`, column by column.
-    powers: [Vec<f64>; BATCH],
+    powers: Vec<f64>,
     /// What a unit at the first sample leaves after `k` samples, from 1: of acceleration, of force.
-    first: [Vec<Vec<f64>>; 2],
+    first: [Vec<f64>; 2],
     /// What a unit at a sample leaves `j` samples later.
-    taps: [Vec<Vec<f64>>; 2],
+    taps: [Vec<f64>; 2],
     /// What a constant unit of force leaves after `k` samples, from 1.
-    constant: Vec<Vec<f64>>,
+    constant: Vec<f64>,
+    /// All of these at eight samples side by side, component by component: the constant force, the
+    /// first sample and the taps of acceleration and of force, the columns of the powers.
+    samples: Vec<Eight>,
 }
+
+/// How many of [`Units::samples`] come before the columns of the powers, in components of a state.
+const INPUTS: usize = 5;
 
 impl Units {
     /// By the series of every unit input.
@@ -112,57 +115,66 @@ impl Units {
             advance(simd, system, slip, dt_s, load, &mut series, end);
         }
         let [constant_a, ramp_a, constant_f, ramp_f] = ends;
-        let on = |x: &[f64]| times(&by_1, x, stride);
-        let less = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>();
-        let plus = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + b).collect::<Vec<_>>();
         // A sample's unit ramps up in the interval before it and down in the one after.
         let first = [(&constant_a, &ramp_a), (&constant_f, &ramp_f)].map(|(constant, ramp)| {
-            let mut list = vec![less(constant, ramp)];
-            for k in 1..BATCH {
-                list.push(on(&list[k - 1]));
-            }
-            list
+            let start = constant.iter().zip(ramp).map(|(constant, ramp)| constant - ramp);
+            chain(&by_1, start.collect(), BATCH, stride)
         });
-        let taps = [(&ramp_a, 0), (&ramp_f, 1)].map(|(ramp, input)| {
-            let mut list = vec![ramp.clone()];
-            for j in 1..=BATCH {
-                let moved = on(&list[j - 1]);
-                list.push(if j == 1 { plus(&moved, &first[input][0]) } else { moved });
-            }
-            list
+        let [first_a, first_f] = &first;
+        let taps = [(ramp_a, first_a), (ramp_f, first_f)].map(|(ramp, first)| {
+            let mut after = vec![0.0; stride];
+            times(&by_1, &ramp, &mut after, stride);
+            after.iter_mut().zip(first).for_each(|(after, first)| *after += first);
+            let mut taps = ramp;
+            taps.extend(chain(&by_1, after, BATCH, stride));
+            taps
         });
-        let mut constant = vec![constant_f.clone()];
+        let mut constant = vec![0.0; BATCH * stride];
+        constant[..stride].copy_from_slice(&constant_f);
         for k in 1..BATCH {
-            constant.push(plus(&on(&constant[k - 1]), &constant_f));
+            let (before, after) = constant.split_at_mut(k * stride);
+            let (before, after) = (&before[(k - 1) * stride..], &mut after[..stride]);
+            times(&by_1, before, after, stride);
+            after.iter_mut().zip(&constant_f).for_each(|(after, constant)| *after += constant);
         }
-        let mut powers: [Vec<f64>; BATCH] = Default::default();
-        for k in 1..BATCH {
-            powers[k] = times(&by_1, if k == 1 { &by_1 } else { &powers[k - 1] }, stride);
+        let powers = chain(&by_1, by_1.clone(), BATCH, stride);
+        let [[first_a, first_f], [taps_a, taps_f]] = [&first, &taps];
+        let mut samples = Vec::with_capacity((INPUTS + stride) * stride);
+        for list in [&constant, first_a, first_f, taps_a, taps_f] {
+            side_by_side(list, stride, &mut samples);
         }
-        powers[0] = by_1;
-        Self { stride, powers, first, taps, constant }
+        side_by_side(&powers, stride * stride, &mut samples);
+        Self { stride, powers, first, taps, constant, samples }
+    }
+
+    /// The `k`-th of padded states.
+    #[inline(always)]
+    fn state<'a>(&self, list: &'a [f64], k: usize) -> &'a [f64] {
+        &list[k * self.stride..][..self.stride]
+    }
+
+    /// The columns of `E^(k+1)`.
+    #[inline(always)]
+    fn power(&self, k: usize) -> impl Iterator<Item = &[f64]> + Clone {
+        let size = self.stride * self.stride;
+        self.powers[k * size..][..size].chunks_exact(self.stride)
     }
 
     /// The maps of whole states.
     #[must_use]
     pub fn maps(&self, slip: bool) -> Maps {
         let zero = vec![0.0; self.stride];
-        let taps = |input: usize, k: usize| {
-            let tap = move |m: usize| {
-                if m <= k { self.taps[input][k - m].as_slice() } else { &[] }
-            };
-            (1..=BATCH).map(tap)
+        let tap = |input: usize, k: usize, m: usize| {
+            if m <= k { self.state(&self.taps[input], k - m) } else { &zero }
         };
-        let columns = core::array::from_fn(|i| {
-            let mut list: Vec<&[f64]> = vec![&self.constant[i], &self.first[0][i]];
-            list.extend(taps(0, i + 1).map(|tap| if tap.is_empty() { &zero } else { tap }));
-            list.extend(self.powers[i].chunks_exact(self.stride));
-            by_fours(&list)
+        let columns = core::array::from_fn(|k| {
+            let loads = [self.state(&self.constant, k), self.state(&self.first[0], k)];
+            let taps = (0..BATCH).map(|m| tap(0, k, m));
+            by_fours(self.stride, loads.into_iter().chain(taps).chain(self.power(k)))
         });
-        let force_columns = core::array::from_fn(|i| {
-            let mut list: Vec<&[f64]> = vec![&self.first[1][i]];
-            list.extend(taps(1, i + 1).map(|tap| if tap.is_empty() { &zero } else { tap }));
-            by_fours(&list)
+        let force_columns = core::array::from_fn(|k| {
+            let taps = (0..BATCH).map(|m| tap(1, k, m));
+            by_fours(self.stride, core::iter::once(self.state(&self.first[1], k)).chain(taps))
         });
         let quiet = if slip { Vec::new() } else { self.quiet() };
         Maps { columns, force_columns, quiet }
@@ -170,49 +182,55 @@ impl Units {
 
     /// Stick over several batches: what a load has left moves on by itself.
     fn quiet(&self) -> Vec<Four> {
-        let by_batch = &self.powers[BATCH - 1];
-        let on = |x: &[f64]| times(by_batch, x, self.stride);
-        let mut taps: Vec<Vec<f64>> = self.taps[0].clone();
+        let stride = self.stride;
+        let by_batch = &self.powers[(BATCH - 1) * stride * stride..];
+        let mut taps = self.taps[0][..(BATCH + 1) * stride].to_vec();
+        taps.resize(QUIET * stride, 0.0);
         for j in BATCH + 1..QUIET {
-            taps.push(on(&taps[j - BATCH]));
+            let (before, after) = taps.split_at_mut(j * stride);
+            times(by_batch, self.state(before, j - BATCH), &mut after[..stride], stride);
         }
-        let (mut first, mut by_quiet) = (self.first[0][BATCH - 1].clone(), by_batch.clone());
-        for _ in 1..QUIET_BATCHES {
-            first = on(&first);
-            by_quiet = on(&by_quiet);
-        }
-        let mut list: Vec<&[f64]> = vec![&first];
-        list.extend((1..=QUIET).map(|m| taps[QUIET - m].as_slice()));
-        list.extend(by_quiet.chunks_exact(self.stride));
-        by_fours(&list)
+        let first = self.state(&self.first[0], BATCH - 1).to_vec();
+        let first = chain(by_batch, first, QUIET_BATCHES, stride);
+        let powers = chain(by_batch, by_batch.to_vec(), QUIET_BATCHES, stride);
+        let by_quiet = powers[(QUIET_BATCHES - 1) * stride * stride..].chunks_exact(stride);
+        let taps = (1..=QUIET).map(|m| self.state(&taps, QUIET - m));
+        let first = self.state(&first, QUIET_BATCHES - 1);
+        by_fours(stride, core::iter::once(first).chain(taps).chain(by_quiet))
+    }
+
+    /// A row times one of the blocks of `samples`.
+    #[inline(always)]
+    fn times_block<S: Simd>(&self, simd: S, block: usize, row: &[f64]) -> f64x8<S> {
+        combine8(simd, &self.samples[block * row.len()..][..row.len()], &[], &[], row)
     }
 
     /// The row of one number: `row` times the state and `of_a` and `of_force` times the loads at the
     /// sample itself.
     #[inline(always)]
     #[must_use]
-    pub fn row(&self, row: &[f64], of_a: f64, of_force: f64) -> Row {
-        let start = 2 + BATCH;
-        let mut columns = vec![Eight::ZERO; start + self.stride];
-        let mut force_columns = vec![Eight::ZERO; 1 + BATCH];
-        for k in 0..BATCH {
-            columns[0].0[k] = dot(row, &self.constant[k]) + of_force;
-            columns[1].0[k] = dot(row, &self.first[0][k]);
-            force_columns[0].0[k] = dot(row, &self.first[1][k]);
-            let [mut tap, mut force] = [0, 1].map(|input| dot(row, &self.taps[input][k]));
-            if k == 0 {
-                (tap, force) = (tap + of_a, force + of_force);
-            }
-            for m in 0..BATCH - k {
-                columns[2 + m].0[m + k] = tap;
-                force_columns[1 + m].0[m + k] = force;
-            }
-            let of_state = self.powers[k].chunks_exact(self.stride);
-            for (column, of_j) in columns[start..].iter_mut().zip(of_state) {
-                column.0[k] = dot(row, of_j);
-            }
+    pub fn row<S: Simd>(&self, simd: S, row: &[f64], of_a: f64, of_force: f64) -> Row {
+        let stride = self.stride;
+        let mut all = vec![Eight::ZERO; 2 + BATCH + stride + 1 + BATCH];
+        let (columns, force_columns) = all.split_at_mut(2 + BATCH + stride);
+        let (loads, of_state) = columns.split_at_mut(2 + BATCH);
+        let row = &row[..stride];
+        (self.times_block(simd, 0, row) + eight(simd, of_force)).store_slice(&mut loads[0].0);
+        self.times_block(simd, 1, row).store_slice(&mut loads[1].0);
+        self.times_block(simd, 2, row).store_slice(&mut force_columns[0].0);
+        let mut taps = self.times_block(simd, 3, row).to_array();
+        let mut force_taps = self.times_block(simd, 4, row).to_array();
+        taps[0] += of_a;
+        force_taps[0] += of_force;
+        // A sample's tap is as old as the samples after it.
+        for m in 0..BATCH {
+            loads[2 + m].0[m..].copy_from_slice(&taps[..BATCH - m]);
+            force_columns[1 + m].0[m..].copy_from_slice(&force_taps[..BATCH - m]);
         }
-        Row { columns, force_columns }
+        for (j, column) in of_state.iter_mut().enumerate() {
+            self.times_block(simd, INPUTS + j, row).store_slice(&mut column.0);
+        }
+        Row(all)
     }
 }
 
@@ -262,21 +280,21 @@ impl Row {
     #[inline(always)]
     pub fn values<S: Simd>(&self, simd: S, x: &[f64], a: &Window, force: Force<'_>) -> f64x8<S> {
         let [first, loads @ ..] = a;
+        let (columns, force_columns) = self.0.split_at(2 + BATCH + x.len());
         match force {
-            Force::Constant(force) => combine8(simd, &self.columns, &[force, *first], loads, x),
+            Force::Constant(force) => combine8(simd, columns, &[force, *first], loads, x),
             Force::Varying(coefficient, [first_n, normal @ ..]) => {
-                combine8(simd, &self.columns, &[0.0, *first], loads, x)
+                combine8(simd, columns, &[0.0, *first], loads, x)
                     + eight(simd, coefficient)
-                        * combine8(simd, &self.force_columns, &[*first_n], normal, &[])
+                        * combine8(simd, force_columns, &[*first_n], normal, &[])
             }
         }
     }
 }
 
-/// A matrix of padded columns times as many padded columns as `x` holds.
-#[must_use]
-fn times(matrix: &[f64], x: &[f64], stride: usize) -> Vec<f64> {
-    let mut out = vec![0.0; x.len()];
+/// A matrix of padded columns times as many padded columns as `x` holds, into zeros.
+#[inline(always)]
+fn times(matrix: &[f64], x: &[f64], out: &mut [f64], stride: usize) {
     for (out, x) in out.chunks_exact_mut(stride).zip(x.chunks_exact(stride)) {
         for (column, x) in matrix.chunks_exact(stride).zip(x) {
             if *x != 0.0 {
@@ -286,15 +304,31 @@ fn times(matrix: &[f64], x: &[f64], stride: usize) -> Vec<f64> {
             }
         }
     }
-    out
+}
+
+/// Padded columns and what each power of a matrix makes of them, up to `count` times as many.
+fn chain(matrix: &[f64], start: Vec<f64>, count: usize, stride: usize) -> Vec<f64> {
+    let size = start.len();
+    let mut list = start;
+    list.resize(count * size, 0.0);
+    for k in 1..count {
+        let (before, after) = list.split_at_mut(k * size);
+        times(matrix, &before[(k - 1) * size..], &mut after[..size], stride);
+    }
+    list
+}
+
+/// Numbers of the first eight of lists of one size, each at all eight.
+fn side_by_side(list: &[f64], size: usize, out: &mut Vec<Eight>) {
+    out.extend((0..size).map(|i| Eight(core::array::from_fn(|k| list[k * size + i]))));
 }
 
 /// Padded columns, four components of all at a time.
-fn by_fours(list: &[&[f64]]) -> Vec<Four> {
-    let fours = list[0].len() / 4;
-    let mut columns = Vec::with_capacity(fours * list.len());
-    for i in 0..fours {
-        for column in list {
+#[inline(always)]
+fn by_fours<'a>(stride: usize, list: impl Iterator<Item = &'a [f64]> + Clone) -> Vec<Four> {
+    let mut columns = Vec::with_capacity(list.clone().count() * stride / 4);
+    for i in 0..stride / 4 {
+        for column in list.clone() {
             columns.push(Four(core::array::from_fn(|j| column[4 * i + j])));
         }
     }

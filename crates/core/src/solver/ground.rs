@@ -1,50 +1,30 @@
 //! The motion as the equations see it: along the slope with gravity's pull, and as normal force.
 
-use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
+use fearless_simd::{f64x4, f64x8};
 
-use crate::linear::lanes::greatest;
-use crate::linear::{BATCH, QUIET};
+use crate::linear::lanes::{greatest, least};
+use crate::linear::{BATCH, Window};
 use crate::model::Model;
 use crate::motion::GroundMotion;
 
-/// What screening needs to know of a motion, whatever the model.
+/// How a motion is sampled.
 #[derive(Clone, Debug)]
-pub(super) struct Windows {
+pub(super) struct Sampling {
     /// The step that all but a few intervals have; none where the sampling is uneven.
     pub(super) dt_s: Option<f64>,
     /// The other intervals, in order: jumps, an odd end, a gap.
     irregular: Vec<usize>,
-    horizontal: Signal,
-    vertical: Option<Signal>,
 }
 
-/// Sizes and kinks of a signal.
-#[derive(Clone, Debug)]
-struct Signal {
-    /// For each eighth sample the largest size at the samples that a batch, and quiet stick, from
-    /// there or from one of the next seven samples touches.
-    sizes: Vec<[f64; 2]>,
-    /// For each eighth sample the largest |x_{i+1} − x_i| in a batch, as before.
-    changes: Vec<f64>,
-    /// Sums of |x_i − x_{i−1}| and of |x_{i+1} − 2 x_i + x_{i−1}| up to a sample.
-    sums: Vec<[f64; 2]>,
-}
-
-impl Windows {
-    /// Looks through a motion once.
+impl Sampling {
+    /// That of a motion.
     pub(super) fn new(motion: &GroundMotion) -> Self {
         let (dt_s, irregular) = match motion.dt_s() {
             Some(dt_s) => (Some(dt_s), Vec::new()),
             None => regular_step(motion.times_s()),
         };
-        let signal = |x: &[f64]| if dt_s.is_some() { Signal::new(x) } else { Signal::NONE };
-        Self {
-            dt_s,
-            irregular,
-            horizontal: signal(motion.horizontal_m_per_s2()),
-            vertical: motion.vertical_m_per_s2().map(signal),
-        }
+        Self { dt_s, irregular }
     }
 
     /// End of the regular intervals that begin at a sample: the first sample whose interval has
@@ -59,67 +39,62 @@ impl Windows {
     }
 }
 
-impl Signal {
-    const NONE: Self = Self { sizes: Vec::new(), changes: Vec::new(), sums: Vec::new() };
+/// Largest size in a batch.
+#[inline(always)]
+pub(super) fn largest_size<S: Simd>(simd: S, x: &Window) -> f64 {
+    let [first, rest @ ..] = x;
+    greatest(first.abs(), largest_of(simd, f64x8::from_slice(simd, rest).abs()))
+}
 
-    fn new(x: &[f64]) -> Self {
-        let chunks = x.len().div_ceil(BATCH);
-        let mut largest = vec![0.0; chunks + QUIET / BATCH];
-        let mut steepest = largest.clone();
-        for i in 0..chunks {
-            let intervals = &x[BATCH * i..x.len().min(BATCH * (i + 1) + 1)];
-            let samples = &intervals[..intervals.len().min(BATCH)];
-            largest[i] = samples.iter().fold(0.0, |size, x| greatest(size, x.abs()));
-            let changes = intervals.windows(2).map(|x| (x[1] - x[0]).abs());
-            steepest[i] = changes.fold(0.0, greatest);
-        }
-        let mut sums = vec![[0.0; 2]; x.len()];
-        let [mut variation, mut kinks, mut change] = [0.0; 3];
-        for i in 1..x.len() {
-            let next = x[i] - x[i - 1];
-            if i > 1 {
-                kinks += (next - change).abs();
-            }
-            variation += next.abs();
-            (sums[i - 1][1], sums[i]) = (kinks, [variation, kinks]);
-            change = next;
-        }
-        // From the last of eight samples a batch ends at the last sample of the next chunk, and quiet
-        // stick at that of the fourth.
-        let over = |i: usize, n: usize| largest[i..=i + n].iter().fold(0.0, |a, b| greatest(a, *b));
-        let sizes = (0..chunks).map(|i| [over(i, 1), over(i, QUIET / BATCH)]).collect();
-        let changes = (0..chunks).map(|i| greatest(steepest[i], steepest[i + 1])).collect();
-        Self { sizes, changes, sums }
-    }
+/// Least and largest value in a batch.
+#[inline(always)]
+fn range<S: Simd>(simd: S, x: &Window) -> [f64; 2] {
+    let [first, rest @ ..] = x;
+    let x = f64x8::from_slice(simd, rest);
+    [least(*first, -largest_of(simd, -x)), greatest(*first, largest_of(simd, x))]
+}
 
-    /// Largest size in a batch and in quiet stick from a sample.
-    #[inline(always)]
-    fn size(&self, sample: usize) -> [f64; 2] {
-        self.sizes[sample / BATCH]
-    }
-
-    /// What a batch from a sample holds, with room for the rounding of the sums.
-    #[inline(always)]
-    fn roughness(&self, sample: usize) -> Roughness {
-        let ([v0, k0], [v1, _], [_, k1]) =
-            (self.sums[sample], self.sums[sample + BATCH], self.sums[sample + BATCH - 1]);
-        Roughness {
-            variation: (v1 - v0) + 1e-15 * v1,
-            kinks: (k1 - k0) + 1e-15 * k1,
-            change: self.changes[sample / BATCH],
-        }
-    }
+/// The largest lane.
+#[inline(always)]
+fn largest_of<S: Simd>(simd: S, x: f64x8<S>) -> f64 {
+    let (a, b) = simd.split_f64x8(x);
+    let [a, b, c, d] = b.simd_gt(a).select(b, a).to_array();
+    greatest(greatest(a, b), greatest(c, d))
 }
 
 /// How a signal varies within a batch.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Roughness {
     /// Sum of |x_{i+1} − x_i|.
     pub(super) variation: f64,
     /// Sum of |x_{i+1} − 2 x_i + x_{i−1}| at the samples within.
     pub(super) kinks: f64,
-    /// Largest |x_{i+1} − x_i|, or more.
+    /// Largest |x_{i+1} − x_i|.
     pub(super) change: f64,
+}
+
+impl Roughness {
+    /// That of the samples of a batch.
+    #[inline(always)]
+    pub(super) fn new<S: Simd>(simd: S, x: &Window) -> Self {
+        let at = |i: usize| f64x4::from_slice(simd, &x[i..i + 4]);
+        let sum = |x: f64x4<S>| {
+            let [a, b, c, d] = x.to_array();
+            (a + b) + (c + d)
+        };
+        let kink = |i: usize| ((at(i + 2) - at(i + 1)) - (at(i + 1) - at(i))).abs();
+        let [early, late] = [(at(1) - at(0)).abs(), (at(5) - at(4)).abs()];
+        // Both fours have the kink in the middle.
+        let (before, after) = (kink(0), kink(3) * f64x4::from_slice(simd, &[0.0, 1.0, 1.0, 1.0]));
+        Self {
+            variation: sum(early + late),
+            kinks: sum(before + after),
+            change: {
+                let [a, b, c, d] = late.simd_gt(early).select(late, early).to_array();
+                greatest(greatest(a, b), greatest(c, d))
+            },
+        }
+    }
 }
 
 /// Loads of a model under a motion.
@@ -130,12 +105,7 @@ pub(super) struct Ground<'a> {
     /// `a = Ü + g sin θ` at the samples.
     pub(super) acceleration: &'a [f64],
     pub(super) normal: Normal<'a>,
-    pub(super) windows: &'a Windows,
-    /// `|g sin θ|`.
-    pub(super) slope_size: f64,
-    /// `M_tot` and `M_tot g cos θ`.
-    pub(super) mass_kg: f64,
-    pub(super) weight_n: f64,
+    pub(super) sampling: &'a Sampling,
 }
 
 /// `M_tot (g cos θ + Üv)` at the samples, negative where contact is lost; or one value.
@@ -160,10 +130,30 @@ impl<'a> Normal<'a> {
     }
 }
 
-impl Normal<'_> {
+impl<'a> Normal<'a> {
+    /// At the samples of a batch, where it varies.
+    #[inline(always)]
+    pub(super) fn window(&self, sample: usize) -> Option<&'a Window> {
+        match self {
+            Self::Constant(_) => None,
+            Self::Varying(normal) => normal[sample..].first_chunk(),
+        }
+    }
+
+    /// Least and largest in a batch from a sample.
+    #[inline(always)]
+    pub(super) fn range<S: Simd>(&self, simd: S, sample: usize) -> [f64; 2] {
+        match self {
+            Self::Constant(normal) => [*normal; 2],
+            Self::Varying(normal) => {
+                normal[sample..].first_chunk().map_or([0.0; 2], |normal| range(simd, normal))
+            }
+        }
+    }
+
     /// At the eight samples after one, and at that one.
     #[inline(always)]
-    pub(super) fn window<S: Simd>(&self, simd: S, sample: usize) -> (f64x8<S>, f64) {
+    pub(super) fn values<S: Simd>(&self, simd: S, sample: usize) -> (f64x8<S>, f64) {
         match self {
             Self::Constant(normal) => (f64x8::splat(simd, *normal), *normal),
             Self::Varying(normal) => {
@@ -204,32 +194,6 @@ impl Ground<'_> {
             Normal::Constant(normal) => [normal; 2],
             Normal::Varying(normal) => [normal[interval], normal[interval + 1]],
         }
-    }
-
-    /// Largest |a| in a batch and in quiet stick from a sample.
-    #[inline(always)]
-    pub(super) fn sizes(&self, sample: usize) -> [f64; 2] {
-        self.windows.horizontal.size(sample).map(|size| size + self.slope_size)
-    }
-
-    /// Least and largest normal force in a batch from a sample, or beyond.
-    #[inline(always)]
-    pub(super) fn normal_range(&self, sample: usize) -> [f64; 2] {
-        match &self.windows.vertical {
-            None => [self.weight_n; 2],
-            Some(signal) => {
-                let change = self.mass_kg * signal.size(sample)[0];
-                [self.weight_n - change, self.weight_n + change]
-            }
-        }
-    }
-
-    /// How acceleration and vertical acceleration vary within a batch from a sample.
-    #[inline(always)]
-    pub(super) fn roughness(&self, sample: usize) -> (Roughness, Option<Roughness>) {
-        let windows = self.windows;
-        let vertical = windows.vertical.as_ref().map(|signal| signal.roughness(sample));
-        (windows.horizontal.roughness(sample), vertical)
     }
 
     /// Where in an interval (as a part of it) contact is lost or regained.
@@ -335,24 +299,25 @@ mod tests {
     }
 
     #[test]
-    fn exact_windows_cover_every_batch_and_quiet_stick() {
+    fn exact_sizes_and_roughness_of_every_batch() {
+        fearless_simd::dispatch!(fearless_simd::Level::new(), simd => sizes_and_roughness(simd));
+    }
+
+    fn sizes_and_roughness<S: Simd>(simd: S) {
         let a = noise(203);
-        let signal = Signal::new(&a);
-        for i in 0..a.len() {
-            let size =
-                |n: usize| a[i..a.len().min(i + n + 1)].iter().fold(0.0_f64, |m, a| m.max(a.abs()));
-            let [batch, quiet] = signal.size(i);
-            assert!(batch >= size(BATCH), "batch at {i}");
-            assert!(quiet >= size(QUIET), "quiet stick at {i}");
-            if i + BATCH < a.len() {
-                let a = &a[i..=i + BATCH];
-                let changes = || a.windows(2).map(|x| (x[1] - x[0]).abs());
-                let kinks: f64 = a.windows(3).map(|x| ((x[2] - x[1]) - (x[1] - x[0])).abs()).sum();
-                let found = signal.roughness(i);
-                let near = |sum: f64, found| sum <= found && found < sum * (1.0 + 1e-11);
-                assert!(near(kinks, found.kinks) && near(changes().sum(), found.variation));
-                assert!(changes().all(|change| change <= found.change));
-            }
+        for x in a.windows(BATCH + 1) {
+            let x: &Window = x.try_into().expect("nine samples");
+            let sizes = || x.iter().map(|x| x.abs());
+            assert_eq!(largest_size(simd, x), sizes().fold(0.0, f64::max));
+            let [low, high] = range(simd, x);
+            assert!(x.iter().all(|x| low <= *x && *x <= high) && x.contains(&low));
+            assert!(x.contains(&high));
+            let changes = || x.windows(2).map(|x| (x[1] - x[0]).abs());
+            let kinks: f64 = x.windows(3).map(|x| ((x[2] - x[1]) - (x[1] - x[0])).abs()).sum();
+            let found = Roughness::new(simd, x);
+            let near = |sum: f64, found: f64| (found - sum).abs() <= 1e-14 * sum;
+            assert!(near(kinks, found.kinks) && near(changes().sum(), found.variation));
+            assert_eq!(found.change, changes().fold(0.0, f64::max));
         }
     }
 }

@@ -205,47 +205,56 @@ pub(super) struct Group {
 impl Outputs {
     pub(super) fn new(system: &System, slip: bool, rows: Vec<OutputRow>) -> Self {
         let stride = rows[0].state.len();
-        let mut unit = vec![0.0; stride];
-        let mut end = vec![0.0; stride];
-        let mut on = |j: Option<usize>, a: f64, force: f64| {
-            j.into_iter().for_each(|j| unit[j] = 1.0);
-            system.derivative(slip, &unit, a, force, &mut end);
-            j.into_iter().for_each(|j| unit[j] = 0.0);
-            rows.iter().map(|row| dot(&row.state, &end)).collect::<Vec<f64>>()
-        };
-        let mut rates = vec![vec![0.0; stride]; rows.len()];
+        let (mut unit, mut end) = (vec![0.0; stride], vec![0.0; stride]);
+        // Rates of the rows: what every component of the state does to them.
+        let mut rates = vec![0.0; rows.len() * stride];
         for j in 0..2 + 2 * system.modes() {
-            for (rate, value) in rates.iter_mut().zip(on(Some(j), 0.0, 0.0)) {
-                rate[j] = value;
+            unit[j] = 1.0;
+            system.derivative(slip, &unit, 0.0, 0.0, &mut end);
+            unit[j] = 0.0;
+            for (row, rate) in rows.iter().zip(rates.chunks_exact_mut(stride)) {
+                rate[j] = dot(&row.state, &end);
             }
         }
-        let (of_jerk, of_force_rate) = (on(None, 1.0, 0.0), on(None, 0.0, 1.0));
-        let lanes = |g: usize, of: &dyn Fn(usize) -> f64| {
-            Eight(core::array::from_fn(
-                |i| if 8 * g + i < rows.len() { of(8 * g + i) } else { 0.0 },
-            ))
+        let mut of_load = |a: f64, force: f64| {
+            system.derivative(slip, &unit, a, force, &mut end);
+            rows.iter().map(|row| dot(&row.state, &end).abs()).collect::<Vec<f64>>()
         };
-        let mut groups = Vec::new();
-        let mut columns = Vec::new();
-        for g in 0..rows.len().div_ceil(8) {
+        let (of_jerk, of_force_rate) = (of_load(1.0, 0.0), of_load(0.0, 1.0));
+        let rate = |j: usize| &rates[j * stride..][..stride];
+        let count = rows.len().div_ceil(8);
+        let (mut groups, mut columns) = (Vec::with_capacity(count), Vec::new());
+        columns.reserve_exact(count * (4 + stride));
+        for g in 0..count {
+            let first = 8 * g;
             let group = Group {
-                constant: lanes(g, &|j| rows[j].constant),
-                of_stop: lanes(g, &|j| rows[j].of_stop),
-                norm: lanes(g, &|j| system.dual_norm(slip, &rows[j].state)),
-                norm_of_rate: lanes(g, &|j| system.dual_norm(slip, &rates[j])),
-                of_jerk: lanes(g, &|j| of_jerk[j].abs()),
-                of_force_rate: lanes(g, &|j| of_force_rate[j].abs()),
-                of_s: lanes(g, &|j| rows[j].state[0]),
-                size_of_a: lanes(g, &|j| rows[j].of_a.abs()),
-                size_of_friction: lanes(g, &|j| rows[j].of_friction.abs()),
+                constant: lanes(&rows, first, |j| rows[j].constant),
+                of_stop: lanes(&rows, first, |j| rows[j].of_stop),
+                norm: lanes(&rows, first, |j| system.dual_norm(slip, &rows[j].state)),
+                norm_of_rate: lanes(&rows, first, |j| system.dual_norm(slip, rate(j))),
+                of_jerk: lanes(&rows, first, |j| of_jerk[j]),
+                of_force_rate: lanes(&rows, first, |j| of_force_rate[j]),
+                of_s: lanes(&rows, first, |j| rows[j].state[0]),
+                size_of_a: lanes(&rows, first, |j| rows[j].of_a.abs()),
+                size_of_friction: lanes(&rows, first, |j| rows[j].of_friction.abs()),
             };
             columns.push(group.constant);
-            columns.push(lanes(g, &|j| rows[j].of_friction));
-            columns.push(lanes(g, &|j| rows[j].of_a));
+            columns.push(lanes(&rows, first, |j| rows[j].of_friction));
+            columns.push(lanes(&rows, first, |j| rows[j].of_a));
             columns.push(group.of_stop);
-            columns.extend((0..stride).map(|i| lanes(g, &|j| rows[j].state[i])));
+            columns.extend((0..stride).map(|i| lanes(&rows, first, |j| rows[j].state[i])));
             groups.push(group);
         }
         Self { rows, groups, columns }
     }
+}
+
+/// One number of each of eight rows from one on; zero beyond the last.
+#[inline(always)]
+fn lanes(rows: &[OutputRow], first: usize, of: impl Fn(usize) -> f64) -> Eight {
+    let mut all = Eight::ZERO;
+    for (lane, j) in all.0.iter_mut().zip(first..rows.len()) {
+        *lane = of(j);
+    }
+    all
 }

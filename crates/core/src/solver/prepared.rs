@@ -5,7 +5,7 @@ use std::sync::Arc;
 use fearless_simd::Level;
 use fearless_simd::prelude::*;
 
-use super::ground::{Ground, Normal, Windows, contact_loss_s, varying_normal};
+use super::ground::{Ground, Normal, Sampling, contact_loss_s, varying_normal};
 use super::recorder::Recorder;
 use super::run::{Outcome, Run};
 use super::summary;
@@ -30,7 +30,7 @@ const RIGID_RADIANS: f64 = 100.0;
 #[derive(Clone, Debug)]
 pub struct PreparedMotion {
     motion: Arc<GroundMotion>,
-    windows: Arc<Windows>,
+    sampling: Arc<Sampling>,
 }
 
 impl PreparedMotion {
@@ -38,8 +38,8 @@ impl PreparedMotion {
     #[must_use]
     pub fn new(motion: impl Into<Arc<GroundMotion>>) -> Self {
         let motion = motion.into();
-        let windows = Arc::new(Windows::new(&motion));
-        Self { motion, windows }
+        let sampling = Arc::new(Sampling::new(&motion));
+        Self { motion, sampling }
     }
 
     /// The motion itself.
@@ -51,7 +51,7 @@ impl PreparedMotion {
     /// The step that all but a few intervals have, in s; none where the sampling is uneven.
     #[must_use]
     pub fn dt_s(&self) -> Option<f64> {
-        self.windows.dt_s
+        self.sampling.dt_s
     }
 }
 
@@ -137,7 +137,7 @@ impl Prepared {
             own = tables_of(&self.model, motion.dt_s());
             &own
         };
-        let ground = (motion.motion(), &*motion.windows);
+        let ground = (motion.motion(), &*motion.sampling);
         solve(instructions, &self.model, tables, ground, with_history)
     }
 }
@@ -148,9 +148,9 @@ pub(super) fn solve_once(
     motion: &GroundMotion,
     with_history: bool,
 ) -> Result<Response, SolveError> {
-    let windows = Windows::new(motion);
-    let tables = tables_of(model, windows.dt_s);
-    solve(InstructionSet::best(), model, &tables, (motion, &windows), with_history)
+    let sampling = Sampling::new(motion);
+    let tables = tables_of(model, sampling.dt_s);
+    solve(InstructionSet::best(), model, &tables, (motion, &sampling), with_history)
 }
 
 fn tables_of(model: &Model, dt_s: Option<f64>) -> Tables {
@@ -177,7 +177,7 @@ fn solve(
     instructions: InstructionSet,
     model: &Model,
     tables: &Tables,
-    (motion, windows): (&GroundMotion, &Windows),
+    (motion, sampling): (&GroundMotion, &Sampling),
     with_history: bool,
 ) -> Result<Response, SolveError> {
     let rate = tables.slip.iter().fold(0.0, |rate: f64, p| rate.max(p.system.slip_rate_rad_per_s));
@@ -187,7 +187,6 @@ fn solve(
         return Err(SolveError::TooMuchWork { work, limit, advice: advice(model, motion, rate) });
     }
     let slope = tables.slope;
-    let (mass_kg, gravity) = (model.total_mass_kg(), model.normal_gravity_m_per_s2());
     let sloped: Vec<f64>;
     let acceleration = if slope == 0.0 {
         motion.horizontal_m_per_s2()
@@ -202,10 +201,7 @@ fn solve(
         table: motion.horizontal_m_per_s2(),
         acceleration,
         normal,
-        windows,
-        slope_size: slope.abs(),
-        mass_kg,
-        weight_n: mass_kg * gravity,
+        sampling,
     };
     let law = model.law();
     let recorder = with_history

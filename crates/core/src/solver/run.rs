@@ -7,7 +7,7 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::ground::{Ground, Normal};
+use super::ground::{Ground, Normal, Roughness};
 use super::outputs::{Group, output};
 use super::peaks::Peaks;
 use super::recorder::{Knot, Recorder};
@@ -249,7 +249,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 sample += 1;
                 continue;
             }
-            let end = self.ground.windows.regular_end(sample, last);
+            let end = self.ground.sampling.regular_end(sample, last);
             sample = self.screened(sample, end);
             if sample < last && times_s[sample + 1] > times_s[sample] {
                 self.step_events(sample)?;
@@ -436,7 +436,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 [f, eta2],
             )
         };
-        let (horizontal, vertical) = self.ground.roughness(sample);
+        let horizontal = Roughness::new(self.simd, self.window(sample));
         let of_a = if phase.slip { system.root_total_mass } else { system.root_storey_mass };
         let mut curvature = Curvature {
             first: first + of_a * horizontal.variation,
@@ -446,15 +446,14 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             bend_of_a: BEND * horizontal.kinks,
             bend_of_force: 0.0,
         };
-        if let Some(vertical) = vertical
-            && coefficient != 0.0
-        {
-            let of_vertical = coefficient.abs() * self.ground.mass_kg;
-            let of_norm = of_vertical * system.per_root_block;
+        if let (Some(normal), true) = (self.ground.normal.window(sample), coefficient != 0.0) {
+            let vertical = Roughness::new(self.simd, normal);
+            let of_normal = coefficient.abs();
+            let of_norm = of_normal * system.per_root_block;
             curvature.first += of_norm * vertical.variation;
             curvature.second += per_dt * (of_norm * vertical.kinks);
-            curvature.force_rate = per_dt * (of_vertical * vertical.change);
-            curvature.bend_of_force = BEND * (of_vertical * vertical.kinks);
+            curvature.force_rate = per_dt * (of_normal * vertical.change);
+            curvature.bend_of_force = BEND * (of_normal * vertical.kinks);
         }
         curvature
     }

@@ -8,7 +8,7 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::ground::Normal;
+use super::ground::{Normal, largest_size};
 use super::outputs::output;
 use super::peaks::Extent;
 use super::run::Run;
@@ -47,7 +47,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
 
     /// The accelerations that a batch from a sample touches.
     #[inline(always)]
-    fn window(&self, sample: usize) -> &'a Window {
+    pub(super) fn window(&self, sample: usize) -> &'a Window {
         self.ground.acceleration[sample..].first_chunk().unwrap_or(&[0.0; BATCH + 1])
     }
 
@@ -73,7 +73,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let batch_s = BATCH as f64 * batch.dt_s;
         let mut known = 0;
         while sample + BATCH <= end {
-            if varying && !(self.ground.normal_range(sample)[0] > 0.0) {
+            let [least_normal, most_normal] = self.ground.normal.range(simd, sample);
+            if varying && !(least_normal > 0.0) {
                 break;
             }
             let (a, force) = (self.window(sample), self.batch_force(coefficient, sample));
@@ -107,8 +108,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             }
             // Of one storey the group is looked at for less than the bound takes.
             let coarse = (self.width.modes() > 1).then(|| {
-                let [size, _] = self.ground.sizes(sample);
-                let friction = coefficient.abs() * self.ground.normal_range(sample)[1];
+                let size = largest_size(simd, a);
+                let friction = coefficient.abs() * most_normal;
                 let growth = system.root_total_mass * size + friction * system.per_root_block;
                 let norm = system.energy_norm(&x[..self.width.components()]) + batch_s * growth;
                 Coarse { norm, size, friction }
@@ -143,7 +144,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         // Of the demand without the springs' part.
         let norm_of_demand = phase.outputs.groups[0].norm.0[output::FRICTION];
         let size_of_a = phase.outputs.groups[0].size_of_a.0[output::FRICTION];
-        let growth = [BATCH, QUIET].map(|n| n as f64 * batch.dt_s * system.root_storey_mass);
+        let growth = batch.dt_s * system.root_storey_mass;
         let near = 0.125 * batch.dt_s * batch.dt_s;
         let far = (BATCH * BATCH) as f64 * near;
         let force = Force::Constant(0.0);
@@ -151,27 +152,27 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let constant = row.of_stop * stop + row.constant;
         let mut known = 0;
         while sample + BATCH <= end {
-            let sizes = self.ground.sizes(sample);
-            let [normal, _] = self.ground.normal_range(sample);
+            let a = self.window(sample);
+            let [normal, _] = self.ground.normal.range(simd, sample);
             let norm = self.norm_of_structure(phase);
             let holds = least(high, -low) * normal - hold.force_n.abs();
-            let bounds = [0, 1].map(|i| {
-                let (norm, size) = (norm + growth[i] * sizes[i], sizes[i]);
-                (norm_of_demand * norm + size_of_a * size <= holds).then_some(Coarse {
-                    norm,
-                    size,
-                    friction: 0.0,
-                })
-            });
-            let a = self.window(sample);
-            if let Some(coarse) = &bounds[0]
-                && self.below_limits(phase, coarse, stop)
+            let coarse = |size: f64, samples: usize| {
+                let coarse =
+                    Coarse { norm: norm + growth * samples as f64 * size, size, friction: 0.0 };
+                (norm_of_demand * coarse.norm + size_of_a * size <= holds).then_some(coarse)
+            };
+            let size = largest_size(simd, a);
+            if let Some(by_batch) = coarse(size, BATCH)
+                && self.below_limits(phase, &by_batch, stop)
             {
                 known = 0;
-                if let Some(coarse) = &bounds[1]
-                    && sample + QUIET <= end
+                let later = (1..QUIET / BATCH).map(|i| sample + i * BATCH);
+                if sample + QUIET <= end
                     && matches!(self.ground.normal, Normal::Constant(_))
-                    && self.below_limits(phase, coarse, stop)
+                    && let size = later
+                        .fold(size, |size, i| greatest(size, largest_size(simd, self.window(i))))
+                    && let Some(by_quiet) = coarse(size, QUIET)
+                    && self.below_limits(phase, &by_quiet, stop)
                 {
                     self.take_quiet(batch, sample);
                     sample += QUIET;
@@ -209,7 +210,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                     held_steps(
                         simd,
                         (demand, first),
-                        normal.window(simd, sample),
+                        normal.values(simd, sample),
                         [low, high],
                         hidden,
                     )

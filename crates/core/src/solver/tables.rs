@@ -94,12 +94,14 @@ impl Tables {
             orders(rates.map(rate_step).fold(rate_step(free.stick_rate_rad_per_s), f64::max));
         let rows = outputs::rows(&free, false, moment, slope);
         let stick = Phase::new(simd, free, false, (dt_s, dt_s), orders, rows);
-        let slip = systems.into_iter().enumerate().map(|(i, system)| {
+        let mut slip = Vec::with_capacity(systems.len());
+        for system in systems {
             let rows = outputs::rows(&system, true, moment, slope);
             // Pressed against a stop, samples go one by one.
-            Phase::new(simd, system, true, (dt_s, dt_s.filter(|_| i == 0)), orders, rows)
-        });
-        Self { stick, slip: slip.collect(), orders, overturns: overturning.is_some(), slope }
+            let batch_s = dt_s.filter(|_| slip.is_empty());
+            slip.push(Phase::new(simd, system, true, (dt_s, batch_s), orders, rows));
+        }
+        Self { stick, slip, orders, overturns: overturning.is_some(), slope }
     }
 }
 
@@ -133,15 +135,16 @@ impl Phase {
             let units = Units::new(simd, &system, slip, dt_s);
             let of_s: Vec<f64> =
                 (0..rows[0].state.len()).map(|i| if i == 0 { 1.0 } else { 0.0 }).collect();
+            let mut of_rows = Vec::with_capacity(rows.len());
+            for row in &rows {
+                of_rows.push(units.row(simd, &row.state, row.of_a, row.of_friction));
+            }
             Some(Batch {
                 dt_s,
                 per_dt: 1.0 / dt_s,
                 maps: units.maps(slip),
-                rows: rows
-                    .iter()
-                    .map(|row| units.row(&row.state, row.of_a, row.of_friction))
-                    .collect(),
-                displacement: units.row(&of_s, 0.0, 0.0),
+                rows: of_rows,
+                displacement: units.row(simd, &of_s, 0.0, 0.0),
             })
         } else {
             None
