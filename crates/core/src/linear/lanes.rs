@@ -150,8 +150,11 @@ pub fn combine4<S: Simd>(
 ) {
     let count = singles.len() + loads.len() + x.len();
     let (loads, x) = (loads.as_chunks::<4>().0, x.as_chunks::<4>().0);
-    for (i, out) in out.as_chunks_mut::<4>().0.iter_mut().enumerate() {
-        let (of_singles, rest) = columns[i * count..][..count].split_at(singles.len());
+    let mut later = columns;
+    for out in out.as_chunks_mut::<4>().0 {
+        let (columns, after) = later.split_at(count);
+        later = after;
+        let (of_singles, rest) = columns.split_at(singles.len());
         let (rest, _) = rest.as_chunks::<4>();
         let (of_loads, of_x) = rest.split_at(loads.len());
         let mut sums = [four(simd, 0.0); 4];

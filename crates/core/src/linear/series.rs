@@ -10,6 +10,12 @@ use super::system::System;
 /// Longest interval for one series, times the rate: 0.8^17 / 17! = 6.3e-17.
 pub const MAX_RATE_STEP: f64 = 0.8;
 
+/// Most storeys for which series go by a table: beyond, its sums are longer than the recursion.
+const TABLE_STOREYS: usize = 4;
+
+/// Components of a padded state of so many.
+const MAX_INPUTS: usize = 12;
+
 /// Loads over an interval, linear in time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Load {
@@ -24,7 +30,8 @@ pub struct Load {
 }
 
 /// The orders from the first on of a series as sums: for each four of coefficients what a unit of
-/// each number of a [`Load`], and of each component of the state, adds to them.
+/// each number of a [`Load`], and of each component of the state, adds to them; in stick the
+/// acceleration and its change stand in the place of `s` and `ṡ`.
 #[derive(Clone, Debug)]
 pub struct SeriesTable(Vec<Four>);
 
@@ -108,11 +115,20 @@ impl Series {
     ) {
         let (start, rest) = self.c.split_at_mut(x.len());
         start.copy_from_slice(x);
-        if !slip {
+        let rest = &mut rest[..x.len() * self.orders];
+        let [a, change] = [load.acceleration, load.acceleration_change];
+        if slip {
+            let loads = [a, change, load.force, load.force_change];
+            combine4(simd, &table.0, &loads, &[], x, rest);
+        } else {
             start[1] = 0.0;
+            // Neither the force nor the block's own motion does anything: s and ṡ make room for the loads.
+            let mut inputs = [0.0; MAX_INPUTS];
+            let inputs = &mut inputs[..x.len()];
+            inputs.copy_from_slice(x);
+            (inputs[0], inputs[1]) = (a, change);
+            combine4(simd, &table.0, &[], &[], inputs, rest);
         }
-        let loads = [load.acceleration, load.acceleration_change, load.force, load.force_change];
-        combine4(simd, &table.0, &loads, &[], x, &mut rest[..x.len() * self.orders]);
     }
 
     /// Four components of an order.
@@ -192,12 +208,20 @@ pub fn orders(rate_step: f64) -> usize {
     DEGREE
 }
 
-/// The table of a system for intervals of `length_s`.
+/// The table of a system for intervals of `length_s`, unless the recursion is shorter.
 #[must_use]
-pub fn series_table(system: &System, slip: bool, length_s: f64, orders: usize) -> SeriesTable {
+pub fn series_table(
+    system: &System,
+    slip: bool,
+    length_s: f64,
+    orders: usize,
+) -> Option<SeriesTable> {
+    if system.storeys > TABLE_STOREYS {
+        return None;
+    }
     let mut series = Series::new(system, orders);
     let (stride, components) = (series.stride, 2 + 2 * system.modes());
-    let count = 4 + stride;
+    let count = if slip { 4 + stride } else { stride };
     let mut columns = vec![Four::ZERO; count * orders * stride / 4];
     let mut x = vec![0.0; stride];
     for input in 0..4 + components {
@@ -212,16 +236,19 @@ pub fn series_table(system: &System, slip: bool, length_s: f64, orders: usize) -
         if input >= 4 {
             x[input - 4] = 1.0;
         }
-        // In stick neither the force nor the block's own motion does anything.
-        if slip || !(2..6).contains(&input) {
-            series.expand(system, slip, &x, &load, length_s);
-            let orders = series.c[stride..][..stride * orders].as_chunks::<4>().0;
-            for (columns, c) in columns.chunks_exact_mut(count).zip(orders) {
-                columns[input] = Four(*c);
-            }
+        let place = match input {
+            _ if slip => input,
+            0 | 1 => input,
+            2..6 => continue,
+            _ => input - 4,
+        };
+        series.expand(system, slip, &x, &load, length_s);
+        let orders = series.c[stride..][..stride * orders].as_chunks::<4>().0;
+        for (columns, c) in columns.chunks_exact_mut(count).zip(orders) {
+            columns[place] = Four(*c);
         }
     }
-    SeriesTable(columns)
+    Some(SeriesTable(columns))
 }
 
 /// Moves a padded state over `length_s` under loads that are linear in it, by as many series as the

@@ -15,9 +15,6 @@ const BATCH_STOREYS: usize = 32;
 /// Largest rate times step for batches: beyond, their bounds say nothing.
 const BATCH_RATE_STEP: f64 = 8.0;
 
-/// Most storeys for which series go by a table: beyond, its sums are longer than the recursion.
-const TABLE_STOREYS: usize = 4;
-
 /// Tables of a structure, its springs and dampers, and a step. Friction has no part in them.
 #[derive(Debug)]
 pub(super) struct Tables {
@@ -127,8 +124,7 @@ impl Phase {
     ) -> Self {
         let rate = if slip { system.slip_rate_rad_per_s } else { system.stick_rate_rad_per_s };
         let unit_s = unit_s(rate, dt_s);
-        let series =
-            (system.storeys <= TABLE_STOREYS).then(|| series_table(&system, slip, unit_s, orders));
+        let series = series_table(&system, slip, unit_s, orders);
         let batch = batch_s
             .filter(|dt_s| system.storeys <= BATCH_STOREYS && dt_s * rate <= BATCH_RATE_STEP);
         let batch = if let Some(dt_s) = batch {
