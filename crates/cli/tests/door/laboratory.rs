@@ -110,6 +110,10 @@ fn exact_fitted_model_is_one_that_runs_and_compares() {
     let json: Value = serde_json::from_str(&folder.read("fitted/identified.json")).unwrap();
     let value = json["estimates"][0]["value"].as_f64().unwrap();
     assert!((value / 0.153 - 1.0).abs() < 1e-4, "{value}");
+    let page = folder.read("fitted/report.html");
+    let lead = "<main>\n<section class=\"verdict\">\n<p class=\"lead\">Determined: \
+                slider.kinetic_friction = 0.153";
+    assert!(page.contains(lead), "{page}");
     folder.stdout(&["run", "fitted/model.toml"]);
     folder.stdout(&["compare", "test.csv", "fitted/model.toml"]);
 }

@@ -111,6 +111,39 @@ impl IdentifyReport<'_> {
         self.estimates.iter().filter_map(refusal).collect()
     }
 
+    /// What the data determine, with its intervals, and what they do not: what the page begins with.
+    #[must_use]
+    pub fn verdict(&self) -> Vec<String> {
+        const NAMED: usize = 4;
+        let told: Vec<String> = self
+            .estimates
+            .iter()
+            .filter_map(|estimate| {
+                let (value, [low, high]) = (estimate.value()?, estimate.interval()?);
+                let ([value, low, high], unit) =
+                    shown(self.display, estimate.unit, [value, low, high]);
+                let unit = if unit.is_empty() { unit } else { format!(" {unit}") };
+                Some(format!("{} = {value}{unit} (95 %: {low} to {high})", estimate.path))
+            })
+            .collect();
+        let all = self.estimates.len();
+        let parameters = if all == 1 { "parameter" } else { "parameters" };
+        let more = match told.len().saturating_sub(NAMED) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let named = format!("{}{more}", told[..told.len().min(NAMED)].join(", "));
+        let first = match told.len() {
+            0 => return vec![format!("The data do not determine any of {all} {parameters}.")],
+            count if count == all => format!("Determined: {named}."),
+            count => format!("{count} of {all} {parameters} determined: {named}."),
+        };
+        let missing = self.estimates.iter().filter(|estimate| estimate.value().is_none());
+        let missing: Vec<&str> = missing.map(|estimate| estimate.path.as_str()).collect();
+        let second = format!("Not determined by the data: {}.", missing.join(", "));
+        std::iter::once(first).chain((!missing.is_empty()).then_some(second)).collect()
+    }
+
     /// The table that a person reads.
     #[must_use]
     pub fn table(&self) -> String {
@@ -165,6 +198,13 @@ impl IdentifyReport<'_> {
     #[must_use]
     pub fn to_html(&self) -> String {
         let mut body = Markup::new();
+        body.raw("<section class=\"verdict\">\n");
+        for (i, sentence) in self.verdict().iter().enumerate() {
+            body.raw(if i == 0 { "<p class=\"lead\">" } else { "<p>" })
+                .text(sentence.replace('-', "−"))
+                .raw("</p>\n");
+        }
+        body.raw("</section>\n");
         let warnings: Vec<_> = self.warnings.iter().map(|warning| (None, warning)).collect();
         warning_list(&mut body, &warnings, self.display);
         body.raw("<section>\n<h2>Parameters</h2>\n");
