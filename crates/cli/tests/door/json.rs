@@ -122,6 +122,20 @@ fn exact_keys_with_bounds_heights_and_iterations() {
         .replace("\n[motion]", &format!("{storeys}{storeys}\n[motion]"));
     let folder = Folder::with_model("json-bounds", &text);
     let json = folder.json(&["model.toml"]);
+    // Names stand with the values, where the model gives them.
+    let named = text.replacen("[block]", "[block]\nname = \"Base mat\"", 1);
+    let at = named.rfind("[[storey]]").unwrap() + "[[storey]]".len();
+    folder.write("named.toml", format!("{}\nname = \"Roof\"{}", &named[..at], &named[at..]));
+    let named = folder.json(&["named.toml"]);
+    for run in [&named, &named["bounds"]["upper"]] {
+        assert_eq!(
+            (&run["block"]["name"], &run["storeys"][1]["name"]),
+            (&"Base mat".into(), &"Roof".into())
+        );
+        assert!(run["storeys"][0].get("name").is_none());
+        assert!(run["block"]["peak_acceleration_m_per_s2"].is_number());
+    }
+    assert!(json["block"].get("name").is_none());
     for run in [&json, &json["bounds"]["lower"], &json["bounds"]["upper"]] {
         check_run(run, 2);
         assert!(run["gap_ratio"].is_number() && run["overturning_ratio"].is_number());

@@ -4,6 +4,8 @@ use slipstick::assessment::single::FloorSpectra;
 use slipstick::motion::Figures;
 use slipstick::response::{DEMANDS, DemandColumn, DemandKind, DemandOf, Demands, Warning};
 
+use slipstick::input::Names;
+
 use super::{Checks, Summary, method_name};
 use crate::json::Json;
 
@@ -19,7 +21,7 @@ pub fn object(summary: &Summary) -> Json {
         ("friction_factor", summary.friction_factor.into()),
         ("record", record(&summary.record)),
     ];
-    keys.extend(demands(&summary.demands));
+    keys.extend(demands(&summary.demands, &summary.names));
     keys.extend([
         (
             "contact_loss_s",
@@ -77,13 +79,16 @@ fn floor_spectrum(spectra: &FloorSpectra) -> Json {
     ])
 }
 
-/// The demands in the order of the registry; `block.x` is `x` in the object `block`.
-fn demands(demands: &Demands) -> Vec<(&'static str, Json)> {
+/// The demands in the order of the registry; `block.x` is `x` in the object `block`. Block and storeys
+/// have their names, where the model gives them.
+fn demands(demands: &Demands, names: &Names) -> Vec<(&'static str, Json)> {
+    let name = |name: &Option<String>| name.as_ref().map(|name| ("name", name.as_str().into()));
     let json = |column: DemandColumn| json(column.demand.kind, column.value(demands));
     let of_storey = |storey: usize| {
         let own = DEMANDS.iter().filter(|demand| demand.of == DemandOf::Storey);
         let own = own.map(|demand| (demand.key, json(DemandColumn { demand, storey })));
-        Json::Object(own.collect())
+        let named = names.storeys.get(storey - 1).and_then(name);
+        Json::Object(named.into_iter().chain(own).collect())
     };
     let mut keys: Vec<(&'static str, Json)> = Vec::new();
     for demand in DEMANDS.iter().filter(|demand| demand.in_summary) {
@@ -102,7 +107,10 @@ fn demands(demands: &Demands) -> Vec<(&'static str, Json)> {
             (Some((group, key)), Some((last, Json::Object(members)))) if *last == group => {
                 members.push((key, value));
             }
-            (Some((group, key)), _) => keys.push((group, Json::Object(vec![(key, value)]))),
+            (Some((group, key)), _) => {
+                let named = if group == "block" { name(&names.block) } else { None };
+                keys.push((group, Json::Object(named.into_iter().chain([(key, value)]).collect())));
+            }
         }
     }
     keys
