@@ -4,7 +4,8 @@ mod assessment;
 mod laboratory;
 
 pub use assessment::{
-    DesignArgs, FitToName, FragilityArgs, IdaArgs, ScaleArgs, SpectrumArgs, SuiteArgs,
+    BoundsArgs, BoundsName, DesignArgs, FitToName, FragilityArgs, IdaArgs, ScaleArgs, SpectrumArgs,
+    SuiteArgs,
 };
 pub use laboratory::{
     CompareArgs, CyclicArgs, FreeVibrationArgs, IdentifyCommand, Part, ResultArgs, ShakingTableArgs,
@@ -58,6 +59,7 @@ Examples:
   slipstick study plan.toml --dry-run              count the runs, estimate the time
   slipstick study plan.toml --out out              run them on all processors
   slipstick study plan.toml --out out --resume     continue an interrupted study
+  slipstick study plan.toml --out out --report     a page with figures besides
   slipstick study plan.toml --repeat 4711          the command that reproduces one row
   slipstick study plan.toml --out out1 --shard 1/2     on one machine, and on another
   slipstick study plan.toml --out out2 --shard 2/2
@@ -68,6 +70,7 @@ Writes into the folder, complete files only, never a part of one:
                   measures, varied values, demands
   summary.csv     each demand at each level: mean, quantiles, maximum with its record and run
   manifest.json   the plan, hashes of all inputs, counts, and the outcome of rows that were run again
+  report.html     with --report: one self-contained page, ready to print
 
 slipstick schema --plan prints the JSON schema of a plan.";
 
@@ -286,7 +289,10 @@ pub struct StudyArgs {
     /// Print the command that reproduces a row, by its number in the column run
     #[arg(long, value_name = "RUN", conflicts_with_all = ["out", "dry_run"])]
     pub repeat: Option<u64>,
-    /// Units of the table; files are always SI
+    /// Write report.html as well: the answer, figures and tables on one page
+    #[arg(long, conflicts_with_all = ["dry_run", "repeat"])]
+    pub report: bool,
+    /// Units of table and page; other files are always SI
     #[arg(long, value_name = "SYSTEM", value_enum, default_value = "si")]
     pub display_units: UnitSystem,
     /// Print nothing on standard error but errors

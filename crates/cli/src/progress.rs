@@ -13,6 +13,9 @@ use slipstick::study::engine::Engine;
 /// How long a person waits before the sign appears.
 const PATIENCE: Duration = Duration::from_secs(1);
 
+/// How long the first of some work may be tried to tell how long all of it takes.
+pub const TRIAL: Duration = Duration::from_millis(400);
+
 /// Whether a sign may appear: a person watches, and has not asked for plain output.
 fn wanted() -> bool {
     io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty())
@@ -79,8 +82,7 @@ pub fn watched<T: Send>(what: &'static str, quiet: bool, work: impl FnOnce() -> 
     with_sign(what, quiet, &|bar| bar.tick(), SPINNER, &|| None, work)
 }
 
-/// The same for work by an engine: a bar with the runs that are done, of those that are planned, and
-/// the time left.
+/// The same for work by an engine: a bar with what is done of what is planned, and the time left.
 pub fn counted<T: Send>(
     what: &'static str,
     quiet: bool,
@@ -96,7 +98,7 @@ pub fn counted<T: Send>(
         bar.set_length(engine.planned().max(1));
         bar.set_position(done.load(Ordering::Relaxed));
     };
-    let template = "{msg} {wide_bar} {human_pos}/{human_len} runs, {eta} left";
+    let template = "{msg} {wide_bar} {human_pos}/{human_len}, {eta} left";
     with_sign(what, quiet, &show, template, &|| None, || work(&engine))
 }
 

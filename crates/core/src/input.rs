@@ -94,6 +94,36 @@ pub struct FrictionBounds {
     pub upper: f64,
 }
 
+impl FrictionBounds {
+    /// Lower, nominal and upper friction.
+    #[must_use]
+    pub fn all(&self) -> [Bound; 3] {
+        let bound = |name, friction_factor| Bound { name, friction_factor };
+        [bound("lower", self.lower), Bound::NOMINAL, bound("upper", self.upper)]
+    }
+}
+
+/// A bound of friction: its name, lower, nominal or upper, and the factor on both coefficients.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bound {
+    /// Its name.
+    pub name: &'static str,
+    /// The factor.
+    pub friction_factor: f64,
+}
+
+impl Bound {
+    /// The friction of the model as it stands.
+    pub const NOMINAL: Self = Self { name: "nominal", friction_factor: 1.0 };
+
+    /// The model with this friction.
+    #[must_use]
+    pub fn of(&self, model: &Model) -> Model {
+        let friction = model.slider().friction;
+        model.with_friction(friction.scaled(self.friction_factor).unwrap_or(friction))
+    }
+}
+
 /// A value in use, as it was written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Input<'a> {

@@ -9,6 +9,7 @@ mod oscillator;
 pub mod processing;
 mod series;
 mod spectrum;
+pub mod target;
 
 pub use figures::Figures;
 pub use fourier::FourierSpectrum;

@@ -24,15 +24,16 @@ use std::sync::OnceLock;
 
 use engine::Engine;
 
-use crate::error::{InputError, RunError, Stopped};
-use crate::input::plan::{Levels, Plan};
-use crate::input::{MAX_RUNS, Parts, Variation};
+use crate::error::{InputError, MotionError, RunError, Stopped};
+use crate::input::plan::{Levels, Plan, Target};
+use crate::input::{Bound, MAX_RUNS, Parts, Variation};
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{IntensityMeasures, Measure};
+use crate::motion::target::{Matched, TargetSpectrum, matching_periods, maximum_direction};
 use crate::numerics::random::{GOLDEN, mix};
 use crate::response::DemandShape;
 
-/// Most samples whose models are kept for the next record: beyond, they are made anew.
+/// Most models that are kept for the next record: beyond, they are made anew.
 const MODELS_KEPT: u64 = 10_000;
 
 /// A recorded motion of a study.
@@ -46,6 +47,8 @@ pub struct Record {
     pub motion: GroundMotion,
     /// Kinds of what reading it gave notice of.
     pub warnings: Vec<&'static str>,
+    /// Number of the pair of horizontal components that it is one of, the other beside it.
+    pub pair: Option<usize>,
 }
 
 /// A study whose runs can be computed, in any order.
@@ -58,6 +61,10 @@ pub struct Study {
     /// Factors of each record's levels, record by record.
     factors: Vec<f64>,
     cases: Cases,
+    /// Bounds of friction that every sample is run with; the nominal one where the model has none.
+    bounds: Vec<Bound>,
+    /// How pairs were brought to a target spectrum.
+    matched: Option<Matched>,
     shape: DemandShape,
     /// Number of demands.
     demands: usize,
@@ -89,6 +96,41 @@ impl Study {
     /// [`InputError`] for a model that does not fit the plan, a record that cannot be scaled to the
     /// plan's levels, no motion at all, and more than 10⁸ runs.
     pub fn new(
+        plan: &Plan,
+        model_name: &str,
+        model_text: &str,
+        records: Vec<Record>,
+    ) -> Result<Self, InputError> {
+        match Self::followed(plan, model_name, model_text, records, None, &Engine::unwatched()) {
+            Ok(study) => study,
+            // Nothing stops an engine that nobody follows.
+            Err(Stopped) => Err(plan.error_at("records", "a study that is not stopped", "one")),
+        }
+    }
+
+    /// The same on the threads of the caller's pool; the engine is told of every record that is
+    /// measured. `target` is the spectrum of the file that the plan names, where it names one.
+    ///
+    /// # Errors
+    /// [`Stopped`], and as [`Study::new`] besides.
+    pub fn followed(
+        plan: &Plan,
+        model_name: &str,
+        model_text: &str,
+        records: Vec<Record>,
+        target: Option<&TargetSpectrum>,
+        engine: &Engine<'_>,
+    ) -> Result<Result<Self, InputError>, Stopped> {
+        let unscaled = match Self::unscaled(plan, model_name, model_text, records) {
+            Ok(unscaled) => unscaled,
+            Err(error) => return Ok(Err(error)),
+        };
+        let scaled = scaled(plan, &unscaled.records, target, engine)?;
+        Ok(scaled.map(|Scaled { factors, matched }| Self { factors, matched, ..unscaled }))
+    }
+
+    /// A study whose records still lack their factors.
+    fn unscaled(
         plan: &Plan,
         model_name: &str,
         model_text: &str,
@@ -129,18 +171,20 @@ impl Study {
             let place = format!("vary.{}", varied.path);
             return Err(plan.error_at(&place, expected, format!("\"{}\"", varied.path)));
         }
+        let bounds = bounds(plan, &variation)?;
         let cases = Cases {
             records: records.len().max(1) as u64,
             levels: levels.len() as u64,
             samples: design.count(),
+            bounds: bounds.len() as u64,
         };
         if cases.runs().is_none_or(|runs| runs > MAX_RUNS) {
-            let Cases { records, levels, samples } = cases;
+            let Cases { records, levels, samples, bounds } = cases;
             let expected = format!("at most {MAX_RUNS} runs");
-            let found = format!("{records} records × {levels} levels × {samples} samples");
+            let times = if bounds == 1 { String::new() } else { format!(" × {bounds} bounds") };
+            let found = format!("{records} records × {levels} levels × {samples} samples{times}");
             return Err(plan.error_at("sampling.count", expected, found));
         }
-        let factors = factors(plan, &levels, &records)?;
         let shape = variation.shape();
         let measures = if records.is_empty() {
             // A made motion may be another in every run, and spectra cost more than the run.
@@ -154,8 +198,10 @@ impl Study {
             unscaled: records.iter().map(|_| OnceLock::new()).collect(),
             records,
             levels,
-            factors,
+            factors: Vec::new(),
             cases,
+            bounds,
+            matched: None,
             shape,
             demands: shape.columns().len(),
             samples: OnceLock::new(),
@@ -163,7 +209,7 @@ impl Study {
         })
     }
 
-    /// Numbers of records, levels and samples.
+    /// Numbers of records, levels, samples and bounds of friction.
     #[must_use]
     pub fn cases(&self) -> Cases {
         self.cases
@@ -185,6 +231,26 @@ impl Study {
     #[must_use]
     pub fn records(&self) -> &[Record] {
         &self.records
+    }
+
+    /// Whether records are pairs of horizontal components.
+    #[must_use]
+    pub fn has_pairs(&self) -> bool {
+        self.records.iter().any(|record| record.pair.is_some())
+    }
+
+    /// The name of a record's pair, that of its first component; empty where it is in none.
+    #[must_use]
+    pub fn pair_name(&self, record: &Record) -> &str {
+        let first =
+            self.records.iter().find(|first| record.pair.is_some() && first.pair == record.pair);
+        first.map_or("", |first| &first.name)
+    }
+
+    /// How pairs were brought to a target spectrum, where the plan asks for it.
+    #[must_use]
+    pub fn matched(&self) -> Option<&Matched> {
+        self.matched.as_ref()
     }
 
     /// How the records are scaled.
@@ -226,10 +292,22 @@ impl Study {
         }
     }
 
-    /// Whether the model has bounds of friction, which a study does not run.
+    /// Whether the model has bounds of friction: then rows say which one is theirs.
     #[must_use]
     pub fn has_bounds(&self) -> bool {
         self.variation.has("slider.bounds")
+    }
+
+    /// The bounds of friction that every sample is run with; the nominal one where the model has none.
+    #[must_use]
+    pub fn bounds(&self) -> &[Bound] {
+        &self.bounds
+    }
+
+    /// The bound of friction of a case.
+    #[must_use]
+    pub fn bound(&self, case: Case) -> Bound {
+        self.bounds.get(case.bound as usize).copied().unwrap_or(Bound::NOMINAL)
     }
 
     /// The model's made motion: `sine`, `sweep` or `pulse`; empty where it has none.
@@ -255,9 +333,13 @@ impl Study {
         Ok(overrides.into_iter().map(|set| set.text().to_owned()).collect())
     }
 
+    /// The model of an index below [`Cases::models`].
     fn sample(&self, index: u64) -> Sample {
-        let values = self.design.values(index);
+        let case = self.cases.case(index);
+        let values = self.design.values(case.sample);
         let parts = self.variation.parts(&values).map_err(RunError::from);
+        let bound = self.bound(case);
+        let parts = parts.map(|parts| Parts { model: bound.of(&parts.model), ..parts });
         let highest_hz = parts.as_ref().map_or(0.0, |parts| notices::highest_hz(&parts.model));
         let of_model = |parts: &Parts| notices::suspicious(&parts.model);
         let suspicious = parts.as_ref().map_or_else(|_| Vec::new(), of_model);
@@ -265,7 +347,7 @@ impl Study {
         Sample { values, parts, highest_hz, suspicious }
     }
 
-    /// The samples in a range: from the store, where they are few enough to be kept.
+    /// The models in a range: from the store, where they are few enough to be kept.
     fn samples(
         &self,
         range: std::ops::Range<u64>,
@@ -278,13 +360,13 @@ impl Study {
             };
             Ok(engine.map(chunks.len(), of_chunk)?.into_iter().flatten().collect())
         };
-        if self.cases.samples > MODELS_KEPT {
+        if self.cases.models() > MODELS_KEPT {
             return Ok(made(range)?.into());
         }
         let kept = match self.samples.get() {
             Some(kept) => kept,
             None => {
-                let all = made(0..self.cases.samples)?;
+                let all = made(0..self.cases.models())?;
                 self.samples.get_or_init(|| all)
             }
         };
@@ -315,26 +397,103 @@ fn chunks(range: std::ops::Range<u64>) -> impl Iterator<Item = std::ops::Range<u
     range.step_by(LENGTH as usize).map(move |start| start..(start + LENGTH).min(end))
 }
 
+/// The bounds of friction that a plan runs.
+fn bounds(plan: &Plan, variation: &Variation) -> Result<Vec<Bound>, InputError> {
+    let given = variation.friction_bounds()?;
+    match (given, plan.bound) {
+        (Some(given), None) => Ok(given.all().to_vec()),
+        (Some(given), Some(name)) => {
+            Ok(given.all().into_iter().filter(|bound| bound.name == name).collect())
+        }
+        (None, None | Some("nominal")) => Ok(vec![Bound::NOMINAL]),
+        (None, Some(name)) => {
+            let expected = "slider.bounds in the model, whose bounds are run";
+            Err(plan.error_at("bounds", expected, format!("\"{name}\" without them")))
+        }
+    }
+}
+
+/// Factors of each record's levels, record by record, and how pairs were brought to a spectrum.
+struct Scaled {
+    factors: Vec<f64>,
+    matched: Option<Matched>,
+}
+
+/// Components that are scaled by one factor: a pair, or a record alone.
+fn scaled_together(records: &[Record]) -> Vec<&[Record]> {
+    records.chunk_by(|a, b| a.pair.is_some() && a.pair == b.pair).collect()
+}
+
 /// The factor of each record at each level.
-fn factors(plan: &Plan, levels: &Levels, records: &[Record]) -> Result<Vec<f64>, InputError> {
-    let of_record = |record: &Record| -> Result<Vec<f64>, InputError> {
+fn scaled(
+    plan: &Plan,
+    records: &[Record],
+    target: Option<&TargetSpectrum>,
+    engine: &Engine<'_>,
+) -> Result<Result<Scaled, InputError>, Stopped> {
+    let groups = scaled_together(records);
+    let mut matched = None;
+    let mut of_groups = vec![1.0; groups.len()];
+    if let Some((named, range_s)) = plan.records.as_ref().and_then(|records| records.target.clone())
+    {
+        let target = match (&named, target) {
+            (Target::Shape(shape), _) => shape,
+            (Target::File(_), Some(read)) => read,
+            (Target::File(path), None) => {
+                let found = format!("\"{path}\" unread");
+                return Ok(Err(plan.error_at("records.target", "a spectrum of the file", found)));
+            }
+        };
+        let periods_s = matching_periods(range_s);
+        let spectrum = |i: usize| match groups[i] {
+            [x, y] => maximum_direction(&x.motion, &y.motion, &periods_s),
+            _ => Ok(Vec::new()),
+        };
+        let spectra = engine.runs(groups.len(), spectrum)?.into_iter().collect();
+        let spectra: Result<Vec<Vec<f64>>, MotionError> = spectra;
+        match spectra.and_then(|spectra| Matched::new(target, periods_s, &spectra)) {
+            Ok(found) => {
+                of_groups.clone_from(&found.factors);
+                matched = Some(found);
+            }
+            Err(error) => {
+                let expected = "pairs that can be brought to the spectrum over these periods";
+                return Ok(Err(plan.error_at("records.periods", expected, error.to_string())));
+            }
+        }
+    }
+    let levels = match &plan.records {
+        Some(records) => &records.levels,
+        None => &Levels::Factors(vec![1.0]),
+    };
+    let of_group = |i: usize| -> Result<Vec<f64>, InputError> {
         let (measure, levels) = match levels {
-            Levels::Factors(factors) => return Ok(factors.clone()),
+            Levels::Factors(factors) => {
+                return Ok(factors.iter().map(|factor| factor * of_groups[i]).collect());
+            }
             Levels::Measure { measure, levels } => (measure, levels),
         };
-        let unscaled = measure.of(&record.motion);
+        let Some((first, rest)) = groups[i].split_first() else { return Ok(Vec::new()) };
+        let other = rest.first().map(|other| &other.motion);
+        let unscaled = measure.of(&first.motion, other).unwrap_or(f64::NAN);
         if !(unscaled.is_finite() && unscaled > 0.0) {
             let expected = format!("records that can be scaled to {measure}");
-            let found = format!("{measure} = {unscaled} of {}", record.name);
+            let found = format!("{measure} = {unscaled} of {}", first.name);
             return Err(plan.error_at("records.measure", expected, found));
         }
         Ok(levels.iter().map(|level| level / unscaled).collect())
     };
-    // Nothing stops an engine that nobody follows.
-    let all = Engine::unwatched().map(records.len(), |i| Ok(of_record(&records[i])));
+    let all = match matched {
+        // Spectra took the time already.
+        Some(_) => engine.map(groups.len(), |i| Ok(of_group(i)))?,
+        None => engine.runs(groups.len(), of_group)?,
+    };
     let mut factors = Vec::with_capacity(records.len() * levels.len());
-    for of_record in all.unwrap_or_default() {
-        factors.extend(of_record?);
+    for (of_group, group) in all.into_iter().zip(&groups) {
+        match of_group {
+            Ok(of_group) => group.iter().for_each(|_| factors.extend(&of_group)),
+            Err(error) => return Ok(Err(error)),
+        }
     }
-    Ok(factors)
+    Ok(Ok(Scaled { factors, matched }))
 }

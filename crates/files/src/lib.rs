@@ -30,10 +30,10 @@ pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve, sha256_hex};
 pub use records::{
     FileNames, RecordOptions, Wanted, WrittenFormat, channels, one_channel, open_record,
 };
-pub use run::{JobError, OpenJob};
+pub use run::{JobError, OpenJob, time_left};
 pub use study::{
-    Checks, Merged, OpenStudy, Shard, ShardOutcome, StudyError, clear, conclude, estimate,
-    has_parts, kept_runs, merge, part_rows, quoted, run_shard,
+    Checks, Merged, OpenStudy, STUDY_REPORT, Shard, ShardOutcome, StudyError, clear, conclude,
+    estimate, has_parts, kept_runs, merge, part_rows, quoted, run_shard,
 };
 pub use suite::{OpenSuite, SuiteError, SuiteRequest, stems_or_paths};
 pub use table::{ReadTable, read_table, to_csv, to_parquet};

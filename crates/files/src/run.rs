@@ -80,17 +80,10 @@ impl OpenJob {
     #[must_use]
     pub fn estimate(&self, budget: Duration) -> Option<Duration> {
         let motion = &self.job.motion;
-        let mut samples = 32.min(motion.len());
-        loop {
+        time_left([32, motion.len()], budget, |samples| {
             let first = Job { motion: motion.first(samples)?, ..self.job.clone() };
-            let start = Instant::now();
-            first.run(false).ok()?;
-            let taken = start.elapsed();
-            if 4 * taken > budget || samples == motion.len() {
-                return Some(taken.mul_f64(motion.len() as f64 / samples as f64));
-            }
-            samples = (4 * samples).min(motion.len());
-        }
+            first.run(false).ok().map(|_| ())
+        })
     }
 
     /// Solves and judges, and gathers the figures.
@@ -101,6 +94,26 @@ impl OpenJob {
         let outcome = self.job.run(floor_spectra)?;
         let summary = Summary::of(&self.name, &self.job, self.loaded.figures, &outcome);
         Ok((outcome, summary))
+    }
+}
+
+/// Time that work on all samples may take, from the `least` first of them, of which more and more are
+/// worked on until that takes `budget`; `None` where they cannot be.
+#[must_use]
+pub fn time_left(
+    [least, samples]: [usize; 2],
+    budget: Duration,
+    work: impl Fn(usize) -> Option<()>,
+) -> Option<Duration> {
+    let mut first = least.min(samples);
+    loop {
+        let start = Instant::now();
+        work(first)?;
+        let taken = start.elapsed();
+        if 4 * taken > budget || first == samples {
+            return Some(taken.mul_f64(samples as f64 / first.max(1) as f64));
+        }
+        first = (4 * first).min(samples);
     }
 }
 
@@ -142,5 +155,28 @@ pub(crate) fn request(record: &RecordSource, folder: &Path) -> RecordRequest {
             channel: None,
             factor: record.vertical_scale.unwrap_or(1.0),
         }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+
+    use super::*;
+
+    /// More and more samples are tried, never more than there are; what cannot be done has no time.
+    #[test]
+    fn exact_time_left_tries_the_first_samples() {
+        let tried = RefCell::new(Vec::new());
+        let work = |samples| {
+            tried.borrow_mut().push(samples);
+            Some(())
+        };
+        assert!(time_left([32, 1000], Duration::MAX / 8, work).is_some());
+        assert_eq!(*tried.borrow(), [32, 128, 512, 1000]);
+        tried.borrow_mut().clear();
+        assert!(time_left([500, 1000], Duration::ZERO, work).is_some());
+        assert_eq!(*tried.borrow(), [500]);
+        assert!(time_left([32, 10], Duration::ZERO, |_| None).is_none());
     }
 }

@@ -17,7 +17,7 @@ mod summary;
 pub use merge::{Merged, conclude, merge};
 pub use open::OpenStudy;
 pub use part::{Checks, part_rows};
-pub use parts::{clear, has_parts, kept_runs};
+pub use parts::{REPORT as STUDY_REPORT, clear, has_parts, kept_runs};
 pub use repeat::quoted;
 pub use shard::{Shard, ShardOutcome, estimate, run_shard};
 

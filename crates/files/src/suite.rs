@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use slipstick::assessment::suite::{Suite, SuiteRecord};
-use slipstick::error::ChoiceError;
+use slipstick::error::{ChoiceError, Stopped};
 use slipstick::record::Units;
 use slipstick::response::Warning;
 use slipstick::study::engine::Engine;
@@ -21,6 +21,9 @@ pub enum SuiteError {
     /// Vertical components that are not as many as the horizontal ones.
     #[error(transparent)]
     Choice(#[from] ChoiceError),
+    /// The callback that followed it stopped it.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
 }
 
 /// Records to be opened, and what they may not say themselves.
@@ -50,12 +53,12 @@ pub struct OpenSuite {
 }
 
 impl OpenSuite {
-    /// Opens all records; a record's name is its file's stem, or its path where stems repeat.
+    /// Opens all records, of each of which the engine is told; a record's name is its file's stem, or its path where stems repeat.
     ///
     /// # Errors
-    /// [`SuiteError`] where nothing matches a pattern, a file is no record, or the vertical
-    /// components are not as many as the horizontal ones.
-    pub fn open(request: &SuiteRequest) -> Result<Self, SuiteError> {
+    /// [`SuiteError`] where nothing matches a pattern, a file is no record, the vertical components
+    /// are not as many as the horizontal ones, or it is stopped.
+    pub fn open(request: &SuiteRequest, engine: &Engine<'_>) -> Result<Self, SuiteError> {
         let (files, again) = expand_once(Path::new(""), &request.patterns)?;
         let vertical = expand_all(Path::new(""), &request.vertical)?;
         if !vertical.is_empty() && vertical.len() != files.len() {
@@ -67,7 +70,7 @@ impl OpenSuite {
             }));
         }
         let load = |i: usize| {
-            Ok(load_record(&RecordRequest {
+            load_record(&RecordRequest {
                 path: files[i].clone(),
                 units: request.units,
                 dt_s: request.dt_s,
@@ -78,10 +81,9 @@ impl OpenSuite {
                     factor: 1.0,
                 }),
                 ..RecordRequest::default()
-            }))
+            })
         };
-        // Nothing stops an engine that nobody follows.
-        let loaded = Engine::unwatched().map(files.len(), load).unwrap_or_default();
+        let loaded = engine.runs(files.len(), load)?;
         let loaded = loaded.into_iter().collect::<Result<Vec<_>, FileError>>()?;
         let mut open = Self::of(&stems_or_paths(&files), loaded, false);
         let twice = named_twice(&again);

@@ -1,11 +1,12 @@
 //! The stepwise iteration: how many turns it takes, and where it fails.
 
 use crate::library::{Library, fixed};
-use crate::{Claim, Grid, PaperError, Verdict};
+use crate::{Claim, Grid, ITERATION, PaperError, Verdict, piece};
 use slipstick::error::SolveError;
 use slipstick::model::Model;
 use slipstick::motion::GroundMotion;
 use slipstick::solver::stepwise_within;
+use slipstick::study::engine::Engine;
 
 /// `δ` of the paper in m/s².
 const PAPER_TOLERANCE: f64 = 1e-5;
@@ -39,6 +40,7 @@ pub struct IterationCell {
 pub(crate) fn run(
     library: &Library,
     grid: Grid,
+    engine: &Engine<'_>,
 ) -> Result<(Vec<IterationCell>, Vec<Claim>), PaperError> {
     let steps_s: &[f64] = grid.pick(&[0.001, 0.002, 0.005, 0.01, 0.02], &[0.005, 0.01, 0.02]);
     let tolerances: &[f64] =
@@ -49,9 +51,14 @@ pub(crate) fn run(
         for experiment in library.experiments() {
             systems.push((experiment.model.clone(), experiment.motion_at(dt_s)?));
         }
-        for &tolerance_m_per_s2 in tolerances {
-            cells.push(cell(&systems, tolerance_m_per_s2, dt_s)?);
-        }
+        let done = cells.len();
+        let count = steps_s.len() * tolerances.len();
+        let more = engine.map(tolerances.len(), |i| {
+            let cell = cell(&systems, tolerances[i], dt_s);
+            engine.done(piece(ITERATION, done + i, count))?;
+            Ok(cell)
+        })?;
+        cells.extend(more.into_iter().collect::<Result<Vec<_>, PaperError>>()?);
     }
     let coarse = coarse(library)?;
     let claims = vec![

@@ -9,9 +9,8 @@
 //! the band that `rule` names. What rests on data that the paper does not give cannot be checked;
 //! `why` then names the datum and the range that was scanned in its place.
 
-use std::ops::ControlFlow;
-
 use slipstick::error::{InputError, ModelError, MotionError, RecordError, SolveError, Stopped};
+use slipstick::study::engine::Engine;
 
 mod carried;
 pub mod chapter;
@@ -262,51 +261,56 @@ pub enum PaperError {
     },
 }
 
-/// Runs everything; `progress` is told what comes next and answers whether to go on.
+/// Shares of the work in what takes most of it, of [`WHOLE`]; every other step is one [`STEP`].
+pub(crate) const ITERATION: u64 = 230;
+pub(crate) const WINDOWS: u64 = 700;
+const STEP: u64 = 10;
+const WHOLE: u64 = ITERATION + WINDOWS + 8 * STEP;
+
+/// What the piece `i` of `count` adds to a share of the work.
+pub(crate) fn piece(share: u64, i: usize, count: usize) -> u64 {
+    let upto = |i: usize| share * i as u64 / count.max(1) as u64;
+    upto(i + 1) - upto(i)
+}
+
+/// Runs everything on the threads of the caller's pool; the engine is told of every thousandth of the
+/// work, more or less.
 ///
 /// The same library and grid give the same bits.
 ///
 /// # Errors
 /// [`PaperError`] for a library that lacks a mock-up or record, or an exact analysis that fails; a
-/// stepwise analysis that fails is a result. [`PaperError::Stopped`] where `progress` says so.
-pub fn reproduce(
-    library: &Library,
-    grid: Grid,
-    progress: &mut dyn FnMut(&'static str) -> ControlFlow<()>,
-) -> Result<Paper, PaperError> {
-    let mut next = |what| match progress(what) {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(Stopped),
-    };
-    next("both solvers on every mock-up")?;
+/// stepwise analysis that fails is a result. [`PaperError::Stopped`] where the engine is stopped.
+pub fn reproduce(library: &Library, grid: Grid, engine: &Engine<'_>) -> Result<Paper, PaperError> {
+    engine.plan(WHOLE);
     let (tests, drawn, mut claims) = experiments::run(library)?;
-    next("numbers of the text")?;
+    engine.done(STEP)?;
     let (cantilevers, more) = numbers::run(library)?;
     claims.extend(more);
-    next("the stepwise iteration")?;
-    let (iterations, more) = iteration::run(library, grid)?;
+    engine.done(STEP)?;
+    let (iterations, more) = iteration::run(library, grid, engine)?;
     claims.extend(more);
-    next("storey displacement against amplitude")?;
     let (displacements, more) = storey::run(library, grid)?;
     claims.extend(more);
+    engine.done(STEP)?;
     let (free_sliding, more) = resonance::run(library, grid)?;
     claims.extend(more);
-    next("the amplification window")?;
-    let (windows, more) = window::run(library, grid)?;
+    engine.done(STEP)?;
+    let (windows, more) = window::run(library, grid, engine)?;
     claims.extend(more);
-    next("the offset")?;
     let offset::Offsets { rows: offsets, step_drifts, start_phases, claims: more } =
         offset::run(library, grid)?;
     claims.extend(more);
-    next("sensitivities")?;
+    engine.done(STEP)?;
     let (sensitivities, more) = sensitivity::run(library, grid)?;
     claims.extend(more);
-    next("static and kinetic friction")?;
+    engine.done(STEP)?;
     let friction::FrictionResults { pairs: friction_pairs, lighter, overturning, claims: more } =
         friction::run(library, grid)?;
     claims.extend(more);
-    next("records and spectra")?;
+    engine.done(STEP)?;
     let (suite, spectra) = suite::run(library, grid)?;
+    engine.done(STEP)?;
     claims.sort_by_key(|claim| section_order(claim.section));
     Ok(Paper {
         grid,

@@ -4,9 +4,10 @@ use crate::curves::{highest, interval_text, intervals, linspace, logspace, range
 use crate::library::{Experiment, Library, damping_ratio, fixed, free_free_hz, storey};
 use crate::numbers::amplification;
 use crate::steady::{SAMPLES, steady};
-use crate::{Claim, Grid, PaperError, Verdict};
+use crate::{Claim, Grid, PaperError, Verdict, WINDOWS, piece};
 use slipstick::motion::Sine;
 use slipstick::solver;
+use slipstick::study::engine::Engine;
 
 /// Duration of a test from rest in s.
 const FROM_REST_S: f64 = 20.0;
@@ -124,14 +125,20 @@ impl Window {
     }
 }
 
-pub(crate) fn run(library: &Library, grid: Grid) -> Result<(Vec<Window>, Vec<Claim>), PaperError> {
+pub(crate) fn run(
+    library: &Library,
+    grid: Grid,
+    engine: &Engine<'_>,
+) -> Result<(Vec<Window>, Vec<Claim>), PaperError> {
     let amplitudes: &[f64] = grid.pick(&[0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 3.0, 5.0], &[0.1, 1.0, 5.0]);
-    let mut windows = Vec::new();
-    for experiment in library.oscillators() {
-        for &amplitude in amplitudes {
-            windows.push(window(experiment, amplitude, grid)?);
-        }
-    }
+    let each = |experiment| amplitudes.iter().map(move |amplitude| (experiment, *amplitude));
+    let pairs: Vec<(&Experiment, f64)> = library.oscillators().flat_map(each).collect();
+    let windows = engine.map(pairs.len(), |i| {
+        let window = window(pairs[i].0, pairs[i].1, grid);
+        engine.done(piece(WINDOWS, i, pairs.len()))?;
+        Ok(window)
+    })?;
+    let windows = windows.into_iter().collect::<Result<Vec<_>, PaperError>>()?;
     let claims = claims(&windows);
     Ok((windows, claims))
 }

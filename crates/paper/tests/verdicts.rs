@@ -7,6 +7,7 @@
 use std::sync::OnceLock;
 use std::thread;
 
+use slipstick::study::engine::Engine;
 use slipstick_paper::chapter::{chapter, claims_json, listing};
 use slipstick_paper::{Grid, Paper, Shake, Verdict, paper_library, reproduce};
 
@@ -16,8 +17,7 @@ fn papers() -> &'static [Paper; 2] {
     PAPERS.get_or_init(|| {
         let run = || {
             let library = paper_library().expect("a library");
-            reproduce(&library, Grid::Quick, &mut |_| std::ops::ControlFlow::Continue(()))
-                .expect("a paper")
+            reproduce(&library, Grid::Quick, &Engine::unwatched()).expect("a paper")
         };
         thread::scope(|scope| {
             let other = scope.spawn(run);

@@ -8,8 +8,8 @@ pub mod fragility;
 pub mod histories;
 pub mod ida;
 pub mod key;
-mod lines;
-mod sheet;
+pub(crate) mod lines;
+pub(crate) mod sheet;
 pub mod spectrum;
 
 pub use sheet::{Sheet, Went};

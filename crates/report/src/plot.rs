@@ -5,10 +5,12 @@
 //! the path data is kept short.
 
 mod axis;
+mod contour;
 mod draw;
 mod thin;
 
 pub use axis::{Axis, Tick};
+pub use contour::{contour, levels};
 
 use crate::markup::Markup;
 
@@ -97,6 +99,8 @@ pub enum Shape {
     Band(&'static str),
     /// Separate points, filled in this colour (`#fff` for hollow ones).
     Dots(&'static str),
+    /// The name of the series at every point, on a white edge, and not in the legend.
+    Named,
 }
 
 /// A line of a panel.

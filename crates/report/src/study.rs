@@ -1,12 +1,16 @@
 //! A study in figures: the table that the command prints.
 
+mod page;
+
+pub use page::StudyReport;
+
 use std::fmt::Write as _;
 
 use slipstick::response::DemandColumn;
 use slipstick::study::{LevelSummary, StudySummary};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
-use crate::display::{DisplayUnits, Quantity};
+use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::markup::shortened;
 use crate::number::{compact, count, rounded, significant};
 
@@ -14,6 +18,7 @@ use crate::number::{compact, count, rounded, significant};
 #[must_use]
 pub fn table(summary: &StudySummary, display: DisplayUnits) -> String {
     let mut text = format!("{}  (slipstick {})\n", summary.name, env!("CARGO_PKG_VERSION"));
+    let bounded = summary.rows.iter().any(|row| row.friction.is_some());
     for demand in shown(summary) {
         let rows: Vec<&LevelSummary> = summary
             .rows
@@ -32,10 +37,12 @@ pub fn table(summary: &StudySummary, display: DisplayUnits) -> String {
             storey => format!("storey{storey} {words}"),
         };
         let _ = writeln!(text, "\n{}", unit.label(&name));
+        let friction = |text: &str| if bounded { format!("  {text:<8}") } else { String::new() };
         let _ = writeln!(
             text,
-            "{:>12} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10}  {:<20} {:>9}",
+            "{:>12}{} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10}  {:<20} {:>9}",
             summary.measure.as_ref().map_or("scale", |(name, _)| name.as_str()),
+            friction("friction"),
             "runs",
             "16 %",
             "median",
@@ -50,8 +57,9 @@ pub fn table(summary: &StudySummary, display: DisplayUnits) -> String {
             let run = row.max_run.map_or_else(String::new, |run| run.to_string());
             let _ = writeln!(
                 text,
-                "{:>12} {:>9} {low:>10} {median:>10} {high:>10} {:>10} {:>10}  {:<20} {run:>9}",
+                "{:>12}{} {:>9} {low:>10} {median:>10} {high:>10} {:>10} {:>10}  {:<20} {run:>9}",
                 level(summary, row, display),
+                friction(row.friction.unwrap_or_default()),
                 count(row.runs - row.failures),
                 show(row.mean),
                 show(row.max),
@@ -108,6 +116,21 @@ fn quantity(unit: &str) -> Quantity {
     }
 }
 
+/// The value of a level in SI, or its factor.
+fn level_number(row: &LevelSummary) -> f64 {
+    row.value.or(row.scale).unwrap_or(f64::NAN)
+}
+
+/// The unit of levels in a figure: accelerations in g.
+fn level_unit(summary: &StudySummary, display: DisplayUnits) -> Unit {
+    let largest = summary.rows.iter().map(level_number).fold(0.0, f64::max);
+    match &summary.measure {
+        Some((_, "m/s2")) => Unit { in_si: STANDARD_GRAVITY_M_PER_S2, symbol: "g" },
+        Some((_, unit)) => display.unit(quantity(unit), largest),
+        None => Unit { in_si: 1.0, symbol: "" },
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -117,11 +140,13 @@ mod tests {
             level,
             value: Some(1.0 + level as f64),
             scale: None,
+            friction: None,
             demand: DemandColumn::of_name(demand).unwrap(),
             runs: 10,
             failures: 1,
             mean: 0.25,
             quantiles: [0.1, 0.2, 0.3],
+            distribution: Vec::new(),
             max: -0.5,
             max_run: Some(7),
             max_record: "a,b.AT2".to_owned(),

@@ -29,6 +29,10 @@ Examples:
       --levels \"0.1..1.5 g:15\" --measure \"Sa(1.2 s)\" --to \"150 mm\" --out out
   slipstick ida tank.toml --records far-field --hunt --out out
   slipstick ida tank.toml --records far-field --hunt --demand storey1_peak_drift_m --to \"20 mm\"
+  slipstick ida tank.toml --records far-field --hunt --vary slider.radius=\"1, 2, 3 m\" --by slider.radius
+
+--vary makes designs: all curves are averaged over them, --by PATH takes them apart. A model with
+slider.bounds is run with each of them (--bounds nominal for one).
 
 --hunt searches, for each record, for the level at which the demand first reaches --to (slider.gap
 of the model where that is not given), to 1 %. Demands are keys of summary.json, those of
@@ -129,6 +133,9 @@ pub struct SpectrumArgs {
     /// Further demands, besides displacement, residual, path and roof acceleration; may be repeated
     #[arg(long, value_name = "KEY")]
     pub demand: Vec<String>,
+    /// Bounds of friction
+    #[command(flatten)]
+    pub bounds: BoundsArgs,
 }
 
 /// `slipstick ida`.
@@ -156,6 +163,40 @@ pub struct IdaArgs {
     /// Limit on the demand: "150 mm", or slider.gap for that of the model
     #[arg(long, value_name = "LIMIT")]
     pub to: Option<String>,
+    /// Parameter to vary, which makes designs: slider.radius="1, 2, 3 m"; may be repeated
+    #[arg(long, value_name = "PATH=VALUES")]
+    pub vary: Vec<String>,
+    /// Run only designs with this value or within this range: slider.radius="1..2 m",
+    /// friction=upper; may be repeated
+    #[arg(long = "where", value_name = "PATH=VALUE|FROM..TO")]
+    pub keep: Vec<String>,
+    /// Curves of their own for each value of this path, else averaged over: slider.radius, friction
+    #[arg(long, value_name = "PATH")]
+    pub by: Option<String>,
+    /// Bounds of friction
+    #[command(flatten)]
+    pub bounds: BoundsArgs,
+}
+
+/// Which bounds of friction are run.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct BoundsArgs {
+    /// Which of the model's slider.bounds are run, each with curves of its own
+    #[arg(long, value_enum, value_name = "BOUNDS", default_value = "all")]
+    pub bounds: BoundsName,
+}
+
+/// Bounds of friction by their names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum BoundsName {
+    /// Lower, nominal and upper
+    All,
+    /// Lower alone
+    Lower,
+    /// Nominal alone
+    Nominal,
+    /// Upper alone
+    Upper,
 }
 
 /// `slipstick fragility`.

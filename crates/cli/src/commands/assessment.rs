@@ -6,7 +6,7 @@ use slipstick::assessment::grid::levels;
 use slipstick::assessment::models::Models;
 use slipstick::assessment::suite::{Scaling, Suite};
 use slipstick::assessment::{AssessmentError, ChoiceError};
-use slipstick::input::{self, Analysis, Override};
+use slipstick::input::{self, Analysis, Bound, Override};
 use slipstick::motion::intensity::Measure;
 use slipstick::response::{Method, Warning};
 use slipstick::study::engine::Engine;
@@ -22,9 +22,9 @@ use slipstick_report::{FileNote, InputText};
 
 use super::compare::name as model_name;
 use super::run::{ModelFile, command_line, overrides, read_model};
-use crate::args::{ResultArgs, ScaleArgs, SuiteArgs};
+use crate::args::{BoundsArgs, BoundsName, ResultArgs, ScaleArgs, SuiteArgs};
 use crate::failure::{Failure, print, say};
-use crate::progress::{counted, watched};
+use crate::progress::counted;
 
 /// A model and its suite, read.
 pub struct Opened {
@@ -80,6 +80,24 @@ impl Opened {
             .map_err(|error| self.failure(error))
     }
 
+    /// The bounds of friction to run; none for a model without them.
+    pub fn bounds(&self, args: BoundsArgs) -> Result<Vec<Bound>, Failure> {
+        let wanted = match args.bounds {
+            BoundsName::All => None,
+            BoundsName::Lower => Some("lower"),
+            BoundsName::Nominal => Some("nominal"),
+            BoundsName::Upper => Some("upper"),
+        };
+        let Some(given) = self.analysis.friction_bounds else {
+            return match wanted {
+                None | Some("nominal") => Ok(Vec::new()),
+                Some(name) => Err(message("--bounds", "slider.bounds in the model", name)),
+            };
+        };
+        let all = given.all().into_iter();
+        Ok(all.filter(|bound| wanted.is_none_or(|name| name == bound.name)).collect())
+    }
+
     /// An error of an analysis, with the model's text where it points into that.
     pub fn failure(&self, error: AssessmentError) -> Failure {
         match error {
@@ -123,11 +141,13 @@ pub fn open_records(args: &SuiteArgs) -> Result<Option<OpenSuite>, Failure> {
         return Ok(None);
     }
     let request = suite_request(args)?;
-    let read = || on_threads(jobs(args), || OpenSuite::open(&request));
-    let opened = watched("reading", args.result.quiet, read).map_err(|error| match error {
-        SuiteError::Choice(error) => choice(&error),
-        SuiteError::File(error) => error.into(),
-    })?;
+    let read = |engine: &Engine<'_>| on_threads(jobs(args), || OpenSuite::open(&request, engine));
+    let opened =
+        counted("reading records", args.result.quiet, read).map_err(|error| match error {
+            SuiteError::Choice(error) => choice(&error),
+            SuiteError::File(error) => error.into(),
+            SuiteError::Stopped(error) => Failure::Message(error.to_string()),
+        })?;
     Ok(Some(opened))
 }
 

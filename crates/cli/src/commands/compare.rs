@@ -5,8 +5,9 @@ use std::process::ExitCode;
 
 use slipstick::input;
 use slipstick::laboratory::compare::{Within, compare as compared};
+use slipstick::laboratory::measured::Measured;
 use slipstick_files::{
-    OutputFolder, SourceFile, TextFile, read_mapping, read_measured, sha256_hex,
+    OutputFolder, SourceFile, TextFile, read_mapping, read_measured, sha256_hex, time_left,
 };
 use slipstick_report::laboratory::CompareReport;
 use slipstick_report::{FileNote, InputText};
@@ -14,7 +15,7 @@ use slipstick_report::{FileNote, InputText};
 use super::run::{ModelFile, command_line, overrides, read_model};
 use crate::args::{CompareArgs, ResultArgs};
 use crate::failure::{Failure, print, say};
-use crate::progress::watched;
+use crate::progress::{TRIAL, estimated, watched};
 
 /// Compares, prints and writes; status 1 where a bound is missed.
 pub fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
@@ -30,9 +31,10 @@ pub fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let (measured, source) =
         watched("reading", args.result.quiet, || read_measured(&args.measured, &mapping))?;
     let folder = output(&args.result, &model, &source, mapping_file.as_ref())?;
-    let comparison = watched("computing", args.result.quiet, || {
-        compared(&measured, &analysis.model, analysis.method)
-    });
+    let work = |measured: &Measured| compared(measured, &analysis.model, analysis.method);
+    let first = |samples| work(&measured.first(samples)).ok().map(|_| ());
+    let estimate = || time_left([256, measured.samples()], TRIAL, first);
+    let comparison = estimated("computing", args.result.quiet, &estimate, || work(&measured));
     let comparison = comparison.map_err(|error| Failure::Message(error.to_string()))?;
     let went_in = WentIn::of(&model, &source, mapping_file.as_ref());
     let report = CompareReport {

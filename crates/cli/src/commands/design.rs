@@ -54,6 +54,7 @@ pub fn design(args: &DesignArgs) -> Result<ExitCode, Failure> {
         acceleration: &acceleration,
         found: &run.found,
         bounds: bounds.zip(run.bounded.as_deref()),
+        map: run.map.as_ref(),
         sensitivity: run.sensitivity.as_ref(),
         confidence,
         failures: &run.failures,

@@ -4,7 +4,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use slipstick::assessment::AssessmentError;
-use slipstick::assessment::observed::{FitTo, FragilityRequest, run_fragility, run_fragility_by};
+use slipstick::assessment::observed::{
+    FitTo, FragilityRequest, run_fragility, run_fragility_by, usual_by,
+};
+use slipstick::study::engine::Engine;
 use slipstick::table::Table;
 use slipstick_files::{OutputFolder, ReadTable, expand, read_bytes, read_table, sha256_hex};
 use slipstick_report::assessment::Sheet;
@@ -13,7 +16,7 @@ use slipstick_report::assessment::fragility::{FragilityFamily, FragilityReport};
 use super::assessment::{conclude, failure, folder, limit, share};
 use crate::args::{FitToName, FragilityArgs};
 use crate::failure::Failure;
-use crate::progress::watched;
+use crate::progress::{counted, watched};
 
 /// Fits, prints and writes.
 pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
@@ -49,9 +52,13 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
     let inputs: Vec<PathBuf> = sources.iter().map(|(path, ..)| path.into()).collect();
     let version = env!("CARGO_PKG_VERSION");
     let display = args.result.display_units.into();
-    if let Some(by) = &args.by {
-        let fit = || run_fragility_by(&request, by);
-        let (groups, by_unit) = watched("fitting", args.result.quiet, fit).map_err(failed)?;
+    let by = match &args.by {
+        Some(by) => Some(by.as_str()),
+        None => usual_by(&request).map_err(failed)?,
+    };
+    if let Some(by) = by {
+        let fit = |engine: &Engine<'_>| run_fragility_by(&request, by, engine);
+        let (groups, by_unit) = counted("fitting", args.result.quiet, fit).map_err(failed)?;
         let folder = folder(&args.result, &inputs)?;
         let family = FragilityFamily {
             version,
@@ -81,7 +88,8 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
         curve_columns(&mut table, unit.map_or("", String::as_str), &rows);
         return finish(args, folder, &sheet, &table, &sources);
     }
-    let run = watched("fitting", args.result.quiet, || run_fragility(&request)).map_err(failed)?;
+    let run = counted("fitting", args.result.quiet, |engine| run_fragility(&request, engine));
+    let run = run.map_err(failed)?;
     if let Some((.., kind)) = sources.first_mut() {
         run.kind.clone_into(kind);
     }

@@ -6,7 +6,7 @@ use slipstick::assessment::grid::levels;
 use slipstick::assessment::ida::{IdaLevels, IdaRequest, run_ida};
 use slipstick::motion::intensity::Measure;
 use slipstick::study::engine::Engine;
-use slipstick_report::assessment::ida::IdaReport;
+use slipstick_report::assessment::ida::IdaFamily;
 
 use super::assessment::{Opened, conclude, failure, limit, measure, message};
 use crate::args::IdaArgs;
@@ -19,33 +19,33 @@ const HUNTED: [f64; 2] = [0.05, 20.0];
 pub fn ida(args: &IdaArgs) -> Result<ExitCode, Failure> {
     let opened = Opened::open(&args.suite)?;
     let measure = measure(&args.measure)?;
-    let models = opened.models(&[])?;
+    let varied: Vec<(&str, String)> = args.vary.iter().map(|text| ("vary", text.clone())).collect();
+    let models = opened.models(&varied)?;
     models.column(&args.demand).map_err(|error| opened.failure(error))?;
     let limit = the_limit(args, &opened)?;
     let levels = the_levels(args, &opened, &measure)?;
+    let bounds = opened.bounds(args.bounds)?;
     let folder = opened.folder(&args.suite.result)?;
     let request = IdaRequest {
         models: &models,
+        bounds: &bounds,
         suite: &opened.suite,
         measure,
         demand: &args.demand,
         limit,
         levels,
+        keep: &args.keep,
+        by: args.by.as_deref(),
     };
     let run = opened.compute(&args.suite, |engine| run_ida(&request, engine))?;
-    let names = opened.suite.names();
-    let sheet = IdaReport {
+    let sheet = IdaFamily {
         version: env!("CARGO_PKG_VERSION"),
         name: &opened.name,
-        measure: &measure.to_string(),
-        measure_unit: measure.unit(),
+        measure: &measure,
         demand: &args.demand,
         limit,
-        records: &names,
-        curves: &run.curves,
         fixed_levels: !args.hunt,
-        fit: run.fit.as_ref(),
-        failures: &run.failures,
+        run: &run,
         warnings: &opened.warnings,
         display: args.suite.result.display_units.into(),
     }

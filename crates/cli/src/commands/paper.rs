@@ -1,33 +1,29 @@
 //! `slipstick paper`: the paper, reproduced.
 
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::ExitCode;
 
 use slipstick::motion::GroundMotion;
-use slipstick_files::{FileError, OutputFolder, folder_records};
+use slipstick::study::engine::Engine;
+use slipstick_files::{FileError, OutputFolder, folder_records, on_threads};
 use slipstick_paper::chapter::{chapter, claims_json, listing};
 use slipstick_paper::{Grid, Paper, PaperError, paper_library, reproduce};
 
 use crate::args::PaperArgs;
 use crate::failure::{Failure, print, say};
+use crate::progress::counted;
 
 /// Reproduces the paper, prints its verdicts and writes its chapter.
 pub fn paper(args: &PaperArgs) -> Result<ExitCode, Failure> {
     let folders = args.out.as_deref().map(folders).transpose()?;
     let grid = if args.quick { Grid::Quick } else { Grid::Full };
-    let mut progress = |what: &str| {
-        if !args.quiet {
-            say(format_args!("computing: {what}"));
-        }
-        ControlFlow::Continue(())
-    };
     let failed = |error: PaperError| Failure::Message(error.to_string());
     let mut library = paper_library().map_err(failed)?;
     if let Some(folder) = &args.records {
         library = library.with_records(records(folder, args.quiet)?);
     }
-    let result = reproduce(&library, grid, &mut progress).map_err(failed)?;
+    let work = |engine: &Engine<'_>| on_threads(None, || reproduce(&library, grid, engine));
+    let result = counted("computing", args.quiet, work).map_err(failed)?;
     if let Some([out, figures]) = folders {
         write(&result, out, figures)?;
     }

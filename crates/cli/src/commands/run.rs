@@ -3,7 +3,6 @@
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Duration;
 
 use slipstick::assessment::single::Outcome;
 use slipstick::input::{self, Override, Scale};
@@ -18,10 +17,7 @@ use slipstick_report::{FileNote, InputText, Report, Summary, table};
 use super::histories::histories;
 use crate::args::{MethodName, RunArgs};
 use crate::failure::{Failure, print, say};
-use crate::progress::{estimated, watched};
-
-/// How long the first samples of an analysis that takes long are solved to know how long it takes.
-const TRIAL: Duration = Duration::from_millis(400);
+use crate::progress::{TRIAL, estimated, watched};
 
 /// Runs one analysis, prints it and writes its files.
 pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {

@@ -21,8 +21,14 @@ pub fn spectrum(args: &SpectrumArgs) -> Result<ExitCode, Failure> {
     let models = opened.models(&options)?;
     let (scaling, scaled) = scaling(&args.scale)?;
     let folder = opened.folder(&args.suite.result)?;
-    let request =
-        SpectrumRequest { models: &models, suite: &opened.suite, scaling, demands: &args.demand };
+    let bounds = opened.bounds(args.bounds)?;
+    let request = SpectrumRequest {
+        models: &models,
+        suite: &opened.suite,
+        scaling,
+        demands: &args.demand,
+        bounds: &bounds,
+    };
     let run = opened.compute(&args.suite, |engine| run_spectrum(&request, engine))?;
     let scaled = if opened.suite.made { "" } else { &scaled };
     let names = opened.suite.names();

@@ -5,17 +5,21 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::Duration;
 
+use slipstick::study::StudySummary;
 use slipstick::study::engine::Engine;
 use slipstick_files::{
-    FileError, OpenStudy, Shard, StudyError, clear, conclude, estimate, has_parts, kept_runs,
-    merge, on_threads, part_rows, quoted,
+    FileError, OpenStudy, OutputFolder, STUDY_REPORT, Shard, StudyError, clear, conclude, estimate,
+    has_parts, kept_runs, merge, on_threads, part_rows, quoted, read_bytes,
 };
+use slipstick_report::assessment::Went;
 use slipstick_report::number::count;
-use slipstick_report::study::table;
+use slipstick_report::study::{StudyReport, table};
+use slipstick_report::{FileNote, InputText};
 
+use super::run::command_line;
 use crate::args::{StudyArgs, StudyCommand};
 use crate::failure::{Failure, print, say};
-use crate::progress::{Steps, on_interrupt, watched};
+use crate::progress::{Steps, counted, on_interrupt, watched};
 
 /// How long `--dry-run` runs samples to know how fast they are.
 const TRIAL: Duration = Duration::from_secs(1);
@@ -36,7 +40,8 @@ pub fn study(args: &StudyArgs) -> Result<ExitCode, Failure> {
 
 /// What is asked of a plan, in the pool of its threads.
 fn planned(args: &StudyArgs, plan: &Path, shard: Shard) -> Result<ExitCode, Failure> {
-    let study = watched("reading", args.quiet, || OpenStudy::open(plan))?;
+    let study =
+        counted("reading records", args.quiet, |engine| OpenStudy::open_followed(plan, engine))?;
     if let Some(run) = args.repeat {
         print(&study.repeat(run)?)?;
         return Ok(ExitCode::SUCCESS);
@@ -105,8 +110,11 @@ fn run(args: &StudyArgs, study: &OpenStudy, shard: Shard, out: &Path) -> Result<
     for notice in &outcome.notices {
         say(format_args!("warning: {notice}"));
     }
-    let summary = watched("summarising", args.quiet, || conclude(study, out))?;
+    let summary = counted("summarising", args.quiet, |engine| conclude(study, out, engine))?;
     print(&table(&summary, args.display_units.into()))?;
+    if args.report {
+        report(args, study, &summary, outcome.checks.rows, out)?;
+    }
     if !args.quiet {
         let checks = outcome.checks;
         say(format_args!(
@@ -116,9 +124,48 @@ fn run(args: &StudyArgs, study: &OpenStudy, shard: Shard, out: &Path) -> Result<
             count(checks.rows),
             checks.equilibrium_residual,
         ));
-        say(format_args!("wrote {}", out.join("summary.csv").display()));
+        let page = if args.report { STUDY_REPORT } else { "summary.csv" };
+        say(format_args!("wrote {}", out.join(page).display()));
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Writes the page of a study.
+fn report(
+    args: &StudyArgs,
+    study: &OpenStudy,
+    summary: &StudySummary,
+    checked: u64,
+    out: &Path,
+) -> Result<(), Failure> {
+    let page = StudyReport {
+        version: env!("CARGO_PKG_VERSION"),
+        study: &study.study,
+        summary,
+        checked,
+        notices: &study.notices,
+        display: args.display_units.into(),
+    };
+    let what = |i: usize| ["plan", "model"].get(i).copied().unwrap_or("record");
+    let named = study.inputs.iter().enumerate();
+    let files: Vec<FileNote<'_>> =
+        named.map(|(i, (path, sha256))| FileNote { path, sha256, description: what(i) }).collect();
+    let model = String::from_utf8_lossy(&read_bytes(&study.model_path)?).into_owned();
+    let inputs = [&study.plan_text, &model];
+    let inputs: Vec<InputText<'_>> = inputs
+        .iter()
+        .zip(&study.inputs)
+        .map(|(text, (path, _))| InputText { path, text })
+        .collect();
+    let went = Went {
+        version: env!("CARGO_PKG_VERSION"),
+        command_line: &command_line(),
+        files: &files,
+        inputs: &inputs,
+    };
+    let mut folder = OutputFolder::create(out, &[])?;
+    folder.write(STUDY_REPORT, page.sheet().to_html(&went).as_bytes())?;
+    Ok(folder.commit()?)
 }
 
 /// The command as it was typed, to go on with it.
@@ -135,12 +182,16 @@ fn dry_run(args: &StudyArgs, study: &OpenStudy, shard: Shard) -> Result<ExitCode
     let cases = study.study.cases();
     let total = study.study.runs();
     let mut text = format!(
-        "records  {}\nlevels   {}\nsamples  {}\nruns     {}\n",
+        "records  {}\nlevels   {}\nsamples  {}\n",
         count(cases.records),
         count(cases.levels),
         count(cases.samples),
-        count(total)
     );
+    if study.study.has_bounds() {
+        let names: Vec<&str> = study.study.bounds().iter().map(|bound| bound.name).collect();
+        text.push_str(&format!("friction {}\n", names.join(", ")));
+    }
+    text.push_str(&format!("runs     {}\n", count(total)));
     if runs != total {
         text.push_str(&format!("of shard {}\n", count(runs)));
     }

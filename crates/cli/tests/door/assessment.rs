@@ -37,7 +37,15 @@ fn record(number: u32) -> String {
     text
 }
 
+/// The tower without bounds of friction, and so many records.
 pub fn suite(test: &str, records: u32) -> Folder {
+    let folder = bounded(test, records);
+    folder.write("model.toml", TOWER.replace("bounds = { lower = 0.8, upper = 1.3 }\n", ""));
+    folder
+}
+
+/// The tower and so many records.
+fn bounded(test: &str, records: u32) -> Folder {
     let folder = Folder::with_model(test, TOWER);
     for number in 0..records {
         folder.write(&format!("records/r{number}.csv"), record(number));
@@ -292,14 +300,17 @@ fn exact_hunt_brackets_the_gap_to_one_percent() {
 /// statsmodels 0.15: `data/reference/fragility.json`, the case "few".
 #[test]
 fn exact_design_front_is_that_of_all_designs() {
-    let folder = suite("design", 1);
+    let folder = bounded("design", 1);
     let (friction, radius) = ("0.02..0.10:9", "slider.radius=0.5..4m:8");
     let scale = ["--level", "2 m/s2"];
     let arguments = |command: &'static str| {
         let common = [command, "model.toml", "--records", "records", "--friction", friction, "-q"];
         [&common[..], &scale[..]].concat()
     };
-    folder.stdout(&[&arguments("spectrum")[..], &["--over", radius, "--out", "all"]].concat());
+    folder.stdout(
+        &[&arguments("spectrum")[..], &["--over", radius, "--bounds", "nominal", "--out", "all"]]
+            .concat(),
+    );
     folder.stdout(
         &[
             &arguments("design")[..],
@@ -508,4 +519,57 @@ fn exact_help_of_the_suite_teaches_in_a_hundred_columns() {
             assert!(help.contains(word), "{command}: {word}");
         }
     }
+}
+
+/// A model with bounds is run with each of them; what is varied is averaged over, taken apart or kept.
+#[test]
+fn exact_ida_of_designs_and_bounds() {
+    let folder = bounded("ida-designs", 4);
+    let ida =
+        ["ida", "model.toml", "--records", "records", "--levels", "1, 2, 4 m/s2", "--to", "20 mm"];
+    let with = |more: &[&'static str]| [&ida[..], more].concat();
+    let by_bound = json(&folder, &with(&["--out", "out"]));
+    assert_eq!(by_bound["by"], "friction");
+    let of_group = |i: usize| &by_bound["groups"][i]["ida"]["capacity"]["p50"];
+    for (i, bound) in ["lower", "nominal", "upper"].into_iter().enumerate() {
+        let one = json(&folder, &with(&["--bounds", bound]));
+        assert_eq!(&one["capacity"]["p50"], of_group(i), "{bound}");
+        let kept = ["--where", &format!("friction={bound}")];
+        let kept = json(&folder, &[&ida[..], &kept].concat());
+        assert_eq!(&kept["capacity"]["p50"], of_group(i), "{bound}");
+    }
+    let csv = folder.read("out/ida.csv");
+    assert!(
+        csv.starts_with("record,measure,measure_unit,level_choice,level,scale,friction,"),
+        "{csv}"
+    );
+    assert!(folder.read("out/capacities.csv").lines().next().unwrap().ends_with(",friction"));
+    let curves = json(&folder, &["fragility", "out", "--limit", "20 mm", "--fit-to", "capacities"]);
+    assert_eq!(curves["by"], "friction");
+    let median = number(&curves["curves"][1]["fragility"]["median"]);
+    let lognormal = number(&by_bound["groups"][1]["ida"]["lognormal"]["median"]);
+    assert!((median / lognormal - 1.0).abs() < 1e-9, "{median} {lognormal}");
+
+    let varied = with(&["--bounds", "nominal", "--vary", "slider.radius=1, 2 m"]);
+    let averaged = folder.stdout(&varied);
+    let first = "Fitted   to all curves, averaged over slider.radius: 2 designs\n";
+    assert!(averaged.starts_with(first), "{averaged}");
+    let apart = folder.stdout(&[&varied[..], &["--by", "slider.radius"]].concat());
+    assert!(apart.starts_with("Curves   by slider.radius\n"), "{apart}");
+    let apart = json(&folder, &[&varied[..], &["--by", "slider.radius"]].concat());
+    let one = json(&folder, &[&varied[..], &["--where", "slider.radius=2 m"]].concat());
+    assert_eq!(apart["groups"][1]["ida"]["capacity"], one["capacity"]);
+    let refused = folder.refused(&[&varied[..], &["--by", "slider.tilt"]].concat());
+    assert!(refused.contains("--by: expected a column of what is varied"), "{refused}");
+
+    let plain = suite("ida-plain", 2);
+    let refused = plain.refused(&with(&["--bounds", "upper"]));
+    assert!(refused.contains("--bounds: expected slider.bounds in the model, found"), "{refused}");
+
+    let over = ["--records", "records", "--over", "slider.radius=1, 2 m"];
+    let spectrum = json(&folder, &[&["spectrum", "model.toml"][..], &over].concat());
+    assert_eq!(
+        spectrum["groups"],
+        serde_json::json!(["lower friction", "nominal friction", "upper friction"])
+    );
 }

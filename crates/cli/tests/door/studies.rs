@@ -719,3 +719,153 @@ fn exact_a_study_warns_as_run_does() {
         assert!(of_study[0].split(';').any(|of_study| of_study == *kind), "{kind}: {of_study:?}");
     }
 }
+
+/// Rows with lower and upper friction are those that `run` gives beside the nominal ones.
+#[test]
+fn exact_bounds_of_friction_are_run() {
+    let folder = folder("study-bounds");
+    let bounded = "gap = \"100 mm\"\nbounds = { lower = 0.8, upper = 1.3 }";
+    folder.write("model.toml", MODEL.replace("gap = \"100 mm\"", bounded));
+    let plan = PLAN.replace("count = 250", "count = 20");
+    folder.write("plan.toml", &plan);
+    let text = folder.stdout(&["study", "plan.toml", "--dry-run"]);
+    assert!(text.contains("samples  20\nfriction lower, nominal, upper\nruns     360\n"), "{text}");
+    let table = folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
+    assert!(table.contains("0.2 g  upper "), "{table}");
+    let part = "out/parts/part-00000.parquet";
+    for (run, bound) in [(0, "lower"), (1, "nominal"), (359, "upper"), (200, "upper")] {
+        let line = folder.stdout(&["study", "plan.toml", "--repeat", &run.to_string()]);
+        let line = line.trim().split("  #").next().unwrap();
+        let words = words(line);
+        let arguments: Vec<&str> = words[2..].iter().map(String::as_str).collect();
+        let result = folder.json(&arguments);
+        let of_bound = if bound == "nominal" { &result } else { &result["bounds"][bound] };
+        compare(of_bound, &row(&folder, part, run));
+        let columns = read_columns(&folder.path().join(part)).unwrap();
+        let friction = columns.iter().find(|column| column.name == "friction").unwrap();
+        let Cells::Texts(friction) = &friction.cells else { panic!("texts") };
+        assert_eq!(friction[run as usize], bound);
+    }
+    let summary = folder.read("out/summary.csv");
+    assert!(summary.starts_with("level,scale,friction,demand,"), "{summary}");
+    let manifest: serde_json::Value =
+        serde_json::from_str(&folder.read("out/manifest.json")).unwrap();
+    assert_eq!(manifest["bounds"], serde_json::json!(["lower", "nominal", "upper"]));
+
+    // A fragility takes bounds apart, as nobody averages over them.
+    let curves = ["fragility", "out", "--limit", "600 mm", "--json"];
+    let of_bounds = folder.stdout(&curves);
+    let of_bounds: serde_json::Value = serde_json::from_str(&of_bounds).unwrap();
+    assert_eq!(of_bounds["by"], "friction");
+    let names: Vec<_> =
+        of_bounds["curves"].as_array().unwrap().iter().map(|c| &c["value"]).collect();
+    assert_eq!(names, ["lower", "nominal", "upper"]);
+    let one = folder.stdout(&[&curves[..], &["--where", "friction=upper"]].concat());
+    let one: serde_json::Value = serde_json::from_str(&one).unwrap();
+    assert_eq!(one["median"], of_bounds["curves"][2]["fragility"]["median"]);
+
+    // One of them alone, and one where there are none.
+    folder.write("upper.toml", format!("bounds = \"upper\"\n{plan}"));
+    folder.stdout(&["study", "upper.toml", "--out", "upper", "-q"]);
+    let upper = numbers(&folder, "upper/parts/part-00000.parquet");
+    assert_eq!(upper[0].values.len(), 120);
+    let of_all = row(&folder, part, 3 * 77 + 2);
+    for column in upper.iter().filter(|column| column.name != "run") {
+        let same = column.values[77].to_bits() == of_all[&column.name].to_bits();
+        assert!(same, "{}", column.name);
+    }
+    folder.write("model.toml", MODEL);
+    let refused = folder.refused(&["study", "upper.toml", "--out", "none"]);
+    assert!(
+        refused
+            .contains("bounds: expected slider.bounds in the model, whose bounds are run, found"),
+        "{refused}"
+    );
+}
+
+/// With `--report` a page stands beside the parts: the answer first, figures, tables, the plan.
+#[test]
+fn exact_page_of_a_study() {
+    let folder = folder("study-page");
+    folder.write("plan.toml", PLAN.replace("count = 250", "count = 20"));
+    folder.stdout(&["study", "plan.toml", "--out", "out", "--report", "-q"]);
+    let page = folder.read("out/report.html");
+    let lead = "<p class=\"lead\">Peak sliding displacement at PGA = 0.5 g: median ";
+    assert!(page.contains(lead), "{page}");
+    assert!(page.contains("Of the gap ") && page.contains("id=\"levels\""), "{page}");
+    assert!(page.contains("120 runs: 2 records × 3 levels × 20 samples"), "{page}");
+    assert!(page.contains("plan.toml") && page.contains("model.toml"), "{page}");
+    // One level: the distribution of its runs.
+    let one = PLAN.replace(", \"0.3 g\", \"0.5 g\"]", "]");
+    folder.write("plan.toml", one.replace("count = 250", "count = 20"));
+    folder.stdout(&["study", "plan.toml", "--out", "out", "--report", "--force", "-q"]);
+    assert!(folder.read("out/report.html").contains("id=\"distributions\""));
+    folder.stdout(&["study", "plan.toml", "--out", "out", "--force", "-q"]);
+    assert!(!folder.names("out").contains(&"report.html".to_owned()));
+}
+
+/// Pairs of components: one factor each, by a measure of pairs or to a spectrum of a file.
+#[test]
+fn exact_pairs_of_components() {
+    let folder = folder("study-pairs");
+    let other = RECORD.replace("1,5", "1,2").replace("2,-5", "2,4");
+    folder.write("second/a.csv", &other);
+    folder.write("second/b.csv", other.replace('4', "3"));
+    let plan = |keys: &str| {
+        format!(
+            "model = \"model.toml\"\n[records]\nfiles = [\"records/*.csv\"]\n\
+             second = [\"second/*.csv\"]\n{keys}\n"
+        )
+    };
+    folder.write("plan.toml", plan("measure = \"RotD50(1.2 s)\"\nlevels = [\"0.3 g\"]"));
+    let table = folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
+    assert!(table.contains("RotD50(1.2 s)"), "{table}");
+    let part = "out/parts/part-00000.parquet";
+    let columns = read_columns(&folder.path().join(part)).unwrap();
+    let texts = |name: &str| match &columns.iter().find(|c| c.name == name).unwrap().cells {
+        Cells::Texts(texts) => texts.clone(),
+        _ => panic!("{name} holds no texts"),
+    };
+    assert_eq!(texts("record"), ["records/a.csv", "second/a.csv", "records/b.csv", "second/b.csv"]);
+    let pairs = ["records/a.csv", "records/a.csv", "records/b.csv", "records/b.csv"];
+    assert_eq!(texts("pair"), pairs);
+    let scale = |run| row(&folder, part, run)["scale"];
+    assert!(scale(0) == scale(1) && scale(2) == scale(3) && scale(0) != scale(2));
+
+    folder.write("target.csv", "period_s,sa_g\n0.1,0.8\n0.5,0.8\n4,0.1\n");
+    let target = "target = \"target.csv\"\nperiods = [\"0.3 s\", \"3 s\"]";
+    folder.write("plan.toml", plan(target));
+    folder.stdout(&["study", "plan.toml", "--out", "out", "--force", "--report", "-q"]);
+    assert!(scale(0) == scale(1) && scale(2) == scale(3));
+    let page = folder.read("out/report.html");
+    assert!(
+        page.contains("id=\"target\"") && page.contains("Factors on both components"),
+        "{page}"
+    );
+    let manifest = folder.read("out/manifest.json");
+    assert!(manifest.contains("\"target.csv\""), "{manifest}");
+
+    for (keys, expected) in [
+        (
+            "target = \"no.csv\"\nperiods = [\"0.3 s\", \"3 s\"]",
+            "records.target: expected a spectrum",
+        ),
+        ("target = \"target.csv\"", "records.periods: expected the first and last period"),
+        (
+            "target = \"target.csv\"\nperiods = [\"0.3 s\", \"9 s\"]",
+            "records.periods: expected pairs that can be brought to the spectrum",
+        ),
+    ] {
+        folder.write("plan.toml", plan(keys));
+        let refused = folder.refused(&["study", "plan.toml", "--dry-run"]);
+        assert!(refused.contains(expected), "{keys}: {refused}");
+    }
+    let alone = PLAN.replace("measure = \"PGA\"", "measure = \"RotD50(1 s)\"");
+    folder.write("plan.toml", alone);
+    let refused = folder.refused(&["study", "plan.toml", "--dry-run"]);
+    assert!(refused.contains("expected the other components, second = "), "{refused}");
+    folder.write("second/c.csv", &other);
+    folder.write("plan.toml", plan(""));
+    let refused = folder.refused(&["study", "plan.toml", "--dry-run"]);
+    assert!(refused.contains("one other component for each of 2 files, found 3"), "{refused}");
+}

@@ -296,10 +296,29 @@ pub struct DesignRun {
     pub sensitivity: Option<Result<Sensitivity, SensitivityError>>,
     /// Runs of the search without an answer.
     pub failures: Vec<FailedRun>,
+    /// Both figures over the two main variables; `None` where fewer than two vary.
+    pub map: Option<DesignMap>,
     /// The front, a row a design.
     pub front: Table,
     /// The runs of the designs on the front: record, level, values and both demands.
     pub runs: Table,
+}
+
+/// Displacement and acceleration over two variables, the others as in the chosen design.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignMap {
+    /// Numbers of the two variables: those that matter most, by the total indices of the sensitivity
+    /// where there are some, else the first two.
+    pub variables: [usize; 2],
+    /// Values of the first, in SI, rising.
+    pub x: Vec<f64>,
+    /// Values of the second, in SI, rising.
+    pub y: Vec<f64>,
+    /// Displacement that the asked share of the records keeps, in m, at `x[i]` and `y[j]`:
+    /// `i * y.len() + j`.
+    pub displacement_m: Vec<f64>,
+    /// The same of the acceleration, in m/s².
+    pub acceleration_m_per_s2: Vec<f64>,
 }
 
 /// A design with friction at its lower and upper bound.
@@ -374,11 +393,12 @@ pub fn run_design(
     };
     let sensitivity = if request.sensitivity > 0 { runner.sensitivity(request)? } else { None };
     let variables = grid.axes().to_vec();
+    let map = runner.map(request, &found, sensitivity.as_ref())?;
     let front = table(request, &variables, &found, bounded.as_deref());
     ran.retain(|((design, _), _)| found.front.iter().any(|point| point.design == *design));
     ran.sort_by_key(|(pair, _)| *pair);
     let runs = rows(request, &runner, &ran)?;
-    Ok(DesignRun { variables, found, bounded, sensitivity, failures, front, runs })
+    Ok(DesignRun { variables, found, bounded, sensitivity, failures, map, front, runs })
 }
 
 /// A row for each run of a design and a record.
@@ -403,6 +423,9 @@ fn rows(
     rows.numbers(request.acceleration, "m/s2", accelerations);
     Ok(rows)
 }
+
+/// Most values of a variable in a map: 25 by 25 designs give smooth lines.
+const MAP_VALUES: usize = 25;
 
 /// A run without an answer.
 const FAILED: Demand = Demand { displacement_m: f64::NAN, acceleration_m_per_s2: f64::NAN };
@@ -514,6 +537,71 @@ impl<'a> Runner<'a> {
             Ok(Bounded { design, lower, upper })
         };
         demands.chunks(2).zip(designs).map(bounded).collect()
+    }
+
+    /// Figures over the two main variables, at no more than [`MAP_VALUES`] values of each.
+    fn map(
+        &self,
+        request: &DesignRequest<'_>,
+        found: &Found,
+        sensitivity: Option<&Result<Sensitivity, SensitivityError>>,
+    ) -> Result<Option<DesignMap>, AssessmentError> {
+        let grid = self.models.grid();
+        let vary = |i: &usize| grid.axes()[*i].values.len() > 1;
+        let mut main: Vec<usize> = (0..grid.axes().len()).filter(vary).collect();
+        if let Some(Ok(sensitivity)) = sensitivity {
+            let total = |i: usize| {
+                let largest =
+                    sensitivity.displacement[i].total.max(sensitivity.acceleration[i].total);
+                if largest.is_finite() { largest } else { 0.0 }
+            };
+            main.sort_by(|a, b| total(*b).total_cmp(&total(*a)));
+        }
+        main.truncate(2);
+        main.sort_unstable();
+        let Some(design) = found.chosen().or(found.nearest).map(|point| point.design) else {
+            return Ok(None);
+        };
+        let [first, second] = main[..] else { return Ok(None) };
+        let places = |i: usize| {
+            let values = &grid.axes()[i].values;
+            let mut places: Vec<usize> = (0..values.len()).collect();
+            places.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+            let (count, all) = (places.len().min(MAP_VALUES), places.len());
+            (0..count).map(|k| places[k * (all - 1) / (count - 1).max(1)]).collect::<Vec<_>>()
+        };
+        let (of_x, of_y) = (places(first), places(second));
+        let chosen = grid.values(design);
+        let records = self.suite.records.len();
+        let count = of_x.len() * of_y.len();
+        self.engine.plan((count * records) as u64);
+        let figures = self.engine.map(count, |k| {
+            let mut values = chosen.clone();
+            values[first] = grid.axes()[first].values[of_x[k / of_y.len()]];
+            values[second] = grid.axes()[second].values[of_y[k % of_y.len()]];
+            let figures = match self.models.parts(&values) {
+                // What makes no model has no figures, and no line goes through it.
+                Err(_) => [f64::NAN; 2],
+                Ok(parts) => {
+                    let mut running = Running::new(&parts.model);
+                    let of = |record| self.run(&parts, &mut running, record).unwrap_or(FAILED);
+                    let demands: Vec<Demand> = (0..records).map(of).collect();
+                    request.target.figures(&demands).map_or([f64::NAN; 2], |figures| {
+                        [figures.displacement_m, figures.acceleration_m_per_s2]
+                    })
+                }
+            };
+            self.engine.done(records as u64)?;
+            Ok(figures)
+        })?;
+        let value = |axis: usize| move |place: &usize| grid.axes()[axis].values[*place];
+        Ok(Some(DesignMap {
+            variables: [first, second],
+            x: of_x.iter().map(value(first)).collect(),
+            y: of_y.iter().map(value(second)).collect(),
+            displacement_m: figures.iter().map(|pair| pair[0]).collect(),
+            acceleration_m_per_s2: figures.iter().map(|pair| pair[1]).collect(),
+        }))
     }
 
     /// Sobol' indices of both figures, the variables uniform between their ends.

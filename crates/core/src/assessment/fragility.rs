@@ -19,12 +19,13 @@
 //! are clustered by record ([`Certainty`]).
 
 use super::censored::{Fit, Known, Observation, Parameters};
-use crate::error::FitError;
+use crate::error::{FitError, Stopped};
 use crate::numerics::distribution::{
     chi_squared_tail, normal_cdf, normal_quantile, student_quantile,
 };
 use crate::numerics::fractile::{fractile, sorted};
 use crate::numerics::random::Random;
+use crate::study::engine::Engine;
 
 /// A lognormal curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -282,15 +283,24 @@ impl Fragility {
 
     /// The same fit with its certainty from so many draws of all records with replacement, each fitted
     /// anew; where observations are independent, they are drawn themselves.
-    #[must_use]
-    pub fn bootstrapped(mut self, draws: u32, seed: u64) -> Self {
+    ///
+    /// # Errors
+    /// [`Stopped`].
+    pub fn bootstrapped(
+        mut self,
+        draws: u32,
+        seed: u64,
+        engine: &Engine<'_>,
+    ) -> Result<Self, Stopped> {
         let own: Vec<usize> = (0..self.fit.observations()).collect();
         let records = if self.records.is_empty() { &own } else { &self.records };
         let count = records.iter().max().map_or(0, |last| last + 1);
         let mut random = Random::new(seed);
         let mut curves = Vec::with_capacity(draws as usize);
         let mut times = vec![0_u32; count];
+        engine.plan(u64::from(draws));
         for _ in 0..draws {
+            engine.done(1)?;
             times.fill(0);
             for _ in 0..count {
                 times[random.below(count)] += 1;
@@ -300,7 +310,7 @@ impl Fragility {
         }
         let failed = draws as usize - curves.len();
         self.certainty = Certainty::Bootstrap { records: count, curves, failed };
-        self
+        Ok(self)
     }
 
     /// What standard errors, intervals and band follow from.

@@ -5,7 +5,7 @@ use super::single::{Job, Judged};
 use super::suite::{Scaling, Suite};
 use super::{AssessmentError, FailedRun};
 use crate::error::RunError;
-use crate::input::Analysis;
+use crate::input::{Analysis, Bound};
 use crate::response::{DemandColumn, DemandShape, Demands, Method, Warning};
 use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
@@ -22,15 +22,6 @@ pub struct ModelOn<'a> {
     pub analysis: &'a Analysis,
     /// The records.
     pub suite: &'a Suite,
-}
-
-/// A bound of friction: its name, lower, nominal or upper, and the factor on both coefficients.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bound {
-    /// Its name.
-    pub name: &'static str,
-    /// The factor.
-    pub friction_factor: f64,
 }
 
 /// A model on a record.
@@ -158,15 +149,7 @@ pub fn run_histories(
 
 /// The bounds of friction that an analysis asks for.
 fn bounds(analysis: &Analysis) -> Vec<Bound> {
-    let bound = |name, friction_factor| Bound { name, friction_factor };
-    match analysis.friction_bounds {
-        None => vec![bound("nominal", 1.0)],
-        Some(factors) => vec![
-            bound("lower", factors.lower),
-            bound("nominal", 1.0),
-            bound("upper", factors.upper),
-        ],
-    }
+    analysis.friction_bounds.map_or_else(|| vec![Bound::NOMINAL], |bounds| bounds.all().to_vec())
 }
 
 fn on_record(model: &ModelOn<'_>, record: usize, scale: f64) -> Result<OnRecord, RunError> {

@@ -7,15 +7,17 @@
 
 use super::fragility::{Capacity, Fragility};
 use super::models::Models;
+use super::observed::{Averaged, DesignGroup, FRICTION, design_groups};
 use super::spectrum::status;
-use super::suite::Suite;
+use super::suite::{Suite, SuiteRecord};
 use super::{AssessmentError, FailedRun, refuse};
 use crate::error::{FitError, RunError, Stopped};
+use crate::input::{Bound, Parts};
 use crate::motion::intensity::Measure;
 use crate::numerics::fractile;
 use crate::response::demand_values;
 use crate::study::engine::{Engine, Running, Shaking};
-use crate::table::Table;
+use crate::table::{Cells, Column, Table};
 
 /// Runs that a hunt on one record is thought to take, for those who wait.
 const RUNS_OF_A_HUNT: u64 = 30;
@@ -222,8 +224,10 @@ pub enum IdaLevels {
 /// An incremental dynamic analysis to be run.
 #[derive(Clone, Debug)]
 pub struct IdaRequest<'a> {
-    /// The model: a grid of one.
+    /// The models: every design of their grid is run.
     pub models: &'a Models,
+    /// Bounds of friction with which every design is run; empty where it is run as it stands.
+    pub bounds: &'a [Bound],
     /// The records.
     pub suite: &'a Suite,
     /// The measure.
@@ -234,20 +238,42 @@ pub struct IdaRequest<'a> {
     pub limit: Option<f64>,
     /// The levels.
     pub levels: IdaLevels,
+    /// Designs that are run: `PATH=VALUE` or `PATH=FROM..TO`, all of them.
+    pub keep: &'a [String],
+    /// The path whose values have curves of their own; over the others is averaged. Bounds of
+    /// friction, `friction`, where several are run and nothing else is asked for.
+    pub by: Option<&'a str>,
+}
+
+/// The designs in which a path has one value.
+#[derive(Clone, Debug)]
+pub struct IdaGroup {
+    /// The value, in SI; NaN of a text, and where nothing is taken apart.
+    pub value: f64,
+    /// The value as a text, such as a bound of friction; empty for numbers.
+    pub text: String,
+    /// Designs that it averages over.
+    pub averaged: Averaged,
+    /// What each curve is of: the record, and the design where there are several.
+    pub names: Vec<String>,
+    /// The curves of the demand, design by design, record by record.
+    pub curves: Vec<Curve>,
+    /// A lognormal fit of the capacities, where there is a limit.
+    pub fit: Option<Result<Fragility, FitError>>,
 }
 
 /// What came of it.
 #[derive(Clone, Debug)]
 pub struct IdaRun {
-    /// The records' curves of the demand.
-    pub curves: Vec<Curve>,
-    /// A lognormal fit of the capacities, where there is a limit.
-    pub fit: Option<Result<Fragility, FitError>>,
+    /// The path that tells the groups apart, and its SI unit.
+    pub by: Option<(String, String)>,
+    /// The groups in rising order, one where nothing is taken apart.
+    pub groups: Vec<IdaGroup>,
     /// Runs without an answer.
     pub failures: Vec<FailedRun>,
-    /// A row a run: record, level, scale, all demands.
+    /// A row a run: record, level, scale, design, all demands.
     pub rows: Table,
-    /// A row a record, where there is a limit.
+    /// A row a record and design, where there is a limit.
     pub capacities: Option<Table>,
 }
 
@@ -262,7 +288,8 @@ struct Run {
 ///
 /// # Errors
 /// [`AssessmentError`] for a demand that is none, levels that do not rise, a hunt without a limit,
-/// records that cannot be scaled, and where it is stopped. A run that fails counts as above any limit.
+/// records that cannot be scaled, values that make no model, paths that are not varied, and where it is
+/// stopped. A run that fails counts as above any limit.
 pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, AssessmentError> {
     let IdaRequest { models, suite, measure, .. } = request;
     let column = models.column(request.demand)?;
@@ -281,11 +308,24 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
             Some(Hunt::new(limit, *start, *top)?)
         }
     };
+    let designs = Designs::of(request)?;
+    let numbered = designs.numbered();
+    let mut by = request.by;
+    let (mut groups, mut by_unit) = design_groups(&numbered, request.keep, by)?;
+    let averages = |group: &DesignGroup| group.averaged.paths.iter().any(|path| path == FRICTION);
+    if by.is_none() && groups.iter().any(averages) {
+        // Nobody averages over bounds of friction.
+        by = Some(FRICTION);
+        (groups, by_unit) = design_groups(&numbered, request.keep, by)?;
+    }
+    // The designs that are kept, in their own order.
+    let mut kept: Vec<usize> = groups.iter().flat_map(|group| group.designs.clone()).collect();
+    kept.sort_unstable();
     let unscaled = suite.measure(measure, engine)?;
-    let parts = models.parts(&[])?;
-    let one = |running: &mut Running<'_>, record: usize, level: f64| -> Run {
+    let parts = kept.iter().map(|&design| designs.parts(design)).collect::<Result<Vec<_>, _>>()?;
+    let one = |running: &mut Running<'_>, parts: &Parts, record: usize, level: f64| -> Run {
         let scale = level / unscaled[record];
-        let motion = suite.motion_of(record, scale, &parts);
+        let motion = suite.motion_of(record, scale, parts);
         let demands = motion.and_then(|motion| {
             let response = running.on(&Shaking::new(&motion))?;
             Ok(demand_values(&response.demands))
@@ -293,21 +333,26 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
         Run { level, scale, demands }
     };
     let records = suite.records.len();
+    let curves_count = kept.len() * records;
+    // Curve `i` is that of the record `i % records` under the design `i / records` of those kept.
     let all: Vec<Vec<Run>> = match (&request.levels, &hunt) {
         (IdaLevels::Fixed(levels), _) => {
             let n = levels.len();
-            let mut runs = engine
-                .runs(records * n, |i| one(&mut Running::new(&parts.model), i / n, levels[i % n]))?
-                .into_iter();
-            (0..records).map(|_| runs.by_ref().take(n).collect()).collect()
+            let run = |i: usize| {
+                let (curve, parts) = (i / n, &parts[i / n / records]);
+                one(&mut Running::new(&parts.model), parts, curve % records, levels[i % n])
+            };
+            let mut runs = engine.runs(curves_count * n, run)?.into_iter();
+            (0..curves_count).map(|_| runs.by_ref().take(n).collect()).collect()
         }
         (_, Some(hunt)) => {
-            engine.plan(records as u64 * RUNS_OF_A_HUNT);
-            engine.map(records, |record| {
+            engine.plan(curves_count as u64 * RUNS_OF_A_HUNT);
+            engine.map(curves_count, |curve| {
+                let (record, parts) = (curve % records, &parts[curve / records]);
                 let mut runs: Vec<Run> = Vec::new();
                 let mut running = Running::new(&parts.model);
                 hunt.try_run(|level| {
-                    let run = one(&mut running, record, level);
+                    let run = one(&mut running, parts, record, level);
                     let demand = run.demands.as_ref().map_or(f64::NAN, |values| values[column]);
                     runs.push(run);
                     engine.done(1)?;
@@ -330,56 +375,150 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
             }
         })
         .collect();
-    let names = suite.names();
-    let failures = all
-        .iter()
-        .zip(&names)
-        .flat_map(|(runs, name)| {
-            let failed = |run: &Run| {
-                let error = run.demands.as_ref().err()?.clone();
-                Some(FailedRun { record: name.clone(), error })
-            };
-            runs.iter().filter_map(failed).collect::<Vec<_>>()
-        })
-        .collect();
-    let (fit, capacities) = match request.limit {
-        None => (None, None),
-        Some(limit) => {
-            let (fit, table) = capacities(&curves, limit, &names, measure);
-            (Some(fit), Some(table))
-        }
+    let record = |curve: usize| &suite.records[curve % records].name;
+    let failed = |(curve, runs): (usize, &Vec<Run>)| {
+        let failed = |run: &Run| {
+            let error = run.demands.as_ref().err()?.clone();
+            Some(FailedRun { record: record(curve).clone(), error })
+        };
+        runs.iter().filter_map(failed).collect::<Vec<_>>()
     };
-    let flat: Vec<(&String, &Run)> = all
+    let failures = all.iter().enumerate().flat_map(failed).collect();
+    let group = |group: DesignGroup| {
+        let DesignGroup { value, text, designs: of_group, averaged } = group;
+        let mut names = Vec::new();
+        let mut own: Vec<Curve> = Vec::new();
+        for design in &of_group {
+            let at = kept.partition_point(|other| other < design);
+            let label = designs.label(*design, &averaged);
+            let name = |record: &SuiteRecord| format!("{}{label}", record.name);
+            names.extend(suite.records.iter().map(name));
+            own.extend_from_slice(&curves[at * records..(at + 1) * records]);
+        }
+        let fit = request.limit.map(|limit| fit_of(&own, limit));
+        IdaGroup { value, text, averaged, names, curves: own, fit }
+    };
+    let groups = groups.into_iter().map(group).collect();
+    let names: Vec<String> = (0..curves_count).map(|curve| record(curve).clone()).collect();
+    let of_curves: Vec<usize> = (0..curves_count).map(|curve| kept[curve / records]).collect();
+    let capacities = request.limit.map(|limit| {
+        let mut table = capacities(&curves, limit, &names, measure);
+        table.columns.extend(designs.table(&of_curves).columns);
+        table
+    });
+    let flat: Vec<(usize, &Run)> = all
         .iter()
-        .zip(&names)
-        .flat_map(|(runs, name)| runs.iter().map(move |run| (name, run)))
+        .enumerate()
+        .flat_map(|(curve, runs)| runs.iter().map(move |run| (curve, run)))
         .collect();
     let mut rows = Table::default();
-    rows.texts("record", flat.iter().map(|(name, _)| (*name).clone()).collect());
+    rows.texts("record", flat.iter().map(|(curve, _)| names[*curve].clone()).collect());
     rows.texts("measure", vec![measure.to_string(); flat.len()]);
     rows.texts("measure_unit", vec![measure.unit().to_owned(); flat.len()]);
     let choice = if hunt.is_some() { "hunted" } else { "given" };
     rows.texts("level_choice", vec![choice.to_owned(); flat.len()]);
     rows.numbers("level", measure.unit(), flat.iter().map(|(_, run)| run.level).collect());
     rows.numbers("scale", "", flat.iter().map(|(_, run)| run.scale).collect());
+    let of_runs: Vec<usize> = flat.iter().map(|(curve, _)| of_curves[*curve]).collect();
+    rows.columns.extend(designs.table(&of_runs).columns);
     for (i, column) in models.columns().iter().enumerate() {
-        let of = |(_, run): &(&String, &Run)| run.demands.as_ref().map_or(f64::NAN, |v| v[i]);
+        let of = |(_, run): &(usize, &Run)| run.demands.as_ref().map_or(f64::NAN, |v| v[i]);
         rows.numbers(&column.name(), column.unit(), flat.iter().map(of).collect());
     }
     rows.texts("status", flat.iter().map(|(_, run)| status(&run.demands)).collect());
-    Ok(IdaRun { curves, fit, failures, rows, capacities })
+    let by = by.map(|by| (by.to_owned(), by_unit));
+    Ok(IdaRun { by, groups, failures, rows, capacities })
 }
 
-/// The lognormal fit of the first crossings, and their table.
-fn capacities(
-    curves: &[Curve],
-    limit: f64,
-    names: &[String],
-    measure: &Measure,
-) -> (Result<Fragility, FitError>, Table) {
+/// The designs of an analysis: the models of its grid with each bound of friction, those fastest.
+struct Designs<'a> {
+    models: &'a Models,
+    bounds: &'a [Bound],
+}
+
+impl<'a> Designs<'a> {
+    fn of(request: &IdaRequest<'a>) -> Result<Self, AssessmentError> {
+        let designs = Self { models: request.models, bounds: request.bounds };
+        if designs.count() > MOST_DESIGNS {
+            let expected = format!("at most {MOST_DESIGNS} designs");
+            return Err(refuse("vary", expected, designs.count().to_string()));
+        }
+        Ok(designs)
+    }
+
+    fn count(&self) -> usize {
+        self.models.grid().len().saturating_mul(self.bounds.len().max(1))
+    }
+
+    /// All of them with their numbers.
+    fn numbered(&self) -> Table {
+        let all: Vec<usize> = (0..self.count()).collect();
+        let numbers = Cells::Counts(all.iter().map(|&design| Some(design as i64)).collect());
+        let column = Column { name: "design".to_owned(), unit: String::new(), cells: numbers };
+        let mut table = Table { columns: vec![column] };
+        table.columns.extend(self.table(&all).columns);
+        table
+    }
+
+    /// The place in the grid of a design, and its bound.
+    fn split(&self, design: usize) -> (usize, Option<&Bound>) {
+        let bounds = self.bounds.len().max(1);
+        (design / bounds, self.bounds.get(design % bounds))
+    }
+
+    fn parts(&self, design: usize) -> Result<Parts, AssessmentError> {
+        let (place, bound) = self.split(design);
+        let mut parts = self.models.parts(&self.models.grid().values(place))?;
+        if let Some(bound) = bound {
+            parts.model = bound.of(&parts.model);
+        }
+        Ok(parts)
+    }
+
+    /// Columns of what is varied, a row for each of some designs.
+    fn table(&self, designs: &[usize]) -> Table {
+        let mut table = Table::default();
+        let grid = self.models.grid();
+        for (i, axis) in grid.axes().iter().enumerate() {
+            let value = |design: &usize| grid.values(self.split(*design).0)[i];
+            table.numbers(&axis.path, &axis.unit, designs.iter().map(value).collect());
+        }
+        if !self.bounds.is_empty() {
+            let name = |design: &usize| self.split(*design).1.map_or("", |bound| bound.name);
+            let names = designs.iter().map(|design| name(design).to_owned()).collect();
+            table.texts(FRICTION, names);
+        }
+        table
+    }
+
+    /// What tells a design from the others that are averaged with it.
+    fn label(&self, design: usize, averaged: &Averaged) -> String {
+        let (place, bound) = self.split(design);
+        let grid = self.models.grid();
+        let values = grid.axes().iter().zip(grid.values(place));
+        let mut label = String::new();
+        for (axis, value) in values.filter(|(axis, _)| averaged.paths.contains(&axis.path)) {
+            label.push_str(format!(", {value} {}", axis.unit).trim_end());
+        }
+        if let Some(bound) = bound.filter(|_| averaged.paths.iter().any(|path| path == FRICTION)) {
+            label.push_str(&format!(", {}", bound.name));
+        }
+        label
+    }
+}
+
+/// Most designs of one analysis: a curve of each record for each of them is kept.
+const MOST_DESIGNS: usize = 100_000;
+
+fn fit_of(curves: &[Curve], limit: f64) -> Result<Fragility, FitError> {
+    let crossings = curves.iter().map(|curve| curve.first_crossing(limit));
+    let of = |c: Crossing| Capacity { level: c.level, reached: c.reached };
+    Fragility::of_capacities(&crossings.map(of).collect::<Vec<_>>())
+}
+
+/// The first crossings, a row a curve.
+fn capacities(curves: &[Curve], limit: f64, names: &[String], measure: &Measure) -> Table {
     let crossings: Vec<_> = curves.iter().map(|curve| curve.first_crossing(limit)).collect();
-    let of = |c: &Crossing| Capacity { level: c.level, reached: c.reached };
-    let fit = Fragility::of_capacities(&crossings.iter().map(of).collect::<Vec<_>>());
     let unit = measure.unit();
     let mut table = Table::default();
     table
@@ -395,5 +534,5 @@ fn capacities(
             unit,
             crossings.iter().map(|c| c.returns.unwrap_or(f64::NAN)).collect(),
         );
-    (fit, table)
+    table
 }

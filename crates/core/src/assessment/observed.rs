@@ -9,11 +9,12 @@ use super::fragility::{Capacity, CloudPoint, Fragility, Stripe};
 use super::{AssessmentError, refuse};
 use crate::error::FitError;
 use crate::response::Warning;
-use crate::table::Table;
+use crate::study::engine::Engine;
+use crate::table::{Cells, Table};
 
 use columns::Columns;
 use intensity::Intensity;
-pub use rows::Averaged;
+pub use rows::{Averaged, FRICTION};
 
 /// What a curve is fitted to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,12 +105,15 @@ const ENOUGH_RECORDS: usize = 10;
 ///
 /// # Errors
 /// [`AssessmentError`] for a table that lacks a column, has a cell that is no number or does not state
-/// the unit of its intensities, and for data that cannot tell a curve.
-pub fn run_fragility(request: &FragilityRequest<'_>) -> Result<FragilityRun, AssessmentError> {
+/// the unit of its intensities, for data that cannot tell a curve, and where draws are stopped.
+pub fn run_fragility(
+    request: &FragilityRequest<'_>,
+    engine: &Engine<'_>,
+) -> Result<FragilityRun, AssessmentError> {
     let columns = Columns { table: request.table, source_name: request.source_name };
     let kept = rows::keep(columns, request.keep)?;
     let table = kept.as_ref().unwrap_or(request.table);
-    fit(request, Columns { table, ..columns })
+    fit(request, Columns { table, ..columns }, engine)
 }
 
 /// Fits a fragility to the rows of each value of a column; its unit in SI beside them.
@@ -120,6 +124,7 @@ pub fn run_fragility(request: &FragilityRequest<'_>) -> Result<FragilityRun, Ass
 pub fn run_fragility_by(
     request: &FragilityRequest<'_>,
     by: &str,
+    engine: &Engine<'_>,
 ) -> Result<(Vec<FragilityGroup>, String), AssessmentError> {
     let columns = Columns { table: request.table, source_name: request.source_name };
     let kept = rows::keep(columns, request.keep)?;
@@ -129,7 +134,7 @@ pub fn run_fragility_by(
     let mut found = Vec::with_capacity(groups.len());
     for rows::Group { value, text, rows } in groups {
         let table = table.select(&rows);
-        let run = match fit(request, Columns { table: &table, ..columns }) {
+        let run = match fit(request, Columns { table: &table, ..columns }, engine) {
             Ok(run) => Ok(run),
             Err(AssessmentError::Fit(error) | AssessmentError::Fragility { error, .. }) => {
                 Err(error)
@@ -145,9 +150,62 @@ pub fn run_fragility_by(
     Ok((found, unit))
 }
 
+/// Designs, a row each, that an analysis is told apart by.
+pub(super) struct DesignGroup {
+    pub(super) value: f64,
+    pub(super) text: String,
+    /// Rows of the table.
+    pub(super) designs: Vec<usize>,
+    pub(super) averaged: Averaged,
+}
+
+/// The designs of a table that conditions keep, apart by the values of a column, and the SI unit of
+/// those; one group without a column.
+pub(super) fn design_groups(
+    table: &Table,
+    keep: &[String],
+    by: Option<&str>,
+) -> Result<(Vec<DesignGroup>, String), AssessmentError> {
+    let columns = Columns { table, source_name: "what is varied" };
+    let kept = rows::kept(columns, keep)?;
+    let of_kept = table.select(&kept);
+    let columns = Columns { table: &of_kept, ..columns };
+    let (groups, unit) = match by {
+        Some(by) => rows::groups(columns, by)?,
+        None => {
+            let rows = (0..kept.len()).collect();
+            (vec![rows::Group { value: f64::NAN, text: String::new(), rows }], String::new())
+        }
+    };
+    let group = |rows::Group { value, text, rows }: rows::Group| {
+        let of_group = of_kept.select(&rows);
+        let averaged = rows::averaged(Columns { table: &of_group, ..columns })?;
+        let designs = rows.into_iter().map(|row| kept[row]).collect();
+        Ok(DesignGroup { value, text, designs, averaged })
+    };
+    Ok((groups.into_iter().map(group).collect::<Result<_, AssessmentError>>()?, unit))
+}
+
+/// The column by which a table is taken apart where nothing else is asked for: the bounds of friction,
+/// over which nobody averages; `None` where the rows that are kept know one at most.
+///
+/// # Errors
+/// [`AssessmentError`] for conditions that cannot be understood.
+pub fn usual_by(request: &FragilityRequest<'_>) -> Result<Option<&'static str>, AssessmentError> {
+    let columns = Columns { table: request.table, source_name: request.source_name };
+    let kept = rows::keep(columns, request.keep)?;
+    let table = kept.as_ref().unwrap_or(request.table);
+    let several = match table.find(rows::FRICTION).map(|column| &column.cells) {
+        Some(Cells::Texts(texts)) => texts.iter().any(|text| *text != texts[0]),
+        _ => false,
+    };
+    Ok(several.then_some(rows::FRICTION))
+}
+
 fn fit(
     request: &FragilityRequest<'_>,
     columns: Columns<'_>,
+    engine: &Engine<'_>,
 ) -> Result<FragilityRun, AssessmentError> {
     let intensity = Intensity::of(request, columns)?;
     let mut warnings = Vec::new();
@@ -191,7 +249,7 @@ fn fit(
             let expected = "a column record, whose records are drawn";
             return Err(refuse("bootstrap", expected, "none"));
         }
-        fragility = fragility.bootstrapped(draws, seed);
+        fragility = fragility.bootstrapped(draws, seed, engine)?;
     }
     use super::fragility::Certainty as C;
     match fragility.certainty() {

@@ -3,7 +3,7 @@
 
 use crate::check::{self, Certificate};
 use crate::error::{InputError, MotionError, SolveError};
-use crate::input::{Analysis, MotionSource};
+use crate::input::{Analysis, Bound, MotionSource};
 use crate::model::Model;
 use crate::motion::{GroundMotion, spectrum};
 use crate::response::{History, Response, Warning};
@@ -100,12 +100,9 @@ impl Job {
         let bounds = match self.analysis.friction_bounds {
             None => None,
             Some(factors) => {
-                let with = |factor: f64| {
-                    let friction = model.slider().friction.scaled(factor);
-                    let friction = friction.unwrap_or(model.slider().friction);
-                    self.judged(model.with_friction(friction), factor)
-                };
-                Some([with(factors.lower)?, with(factors.upper)?])
+                let with = |bound: Bound| self.judged(bound.of(model), bound.friction_factor);
+                let [lower, _, upper] = factors.all();
+                Some([with(lower)?, with(upper)?])
             }
         };
         let history = nominal.response.history.as_ref().filter(|_| floor_spectra);

@@ -6,7 +6,7 @@ use super::suite::{Scaling, Suite};
 use super::{AssessmentError, FailedRun, refuse};
 use crate::error::{ModelError, MotionError, RunError, Stopped};
 use crate::friction::{Coulomb, Friction};
-use crate::input::Parts;
+use crate::input::{Bound, Parts};
 use crate::model::{InitialState, Model};
 use crate::motion::GroundMotion;
 use crate::numerics::fractile::fractiles;
@@ -88,6 +88,9 @@ pub struct SpectrumRequest<'a> {
     pub scaling: Scaling,
     /// Keys of demands besides those that are always told.
     pub demands: &'a [String],
+    /// Bounds of friction with which every model is run, a group of curves each; empty where the model
+    /// is run as it stands.
+    pub bounds: &'a [Bound],
 }
 
 /// What came of it.
@@ -103,6 +106,8 @@ pub struct SpectrumRun {
     pub group_paths: Vec<(String, String)>,
     /// Their values, a list a group, in SI.
     pub groups: Vec<Vec<f64>>,
+    /// Name of the bound of friction of each group; none where no bounds are run.
+    pub group_bounds: Vec<&'static str>,
     /// Fractiles of each demand.
     pub curves: Vec<DemandCurves>,
     /// Intervals in which the median amplification of each group is above 1.
@@ -146,7 +151,9 @@ impl SpectrumRequest<'_> {
     /// Number of runs, those of the fixed-base models apart.
     #[must_use]
     pub fn runs(&self) -> u64 {
-        (self.models.grid().len() as u64).saturating_mul(self.suite.records.len() as u64)
+        let designs =
+            (self.models.grid().len() as u64).saturating_mul(self.bounds.len().max(1) as u64);
+        designs.saturating_mul(self.suite.records.len() as u64)
     }
 }
 
@@ -176,7 +183,14 @@ pub fn run_spectrum(
     let columns = keys.iter().map(|key| models.column(key)).collect::<Result<Vec<_>, _>>()?;
     let factors = suite.factors(&request.scaling, engine)?;
     let records = suite.records.len();
-    let parts = models.all(records, engine)?;
+    let bounds = if request.bounds.is_empty() { &[Bound::NOMINAL][..] } else { request.bounds };
+    let nominal = models.all(records * bounds.len(), engine)?;
+    let of_bound = |bound: &Bound, parts: &Result<Parts, RunError>| {
+        let parts = parts.as_ref().map_err(Clone::clone)?;
+        Ok(Parts { model: bound.of(&parts.model), ..parts.clone() })
+    };
+    let all = |bound| nominal.iter().map(move |parts| of_bound(bound, parts));
+    let parts: Vec<Result<Parts, RunError>> = bounds.iter().flat_map(all).collect();
     let runs = run_all(&parts, suite, &factors, models.shape().storeys > 0, engine)?;
 
     let stem = roof
@@ -202,7 +216,8 @@ pub fn run_spectrum(
         if roof == 0.0 && over == 0.0 { 0.0 } else { roof / over }
     };
     let all_keys: Vec<String> = keys.iter().chain(&ratio_keys).cloned().collect();
-    let (length, group_count) = (axis.values.len(), grid.len() / axis.values.len());
+    let (length, of_grid) = (axis.values.len(), grid.len() / axis.values.len());
+    let group_count = bounds.len() * of_grid;
     let at = |group: usize, i: usize| (group * length + i) * records;
     let curves: Vec<DemandCurves> = all_keys
         .iter()
@@ -227,7 +242,7 @@ pub fn run_spectrum(
         })
         .collect();
     let groups = (0..group_count)
-        .map(|group| grid.values(group * length)[..groups_of.len()].to_vec())
+        .map(|group| grid.values(group % of_grid * length)[..groups_of.len()].to_vec())
         .collect();
     let group_paths = groups_of.iter().map(|axis| (axis.path.clone(), axis.unit.clone()));
     let window = curves.last().map_or(&[][..], |curves| &curves.fractiles[..]);
@@ -249,9 +264,13 @@ pub fn run_spectrum(
 
     let mut table = Table::default();
     let coordinates = |table: &mut Table, repeat: usize| {
+        if !request.bounds.is_empty() {
+            let of = |n: usize| bounds[n / repeat / grid.len()].name.to_owned();
+            table.texts("friction", (0..parts.len() * repeat).map(of).collect());
+        }
         for (i, axis) in grid.axes().iter().enumerate() {
-            let of = |n: usize| grid.values(n / repeat)[i];
-            let cells = (0..grid.len() * repeat).map(of).collect();
+            let of = |n: usize| grid.values(n / repeat % grid.len())[i];
+            let cells = (0..parts.len() * repeat).map(of).collect();
             table.numbers(&axis.path, &axis.unit, cells);
         }
     };
@@ -286,6 +305,10 @@ pub fn run_spectrum(
         values: axis.values.clone(),
         group_paths: group_paths.collect(),
         groups,
+        group_bounds: match request.bounds {
+            [] => Vec::new(),
+            bounds => (0..group_count).map(|group| bounds[group / of_grid].name).collect(),
+        },
         window_key: all_keys.last().cloned().unwrap_or_default(),
         curves,
         windows,

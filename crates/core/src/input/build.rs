@@ -183,7 +183,7 @@ fn both_directions(values: &Values, path: &str) -> Result<[Coefficient; 2], Inpu
     Ok([of("positive")?, of("negative")?])
 }
 
-fn friction_bounds(values: &Values) -> Result<Option<FrictionBounds>, InputError> {
+pub(super) fn friction_bounds(values: &Values) -> Result<Option<FrictionBounds>, InputError> {
     let (Some(lower), Some(upper)) =
         (values.number("slider.bounds.lower"), values.number("slider.bounds.upper"))
     else {

@@ -9,7 +9,8 @@ use super::schema::Range;
 use super::tree::{self, Spot};
 use super::{MAX_TEXT_BYTES, utf8};
 use crate::error::InputError;
-use crate::motion::intensity::Measure;
+use crate::motion::intensity::LevelMeasure;
+use crate::motion::target::TargetSpectrum;
 use crate::record::Units;
 
 mod records;
@@ -23,6 +24,8 @@ pub struct Plan {
     pub name: Option<String>,
     /// Path of the model file as written, relative to the plan.
     pub model: String,
+    /// Name of the one bound of friction that is run; `None` for all that the model gives.
+    pub bound: Option<&'static str>,
     /// The ground motions; without them the model's own motion is used.
     pub records: Option<Records>,
     /// What is varied, in the order of the text.
@@ -37,6 +40,10 @@ pub struct Plan {
 pub struct Records {
     /// Files or patterns as written, relative to the plan.
     pub files: Vec<String>,
+    /// Files or patterns of the other horizontal components, in the order of the first.
+    pub second: Vec<String>,
+    /// Spectrum to which pairs are brought, and the periods in s over which.
+    pub target: Option<(Target, [f64; 2])>,
     /// Unit of their values, where the files do not state it.
     pub units: Option<Units>,
     /// Name of that unit.
@@ -53,6 +60,15 @@ pub struct Records {
     pub levels: Levels,
 }
 
+/// A spectrum to which pairs are brought.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Target {
+    /// Path of a file as written, relative to the plan.
+    File(String),
+    /// A shape of a code.
+    Shape(TargetSpectrum),
+}
+
 /// How each record is scaled, once a level.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Levels {
@@ -60,8 +76,8 @@ pub enum Levels {
     Factors(Vec<f64>),
     /// So that a measure takes values.
     Measure {
-        /// The measure.
-        measure: Measure,
+        /// The measure, of a record or of a pair.
+        measure: LevelMeasure,
         /// Its values, in its SI unit.
         levels: Vec<f64>,
     },
@@ -260,6 +276,12 @@ impl Plan {
         Ok(Self {
             name: values.text("name").map(str::to_owned),
             model: values.text("model").unwrap_or_default().to_owned(),
+            bound: match values.text("bounds") {
+                Some("lower") => Some("lower"),
+                Some("nominal") => Some("nominal"),
+                Some("upper") => Some("upper"),
+                _ => None,
+            },
             records,
             vary,
             sampling,

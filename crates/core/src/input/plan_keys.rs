@@ -1,6 +1,8 @@
 //! Every key of a study plan.
 
 use super::keys::{CHANNEL, RECORD_STEP, UNITS, VERTICAL_SCALE};
+use crate::units::Dimension;
+
 use super::schema::{Exclusive, Key, Kind, MAX_WHOLE, Range, Section, Special};
 
 /// The most runs that a study may have.
@@ -14,6 +16,11 @@ pub static PLAN: Section = Section {
             "model",
             Kind::Text("tank.toml"),
             "The model file, relative to the plan; with [records] its [motion] is replaced.",
+        ),
+        Key::optional(
+            "bounds",
+            Kind::Word(&["all", "lower", "nominal", "upper"]),
+            "Which of the model's slider.bounds are run, in the column friction; default all.",
         ),
         Key::optional(
             "records",
@@ -37,6 +44,12 @@ static RECORDS: Section = Section {
             Kind::Texts("far-field/*.AT2"),
             "Files or patterns with * and ?, relative to the plan; the matches of each are sorted.",
         ),
+        Key::optional(
+            "second",
+            Kind::Texts("far-field/*-090.AT2"),
+            "Files or patterns of the other horizontal components, one for each of files in the same \
+             order: both are run, with one factor for the pair.",
+        ),
         UNITS,
         RECORD_STEP,
         CHANNEL,
@@ -51,7 +64,25 @@ static RECORDS: Section = Section {
             "measure",
             Kind::Text("Sa(1.2 s)"),
             "Intensity measure that is scaled to the levels: PGA, PGV, Sa(1.2 s), Sa(1.2 s, 2 %), \
-             Sa_avg(0.5 s, 3 s), …",
+             Sa_avg(0.5 s, 3 s), of pairs RotD50(1.2 s), RotD100(1.2 s), …",
+        ),
+        Key::optional(
+            "target",
+            Kind::Text("target.csv"),
+            "Spectrum to which each pair is brought by one factor: a CSV with the columns period_s and \
+             sa_g, 5 % damped, relative to the plan.",
+        )
+        .beside("second"),
+        Key::optional(
+            "code_spectrum",
+            Kind::Section(&CODE_SPECTRUM),
+            "The same in the two-period shape of ASCE/SEI 7.",
+        )
+        .beside("second"),
+        Key::optional(
+            "periods",
+            Kind::Quantities(Dimension::Time, Range::Positive),
+            "First and last period over which pairs are brought to the spectrum.",
         ),
         Key::optional(
             "levels",
@@ -65,7 +96,31 @@ static RECORDS: Section = Section {
             "Factors on every record, instead of a measure; default [1].",
         ),
     ],
-    choices: &[Exclusive::at_most(&["measure", "scale"])],
+    choices: &[
+        Exclusive::at_most(&["measure", "scale"]),
+        Exclusive::at_most(&["measure", "target", "code_spectrum"]),
+    ],
+};
+
+static CODE_SPECTRUM: Section = Section {
+    keys: &[
+        Key::required(
+            "sds",
+            Kind::Quantity(Dimension::Acceleration, Range::Positive),
+            "Ordinate at short periods.",
+        ),
+        Key::required(
+            "sd1",
+            Kind::Quantity(Dimension::Acceleration, Range::Positive),
+            "Ordinate at 1 s.",
+        ),
+        Key::required(
+            "tl",
+            Kind::Quantity(Dimension::Time, Range::Positive),
+            "Period from which displacement is constant.",
+        ),
+    ],
+    choices: &[],
 };
 
 static SAMPLING: Section = Section {

@@ -7,7 +7,7 @@ use super::keys::MODEL;
 use super::plan::Varied;
 use super::reader::Values;
 use super::schema::Range;
-use super::{Analysis, MAX_TEXT_BYTES, Override, parse, tree};
+use super::{Analysis, FrictionBounds, MAX_TEXT_BYTES, Override, parse, tree};
 use crate::error::InputError;
 use crate::response::DemandShape;
 
@@ -151,6 +151,14 @@ impl Variation {
     #[must_use]
     pub fn shape(&self) -> DemandShape {
         DemandShape { storeys: self.values.count("storey"), stop: self.has("slider.stop") }
+    }
+
+    /// The bounds of friction, where the model gives them.
+    ///
+    /// # Errors
+    /// [`InputError`] for bounds that do not rise.
+    pub fn friction_bounds(&self) -> Result<Option<FrictionBounds>, InputError> {
+        build::friction_bounds(&self.values)
     }
 
     /// The text at a path.

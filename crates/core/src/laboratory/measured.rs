@@ -139,6 +139,23 @@ impl Measured {
         Ok(Self { source_name, dt_s, series, warnings, names })
     }
 
+    /// Number of samples of the longest quantity.
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.series.iter().map(|series| series.times_s.len()).max().unwrap_or(0)
+    }
+
+    /// The first samples of every quantity.
+    #[must_use]
+    pub fn first(&self, samples: usize) -> Self {
+        let first = |series: &Series| Series {
+            times_s: series.times_s.iter().take(samples).copied().collect(),
+            values: series.values.iter().take(samples).copied().collect(),
+            ..series.clone()
+        };
+        Self { series: self.series.iter().map(first).collect(), ..self.clone() }
+    }
+
     /// The series of a quantity.
     #[must_use]
     pub fn get(&self, channel: Channel) -> Option<&Series> {

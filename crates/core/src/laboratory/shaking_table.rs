@@ -129,8 +129,12 @@ fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
     let (motion, start_s) = compare::table_motion(test.measured)?;
     let chosen = chosen(test)?;
     let free: Vec<bool> = chosen.series.iter().map(has_free_zero).collect();
-    let data =
-        Data { motion: &motion, start_s, measured: &chosen, free, build: test.build, engine };
+    let runs = Cell::new(0);
+    let (build, measured) = (test.build, &chosen);
+    let data = Data { motion: &motion, start_s, measured, free, build, engine, runs };
+    let count = test.parameters.len() as u64;
+    engine.plan(RUNS.iter().sum::<u64>() * count);
+    let known = |stage: usize| engine.replan(RUNS[stage] * count, data.runs.take());
     let names = || {
         let names: Vec<&str> = test.parameters.iter().map(|p| p.path.as_str()).collect();
         names.join(", ")
@@ -168,12 +172,15 @@ fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
             break;
         }
     }
+    known(0);
     let residuals = |p: &[f64]| data.residuals(p, &scales);
     let problem = Problem { bounds, residuals: &residuals };
     let minimum = minimum.and_then(|minimum| refine(&problem, &minimum.unit));
     let mut found = intervals(&problem, &data, minimum.ok_or_else(no_response)?);
+    known(1);
     let table_noise_m_per_s2 = drive::noise(&motion);
     drive::widen(&mut found, &problem, &data, &scales, table_noise_m_per_s2, test.seed);
+    known(2);
     let values = problem.parameters(&found.minimum.unit);
     let model = (test.build)(&values).ok_or_else(no_response)?;
     let evidence = evidence(&data, &model, &scales, &found);
@@ -309,7 +316,13 @@ struct Data<'a> {
     free: Vec<bool>,
     build: &'a dyn Fn(&[f64]) -> Option<Model>,
     engine: &'a Engine<'a>,
+    /// Runs that were not yet told of to those who wait.
+    runs: Cell<u64>,
 }
+
+/// Runs that the search, the intervals and the draws of the table's noise are thought to take for each
+/// parameter, for those who wait.
+const RUNS: [u64; 3] = [200, 600, 30];
 
 impl Data<'_> {
     /// Predicted less measured values, a list a quantity, in SI; less their mean where the zero of the
@@ -330,6 +343,7 @@ impl Data<'_> {
     /// Predicted less measured values under a motion.
     fn of_motion(&self, model: &Model, motion: &GroundMotion) -> Option<Vec<Vec<f64>>> {
         self.engine.done(1).ok()?;
+        self.runs.set(self.runs.get() + 1);
         let response = solver::exact(model, motion).ok()?;
         let pairs = compare::pairs(self.measured, self.start_s, response.history.as_ref()?);
         let all = pairs.len() == self.measured.series.len();

@@ -7,11 +7,13 @@
 mod durations;
 mod fiv3;
 mod integrals;
+mod level;
 mod names;
 mod rotated;
 mod spectral;
 mod standard;
 
+pub use level::{LevelMeasure, Rotated};
 pub use rotated::{RotD, rotated_spectra};
 pub use standard::IntensityMeasures;
 

@@ -9,6 +9,8 @@ pub struct Cases {
     pub levels: u64,
     /// Number of samples, ≥ 1.
     pub samples: u64,
+    /// Number of bounds of friction that each sample is run with, ≥ 1.
+    pub bounds: u64,
 }
 
 /// Indices of one run, from 0.
@@ -20,26 +22,41 @@ pub struct Case {
     pub level: u64,
     /// Which sample.
     pub sample: u64,
+    /// Which bound of friction.
+    pub bound: u64,
 }
 
 impl Cases {
     /// Number of runs; `None` where it is beyond counting.
     #[must_use]
     pub fn runs(&self) -> Option<u64> {
-        self.records.checked_mul(self.levels)?.checked_mul(self.samples)
+        let motions = self.records.checked_mul(self.levels)?;
+        motions.checked_mul(self.samples)?.checked_mul(self.bounds)
+    }
+
+    /// Number of models: samples times bounds. Their runs of one record at one level stand together.
+    #[must_use]
+    pub fn models(&self) -> u64 {
+        self.samples * self.bounds
     }
 
     /// The case of a run.
     #[must_use]
     pub fn case(&self, run: u64) -> Case {
-        let group = run / self.samples;
-        Case { record: group / self.levels, level: group % self.levels, sample: run % self.samples }
+        let (motion, model) = (run / self.models(), run % self.models());
+        Case {
+            record: motion / self.levels,
+            level: motion % self.levels,
+            sample: model / self.bounds,
+            bound: model % self.bounds,
+        }
     }
 
     /// The run of a case.
     #[must_use]
     pub fn run(&self, case: Case) -> u64 {
-        (case.record * self.levels + case.level) * self.samples + case.sample
+        let motion = case.record * self.levels + case.level;
+        (motion * self.samples + case.sample) * self.bounds + case.bound
     }
 }
 
@@ -48,18 +65,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_runs_count_samples_fastest() {
-        let cases = Cases { records: 3, levels: 2, samples: 5 };
-        assert_eq!(cases.runs(), Some(30));
-        assert_eq!(cases.case(0), Case { record: 0, level: 0, sample: 0 });
-        assert_eq!(cases.case(4), Case { record: 0, level: 0, sample: 4 });
-        assert_eq!(cases.case(5), Case { record: 0, level: 1, sample: 0 });
-        assert_eq!(cases.case(10), Case { record: 1, level: 0, sample: 0 });
-        assert_eq!(cases.case(29), Case { record: 2, level: 1, sample: 4 });
-        for run in 0..30 {
+    fn exact_runs_count_bounds_and_samples_fastest() {
+        let cases = Cases { records: 3, levels: 2, samples: 5, bounds: 2 };
+        let case = |record, level, sample, bound| Case { record, level, sample, bound };
+        assert_eq!((cases.runs(), cases.models()), (Some(60), 10));
+        assert_eq!(cases.case(0), case(0, 0, 0, 0));
+        assert_eq!(cases.case(1), case(0, 0, 0, 1));
+        assert_eq!(cases.case(9), case(0, 0, 4, 1));
+        assert_eq!(cases.case(10), case(0, 1, 0, 0));
+        assert_eq!(cases.case(20), case(1, 0, 0, 0));
+        assert_eq!(cases.case(59), case(2, 1, 4, 1));
+        for run in 0..60 {
             assert_eq!(cases.run(cases.case(run)), run);
         }
-        let many = Cases { records: 1 << 30, levels: 1 << 30, samples: 1 << 30 };
+        let many = Cases { records: 1 << 30, levels: 1 << 30, samples: 1 << 30, bounds: 1 };
         assert_eq!(many.runs(), None);
     }
 }

@@ -27,7 +27,9 @@ impl Study {
             Field::number("level", self.level_unit()),
             Field::number("scale", "").required(),
         ];
+        fields.extend(self.has_pairs().then(|| Field::text("pair")));
         fields.extend(self.measures.iter().map(|m| Field::number(m.column(), m.unit())));
+        fields.extend(self.has_bounds().then(|| Field::text("friction")));
         let varied = self.design.vary().iter();
         fields.extend(varied.map(|varied| Field::number(varied.path.clone(), varied.unit)));
         fields.extend(self.shape.columns().iter().map(|column| Field {
@@ -41,7 +43,10 @@ impl Study {
     /// Index of the first demand among [`Study::fields`].
     #[must_use]
     pub fn first_demand(&self) -> usize {
-        5 + self.measures.len() + self.design.vary().len()
+        5 + usize::from(self.has_pairs())
+            + self.measures.len()
+            + usize::from(self.has_bounds())
+            + self.design.vary().len()
     }
 
     /// Rows as the cells of [`Study::fields`].
@@ -59,7 +64,14 @@ impl Study {
             numbers(&|row| self.level(row.case.level).unwrap_or(f64::NAN)),
             numbers(&|row| row.scale),
         ];
+        if self.has_pairs() {
+            let pair = |row: &Row| record(row).map_or("", |r| self.pair_name(r)).to_owned();
+            cells.push(texts(&pair));
+        }
         cells.extend((0..self.measures.len()).map(|i| numbers(&|row| of(&row.measures, i))));
+        if self.has_bounds() {
+            cells.push(texts(&|row| self.bound(row.case).name.to_owned()));
+        }
         let varied = self.design.vary().len();
         cells.extend((0..varied).map(|i| numbers(&|row| of(&row.values, i))));
         cells.extend(self.shape.columns().iter().enumerate().map(|(i, column)| {

@@ -74,12 +74,12 @@ impl Study {
     /// # Errors
     /// [`Stopped`].
     pub fn rows(&self, runs: Range<u64>, engine: &Engine<'_>) -> Result<Vec<Row>, Stopped> {
-        let samples = self.cases.samples;
+        let models = self.cases.models();
         let mut blocks: Vec<Vec<Range<u64>>> = Vec::new();
         let mut at = runs.start;
         while at < runs.end {
             // All runs of one record at one level stand together.
-            let end = ((at / samples + 1) * samples).min(runs.end);
+            let end = ((at / models + 1) * models).min(runs.end);
             let record = self.cases.case(at).record;
             match blocks.last_mut() {
                 Some(block)
@@ -108,9 +108,9 @@ impl Study {
         let scaled: Vec<Option<Result<Prepared, RunError>>> =
             engine.map(cases.len(), |i| Ok(self.scaled(&cases[i])))?;
         let ready: Vec<_> = scaled.iter().map(|scaled| scaled.as_ref().map(ready)).collect();
-        let sample = |run: u64| run % self.cases.samples;
-        let first = levels.iter().map(|runs| sample(runs.start)).min().unwrap_or(0);
-        let last = levels.iter().map(|runs| sample(runs.end - 1)).max().unwrap_or(0);
+        let model = |run: u64| run % self.cases.models();
+        let first = levels.iter().map(|runs| model(runs.start)).min().unwrap_or(0);
+        let last = levels.iter().map(|runs| model(runs.end - 1)).max().unwrap_or(0);
         let samples = self.samples(first..last + 1, engine)?;
         let chunks: Vec<_> = chunks(first..last + 1).collect();
         let of_chunk = |i: usize| -> Result<Vec<Vec<Row>>, Stopped> {
@@ -122,15 +122,15 @@ impl Study {
                 models.push(sample.parts.as_ref().ok().map(|parts| Running::new(&parts.model)));
             }
             let of_level = |(runs, ready): (&Range<u64>, _)| {
-                let start = sample(runs.start).max(chunk.start);
-                let end = (sample(runs.end - 1) + 1).min(chunk.end);
+                let start = model(runs.start).max(chunk.start);
+                let end = (model(runs.end - 1) + 1).min(chunk.end);
                 if start >= end {
                     return Vec::new();
                 }
-                let case = Case { sample: start, ..self.cases.case(runs.start) };
+                let run = runs.start - model(runs.start) + start;
                 let these = (start - chunk.start) as usize..(end - chunk.start) as usize;
                 let (samples, models) = (&samples[these.clone()], &mut models[these]);
-                self.chunk(case, samples, models, Option::as_ref(ready))
+                self.chunk(run, samples, models, Option::as_ref(ready))
             };
             let rows: Vec<Vec<Row>> = levels.iter().zip(&ready).map(of_level).collect();
             engine.done(rows.iter().map(|rows| rows.len() as u64).sum())?;
@@ -157,10 +157,10 @@ impl Study {
         }))
     }
 
-    /// Runs of neighbouring samples at one level; those that move the table alike share one motion.
+    /// Runs of neighbouring models at one level, from the run `first` on; those that move the table alike share one motion.
     fn chunk<'s>(
         &self,
-        first: Case,
+        first: u64,
         samples: &'s [Sample],
         models: &mut [Option<Running<'s>>],
         scaled: Option<&Result<Ready<'_>, RunError>>,
@@ -188,7 +188,7 @@ impl Study {
             let start = rows.len();
             let rest = samples[start..].iter().zip(&mut models[start..]);
             for (sample, model) in rest.take_while(|(sample, _)| made(sample) == alike) {
-                let case = Case { sample: first.sample + rows.len() as u64, ..first };
+                let case = self.cases.case(first + rows.len() as u64);
                 rows.push(self.run(case, sample, model, motion));
             }
         }
@@ -323,6 +323,7 @@ mod tests {
     use crate::friction::{Coulomb, Friction};
     use crate::input::plan::Plan;
     use crate::model::Model;
+    use crate::motion::target::maximum_direction;
     use crate::solver;
     use crate::study::Record;
 
@@ -364,6 +365,7 @@ mod tests {
                 channel: String::new(),
                 motion: motion.unwrap(),
                 warnings: vec![],
+                pair: None,
             }
         };
         let records = vec![record("a", 0.0, 0.01), record("b", 1.0, 0.02)];
@@ -407,6 +409,75 @@ mod tests {
         }
     }
 
+    /// Two pairs of components under plans.
+    fn of_pairs(records_table: &str) -> Study {
+        let text = format!(
+            "model = \"m.toml\"\n[records]\nfiles = \"*x.txt\"\nsecond = \"*y.txt\"\n\
+             {records_table}\n"
+        );
+        let plan = Plan::parse("p.toml", &text).unwrap();
+        let record = |i: usize| {
+            let wave = |k: u32| {
+                let t = 0.01 * f64::from(k);
+                let phase = i as f64;
+                libm::sin((5.0 + phase) * t + phase) * libm::sin(19.0 * t) * libm::exp(-0.3 * t)
+            };
+            let motion = GroundMotion::evenly_spaced(0.01, (0..500).map(wave).collect(), None);
+            Record {
+                name: format!("r{i}"),
+                channel: String::new(),
+                motion: motion.unwrap(),
+                warnings: vec![],
+                pair: Some(i / 2),
+            }
+        };
+        Study::new(&plan, "m.toml", MODEL, (0..4).map(record).collect()).unwrap()
+    }
+
+    /// Both components of a pair take one factor, by which the measure of the pair takes its level.
+    #[test]
+    fn exact_pairs_take_one_factor() {
+        for (measure, level) in [("RotD50(0.5 s)", 2.0), ("RotD100(PGA)", 3.0), ("PGA", 2.0)] {
+            let study = of_pairs(&format!(
+                "measure = \"{measure}\"\nlevels = [\"1 m/s2\", \"{level} m/s2\"]"
+            ));
+            assert!(study.has_pairs() && study.runs() == 8);
+            let factor = |record| study.factor(Case { record, level: 1, sample: 0, bound: 0 });
+            assert_eq!((factor(0), factor(2)), (factor(1), factor(3)));
+            let measure = crate::motion::intensity::LevelMeasure::parse(measure).unwrap();
+            for pair in study.records().chunks(2) {
+                let factor = factor(pair[0].pair.unwrap() as u64 * 2);
+                let scaled = [0, 1].map(|i| pair[i].motion.scaled(factor).unwrap());
+                let found = measure.of(&scaled[0], Some(&scaled[1])).unwrap();
+                assert!((found / level - 1.0).abs() < 1e-12, "{measure}: {found}");
+            }
+            let table = study.table(&rows(&study, 0..8));
+            assert_eq!(table.texts_of("pair").unwrap()[5], "r2");
+        }
+    }
+
+    /// Pairs are brought to a spectrum by one factor each, and levels are factors besides.
+    #[test]
+    fn exact_pairs_are_brought_to_a_spectrum() {
+        let study = of_pairs(
+            "code_spectrum = { sds = \"1 g\", sd1 = \"0.6 g\", tl = \"8 s\" }\n\
+             periods = [\"0.2 s\", \"2 s\"]\nscale = [1, 1.5]",
+        );
+        let matched = study.matched().unwrap();
+        let factor = |record, level| study.factor(Case { record, level, sample: 0, bound: 0 });
+        for pair in 0..2 {
+            assert_eq!(factor(2 * pair, 0), matched.factors[pair as usize]);
+            assert_eq!(factor(2 * pair + 1, 0), factor(2 * pair, 0));
+            assert_eq!(factor(2 * pair, 1), 1.5 * factor(2 * pair, 0));
+        }
+        assert!(matched.least[0] >= 0.9 * (1.0 - 1e-12), "{:?}", matched.least);
+        let scaled = [0, 1].map(|i| study.records()[i].motion.scaled(factor(0, 0)).unwrap());
+        let spectrum = maximum_direction(&scaled[0], &scaled[1], &matched.periods_s).unwrap();
+        for (found, expected) in matched.pairs_m_per_s2[0].iter().zip(spectrum) {
+            assert!((found / expected - 1.0).abs() < 1e-12);
+        }
+    }
+
     /// Models of more samples than are kept are made anew, and are the same.
     #[test]
     fn exact_many_samples_are_as_few() {
@@ -414,7 +485,7 @@ mod tests {
         let study = study(vary, 20_000);
         let rows = rows(&study, 19_990..20_003);
         assert_eq!(rows.len(), 13);
-        assert_eq!(rows[12].case, Case { record: 0, level: 1, sample: 2 });
+        assert_eq!(rows[12].case, Case { record: 0, level: 1, sample: 2, bound: 0 });
         assert!(rows.iter().all(|row| study.verify(row).holds()));
     }
 

@@ -1,4 +1,4 @@
-//! Statistics of a study by level: exact quantiles in memory that does not grow with the runs.
+//! Statistics of a study by level and bound of friction: exact quantiles in memory that does not grow with the runs.
 
 use super::Study;
 use super::engine::Engine;
@@ -9,6 +9,9 @@ use crate::table::{Cells, Column, Table};
 
 /// Probabilities of the quantiles.
 const QUANTILES: [f64; 3] = [0.16, 0.5, 0.84];
+
+/// Number of equal steps in probability of a distribution.
+const STEPS: usize = 20;
 
 /// Bits of a number that one pass over the values tells apart.
 const DIGIT_BITS: u32 = 11;
@@ -22,6 +25,8 @@ pub struct LevelSummary {
     pub value: Option<f64>,
     /// The factor of the level, where levels are factors.
     pub scale: Option<f64>,
+    /// The bound of friction, where the model has bounds.
+    pub friction: Option<&'static str>,
     /// The demand.
     pub demand: DemandColumn,
     /// Runs of the level.
@@ -32,6 +37,8 @@ pub struct LevelSummary {
     pub mean: f64,
     /// 16 %, 50 % and 84 % quantiles, linear between neighbours of the sorted values.
     pub quantiles: [f64; 3],
+    /// Probabilities not exceeded and the quantiles there, rising, where the study has one level.
+    pub distribution: Vec<[f64; 2]>,
     /// The value largest in size.
     pub max: f64,
     /// Its run; `None` where no run has a value.
@@ -77,6 +84,9 @@ impl StudySummary {
         let mut table = Table::default();
         table.numbers("level", "", numbers(&|row| row.value.unwrap_or(f64::NAN)));
         table.numbers("scale", "", numbers(&|row| row.scale.unwrap_or(f64::NAN)));
+        if rows.iter().any(|row| row.friction.is_some()) {
+            table.texts("friction", texts(&|row| row.friction.unwrap_or_default().to_owned()));
+        }
         table.texts("demand", texts(&|row| row.demand.name()));
         table.texts("unit", texts(&|row| row.demand.unit().to_owned()));
         table.columns.push(counts("runs", &|row| Some(row.runs)));
@@ -118,10 +128,10 @@ impl Study {
         rows: &Rows<'_, E>,
         engine: &Engine<'_>,
     ) -> Result<StudySummary, E> {
-        let levels = self.cases.levels as usize;
-        let mut counts = vec![(0, 0); levels];
+        let groups = self.groups();
+        let mut counts = vec![(0, 0); groups];
         (rows.solved)(&mut |run, solved| {
-            let (runs, failures) = &mut counts[self.cases.case(run).level as usize];
+            let (runs, failures) = &mut counts[self.group(run)];
             *runs += 1;
             *failures += u64::from(!solved);
         })?;
@@ -131,24 +141,35 @@ impl Study {
         let of_demand = |i: usize| -> Result<Vec<LevelSummary>, E> {
             let (index, column) = demands[i];
             let source = Source { study: self, rows, demand: index };
-            let figures = figures(&source, levels)?;
-            let quantiles = quantiles(&source, &figures)?;
+            let figures = figures(&source, groups)?;
+            let single = self.cases.levels == 1 && column.demand.study_place > 0;
+            let steps = if single { STEPS } else { 0 };
+            let steps: Vec<f64> = (1..steps).map(|i| i as f64 / STEPS as f64).collect();
+            let probabilities = [&QUANTILES[..], &steps].concat();
+            let quantiles = quantiles(&source, &figures, &probabilities)?;
             let each = figures.iter().zip(quantiles).enumerate();
-            let rows = each.map(|(level, (figures, quantiles))| {
+            let rows = each.map(|(group, (figures, quantiles))| {
+                let (level, bound) = (group / self.bounds.len(), group % self.bounds.len());
                 let record = figures
                     .max_run
                     .and_then(|run| self.records.get(self.cases.case(run).record as usize));
-                let (runs, failures) = counts[level];
+                let (runs, failures) = counts[group];
                 let value = self.level(level as u64);
                 LevelSummary {
                     level: level as u64,
                     value,
                     scale: value.is_none().then(|| self.level_factor(level as u64)),
+                    friction: self.has_bounds().then(|| self.bounds[bound].name),
                     demand: column,
                     runs,
                     failures,
                     mean: figures.mean(),
-                    quantiles,
+                    quantiles: [quantiles[0], quantiles[1], quantiles[2]],
+                    distribution: steps
+                        .iter()
+                        .zip(&quantiles[QUANTILES.len()..])
+                        .map(|(p, value)| [*p, *value])
+                        .collect(),
                     max: figures.max,
                     max_run: figures.max_run,
                     max_record: record.map_or_else(
@@ -159,7 +180,7 @@ impl Study {
             });
             Ok(rows.collect())
         };
-        let rows = engine.map(demands.len(), |i| Ok(of_demand(i)))?;
+        let rows = engine.runs(demands.len(), of_demand)?;
         let mut rows = rows.into_iter().collect::<Result<Vec<_>, E>>()?.concat();
         rows.sort_by_key(|row| row.level);
         let measure = match &self.levels {
@@ -167,6 +188,19 @@ impl Study {
             Levels::Factors(_) => None,
         };
         Ok(StudySummary { name: name.to_owned(), measure, rows })
+    }
+}
+
+impl Study {
+    /// Number of levels times bounds of friction.
+    fn groups(&self) -> usize {
+        self.cases.levels as usize * self.bounds.len()
+    }
+
+    /// The level and bound of a run, as one number below [`Study::groups`].
+    fn group(&self, run: u64) -> usize {
+        let case = self.cases.case(run);
+        case.level as usize * self.bounds.len() + case.bound as usize
     }
 }
 
@@ -182,7 +216,7 @@ impl<E> Source<'_, E> {
     fn each(&self, mut take: impl FnMut(u64, usize, f64)) -> Result<(), E> {
         (self.rows.demand)(self.demand, &mut |run, value| {
             if !value.is_nan() {
-                take(run, self.study.cases.case(run).level as usize, value);
+                take(run, self.study.group(run), value);
             }
         })
     }
@@ -245,13 +279,18 @@ struct Search {
 
 /// The quantiles of each level: two order statistics for each, found digit by digit from the
 /// highest, one pass over the values a digit.
-fn quantiles<E>(source: &Source<'_, E>, figures: &[Figures]) -> Result<Vec<[f64; 3]>, E> {
-    let ranks = |count: u64| {
-        QUANTILES.map(|p| {
+fn quantiles<E>(
+    source: &Source<'_, E>,
+    figures: &[Figures],
+    probabilities: &[f64],
+) -> Result<Vec<Vec<f64>>, E> {
+    let ranks = |count: u64| -> Vec<((u64, u64), f64)> {
+        let rank = |p: &f64| {
             let place = p * count.saturating_sub(1) as f64;
             let below = place.floor();
             ((below as u64, (below as u64 + 1).min(count.saturating_sub(1))), place - below)
-        })
+        };
+        probabilities.iter().map(rank).collect()
     };
     let mut searches: Vec<Vec<Search>> = figures
         .iter()
@@ -299,7 +338,7 @@ fn quantiles<E>(source: &Source<'_, E>, figures: &[Figures]) -> Result<Vec<[f64;
         }
     }
     let of_level = |(figures, searches): (&Figures, &Vec<Search>)| {
-        let mut quantiles = [f64::NAN; 3];
+        let mut quantiles = vec![f64::NAN; probabilities.len()];
         if figures.count == 0 {
             return quantiles;
         }
@@ -337,6 +376,7 @@ mod tests {
             channel: String::new(),
             motion: motion.unwrap(),
             warnings: vec![],
+            pair: None,
         };
         let study = Study::new(&plan, "m.toml", model, vec![record]).unwrap();
         let engine = Engine::unwatched();
@@ -368,7 +408,8 @@ mod tests {
             let mean = values.iter().sum::<f64>() / values.len() as f64;
             assert!((found.mean - mean).abs() <= 1e-14 * mean.abs().max(1e-300), "{found:?}");
             values.sort_by(f64::total_cmp);
-            for (p, quantile) in QUANTILES.iter().zip(found.quantiles) {
+            let distribution = found.distribution.iter().map(|[p, value]| (p, *value));
+            for (p, quantile) in QUANTILES.iter().zip(found.quantiles).chain(distribution) {
                 let place = p * (values.len() - 1) as f64;
                 let (low, high) = (values[place.floor() as usize], values[place.ceil() as usize]);
                 let expected = low + (high - low) * place.fract();

@@ -83,7 +83,8 @@ impl Study {
     /// The analysis and the motion of a row, made from the text and the record.
     fn alone(&self, row: &Row) -> Result<(Analysis, GroundMotion), RunError> {
         let values = self.design.values(row.case.sample);
-        let analysis = self.variation.analysis(&values)?;
+        let mut analysis = self.variation.analysis(&values)?;
+        analysis.model = self.bound(row.case).of(&analysis.model);
         let motion = match self.records.get(row.case.record as usize) {
             Some(record) => {
                 scaled_with_tail(&record.motion, self.factor(row.case), analysis.tail_s)?

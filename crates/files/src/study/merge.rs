@@ -32,11 +32,15 @@ pub struct Merged {
 ///
 /// # Errors
 /// [`StudyError`] for parts that belong to another study, and files that cannot be written.
-pub fn conclude(study: &OpenStudy, folder: &Path) -> Result<StudySummary, StudyError> {
+pub fn conclude(
+    study: &OpenStudy,
+    folder: &Path,
+    engine: &Engine<'_>,
+) -> Result<StudySummary, StudyError> {
     let found = find(&folder.join(PARTS))?;
     found.refuse_foreign(&study.id)?;
     let files = found.whole;
-    let summary = summary::of(study, &files, &Engine::unwatched())?;
+    let summary = summary::of(study, &files, engine)?;
     summary::write(&folder.join(SUMMARY), &summary)?;
     write_whole(&folder.join(MANIFEST), manifest(study, &files).to_pretty().as_bytes())?;
     Ok(summary)
@@ -57,6 +61,7 @@ fn manifest(study: &OpenStudy, files: &[PartFile]) -> Json {
     let inputs = study.inputs.iter().map(|(name, sha256)| {
         Json::Object(vec![("path", name.as_str().into()), ("sha256", sha256.as_str().into())])
     });
+    let bounds = study.study.bounds().iter().filter(|_| study.study.has_bounds());
     Json::Object(vec![
         ("slipstick", env!("CARGO_PKG_VERSION").into()),
         ("study", study.id.as_str().into()),
@@ -68,6 +73,7 @@ fn manifest(study: &OpenStudy, files: &[PartFile]) -> Json {
         ("records", cases.records.into()),
         ("levels", cases.levels.into()),
         ("samples", cases.samples.into()),
+        ("bounds", Json::List(bounds.map(|bound| bound.name.into()).collect())),
         ("runs", study.study.runs().into()),
         ("rows", total.rows.into()),
         ("complete", (total.rows == study.study.runs()).into()),

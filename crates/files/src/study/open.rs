@@ -2,16 +2,21 @@
 
 use std::path::{Path, PathBuf};
 
-use slipstick::input::plan::{Plan, Records};
+use slipstick::input::plan::{Plan, Records, Target};
 use slipstick::input::{self, MAX_TEXT_BYTES, MotionSource};
+use slipstick::motion::target::TargetSpectrum;
+use slipstick::study::engine::Engine;
 use slipstick::study::{Record, Study};
+use slipstick::table::{Cells, Column};
+use slipstick::units::{Dimension, parse_unit};
 
 use super::StudyError;
 use crate::error::FileError;
 use crate::globs::{expand, named_twice};
 use crate::load::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
-use crate::read::{read_at_most, resolve, sha256_hex};
+use crate::read::{read_at_most, read_bytes, resolve, sha256_hex};
 use crate::run::request;
+use crate::table::read_table;
 
 /// A study with all its inputs read.
 #[derive(Debug)]
@@ -51,6 +56,14 @@ impl OpenStudy {
     /// [`StudyError`] for a plan or a model that cannot be understood, and for records that are
     /// missing or are none; all that are missing are named.
     pub fn open(plan_path: &Path) -> Result<Self, StudyError> {
+        Self::open_followed(plan_path, &Engine::unwatched())
+    }
+
+    /// The same on the threads of the caller's pool; the engine is told of every record.
+    ///
+    /// # Errors
+    /// As [`OpenStudy::open`], and where it is stopped.
+    pub fn open_followed(plan_path: &Path, engine: &Engine<'_>) -> Result<Self, StudyError> {
         let plan_name = plan_path.display().to_string();
         let plan_bytes = read_at_most(plan_path, MAX_TEXT_BYTES as u64)?;
         let plan_text = String::from_utf8_lossy(&plan_bytes).into_owned();
@@ -70,12 +83,23 @@ impl OpenStudy {
         ];
         let mut notices = Vec::new();
         let loaded = match &plan.records {
-            Some(records) => load_all(&plan, records, folder, &in_plan, &mut notices)?,
+            Some(records) => load_all(&plan, records, folder, &in_plan, &mut notices, engine)?,
             None => own_record(&plan, &model_path, &model_bytes, &in_model)?,
         };
         let mut records = Vec::new();
         let mut record_paths = Vec::new();
-        for Loaded { name, vertical_name, paths, loaded } in loaded {
+        let mut target = None;
+        if let Some(Records { target: Some((Target::File(path), _)), .. }) = &plan.records {
+            let (read, sha256) = read_target(&resolve(folder, path)).map_err(|error| {
+                let expected = "a spectrum: a CSV with the columns period_s and sa_g";
+                in_plan(plan.error_at("records.target", expected, error))
+            })?;
+            inputs.push((portable(path), sha256));
+            target = Some(read);
+        }
+        let pairs = plan.records.as_ref().is_some_and(|records| !records.second.is_empty());
+        for (index, Loaded { name, vertical_name, paths, loaded }) in loaded.into_iter().enumerate()
+        {
             let names = [Some(name.clone()), vertical_name].into_iter().flatten();
             inputs.extend(names.zip(loaded.sources.iter().map(|source| source.sha256.clone())));
             records.push(Record {
@@ -83,18 +107,17 @@ impl OpenStudy {
                 channel: loaded.channel.clone(),
                 motion: loaded.motion.clone(),
                 warnings: loaded.warnings.iter().map(|warning| warning.kind).collect(),
+                pair: pairs.then_some(index / 2),
             });
             record_paths.push(paths);
         }
         // The model's name in messages goes into rows: it is the one in the plan, on every machine.
-        let study = Study::new(&plan, &portable(&plan.model), &model_text, records);
+        let name = portable(&plan.model);
+        let study = Study::followed(&plan, &name, &model_text, records, target.as_ref(), engine)?;
         let study = study.map_err(|error| match &*error.place.source_name {
             name if name == plan_name => in_plan(error),
             _ => in_model(error),
         })?;
-        if study.has_bounds() {
-            notices.push("slider.bounds of the model are not run: vary the friction".to_owned());
-        }
         let id = id(&inputs);
         let model_path = model_path.clone();
         let plan_path = plan_path.to_owned();
@@ -126,18 +149,28 @@ fn load_all(
     folder: &Path,
     in_plan: &impl Fn(slipstick::error::InputError) -> StudyError,
     notices: &mut Vec<String>,
+    engine: &Engine<'_>,
 ) -> Result<Vec<Loaded>, StudyError> {
     let files = find(plan, "records.files", &records.files, folder).map_err(in_plan)?;
-    let files = if records.vertical.is_empty() { once(files, notices) } else { files };
+    let second = find(plan, "records.second", &records.second, folder).map_err(in_plan)?;
+    let alone = records.vertical.is_empty() && second.is_empty();
+    let files = if alone { once(files, notices) } else { files };
+    if !second.is_empty() && second.len() != files.len() {
+        let expected = format!("one other component for each of {} files", files.len());
+        let found = second.len().to_string();
+        return Err(in_plan(plan.error_at("records.second", expected, found)));
+    }
     let vertical = find(plan, "records.vertical", &records.vertical, folder).map_err(in_plan)?;
     if !vertical.is_empty() && vertical.len() != files.len() {
         let expected = format!("one vertical motion for each of {} files", files.len());
         let found = vertical.len().to_string();
         return Err(in_plan(plan.error_at("records.vertical", expected, found)));
     }
-    let mut all = Vec::with_capacity(files.len());
-    for (index, path) in files.into_iter().enumerate() {
-        let up = vertical.get(index).cloned();
+    let load = |index: usize| -> Result<Loaded, FileError> {
+        // The components of a pair stand beside each other.
+        let [pair, other] = if second.is_empty() { [index, 0] } else { [index / 2, index % 2] };
+        let path = if other == 0 { files[pair].clone() } else { second[pair].clone() };
+        let up = vertical.get(pair).cloned();
         let loaded = load_record(&RecordRequest {
             path: path.clone(),
             units: records.units,
@@ -150,14 +183,44 @@ fn load_all(
             }),
             ..RecordRequest::default()
         })?;
-        all.push(Loaded {
+        Ok(Loaded {
             name: name_from(folder, &path),
             vertical_name: up.as_deref().map(|path| name_from(folder, path)),
             paths: RecordPaths { horizontal: path, vertical: up },
             loaded,
-        });
-    }
-    Ok(all)
+        })
+    };
+    let all = engine.runs(files.len() + second.len(), load)?;
+    Ok(all.into_iter().collect::<Result<Vec<_>, FileError>>()?)
+}
+
+/// A spectrum from a table, and the hash of its file; else what is wrong with it.
+fn read_target(path: &Path) -> Result<(TargetSpectrum, String), String> {
+    let text = |error: &dyn std::fmt::Display| error.to_string();
+    let sha256 = sha256_hex(&read_bytes(path).map_err(|error| text(&error))?);
+    let read = read_table(&[path.to_owned()]).map_err(|error| text(&error))?;
+    let column = |name: &str, dimension: Dimension| {
+        let of = |column: &Column| {
+            let (base, unit) = column.name.split_once(['_', '[', '('])?;
+            let unit = unit.trim_end_matches([']', ')']).trim().replace("_per_", "/");
+            let unit = parse_unit(&unit, dimension).ok()?;
+            let values: Vec<f64> = match &column.cells {
+                // Every cell of CSV is a text.
+                Cells::Texts(texts) => {
+                    texts.iter().map(|text| text.trim().parse().ok()).collect::<Option<_>>()?
+                }
+                cells => cells.to_numbers()?,
+            };
+            (base.trim() == name).then(|| values.into_iter().map(|v| unit.to_si(v)).collect())
+        };
+        let known: Option<Vec<f64>> = read.table.columns.iter().find_map(of);
+        let names = || read.table.columns.iter().map(|c| c.name.as_str()).collect::<Vec<_>>();
+        known.ok_or_else(|| format!("the columns {}", names().join(", ")))
+    };
+    let periods_s = column("period", Dimension::Time)?;
+    let sa = column("sa", Dimension::Acceleration)?;
+    let spectrum = TargetSpectrum::points(periods_s, sa).map_err(|error| text(&error))?;
+    Ok((spectrum, sha256))
 }
 
 /// Each file once, and a notice of those that are named more than once.

@@ -20,6 +20,8 @@ pub(super) const PARTS: &str = "parts";
 /// What a study writes besides its parts.
 pub(super) const MANIFEST: &str = "manifest.json";
 pub(super) const SUMMARY: &str = "summary.csv";
+/// Its page, where one was asked for.
+pub const REPORT: &str = "report.html";
 
 fn names(folder: &Path) -> Result<Vec<String>, FileError> {
     let failed = |source| FileError::Read { path: folder.to_owned(), source };
@@ -98,7 +100,7 @@ pub fn clear(folder: &Path) -> Result<(), FileError> {
     for name in names(folder)? {
         let ours = part_of_name(&name).is_some()
             || leftover(&name).is_some()
-            || [MANIFEST, SUMMARY].contains(&name.as_str());
+            || [MANIFEST, SUMMARY, REPORT].contains(&name.as_str());
         if ours {
             remove(&folder.join(name))?;
         }

@@ -6,7 +6,8 @@ use super::{OpenStudy, StudyError};
 
 impl OpenStudy {
     /// The `slipstick run` line that gives the demands of a run, bit for bit; paths are relative to
-    /// the folder that the plan's path is relative to.
+    /// the folder that the plan's path is relative to. With bounds of friction it runs all of them, and
+    /// a comment says which is the row's.
     ///
     /// # Errors
     /// [`StudyError::OutOfRange`] for a run that the study does not have.
@@ -31,7 +32,13 @@ impl OpenStudy {
         for pair in set {
             words.extend(["--set".to_owned(), pair]);
         }
-        Ok(words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" "))
+        let line = words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
+        Ok(match self.study.bound(case).name {
+            "nominal" => line,
+            name => {
+                format!("{line}  # the row is that of {name} friction, bounds.{name} of --json")
+            }
+        })
     }
 
     /// The record by the options of `run`; with a vertical component, which those do not have, by

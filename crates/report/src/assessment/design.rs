@@ -4,7 +4,7 @@ mod figures;
 
 use slipstick::assessment::FailedRun;
 use slipstick::assessment::design::{
-    Bounded, Figures, Found, Point, Sensitivity, SensitivityError, Target,
+    Bounded, DesignMap, Figures, Found, Point, Sensitivity, SensitivityError, Target,
 };
 use slipstick::assessment::grid::Axis;
 use slipstick::assessment::sensitivity::Index;
@@ -37,6 +37,8 @@ pub struct DesignReport<'a> {
     pub found: &'a Found,
     /// Factors on friction and the designs of the front (or the nearest) with them.
     pub bounds: Option<([f64; 2], &'a [Bounded])>,
+    /// Both figures over the two main variables.
+    pub map: Option<&'a DesignMap>,
     /// Sensitivity, where asked for, or why there is none.
     pub sensitivity: Option<&'a Result<Sensitivity, SensitivityError>>,
     /// Confidence of intervals.

@@ -1,8 +1,7 @@
 //! Models on the records of suites, side by side, and what governs.
 
-use slipstick::assessment::histories::{
-    Bound, Histories, ModelHistories, OnRecord, RECORDS_OF_A_MEAN,
-};
+use slipstick::assessment::histories::{Histories, ModelHistories, OnRecord, RECORDS_OF_A_MEAN};
+use slipstick::input::Bound;
 use slipstick::response::{DemandColumn, Warning};
 use slipstick::table::{Cells, Column, Table};
 

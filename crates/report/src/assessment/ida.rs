@@ -1,10 +1,15 @@
 //! Incremental dynamic analysis.
 
+mod family;
+
 use slipstick::assessment::FailedRun;
 use slipstick::assessment::fragility::Fragility;
 use slipstick::assessment::ida::{Crossing, Curve, demand_fractiles, level_fractiles};
+use slipstick::assessment::observed::Averaged;
 use slipstick::numerics::fractile::SHARES;
 use slipstick::response::Warning;
+
+pub use family::IdaFamily;
 
 use super::key::{of_measure, quantity, title};
 use super::lines::{FRACTILES, RECORD, clipped, line, panel, share_names, single};
@@ -29,10 +34,12 @@ pub struct IdaReport<'a> {
     pub demand: &'a str,
     /// The limit on the demand, SI, where one is asked for.
     pub limit: Option<f64>,
-    /// Names of the records.
+    /// What each curve is of: a record, with its design where there are several.
     pub records: &'a [String],
-    /// Their curves.
+    /// The curves.
     pub curves: &'a [Curve],
+    /// Designs that it averages over.
+    pub averaged: &'a Averaged,
     /// Whether the levels are the same for all records; else they were hunted.
     pub fixed_levels: bool,
     /// A lognormal fit of the capacities, or why there is none.
@@ -117,10 +124,10 @@ impl IdaReport<'_> {
         Sheet {
             kind: "Incremental dynamic analysis",
             name: self.name.to_owned(),
-            first: None,
+            first: self.first(),
             line: format!(
-                "{} records, {} runs, {} over {}, {what}",
-                self.records.len(),
+                "{}, {} runs, {} over {}, {what}",
+                self.of_what(),
                 self.runs(),
                 title(self.demand),
                 self.measure
@@ -136,6 +143,23 @@ impl IdaReport<'_> {
         }
     }
 
+    /// Records, and designs where there are several.
+    fn of_what(&self) -> String {
+        let designs = self.averaged.designs.max(1);
+        let records = format!("{} records", self.records.len() / designs);
+        if designs == 1 { records } else { format!("{records} × {designs} designs") }
+    }
+
+    /// What the curves are called that fractiles are taken of.
+    fn each(&self) -> &'static str {
+        if self.averaged.designs > 1 { "curves" } else { "records" }
+    }
+
+    /// Over what it averages.
+    fn first(&self) -> Option<(&'static str, String)> {
+        (self.averaged.designs > 1).then(|| ("Fitted", format!("to all curves, {}", self.averaged)))
+    }
+
     /// The intensity at which records reach the limit, or the demand at the highest level.
     fn verdict(&self) -> Vec<String> {
         let (im, edp) = (self.measure_unit(), self.demand_unit());
@@ -144,8 +168,9 @@ impl IdaReport<'_> {
             let [low, middle, high] = level_fractiles(self.curves, limit).map(|v| cell(im.of(v)));
             let limit = format!("{} {}", cell(edp.of(limit)), edp.symbol);
             return vec![format!(
-                "Half of the records reach a {what} of {} at {} = {middle} {} (16 to 84 %: {low} to \
+                "Half of the {} reach a {what} of {} at {} = {middle} {} (16 to 84 %: {low} to \
                  {high} {}).",
+                self.each(),
                 limit.trim_end(),
                 self.measure,
                 im.symbol,
@@ -189,9 +214,10 @@ impl IdaReport<'_> {
             let never = self.crossings().iter().filter(|crossing| !crossing.reached).count();
             if never > 0 {
                 let message = format!(
-                    "{never} of {} records do not reach the limit at their highest level: their \
+                    "{never} of {} {} do not reach the limit at their highest level: their \
                      capacity is known from below only",
-                    self.records.len()
+                    self.records.len(),
+                    self.each()
                 );
                 all.push(Warning { kind: "limit_not_reached", time_s: None, message });
             }
@@ -391,6 +417,16 @@ impl IdaReport<'_> {
             ("lognormal", fit),
             ("demand_by_level", table(self.demands_by_level(), "level")),
             ("level_by_demand", table(self.levels_by_demand(), "demand")),
+            (
+                "averaged",
+                Json::Object(vec![
+                    (
+                        "paths",
+                        Json::List(self.averaged.paths.iter().map(|p| p.as_str().into()).collect()),
+                    ),
+                    ("designs", Json::Count(self.averaged.designs as u64)),
+                ]),
+            ),
             ("records", Json::List(records)),
         ])
     }

@@ -149,7 +149,7 @@ fn table_list(out: &mut Markup, tables: &[(String, Vec<Vec<String>>)]) {
 }
 
 /// A number of a table: four digits, or a dash where there is none.
-pub(in crate::assessment) fn cell(value: f64) -> String {
+pub(crate) fn cell(value: f64) -> String {
     if value.is_finite() { crate::number::significant(value, 4) } else { "—".to_owned() }
 }
 

@@ -55,7 +55,15 @@ pub fn group_names(run: &SpectrumRun) -> Vec<String> {
         };
         run.group_paths.iter().zip(values).map(of).collect::<Vec<_>>().join(", ")
     };
-    run.groups.iter().map(name).collect()
+    let names = run.groups.iter().map(name);
+    if run.group_bounds.is_empty() {
+        return names.collect();
+    }
+    let of_bound = |(name, bound): (String, &&str)| match name.as_str() {
+        "" => format!("{bound} friction"),
+        name => format!("{name}, {bound} friction"),
+    };
+    names.zip(&run.group_bounds).map(of_bound).collect()
 }
 
 /// The last word of a path, which says enough in a legend.

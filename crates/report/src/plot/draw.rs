@@ -152,7 +152,8 @@ impl Entry<'_> {
 }
 
 fn entries(panel: &Panel) -> Vec<Entry<'_>> {
-    let named = panel.series.iter().filter(|series| !series.label.is_empty());
+    let in_legend = |series: &&Series| !series.label.is_empty() && series.shape != Shape::Named;
+    let named = panel.series.iter().filter(in_legend);
     let mut entries: Vec<Entry> =
         named.map(|series| Entry { sample: Some(series), text: &series.label }).collect();
     if !panel.note.is_empty() {
@@ -363,6 +364,20 @@ fn draw_series(out: &mut Markup, panel: &Panel, series: &Series, frame: Frame) {
             for at in placed {
                 dot(out, series.style, fill, at);
             }
+            return;
+        }
+        Shape::Named => {
+            out.raw("<g paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"3\"")
+                .attribute("fill", series.style.colour)
+                .raw(">");
+            let half = 0.5 * text_width(&series.label, SMALL);
+            for [x, y] in placed {
+                // Inside the frame, whole.
+                let x = x.clamp(frame.left + half + 2.0, frame.right() - half - 2.0);
+                let y = (y + 0.35 * SMALL).clamp(frame.top + SMALL, frame.bottom() - 3.0);
+                label(out, &series.label, x, y, "middle", SMALL);
+            }
+            out.raw("</g>\n");
             return;
         }
     };

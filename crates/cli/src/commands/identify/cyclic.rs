@@ -7,7 +7,7 @@ use slipstick::input::Channel;
 use slipstick::laboratory::cyclic::{CyclicTest, cyclic as fit_cyclic, estimates, zero_not_stated};
 use slipstick::laboratory::measured::{Measured, Series};
 use slipstick::units::{Dimension, STANDARD_GRAVITY_M_PER_S2};
-use slipstick_files::{expand_all, read_mapping, read_measured};
+use slipstick_files::{expand_all, read_mapping, read_measured, time_left};
 use slipstick_report::IdentifyReport;
 use slipstick_report::laboratory::cyclic::{
     ASSUMPTION, Test, by_test, facts, figures, json, table,
@@ -18,7 +18,7 @@ use crate::args::{CyclicArgs, Part};
 use crate::commands::compare::WentIn;
 use crate::commands::run::{ModelFile, command_line, read_model};
 use crate::failure::Failure;
-use crate::progress::watched;
+use crate::progress::{TRIAL, estimated, watched};
 
 /// Identifies friction, spring and damper from one or several cyclic tests.
 pub fn cyclic(args: &CyclicArgs) -> Result<ExitCode, Failure> {
@@ -58,10 +58,10 @@ pub fn cyclic(args: &CyclicArgs) -> Result<ExitCode, Failure> {
     let mut fits = Vec::new();
     for (measured, _) in &files {
         let (displacement, force) = histories(measured)?;
-        let test = CyclicTest {
-            times_s: &displacement.times_s,
-            displacement_m: &displacement.values,
-            force_n: &force.values,
+        let test = |samples: usize| CyclicTest {
+            times_s: first_of(&displacement.times_s, samples),
+            displacement_m: first_of(&displacement.values, samples),
+            force_n: first_of(&force.values, samples),
             slack_m,
             spring: !args.without.contains(&Part::Spring),
             damper: !args.without.contains(&Part::Damper),
@@ -69,7 +69,12 @@ pub fn cyclic(args: &CyclicArgs) -> Result<ExitCode, Failure> {
             zero_known: force.zero_known
                 && (displacement.zero_known || args.without.contains(&Part::Spring)),
         };
-        let fit = fit_cyclic(&test);
+        let count = displacement.times_s.len();
+        let first = |samples| fit_cyclic(&test(samples)).ok().map(|_| ());
+        // Less than half of a test may lack the cycles that a fit needs.
+        let estimate = || time_left([count / 2, count], TRIAL, first);
+        let fit = || fit_cyclic(&test(usize::MAX));
+        let fit = estimated("fitting", args.result.quiet, &estimate, fit);
         let name = &measured.source_name;
         fits.push(fit.map_err(|error| Failure::CannotTell(format!("{name}: {error}")))?);
     }
@@ -122,6 +127,10 @@ pub fn cyclic(args: &CyclicArgs) -> Result<ExitCode, Failure> {
         display: args.result.display_units.into(),
     };
     finish(&args.result, folder, &report, &more)
+}
+
+fn first_of(values: &[f64], count: usize) -> &[f64] {
+    values.get(..count).unwrap_or(values)
 }
 
 /// Displacement and force of a file.

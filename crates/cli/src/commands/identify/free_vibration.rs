@@ -7,7 +7,7 @@ use slipstick::input::Channel;
 use slipstick::laboratory::free_vibration::free_vibration as fit_free_vibration;
 use slipstick::laboratory::measured::{Measured, Series};
 use slipstick::units::Dimension;
-use slipstick_files::{read_mapping, read_measured};
+use slipstick_files::{read_mapping, read_measured, time_left};
 use slipstick_report::IdentifyReport;
 use slipstick_report::laboratory::free_vibration::{ASSUMPTION, facts, figures, json};
 
@@ -16,7 +16,7 @@ use crate::args::FreeVibrationArgs;
 use crate::commands::compare::WentIn;
 use crate::commands::run::{command_line, read_model};
 use crate::failure::Failure;
-use crate::progress::watched;
+use crate::progress::{TRIAL, estimated, watched};
 
 /// Identifies frequency and damping ratio of the storey.
 pub fn free_vibration(args: &FreeVibrationArgs) -> Result<ExitCode, Failure> {
@@ -44,7 +44,10 @@ pub fn free_vibration(args: &FreeVibrationArgs) -> Result<ExitCode, Failure> {
         .filter(|(t, _)| inside(t))
         .map(|(t, v)| (*t, *v))
         .unzip();
-    let fit = watched("fitting", args.result.quiet, || fit_free_vibration(&times_s, &values));
+    let work = |samples: usize| fit_free_vibration(&times_s[..samples], &values[..samples]);
+    let first = |samples| Some(work(samples)).map(|_| ());
+    let estimate = || time_left([1024, times_s.len()], TRIAL, first);
+    let fit = estimated("fitting", args.result.quiet, &estimate, || work(times_s.len()));
     let estimates = vec![fit.frequency.clone(), fit.damping_ratio.clone()];
     let mut warnings = measured.warnings.clone();
     let mut more = Vec::new();

@@ -41,10 +41,11 @@ pub(super) fn designs(
     let mut paths = Vec::new();
     let mut values: Vec<Vec<f64>> = Vec::new();
     for column in &columns.table.columns {
-        if !is_path(&column.name) {
-            continue;
-        }
-        let cells = columns.numbers_or_nan(&column.name)?;
+        let cells = match &column.cells {
+            Cells::Texts(texts) if column.name == FRICTION => numbered(texts),
+            _ if is_path(&column.name) => columns.numbers_or_nan(&column.name)?,
+            _ => continue,
+        };
         let first = cells.first().map(|value| value.to_bits());
         if cells.iter().any(|value| Some(value.to_bits()) != first) {
             paths.push(column.name.clone());
@@ -57,6 +58,18 @@ pub(super) fn designs(
     let key = |row: usize| values.iter().map(|cells| cells[row].to_bits()).collect::<Vec<_>>();
     let designs = Records::numbered((0..columns.table.rows()).map(key));
     Ok((paths, Some(designs)))
+}
+
+/// The column that names the bound of friction of a run.
+pub const FRICTION: &str = "friction";
+
+/// Texts as numbers, the same for the same text.
+fn numbered(texts: &[String]) -> Vec<f64> {
+    let mut known: Vec<&String> = texts.iter().collect();
+    known.sort_unstable();
+    known.dedup();
+    let number = |text: &String| known.partition_point(|other| *other < text) as f64;
+    texts.iter().map(number).collect()
 }
 
 pub(super) fn averaged(columns: Columns<'_>) -> Result<Averaged, AssessmentError> {
@@ -77,6 +90,14 @@ pub(super) fn keep(
     if conditions.is_empty() {
         return Ok(None);
     }
+    Ok(Some(columns.table.select(&kept(columns, conditions)?)))
+}
+
+/// The numbers of the rows that satisfy all conditions.
+pub(super) fn kept(
+    columns: Columns<'_>,
+    conditions: &[String],
+) -> Result<Vec<usize>, AssessmentError> {
     let mut kept: Vec<usize> = (0..columns.table.rows()).collect();
     for condition in conditions {
         let Some((path, wanted)) = condition.split_once('=') else {
@@ -98,7 +119,7 @@ pub(super) fn keep(
             return Err(refuse(&format!("where {path}"), expected, format!("{wanted:?}")));
         }
     }
-    Ok(Some(columns.table.select(&kept)))
+    Ok(kept)
 }
 
 /// The rows of each value of a column, in rising order, and the SI unit of the values.

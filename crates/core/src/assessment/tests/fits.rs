@@ -12,6 +12,7 @@ use crate::numerics::distribution::{
     beta_quantile, chi_squared_tail, ln_normal_cdf, normal_cdf, normal_hazard, normal_quantile,
 };
 use crate::numerics::fractile::{fractile, fractiles, held_by, needed, sorted};
+use crate::study::engine::Engine;
 
 fn reference() -> Value {
     let text = include_str!("../../../../../data/reference/fragility.json");
@@ -321,7 +322,7 @@ fn prop_bootstrap_over_records_is_near_the_sandwich() {
         .collect();
     let records: Vec<usize> = rows.iter().map(|row| count(row, 0) as usize).collect();
     let sandwich = Fragility::of_stripes_by_record(&stripes, &records).unwrap();
-    let drawn = sandwich.clone().bootstrapped(1000, 1);
+    let drawn = sandwich.clone().bootstrapped(1000, 1, &Engine::unwatched()).unwrap();
     let Certainty::Bootstrap { records, curves, failed } = drawn.certainty() else {
         panic!("a bootstrap");
     };
@@ -334,8 +335,8 @@ fn prop_bootstrap_over_records_is_near_the_sandwich() {
     assert!(low < sandwich.curve().median && sandwich.curve().median < high);
     let [low, high] = drawn.band(0.5, 0.9);
     assert!(0.5 < low && low < high && high < 0.95);
-    assert_eq!(sandwich.clone().bootstrapped(1000, 1), drawn);
-    assert_ne!(sandwich.bootstrapped(1000, 2), drawn);
+    assert_eq!(sandwich.clone().bootstrapped(1000, 1, &Engine::unwatched()).unwrap(), drawn);
+    assert_ne!(sandwich.bootstrapped(1000, 2, &Engine::unwatched()).unwrap(), drawn);
 }
 
 /// Without censoring and with equal weights: mean and standard deviation with n.

@@ -12,6 +12,7 @@ use crate::assessment::observed::{Data, FitTo, FragilityRequest, run_fragility};
 use crate::assessment::spectrum::{SpectrumRequest, run_spectrum};
 use crate::assessment::suite::{Scaling, Suite, SuiteRecord};
 use crate::error::Stopped;
+use crate::input::Bound;
 use crate::motion::GroundMotion;
 use crate::motion::intensity::Measure;
 use crate::response::demand_values;
@@ -56,7 +57,8 @@ fn exact_runs_of_a_spectrum_are_those_of_each_model_alone() {
         [("friction", "slider.kinetic_friction=0.02,0.05"), ("over", "storey.1.period=0.2..1s:4")];
     let (models, suite) = (models(&varied), suite());
     let scaling = Scaling::Level(Measure::Pga, 3.0);
-    let request = SpectrumRequest { models: &models, suite: &suite, scaling, demands: &[] };
+    let request =
+        SpectrumRequest { models: &models, suite: &suite, scaling, demands: &[], bounds: &[] };
     let run = run_spectrum(&request, &Engine::unwatched()).unwrap();
     assert_eq!((run.runs, request.runs(), run.failures.len()), (40, 40, 0));
     let column = |name: &str| match &run.rows.find(name).unwrap().cells {
@@ -93,10 +95,13 @@ fn exact_a_fragility_comes_of_an_ida_without_a_file() {
         demand,
         limit: Some(0.02),
         levels,
+        bounds: &[],
+        keep: &[],
+        by: None,
     };
     let run = run_ida(&request, &Engine::unwatched()).unwrap();
-    assert_eq!((run.curves.len(), run.rows.rows()), (5, 25));
-    let fragility = run_fragility(&FragilityRequest {
+    assert_eq!((run.groups[0].curves.len(), run.rows.rows()), (5, 25));
+    let fitted = FragilityRequest {
         table: &run.rows,
         source_name: "ida",
         demand,
@@ -108,16 +113,17 @@ fn exact_a_fragility_comes_of_an_ida_without_a_file() {
         cap: None,
         keep: &[],
         bootstrap: None,
-    });
+    };
+    let fragility = run_fragility(&fitted, &Engine::unwatched());
     let fragility = fragility.unwrap();
     assert_eq!((fragility.measure.as_str(), fragility.measure_unit.as_str()), ("PGA", "m/s2"));
     let Data::Capacities(capacities) = &fragility.data else { panic!("{:?}", fragility.data) };
-    let of_curves = run.curves.iter().map(|curve| curve.first_crossing(0.02).level);
+    let of_curves = run.groups[0].curves.iter().map(|curve| curve.first_crossing(0.02).level);
     assert!(capacities.iter().map(|c| c.level).eq(of_curves));
 
     let hunt = IdaRequest { levels: IdaLevels::Hunt { start: 0.1, top: 20.0 }, ..request };
     let run = run_ida(&hunt, &Engine::unwatched()).unwrap();
-    for (curve, fixed) in run.curves.iter().zip(capacities) {
+    for (curve, fixed) in run.groups[0].curves.iter().zip(capacities) {
         let crossing = curve.first_crossing(0.02);
         let [low, high] = crossing.between;
         assert!(crossing.reached && high - low <= 0.01 * high, "{crossing:?} {fixed:?}");
@@ -162,6 +168,16 @@ fn exact_the_front_of_a_design_is_that_of_all_runs() {
         demands.sort_by(|a, b| a[1].total_cmp(&b[1]));
         assert_eq!(point.figures.acceleration_m_per_s2, demands[2][1]);
     }
+    // The map has the figures of every design of the grid, which is small enough.
+    let map = run.map.as_ref().unwrap();
+    assert_eq!((map.variables, map.x.len(), map.y.len()), ([0, 1], 5, 4));
+    for point in &run.found.front {
+        let values = models.grid().values(point.design);
+        let i = map.x.iter().position(|x| *x == values[0]).unwrap();
+        let j = map.y.iter().position(|y| *y == values[1]).unwrap();
+        assert_eq!(map.displacement_m[i * 4 + j], point.figures.displacement_m);
+        assert_eq!(map.acceleration_m_per_s2[i * 4 + j], point.figures.acceleration_m_per_s2);
+    }
     assert_eq!(run.bounded.unwrap().len(), run.found.front.len());
     assert!(run.sensitivity.unwrap().is_ok());
     after(3, |engine| run_design(&request, engine).unwrap_err());
@@ -185,11 +201,83 @@ fn exact_runs_do_not_depend_on_threads() {
     let varied = [("over", "storey.1.period=0.2..1s:6")];
     let (models, suite) = (models(&varied), suite());
     let scaling = Scaling::Factor(1.5);
-    let request = SpectrumRequest { models: &models, suite: &suite, scaling, demands: &[] };
+    let request =
+        SpectrumRequest { models: &models, suite: &suite, scaling, demands: &[], bounds: &[] };
     let run = || format!("{:?}", run_spectrum(&request, &Engine::unwatched()).unwrap().rows);
     let alone = run();
     for threads in [1, 3] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         assert_eq!(pool.install(run), alone, "{threads} threads");
     }
+}
+
+/// Designs of an incremental dynamic analysis are run as each alone; averaged, taken apart and kept.
+#[test]
+fn exact_designs_of_an_ida_are_those_of_each_alone() {
+    let (alone, suite) = (models(&[]), suite());
+    let demand = "peak_sliding_displacement_m";
+    let bounds = [Bound { name: "lower", friction_factor: 0.8 }, Bound::NOMINAL];
+    let request = |models, bounds, keep, by| IdaRequest {
+        models,
+        bounds,
+        suite: &suite,
+        measure: Measure::Pga,
+        demand,
+        limit: Some(0.02),
+        levels: IdaLevels::Fixed(vec![1.0, 2.0, 4.0]),
+        keep,
+        by,
+    };
+    let engine = Engine::unwatched();
+    let run = |models, bounds, keep, by| run_ida(&request(models, bounds, keep, by), &engine);
+    let one = run(&alone, &[], &[], None).unwrap();
+    let varied = models(&[("vary", "slider.radius=2, 3 m")]);
+    let all = run(&varied, &bounds, &[], Some("slider.radius")).unwrap();
+    assert_eq!(all.by, Some(("slider.radius".to_owned(), "m".to_owned())));
+    assert_eq!(all.groups.iter().map(|group| group.value).collect::<Vec<_>>(), [2.0, 3.0]);
+    let averaged = &all.groups[0].averaged;
+    assert_eq!(averaged.to_string(), "averaged over friction: 2 designs");
+    assert_eq!(all.groups[0].names[0], "r0, lower");
+    // The second half of the first group is the model as it stands.
+    assert_eq!(all.groups[0].curves[5..], one.groups[0].curves);
+    assert_eq!((all.rows.rows(), all.capacities.unwrap().rows()), (60, 20));
+
+    let radius = ["slider.radius=2 m".to_owned()];
+    let by_bound = run(&varied, &bounds, &radius, None).unwrap();
+    assert_eq!(by_bound.by.unwrap().0, "friction");
+    assert_eq!(by_bound.groups.len(), 2);
+    assert_eq!(by_bound.groups[1].curves, one.groups[0].curves);
+    assert_eq!(by_bound.groups[0].text, "lower");
+    assert_eq!(by_bound.groups[1].averaged.designs, 1);
+
+    let both = run(&varied, &[], &[], None).unwrap();
+    assert_eq!(both.groups[0].averaged.to_string(), "averaged over slider.radius: 2 designs");
+    assert_eq!(both.groups[0].names[9], "r4, 3 m");
+    let error = run(&varied, &[], &[], Some("slider.radios")).unwrap_err().to_string();
+    assert!(error.contains("nearest is \"slider.radius\""), "{error}");
+}
+
+/// A spectrum with bounds of friction has a group of curves for each, the runs of each alone.
+#[test]
+fn exact_bounds_of_a_spectrum_are_groups() {
+    let (models, suite) = (models(&[("over", "slider.radius=1, 2, 3 m")]), suite());
+    let scaling = Scaling::Level(Measure::Pga, 3.0);
+    let upper = Bound { name: "upper", friction_factor: 1.3 };
+    let run = |bounds| {
+        let request =
+            SpectrumRequest { models: &models, suite: &suite, scaling, demands: &[], bounds };
+        run_spectrum(&request, &Engine::unwatched()).unwrap()
+    };
+    let (plain, both) = (run(&[]), run(&[Bound::NOMINAL, upper]));
+    assert_eq!((plain.runs, both.runs), (15, 30));
+    assert_eq!(both.group_bounds, ["nominal", "upper"]);
+    assert!(plain.group_bounds.is_empty() && plain.rows.find("friction").is_none());
+    assert_eq!(both.curves[0].singles[0], plain.curves[0].singles[0]);
+    let parts = models.parts(&[3.0]).unwrap();
+    let factors = suite.factors(&scaling, &Engine::unwatched()).unwrap();
+    let motion = suite.motion(4, factors[4], 1.0).unwrap();
+    let alone = solver::exact_demands(&upper.of(&parts.model), &motion).unwrap().demands;
+    assert_eq!(both.curves[0].singles[1][4][2], alone.peak_sliding_displacement_m);
+    let Cells::Texts(friction) = &both.rows.find("friction").unwrap().cells else { panic!() };
+    assert_eq!((friction[0].as_str(), friction[29].as_str()), ("nominal", "upper"));
 }

@@ -1,11 +1,12 @@
 //! The ground motions of a plan and their levels.
 
-use super::{Levels, Records};
+use super::{Levels, Records, Target};
 use crate::error::{InputError, MeasureError};
 use crate::input::reader::{Given, Values};
 use crate::input::schema::{Range, Special};
 use crate::input::tree::{Node, Value};
-use crate::motion::intensity::Measure;
+use crate::motion::intensity::LevelMeasure;
+use crate::motion::target::TargetSpectrum;
 use crate::record::Units;
 use crate::units::Dimension;
 
@@ -29,10 +30,41 @@ pub(super) fn read(values: &Values) -> Result<Option<Records>, InputError> {
         unit_name,
         dt_s: values.number("records.dt"),
         channel: values.leaf("records.channel").map(|leaf| leaf.written.clone()),
+        second: texts("records.second"),
+        target: target(values)?,
         vertical: texts("records.vertical"),
         vertical_scale: values.number("records.vertical_scale"),
         levels: levels(values)?,
     }))
+}
+
+/// The spectrum to which pairs are brought, and the periods over which.
+fn target(values: &Values) -> Result<Option<(Target, [f64; 2])>, InputError> {
+    let place = "records.periods";
+    let periods = values.numbers(place);
+    let number = |key: &str| values.number(&format!("records.code_spectrum.{key}"));
+    let target = match (values.text("records.target"), number("sds"), number("sd1"), number("tl")) {
+        (Some(path), ..) => Target::File(path.to_owned()),
+        (_, Some(sds_m_per_s2), Some(sd1_m_per_s2), Some(tl_s)) => {
+            Target::Shape(TargetSpectrum::Code { sds_m_per_s2, sd1_m_per_s2, tl_s })
+        }
+        _ if periods.is_some() => {
+            let expected = "target or code_spectrum beside periods";
+            return Err(values.error(place, expected, "neither"));
+        }
+        _ => return Ok(None),
+    };
+    match periods.as_deref() {
+        Some([from_s, to_s]) if from_s < to_s => Ok(Some((target, [*from_s, *to_s]))),
+        Some(list) => {
+            let expected = "two periods, the shorter first";
+            Err(values.error(place, expected, format!("{list:?} s")))
+        }
+        None => {
+            let expected = "the first and last period of the range, [\"0.4 s\", \"4 s\"]";
+            Err(values.error(place, expected, "nothing"))
+        }
+    }
 }
 
 fn levels(values: &Values) -> Result<Levels, InputError> {
@@ -54,7 +86,7 @@ fn levels(values: &Values) -> Result<Levels, InputError> {
         return Ok(Levels::Factors(factors));
     };
     let place = "records.measure";
-    let parsed = Measure::parse(measure).map_err(|error| {
+    let parsed = LevelMeasure::parse(measure).map_err(|error| {
         let MeasureError { expected, found, nearest } = error;
         InputError { nearest, ..values.error(place, expected, format!("\"{found}\"")) }
     })?;
@@ -68,6 +100,10 @@ fn levels(values: &Values) -> Result<Levels, InputError> {
         let expected = "a measure that grows as the motion does, such as PGA or Sa(1.2 s)";
         return Err(values.wrong(place, expected));
     };
+    if parsed.rotated.is_some() && !values.has("records.second") {
+        let expected = "the other components, second = \"…\", beside a measure of pairs";
+        return Err(values.wrong(place, expected));
+    }
     let node = values.special("records.levels");
     let Some(Node { value: Value::List(items), .. }) = node else {
         let expected = Special::Levels.expected();

@@ -119,7 +119,10 @@ fn takes(values: &Values, path: &str, key: &Spot) -> Result<Takes, InputError> {
         Err((expected, nearest)) => return Err(refuse(&expected, nearest)),
     };
     if path.starts_with("slider.bounds.") {
-        return Err(refuse("a path that a study uses: it runs no bounds, vary the friction", None));
+        return Err(refuse(
+            "a path that a study varies: bounds of friction are chosen by bounds = \"all\", or vary the friction",
+            None,
+        ));
     }
     let numbered = path.rsplit('.').next().is_some_and(|last| last.parse::<usize>().is_ok());
     let (dimension, or_ratio, range) = match kind {

@@ -47,7 +47,16 @@ correlation = [["slider.kinetic_friction", "slider.radius", 0.3]]
     let records = plan.records.unwrap();
     assert_eq!(records.files, ["far-field/*.AT2"]);
     let levels = [0.1, 0.2, 0.4].map(|g| g * 9.80665).to_vec();
-    assert_eq!(records.levels, Levels::Measure { measure: Measure::Pga, levels });
+    assert_eq!(
+        records.levels,
+        Levels::Measure {
+            measure: crate::motion::intensity::LevelMeasure {
+                measure: Measure::Pga,
+                rotated: None
+            },
+            levels
+        }
+    );
     let paths: Vec<_> = plan.vary.iter().map(|varied| varied.path.as_str()).collect();
     assert_eq!(paths, ["slider.kinetic_friction", "slider.static_friction", "slider.radius"]);
     assert_eq!(plan.vary[1].factor_of.as_deref(), Some("slider.kinetic_friction"));
@@ -131,7 +140,7 @@ fn exact_errors_say_where_and_what() {
     let cases = [
         (
             "modle = \"m.toml\"\n".to_owned(),
-            "p.toml:1:1: modle: expected one of the keys name, model, records, vary, sampling, found \"modle\"; nearest is \"model\"",
+            "p.toml:1:1: modle: expected one of the keys name, model, bounds, records, vary, sampling, found \"modle\"; nearest is \"model\"",
         ),
         (
             "name = \"x\"\n".to_owned(),
@@ -155,7 +164,7 @@ fn exact_errors_say_where_and_what() {
         ),
         (
             one("slider.bounds.lower", "{ values = [1] }"),
-            "p.toml:3:1: vary.slider.bounds.lower: expected a path that a study uses: it runs no bounds, vary the friction, found \"slider.bounds.lower\"",
+            "p.toml:3:1: vary.slider.bounds.lower: expected a path that a study varies: bounds of friction are chosen by bounds = \"all\", or vary the friction, found \"slider.bounds.lower\"",
         ),
         (
             one("slider.radius", "{ values = [\"1 kg\"] }"),

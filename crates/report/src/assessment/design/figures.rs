@@ -1,26 +1,20 @@
 //! The front, and where its designs lie.
 
-use slipstick::assessment::design::{Figures, Point};
-
-use slipstick::assessment::design::Bounded;
+use slipstick::assessment::design::{Bounded, DesignMap, Figures, Point};
 use slipstick::assessment::grid::Axis as Variable;
 
 use super::{DesignReport, label};
-use crate::assessment::lines::{line, panel, single};
+use crate::assessment::lines::{line, panel, single, stacked};
+use crate::display::Unit;
 use crate::figures::Drawn;
 use crate::number::compact;
-use crate::plot::{Axis, Series, Shape, Style};
+use crate::plot::{Axis, Series, Shape, Style, contour, levels};
 
 impl DesignReport<'_> {
     pub(super) fn figures(&self) -> Vec<Drawn> {
-        if self.found.front.is_empty() {
-            return Vec::new();
-        }
-        let mut figures = vec![self.front_figure()];
-        if self.variables.len() == 2 {
-            figures.push(self.plane_figure());
-        }
-        figures
+        let front = (!self.found.front.is_empty()).then(|| self.front_figure());
+        let map = self.map.map(|map| self.map_figure(map));
+        front.into_iter().chain(map).collect()
     }
 
     fn front_figure(&self) -> Drawn {
@@ -77,30 +71,88 @@ impl DesignReport<'_> {
         single("front", "Front", caption, frame)
     }
 
-    fn plane_figure(&self) -> Drawn {
+    /// Lines of equal displacement and equal acceleration over the two main variables.
+    fn map_figure(&self, map: &DesignMap) -> Drawn {
+        let [x, y] = map.variables.map(|i| &self.variables[i]);
+        let only = self.variables.len() == 2;
         let at = |point: &Point| {
             let values = self.values(point.design);
-            [values[0], values[1]]
+            map.variables.map(|i| values[i])
         };
-        let points: Vec<[f64; 2]> = self.found.front.iter().map(at).collect();
-        let chosen = points.last().copied();
-        let range = |v: &Variable| {
-            let ends = v
-                .values
-                .iter()
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(*x), h.max(*x)));
-            let margin = 0.04 * (ends.1 - ends.0);
-            (ends.0 - margin, ends.1 + margin)
+        let front: Vec<[f64; 2]> = self.found.front.iter().map(at).collect();
+        let main = self.found.chosen().or(self.found.nearest);
+        let axis = |variable: &Variable, values: &[f64]| {
+            let (low, high) = (values[0], values[values.len() - 1]);
+            Axis::linear(label(variable), low, high)
         };
-        let [x, y] = [&self.variables[0], &self.variables[1]].map(|v| {
-            let (low, high) = range(v);
-            Axis::linear(label(v), low, high)
-        });
-        let frame = panel(x, y, 240.0, vec![dots("front", "#0b3c6f", points), ring(chosen)]);
-        let caption =
-            "Where the designs of the front lie among those looked at; the chosen one is ringed.";
-        single("plane", "Designs of the front", caption.to_owned(), frame)
+        let (l, a) = (self.length(), self.acceleration_unit());
+        let of = |values: &[f64], unit: Unit, what: &str, limit: Option<f64>| {
+            let shown: Vec<f64> = values.iter().map(|value| unit.of(*value)).collect();
+            let finite = || shown.iter().copied().filter(|value| value.is_finite());
+            let low = finite().fold(f64::INFINITY, f64::min);
+            let high = finite().fold(f64::NEG_INFINITY, f64::max);
+            let mut series = Vec::new();
+            let mut names = Vec::new();
+            let beside =
+                |level: &f64| limit.is_none_or(|limit| (level - limit).abs() > 1e-3 * (high - low));
+            for level in levels(low, high, LINES).into_iter().filter(beside) {
+                let style = Style { width: 0.9, ..Style::MAIN };
+                add_lines(&mut series, &mut names, map, &shown, level, style, compact(level));
+            }
+            if let Some(limit) = limit {
+                let name = format!("gap {}", compact(limit));
+                add_lines(&mut series, &mut names, map, &shown, limit, Style::LIMIT, name);
+            }
+            if only {
+                series.push(dots("front", "#0b3c6f", front.clone()));
+            }
+            series.push(ring(main.as_ref().map(at)));
+            series.extend(names);
+            // The heading of the panel stands where the label of its axis does.
+            let heading = unit.label(what);
+            let y = Axis { label: format!("{}; {heading}", label(y)), ..axis(y, &map.y) };
+            panel(axis(x, &map.x), y, 250.0, series)
+        };
+        let panels = vec![
+            of(&map.displacement_m, l, "lines of displacement", Some(l.of(self.target.gap_m))),
+            of(&map.acceleration_m_per_s2, a, "lines of acceleration", None),
+        ];
+        let others = if only { "" } else { ", the other variables as in the chosen design" };
+        let points = if only { " Points: the front." } else { "" };
+        let caption = format!(
+            "Displacement not exceeded in {} % of the records (above; the gap in red) and acceleration \
+             not exceeded in {} % (below), over {} and {}{others}.{points} The {} design is ringed.",
+            compact(100.0 * self.target.probability),
+            compact(100.0 * self.target.acceleration_share),
+            super::name(x),
+            super::name(y),
+            if self.found.front.is_empty() { "nearest" } else { "chosen" }
+        );
+        stacked("map", "Displacement and acceleration over the main variables", caption, panels)
     }
+}
+
+/// About so many lines in a panel.
+const LINES: usize = 8;
+
+/// The lines of a level, and its name on the longest of them.
+fn add_lines(
+    series: &mut Vec<Series>,
+    names: &mut Vec<Series>,
+    map: &DesignMap,
+    values: &[f64],
+    level: f64,
+    style: Style,
+    name: String,
+) {
+    let lines = contour(&map.x, &map.y, values, level);
+    let longest = lines.iter().max_by_key(|line| line.len());
+    if let Some(longest) = longest.filter(|line| line.len() > 2) {
+        // Not all in the middle: names of neighbours would stand on each other.
+        let place = longest[(longest.len() * (1 + names.len() % 3)) / 4];
+        names.push(Series { label: name, style, shape: Shape::Named, points: vec![place] });
+    }
+    series.extend(lines.into_iter().map(|points| line("", style, points)));
 }
 
 /// A ring around the chosen design.

@@ -1,0 +1,416 @@
+//! A study as a page: the answer, how demands grow with the level, the tables.
+
+use slipstick::motion::target::{LEAST_SHARE, Matched};
+use slipstick::response::{DemandColumn, Warning};
+use slipstick::study::{LevelSummary, Record, Study, StudySummary};
+use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
+
+use super::{level, level_number, level_unit, shown};
+use crate::assessment::lines::{BAND, FRACTILES, GROUPS, RECORD, band, line, panel, stacked};
+use crate::assessment::sheet::{Sheet, cell};
+use crate::display::{DisplayUnits, Unit};
+use crate::figures::Drawn;
+use crate::json::Json;
+use crate::markup::shortened;
+use crate::number::{compact, count};
+use crate::plot::{Axis, Limit, Panel, Series, Style};
+
+/// What the page of a study is told from.
+#[derive(Clone, Copy, Debug)]
+pub struct StudyReport<'a> {
+    /// Version of this program.
+    pub version: &'static str,
+    /// The study.
+    pub study: &'a Study,
+    /// Its figures.
+    pub summary: &'a StudySummary,
+    /// Rows that were run again alone and judged.
+    pub checked: u64,
+    /// What was noticed.
+    pub notices: &'a [String],
+    /// Units to show results in.
+    pub display: DisplayUnits,
+}
+
+impl StudyReport<'_> {
+    /// The result laid out.
+    #[must_use]
+    pub fn sheet(&self) -> Sheet {
+        let cases = self.study.cases();
+        let times = |n: u64, what: &str| match n {
+            1 => format!("1 {what}"),
+            n => format!("{} {what}s", count(n)),
+        };
+        let mut line = format!(
+            "{} runs: {} × {} × {}",
+            count(self.study.runs()),
+            times(cases.records, "record"),
+            times(cases.levels, "level"),
+            times(cases.samples, "sample")
+        );
+        if self.study.has_bounds() {
+            line.push_str(&format!(" × {} of friction", times(cases.bounds, "bound")));
+        }
+        Sheet {
+            kind: "Study",
+            name: self.summary.name.clone(),
+            first: None,
+            line,
+            display: self.display,
+            verdict: self.verdict(),
+            warnings: self.warnings(),
+            tables: self.tables(),
+            notes: Vec::new(),
+            figures: self.figures(),
+            method: self.method(),
+            json: self.json(),
+        }
+    }
+
+    /// The rows of a demand that have values.
+    fn rows(&self, demand: DemandColumn) -> Vec<&LevelSummary> {
+        let of = |row: &&LevelSummary| row.demand == demand && row.max_run.is_some();
+        self.summary.rows.iter().filter(of).collect()
+    }
+
+    fn unit(&self, demand: DemandColumn) -> Unit {
+        let largest = self.rows(demand).iter().fold(0.0, |l: f64, row| l.max(row.max.abs()));
+        self.display.unit(demand.dimension().into(), largest)
+    }
+
+    /// What is asked for first: displacement, acceleration at the top, drift of the lowest storey.
+    fn answers(&self) -> Vec<DemandColumn> {
+        let displacement = DemandColumn::of_name("peak_sliding_displacement_m");
+        let drift = DemandColumn::of_name("storey1_peak_drift_m");
+        let all = [displacement, Some(self.study.shape().roof_acceleration()), drift];
+        let there = |demand: &DemandColumn| !self.rows(*demand).is_empty();
+        all.into_iter().flatten().filter(there).collect()
+    }
+
+    /// The row of a demand that governs: of the last level, the bound with the largest median.
+    fn governs(&self, demand: DemandColumn) -> Option<&LevelSummary> {
+        let rows = self.rows(demand);
+        let last = rows.iter().map(|row| row.level).max()?;
+        let of_last = rows.into_iter().filter(|row| row.level == last);
+        of_last.reduce(|a, b| if b.quantiles[1].abs() > a.quantiles[1].abs() { b } else { a })
+    }
+
+    fn at(&self, row: &LevelSummary) -> String {
+        let what = match &self.summary.measure {
+            Some((measure, _)) => {
+                format!("at {measure} = {}", level(self.summary, row, self.display))
+            }
+            None if self.study.cases().levels > 1 => {
+                format!("with the records × {}", level(self.summary, row, self.display))
+            }
+            None => "over all runs".to_owned(),
+        };
+        match row.friction {
+            Some("nominal") | None => what,
+            Some(bound) => format!("{what} with {bound} friction, which governs"),
+        }
+    }
+
+    /// Displacement, gap and acceleration at the highest level.
+    fn verdict(&self) -> Vec<String> {
+        let say = |demand: DemandColumn| {
+            let row = self.governs(demand)?;
+            let unit = self.unit(demand);
+            let [low, middle, high] = row.quantiles.map(|value| cell(unit.of(value)));
+            let number = |text: String| format!("{text} {}", unit.symbol).trim_end().to_owned();
+            Some(format!(
+                "{} {}: median {} (16 to 84 %: {low} to {}), largest {} ({}, run {}).",
+                demand.title(),
+                self.at(row),
+                number(middle),
+                number(high),
+                number(cell(unit.of(row.max))),
+                shortened(super::file_name(&row.max_record), 40),
+                row.max_run.map_or_else(String::new, count)
+            ))
+        };
+        let mut said: Vec<String> = self.answers().into_iter().filter_map(say).take(2).collect();
+        if let Some(row) = DemandColumn::of_name("gap_ratio").and_then(|gap| self.governs(gap)) {
+            let percent = |ratio: f64| compact(libm::round(100.0 * ratio));
+            said.insert(
+                said.len().min(1),
+                format!(
+                    "Of the gap {} % is used {} in the median, and at most {} %.",
+                    percent(row.quantiles[1]),
+                    self.at(row),
+                    percent(row.max)
+                ),
+            );
+        }
+        said
+    }
+
+    fn warnings(&self) -> Vec<Warning> {
+        let warn = |kind, message| Warning { kind, time_s: None, message };
+        let failures = self.summary.failures();
+        let failed = (failures > 0).then(|| {
+            let message =
+                format!("{} runs failed: see the column status of the parts", count(failures));
+            warn("failed_runs", message)
+        });
+        let rows: u64 = {
+            let first = self.summary.rows.first().map(|row| row.demand);
+            let of_first = self.summary.rows.iter().filter(|row| Some(row.demand) == first);
+            of_first.map(|row| row.runs).sum()
+        };
+        let missing = (rows < self.study.runs()).then(|| {
+            let all = count(self.study.runs());
+            warn("incomplete", format!("{} of {all} runs are in the folder", count(rows)))
+        });
+        let noticed = self.notices.iter().map(|notice| warn("inputs", notice.clone()));
+        failed.into_iter().chain(missing).chain(noticed).collect()
+    }
+
+    fn tables(&self) -> Vec<(String, Vec<Vec<String>>)> {
+        let bounded = self.study.has_bounds();
+        let measure = match &self.summary.measure {
+            Some((name, _)) => name.clone(),
+            None => "Scale".to_owned(),
+        };
+        let table = |demand: DemandColumn| {
+            let unit = self.unit(demand);
+            let number = |si: f64| cell(unit.of(si));
+            let heads = ["Runs", "16 %", "Median", "84 %", "Mean", "Largest", "Record", "Run"];
+            let heads = heads.map(str::to_owned);
+            let friction = bounded.then(|| "Friction".to_owned());
+            let mut rows: Vec<Vec<String>> =
+                vec![std::iter::once(measure.clone()).chain(friction).chain(heads).collect()];
+            for row in self.rows(demand) {
+                let [low, middle, high] = row.quantiles.map(number);
+                let friction = row.friction.map(str::to_owned);
+                let cells = [
+                    count(row.runs - row.failures),
+                    low,
+                    middle,
+                    high,
+                    number(row.mean),
+                    number(row.max),
+                    shortened(super::file_name(&row.max_record), 24),
+                    row.max_run.map_or_else(String::new, count),
+                ];
+                let first = std::iter::once(level(self.summary, row, self.display));
+                rows.push(first.chain(friction).chain(cells).collect());
+            }
+            (unit.label(&demand.title()), rows)
+        };
+        let demands = shown(self.summary).into_iter().filter(|d| !self.rows(*d).is_empty());
+        let matched = self.study.matched().map(|matched| self.matched_table(matched));
+        demands.map(table).chain(matched).collect()
+    }
+
+    fn figures(&self) -> Vec<Drawn> {
+        let moves = |demand: &DemandColumn| self.rows(*demand).iter().any(|row| row.max != 0.0);
+        let drawn: Vec<DemandColumn> = self.answers().into_iter().filter(moves).collect();
+        let mut figures = self.demands_figure(&drawn);
+        figures.extend(self.study.matched().map(|matched| self.matched_figure(matched)));
+        figures
+    }
+
+    fn demands_figure(&self, drawn: &[DemandColumn]) -> Vec<Drawn> {
+        if drawn.is_empty() {
+            return Vec::new();
+        }
+        if self.study.cases().levels > 1 {
+            let panels = drawn.iter().map(|demand| self.over_levels(*demand)).collect();
+            let caption = if self.study.has_bounds() {
+                "Demands over all records and samples as the level rises, for each bound of friction: \
+                 median (thick), 16 and 84 % fractiles (thin)."
+            } else {
+                "Demands over all records and samples as the level rises: median, 16 and 84 % fractiles, \
+                 and the largest of all runs."
+            }
+            .to_owned();
+            return vec![stacked("levels", "Demands over levels", caption, panels)];
+        }
+        let panels = drawn.iter().map(|demand| self.distribution(*demand)).collect();
+        let caption = "Share of the runs in which a demand is not exceeded.".to_owned();
+        vec![stacked("distributions", "Distributions of demands", caption, panels)]
+    }
+
+    /// The spectra of pairs as they were scaled, beside the target.
+    fn matched_figure(&self, matched: &Matched) -> Drawn {
+        let g = STANDARD_GRAVITY_M_PER_S2;
+        let points = |values: &[f64], factor: f64| -> Vec<[f64; 2]> {
+            matched.periods_s.iter().zip(values).map(|(t, sa)| [*t, factor * sa / g]).collect()
+        };
+        let mut series: Vec<Series> = Vec::new();
+        for pair in &matched.pairs_m_per_s2 {
+            let label = if series.is_empty() { "pair" } else { "" };
+            series.push(line(label, RECORD, points(pair, 1.0)));
+        }
+        series.push(line("mean of the pairs", FRACTILES[1], points(&matched.mean_m_per_s2, 1.0)));
+        series.push(line("target", Style::LIMIT, points(&matched.target_m_per_s2, 1.0)));
+        let least = points(&matched.target_m_per_s2, LEAST_SHARE);
+        series.push(line("90 % of it", Style { width: 0.6, ..Style::LIMIT }, least));
+        let (from, to) = (matched.periods_s[0], matched.periods_s[matched.periods_s.len() - 1]);
+        let all = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect::<Vec<_>>();
+        let spectra = panel(
+            Axis::logarithmic("Period (s)", from, to),
+            Axis::from_zero("RotD100 of PSa, 5 % (g)", all),
+            220.0,
+            series,
+        );
+        let ratios = matched.mean_m_per_s2.iter().zip(&matched.target_m_per_s2);
+        let ratios: Vec<f64> = ratios.map(|(mean, target)| mean / target).collect();
+        let points = matched.periods_s.iter().zip(&ratios).map(|(t, ratio)| [*t, *ratio]);
+        let mut misfit = panel(
+            Axis::logarithmic("Period (s)", from, to),
+            Axis::covering("Mean over target", ratios.iter().copied().chain([LEAST_SHARE, 1.0])),
+            90.0,
+            vec![line("", FRACTILES[1], points.collect())],
+        );
+        misfit.limits =
+            vec![Limit { value: LEAST_SHARE, label: "90 %".to_owned(), style: Style::LIMIT }];
+        let caption = format!(
+            "Spectra of the {} pairs in their maximum direction, each scaled by one factor, over the \
+             periods that the plan gives; below, their mean over the target: least {} at {} s.",
+            matched.factors.len(),
+            cell(matched.least[0]),
+            cell(matched.least[1])
+        );
+        stacked("target", "Pairs and their target spectrum", caption, vec![spectra, misfit])
+    }
+
+    /// Factor and misfit of every pair.
+    fn matched_table(&self, matched: &Matched) -> (String, Vec<Vec<String>>) {
+        let heads = ["Pair", "Factor", "Misfit σ of ln"].map(str::to_owned).to_vec();
+        let first = self.study.records().iter().step_by(2);
+        let row = |((record, factor), misfit): ((&Record, &f64), &f64)| {
+            let name = super::file_name(&record.name);
+            vec![shortened(name, 40), cell(*factor), cell(*misfit)]
+        };
+        let rows = first.zip(&matched.factors).zip(&matched.misfits).map(row);
+        let rows = std::iter::once(heads).chain(rows).collect();
+        ("Factors on both components of each pair".to_owned(), rows)
+    }
+
+    /// Names of the bounds of friction; one empty name without them.
+    fn bounds(&self) -> Vec<Option<&'static str>> {
+        if !self.study.has_bounds() {
+            return vec![None];
+        }
+        self.study.bounds().iter().map(|bound| Some(bound.name)).collect()
+    }
+
+    fn over_levels(&self, demand: DemandColumn) -> Panel {
+        let (unit, at) = (self.unit(demand), level_unit(self.summary, self.display));
+        let bounds = self.bounds();
+        let many = bounds.len() > 1;
+        let mut series: Vec<Series> = Vec::new();
+        let rows = self.rows(demand);
+        for (i, bound) in bounds.iter().enumerate() {
+            let mut own: Vec<&LevelSummary> =
+                rows.iter().copied().filter(|row| row.friction == *bound).collect();
+            own.sort_by(|a, b| level_number(a).total_cmp(&level_number(b)));
+            let x: Vec<f64> = own.iter().map(|row| at.of(level_number(row))).collect();
+            let of = |pick: &dyn Fn(&LevelSummary) -> f64| -> Vec<f64> {
+                own.iter().map(|row| unit.of(pick(row))).collect()
+            };
+            let points = |y: Vec<f64>| x.iter().copied().zip(y).map(|(x, y)| [x, y]).collect();
+            let (low, high) = (of(&|row| row.quantiles[0]), of(&|row| row.quantiles[2]));
+            if !many {
+                series.push(band(&x, &low, &high, "16 to 84 %", BAND));
+            }
+            let style = if many { GROUPS[i % GROUPS.len()] } else { FRACTILES[1] };
+            let label = bound.map_or("median".to_owned(), |bound| format!("{bound} friction"));
+            if many {
+                let thin = Style { width: 0.6, ..style };
+                series.push(line("", thin, points(low)));
+                series.push(line("", thin, points(high)));
+            } else {
+                let largest = of(&|row| row.max.abs());
+                series.push(line("largest", Style::DOTTED, points(largest)));
+            }
+            series.push(line(label, style, points(of(&|row| row.quantiles[1]))));
+        }
+        let name = match &self.summary.measure {
+            Some((measure, _)) => measure.clone(),
+            None => "Factor on the records".to_owned(),
+        };
+        let x = Axis::from_zero(at.label(&name), rows.iter().map(|row| at.of(level_number(row))));
+        let all = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect::<Vec<_>>();
+        let y = Axis::from_zero(unit.label(&demand.title()), all);
+        panel(x, y, 170.0, series)
+    }
+
+    fn distribution(&self, demand: DemandColumn) -> Panel {
+        let unit = self.unit(demand);
+        let rows = self.rows(demand);
+        let mut series = Vec::new();
+        for (i, bound) in self.bounds().iter().enumerate() {
+            for row in rows.iter().filter(|row| row.friction == *bound) {
+                let points = row
+                    .distribution
+                    .iter()
+                    .map(|[p, value]| [unit.of(*value), 100.0 * p])
+                    .collect();
+                let label = bound.map_or(String::new(), |bound| format!("{bound} friction"));
+                series.push(line(label, GROUPS[i % GROUPS.len()], points));
+            }
+        }
+        let all: Vec<f64> = series.iter().flat_map(|s| s.points.iter().map(|p| p[0])).collect();
+        let x = Axis::from_zero(unit.label(&demand.title()), all);
+        panel(x, Axis::linear("Share of the runs (%)".to_owned(), 0.0, 100.0), 150.0, series)
+    }
+
+    fn method(&self) -> Vec<String> {
+        let mut method = vec![
+            "Quantiles are exact, over all records and samples of a level, and linear between \
+             neighbours of the sorted values; failed runs are left out."
+                .to_owned(),
+            format!(
+                "{} of {} runs were run again alone: the same bits, and a certificate that holds.",
+                count(self.checked),
+                count(self.study.runs())
+            ),
+        ];
+        if self.study.has_bounds() {
+            let factor = |bound: &slipstick::input::Bound| {
+                format!("{} (× {})", bound.name, compact(bound.friction_factor))
+            };
+            let names: Vec<String> = self.study.bounds().iter().map(factor).collect();
+            method.push(format!("Both coefficients of friction: {}.", names.join(", ")));
+        }
+        if let Some(matched) = self.study.matched() {
+            method.push(format!(
+                "Each pair is scaled by one factor, so that the logarithms of its RotD100 spectrum and of \
+                 the target agree in the mean over the periods; all pairs are then raised by {}, so that \
+                 their mean is nowhere below 90 % of the target (ASCE/SEI 7-22, 16.2.3.2). The misfit is \
+                 the standard deviation of ln(RotD100/target).",
+                cell(matched.raised)
+            ));
+        }
+        if self.study.has_pairs() && self.study.level(0).is_some() {
+            method.push(
+                "Both components of a pair take one factor; a measure of a component is the geometric \
+                 mean of both."
+                    .to_owned(),
+            );
+        }
+        if self.study.cases().samples > 1 {
+            method.push(
+                "All samples have equal weight; quantiles mix records and samples, so that they are \
+                 those of both together."
+                    .to_owned(),
+            );
+        }
+        method
+    }
+
+    fn json(&self) -> Json {
+        let cases = self.study.cases();
+        Json::Object(vec![
+            ("slipstick", self.version.into()),
+            ("name", self.summary.name.as_str().into()),
+            ("runs", self.study.runs().into()),
+            ("records", cases.records.into()),
+            ("levels", cases.levels.into()),
+            ("samples", cases.samples.into()),
+        ])
+    }
+}
