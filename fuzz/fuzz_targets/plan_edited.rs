@@ -7,14 +7,15 @@ use libfuzzer_sys::fuzz_target;
 #[path = "../shared/plan.rs"]
 mod plan;
 
-const PLANS: [&str; 3] = [
+const PLANS: [&str; 4] = [
     include_str!("../../examples/studies/amplification.toml"),
     include_str!("../../examples/studies/far-field.toml"),
+    include_str!("../../examples/studies/taft-pair.toml"),
     include_str!("../../examples/studies/usgs-records.toml"),
 ];
 
 /// What may stand behind an equals sign.
-const VALUES: [&str; 24] = [
+const VALUES: [&str; 28] = [
     "{ values = [0.02, 0.1, 0.3] }",
     "{ uniform = [0.02, 0.10] }",
     "{ uniform = [\"1 m\", \"1e300 m\"] }",
@@ -38,6 +39,10 @@ const VALUES: [&str; 24] = [
     "\"Sa_avg(0.5 s, 3 s)\"",
     "\"FIV3(1 s, 1e9, 1e-9)\"",
     "[\"0.1 g\", \"1e12 g\"]",
+    "\"RotD100(1.2 s, 2 %)\"",
+    "{ sds = \"1 g\", sd1 = \"1e-300 g\", tl = \"1e300 s\" }",
+    "[\"0.4 s\", \"4 s\"]",
+    "\"upper\"",
     "\"1e12 s\"",
 ];
 
