@@ -1,6 +1,7 @@
 //! `cargo xtask ci`: all that must hold before a change goes in.
 
 mod licences;
+mod package;
 mod steps;
 mod testing;
 
@@ -45,6 +46,7 @@ const STEPS: &[(&str, Step)] = &[
     ("outputs in README and book", steps::console),
     ("wasm build of core and report", steps::wasm_build),
     ("golden values equal in bits under wasm", steps::wasm_golden),
+    ("Python package", package::python),
     ("licences of all dependencies", licences::licences),
 ];
 

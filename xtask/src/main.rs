@@ -5,6 +5,7 @@ mod console;
 mod dist;
 mod paper;
 mod peers;
+mod python;
 mod reference;
 mod shell;
 mod tools;

@@ -1,5 +1,6 @@
 //! `cargo xtask bench-…`: the same work here and in other programs, timed in one run.
 
+use crate::python::environment;
 use crate::shell::{self, Outcome};
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
@@ -30,7 +31,7 @@ pub fn bench_study(options: &[&str]) -> Outcome {
 
 /// The parts of a study of the examples read as one table by pandas, Polars and DuckDB.
 pub fn readers() -> Outcome {
-    let python = environment()?;
+    let python = environment(".venv", "xtask/peers/requirements.txt")?;
     shell::run(&mut shell::cargo("build -p slipstick-cli"))?;
     let target = shell::target_folder()?;
     let mut check = shell::command(&python);
@@ -75,7 +76,12 @@ impl<'a> Bench<'a> {
         if let Some(option) = options.iter().find(|option| !known.contains(option)) {
             return Err(format!("bench-{name}: expected {}, found {option}", known.join(", ")));
         }
-        Ok(Self { name, options, python: environment()?, target: shell::target_folder()? })
+        Ok(Self {
+            name,
+            options,
+            python: environment(".venv", "xtask/peers/requirements.txt")?,
+            target: shell::target_folder()?,
+        })
     }
 
     /// Runs a script, which leaves NAME.md and NAME.json in its folder; prints one of them and, with
@@ -106,28 +112,4 @@ impl<'a> Bench<'a> {
         }
         Ok(())
     }
-}
-
-/// Python of the environment in `.venv` with the programs of `peers/requirements.txt` in it.
-fn environment() -> Result<PathBuf, String> {
-    let folder = shell::root().join(".venv");
-    let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let wanted = shell::root().join("xtask/peers/requirements.txt");
-    let installed = folder.join("requirements.txt");
-    let read = |path: &Path| std::fs::read_to_string(path).ok();
-    if python.exists() && read(&wanted).is_some() && read(&wanted) == read(&installed) {
-        return Ok(python);
-    }
-    let program = ["python3", "python"]
-        .into_iter()
-        .find(|name| shell::answers(name, "--version"))
-        .ok_or("bench-peers: expected python3 (3.11 or later), found none")?;
-    shell::run(shell::command(program).args(["-m", "venv"]).arg(&folder))?;
-    let mut pip = shell::command(&python);
-    pip.args(["-m", "pip", "install", "--quiet", "--requirement"]).arg(&wanted);
-    shell::run(&mut pip)?;
-    // Kept beside what was installed, so that the next run need not ask pip.
-    std::fs::copy(&wanted, &installed)
-        .map_err(|error| format!("{}: {error}", installed.display()))?;
-    Ok(python)
 }

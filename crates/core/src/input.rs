@@ -273,7 +273,14 @@ impl Analysis {
     /// Reads back as an equal analysis (but for the motion).
     #[must_use]
     pub fn to_toml(&self, record: Option<&str>) -> String {
-        write::toml(&self.values, record)
+        write::toml(&self.values, record.map_or(write::Motion::Made, write::Motion::Record))
+    }
+
+    /// The same with the motion as it was written, the path of a record included. Reads back as an equal
+    /// analysis.
+    #[must_use]
+    pub fn to_toml_with_motion(&self) -> String {
+        write::toml(&self.values, write::Motion::AsWritten)
     }
 
     /// The number written at a path, in SI where it has a unit; `None` where none is written.

@@ -1,5 +1,6 @@
 //! What an analysis returns: peaks and counts, events, histories, warnings.
 
+mod columns;
 mod registry;
 
 pub use registry::{

@@ -60,7 +60,7 @@ pub fn examples(tally: &mut Tally) -> Result<(), Problem> {
 }
 
 /// A program that the tests have built, so that nothing is compiled once more.
-fn tested(program: &str) -> Result<PathBuf, String> {
+pub(super) fn tested(program: &str) -> Result<PathBuf, String> {
     shell::run(&mut shell::cargo("test --workspace --no-run --quiet"))?;
     let file = format!("{program}{}", std::env::consts::EXE_SUFFIX);
     Ok(shell::target_folder()?.join("debug").join(file))

@@ -2,12 +2,27 @@
 
 use super::reader::{Given, Leaf, Values};
 
+/// What becomes of the motion in a text.
+#[derive(Clone, Copy)]
+pub(super) enum Motion<'a> {
+    /// All of it stays.
+    AsWritten,
+    /// A made one stays, a record is left out.
+    Made,
+    /// The record of a file.
+    Record(&'a str),
+}
+
 /// The text of some values, a table a section; see [`super::Analysis::to_toml`].
-pub(super) fn toml(values: &Values, record: Option<&str>) -> String {
+pub(super) fn toml(values: &Values, motion: Motion<'_>) -> String {
     let mut text = String::new();
     let mut section = String::new();
     let mut list: Option<(String, Vec<String>)> = None;
-    let drop_motion = record.is_some() || values.has("motion.record");
+    let drop_motion = match motion {
+        Motion::AsWritten => false,
+        Motion::Made => values.has("motion.record"),
+        Motion::Record(_) => true,
+    };
     let replaced = |leaf: &&Leaf| !(drop_motion && leaf.path.starts_with("motion."));
     for leaf in values.leaves.iter().filter(replaced) {
         let (head, key) = split(&leaf.path);
@@ -31,7 +46,7 @@ pub(super) fn toml(values: &Values, record: Option<&str>) -> String {
     if let Some((open, items)) = list {
         push_list(&mut text, &open, &items);
     }
-    if let Some(record) = record {
+    if let Motion::Record(record) = motion {
         text.push_str(&format!("\n[motion]\nrecord = {}\n", quoted(record)));
     }
     text

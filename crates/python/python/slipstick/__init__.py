@@ -1,0 +1,88 @@
+"""Exact seismic response of structures on sliding bearings.
+
+Everything is SI; a number with a dimension is text with its unit, ``"0.3 g"``, unless the
+argument's name ends in its unit.
+
+Examples
+--------
+>>> import slipstick as ss
+>>> model = ss.Model({"block.mass": "325 kg", "slider.static_friction": 0.1,
+...                   "slider.kinetic_friction": 0.08})
+>>> motion = ss.Motion([0.0, 0.2, -0.2, 0.0], dt=0.5, units="g")
+>>> response = ss.run(model, motion)
+>>> response.holds
+True
+>>> [event.kind for event in response.events]
+['slip', 'reversal']
+>>> round(1e3 * response.summary["residual_sliding_displacement_m"], 2)
+10.51
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ._core import Model, Motion, Table, __version__
+from ._errors import InputError, RecordError, SolveError, StudyError
+from ._response import Event, Response, run
+from ._study import Study, study
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+__all__ = [
+    "Event",
+    "InputError",
+    "Model",
+    "Motion",
+    "RecordError",
+    "Response",
+    "SolveError",
+    "Study",
+    "StudyError",
+    "Table",
+    "__version__",
+    "read_record",
+    "run",
+    "study",
+]
+
+
+def read_record(
+    path: str | PathLike[str],
+    *,
+    channel: str | None = None,
+    units: str | None = None,
+    dt: float | str | None = None,
+    vertical: str | PathLike[str] | None = None,
+) -> Motion:
+    """Read a record of any format that ``slipstick record info`` knows.
+
+    Parameters
+    ----------
+    path
+        The file.
+    channel
+        Name or number (from 1) of the channel, where the file has several of acceleration.
+    units
+        Units of the values, such as ``"g"``, where the file does not state them.
+    dt
+        Time step, in s or with its unit, where the file does not state it.
+    vertical
+        A file with the vertical component.
+
+    Returns
+    -------
+    Motion
+        The motion as recorded.
+
+    Raises
+    ------
+    RecordError
+        For content that is no record, with line and column.
+    OSError
+        For a file that cannot be read: ``FileNotFoundError`` and its kin.
+    """
+    up = None if vertical is None else Path(vertical)
+    return Motion.read(Path(path), channel=channel, units=units, dt=dt, vertical=up)

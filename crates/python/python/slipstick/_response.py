@@ -1,0 +1,183 @@
+"""One analysis and what came of it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from functools import cached_property
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from . import _core
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    import numpy as np
+    import pandas as pd
+    import xarray as xr
+    from numpy.typing import NDArray
+
+    from ._plot import Plotter
+
+    Columns = Mapping[str, NDArray[np.float64]]
+
+
+class Event(NamedTuple):
+    """A change between stick and slip, of the direction of sliding, or of the contact with a stop."""
+
+    time_s: float
+    #: ``slip``, ``stick``, ``reversal``, ``contact``, ``separation``, ``press``, ``leave`` and so on
+    kind: str
+    #: Of the sliding after it: 1 towards +x, -1 towards -x, 0 stuck
+    direction: int
+    sliding_displacement_m: float
+
+
+def run(
+    model: _core.Model, motion: _core.Motion | None = None, *, floor_spectra: bool = False
+) -> Response:
+    """Analyse a model on a motion, exactly, and judge the answer.
+
+    Parameters
+    ----------
+    model
+        The model; its ``analysis.method`` and ``analysis.tail`` hold.
+    motion
+        The motion of the table; the model's own if left out.
+    floor_spectra
+        Whether response spectra of table, block and floors are wanted in ``summary``.
+
+    Returns
+    -------
+    Response
+        Peaks, history, events and the certificate, with those of lower- and upper-bound friction in
+        ``summary`` where the model has ``slider.bounds``.
+
+    Raises
+    ------
+    InputError
+        Where neither model nor caller gives a motion.
+    SolveError
+        Where there is no answer, with the time.
+    """
+    return Response(_core.run(model, motion, floor_spectra=floor_spectra))
+
+
+def _frozen(columns: dict[str, NDArray[np.float64]]) -> Columns:
+    for values in columns.values():
+        values.flags.writeable = False
+    return MappingProxyType(columns)
+
+
+class Response:
+    """What came of one analysis; everything in SI."""
+
+    def __init__(self, core: _core.Response) -> None:
+        self._core = core
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """Peaks, residuals, counts and all other figures, as ``slipstick run --json`` prints them."""
+        figures: dict[str, Any] = json.loads(self._core._summary_json())
+        return figures
+
+    @property
+    def certificate(self) -> dict[str, Any]:
+        """The figures that certify the answer, and their bound."""
+        checks: dict[str, Any] = self.summary["checks"]
+        return checks
+
+    @property
+    def holds(self) -> bool | None:
+        """Whether the certificate holds; None of the stepwise method, which is not judged."""
+        return self._core.holds
+
+    @property
+    def warnings(self) -> list[dict[str, Any]]:
+        """What may change a decision, the gravest first."""
+        warnings: list[dict[str, Any]] = self.summary["warnings"]
+        return warnings
+
+    @property
+    def notes(self) -> list[dict[str, Any]]:
+        """How something was read."""
+        notes: list[dict[str, Any]] = self.summary["notes"]
+        return notes
+
+    @cached_property
+    def history(self) -> Columns:
+        """Histories by column, one row a sample, as in ``history.csv``; read-only arrays."""
+        return _frozen(self._core._history(knots=False))
+
+    @cached_property
+    def knots(self) -> Columns:
+        """Histories with both sides of every event; ``direction`` is 0 stuck, 1 or -1 sliding."""
+        columns = self._core._history(knots=True)
+        columns["direction"] = self._core._modes()
+        return _frozen(columns)
+
+    @cached_property
+    def energy(self) -> Columns:
+        """Energies in J at ``knots``: input, kinetic, strain, and spent in dampers and friction."""
+        return _frozen(self._core._energy())
+
+    @cached_property
+    def events(self) -> list[Event]:
+        """All events in order."""
+        return [Event(t, kind, int(sign), s) for t, kind, sign, s in self._core._events()]
+
+    @property
+    def plot(self) -> Plotter:
+        """Figures in Matplotlib: ``r.plot()``, ``r.plot.loop(ax=ax)``, ``r.plot.history()``."""
+        from ._plot import Plotter
+
+        return Plotter(self)
+
+    def to_pandas(self) -> pd.DataFrame:
+        """The history as a data frame with the time as its index."""
+        import pandas as pd
+
+        return pd.DataFrame(dict(self.history)).set_index("time_s")
+
+    def to_xarray(self) -> xr.Dataset:
+        """The history as a dataset over ``time_s``, units as attributes."""
+        import xarray as xr
+
+        data = dict(self.history)
+        time = data.pop("time_s")
+        variables = {name: ("time_s", values, {"units": _unit(name)}) for name, values in data.items()}
+        return xr.Dataset(variables, coords={"time_s": ("time_s", time, {"units": "s"})})
+
+    def report(self, path: str | PathLike[str], *, units: str = "si") -> Path:
+        """Write the report of ``slipstick run --out`` as one HTML page.
+
+        Parameters
+        ----------
+        path
+            The file.
+        units
+            ``"si"``, ``"si-g"``, ``"kn-mm"`` or ``"us"``.
+        """
+        target = Path(path)
+        target.write_text(self._core._report_html(units), encoding="utf-8")
+        return target
+
+    def _repr_html_(self) -> str:
+        peak = self.summary["peak_sliding_displacement_m"]
+        return f"<b>{self._core.name}</b>: peak sliding displacement {1e3 * peak:.4g} mm"
+
+    def __repr__(self) -> str:
+        return f"<slipstick.Response {self._core.name!r}, {len(self.events)} events>"
+
+
+_UNITS = {"_m": "m", "_m_per_s": "m/s", "_m_per_s2": "m/s²", "_n": "N", "_s": "s"}
+
+
+def _unit(name: str) -> str:
+    """The unit that a column's name ends in."""
+    for ending in ("_m_per_s2", "_m_per_s", "_m", "_n", "_s"):
+        if name.endswith(ending):
+            return _UNITS[ending]
+    return ""

@@ -1,0 +1,121 @@
+//! Errors of the core as exceptions of `slipstick._errors`, with all that they know.
+
+use std::io;
+use std::path::Path;
+
+use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use slipstick::error::{InputError, MotionError, RecordError, SolveError, UnitError};
+use slipstick_files::{FileError, JobError, StudyError};
+
+/// An exception of the package with fields.
+fn exception(
+    py: Python<'_>,
+    class: &str,
+    message: &str,
+    fields: impl FnOnce(&Bound<'_, PyDict>) -> PyResult<()>,
+) -> PyErr {
+    let make = || {
+        let known = PyDict::new(py);
+        fields(&known)?;
+        py.import("slipstick._errors")?.getattr(class)?.call((message,), Some(&known))
+    };
+    make().map_or_else(|error| error, PyErr::from_value)
+}
+
+pub(crate) fn of_input(py: Python<'_>, error: &InputError) -> PyErr {
+    exception(py, "InputError", &error.to_string(), |fields| {
+        let place = &error.place;
+        let in_text = !place.source_name.is_empty();
+        fields.set_item("source", &place.source_name)?;
+        fields.set_item("line", in_text.then_some(place.line))?;
+        fields.set_item("column", in_text.then_some(place.column))?;
+        fields.set_item("path", &error.path)?;
+        fields.set_item("expected", &error.expected)?;
+        fields.set_item("found", &error.found)?;
+        fields.set_item("nearest", &error.nearest)
+    })
+}
+
+/// An argument that cannot be.
+pub(crate) fn of_argument(py: Python<'_>, path: &str, expected: &str, found: &str) -> PyErr {
+    let message = format!("{path}: expected {expected}, found {found}");
+    exception(py, "InputError", &message, |fields| {
+        fields.set_item("path", path)?;
+        fields.set_item("expected", expected)?;
+        fields.set_item("found", found)
+    })
+}
+
+pub(crate) fn of_unit(py: Python<'_>, path: &str, error: &UnitError) -> PyErr {
+    exception(py, "InputError", &format!("{path}: {error}"), |fields| {
+        fields.set_item("path", path)?;
+        fields.set_item("expected", &error.expected)?;
+        fields.set_item("found", &error.found)?;
+        fields.set_item("nearest", &error.nearest)
+    })
+}
+
+/// Samples that are no ground motion.
+pub(crate) fn of_motion(py: Python<'_>, error: &MotionError) -> PyErr {
+    exception(py, "RecordError", &error.to_string(), |_| Ok(()))
+}
+
+fn of_record(py: Python<'_>, error: &RecordError) -> PyErr {
+    exception(py, "RecordError", &error.to_string(), |fields| {
+        fields.set_item("source", &error.source_name)?;
+        fields.set_item("line", error.line)?;
+        fields.set_item("column", error.column)?;
+        fields.set_item("offset", error.offset)?;
+        fields.set_item("expected", &error.expected)?;
+        fields.set_item("found", &error.found)
+    })
+}
+
+/// What the system says of a file, as `open` would raise it.
+fn of_system(path: &Path, source: &io::Error) -> PyErr {
+    let text = source.to_string();
+    let reason = text.find(" (os error").map_or(text.as_str(), |end| &text[..end]).to_owned();
+    match source.raw_os_error() {
+        Some(code) => PyOSError::new_err((code, reason, path.display().to_string())),
+        None => PyOSError::new_err(format!("{}: {reason}", path.display())),
+    }
+}
+
+pub(crate) fn of_file(py: Python<'_>, error: &FileError) -> PyErr {
+    match error {
+        FileError::Read { path, source } | FileError::Write { path, source } => {
+            of_system(path, source)
+        }
+        FileError::Record(error) => of_record(py, error),
+        other => exception(py, "RecordError", &other.to_string(), |_| Ok(())),
+    }
+}
+
+pub(crate) fn of_solve(py: Python<'_>, error: &SolveError) -> PyErr {
+    let time_s = match error {
+        SolveError::NotFinite { time_s }
+        | SolveError::TooManyEvents { time_s, .. }
+        | SolveError::NoConvergence { time_s, .. } => Some(*time_s),
+        _ => None,
+    };
+    exception(py, "SolveError", &error.to_string(), |fields| fields.set_item("time_s", time_s))
+}
+
+pub(crate) fn of_job(py: Python<'_>, error: &JobError) -> PyErr {
+    match error {
+        JobError::Input(error) => of_input(py, error),
+        JobError::File(error) => of_file(py, error),
+        JobError::Solve(error) => of_solve(py, error),
+    }
+}
+
+pub(crate) fn of_study(py: Python<'_>, error: &StudyError) -> PyErr {
+    match error {
+        StudyError::Input { error, .. } => of_input(py, error),
+        StudyError::File(error) => of_file(py, error),
+        StudyError::Stopped(_) => PyKeyboardInterrupt::new_err(()),
+        other => exception(py, "StudyError", &other.to_string(), |_| Ok(())),
+    }
+}

@@ -1,0 +1,32 @@
+//! The extension module `slipstick._core`: values in, values out; everything is computed in the core.
+
+mod errors;
+mod model;
+mod motion;
+mod response;
+mod study;
+mod table;
+mod work;
+
+use pyo3::prelude::*;
+
+/// Exact stick–slip response of structures on sliding bearings.
+#[pymodule]
+mod _core {
+    #[pymodule_export]
+    use super::model::Model;
+    #[pymodule_export]
+    use super::motion::Motion;
+    #[pymodule_export]
+    use super::response::{Response, run};
+    #[pymodule_export]
+    use super::study::{Study, study};
+    #[pymodule_export]
+    use super::table::Table;
+    use pyo3::prelude::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

@@ -1,0 +1,170 @@
+//! `run` and its `Response`.
+
+use std::path::Path;
+
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use slipstick::assessment::single::{Job, Outcome};
+use slipstick::response::History;
+use slipstick_files::{JobError, OpenJob};
+use slipstick_report::{DisplayUnits, FileNote, InputText, Report, Summary};
+
+use crate::errors::{of_argument, of_job};
+use crate::model::Model;
+use crate::motion::Motion;
+
+/// Runs a model on a motion, on its own where none is given.
+#[pyfunction]
+#[pyo3(signature = (model, motion = None, *, floor_spectra = false))]
+pub(crate) fn run(
+    py: Python<'_>,
+    model: &Model,
+    motion: Option<&Motion>,
+    floor_spectra: bool,
+) -> PyResult<Response> {
+    let work = || -> Result<Response, JobError> {
+        let analysis = model.analysis.clone();
+        let job = match motion {
+            None => OpenJob::new(model.path(), analysis, None)?,
+            Some(Motion(loaded)) => {
+                let stem = model.path().file_stem().map(|stem| stem.to_string_lossy().into_owned());
+                let name = analysis.name.clone().or(stem).unwrap_or_else(|| "model".to_owned());
+                let job = Job::new(analysis, loaded.motion.clone(), loaded.warnings.clone())?;
+                OpenJob { name, job, loaded: loaded.clone() }
+            }
+        };
+        let (outcome, summary) = job.run(floor_spectra)?;
+        let toml = model.analysis.to_toml_with_motion();
+        Ok(Response { job, outcome, summary, toml })
+    };
+    py.detach(work).map_err(|error| of_job(py, &error))
+}
+
+/// What came of one analysis.
+#[pyclass(module = "slipstick._core", frozen)]
+pub struct Response {
+    job: OpenJob,
+    outcome: Outcome,
+    summary: Summary,
+    toml: String,
+}
+
+impl Response {
+    fn response_history(&self) -> Option<&History> {
+        self.outcome.nominal.response.history.as_ref()
+    }
+}
+
+#[pymethods]
+impl Response {
+    /// The figures as the text that `slipstick run --json` prints.
+    fn _summary_json(&self) -> String {
+        self.summary.to_json()
+    }
+
+    /// Columns of the history: one row a sample, or both sides of every event.
+    fn _history<'py>(&self, py: Python<'py>, knots: bool) -> PyResult<Bound<'py, PyDict>> {
+        let columns = PyDict::new(py);
+        let Some(history) = self.response_history() else { return Ok(columns) };
+        let all: Vec<usize>;
+        let rows = if knots {
+            all = (0..history.len()).collect();
+            &all
+        } else {
+            &history.rows
+        };
+        for (name, values) in history.columns(rows) {
+            columns.set_item(name, values.into_pyarray(py))?;
+        }
+        Ok(columns)
+    }
+
+    /// Mode at the knots: 0 stuck, 1 and −1 sliding.
+    fn _modes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        let history = self.response_history();
+        let modes = history.map_or(&[][..], |history| &history.mode);
+        modes.iter().map(|mode| mode.sign()).collect::<Vec<_>>().into_pyarray(py)
+    }
+
+    /// Energies at the knots in J.
+    fn _energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let energy = &self.outcome.nominal.certificate.energy;
+        let columns = PyDict::new(py);
+        for (name, values) in [
+            ("input_j", &energy.input_j),
+            ("kinetic_j", &energy.kinetic_j),
+            ("strain_j", &energy.strain_j),
+            ("damping_j", &energy.damping_j),
+            ("friction_j", &energy.friction_j),
+        ] {
+            columns.set_item(name, values.clone().into_pyarray(py))?;
+        }
+        Ok(columns)
+    }
+
+    /// Events as (time in s, kind, direction, sliding displacement in m).
+    fn _events(&self) -> Vec<(f64, &'static str, f64, f64)> {
+        let events = &self.outcome.nominal.response.events;
+        events
+            .iter()
+            .map(|e| (e.time_s, e.kind.name(), e.mode.sign(), e.sliding_displacement_m))
+            .collect()
+    }
+
+    /// The report as one page of HTML.
+    fn _report_html(&self, py: Python<'_>, units: &str) -> PyResult<String> {
+        let display = match units {
+            "si" => DisplayUnits::Si,
+            "si-g" => DisplayUnits::SiG,
+            "kn-mm" => DisplayUnits::KnMm,
+            "us" => DisplayUnits::Us,
+            _ => {
+                let expected = "\"si\", \"si-g\", \"kn-mm\" or \"us\"";
+                return Err(of_argument(py, "units", expected, &format!("{units:?}")));
+            }
+        };
+        let (outcome, loaded) = (&self.outcome, &self.job.loaded);
+        let record = loaded.description.join("; ");
+        let inputs = [InputText { path: &self.job.name, text: &self.toml }];
+        let paths: Vec<String> =
+            loaded.sources.iter().map(|file| Path::display(&file.path).to_string()).collect();
+        let files: Vec<FileNote<'_>> = loaded
+            .sources
+            .iter()
+            .zip(&paths)
+            .zip(&loaded.description)
+            .map(|((file, path), description)| FileNote { path, sha256: &file.sha256, description })
+            .collect();
+        let report = Report {
+            summary: &self.summary,
+            model: &self.job.job.analysis.model,
+            motion: &self.job.job.motion,
+            record: &record,
+            response: &outcome.nominal.response,
+            certificate: &outcome.nominal.certificate,
+            bounds: outcome
+                .bounds
+                .as_ref()
+                .map(|[lower, upper]| [&lower.response, &upper.response]),
+            floor_spectra: self.summary.floor_spectra.as_ref(),
+            inputs: &inputs,
+            files: &files,
+            command_line: "slipstick.run(model, motion)",
+            display,
+        };
+        Ok(report.to_html())
+    }
+
+    /// Name of the model.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.job.name
+    }
+
+    /// Whether the certificate holds; none of the stepwise method.
+    #[getter]
+    fn holds(&self) -> Option<bool> {
+        self.summary.checks.holds
+    }
+}

@@ -1,0 +1,115 @@
+//! `Table`: columns that every library of data frames takes.
+
+use std::sync::Arc;
+
+use arrow_array::ffi_stream::FFI_ArrowArrayStream;
+use arrow_array::{
+    ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, StringArray,
+};
+use arrow_schema::{ArrowError, DataType, Field, Schema};
+use numpy::IntoPyArray;
+use pyo3::exceptions::{PyKeyError, PyRuntimeError};
+use pyo3::prelude::*;
+use pyo3::types::{PyCapsule, PyDict, PyList};
+use slipstick::table::{self, Cells, Column};
+use slipstick_files::to_csv;
+
+/// Named columns of equal length.
+#[pyclass(module = "slipstick._core", frozen)]
+pub struct Table(pub(crate) table::Table);
+
+/// A column as Arrow has it; its unit stands in the field's metadata under `unit`.
+fn arrow_column(column: &Column) -> (Field, ArrayRef) {
+    let (kind, array): (DataType, ArrayRef) = match &column.cells {
+        Cells::Numbers(cells) => {
+            let cells = cells.iter().map(|x| (!x.is_nan()).then_some(*x));
+            (DataType::Float64, Arc::new(cells.collect::<Float64Array>()))
+        }
+        Cells::Counts(cells) => {
+            (DataType::Int64, Arc::new(cells.iter().copied().collect::<Int64Array>()))
+        }
+        Cells::Flags(cells) => {
+            (DataType::Boolean, Arc::new(cells.iter().copied().collect::<BooleanArray>()))
+        }
+        Cells::Texts(cells) => {
+            (DataType::Utf8, Arc::new(cells.iter().map(Some).collect::<StringArray>()))
+        }
+    };
+    let field = Field::new(&column.name, kind, true);
+    let field = match column.unit.as_str() {
+        "" => field,
+        unit => field.with_metadata([("unit".to_owned(), unit.to_owned())]),
+    };
+    (field, array)
+}
+
+fn of_arrow(error: &ArrowError) -> PyErr {
+    PyRuntimeError::new_err(error.to_string())
+}
+
+#[pymethods]
+impl Table {
+    /// Names of the columns.
+    #[getter]
+    fn columns(&self) -> Vec<&str> {
+        self.0.columns.iter().map(|column| column.name.as_str()).collect()
+    }
+
+    /// Units of the columns that have one.
+    #[getter]
+    fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let units = PyDict::new(py);
+        for column in self.0.columns.iter().filter(|column| !column.unit.is_empty()) {
+            units.set_item(&column.name, &column.unit)?;
+        }
+        Ok(units)
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.rows()
+    }
+
+    /// A column: an array of doubles where it holds numbers, else a list.
+    fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let column = self.0.columns.iter().find(|column| column.name == name);
+        let column = column.ok_or_else(|| PyKeyError::new_err(name.to_owned()))?;
+        Ok(match &column.cells {
+            Cells::Numbers(cells) => cells.clone().into_pyarray(py).into_any(),
+            Cells::Counts(cells) => PyList::new(py, cells)?.into_any(),
+            Cells::Flags(cells) => PyList::new(py, cells)?.into_any(),
+            Cells::Texts(cells) => PyList::new(py, cells)?.into_any(),
+        })
+    }
+
+    /// The table as CSV.
+    fn to_csv(&self) -> String {
+        to_csv(&self.0)
+    }
+
+    /// The table as a stream of Arrow's C interface.
+    #[pyo3(signature = (requested_schema = None))]
+    fn __arrow_c_stream__<'py>(
+        &self,
+        py: Python<'py>,
+        requested_schema: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyCapsule>> {
+        // A consumer may wish for other types; the interface lets a producer keep its own.
+        drop(requested_schema);
+        let (fields, arrays): (Vec<Field>, Vec<ArrayRef>) =
+            self.0.columns.iter().map(arrow_column).unzip();
+        let schema = Arc::new(Schema::new(fields));
+        let batch = RecordBatch::try_new(Arc::clone(&schema), arrays).map_err(|e| of_arrow(&e))?;
+        let reader = RecordBatchIterator::new([Ok(batch)], schema);
+        let stream = FFI_ArrowArrayStream::new(Box::new(reader));
+        PyCapsule::new_with_value(py, stream, c"arrow_array_stream")
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        // Bit by bit but for the payload of NaN, which is an empty cell.
+        to_csv(&self.0) == to_csv(&other.0)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<slipstick.Table {} rows, {} columns>", self.0.rows(), self.0.columns.len())
+    }
+}

@@ -1,0 +1,73 @@
+//! Work that Ctrl-C ends.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
+
+use pyo3::prelude::*;
+use slipstick::study::engine::Engine;
+use slipstick_files::on_threads;
+
+/// How often signals, and the callback that follows the work, get their turn.
+const TURN: Duration = Duration::from_millis(50);
+
+/// Does work on threads of its own, which end with it, while Python's other threads go on. Every now
+/// and then `progress` is called with the runs done and planned. A signal, or an exception of
+/// `progress`, stops the work and is raised.
+pub(crate) fn followed<T: Send>(
+    py: Python<'_>,
+    jobs: Option<usize>,
+    progress: Option<Py<PyAny>>,
+    work: impl FnOnce(&Engine<'_>) -> T + Send,
+) -> PyResult<T> {
+    let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
+    let follow = |runs: u64| {
+        done.fetch_add(runs, Ordering::Relaxed);
+        if stop.load(Ordering::Relaxed) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    };
+    let engine = Engine::new(&follow);
+    let turn = || {
+        Python::attach(|py| {
+            py.check_signals()?;
+            let Some(progress) = &progress else { return Ok(()) };
+            let done = done.load(Ordering::Relaxed);
+            progress.call1(py, (done, engine.planned().max(done))).map(drop)
+        })
+    };
+    py.detach(|| {
+        thread::scope(|scope| {
+            let (sender, receiver) = mpsc::channel();
+            let engine = &engine;
+            scope.spawn(move || {
+                let result = on_threads(jobs, || work(engine));
+                // Nobody waits any more only where this scope unwinds.
+                let _ = sender.send(result);
+            });
+            let mut raised = None;
+            loop {
+                match receiver.recv_timeout(TURN) {
+                    Ok(result) => return raised.map_or(Ok(result), Err),
+                    Err(RecvTimeoutError::Timeout) if raised.is_none() => {
+                        if let Err(error) = turn() {
+                            stop.store(true, Ordering::Relaxed);
+                            raised = Some(error);
+                        }
+                    }
+                    Err(RecvTimeoutError::Timeout) => {}
+                    Err(RecvTimeoutError::Disconnected) => {
+                        // The work has panicked: the scope passes that on.
+                        return Err(raised.unwrap_or_else(|| {
+                            pyo3::exceptions::PyRuntimeError::new_err("the work has ended early")
+                        }));
+                    }
+                }
+            }
+        })
+    })
+}

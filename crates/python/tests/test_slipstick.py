@@ -1,0 +1,314 @@
+"""The package as its users meet it. SLIPSTICK_ROOT is the checkout, SLIPSTICK_COMMAND the program."""
+
+import multiprocessing
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import slipstick as ss
+
+ROOT = Path(os.environ.get("SLIPSTICK_ROOT", Path(__file__).resolve().parents[3]))
+EXAMPLES = ROOT / "examples"
+MODELS = ["taft.toml", "el-centro.toml", "frame-pendulum.toml"]
+
+PLAN = """\
+model = "{model}"
+[vary]
+"slider.kinetic_friction" = {{ uniform = [0.02, 0.05] }}
+"slider.static_friction" = {{ uniform = [0.05, 0.08] }}
+[sampling]
+method = "sobol"
+count = {samples}
+seed = 1
+"""
+
+
+def block() -> ss.Model:
+    return ss.Model(
+        {"block": {"mass": "325 kg"}, "slider": {"static_friction": 0.1, "kinetic_friction": 0.08}}
+    )
+
+
+def pulse() -> ss.Motion:
+    return ss.Motion([0.0, 0.2, -0.2, 0.0], dt=0.5, units="g")
+
+
+def plan(folder: Path, samples: int = 32) -> Path:
+    path = folder / "plan.toml"
+    path.write_text(PLAN.format(model=(EXAMPLES / "taft.toml").as_posix(), samples=samples))
+    return path
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_figures_are_those_of_the_command_bit_for_bit(name: str) -> None:
+    command = os.environ.get("SLIPSTICK_COMMAND")
+    if command is None:
+        pytest.skip("SLIPSTICK_COMMAND is not set")
+    path = EXAMPLES / name
+    printed = subprocess.run(
+        [command, "run", str(path), "--json", "-q"], check=True, capture_output=True, text=True
+    ).stdout
+    response = ss.run(ss.Model.read(path))
+    assert response._core._summary_json() == printed
+    assert response.holds
+
+
+def test_history_has_the_columns_of_the_file_and_the_peak() -> None:
+    response = ss.run(ss.Model.read(EXAMPLES / "taft.toml"))
+    history, knots = response.history, response.knots
+    assert list(history)[:3] == ["time_s", "table_acceleration_m_per_s2", "sliding_displacement_m"]
+    assert len(history["time_s"]) == response.summary["samples"] < len(knots["time_s"])
+    peak = np.abs(knots["sliding_displacement_m"]).max()
+    assert peak == response.summary["peak_sliding_displacement_m"]
+    assert set(np.unique(knots["direction"])) <= {-1.0, 0.0, 1.0}
+    assert len(response.energy["input_j"]) == len(knots["time_s"])
+    with pytest.raises(ValueError, match="read-only"):
+        history["time_s"][0] = 1.0
+    with pytest.raises(TypeError):
+        history["time_s"] = history["time_s"]  # type: ignore[index]
+
+
+def test_a_motion_from_an_array_is_the_motion_of_the_file() -> None:
+    model = ss.Model.read(EXAMPLES / "taft.toml")
+    record = ss.read_record(EXAMPLES / "records" / "taft-021.txt", units="g", dt="0.01 s")
+    array = ss.Motion(record.acceleration_m_per_s2, dt=record.dt_s, units="m/s2")
+    assert array == record
+    assert ss.run(model, array).events == ss.run(model, record).events
+    scaled = record.scaled(pga="0.3 g")
+    assert scaled.pga_m_per_s2 == pytest.approx(0.3 * 9.80665, rel=1e-15)
+    times = ss.Motion(record.acceleration_m_per_s2, times_s=record.time_s, units="m/s2")
+    assert times == record
+
+
+def test_models_change_and_compare() -> None:
+    model = block()
+    changed = model.with_({"slider.kinetic_friction": 0.05, "slider.radius": "2 m"})
+    assert changed != model and changed.value("slider.kinetic_friction") == 0.05
+    assert model.value("slider.kinetic_friction") == 0.08
+    assert changed == ss.Model.from_toml(changed.toml)
+    assert len({model, block(), changed}) == 2
+    assert changed.values["slider.radius"] == "2 m"
+
+
+@pytest.mark.parametrize("value", [block(), pulse(), ss.Model.read(EXAMPLES / "taft.toml")])
+def test_values_pickle(value: object) -> None:
+    assert pickle.loads(pickle.dumps(value)) == value
+
+
+def test_inputs_that_cannot_be_are_told() -> None:
+    with pytest.raises(ss.InputError) as caught:
+        ss.Model.from_toml('[block]\nmass = "3 mm"\n', "tank.toml")
+    error = caught.value
+    assert (error.source, error.line, error.column, error.path) == ("tank.toml", 2, 8, "block.mass")
+    assert "mass" in error.expected and "3 mm" in error.found
+    back = pickle.loads(pickle.dumps(error))
+    assert str(back) == str(error) and back.line == 2
+    with pytest.raises(ss.InputError) as caught:
+        block().with_({"slider.radus": "2 m"})
+    assert caught.value.nearest == "slider.radius"
+    for wrong in [{"block.mass": 325}, {"block.mass": True}, {"block.mass": [1]}, {}, {1: 2}]:
+        with pytest.raises(ss.InputError):
+            ss.Model(wrong)  # type: ignore[arg-type]
+    with pytest.raises(FileNotFoundError, match="nowhere.toml"):
+        ss.Model.read("nowhere.toml")
+    with pytest.raises(ss.InputError, match="motion"):
+        ss.run(block())
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        ({"acceleration": [0.0, np.nan, 1.0], "dt": 0.1}, "sample 1"),
+        ({"acceleration": [[0.0, 1.0]], "dt": 0.1}, "shape"),
+        ({"acceleration": ["a"], "dt": 0.1}, "type"),
+        ({"acceleration": [1j, 0], "dt": 0.1}, "type"),
+        ({"acceleration": [0.0, 1.0]}, "dt"),
+        ({"acceleration": [0.0, 1.0], "dt": "0.1 m"}, "dt"),
+        ({"acceleration": [0.0, 1.0], "dt": -1.0}, "dt"),
+        ({"acceleration": [0.0, 1.0], "dt": 0.1, "times_s": [0, 1]}, "both"),
+        ({"acceleration": [0.0, 1.0], "times_s": [0, 1, 2]}, "times_s"),
+        ({"acceleration": [0.0, 1.0], "dt": 0.1, "vertical": [0.0]}, "vertical"),
+        ({"acceleration": [0.0, 1.0], "dt": 0.1, "units": "kg"}, "units"),
+        ({"acceleration": [], "dt": 0.1}, "sample"),
+    ],
+)
+def test_arrays_that_are_no_motion_are_told(arguments: dict[str, object], told: str) -> None:
+    with pytest.raises(ValueError, match=told) as caught:
+        ss.Motion(**{"units": "g", **arguments})  # type: ignore[arg-type]
+    assert isinstance(caught.value, (ss.InputError, ss.RecordError))
+
+
+def test_records_that_are_none_are_told(tmp_path: Path) -> None:
+    path = tmp_path / "bad.txt"
+    path.write_text("0\nx\n0\n")
+    with pytest.raises(ss.RecordError) as caught:
+        ss.read_record(path, units="g", dt=0.01)
+    assert (caught.value.line, caught.value.column, caught.value.found) == (2, 1, "x")
+    with pytest.raises(FileNotFoundError):
+        ss.read_record(tmp_path / "none.txt")
+
+
+def test_no_answer_has_a_time() -> None:
+    stepwise = block().with_({"analysis.method": "stepwise", "slider.spring": "1e9 kN/m"})
+    with pytest.raises(ss.SolveError) as caught:
+        ss.run(stepwise, pulse())
+    assert caught.value.time_s is not None
+
+
+def test_the_report_is_one_page(tmp_path: Path) -> None:
+    response = ss.run(block(), pulse())
+    page = response.report(tmp_path / "report.html", units="us").read_text(encoding="utf-8")
+    assert page.startswith("<!DOCTYPE html>") and " in<" in page
+    with pytest.raises(ss.InputError, match="units"):
+        response.report(tmp_path / "report.html", units="furlong")
+
+
+def test_a_study_is_one_table_for_four_libraries(tmp_path: Path) -> None:
+    study = ss.study(plan(tmp_path))
+    table = study.table
+    assert study.runs == len(table) == 32 and study.failures == 0
+    name = "peak_sliding_displacement_m"
+    values = table[name]
+    assert table.units[name] == "m"
+    pandas = pytest.importorskip("pandas")
+    polars = pytest.importorskip("polars")
+    pyarrow = pytest.importorskip("pyarrow")
+    duckdb = pytest.importorskip("duckdb")
+    arrow = pyarrow.table(table)
+    assert arrow.schema.field(name).metadata[b"unit"] == b"m"
+    found = duckdb.sql(f"select {name} from arrow").fetchnumpy()[name]
+    for column in [
+        arrow[name].to_numpy(),
+        polars.DataFrame(table)[name].to_numpy(),
+        pandas.DataFrame.from_arrow(table)[name].to_numpy(),
+        found,
+    ]:
+        assert np.array_equal(column, values)
+
+
+def test_a_study_in_a_folder_is_that_of_the_command(tmp_path: Path) -> None:
+    seen: list[tuple[int, int]] = []
+    study = ss.study(plan(tmp_path, 4096), tmp_path / "a", progress=lambda *at: seen.append(at))
+    assert study.runs == 4096
+    again = ss.study(plan(tmp_path, 4096), tmp_path / "a")
+    assert again.table == study.table
+    command = os.environ.get("SLIPSTICK_COMMAND")
+    if command is None:
+        pytest.skip("SLIPSTICK_COMMAND is not set")
+    out = tmp_path / "b"
+    subprocess.run([command, "study", tmp_path / "plan.toml", "--out", out, "-q"], check=True)
+    for part in sorted((out / "parts").iterdir()):
+        assert part.read_bytes() == (tmp_path / "a" / "parts" / part.name).read_bytes()
+
+
+def test_a_plan_that_cannot_be_is_told(tmp_path: Path) -> None:
+    path = tmp_path / "plan.toml"
+    path.write_text('model = "nowhere.toml"\n')
+    with pytest.raises(ss.InputError) as caught:
+        ss.study(path)
+    assert caught.value.line == 1 and caught.value.path == "model"
+
+
+def test_threads_share_models() -> None:
+    model, motion = block(), pulse()
+    expected = ss.run(model, motion).events
+    with ThreadPoolExecutor(4) as pool:
+        assert all(pool.map(lambda _: ss.run(model, motion).events == expected, range(100)))
+
+
+def _run_in_child(queue: "multiprocessing.Queue[bool]", folder: str) -> None:
+    queue.put(ss.study(plan(Path(folder)), jobs=2).failures == 0)
+
+
+@pytest.mark.parametrize("method", ["fork", "spawn"])
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_processes_after_a_study_do_not_hang(tmp_path: Path, method: str) -> None:
+    if method not in multiprocessing.get_all_start_methods():
+        pytest.skip(f"this system cannot {method}")
+    ss.study(plan(tmp_path), jobs=2)
+    context = multiprocessing.get_context(method)
+    queue = context.Queue()
+    child = context.Process(target=_run_in_child, args=(queue, str(tmp_path)))
+    child.start()
+    assert queue.get(timeout=60)
+    child.join(60)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals are sent as POSIX does")
+def test_ctrl_c_stops_a_study_and_leaves_whole_parts(tmp_path: Path) -> None:
+    path, out = plan(tmp_path, 1 << 21), tmp_path / "out"
+    code = "import sys, slipstick as ss\nss.study(sys.argv[1], sys.argv[2])"
+    child = subprocess.Popen([sys.executable, "-c", code, path, out], stderr=subprocess.PIPE)
+    parts = out / "parts"
+    deadline = time.monotonic() + 60
+    while not (parts.is_dir() and any(parts.glob("part-*.parquet"))):
+        assert child.poll() is None and time.monotonic() < deadline
+        time.sleep(0.05)
+    child.send_signal(signal.SIGINT)
+    _, told = child.communicate(timeout=30)
+    assert b"KeyboardInterrupt" in told
+    assert all(part.name.startswith("part-") for part in parts.iterdir())
+
+
+def test_an_exception_of_progress_stops_the_work(tmp_path: Path) -> None:
+    def stop(done: int, planned: int) -> None:
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        ss.study(plan(tmp_path, 1 << 21), tmp_path / "out", progress=stop)
+
+
+def test_other_threads_go_on_while_a_study_runs(tmp_path: Path) -> None:
+    turns: list[float] = []
+    over = threading.Event()
+
+    def count() -> None:
+        while not over.is_set():
+            turns.append(time.monotonic())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count, daemon=True)
+    thread.start()
+    ss.study(plan(tmp_path, 4096))
+    over.set()
+    thread.join()
+    assert len(turns) > 10
+
+
+def test_figures_return_axes(tmp_path: Path) -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    response = ss.run(ss.Model.read(EXAMPLES / "taft.toml"))
+    axes = response.plot()
+    assert len(axes) == 3
+    axes[0].figure.savefig(tmp_path / "figure.png")
+    _, ax = matplotlib.pyplot.subplots()
+    assert response.plot.loop(ax=ax) is ax
+    for draw in [response.plot.history, response.plot.acceleration, response.plot.energy]:
+        assert draw().get_xlabel() == "time [s]"
+    matplotlib.pyplot.close("all")
+
+
+def test_tables_of_pandas_and_xarray() -> None:
+    response = ss.run(block(), pulse())
+    pandas = pytest.importorskip("pandas")
+    assert isinstance(response.to_pandas(), pandas.DataFrame)
+    pytest.importorskip("xarray")
+    data = response.to_xarray()
+    assert data["sliding_displacement_m"].attrs["units"] == "m"
+
+
+def test_pint_passes() -> None:
+    pint = pytest.importorskip("pint")
+    unit = pint.UnitRegistry()
+    model = block().with_({"slider.radius": 2.0 * unit.m, "block.mass": 300 * unit.kg})
+    assert model.value("slider.radius") == 2.0 and model.value("block.mass") == 300.0
