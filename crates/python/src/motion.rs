@@ -32,7 +32,7 @@ fn quantity(
         return parse_quantity(&text, dimension).map_err(|error| of_unit(py, name, &error));
     }
     let is_number = value.is_instance_of::<PyFloat>() || value.is_instance_of::<PyInt>();
-    if number_in_si && is_number {
+    if number_in_si && (is_number || value.hasattr("__float__")?) {
         return value.extract();
     }
     let expected =
@@ -146,6 +146,22 @@ impl Motion {
             RecordRequest { path, format: None, units, dt_s, channel, scale: None, vertical };
         let loaded = py.detach(|| load_record(&request));
         loaded.map(Self).map_err(|error| of_file(py, &error))
+    }
+
+    /// The motion of a trace of ObsPy.
+    #[staticmethod]
+    #[pyo3(signature = (trace, *, units))]
+    fn from_obspy(trace: &Bound<'_, PyAny>, units: &str) -> PyResult<Self> {
+        let dt = trace.getattr("stats")?.getattr("delta")?;
+        Self::new(trace.py(), &trace.getattr("data")?, Some(&dt), None, units, None)
+    }
+
+    /// The motion of an acceleration signal of eqsig, whose values are in m/s² unless told otherwise.
+    #[staticmethod]
+    #[pyo3(signature = (signal, *, units = "m/s2"))]
+    fn from_eqsig(signal: &Bound<'_, PyAny>, units: &str) -> PyResult<Self> {
+        let dt = signal.getattr("dt")?;
+        Self::new(signal.py(), &signal.getattr("values")?, Some(&dt), None, units, None)
     }
 
     /// The motion times a factor, or scaled to a peak.

@@ -10,6 +10,7 @@ import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -296,6 +297,24 @@ def test_figures_return_axes(tmp_path: Path) -> None:
     for draw in [response.plot.history, response.plot.acceleration, response.plot.energy]:
         assert draw().get_xlabel() == "time [s]"
     matplotlib.pyplot.close("all")
+
+
+def test_the_animation_has_its_frames(tmp_path: Path) -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    for name in ["taft.toml", "el-centro.toml"]:
+        response = ss.run(ss.Model.read(EXAMPLES / name))
+        animation = response.plot.animation(frames_per_s=2, speed=10.0)
+        animation.save(tmp_path / "slide.gif", writer="pillow")
+    matplotlib.pyplot.close("all")
+
+
+def test_motions_of_other_packages() -> None:
+    values, delta = np.array([0.0, 0.2, -0.2, 0.0]), np.float64(0.5)
+    trace = SimpleNamespace(data=values, stats=SimpleNamespace(delta=delta))
+    assert ss.Motion.from_obspy(trace, units="g") == pulse()
+    accelerations = SimpleNamespace(values=values * 9.80665, dt=delta)
+    assert ss.Motion.from_eqsig(accelerations) == pulse()
 
 
 def test_tables_of_pandas_and_xarray() -> None:

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from matplotlib.animation import FuncAnimation
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
@@ -83,6 +85,59 @@ class Plotter:
         ax.set(xlabel="time [s]", ylabel="energy [kJ]")
         ax.margins(x=0)
         return ax
+
+
+    def animation(
+        self, *, frames_per_s: float = 25.0, speed: float = 1.0, magnify: float | None = None
+    ) -> FuncAnimation:
+        """Block and storeys as they move over the table, in an animation of Matplotlib.
+
+        Parameters
+        ----------
+        frames_per_s
+            Frames a second.
+        speed
+            Seconds of the motion in one second.
+        magnify
+            Factor on all displacements; one that shows the largest well if left out.
+
+        Returns
+        -------
+        FuncAnimation
+            ``animation.to_jshtml()`` shows it in a notebook, ``animation.save("slide.gif")`` writes it.
+        """
+        import matplotlib.pyplot as plt
+        from matplotlib.animation import FuncAnimation
+        from matplotlib.patches import Rectangle
+
+        knots = self._response.knots
+        time = knots["time_s"]
+        sliding = knots["sliding_displacement_m"]
+        floors = [v for k, v in knots.items() if k.startswith("storey") and "displacement" in k]
+        # Of a frame every storey counts as one unit of height.
+        largest = max(float(np.abs(sliding + floor).max()) for floor in [0.0 * sliding, *floors])
+        factor = magnify if magnify is not None else (0.6 / largest if largest > 0.0 else 1.0)
+        frame_s = np.arange(0.0, time[-1], speed / frames_per_s)
+        at = [factor * np.interp(frame_s, time, sliding)]
+        at += [factor * np.interp(frame_s, time, sliding + floor) for floor in floors]
+        figure, ax = plt.subplots(figsize=(4, 2.5 + 0.6 * len(floors)), layout="constrained")
+        ax.set(xlim=(-1.6, 1.6), ylim=(-0.25, 0.6 + len(floors)), aspect="equal")
+        ax.axis("off")
+        ax.axhspan(-0.15, 0.0, color="0.8")
+        ax.plot([0.0, 0.0], [-0.15, -0.05], color="0.4")
+        block = Rectangle((-0.5, 0.0), 1.0, 0.3, color="C0")
+        ax.add_patch(block)
+        heights = np.array([0.3, *(0.3 + np.arange(1.0, len(floors) + 1.0))])
+        (frame,) = ax.plot([], [], "o-", color="C1", ms=9, lw=2)
+        clock = ax.text(-1.55, -0.12, "")
+
+        def draw(i: int) -> list[Artist]:
+            block.set_x(-0.5 + at[0][i])
+            frame.set_data([x[i] for x in at] if floors else [], heights if floors else [])
+            clock.set_text(f"{frame_s[i]:.2f} s, displacements × {factor:.3g}")
+            return [block, frame, clock]
+
+        return FuncAnimation(figure, draw, frames=len(frame_s), interval=1e3 / frames_per_s, blit=True)
 
 
 def _axes(ax: Axes | None) -> Axes:
