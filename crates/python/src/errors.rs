@@ -6,6 +6,7 @@ use std::path::Path;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use slipstick::assessment::AssessmentError;
 use slipstick::error::{InputError, MotionError, RecordError, SolveError, UnitError};
 use slipstick_files::{FileError, JobError, StudyError};
 
@@ -116,6 +117,23 @@ pub(crate) fn of_study(py: Python<'_>, error: &StudyError) -> PyErr {
         StudyError::Input { error, .. } => of_input(py, error),
         StudyError::File(error) => of_file(py, error),
         StudyError::Stopped(_) => PyKeyboardInterrupt::new_err(()),
+        other => exception(py, "StudyError", &other.to_string(), |_| Ok(())),
+    }
+}
+
+pub(crate) fn of_assessment(py: Python<'_>, error: &AssessmentError) -> PyErr {
+    match error {
+        AssessmentError::Input(error) => of_input(py, error),
+        AssessmentError::Choice(error) => {
+            exception(py, "InputError", &error.to_string(), |fields| {
+                fields.set_item("path", &error.what)?;
+                fields.set_item("expected", &error.expected)?;
+                fields.set_item("found", &error.found)?;
+                fields.set_item("nearest", &error.nearest)
+            })
+        }
+        AssessmentError::Motion(error) => of_motion(py, error),
+        AssessmentError::Stopped(_) => PyKeyboardInterrupt::new_err(()),
         other => exception(py, "StudyError", &other.to_string(), |_| Ok(())),
     }
 }

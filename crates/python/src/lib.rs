@@ -1,5 +1,6 @@
 //! The extension module `slipstick._core`: values in, values out; everything is computed in the core.
 
+mod assessment;
 mod errors;
 mod model;
 mod motion;
@@ -13,6 +14,8 @@ use pyo3::prelude::*;
 /// Exact stick–slip response of structures on sliding bearings.
 #[pymodule]
 mod _core {
+    #[pymodule_export]
+    use super::assessment::{Assessment, fragility, ida, read_suite, spectrum, table_of_files};
     #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]

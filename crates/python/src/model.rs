@@ -23,6 +23,16 @@ pub struct Model {
 }
 
 impl Model {
+    /// What results call it.
+    pub(crate) fn name(&self) -> &str {
+        self.analysis.name.as_deref().unwrap_or("model")
+    }
+
+    /// All its keys.
+    pub(crate) fn text(&self) -> &str {
+        &self.text
+    }
+
     /// Where its records are looked for.
     pub(crate) fn path(&self) -> &Path {
         Path::new(&self.source)
@@ -146,8 +156,8 @@ impl Model {
     }
 
     /// Its name, where it has one.
-    #[getter]
-    fn name(&self) -> Option<&str> {
+    #[getter(name)]
+    fn own_name(&self) -> Option<&str> {
         self.analysis.name.as_deref()
     }
 
@@ -183,8 +193,7 @@ impl Model {
     }
 
     fn __repr__(&self) -> String {
-        let name = self.analysis.name.as_deref().unwrap_or("model");
-        format!("<slipstick.Model {name:?}, {} storeys>", self.analysis.model.storeys())
+        format!("<slipstick.Model {:?}, {} storeys>", self.name(), self.analysis.model.storeys())
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, String))> {

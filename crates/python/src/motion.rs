@@ -68,6 +68,10 @@ fn made(motion: GroundMotion) -> LoadedMotion {
 }
 
 impl Motion {
+    pub(crate) fn of(motion: GroundMotion) -> Self {
+        Self(made(motion))
+    }
+
     fn derived(&self, py: Python<'_>, motion: Result<GroundMotion, MotionError>) -> PyResult<Self> {
         let motion = motion.map_err(|error| of_motion(py, &error))?;
         let (figures, old) = (motion.figures(), self.0.clone());

@@ -45,7 +45,7 @@ pub(crate) fn study(
         }
         engine.plan(study.study.runs());
         let outcome = study.run_shard(Shard::WHOLE, &folder, engine)?;
-        let summary = conclude(&study, &folder)?;
+        let summary = conclude(&study, &folder, engine)?;
         let table = read_table(&expand(&folder, PARTS)?)?;
         let notices = study.notices.iter().chain(&outcome.notices).cloned().collect();
         Ok((table.table, summary.table(), outcome.runs, outcome.failures, notices))

@@ -299,6 +299,63 @@ def test_figures_return_axes(tmp_path: Path) -> None:
     matplotlib.pyplot.close("all")
 
 
+def suite() -> dict[str, ss.Motion]:
+    records = EXAMPLES / "records"
+    return ss.read_suite([records / "taft-*.txt", records / "el-centro-180.txt"], units="g", dt_s=0.01)
+
+
+def test_ida_and_fragility_are_those_of_the_command(tmp_path: Path) -> None:
+    model = ss.Model.read(EXAMPLES / "taft.toml").with_({"slider.bounds.lower": 1, "slider.bounds.upper": 1})
+    model = ss.Model.from_toml("\n".join(row for row in model.toml.split("\n") if "bounds" not in row))
+    records = suite()
+    assert list(records) == ["taft-021", "taft-111", "el-centro-180"]
+    ida = ss.ida(model, records, levels="0.1..0.8 g:8", limit="40 mm")
+    assert len(ida.table) == 24 and len(ida.tables["capacities"]) == 3
+    curve = ss.fragility(ida)
+    assert "fragility" in curve.tables and "<svg" in next(iter(curve.figures.values()))
+    command = os.environ.get("SLIPSTICK_COMMAND")
+    if command is None:
+        pytest.skip("SLIPSTICK_COMMAND is not set")
+    path = tmp_path / "model.toml"
+    path.write_text(model.toml)
+    names = [str(EXAMPLES / "records" / name) for name in ["taft-*.txt", "el-centro-180.txt"]]
+    subprocess.run(
+        [command, "ida", path, "--records", names[0], "--records", names[1], "--units", "g"]
+        + ["--dt", "0.01 s", "--levels", "0.1..0.8 g:8", "--to", "40 mm", "-q"]
+        + ["--measure", "PGA", "--out", tmp_path / "out"],
+        check=True,
+        capture_output=True,
+    )
+    assert ida.table.to_csv() == (tmp_path / "out" / "ida.csv").read_text()
+
+
+def test_spectra_over_a_suite(tmp_path: Path) -> None:
+    model = ss.Model.read(EXAMPLES / "taft.toml")
+    found = ss.spectrum(
+        model, suite(), {"slider.radius": ["1 m", "2 m"]}, friction=[0.03, 0.05], level="0.3 g"
+    )
+    assert len(found.tables["runs"]) == 12
+    page = found.report(tmp_path / "report.html").read_text(encoding="utf-8")
+    assert page.startswith("<!DOCTYPE html>") and "slider" in str(found)
+
+
+@pytest.mark.parametrize(
+    ("call", "told"),
+    [
+        (lambda m, r: ss.ida(m, r), "levels"),
+        (lambda m, r: ss.ida(m, r, levels="0.1 m"), "levels"),
+        (lambda m, r: ss.ida(m, r, levels="0.1 g", demand="peak_sliding"), "demand"),
+        (lambda m, r: ss.ida(m, r, levels="0.1 g", limit="3 kg"), "limit"),
+        (lambda m, r: ss.ida(m, r, levels="0.1 g", measure="Sb(1 s)"), "measure"),
+        (lambda m, r: ss.spectrum(m, r, {"slider.radus": "1..2 m:3"}), "slider.radus"),
+        (lambda m, r: ss.spectrum(m, r, {"slider.radius": "1..2 kg:3"}), "kg"),
+    ],
+)
+def test_choices_that_cannot_be_are_told(call: object, told: str) -> None:
+    with pytest.raises(ss.InputError, match=told):
+        call(ss.Model.read(EXAMPLES / "taft.toml"), suite())  # type: ignore[operator]
+
+
 def test_the_animation_has_its_frames(tmp_path: Path) -> None:
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")

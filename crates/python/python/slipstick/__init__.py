@@ -23,6 +23,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ._assessment import Assessment, fragility, ida, read_suite, spectrum
 from ._core import Model, Motion, Table, __version__
 from ._errors import InputError, RecordError, SolveError, StudyError
 from ._response import Event, Response, run
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from os import PathLike
 
 __all__ = [
+    "Assessment",
     "Event",
     "InputError",
     "Model",
@@ -43,8 +45,12 @@ __all__ = [
     "StudyError",
     "Table",
     "__version__",
+    "fragility",
+    "ida",
     "read_record",
+    "read_suite",
     "run",
+    "spectrum",
     "study",
 ]
 

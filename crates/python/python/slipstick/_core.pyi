@@ -6,7 +6,22 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Model", "Motion", "Response", "Study", "Table", "__version__", "run", "study"]
+__all__ = [
+    "Assessment",
+    "Model",
+    "Motion",
+    "Response",
+    "Study",
+    "Table",
+    "__version__",
+    "fragility",
+    "ida",
+    "read_suite",
+    "read_table",
+    "run",
+    "spectrum",
+    "study",
+]
 
 __version__: str
 
@@ -145,3 +160,68 @@ def study(
     progress: Callable[[int, int], object] | None = None,
     force: bool = False,
 ) -> Study: ...
+
+@final
+class Assessment:
+    """A result as people and programs read it."""
+
+    @property
+    def tables(self) -> dict[str, Table]: ...
+    @property
+    def figures(self) -> dict[str, str]: ...
+    @property
+    def text(self) -> str: ...
+    def _summary_json(self) -> str: ...
+    def _report_html(self) -> str: ...
+
+def read_suite(
+    patterns: list[str],
+    *,
+    channel: str | None = None,
+    units: str | None = None,
+    dt_s: float | None = None,
+    vertical: list[str] = ...,
+) -> list[tuple[str, Motion]]: ...
+def read_table(files: list[Path]) -> Table: ...
+def spectrum(
+    model: Model,
+    records: list[tuple[str, Motion]],
+    over: str,
+    *,
+    vary: list[str] = ...,
+    friction: str | None = None,
+    measure: str = "PGA",
+    level: str | None = None,
+    demands: list[str] = ...,
+    jobs: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Assessment: ...
+def ida(
+    model: Model,
+    records: list[tuple[str, Motion]],
+    *,
+    levels: str | None = None,
+    between: str | None = None,
+    measure: str = "PGA",
+    demand: str = "peak_sliding_displacement_m",
+    limit: str | None = None,
+    vary: list[str] = ...,
+    keep: list[str] = ...,
+    by: str | None = None,
+    jobs: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Assessment: ...
+def fragility(
+    table: Table,
+    *,
+    demand: str = "peak_sliding_displacement_m",
+    limit: str | None = None,
+    measure: str | None = None,
+    units: str | None = None,
+    fit_to: str | None = None,
+    keep: list[str] = ...,
+    confidence: float = 0.9,
+    bootstrap: tuple[int, int] | None = None,
+    jobs: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Assessment: ...

@@ -101,7 +101,8 @@ class SolveError(RuntimeError):
 
 
 class StudyError(RuntimeError):
-    """A study that cannot be run: parts of another one in its folder, a run that fails its check."""
+    """A study that cannot be run (parts of another one in its folder, a run that fails its check), or
+    data from which a statistic cannot be told."""
 
 
 def _rebuild(cls: type[Exception], message: str, fields: dict[str, object]) -> Exception:

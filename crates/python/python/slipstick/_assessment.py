@@ -1,0 +1,273 @@
+"""Many records to a decision: spectra, incremental dynamic analysis, fragility."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from . import _core
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    Values = str | Sequence[str] | Sequence[float]
+    Varied = Mapping[str, Values]
+    Progress = Callable[[int, int], object]
+
+
+class Assessment:
+    """What came of an analysis over many records: tables, figures, summary, report."""
+
+    def __init__(self, core: _core.Assessment) -> None:
+        self._core = core
+
+    @cached_property
+    def tables(self) -> dict[str, _core.Table]:
+        """The tables by name, as the command writes them."""
+        return self._core.tables
+
+    @property
+    def table(self) -> _core.Table:
+        """The first of the tables."""
+        return next(iter(self.tables.values()))
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """All figures, as the command prints them with ``--json``."""
+        figures: dict[str, Any] = json.loads(self._core._summary_json())
+        return figures
+
+    @cached_property
+    def figures(self) -> dict[str, str]:
+        """The figures as SVG by name."""
+        return self._core.figures
+
+    def report(self, path: str | PathLike[str]) -> Path:
+        """Write the result as one HTML page."""
+        target = Path(path)
+        target.write_text(self._core._report_html(), encoding="utf-8")
+        return target
+
+    def _repr_html_(self) -> str:
+        return next(iter(self.figures.values()), "")
+
+    def __str__(self) -> str:
+        return self._core.text
+
+    def __repr__(self) -> str:
+        return f"<slipstick.Assessment {', '.join(self.tables)}>"
+
+
+def read_suite(
+    patterns: str | PathLike[str] | Iterable[str | PathLike[str]],
+    *,
+    channel: str | None = None,
+    units: str | None = None,
+    dt_s: float | None = None,
+    vertical: str | PathLike[str] | Iterable[str | PathLike[str]] = (),
+) -> dict[str, _core.Motion]:
+    """Read many records.
+
+    Parameters
+    ----------
+    patterns
+        Files, folders or patterns such as ``"suite/*.AT2"``.
+    channel, units, dt_s
+        As in ``read_record``, for all files.
+    vertical
+        The same for the vertical components, as many and in the same order.
+
+    Returns
+    -------
+    dict
+        The motions by the stems of their files, or by their paths where stems repeat.
+    """
+    return dict(
+        _core.read_suite(
+            _texts(patterns), channel=channel, units=units, dt_s=dt_s, vertical=_texts(vertical)
+        )
+    )
+
+
+def spectrum(
+    model: _core.Model,
+    records: Mapping[str, _core.Motion],
+    over: Varied,
+    *,
+    vary: Varied | None = None,
+    friction: Values | None = None,
+    measure: str = "PGA",
+    level: str | None = None,
+    demands: Sequence[str] = (),
+    jobs: int | None = None,
+    progress: Progress | None = None,
+) -> Assessment:
+    """Demands over one parameter of the model, with fractiles over the records.
+
+    Parameters
+    ----------
+    model, records
+        The model and the motions by name, such as from ``read_suite``.
+    over
+        The parameter along the axis and its values: ``{"slider.radius": "1..5 m:50"}``.
+    vary
+        Parameters that make groups of curves.
+    friction
+        Kinetic coefficients that make groups; the ratio of static to kinetic friction is kept.
+    measure, level
+        All records are scaled so that the measure takes this value; as recorded if left out.
+    demands
+        Keys of demands besides those that are always told.
+    jobs, progress
+        As in ``study``.
+    """
+    return Assessment(
+        _core.spectrum(
+            model,
+            list(records.items()),
+            _varied(over)[0],
+            vary=_varied(vary or {}),
+            friction=None if friction is None else _values(friction),
+            measure=measure,
+            level=level,
+            demands=list(demands),
+            jobs=jobs,
+            progress=progress,
+        )
+    )
+
+
+def ida(
+    model: _core.Model,
+    records: Mapping[str, _core.Motion],
+    *,
+    levels: str | None = None,
+    between: str | None = None,
+    measure: str = "PGA",
+    demand: str = "peak_sliding_displacement_m",
+    limit: str | None = None,
+    vary: Varied | None = None,
+    keep: Sequence[str] = (),
+    by: str | None = None,
+    jobs: int | None = None,
+    progress: Progress | None = None,
+) -> Assessment:
+    """Incremental dynamic analysis.
+
+    Parameters
+    ----------
+    model, records
+        The model and the motions by name.
+    levels
+        Levels of the measure for all records: ``"0.1..1 g:10"``.
+    between
+        In place of them: each record's own capacity is hunted between two levels, ``"0.05..2 g"``.
+    measure
+        The intensity measure.
+    demand, limit
+        The demand and the limit on it with its unit; of sliding, the model's gap if left out.
+    vary, keep, by
+        Designs that are run, rows that are kept, and the path whose values have curves of their own.
+    jobs, progress
+        As in ``study``.
+
+    Returns
+    -------
+    Assessment
+        Tables ``ida``, one row a run, and where there is a limit ``capacities``.
+    """
+    return Assessment(
+        _core.ida(
+            model,
+            list(records.items()),
+            levels=levels,
+            between=between,
+            measure=measure,
+            demand=demand,
+            limit=limit,
+            vary=_varied(vary or {}),
+            keep=list(keep),
+            by=by,
+            jobs=jobs,
+            progress=progress,
+        )
+    )
+
+
+def fragility(
+    source: _core.Table | Assessment | str | PathLike[str],
+    *,
+    demand: str = "peak_sliding_displacement_m",
+    limit: str | None = None,
+    measure: str | None = None,
+    units: str | None = None,
+    fit_to: str | None = None,
+    keep: Sequence[str] = (),
+    confidence: float = 0.9,
+    bootstrap: tuple[int, int] | None = None,
+    jobs: int | None = None,
+    progress: Progress | None = None,
+) -> Assessment:
+    """Fit a lognormal fragility, with intervals clustered by record.
+
+    Parameters
+    ----------
+    source
+        Runs of ``ida`` or ``study``, capacities or counts: a table, or a file in CSV or Parquet.
+    demand, limit
+        The demand and the limit on it with its unit.
+    measure, units
+        The measure, and its units where the table does not state them.
+    fit_to
+        ``"counts"``, ``"capacities"`` or ``"cloud"``; by the kind of data if left out.
+    keep
+        Rows that are kept: ``"slider.radius=2 m"``.
+    confidence
+        Of intervals and band.
+    bootstrap
+        Intervals from so many draws of the records, with this seed.
+
+    Returns
+    -------
+    Assessment
+        The table ``fragility`` is the curve with its band; ``summary`` has median and dispersion.
+    """
+    if isinstance(source, Assessment):
+        table = source.tables.get("capacities", source.table) if limit is None else source.table
+    elif isinstance(source, _core.Table):
+        table = source
+    else:
+        table = _core.read_table([Path(source)])
+    return Assessment(
+        _core.fragility(
+            table,
+            demand=demand,
+            limit=limit,
+            measure=measure,
+            units=units,
+            fit_to=fit_to,
+            keep=list(keep),
+            confidence=confidence,
+            bootstrap=bootstrap,
+            jobs=jobs,
+            progress=progress,
+        )
+    )
+
+
+def _texts(paths: str | PathLike[str] | Iterable[str | PathLike[str]]) -> list[str]:
+    if isinstance(paths, (str, PathLike)):
+        return [fspath(paths)]
+    return [fspath(path) for path in paths]
+
+
+def _values(values: Values) -> str:
+    return values if isinstance(values, str) else ", ".join(str(value) for value in values)
+
+
+def _varied(varied: Varied) -> list[str]:
+    return [f"{path}={_values(values)}" for path, values in varied.items()]
