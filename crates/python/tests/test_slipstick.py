@@ -45,7 +45,7 @@ def pulse() -> ss.Motion:
 
 def plan(folder: Path, samples: int = 32) -> Path:
     path = folder / "plan.toml"
-    path.write_text(PLAN.format(model=(EXAMPLES / "taft.toml").as_posix(), samples=samples))
+    path.write_text(PLAN.format(model=(EXAMPLES / "studies" / "tank.toml").as_posix(), samples=samples))
     return path
 
 
