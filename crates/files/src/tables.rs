@@ -15,11 +15,38 @@ use slipstick::response::{Event, History};
 /// Those of the writer.
 pub fn history_csv(history: &History, to: &mut impl Write) -> io::Result<()> {
     let mut rows = csv::Writer::from_writer(to);
-    let columns = history.columns(&history.rows);
-    rows.write_record(columns.iter().map(|(name, _)| name)).map_err(of_file)?;
-    for row in 0..history.rows.len() {
-        let cells = columns.iter().map(|(_, values)| digits(values[row]));
-        rows.write_record(cells).map_err(of_file)?;
+    let mut header: Vec<String> = [
+        "time_s",
+        "table_acceleration_m_per_s2",
+        "sliding_displacement_m",
+        "sliding_velocity_m_per_s",
+        "block_acceleration_m_per_s2",
+        "friction_force_n",
+    ]
+    .map(str::to_owned)
+    .to_vec();
+    for storey in 1..=history.storeys {
+        for column in ["displacement_m", "velocity_m_per_s", "acceleration_m_per_s2"] {
+            header.push(format!("storey{storey}_{column}"));
+        }
+    }
+    rows.write_record(&header).map_err(of_file)?;
+    for &knot in &history.rows {
+        let mut row = vec![
+            history.time_s[knot],
+            history.table_acceleration_m_per_s2[knot],
+            history.sliding_displacement_m[knot],
+            history.sliding_velocity_m_per_s[knot],
+            history.block_acceleration_m_per_s2[knot],
+            history.friction_force_n[knot],
+        ];
+        let displacements = history.storey_displacements(knot);
+        let velocities = history.storey_velocities(knot);
+        let accelerations = history.storey_accelerations(knot);
+        for ((q, v), a) in displacements.iter().zip(velocities).zip(accelerations) {
+            row.extend([q, v, a]);
+        }
+        rows.write_record(row.into_iter().map(digits)).map_err(of_file)?;
     }
     rows.flush()
 }
