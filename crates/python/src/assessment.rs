@@ -9,6 +9,7 @@ use slipstick::assessment::models::Models;
 use slipstick::assessment::observed::{FitTo, FragilityRequest, run_fragility};
 use slipstick::assessment::spectrum::{SpectrumRequest, run_spectrum};
 use slipstick::assessment::suite::{Scaling, Suite, SuiteRecord};
+use slipstick::input::Bound as FrictionBound;
 use slipstick::motion::intensity::Measure;
 use slipstick::record::Units;
 use slipstick::table;
@@ -135,6 +136,22 @@ fn models(
         .map_err(|error| of_assessment(py, &error))
 }
 
+/// The bounds of friction to run; none for a model without them.
+fn bounds(py: Python<'_>, model: &Model, name: &str) -> PyResult<Vec<FrictionBound>> {
+    if !["all", "lower", "nominal", "upper"].contains(&name) {
+        let expected = "\"all\", \"lower\", \"nominal\" or \"upper\"";
+        return Err(of_argument(py, "bounds", expected, &format!("{name:?}")));
+    }
+    match model.analysis.friction_bounds {
+        Some(given) => {
+            let all = given.all().into_iter();
+            Ok(all.filter(|bound| name == "all" || name == bound.name).collect())
+        }
+        None if matches!(name, "all" | "nominal") => Ok(Vec::new()),
+        None => Err(of_argument(py, "bounds", "slider.bounds in the model", name)),
+    }
+}
+
 fn measure(py: Python<'_>, name: &str) -> PyResult<Measure> {
     Measure::parse(name).map_err(|error| {
         let found = format!("{:?}", error.found);
@@ -169,7 +186,7 @@ fn limit(py: Python<'_>, text: &str, demand: &str) -> PyResult<f64> {
 #[pyfunction]
 #[pyo3(signature = (
     model, records, over, *, vary = Vec::new(), friction = None, measure = "PGA", level = None,
-    demands = Vec::new(), jobs = None, progress = None
+    demands = Vec::new(), bounds = "all", jobs = None, progress = None
 ))]
 #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
 pub(crate) fn spectrum(
@@ -182,6 +199,7 @@ pub(crate) fn spectrum(
     measure: &str,
     level: Option<&str>,
     demands: Vec<String>,
+    bounds: &str,
     jobs: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Assessment> {
@@ -203,9 +221,14 @@ pub(crate) fn spectrum(
             (Scaling::Level(of, value), format!(" scaled to {of} = {}", text.trim()))
         }
     };
-    let suite = suite(records);
-    let request =
-        SpectrumRequest { models: &models, suite: &suite, scaling, demands: &demands, bounds: &[] };
+    let (suite, bounds) = (suite(records), self::bounds(py, model, bounds)?);
+    let request = SpectrumRequest {
+        models: &models,
+        suite: &suite,
+        scaling,
+        demands: &demands,
+        bounds: &bounds,
+    };
     let run = followed(py, jobs, progress, |engine| run_spectrum(&request, engine))?;
     let run = run.map_err(|error| of_assessment(py, &error))?;
     let sheet = SpectrumReport {
@@ -234,7 +257,7 @@ pub(crate) fn spectrum(
 #[pyo3(signature = (
     model, records, *, levels = None, between = None, measure = "PGA",
     demand = "peak_sliding_displacement_m", limit = None, vary = Vec::new(), keep = Vec::new(),
-    by = None, jobs = None, progress = None
+    by = None, bounds = "all", jobs = None, progress = None
 ))]
 #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
 pub(crate) fn ida(
@@ -249,6 +272,7 @@ pub(crate) fn ida(
     vary: Vec<String>,
     keep: Vec<String>,
     by: Option<&str>,
+    bounds: &str,
     jobs: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Assessment> {
@@ -277,10 +301,10 @@ pub(crate) fn ida(
         Some(text) => Some(self::limit(py, text, demand)?),
         None => gap_m.filter(|_| demand == "peak_sliding_displacement_m"),
     };
-    let suite = suite(records);
+    let (suite, bounds) = (suite(records), self::bounds(py, model, bounds)?);
     let request = IdaRequest {
         models: &models,
-        bounds: &[],
+        bounds: &bounds,
         suite: &suite,
         measure: of,
         demand,

@@ -103,6 +103,7 @@ def spectrum(
     measure: str = "PGA",
     level: str | None = None,
     demands: Sequence[str] = (),
+    bounds: str = "all",
     jobs: int | None = None,
     progress: Progress | None = None,
 ) -> Assessment:
@@ -122,6 +123,8 @@ def spectrum(
         All records are scaled so that the measure takes this value; as recorded if left out.
     demands
         Keys of demands besides those that are always told.
+    bounds
+        Which of the model's ``slider.bounds`` are run: ``"all"``, ``"lower"``, ``"nominal"``, ``"upper"``.
     jobs, progress
         As in ``study``.
     """
@@ -135,6 +138,7 @@ def spectrum(
             measure=measure,
             level=level,
             demands=list(demands),
+            bounds=bounds,
             jobs=jobs,
             progress=progress,
         )
@@ -153,6 +157,7 @@ def ida(
     vary: Varied | None = None,
     keep: Sequence[str] = (),
     by: str | None = None,
+    bounds: str = "all",
     jobs: int | None = None,
     progress: Progress | None = None,
 ) -> Assessment:
@@ -172,6 +177,8 @@ def ida(
         The demand and the limit on it with its unit; of sliding, the model's gap if left out.
     vary, keep, by
         Designs that are run, rows that are kept, and the path whose values have curves of their own.
+    bounds
+        Which of the model's ``slider.bounds`` are run: ``"all"``, ``"lower"``, ``"nominal"``, ``"upper"``.
     jobs, progress
         As in ``study``.
 
@@ -192,6 +199,7 @@ def ida(
             vary=_varied(vary or {}),
             keep=list(keep),
             by=by,
+            bounds=bounds,
             jobs=jobs,
             progress=progress,
         )

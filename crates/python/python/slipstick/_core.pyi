@@ -193,6 +193,7 @@ def spectrum(
     measure: str = "PGA",
     level: str | None = None,
     demands: list[str] = ...,
+    bounds: str = "all",
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Assessment: ...
@@ -208,6 +209,7 @@ def ida(
     vary: list[str] = ...,
     keep: list[str] = ...,
     by: str | None = None,
+    bounds: str = "all",
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Assessment: ...
