@@ -1,8 +1,9 @@
-//! `spectrum`, `ida`, `fragility`: many records to a decision.
+//! `spectrum`, `ida`, `fragility`, `design`: many records to a decision.
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slipstick::assessment::AssessmentError;
+use slipstick::assessment::design::{DesignRequest, Target, run_design};
 use slipstick::assessment::grid::levels;
 use slipstick::assessment::ida::{IdaLevels, IdaRequest, run_ida};
 use slipstick::assessment::models::Models;
@@ -16,6 +17,7 @@ use slipstick::table;
 use slipstick::units::{Dimension, parse_quantity};
 use slipstick_files::{OpenSuite, SuiteError, SuiteRequest, read_table};
 use slipstick_report::DisplayUnits;
+use slipstick_report::assessment::design::DesignReport;
 use slipstick_report::assessment::fragility::FragilityReport;
 use slipstick_report::assessment::ida::IdaFamily;
 use slipstick_report::assessment::key;
@@ -159,6 +161,27 @@ fn measure(py: Python<'_>, name: &str) -> PyResult<Measure> {
     })
 }
 
+/// How records are scaled, and that in words.
+fn scaling(py: Python<'_>, name: &str, level: Option<&str>) -> PyResult<(Scaling, String)> {
+    let Some(text) = level else {
+        return Ok((Scaling::Factor(1.0), " as recorded".to_owned()));
+    };
+    let of = measure(py, name)?;
+    let values = levels("level", text, &of).map_err(|error| of_assessment(py, &error))?;
+    let [value] = values[..] else {
+        return Err(of_argument(py, "level", "one level", text));
+    };
+    Ok((Scaling::Level(of, value), format!(" scaled to {of} = {}", text.trim())))
+}
+
+/// A share strictly between 0 and 1.
+fn share(py: Python<'_>, name: &str, value: f64) -> PyResult<f64> {
+    let inside = value > 0.0 && value < 1.0;
+    inside
+        .then_some(value)
+        .ok_or_else(|| of_argument(py, name, "a share between 0 and 1", &value.to_string()))
+}
+
 /// A limit on a demand with its unit, in SI.
 fn limit(py: Python<'_>, text: &str, demand: &str) -> PyResult<f64> {
     let dimension = match key::quantity(demand) {
@@ -210,17 +233,7 @@ pub(crate) fn spectrum(
     }
     varied.push(("over", over));
     let models = models(py, model, &varied, coupled)?;
-    let (scaling, scaled) = match level {
-        None => (Scaling::Factor(1.0), " as recorded".to_owned()),
-        Some(text) => {
-            let of = self::measure(py, measure)?;
-            let values = levels("level", text, &of).map_err(|error| of_assessment(py, &error))?;
-            let [value] = values[..] else {
-                return Err(of_argument(py, "level", "one level", text));
-            };
-            (Scaling::Level(of, value), format!(" scaled to {of} = {}", text.trim()))
-        }
-    };
+    let (scaling, scaled) = scaling(py, measure, level)?;
     let (suite, bounds) = (suite(records), self::bounds(py, model, bounds)?);
     let request = SpectrumRequest {
         models: &models,
@@ -332,6 +345,91 @@ pub(crate) fn ida(
     Assessment::new(py, "slipstick.ida(model, records)", sheet, tables)
 }
 
+/// Designs that keep a gap with the least acceleration.
+#[pyfunction]
+#[pyo3(signature = (
+    model, records, vary, *, friction = None, gap = None, probability = 0.9, demand = None,
+    share = 0.5, measure = "PGA", level = None, bounds = None, sensitivity = 256, seed = 1,
+    confidence = 0.9, jobs = None, progress = None
+))]
+#[expect(clippy::too_many_arguments, reason = "they have names in Python")]
+pub(crate) fn design(
+    py: Python<'_>,
+    model: &Model,
+    records: Vec<(String, Motion)>,
+    vary: Vec<String>,
+    friction: Option<String>,
+    gap: Option<&str>,
+    probability: f64,
+    demand: Option<String>,
+    share: f64,
+    measure: &str,
+    level: Option<&str>,
+    bounds: Option<[f64; 2]>,
+    sensitivity: u32,
+    seed: u64,
+    confidence: f64,
+    jobs: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Assessment> {
+    let coupled = friction.is_some();
+    let of_friction =
+        friction.map(|values| ("friction", format!("slider.kinetic_friction={values}")));
+    let varied: Vec<(&str, String)> =
+        of_friction.into_iter().chain(vary.into_iter().map(|text| ("vary", text))).collect();
+    if varied.is_empty() {
+        return Err(of_argument(py, "vary", "something to vary", "nothing"));
+    }
+    let models = models(py, model, &varied, coupled)?;
+    let (scaling, scaled) = scaling(py, measure, level)?;
+    let own_gap_m = model.analysis.model.slider().gap_m;
+    let gap_m = match (gap, own_gap_m) {
+        (Some(text), _) => limit(py, text, "peak_sliding_displacement_m")?,
+        (None, Some(gap_m)) => gap_m,
+        (None, None) => {
+            return Err(of_argument(py, "gap", "a length (or slider.gap in the model)", "nothing"));
+        }
+    };
+    let target = Target { gap_m, probability, acceleration_share: share };
+    let of_model = || model.analysis.friction_bounds.map(|bounds| [bounds.lower, bounds.upper]);
+    let bounds = bounds.or_else(of_model);
+    let acceleration = demand.unwrap_or_else(|| models.roof_acceleration());
+    let suite = suite(records);
+    let request = DesignRequest {
+        models: &models,
+        suite: &suite,
+        scaling,
+        target,
+        acceleration: &acceleration,
+        bounds,
+        sensitivity,
+        seed,
+        confidence: self::share(py, "confidence", confidence)?,
+    };
+    let run = followed(py, jobs, progress, |engine| run_design(&request, engine))?;
+    let run = run.map_err(|error| of_assessment(py, &error))?;
+    let sheet = DesignReport {
+        version: VERSION,
+        name: model.name(),
+        records: suite.records.len(),
+        scaled: &scaled,
+        target,
+        variables: &run.variables,
+        acceleration: &acceleration,
+        found: &run.found,
+        bounds: bounds.zip(run.bounded.as_deref()),
+        map: run.map.as_ref(),
+        sensitivity: run.sensitivity.as_ref(),
+        confidence,
+        failures: &run.failures,
+        warnings: &[],
+        display: DisplayUnits::Si,
+    }
+    .sheet();
+    let tables = vec![("front", run.front), ("runs", run.runs)];
+    Assessment::new(py, "slipstick.design(model, records, vary)", sheet, tables)
+}
+
 /// A lognormal fragility of a table.
 #[pyfunction]
 #[pyo3(signature = (
@@ -354,10 +452,7 @@ pub(crate) fn fragility(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Assessment> {
     let limit = limit.map(|text| self::limit(py, text, demand)).transpose()?;
-    if !(confidence > 0.0 && confidence < 1.0) {
-        let found = confidence.to_string();
-        return Err(of_argument(py, "confidence", "a share between 0 and 1", &found));
-    }
+    let confidence = share(py, "confidence", confidence)?;
     let fit_to = match fit_to {
         None => None,
         Some("counts") => Some(FitTo::Counts),

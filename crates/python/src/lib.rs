@@ -15,7 +15,9 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use super::assessment::{Assessment, fragility, ida, read_suite, spectrum, table_of_files};
+    use super::assessment::{
+        Assessment, design, fragility, ida, read_suite, spectrum, table_of_files,
+    };
     #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]

@@ -339,6 +339,18 @@ def test_spectra_over_a_suite(tmp_path: Path) -> None:
     assert page.startswith("<!DOCTYPE html>") and "slider" in str(found)
 
 
+def test_a_design_keeps_the_gap() -> None:
+    model = ss.Model.read(EXAMPLES / "taft.toml")
+    found = ss.design(
+        model, suite(), {"slider.radius": "1..4 m:4"}, friction="0.02..0.1:5", gap="80 mm", sensitivity=0
+    )
+    assert list(found.tables) == ["front", "runs"] and len(found.tables["front"]) > 0
+    with pytest.raises(ss.InputError, match="vary"):
+        ss.design(model, suite(), gap="80 mm")
+    with pytest.raises(ss.InputError, match="confidence"):
+        ss.design(model, suite(), {"slider.radius": "1..4 m:4"}, confidence=1.0)
+
+
 @pytest.mark.parametrize(
     ("call", "told"),
     [

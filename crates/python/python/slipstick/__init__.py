@@ -23,7 +23,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ._assessment import Assessment, fragility, ida, read_suite, spectrum
+from ._assessment import Assessment, design, fragility, ida, read_suite, spectrum
 from ._core import Model, Motion, Table, __version__
 from ._errors import InputError, RecordError, SolveError, StudyError
 from ._response import Event, Response, run
@@ -45,6 +45,7 @@ __all__ = [
     "StudyError",
     "Table",
     "__version__",
+    "design",
     "fragility",
     "ida",
     "read_record",

@@ -1,4 +1,4 @@
-"""Many records to a decision: spectra, incremental dynamic analysis, fragility."""
+"""Many records to a decision: spectra, incremental dynamic analysis, fragility, design."""
 
 from __future__ import annotations
 
@@ -261,6 +261,79 @@ def fragility(
             keep=list(keep),
             confidence=confidence,
             bootstrap=bootstrap,
+            jobs=jobs,
+            progress=progress,
+        )
+    )
+
+
+def design(
+    model: _core.Model,
+    records: Mapping[str, _core.Motion],
+    vary: Varied | None = None,
+    *,
+    friction: Values | None = None,
+    gap: str | None = None,
+    probability: float = 0.9,
+    demand: str | None = None,
+    share: float = 0.5,
+    measure: str = "PGA",
+    level: str | None = None,
+    bounds: tuple[float, float] | None = None,
+    sensitivity: int = 256,
+    seed: int = 1,
+    confidence: float = 0.9,
+    jobs: int | None = None,
+    progress: Progress | None = None,
+) -> Assessment:
+    """Search the designs that keep a gap with the least acceleration.
+
+    Parameters
+    ----------
+    model, records
+        The model and the motions by name.
+    vary
+        Parameters and their values: ``{"slider.radius": "1..5 m:200"}``.
+    friction
+        Kinetic coefficients; the ratio of static to kinetic friction is kept.
+    gap, probability
+        The sliding displacement that this share of the records must not exceed; the model's gap if left
+        out.
+    demand, share
+        Key of the acceleration that is made least, and the share of the records that must not exceed it;
+        the roof's if left out.
+    measure, level
+        As in ``spectrum``.
+    bounds
+        Factors on friction for the check of robustness; those of the model if left out.
+    sensitivity, seed
+        Sample points of Sobol' indices, 0 for none, and their seed.
+    confidence
+        Of intervals.
+    jobs, progress
+        As in ``study``.
+
+    Returns
+    -------
+    Assessment
+        Tables ``front``, one row a design, and ``runs``.
+    """
+    return Assessment(
+        _core.design(
+            model,
+            list(records.items()),
+            _varied(vary or {}),
+            friction=None if friction is None else _values(friction),
+            gap=gap,
+            probability=probability,
+            demand=demand,
+            share=share,
+            measure=measure,
+            level=level,
+            bounds=bounds,
+            sensitivity=sensitivity,
+            seed=seed,
+            confidence=confidence,
             jobs=jobs,
             progress=progress,
         )
