@@ -267,9 +267,12 @@ impl StudyReport<'_> {
         misfit.limits =
             vec![Limit { value: LEAST_SHARE, label: "90 %".to_owned(), style: Style::LIMIT }];
         let caption = format!(
-            "Spectra of the {} pairs in their maximum direction, each scaled by one factor, over the \
-             periods that the plan gives; below, their mean over the target: least {} at {} s.",
-            matched.factors.len(),
+            "Spectra of {} in the maximum direction, each scaled by one factor, over the periods that \
+             the plan gives; below, their mean over the target: least {} at {} s.",
+            match matched.factors.len() {
+                1 => "one pair".to_owned(),
+                pairs => format!("{pairs} pairs"),
+            },
             cell(matched.least[0]),
             cell(matched.least[1])
         );
