@@ -118,7 +118,7 @@ impl OpenStudy {
             name if name == plan_name => in_plan(error),
             _ => in_model(error),
         })?;
-        let id = id(&inputs);
+        let id = id(&inputs, &study);
         let model_path = model_path.clone();
         let plan_path = plan_path.to_owned();
         Ok(Self {
@@ -298,13 +298,18 @@ fn file_name(path: &Path) -> String {
     path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
-/// Hash of the version and of the inputs in their order.
-fn id(inputs: &[(String, String)]) -> String {
+/// Hash of the version, of the inputs in their order, and of the bounds of friction that are run, where
+/// the model has some: an earlier version ran the nominal friction alone.
+fn id(inputs: &[(String, String)], study: &Study) -> String {
     let mut text = format!("slipstick {}\n", env!("CARGO_PKG_VERSION"));
     // The plan's own name does not matter.
     for (index, (name, sha256)) in inputs.iter().enumerate() {
         let name = if index == 0 { "plan" } else { name };
         text.push_str(&format!("{sha256} {name}\n"));
+    }
+    if study.has_bounds() {
+        let names: Vec<&str> = study.bounds().iter().map(|bound| bound.name).collect();
+        text.push_str(&format!("friction {}\n", names.join(" ")));
     }
     sha256_hex(text.as_bytes())
 }
