@@ -55,7 +55,7 @@ fn samples(name: &str, values: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
         let found = format!("an array of shape {shape} and type {}", array.getattr("dtype")?);
         return Err(of_argument(py, name, expected, &found));
     }
-    let array = numpy.call_method1("ascontiguousarray", (array, "f8"))?;
+    let array = numpy.call_method1("require", (array, "f8", ("C_CONTIGUOUS", "ALIGNED")))?;
     let array: PyReadonlyArray1<'_, f64> = array.extract()?;
     Ok(array.as_slice()?.to_vec())
 }
@@ -265,14 +265,15 @@ impl Motion {
     #[staticmethod]
     fn _from_parts(
         py: Python<'_>,
-        times_s: PyReadonlyArray1<'_, f64>,
-        horizontal: PyReadonlyArray1<'_, f64>,
-        vertical: Option<PyReadonlyArray1<'_, f64>>,
+        times_s: &Bound<'_, PyAny>,
+        horizontal: &Bound<'_, PyAny>,
+        vertical: Option<&Bound<'_, PyAny>>,
         description: Vec<String>,
     ) -> PyResult<Self> {
-        let list = |array: &PyReadonlyArray1<'_, f64>| Ok::<_, PyErr>(array.as_slice()?.to_vec());
-        let vertical = vertical.as_ref().map(list).transpose()?;
-        let motion = GroundMotion::new(list(&times_s)?, list(&horizontal)?, vertical);
+        let vertical = vertical.map(|values| samples("vertical", values)).transpose()?;
+        let (times_s, horizontal) =
+            (samples("times_s", times_s)?, samples("acceleration", horizontal)?);
+        let motion = GroundMotion::new(times_s, horizontal, vertical);
         let motion = made(motion.map_err(|error| of_motion(py, &error))?);
         let loaded = Loaded { description, ..motion.loaded };
         Ok(Self(LoadedMotion { loaded, ..motion }))

@@ -105,6 +105,14 @@ def test_values_pickle(value: object) -> None:
     assert pickle.loads(pickle.dumps(value)) == value
 
 
+def test_arrays_need_not_be_aligned() -> None:
+    buffer = np.zeros(4 * 8 + 1, dtype="u1")
+    skewed = np.frombuffer(buffer[1:].data, dtype="f8")
+    assert not skewed.flags.aligned
+    assert len(ss.Motion(skewed, dt=0.5, units="g")) == 4
+    assert len(ss.Motion(np.zeros(8)[::2], dt=0.5, units="g")) == 4
+
+
 def test_inputs_that_cannot_be_are_told() -> None:
     with pytest.raises(ss.InputError) as caught:
         ss.Model.from_toml('[block]\nmass = "3 mm"\n', "tank.toml")
@@ -209,6 +217,45 @@ def test_a_study_in_a_folder_is_that_of_the_command(tmp_path: Path) -> None:
     subprocess.run([command, "study", tmp_path / "plan.toml", "--out", out, "-q"], check=True)
     for part in sorted((out / "parts").iterdir()):
         assert part.read_bytes() == (tmp_path / "a" / "parts" / part.name).read_bytes()
+
+
+def values(samples: int = 64) -> ss.Plan:
+    return ss.Plan(
+        ss.Model.read(EXAMPLES / "studies" / "tank.toml"),
+        suite(),
+        {"slider.kinetic_friction": {"uniform": [0.02, 0.05]}, "slider.radius": ["1 m", "2 m"]},
+        samples=samples,
+        seed=3,
+        measure="PGA",
+        levels=["0.2 g", "0.4 g"],
+    )
+
+
+def test_a_plan_of_values_is_the_plan_of_its_files(tmp_path: Path) -> None:
+    plan = values()
+    study = ss.study(plan)
+    assert study.runs == 3 * 2 * 64 and study.failures == 0
+    assert ss.study(plan.write(tmp_path)).table == study.table
+    assert pickle.loads(pickle.dumps(plan)).digest == plan.digest
+    assert values(128).digest != plan.digest
+    with pytest.raises(ss.InputError, match="records"):
+        ss.study(ss.Plan(block(), {"../a": pulse()}))
+
+
+def test_dask_gives_the_bytes_of_one_process(tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    from slipstick.dask import run_study
+
+    plan = values(1024)
+    alone = ss.study(plan, tmp_path / "alone")
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        together = run_study(plan, client, tmp_path / "together", shards=4)
+    assert together.table == alone.table
+    for part in (tmp_path / "alone" / "parts").iterdir():
+        assert part.read_bytes() == (tmp_path / "together" / "parts" / part.name).read_bytes()
 
 
 def test_a_plan_that_cannot_be_is_told(tmp_path: Path) -> None:

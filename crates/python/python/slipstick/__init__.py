@@ -27,7 +27,7 @@ from ._assessment import Assessment, design, fragility, ida, read_suite, spectru
 from ._core import Model, Motion, Table, __version__
 from ._errors import InputError, RecordError, SolveError, StudyError
 from ._response import Event, Response, run
-from ._study import Study, study
+from ._study import Plan, Study, study
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -38,6 +38,7 @@ __all__ = [
     "InputError",
     "Model",
     "Motion",
+    "Plan",
     "RecordError",
     "Response",
     "SolveError",

@@ -140,9 +140,9 @@ class Study:
     """What came of a study."""
 
     @property
-    def table(self) -> Table: ...
+    def table(self) -> Table | None: ...
     @property
-    def summary(self) -> Table: ...
+    def summary(self) -> Table | None: ...
     @property
     def runs(self) -> int: ...
     @property
@@ -157,6 +157,7 @@ def study(
     plan: str | PathLike[str] | Path,
     folder: str | PathLike[str] | Path,
     *,
+    shard: tuple[int, int] | None = None,
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
     force: bool = False,

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _core
+from ._errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -27,20 +33,93 @@ class Study(NamedTuple):
     notices: list[str]
 
 
+@dataclass(frozen=True)
+class Plan:
+    """A study of values instead of files.
+
+    Parameters
+    ----------
+    model
+        The model.
+    records
+        Motions by name; the model's own motion if left out, which must then be a made one.
+    vary
+        What is varied, as in a plan: ``{"slider.kinetic_friction": {"uniform": [0.02, 0.06]}}``; a list
+        is one of its values.
+    samples, seed, method
+        Number of samples, their seed, and ``"sobol"``, ``"lhs"``, ``"random"`` or ``"grid"``.
+    measure, levels, scale
+        Each record is scaled so that the measure takes each of the levels, ``["0.1 g", "0.2 g"]``; or by
+        each of the factors of ``scale``.
+    bounds
+        Which of the model's ``slider.bounds`` are run: ``"all"``, ``"lower"``, ``"nominal"``, ``"upper"``.
+    name
+        Name of the study.
+    """
+
+    model: _core.Model
+    records: Mapping[str, _core.Motion] | None = None
+    vary: Mapping[str, Any] = field(default_factory=dict)
+    samples: int | None = None
+    seed: int | None = None
+    method: str = "sobol"
+    measure: str | None = None
+    levels: Sequence[str] | None = None
+    scale: Sequence[float] | None = None
+    bounds: str | None = None
+    name: str | None = None
+
+    @property
+    def files(self) -> dict[str, str]:
+        """The plan, the model and the records as the files of a study, text by name."""
+        files = {"plan.toml": self._toml(), "model.toml": self.model.toml}
+        files.update({_record(name): _csv(motion) for name, motion in (self.records or {}).items()})
+        return files
+
+    @property
+    def digest(self) -> str:
+        """A hash of all that goes in: equal plans have the same."""
+        return hashlib.sha256(json.dumps([_core.__version__, self.files]).encode()).hexdigest()
+
+    def write(self, folder: str | PathLike[str]) -> Path:
+        """Write the files of the study and return the path of the plan, for ``slipstick study``."""
+        for name, text in self.files.items():
+            path = Path(folder) / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8", newline="\n")
+        return Path(folder) / "plan.toml"
+
+    def _toml(self) -> str:
+        def rows(values: Mapping[str, Any]) -> list[str]:
+            given = ((key, value) for key, value in values.items() if value is not None)
+            return [f"{json.dumps(key)} = {_toml(value)}" for key, value in given]
+
+        text = rows({"name": self.name, "model": "model.toml", "bounds": self.bounds})
+        if self.records is not None:
+            records = [_record(name) for name in self.records]
+            measured = {"measure": self.measure, "levels": self.levels, "scale": self.scale}
+            text += ["[records]", *rows({"files": records, **measured})]
+        if self.vary:
+            varied = {k: v if isinstance(v, Mapping) else {"values": v} for k, v in self.vary.items()}
+            sampling = {"method": self.method, "count": self.samples, "seed": self.seed}
+            text += ["[vary]", *rows(varied), "[sampling]", *rows(sampling)]
+        return "\n".join(text) + "\n"
+
+
 def study(
-    plan: str | PathLike[str],
+    plan: Plan | str | PathLike[str],
     out: str | PathLike[str] | None = None,
     *,
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
     force: bool = False,
 ) -> Study:
-    """Run a study plan.
+    """Run a study.
 
     Parameters
     ----------
     plan
-        The plan, a TOML file.
+        The plan, a TOML file or a ``Plan``.
     out
         A folder for parts, manifest and summary, as ``slipstick study --out`` writes it. What it holds
         of this study is not run again. A folder of its own, removed at the end, if left out.
@@ -65,12 +144,61 @@ def study(
     KeyboardInterrupt
         At Ctrl-C, which leaves whole parts.
     """
+    with ExitStack() as folders:
 
-    def into(folder: Path) -> Study:
-        done = _core.study(Path(plan), folder, jobs=jobs, progress=progress, force=force)
-        return Study(done.table, done.summary, done.runs, done.failures, done.notices)
+        def new_folder() -> Path:
+            return Path(folders.enter_context(TemporaryDirectory(prefix="slipstick-")))
 
-    if out is not None:
-        return into(Path(out))
+        path = plan.write(new_folder()) if isinstance(plan, Plan) else Path(plan)
+        folder = new_folder() if out is None else Path(out)
+        done = _core.study(path, folder, jobs=jobs, progress=progress, force=force)
+    table, summary = done.table, done.summary
+    assert table is not None and summary is not None
+    return Study(table, summary, done.runs, done.failures, done.notices)
+
+
+def run_shard(
+    plan: Plan, out: str | PathLike[str], shard: tuple[int, int], *, jobs: int | None = 1
+) -> int:
+    """Run one of so many shards of a study into a folder, what it lacks of it; the runs of the shard.
+
+    Parameters
+    ----------
+    plan, out
+        The study and its folder, which other processes may write to as well.
+    shard
+        The shard and the number of shards, from 1: ``(3, 8)``.
+    jobs
+        Number of threads.
+    """
     with TemporaryDirectory(prefix="slipstick-") as folder:
-        return into(Path(folder))
+        path = plan.write(folder)
+        return _core.study(path, Path(out), shard=shard, jobs=jobs).runs
+
+
+def _record(name: str) -> str:
+    if not name or any(character in name for character in "/\\*?[]") or name.startswith("."):
+        message = f"records: expected names that can be names of files, found {name!r}"
+        raise InputError(message, path="records", expected="a name of a file", found=repr(name))
+    return f"records/{name}.csv"
+
+
+def _csv(motion: _core.Motion) -> str:
+    """A record whose numbers read back as the same."""
+    columns = {"time_s": motion.time_s, "acceleration_m_per_s2": motion.acceleration_m_per_s2}
+    if motion.vertical_m_per_s2 is not None:
+        columns["vertical_acceleration_m_per_s2"] = motion.vertical_m_per_s2
+    rows = zip(*(column.tolist() for column in columns.values()), strict=True)
+    return "\n".join([",".join(columns), *(",".join(map(repr, row)) for row in rows)]) + "\n"
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{key} = {_toml(inner)}" for key, inner in value.items()) + " }"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float)):
+        return repr(value)
+    return json.dumps(str(value), ensure_ascii=False)
