@@ -9,6 +9,7 @@
 mod collocation;
 mod damping;
 mod demands;
+mod devices;
 mod energy;
 mod ground;
 mod judge;
@@ -19,7 +20,7 @@ mod structure;
 
 use self::judge::Judge;
 use self::structure::{Phase, Structure};
-use crate::model::Model;
+use crate::model::{Model, Stop, StopKind};
 use crate::motion::GroundMotion;
 use crate::response::{History, Response};
 
@@ -111,7 +112,12 @@ pub fn check(model: &Model, motion: &GroundMotion, response: &Response) -> Certi
     let radians = structure.rate(fastest) * end_s;
     let bound = (100.0 * f64::EPSILON * radians).max(1e-10);
     let judged = history.filter(|h| radians <= MAX_RADIANS && well_formed(model, motion, h));
-    let run = |history| Judge::new(model, motion, (response, history), &structure).run(bound);
+    let run = |history| {
+        if model.has_devices(motion.vertical_m_per_s2().is_some()) {
+            return devices::certificate(model, motion, (response, history), &structure, bound);
+        }
+        Judge::new(model, motion, (response, history), &structure).run(bound)
+    };
     judged.and_then(run).unwrap_or_else(|| Certificate {
         equilibrium_residual: f64::INFINITY,
         friction_excess: f64::INFINITY,
@@ -139,10 +145,21 @@ fn well_formed(model: &Model, motion: &GroundMotion, history: &History) -> bool 
         &history.storey_velocity_m_per_s,
         &history.storey_acceleration_m_per_s2,
     ];
-    let contacts = if model.stop().is_some() { knots } else { 0 };
+    let elastic = matches!(model.stop(), Some(Stop { kind: StopKind::Elastic { .. }, .. }));
+    let contacts = if elastic { knots } else { 0 };
+    let contents = model.devices().contents.len();
+    let surfaces = model.devices().series.as_ref().map_or(0, |series| series.surfaces().len());
+    let contents_lists = [
+        &history.contents_displacement_m,
+        &history.contents_velocity_m_per_s,
+        &history.contents_acceleration_m_per_s2,
+    ];
     history.storeys == n
-        && history.interfaces == 1
-        && history.mode.len() == knots
+        && history.interfaces == 1 + contents
+        && history.surfaces == surfaces
+        && history.surface_displacement_m.len() == knots * surfaces
+        && contents_lists.iter().all(|list| list.len() == knots * contents)
+        && history.mode.len() == knots * (1 + contents)
         && history.contact.len() == contacts
         && knot_lists.iter().all(|list| list.len() == knots)
         && storey_lists.iter().all(|list| list.len() == knots * n)

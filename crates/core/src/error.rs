@@ -163,6 +163,15 @@ pub enum SolveError {
         /// When it was noticed, in s.
         time_s: f64,
     },
+    /// All surfaces in series are at the end of their travel.
+    #[error(
+        "all sliding surfaces reach the end of their travel at {time_s} s, and nothing stops the \
+         block: give [slider.stop] with a gap within the travel, or longer travels"
+    )]
+    EndOfTravel {
+        /// When, in s.
+        time_s: f64,
+    },
     /// A model that a method does not take.
     #[error("{method}: expected a model without {what}")]
     NotTaken {

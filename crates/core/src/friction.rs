@@ -1,15 +1,21 @@
 //! The force between ground and block: one file a law.
 //!
-//! [`Coulomb`] friction, the [`ElasticStop`], and [`Law`], by which the solver asks for what is in
-//! force.
+//! [`Coulomb`] friction, [`RateLaw`]s, the [`ElasticStop`] and [`RigidStop`], [`Series`] of surfaces; and
+//! [`Law`] and [`SliderLaw`], by which the solver asks for what is in force.
 
 mod coulomb;
 mod law;
+mod rate;
+mod slider;
 mod stop;
+mod surfaces;
 
 pub use coulomb::{Coulomb, Friction};
 pub use law::{Branch, Contact, Exit, Hold, Law, Restraint};
+pub use rate::{Coefficient, RateCurve, RateLaw};
+pub use slider::{Bound, Memory, Reached, Rest, RigidStop, SlipForce, SliderLaw};
 pub use stop::ElasticStop;
+pub use surfaces::{Series, SeriesState, Surface};
 
 /// Direction of sliding along x.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,13 @@
 //! Masses, springs, dampers, storeys: inert, checked data without an algorithm.
 
+mod devices;
+
+pub use devices::{Contents, Devices};
+
 use crate::error::ModelError;
-use crate::friction::{Direction, ElasticStop, Friction, Law, Restraint};
+use crate::friction::{
+    Coulomb, Direction, ElasticStop, Friction, Law, Restraint, RigidStop, SliderLaw,
+};
 use crate::units::STANDARD_GRAVITY_M_PER_S2;
 
 /// The rigid block that slides, `M1`.
@@ -66,6 +72,11 @@ pub enum StopKind {
         stiffness_n_per_m: f64,
         /// `c` in N s/m.
         damper_n_s_per_m: f64,
+    },
+    /// Nothing gives way: at an impact `ṡ⁺ = −e ṡ⁻`, and floors keep their absolute velocities.
+    Rigid {
+        /// `e`, from 0 to 1.
+        restitution: f64,
     },
 }
 
@@ -151,6 +162,7 @@ pub struct Model {
     frame: Frame,
     gravity_m_per_s2: f64,
     initial: InitialState,
+    devices: Devices,
 }
 
 impl Model {
@@ -197,13 +209,78 @@ impl Model {
         }
         finite("initial sliding_displacement_m", initial.sliding_displacement_m)?;
         finite("initial sliding_velocity_m_per_s", initial.sliding_velocity_m_per_s)?;
+        if let Some(Stop { gap_m: [positive, negative], kind: StopKind::Rigid { .. } }) = slider.stop {
+            let found = initial.sliding_displacement_m;
+            let within = positive.is_none_or(|gap_m| found <= gap_m)
+                && negative.is_none_or(|gap_m| -found <= gap_m);
+            let expected = "a place between the rigid stops";
+            in_range("initial sliding_displacement_m", expected, found, within)?;
+        }
         if let Some(q) = &initial.storey_displacement_m {
             each("initial storey_displacement_m", n, q, finite)?;
         }
         if let Some(v) = &initial.storey_velocity_m_per_s {
             each("initial storey_velocity_m_per_s", n, v, finite)?;
         }
-        Ok(Self { block, slider, frame, gravity_m_per_s2, initial })
+        let devices = Devices::default();
+        Ok(Self { block, slider, frame, gravity_m_per_s2, initial, devices })
+    }
+
+    /// The same model with devices.
+    ///
+    /// # Errors
+    /// [`ModelError`] names the first quantity out of range: kinetic friction at rest above the static
+    /// one, contents without mass, with more kinetic than static friction, or on a floor that is not
+    /// there.
+    pub fn with_devices(mut self, devices: Devices) -> Result<Self, ModelError> {
+        let friction = self.slider.friction;
+        devices.check(|direction| friction.static_coefficient(direction), self.storeys())?;
+        if let Some(series) = &devices.series {
+            let start_m = self.initial.sliding_displacement_m;
+            if series.travel_m().is_some_and(|travel_m| !(start_m.abs() < travel_m)) {
+                return Err(ModelError::OutOfRange {
+                    quantity: "initial sliding_displacement_m",
+                    expected: "less than the travel of all surfaces",
+                    found: start_m,
+                });
+            }
+            let least = series.least_friction();
+            let fixed = series.static_ratio() * least;
+            self.slider.friction = Friction::Coulomb(Coulomb::new([fixed; 2], [least; 2])?);
+        }
+        self.devices = devices;
+        Ok(self)
+    }
+
+    /// What it has beyond one surface of constant friction, and what stands on the floors.
+    #[must_use]
+    pub fn devices(&self) -> &Devices {
+        &self.devices
+    }
+
+    /// Whether sliding under a motion, with or without a vertical component, is more than friction of
+    /// constant coefficients, a spring, a damper and elastic stops.
+    #[must_use]
+    pub fn has_devices(&self, vertical: bool) -> bool {
+        let rigid = matches!(self.stop(), Some(Stop { kind: StopKind::Rigid { .. }, .. }));
+        rigid || !self.is_plain_between_stops(vertical)
+    }
+
+    /// Whether it has no devices but stops.
+    #[must_use]
+    pub fn is_plain_between_stops(&self, vertical: bool) -> bool {
+        let devices = &self.devices;
+        devices.rate.is_none()
+            && devices.series.is_none()
+            && devices.contents.is_empty()
+            && !(devices.radius_m.is_some() && vertical)
+    }
+
+    /// Radius of a pendulum whose spring follows the normal force: under vertical motion, and where
+    /// friction follows the speed.
+    #[must_use]
+    pub fn pendulum_radius_m(&self, vertical: bool) -> Option<f64> {
+        self.devices.radius_m.filter(|_| vertical || self.devices.rate.is_some())
     }
 
     /// The rigid block alone on a level surface at rest, under standard gravity.
@@ -262,10 +339,11 @@ impl Model {
         &self.initial
     }
 
-    /// `M_tot = M1 + Σ m_i` in kg.
+    /// `M_tot = M1 + Σ m_i` in kg, with the contents.
     #[must_use]
     pub fn total_mass_kg(&self) -> f64 {
-        self.frame.masses_kg.iter().fold(self.block.mass_kg, |sum, m| sum + m)
+        let frame = self.frame.masses_kg.iter().fold(self.block.mass_kg, |sum, m| sum + m);
+        self.devices.contents.iter().fold(frame, |sum, contents| sum + contents.mass_kg)
     }
 
     /// `M_tot g` in N.
@@ -294,6 +372,16 @@ impl Model {
         model
     }
 
+    /// The same model with all coefficients of the slider times `factor`.
+    ///
+    /// # Errors
+    /// [`ModelError::OutOfRange`] unless the factor is finite and ≥ 0, and for surfaces in series > 0.
+    pub fn with_friction_times(&self, factor: f64) -> Result<Self, ModelError> {
+        let mut model = self.with_friction(self.slider.friction.scaled(factor)?);
+        model.devices = self.devices.scaled(factor);
+        Ok(model)
+    }
+
     /// The law of the one force between ground and block.
     #[must_use]
     pub fn law(&self) -> Law {
@@ -302,11 +390,38 @@ impl Model {
             stiffness_n_per_m: slider.stiffness_n_per_m,
             damper_n_s_per_m: slider.damper_n_s_per_m,
         };
-        let stop = slider.stop.map(|stop| {
-            let StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } = stop.kind;
-            ElasticStop { gap_m: stop.gap_m, stiffness_n_per_m, damper_n_s_per_m }
-        });
-        Law::new(slider.friction, restraint, stop)
+        Law::new(slider.friction, restraint, self.elastic_stop())
+    }
+
+    /// The same with all devices, under a motion with or without a vertical component.
+    #[must_use]
+    pub fn slider_law(&self, vertical: bool) -> SliderLaw {
+        let slider = &self.slider;
+        let radius_m = self.pendulum_radius_m(vertical);
+        let rigid = |stop: &Stop| match stop.kind {
+            StopKind::Elastic { .. } => None,
+            StopKind::Rigid { restitution } => Some(RigidStop { gap_m: stop.gap_m, restitution }),
+        };
+        SliderLaw {
+            friction: slider.friction,
+            rate: self.devices.rate.clone(),
+            radius_m,
+            series: self.devices.series.clone(),
+            restraint: Restraint {
+                stiffness_n_per_m: if radius_m.is_some() { 0.0 } else { slider.stiffness_n_per_m },
+                damper_n_s_per_m: slider.damper_n_s_per_m,
+            },
+            stop: self.elastic_stop(),
+            rigid: slider.stop.as_ref().and_then(rigid),
+        }
+    }
+
+    fn elastic_stop(&self) -> Option<ElasticStop> {
+        let stop = self.slider.stop?;
+        let StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } = stop.kind else {
+            return None;
+        };
+        Some(ElasticStop { gap_m: stop.gap_m, stiffness_n_per_m, damper_n_s_per_m })
     }
 
     /// Static friction coefficients for sliding towards +x and −x.
@@ -360,9 +475,18 @@ fn check_stop(stop: &Stop, reported_gap_m: Option<f64>) -> Result<(), ModelError
         return Err(ModelError::Missing { quantity: "stop gap_m", expected });
     }
     stop.gap_m.into_iter().try_for_each(|gap_m| optional_positive("stop gap_m", gap_m))?;
-    let StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } = stop.kind;
-    positive("stop stiffness_n_per_m", stiffness_n_per_m)?;
-    not_negative("stop damper_n_s_per_m", damper_n_s_per_m)
+    match stop.kind {
+        StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } => {
+            positive("stop stiffness_n_per_m", stiffness_n_per_m)?;
+            not_negative("stop damper_n_s_per_m", damper_n_s_per_m)
+        }
+        StopKind::Rigid { restitution } => in_range(
+            "stop restitution",
+            "a number from 0 to 1",
+            restitution,
+            (0.0..=1.0).contains(&restitution),
+        ),
+    }
 }
 
 fn finite(quantity: &'static str, found: f64) -> Result<(), ModelError> {

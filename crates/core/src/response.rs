@@ -58,6 +58,12 @@ pub enum EventKind {
     Press,
     /// The block leaves the stop: back within its gap.
     Leave,
+    /// The block strikes a rigid stop and rebounds.
+    Impact,
+    /// The block comes to rest at a rigid stop: without restitution, or after infinitely many impacts.
+    Rest,
+    /// Other surfaces of a series slide from here on.
+    Surface,
 }
 
 impl EventKind {
@@ -72,6 +78,9 @@ impl EventKind {
             Self::Separation => "separation",
             Self::Press => "press",
             Self::Leave => "leave",
+            Self::Impact => "impact",
+            Self::Rest => "rest",
+            Self::Surface => "surface",
         }
     }
 }
@@ -85,8 +94,10 @@ pub struct Event {
     pub kind: EventKind,
     /// The mode after it.
     pub mode: Mode,
-    /// Sliding displacement then, in m.
+    /// Sliding displacement then, in m; of contents that over their floor.
     pub sliding_displacement_m: f64,
+    /// Where: 0 the slider, then the contents in their order, from 1.
+    pub interface: usize,
 }
 
 /// States at *knots*: every sample and both sides of every event, in order of time.
@@ -98,8 +109,10 @@ pub struct Event {
 pub struct History {
     /// Number of storeys.
     pub storeys: usize,
-    /// Number of sliding interfaces: 1, the slider.
+    /// Number of sliding interfaces: the slider, then the contents.
     pub interfaces: usize,
+    /// Number of surfaces in series; 0 of a slider that has one.
+    pub surfaces: usize,
     /// Times in s.
     pub time_s: Vec<f64>,
     /// Modes knot by knot, `interfaces` each; at an event first those before it, then those after.
@@ -122,6 +135,14 @@ pub struct History {
     pub storey_velocity_m_per_s: Vec<f64>,
     /// Total acceleration of the floors, `q̈_i + s̈ + Ü`, in m/s².
     pub storey_acceleration_m_per_s2: Vec<f64>,
+    /// Displacements of the surfaces in series in m, knot by knot.
+    pub surface_displacement_m: Vec<f64>,
+    /// Displacement of the contents over their floors in m, knot by knot.
+    pub contents_displacement_m: Vec<f64>,
+    /// Their velocity over their floors in m/s.
+    pub contents_velocity_m_per_s: Vec<f64>,
+    /// Their total acceleration in m/s².
+    pub contents_acceleration_m_per_s2: Vec<f64>,
     /// Indices of the knots that are rows of `history.csv`: one a sample, the limit from the right
     /// (at a repeated time two, left then right; the last is the left limit).
     pub rows: Vec<usize>,
@@ -132,6 +153,7 @@ impl Default for History {
         Self {
             storeys: 0,
             interfaces: 1,
+            surfaces: 0,
             time_s: Vec::new(),
             mode: Vec::new(),
             contact: Vec::new(),
@@ -143,6 +165,10 @@ impl Default for History {
             storey_displacement_m: Vec::new(),
             storey_velocity_m_per_s: Vec::new(),
             storey_acceleration_m_per_s2: Vec::new(),
+            surface_displacement_m: Vec::new(),
+            contents_displacement_m: Vec::new(),
+            contents_velocity_m_per_s: Vec::new(),
+            contents_acceleration_m_per_s2: Vec::new(),
             rows: Vec::new(),
         }
     }
@@ -165,6 +191,29 @@ impl History {
     #[must_use]
     pub fn modes(&self, knot: usize) -> &[Mode] {
         &self.mode[knot * self.interfaces..(knot + 1) * self.interfaces]
+    }
+
+    /// Number of contents.
+    #[must_use]
+    pub fn contents(&self) -> usize {
+        self.interfaces - 1
+    }
+
+    /// Displacements of the surfaces in series at a knot, in m.
+    #[must_use]
+    pub fn surface_displacements(&self, knot: usize) -> &[f64] {
+        &self.surface_displacement_m[knot * self.surfaces..(knot + 1) * self.surfaces]
+    }
+
+    /// Displacement, velocity and total acceleration of contents at a knot, SI.
+    #[must_use]
+    pub fn contents_state(&self, knot: usize, contents: usize) -> [f64; 3] {
+        let at = knot * self.contents() + contents;
+        [
+            self.contents_displacement_m[at],
+            self.contents_velocity_m_per_s[at],
+            self.contents_acceleration_m_per_s2[at],
+        ]
     }
 
     /// Storey displacements at a knot, in m.
@@ -202,16 +251,50 @@ pub struct StoreyDemands {
 /// What the response asks of the stop.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StopDemands {
-    /// Times the block reached the stop, on either side; a start beyond the gap is none.
+    /// Times the block reached an elastic stop, on either side; a start beyond the gap is none.
     pub contact_count: u64,
-    /// Impacts on a rigid stop; 0 for an elastic one.
+    /// Rebounds from a rigid stop at 1 mm/s or faster.
     pub impact_count: u64,
-    /// Largest force between stop and block in N.
+    /// Largest force between stop and block in N, without the impulses of impacts.
     pub peak_force_n: f64,
     /// Largest |ṡ| at which the block reached the stop in m/s, 0 where it did not.
     pub peak_impact_speed_m_per_s: f64,
-    /// Time with a force between stop and block in s.
+    /// Time with a force between stop and block, or at rest at a rigid one, in s.
     pub contact_time_s: f64,
+}
+
+/// What the response asks of one surface in series.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SurfaceDemands {
+    /// Largest |u| in m.
+    pub peak_displacement_m: f64,
+    /// u at the last instant in m.
+    pub residual_displacement_m: f64,
+    /// Whether it has come to the end of its travel.
+    pub end_reached: bool,
+}
+
+/// What the response asks of contents of a floor.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContentsDemands {
+    /// Largest displacement over the floor, as a size, in m.
+    pub peak_sliding_displacement_m: f64,
+    /// Displacement over the floor at the last instant in m.
+    pub residual_sliding_displacement_m: f64,
+    /// Path over the floor in m.
+    pub sliding_path_m: f64,
+    /// Time spent sliding in s.
+    pub sliding_time_s: f64,
+    /// Largest velocity over the floor in m/s.
+    pub peak_sliding_velocity_m_per_s: f64,
+    /// Largest total acceleration in m/s².
+    pub peak_acceleration_m_per_s2: f64,
+    /// Events from stick to slip.
+    pub slip_count: u64,
+    /// Direct reversals.
+    pub reversal_count: u64,
+    /// Events from slip to stick.
+    pub stick_count: u64,
 }
 
 /// What the response asks of the structure: peaks of the continuous motion, residuals, counts.
@@ -272,6 +355,10 @@ pub struct Demands {
     pub overturning_ratio: Option<f64>,
     /// Of the stop, where the model has one.
     pub stop: Option<StopDemands>,
+    /// Of each surface in series.
+    pub surfaces: Vec<SurfaceDemands>,
+    /// Of the contents of the floors, in their order.
+    pub contents: Vec<ContentsDemands>,
 }
 
 /// Iterations a step of the stepwise method took.

@@ -8,6 +8,7 @@ mod prepared;
 mod recorder;
 mod run;
 mod screen;
+mod stepping;
 mod stepwise;
 mod summary;
 mod tables;

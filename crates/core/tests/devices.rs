@@ -1,4 +1,5 @@
-//! The verification cases of `data/reference/devices.json`: stops at the ends of the gap.
+//! The verification cases of `data/reference/devices.json`: stops, friction by speed,
+//! surfaces in series, contents.
 
 // Helpers of tests may panic as tests do.
 #![allow(clippy::disallowed_macros, clippy::expect_used)]
@@ -7,21 +8,67 @@ mod common;
 
 use common::cases::{number, numbers, text_of};
 use serde_json::Value;
-use slipstick::friction::{Coulomb, Friction};
-use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider, Stop, StopKind};
+use slipstick::friction::{Coulomb, Direction, Friction, RateCurve, RateLaw, Series, Surface};
+use slipstick::model::{
+    Block, Contents, Damping, Devices, Frame, InitialState, Model, Slider, Stop, StopKind,
+};
 use slipstick::motion::GroundMotion;
-use slipstick::response::{Mode, Response};
-use slipstick::solver::exact;
+use slipstick::response::{EventKind, Mode, Response};
+use slipstick::solver::{exact, exact_demands};
 
+/// The model; nothing here is told which solver takes it.
 fn model(case: &Value) -> Model {
     let params = &case["params"];
     let p = |name: &str| params.get(name).map_or(0.0, number);
+    let optional = |value: &Value| value.as_f64();
     let initial = &case["initial"];
     let (masses_kg, k) = (numbers(&params["m"]), numbers(&params["k"]));
-    let total_kg = masses_kg.iter().sum::<f64>() + p("M1");
-    let friction = Coulomb::new([p("mu_s"); 2], [p("mu_d"); 2]).expect("friction");
-    let stop = &params["stop"];
-    let spring = params.get("R").map_or(p("K1"), |radius| total_kg * p("g") / number(radius));
+    let contents: Vec<Contents> = params
+        .get("equipment")
+        .map(|e| Contents {
+            floor: e["floor"].as_u64().expect("a floor") as usize,
+            mass_kg: number(&e["m"]),
+            static_friction: number(&e["mu_s"]),
+            kinetic_friction: number(&e["mu_d"]),
+        })
+        .into_iter()
+        .collect();
+    let total_kg = masses_kg.iter().sum::<f64>()
+        + p("M1")
+        + contents.iter().map(|contents| contents.mass_kg).sum::<f64>();
+    let curve = if let Some(knots) = params.get("mu_v") {
+        let speeds_m_per_s = numbers(&knots["v"]);
+        Some(RateCurve::Pieces { speeds_m_per_s, coefficients: numbers(&knots["mu"]) })
+    } else {
+        params.get("mu_exp").map(|law| RateCurve::Exponential {
+            slow: number(&law["slow"]),
+            fast: number(&law["fast"]),
+            rate_s_per_m: number(&law["rate"]),
+        })
+    };
+    let rate = curve.map(|curve| RateLaw::new(curve, [1.0; 2]).expect("a rate law"));
+    let kinetic = rate.as_ref().map_or(p("mu_d"), |rate| rate.at(0.0, Direction::Positive));
+    let friction = Coulomb::new([p("mu_s"); 2], [kinetic; 2]).expect("friction");
+    let radius_m = params.get("R").map(number);
+    let spring = radius_m.map_or(p("K1"), |radius_m| total_kg * p("g") / radius_m);
+    let stop = params.get("stop").map(|stop| Stop {
+        gap_m: ["gap_pos", "gap_neg"].map(|side| optional(&stop[side])),
+        kind: match text_of(&stop["type"]).as_str() {
+            "elastic" => StopKind::Elastic {
+                stiffness_n_per_m: number(&stop["k"]),
+                damper_n_s_per_m: number(&stop["c"]),
+            },
+            _ => StopKind::Rigid { restitution: number(&stop["e"]) },
+        },
+    });
+    let surfaces = params["surfaces"].as_array().map(|surfaces| {
+        let surface = |s: &Value| Surface {
+            radius_m: optional(&s["R"]),
+            friction: number(&s["mu"]),
+            travel_m: optional(&s["d"]),
+        };
+        Series::new(surfaces.iter().map(surface).collect(), p("static_ratio")).expect("surfaces")
+    });
     Model::new(
         Block { mass_kg: p("M1"), width_m: None, height_m: None },
         Slider {
@@ -30,13 +77,7 @@ fn model(case: &Value) -> Model {
             damper_n_s_per_m: p("C1"),
             tilt_rad: p("tilt"),
             gap_m: None,
-            stop: Some(Stop {
-                gap_m: ["gap_pos", "gap_neg"].map(|side| stop[side].as_f64()),
-                kind: StopKind::Elastic {
-                    stiffness_n_per_m: number(&stop["k"]),
-                    damper_n_s_per_m: number(&stop["c"]),
-                },
-            }),
+            stop,
         },
         Frame {
             masses_kg,
@@ -53,27 +94,34 @@ fn model(case: &Value) -> Model {
         },
     )
     .expect("a model")
+    .with_devices(Devices { rate, radius_m, series: surfaces, contents })
+    .expect("devices")
 }
 
 /// The motion up to the end of the case, with the times of the states as collinear samples.
 fn motion(case: &Value) -> GroundMotion {
-    let (t, a) = (numbers(&case["input"]["t"]), numbers(&case["input"]["a"]));
+    let input = &case["input"];
     let end_s = number(&case["t_end"]);
     let states = case["states"].as_array().expect("states").iter().map(|s| number(&s["t"]));
-    let mut samples: Vec<(f64, f64)> = t.iter().copied().zip(a).filter(|x| x.0 <= end_s).collect();
+    let mut columns = vec![numbers(&input["t"]), numbers(&input["a"])];
+    columns.extend(input.get("av").map(numbers));
     for time_s in states.chain([end_s]) {
-        if samples.iter().any(|x| x.0 == time_s) {
+        let t = &columns[0];
+        if t.contains(&time_s) {
             continue;
         }
         let i = t.iter().position(|x| *x > time_s).expect("a time inside the record");
-        let all = numbers(&case["input"]["a"]);
         let part = (time_s - t[i - 1]) / (t[i] - t[i - 1]);
-        let value = all[i - 1] + (all[i] - all[i - 1]) * part;
-        let at = samples.iter().position(|x| x.0 > time_s).unwrap_or(samples.len());
-        samples.insert(at, (time_s, value));
+        for column in &mut columns {
+            column.insert(i, column[i - 1] + (column[i] - column[i - 1]) * part);
+        }
+        columns[0][i] = time_s;
     }
-    let (t, a) = samples.into_iter().unzip();
-    GroundMotion::new(t, a, None).expect("a motion")
+    let count = columns[0].iter().filter(|t| **t <= end_s).count();
+    columns.iter_mut().for_each(|column| column.truncate(count));
+    let vertical = (columns.len() == 3).then(|| columns.pop()).flatten();
+    let a = columns.pop().expect("accelerations");
+    GroundMotion::new(columns.remove(0), a, vertical).expect("a motion")
 }
 
 struct Report {
@@ -85,7 +133,9 @@ struct Report {
 impl Report {
     fn compare(&mut self, what: &str, found: f64, wanted: f64, tolerance: f64) {
         let off = (found - wanted).abs();
-        self.worst = self.worst.max(off / tolerance);
+        if off > 0.0 {
+            self.worst = self.worst.max(off / tolerance);
+        }
         if !(off <= tolerance) {
             let id = &self.id;
             self.wrong
@@ -102,41 +152,75 @@ fn mode_name(mode: Mode) -> &'static str {
     }
 }
 
+/// What the case calls an interface.
+fn interface_name(case: &Value, interface: usize) -> Option<&'static str> {
+    case["params"].get("equipment").map(|_| if interface == 0 { "block" } else { "equipment" })
+}
+
 fn judge(case: &Value, response: &Response, report: &mut Report) {
     let (d, h) = (&response.demands, response.history.as_ref().expect("a history"));
-    let stop = d.stop.as_ref().expect("demands of the stop");
     let times = numbers(&case["event_times"]);
     if times.len() != response.events.len() {
         let found: Vec<_> = response.events.iter().map(|e| (e.time_s, e.kind.name())).collect();
-        report.wrong.push(format!("{}: {} events, found {found:?}", report.id, times.len()));
+        report.wrong.push(format!("{}: {} events, found {} {found:?}", report.id, times.len(), found.len()));
         return;
     }
+    let tolerances = case["events"].as_array().expect("events");
+    if std::env::var("DBG").is_ok() { for e in &response.events { println!("{} {} {} {:?} {}", e.time_s, e.interface, e.kind.name(), e.mode, e.sliding_displacement_m); } }
     for (i, (event, time_s)) in response.events.iter().zip(&times).enumerate() {
-        report.compare(&format!("time of event {i}"), event.time_s, *time_s, 1e-10);
+        let tolerance = match event.kind {
+            EventKind::Rest => 1e-8,
+            _ => tolerances.get(i).map_or(1e-10, |event| number(&event["tol_t"])),
+        };
+        report.compare(&format!("time of event {i}"), event.time_s, *time_s, tolerance);
     }
-    for (event, wanted) in response.events.iter().zip(case["events"].as_array().expect("events")) {
+    for (event, wanted) in response.events.iter().zip(tolerances) {
         let kind = text_of(&wanted["kind"]);
-        if event.kind.name() != kind || mode_name(event.mode) != text_of(&wanted["to"]) {
+        let same_interface = wanted.get("interface").map(text_of).as_deref()
+            == interface_name(case, event.interface);
+        if event.kind.name() != kind || mode_name(event.mode) != text_of(&wanted["to"]) || !same_interface
+        {
             report.wrong.push(format!("{}: {event:?} instead of {wanted}", report.id));
         }
-        let (z, tolerance) = (number(&wanted["z"]), number(&wanted["tol_z"]));
-        report.compare("z at an event", event.sliding_displacement_m, z, tolerance);
+        let (place, tolerance) = match event.interface {
+            0 => ("z", "tol_z"),
+            _ => ("r", "tol_r"),
+        };
+        let (z, tolerance) = (number(&wanted[place]), number(&wanted[tolerance]));
+        report.compare("place of an event", event.sliding_displacement_m, z, tolerance);
+    }
+    for (kind, count) in case["counts"].as_object().expect("counts") {
+        let (interface, name) = kind.split_once('.').map_or((0, kind.as_str()), |(_, k)| (1, k));
+        let found = response.events.iter();
+        let found = found.filter(|e| e.interface == interface && e.kind.name() == name).count();
+        report.compare(&format!("count of {kind}"), found as f64, number(count), 0.0);
     }
     let last = h.len() - 1;
+    let stop = || d.stop.as_ref().expect("demands of the stop");
     let expected = case["expect"].as_array().expect("expected values");
     for wanted in expected {
         let name = text_of(&wanted["q"]);
         let storey = |end: &str| name.rsplit(end).next().and_then(|i| i.parse::<usize>().ok());
         let found = match name.as_str() {
             "peak_abs_a1" => d.peak_block_acceleration_m_per_s2,
-            "peak_impact_speed" => stop.peak_impact_speed_m_per_s,
-            "peak_stop_force" => stop.peak_force_n,
+            "peak_impact_speed" => stop().peak_impact_speed_m_per_s,
+            "peak_stop_force" => stop().peak_force_n,
+            "peak_abs_ae" => d.contents[0].peak_acceleration_m_per_s2,
+            "peak_abs_p" => d.contents[0].peak_sliding_velocity_m_per_s,
+            "peak_abs_r" => d.contents[0].peak_sliding_displacement_m,
+            "final_r" => d.contents[0].residual_sliding_displacement_m,
+            "final_p" => h.contents_state(last, 0)[1],
+            "equipment_path" => d.contents[0].sliding_path_m,
+            "equipment_sliding_time" => d.contents[0].sliding_time_s,
             "peak_abs_w" => d.peak_sliding_velocity_m_per_s,
             "peak_abs_z" => d.peak_sliding_displacement_m,
             "final_z" => d.residual_sliding_displacement_m,
             "final_w" => h.sliding_velocity_m_per_s[last],
             "slip_path" => d.sliding_path_m,
             "sliding_time" => d.sliding_time_s,
+            _ if name.starts_with("final_u") => {
+                d.surfaces[storey("u").expect("a surface") - 1].residual_displacement_m
+            }
             _ if name.starts_with("peak_abs_a_s") => {
                 d.storeys[storey("_s").expect("a storey") - 1].peak_acceleration_m_per_s2
             }
@@ -177,32 +261,89 @@ fn judge(case: &Value, response: &Response, report: &mut Report) {
                 report.compare(&format!("{name} at {time_s}"), *found, wanted, tolerance);
             }
         }
+        if state.get("r").is_some() {
+            for (i, (name, tolerance)) in
+                [("r", "tol_r"), ("p", "tol_p"), ("a_equipment", "tol_a_equipment")].iter().enumerate()
+            {
+                let found = h.contents_state(row, 0)[i];
+                let (wanted, tolerance) = (number(&state[*name]), number(&state[*tolerance]));
+                report.compare(&format!("{name} at {time_s}"), found, wanted, tolerance);
+            }
+        }
     }
 }
 
-/// Events, peaks and states within the stated tolerances, and a certificate that holds.
-#[test]
-fn reference_elastic_stops() {
+/// Events, peaks and states of all cases of a group within their tolerances, and a certificate that
+/// holds.
+fn run(group: &str, count: usize) {
     let text = include_str!("../../../data/reference/devices.json");
     let file: Value = serde_json::from_str(text).expect("devices.json is JSON");
     let mut wrong = Vec::new();
+    let mut cases = 0;
     for case in file["cases"].as_array().expect("cases") {
+        if text_of(&case["group"]) != group {
+            continue;
+        }
+        cases += 1;
         let (model, motion) = (model(case), motion(case));
-        let response = exact(&model, &motion).expect("a response");
         let mut report = Report { id: text_of(&case["id"]), wrong: vec![], worst: 0.0 };
+        let response = match exact(&model, &motion) {
+            Ok(response) => response,
+            Err(error) => {
+                wrong.push(format!("{}: {error}", report.id));
+                continue;
+            }
+        };
         judge(case, &response, &mut report);
+        let plain = exact_demands(&model, &motion).expect("demands");
+        if (&plain.demands, &plain.events) != (&response.demands, &response.events) {
+            report.wrong.push(format!("{}: other demands without a history", report.id));
+        }
         let certificate = slipstick::check::check(&model, &motion, &response);
+        let [a, b, c, d] = [
+            certificate.equilibrium_residual,
+            certificate.friction_excess,
+            certificate.energy_balance_error,
+            certificate.demands_error,
+        ];
         if !certificate.holds() {
-            let [a, b, c, d] = [
-                certificate.equilibrium_residual,
-                certificate.friction_excess,
-                certificate.energy_balance_error,
-                certificate.demands_error,
-            ];
             report.wrong.push(format!("{}: certificate {a:e} {b:e} {c:e} {d:e}", report.id));
         }
-        println!("{}: {:.1e} of its tolerances", report.id, report.worst);
+        println!(
+            "{}: {:.1e} of its tolerances, certificate {a:.1e} {b:.1e} {c:.1e} {d:.1e}",
+            report.id, report.worst
+        );
         wrong.extend(report.wrong);
     }
+    assert_eq!(cases, count, "cases of {group}");
     assert!(wrong.is_empty(), "{} differences:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+macro_rules! groups {
+    ($($name:ident: $group:literal, $count:literal;)*) => {
+        $(#[test]
+        fn $name() {
+            run($group, $count);
+        })*
+
+        /// No case of the file is left out.
+        #[test]
+        fn every_group_is_a_test() {
+            let file: Value =
+                serde_json::from_str(include_str!("../../../data/reference/devices.json"))
+                    .expect("devices.json is JSON");
+            assert_eq!(file["cases"].as_array().expect("cases").len(), 0 $(+ $count)*);
+        }
+    };
+}
+
+groups! {
+    reference_elastic_stops: "stop-elastic", 6;
+    reference_rigid_stops: "stop-rigid", 6;
+    reference_friction_in_pieces: "mu-pieces", 5;
+    reference_exponential_friction: "mu-exponential", 9;
+    reference_pendulum: "pendulum", 1;
+    reference_surfaces_in_series: "series", 7;
+    reference_contents: "equipment", 4;
+    reference_nasty_devices: "nasty", 5;
 }

@@ -142,6 +142,8 @@ pub fn run_histories(
     let shape = shapes.fold(DemandShape::default(), |all, shape| DemandShape {
         storeys: all.storeys.max(shape.storeys),
         stop: all.stop || shape.stop,
+        surfaces: all.surfaces.max(shape.surfaces),
+        contents: all.contents.max(shape.contents),
     });
     let (runs, governing) = (table_of_runs(&done, shape), table_of_governing(&done, shape));
     Ok(Histories { models: done, shape, runs, governing })

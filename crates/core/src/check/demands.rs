@@ -166,23 +166,26 @@ impl<'a> Peaks<'a> {
 
     /// Takes the largest size of a polynomial through an output's values at the points of a step.
     pub(super) fn search(&mut self, rule: &Rule, output: usize, values: &[f64; POINTS]) {
-        let size = |value: f64| value.abs();
-        let at =
-            |best: usize, i: usize| if size(values[i]) > size(values[best]) { i } else { best };
-        let best = (1..POINTS).fold(0, at);
-        let (least, most) = values
-            .iter()
-            .fold((values[0], values[0]), |(least, most), &v| (v.min(least), v.max(most)));
-        let peak = &mut self.attained[output];
-        *peak = larger(*peak, values[best]);
-        // Between two points the polynomial rises above both by less than a tenth of its range.
-        if size(values[best]) + 0.1 * (most - least) <= *peak * (1.0 + 1e-12) {
-            return;
-        }
-        let sign = values[best].signum();
-        let (_, lowest) = rule.least(values, best, |_, value| -sign * value);
-        *peak = larger(*peak, lowest);
+        raise(rule, &mut self.attained[output], values);
     }
+}
+
+/// Raises a peak to the largest size of a polynomial through the values at the points of a step.
+pub(super) fn raise(rule: &Rule, peak: &mut f64, values: &[f64; POINTS]) {
+    let size = |value: f64| value.abs();
+    let at = |best: usize, i: usize| if size(values[i]) > size(values[best]) { i } else { best };
+    let best = (1..POINTS).fold(0, at);
+    let (least, most) = values
+        .iter()
+        .fold((values[0], values[0]), |(least, most), &v| (v.min(least), v.max(most)));
+    *peak = larger(*peak, values[best]);
+    // Between two points the polynomial rises above both by less than a tenth of its range.
+    if size(values[best]) + 0.1 * (most - least) <= *peak * (1.0 + 1e-12) {
+        return;
+    }
+    let sign = values[best].signum();
+    let (_, lowest) = rule.least(values, best, |_, value| -sign * value);
+    *peak = larger(*peak, lowest);
 }
 
 /// What is added up from knot to knot.
@@ -217,26 +220,26 @@ pub(super) struct Rounding {
 }
 
 /// The largest difference between printed and recomputed demands so far.
-struct Comparison {
-    worst: f64,
+pub(super) struct Comparison {
+    pub(super) worst: f64,
 }
 
 impl Comparison {
     /// A number, of which `rounding` is no difference, over a peak.
-    fn number(&mut self, printed: f64, own: f64, rounding: f64, peak: f64) {
+    pub(super) fn number(&mut self, printed: f64, own: f64, rounding: f64, peak: f64) {
         let difference = (printed - own).abs() - rounding;
         if !(difference <= 0.0) {
             self.worst = larger(self.worst, difference / peak.abs());
         }
     }
 
-    fn same(&mut self, is: bool) {
+    pub(super) fn same(&mut self, is: bool) {
         if !is {
             self.worst = larger(self.worst, 1.0);
         }
     }
 
-    fn optional(&mut self, printed: Option<f64>, own: Option<f64>, rounding: f64) {
+    pub(super) fn optional(&mut self, printed: Option<f64>, own: Option<f64>, rounding: f64) {
         match (printed, own) {
             (Some(printed), Some(own)) => self.number(printed, own, rounding, own),
             (printed, own) => self.same(printed.is_none() && own.is_none()),
@@ -349,7 +352,7 @@ fn of_peaks(
 }
 
 /// The printed time of the peak is that of a knot where |s| has risen to it.
-fn first_time(c: &mut Comparison, d: &Demands, h: &History, peak_m: f64, rounding: &Rounding) {
+pub(super) fn first_time(c: &mut Comparison, d: &Demands, h: &History, peak_m: f64, rounding: &Rounding) {
     let at_s = d.peak_sliding_displacement_time_s;
     let size = |k: usize| h.sliding_displacement_m[k].abs();
     let near = |k: &usize| (h.time_s[*k] - at_s).abs() <= rounding.instant_s;
@@ -379,6 +382,7 @@ fn own_events(model: &Model, h: &History) -> Vec<Own> {
             kind,
             mode: h.mode[k],
             sliding_displacement_m: h.sliding_displacement_m[k],
+            interface: 0,
         };
         events.push(Own { event, speed: h.sliding_velocity_m_per_s[k].abs() });
     };

@@ -47,7 +47,9 @@ impl Law {
         let (Contact::Pressed(side), Some(stop)) = (contact, &self.stop) else {
             return Push::default();
         };
-        let StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } = stop.kind;
+        let StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } = stop.kind else {
+            return Push::default();
+        };
         let gap_m = stop.gap_towards(side).unwrap_or(f64::NAN);
         let shift = side.sign() * stiffness_n_per_m * gap_m;
         Push { stiffness: stiffness_n_per_m, damper: damper_n_s_per_m, shift }
@@ -63,7 +65,9 @@ impl Law {
         [slack_m, slack_n]: [f64; 2],
     ) -> f64 {
         let Some(stop) = &self.stop else { return 0.0 };
-        let StopKind::Elastic { stiffness_n_per_m: k, damper_n_s_per_m: c } = stop.kind;
+        let StopKind::Elastic { stiffness_n_per_m: k, damper_n_s_per_m: c } = stop.kind else {
+            return 0.0;
+        };
         let of = |side: Direction| {
             let delta = side.sign() * s - stop.gap_towards(side)?;
             Some((delta, k * delta + c * side.sign() * w))

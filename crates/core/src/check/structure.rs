@@ -66,8 +66,12 @@ impl Structure {
             spring: model.slider().stiffness_n_per_m,
             damper: model.slider().damper_n_s_per_m,
             stop: model.stop().map_or([0.0; 2], |stop| {
-                let StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } = stop.kind;
-                [stiffness_n_per_m, damper_n_s_per_m]
+                match stop.kind {
+                    StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } => {
+                        [stiffness_n_per_m, damper_n_s_per_m]
+                    }
+                    StopKind::Rigid { .. } => [0.0; 2],
+                }
             }),
             stiffnesses: k.clone(),
             damping,

@@ -150,7 +150,12 @@ impl Variation {
     /// What the model has that demands are asked of.
     #[must_use]
     pub fn shape(&self) -> DemandShape {
-        DemandShape { storeys: self.values.count("storey"), stop: self.has("slider.stop") }
+        DemandShape {
+            storeys: self.values.count("storey"),
+            stop: self.has("slider.stop"),
+            surfaces: if self.has("slider.triple") { 3 } else { self.values.count("slider.surface") },
+            contents: self.values.count("contents"),
+        }
     }
 
     /// The bounds of friction, where the model gives them.

@@ -4,7 +4,7 @@
 //! of figures and the keys that options take. A new demand is a field of [`Demands`] and an entry
 //! here.
 
-use super::{Demands, StopDemands};
+use super::{ContentsDemands, Demands, StopDemands};
 use crate::units::Dimension::{self, Acceleration, Force, Length, Time, Velocity};
 
 /// What a demand's values are.
@@ -27,6 +27,34 @@ pub enum DemandOf {
     Storey,
     /// The stop, where the model has one.
     Stop,
+    /// Each surface in series.
+    Surface,
+    /// Each contents of a floor.
+    Contents,
+}
+
+impl DemandOf {
+    /// What stands before the number of a part in names; none of what an analysis has once.
+    #[must_use]
+    pub fn part(self) -> Option<&'static str> {
+        match self {
+            Self::Run | Self::Stop => None,
+            Self::Storey => Some("storey"),
+            Self::Surface => Some("surface"),
+            Self::Contents => Some("contents"),
+        }
+    }
+
+    /// The key of the summary's list of such parts.
+    #[must_use]
+    pub fn list(self) -> Option<&'static str> {
+        match self {
+            Self::Run | Self::Stop => None,
+            Self::Storey => Some("storeys"),
+            Self::Surface => Some("surfaces"),
+            Self::Contents => Some("contents"),
+        }
+    }
 }
 
 /// How the table of one analysis shows a demand.
@@ -111,6 +139,14 @@ impl Demand {
         Self { of: DemandOf::Storey, ..self }
     }
 
+    const fn of_surface(self) -> Self {
+        Self { of: DemandOf::Surface, ..self }
+    }
+
+    const fn of_contents(self) -> Self {
+        Self { of: DemandOf::Contents, ..self }
+    }
+
     /// A row of which the largest value governs.
     const fn row(self, place: u8, label: &'static str) -> Self {
         let row = PrintedRow { place, label, governs: true, needs_storeys: false };
@@ -146,8 +182,12 @@ impl Demand {
 /// Place of the rows of all storeys.
 const STOREYS: u8 = 20;
 
+/// Places of the rows of all surfaces in series and of all contents.
+const SURFACES: u8 = 44;
+const CONTENTS: u8 = 45;
+
 /// The demands in the order of the summary and of tables.
-pub static DEMANDS: [Demand; 31] = [
+pub static DEMANDS: [Demand; 43] = [
     Demand::number("peak_sliding_displacement_m", "peak sliding displacement", Length, |d, _| {
         Some(d.peak_sliding_displacement_m)
     })
@@ -278,7 +318,71 @@ pub static DEMANDS: [Demand; 31] = [
     })
     .of_stop()
     .note(42, "  time in contact"),
+    Demand::number("peak_displacement_m", "peak displacement", Length, |d, i| {
+        d.surfaces.get(i).map(|surface| surface.peak_displacement_m)
+    })
+    .of_surface()
+    .row(SURFACES, "peak displacement"),
+    Demand::number("residual_displacement_m", "residual displacement", Length, |d, i| {
+        d.surfaces.get(i).map(|surface| surface.residual_displacement_m)
+    })
+    .of_surface()
+    .row(SURFACES, "residual displacement"),
+    Demand::new("end_reached", "end reached", DemandKind::Flag, None, |d, i| {
+        d.surfaces.get(i).map(|surface| f64::from(u8::from(surface.end_reached)))
+    })
+    .of_surface()
+    .note(SURFACES, "end of travel reached"),
+    Demand::number("peak_sliding_displacement_m", "peak sliding displacement", Length, |d, i| {
+        of_contents(d, i, |contents| contents.peak_sliding_displacement_m)
+    })
+    .of_contents()
+    .row(CONTENTS, "peak sliding displacement"),
+    Demand::number(
+        "residual_sliding_displacement_m",
+        "residual sliding displacement",
+        Length,
+        |d, i| of_contents(d, i, |contents| contents.residual_sliding_displacement_m),
+    )
+    .of_contents()
+    .row(CONTENTS, "residual sliding displacement"),
+    Demand::number("sliding_path_m", "sliding path", Length, |d, i| {
+        of_contents(d, i, |contents| contents.sliding_path_m)
+    })
+    .of_contents()
+    .row(CONTENTS, "sliding path"),
+    Demand::number("sliding_time_s", "sliding time", Time, |d, i| {
+        of_contents(d, i, |contents| contents.sliding_time_s)
+    })
+    .of_contents()
+    .note(CONTENTS, "time spent sliding"),
+    Demand::number("peak_sliding_velocity_m_per_s", "peak sliding velocity", Velocity, |d, i| {
+        of_contents(d, i, |contents| contents.peak_sliding_velocity_m_per_s)
+    })
+    .of_contents()
+    .row(CONTENTS, "peak sliding velocity"),
+    Demand::number("peak_acceleration_m_per_s2", "peak acceleration", Acceleration, |d, i| {
+        of_contents(d, i, |contents| contents.peak_acceleration_m_per_s2)
+    })
+    .of_contents()
+    .row(CONTENTS, "peak acceleration"),
+    Demand::count("slip_count", "slip count", |d, i| {
+        of_contents(d, i, |contents| contents.slip_count as f64)
+    })
+    .of_contents(),
+    Demand::count("reversal_count", "reversal count", |d, i| {
+        of_contents(d, i, |contents| contents.reversal_count as f64)
+    })
+    .of_contents(),
+    Demand::count("stick_count", "stick count", |d, i| {
+        of_contents(d, i, |contents| contents.stick_count as f64)
+    })
+    .of_contents(),
 ];
+
+fn of_contents(demands: &Demands, i: usize, pick: fn(&ContentsDemands) -> f64) -> Option<f64> {
+    demands.contents.get(i).map(pick)
+}
 
 fn of_stop(demands: &Demands, pick: fn(&StopDemands) -> f64) -> Option<f64> {
     demands.stop.as_ref().map(pick)
@@ -291,15 +395,19 @@ pub struct DemandShape {
     pub storeys: usize,
     /// Whether there is a stop that acts.
     pub stop: bool,
+    /// Number of surfaces in series, 0 where there is one surface only.
+    pub surfaces: usize,
+    /// Number of contents of floors.
+    pub contents: usize,
 }
 
-/// A demand of a structure: of the whole, or of one storey.
+/// A demand of a structure: of the whole, or of one of its parts.
 #[derive(Clone, Copy, Debug)]
 pub struct DemandColumn {
     /// The demand.
     pub demand: &'static Demand,
-    /// The storey, from 1; 0 where it is not of a storey.
-    pub storey: usize,
+    /// The number of the storey, surface or contents, from 1; 0 where it is of none.
+    pub part: usize,
 }
 
 impl DemandShape {
@@ -311,19 +419,29 @@ impl DemandShape {
         columns
     }
 
+    /// How many parts of a kind there are.
+    fn count(self, of: DemandOf) -> usize {
+        match of {
+            DemandOf::Run => 1,
+            DemandOf::Stop => usize::from(self.stop),
+            DemandOf::Storey => self.storeys,
+            DemandOf::Surface => self.surfaces,
+            DemandOf::Contents => self.contents,
+        }
+    }
+
     fn each(self, mut take: impl FnMut(DemandColumn)) {
-        let mut storeys_done = false;
+        let mut done = None;
         for demand in &DEMANDS {
-            match demand.of {
-                DemandOf::Stop if !self.stop => {}
-                DemandOf::Run | DemandOf::Stop => take(DemandColumn { demand, storey: 0 }),
-                DemandOf::Storey if storeys_done => {}
-                DemandOf::Storey => {
-                    storeys_done = true;
-                    for storey in 1..=self.storeys {
-                        let of_storey = DEMANDS.iter().filter(|d| d.of == DemandOf::Storey);
-                        of_storey.for_each(|demand| take(DemandColumn { demand, storey }));
-                    }
+            if demand.of.part().is_none() {
+                if self.count(demand.of) > 0 {
+                    take(DemandColumn { demand, part: 0 });
+                }
+            } else if done != Some(demand.of) {
+                done = Some(demand.of);
+                for part in 1..=self.count(demand.of) {
+                    let own = DEMANDS.iter().filter(|other| other.of == demand.of);
+                    own.for_each(|demand| take(DemandColumn { demand, part }));
                 }
             }
         }
@@ -343,13 +461,13 @@ impl DemandShape {
             _ => "peak_acceleration_m_per_s2",
         };
         let index = DEMANDS.iter().position(|demand| demand.key == key).unwrap_or(0);
-        DemandColumn { demand: &DEMANDS[index], storey: self.storeys }
+        DemandColumn { demand: &DEMANDS[index], part: self.storeys }
     }
 }
 
 impl PartialEq for DemandColumn {
     fn eq(&self, other: &Self) -> bool {
-        core::ptr::eq(self.demand, other.demand) && self.storey == other.storey
+        core::ptr::eq(self.demand, other.demand) && self.part == other.part
     }
 }
 
@@ -357,35 +475,37 @@ impl DemandColumn {
     /// The demand of any structure with this name in tables: `slip_count`, `storey12_peak_drift_m`.
     #[must_use]
     pub fn of_name(name: &str) -> Option<Self> {
-        let of_storey = name.strip_prefix("storey").and_then(|rest| {
-            let (number, key) = rest.split_once('_')?;
-            Some((number.parse().ok().filter(|storey| *storey > 0)?, key))
+        let of_part = [DemandOf::Storey, DemandOf::Surface, DemandOf::Contents];
+        let parted = of_part.into_iter().find_map(|of| {
+            let (number, key) = name.strip_prefix(of.part()?)?.split_once('_')?;
+            Some((Some(of), number.parse().ok().filter(|part| *part > 0)?, key))
         });
-        let (is_of_storey, storey, key) = match of_storey {
-            Some((storey, key)) => (true, storey, key),
-            None => (false, 0, name),
+        let (of, part, key) = parted.unwrap_or((None, 0, name));
+        let fits = |demand: &&Demand| match of {
+            Some(of) => demand.of == of,
+            None => demand.of.part().is_none(),
         };
-        let fits = |demand: &&Demand| (demand.of == DemandOf::Storey) == is_of_storey;
         let demand = DEMANDS.iter().filter(fits).find(|demand| demand.key == key)?;
-        Some(Self { demand, storey })
+        Some(Self { demand, part })
     }
 
     /// Its name in tables: the key; what the summary has under `storeys[i].` is `storey1_…`.
     #[must_use]
     pub fn name(&self) -> String {
-        match self.storey {
-            0 => self.demand.key.to_owned(),
-            storey => format!("storey{storey}_{}", self.demand.key),
+        match self.demand.of.part() {
+            None => self.demand.key.to_owned(),
+            Some(of) => format!("{of}{}_{}", self.part, self.demand.key),
         }
     }
 
     /// Its title: `Storey 2 peak drift`.
     #[must_use]
     pub fn title(&self) -> String {
-        if self.storey > 0 {
-            return format!("Storey {} {}", self.storey, self.demand.words);
-        }
-        let mut letters = self.demand.words.chars();
+        let words = match self.demand.of.part() {
+            None => self.demand.words.to_owned(),
+            Some(of) => format!("{of} {} {}", self.part, self.demand.words),
+        };
+        let mut letters = words.chars();
         letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
     }
 
@@ -404,7 +524,7 @@ impl DemandColumn {
     /// Its value; `None` where it does not exist. A count is that number, a flag 0 or 1.
     #[must_use]
     pub fn value(&self, demands: &Demands) -> Option<f64> {
-        (self.demand.value)(demands, self.storey.wrapping_sub(1))
+        (self.demand.value)(demands, self.part.wrapping_sub(1))
     }
 }
 
@@ -422,7 +542,12 @@ impl Demands {
     /// What the structure has that these are the demands of.
     #[must_use]
     pub fn shape(&self) -> DemandShape {
-        DemandShape { storeys: self.storeys.len(), stop: self.stop.is_some() }
+        DemandShape {
+            storeys: self.storeys.len(),
+            stop: self.stop.is_some(),
+            surfaces: self.surfaces.len(),
+            contents: self.contents.len(),
+        }
     }
 }
 
@@ -443,7 +568,7 @@ mod tests {
             stop: Some(StopDemands { contact_count: 6, contact_time_s: 7.0, ..Default::default() }),
             ..Default::default()
         };
-        let shape = DemandShape { storeys: 2, stop: true };
+        let shape = DemandShape { storeys: 2, stop: true, ..DemandShape::default() };
         let (columns, values) = (shape.columns(), demand_values(&demands));
         assert_eq!(columns.len(), values.len());
         let of = |name: &str| values[shape.find(name).unwrap().0];
@@ -459,7 +584,7 @@ mod tests {
     /// No name twice, every name found again, and names end in the unit of their demand.
     #[test]
     fn exact_names_are_found_again() {
-        let columns = DemandShape { storeys: 12, stop: true }.columns();
+        let columns = DemandShape { storeys: 12, stop: true, surfaces: 3, contents: 2 }.columns();
         for (i, column) in columns.iter().enumerate() {
             let name = column.name();
             assert_eq!(DemandColumn::of_name(&name), Some(*column), "{name}");

@@ -98,6 +98,7 @@ impl Roughness {
 }
 
 /// Loads of a model under a motion.
+#[derive(Clone, Copy)]
 pub(super) struct Ground<'a> {
     pub(super) times_s: &'a [f64],
     /// `Ü` at the samples.

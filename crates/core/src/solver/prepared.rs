@@ -7,16 +7,16 @@ use fearless_simd::prelude::*;
 
 use super::ground::{Ground, Normal, Sampling, contact_loss_s, varying_normal};
 use super::recorder::Recorder;
-use super::run::{Outcome, Run};
-use super::summary;
+use super::run::{Outcome, Run, Sliding};
 use super::tables::Tables;
+use super::{stepping, summary};
 use crate::error::SolveError;
 use crate::friction::Law;
 use crate::linear::lanes::{Many, One, Width};
-use crate::model::Model;
+use crate::model::{Model, Stop, StopKind};
 use crate::motion::GroundMotion;
 use crate::numerics::fractile::upper_median;
-use crate::response::{Method, Response};
+use crate::response::{Method, Response, StopDemands};
 
 /// Most work of an analysis: radians that the fastest mode turns, times the square of the number of
 /// masses. That is some minutes; at ten times as many radians of one mode its phase is lost to rounding.
@@ -203,11 +203,23 @@ fn solve(
         normal,
         sampling,
     };
+    if model.has_devices(varying.is_some()) && !model.is_plain_between_stops(varying.is_some()) {
+        return stepped(model, motion, ground, with_history);
+    }
     let law = model.law();
     let recorder = with_history
         .then(|| Recorder::new(&tables.stick.system, motion.len(), slope, law.has_stop()));
-    let (outcome, recorder) =
+    let (mut outcome, recorder) =
         instructions.run(Analysis { model, tables, law: &law, ground, recorder })?;
+    if let Some(Stop { gap_m: [positive, negative], kind: StopKind::Rigid { .. } }) = model.stop() {
+        // Away from rigid stops they change nothing.
+        let within = |gap_m: &Option<f64>, s: f64| gap_m.is_none_or(|gap_m| s < gap_m);
+        let Sliding { max_m, min_m, .. } = outcome.sliding;
+        if !(within(positive, max_m) && within(negative, -min_m)) {
+            return stepped(model, motion, ground, with_history);
+        }
+        outcome.stop = Some(StopDemands::default());
+    }
     let contact_loss_s = contact_loss_s(motion.times_s(), normal);
     let warnings = summary::warnings(model, &outcome.events, &contact_loss_s);
     Ok(Response {
@@ -215,6 +227,30 @@ fn solve(
         demands: summary::demands(model, &outcome),
         events: outcome.events,
         history: recorder.map(|recorder| recorder.history),
+        contact_loss_s,
+        iterations: None,
+        warnings,
+    })
+}
+
+/// Response of a model with devices.
+fn stepped(
+    model: &Model,
+    motion: &GroundMotion,
+    ground: Ground<'_>,
+    with_history: bool,
+) -> Result<Response, SolveError> {
+    let contact_loss_s = contact_loss_s(motion.times_s(), ground.normal);
+    let stepped = stepping::solve(model, ground, with_history)?;
+    let mut warnings = summary::warnings(model, &stepped.outcome.events, &contact_loss_s);
+    warnings.extend(stepped.warnings);
+    let mut demands = summary::demands(model, &stepped.outcome);
+    (demands.surfaces, demands.contents) = (stepped.surfaces, stepped.contents);
+    Ok(Response {
+        method: Method::Exact,
+        demands,
+        events: stepped.outcome.events,
+        history: stepped.history,
         contact_loss_s,
         iterations: None,
         warnings,

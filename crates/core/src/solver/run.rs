@@ -474,7 +474,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     pub(super) fn push_event(&mut self, time_s: f64, kind: EventKind) {
         self.events_in_interval += 1;
         let sliding_displacement_m = self.x[0];
-        self.events.push(Event { time_s, kind, mode: self.mode, sliding_displacement_m });
+        let event = Event { time_s, kind, mode: self.mode, sliding_displacement_m, interface: 0 };
+        self.events.push(event);
     }
 
     /// Records the present state as a knot at a sample.

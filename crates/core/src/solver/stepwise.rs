@@ -147,7 +147,7 @@ pub(super) fn solve(
 }
 
 fn event(kind: EventKind, step: &Step, time_s: f64) -> Event {
-    Event { time_s, kind, mode: step.mode, sliding_displacement_m: step.s }
+    Event { time_s, kind, mode: step.mode, sliding_displacement_m: step.s, interface: 0 }
 }
 
 impl Step {

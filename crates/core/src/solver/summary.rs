@@ -23,7 +23,10 @@ pub(super) fn demands(model: &Model, outcome: &Outcome) -> Demands {
                 .map(|heights_m| peak(output::drift(n, i)) / heights_m[i]),
         })
         .collect();
-    let count = |kind| outcome.events.iter().filter(|e| e.kind == kind).count() as u64;
+    let count = |kind| {
+        let own = outcome.events.iter().filter(|e| e.kind == kind && e.interface == 0);
+        own.count() as u64
+    };
     let sliding = &outcome.sliding;
     let peak_sliding_displacement_m = sliding.max_m.max(-sliding.min_m);
     let peak_base_shear_n = if n == 0 { 0.0 } else { peak(output::BASE_SHEAR) };
@@ -56,6 +59,8 @@ pub(super) fn demands(model: &Model, outcome: &Outcome) -> Demands {
             .filter(|_| outcome.overturns)
             .map(|width_m| peak(output::OVERTURNING) / (0.5 * width_m * weight_n)),
         stop: outcome.stop,
+        surfaces: Vec::new(),
+        contents: Vec::new(),
     }
 }
 

@@ -1,0 +1,828 @@
+//! Judges sliders with devices: rigid stops, friction by speed, a pendulum under vertical motion,
+//! surfaces in series, contents that slide on the floors.
+//!
+//! The same way as [`Judge`](super::judge::Judge): from every knot to the next by Gauss collocation, here
+//! of the nonlinear equations, with the laws written once more.
+
+mod law;
+mod own;
+
+use self::law::{Slider, Sliding};
+use self::own::Own;
+use super::collocation::{NODES, POINTS, Rule};
+use super::energy::Energy;
+use super::ground::{Ground, Load};
+use super::judge::{STILL, between};
+use super::law::Dips;
+use super::structure::{Phase, Structure, excess, larger};
+use super::{Certificate, ClosestCall};
+use crate::friction::Direction;
+use crate::model::{Contents, Model};
+use crate::motion::GroundMotion;
+use crate::response::{Contact, History, Mode, Response};
+
+/// Largest rate times step.
+const MAX_TURN: f64 = 0.5;
+/// Most passes of the iteration.
+const MOST_PASSES: usize = 60;
+/// Most steps between two knots.
+const MOST_STEPS: f64 = 1e6;
+
+/// Everything at an instant. Accelerations are absolute, with the slope's share.
+#[derive(Clone, Default)]
+struct Now {
+    /// `ẍ`: block over table, floors over block, contents over floors.
+    rate: Vec<f64>,
+    block: f64,
+    floors: Vec<f64>,
+    contents: Vec<f64>,
+    shear: f64,
+    /// Force of the table on the block, of all and of friction.
+    slider: f64,
+    friction: f64,
+    /// Force of the block on the elastic stop towards +x.
+    stop: f64,
+}
+
+/// What is in force between two knots.
+struct Between<'a> {
+    modes: &'a [Mode],
+    contact: Contact,
+    /// Of a slider that slides on surfaces in series.
+    sliding: Option<Sliding>,
+    /// `s` at the knot.
+    from_m: f64,
+}
+
+pub(super) struct Judge<'a> {
+    model: &'a Model,
+    response: &'a Response,
+    h: &'a History,
+    structure: &'a Structure,
+    contents: &'a [Contents],
+    ground: Ground<'a>,
+    slider: Slider<'a>,
+    rule: &'static Rule,
+    instant_s: f64,
+    jolt: f64,
+    still: f64,
+    displacement: [f64; 2],
+    velocity: [f64; 2],
+    force: [f64; 2],
+    table: f64,
+    excess: f64,
+    energy: Energy,
+    closest: Option<ClosestCall>,
+    dips: Dips,
+    own: Own,
+}
+
+/// Judges everything; `None` where something stored is not finite.
+pub(super) fn certificate(
+    model: &Model,
+    motion: &GroundMotion,
+    (response, history): (&Response, &History),
+    structure: &Structure,
+    bound: f64,
+) -> Option<Certificate> {
+    let end_s = history.time_s.last().copied().unwrap_or(0.0);
+    let mut judge = Judge {
+        model,
+        response,
+        h: history,
+        structure,
+        contents: &model.devices().contents,
+        ground: Ground::new(model, motion),
+        slider: Slider::new(model, motion.vertical_m_per_s2().is_some()),
+        rule: Rule::get(),
+        instant_s: 8.0 * f64::EPSILON * end_s,
+        jolt: 0.0,
+        still: 0.0,
+        displacement: [0.0; 2],
+        velocity: [0.0; 2],
+        force: [0.0; 2],
+        table: 0.0,
+        excess: 0.0,
+        energy: Energy::default(),
+        closest: None,
+        dips: Dips::new(0.0),
+        own: Own::new(model, history),
+    };
+    judge.run(bound)
+}
+
+fn relative(pair: [f64; 2]) -> f64 {
+    if pair[0] == 0.0 { 0.0 } else { pair[0] / pair[1] }
+}
+
+impl<'a> Judge<'a> {
+    fn floors(&self) -> usize {
+        self.structure.masses_kg.len()
+    }
+
+    fn degrees(&self) -> usize {
+        1 + self.floors() + self.contents.len()
+    }
+
+    fn modes(&self, k: usize) -> &'a [Mode] {
+        self.h.modes(k)
+    }
+
+    fn contact(&self, k: usize) -> Contact {
+        self.h.contact.get(k).copied().unwrap_or(Contact::Free)
+    }
+
+    /// `x` and `v` stored at a knot.
+    fn stored(&self, k: usize) -> (Vec<f64>, Vec<f64>) {
+        let (mut x, mut v) =
+            (vec![self.h.sliding_displacement_m[k]], vec![self.h.sliding_velocity_m_per_s[k]]);
+        x.extend(self.h.storey_displacements(k));
+        v.extend(self.h.storey_velocities(k));
+        for e in 0..self.contents.len() {
+            let [r, p, _] = self.h.contents_state(k, e);
+            x.push(r);
+            v.push(p);
+        }
+        (x, v)
+    }
+
+    /// Accelerations and forces under a load.
+    fn at(&self, b: &Between<'_>, load: &Load, x: &[f64], v: &[f64]) -> Now {
+        let n = self.floors();
+        let (q, rates) = (&x[1..=n], &v[1..=n]);
+        let press = load.normal / self.structure.total_kg;
+        let mut mass: Vec<f64> = vec![self.structure.block_kg];
+        mass.extend(&self.structure.masses_kg);
+        let mut pull = vec![0.0; n + 1];
+        for (contents, mode) in self.contents.iter().zip(&b.modes[1..]) {
+            match mode {
+                Mode::Stick => mass[contents.floor] += contents.mass_kg,
+                Mode::Slip(direction) => {
+                    let friction = contents.kinetic_friction * contents.mass_kg * press;
+                    pull[contents.floor] += direction.sign() * friction;
+                }
+            }
+        }
+        let mut restoring = vec![0.0; n];
+        self.structure.add_elastic(q, &mut restoring);
+        self.structure.add_viscous(rates, &mut restoring);
+        let shear = self.structure.base_force(q, rates);
+        let (s, w) = (x[0], v[0]);
+        let push = self.slider.stop(b.contact);
+        let spring = self.slider.spring(s, w, load.normal);
+        let stop = push.force(s, w);
+        let (block, slider, friction) = match b.modes[0] {
+            Mode::Stick => {
+                let slider = mass[0] * load.a - shear - pull[0];
+                (load.a, slider, slider + spring + stop)
+            }
+            Mode::Slip(direction) => {
+                let friction = match &b.sliding {
+                    Some(sliding) => -load.normal * sliding.force(s - b.from_m),
+                    None => {
+                        let mu = self.slider.kinetic(direction, w.abs());
+                        -direction.sign() * mu * load.normal
+                    }
+                };
+                let slider = friction - spring - stop;
+                ((slider + shear + pull[0]) / mass[0], slider, friction)
+            }
+        };
+        let floors: Vec<f64> = (0..n).map(|i| (pull[i + 1] - restoring[i]) / mass[i + 1]).collect();
+        let under = |floor: usize| if floor == 0 { block } else { floors[floor - 1] };
+        let contents: Vec<f64> = self
+            .contents
+            .iter()
+            .zip(&b.modes[1..])
+            .map(|(contents, mode)| match mode {
+                Mode::Stick => under(contents.floor),
+                Mode::Slip(direction) => -direction.sign() * contents.kinetic_friction * press,
+            })
+            .collect();
+        let mut rate = vec![block - load.a];
+        rate.extend(floors.iter().map(|floor| floor - block));
+        rate.extend(self.contents.iter().zip(&contents).map(|(c, a)| a - under(c.floor)));
+        if b.modes[0] == Mode::Stick {
+            rate[0] = 0.0;
+        }
+        for (rate, mode) in rate[1 + n..].iter_mut().zip(&b.modes[1..]) {
+            if *mode == Mode::Stick {
+                *rate = 0.0;
+            }
+        }
+        Now { rate, block, floors, contents, shear, slider, friction, stop }
+    }
+
+    /// Bound on the fastest rate between two knots, in 1/s.
+    fn rate(&self, k: usize) -> f64 {
+        let phase = if self.modes(k)[0] == Mode::Stick { Phase::Stick } else { Phase::Pressed };
+        let own = self.structure.rate(phase);
+        if phase == Phase::Stick {
+            return own;
+        }
+        let speed = [k, k + 1]
+            .map(|k| {
+                let block = self.h.block_acceleration_m_per_s2[k];
+                (block - self.h.table_acceleration_m_per_s2[k]).abs()
+            })
+            .into_iter()
+            .fold(0.0, f64::max);
+        let (normal, _) = self.ground.largest(self.h.time_s[k + 1]);
+        own + self.slider.rate(normal / self.structure.block_kg, speed)
+    }
+
+    fn run(&mut self, bound: f64) -> Option<Certificate> {
+        let knots = self.h.len();
+        self.scales()?;
+        self.start();
+        let (x, v) = self.stored(0);
+        let initial_j = self.kinetic(&v) + self.strain(&x);
+        let rounding_j = self.structure.total_kg * self.jolt * self.jolt;
+        self.energy.start(initial_j, rounding_j, knots);
+        self.dips = self.fresh_dips(0);
+        let mut arrives = false;
+        for k in 0..knots {
+            if k > 0 {
+                self.join(k, !arrives);
+            }
+            let (x, v) = self.stored(k);
+            let (kinetic, strain) = (self.kinetic(&v), self.strain(&x));
+            self.energy.knot(kinetic, strain);
+            self.energy.history.kinetic_j.push(kinetic);
+            self.energy.history.strain_j.push(strain);
+            self.knot(k);
+            arrives = k + 1 < knots && self.h.time_s[k + 1] > self.h.time_s[k];
+            if arrives {
+                self.interval(k);
+            }
+        }
+        self.close(self.modes(knots - 1)[0]);
+        Some(self.finish(bound))
+    }
+
+    fn finish(&mut self, bound: f64) -> Certificate {
+        let end_s = self.h.time_s.last().copied().unwrap_or(0.0);
+        let (normal, table) = self.ground.largest(end_s);
+        let equilibrium =
+            [self.displacement, self.velocity, self.force, [self.table, table]].map(relative);
+        let near = |scale: f64| 64.0 * f64::EPSILON * scale;
+        let rounding = own::Rounding {
+            instant_s: self.instant_s,
+            displacement_m: near(self.displacement[1]),
+            velocity_m_per_s: near(self.velocity[1]),
+            force_n: near(self.force[1]),
+        };
+        let demands_error = self.own.error(self.model, self.response, self.h, &rounding);
+        for call in self.own.near_misses(self.model, self.h) {
+            self.nearest(call);
+        }
+        Certificate {
+            equilibrium_residual: equilibrium.into_iter().fold(0.0, larger),
+            friction_excess: relative([self.excess, self.slider.scale(normal, self.model.weight_n())]),
+            energy_balance_error: self.energy.error(),
+            demands_error,
+            closest_call: self.closest,
+            bound,
+            energy: core::mem::take(&mut self.energy.history),
+        }
+    }
+
+    /// The scales by which defects are measured; `None` where something is not finite.
+    fn scales(&mut self) -> Option<()> {
+        let h = self.h;
+        let lists = [
+            &h.sliding_displacement_m,
+            &h.sliding_velocity_m_per_s,
+            &h.block_acceleration_m_per_s2,
+            &h.friction_force_n,
+            &h.table_acceleration_m_per_s2,
+            &h.storey_displacement_m,
+            &h.storey_velocity_m_per_s,
+            &h.storey_acceleration_m_per_s2,
+            &h.surface_displacement_m,
+            &h.contents_displacement_m,
+            &h.contents_velocity_m_per_s,
+            &h.contents_acceleration_m_per_s2,
+        ];
+        if lists.iter().any(|list| list.iter().any(|x| !x.is_finite())) {
+            return None;
+        }
+        let most = |list: &[f64]| list.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let jolt = self.instant_s
+            * most(&h.block_acceleration_m_per_s2).max(most(&h.table_acceleration_m_per_s2));
+        self.jolt = jolt;
+        let place = most(&h.sliding_displacement_m).max(most(&h.storey_displacement_m));
+        let storey = most(&h.storey_displacement_m);
+        let rest = 1e-4 * self.structure.frame_frequency() * storey;
+        let sliding = most(&h.sliding_velocity_m_per_s);
+        let speed = sliding.max(most(&h.storey_velocity_m_per_s));
+        self.displacement[1] =
+            place.max(most(&h.contents_displacement_m)).max(self.instant_s * jolt);
+        self.velocity[1] =
+            speed.max(most(&h.contents_velocity_m_per_s)).max(rest).max(jolt);
+        self.still = STILL * sliding + 64.0 * f64::EPSILON * self.velocity[1];
+        Some(())
+    }
+
+    /// The first knot has the model's initial state, and what moves at rest was pushed.
+    fn start(&mut self) {
+        let initial = self.model.initial();
+        let (x, v) = self.stored(0);
+        let mut own_x = vec![initial.sliding_displacement_m];
+        own_x.extend(self.model.initial_storey_displacement_m());
+        own_x.resize(x.len(), 0.0);
+        let mut own_v = vec![initial.sliding_velocity_m_per_s];
+        own_v.extend(self.model.initial_storey_velocity_m_per_s());
+        own_v.resize(v.len(), 0.0);
+        self.compare((&x, &v), (&own_x, &own_v));
+        let mut before = vec![Mode::Stick; self.modes(0).len()];
+        if initial.sliding_velocity_m_per_s != 0.0 {
+            before[0] = self.modes(0)[0];
+        }
+        self.changes(0, &before);
+        self.own.begin(self.h, &before);
+    }
+
+    fn compare(&mut self, (x, v): (&[f64], &[f64]), (own_x, own_v): (&[f64], &[f64])) {
+        for (a, b) in x.iter().zip(own_x) {
+            self.displacement[0] = larger(self.displacement[0], a - b);
+        }
+        for (a, b) in v.iter().zip(own_v) {
+            self.velocity[0] = larger(self.velocity[0], a - b);
+        }
+    }
+
+    /// Passes from the knot before `k` to `k`; `abreast` where both have the same time.
+    fn join(&mut self, k: usize, abreast: bool) {
+        let (before, after) = (self.modes(k - 1), self.modes(k));
+        let mut struck = false;
+        if abreast {
+            let ((x0, v0), (x1, v1)) = (self.stored(k - 1), self.stored(k));
+            struck = self.slider.e.is_some() && v0[0] != v1[0] && self.at_wall(x1[0], v0[0]);
+            if struck {
+                self.impact(k, (&v0, &v1));
+                self.compare((&x1, &[]), (&x0, &[]));
+            } else {
+                self.compare((&x1, &v1), (&x0, &v0));
+            }
+            let surfaces = self.h.surface_displacements(k).iter();
+            for (a, b) in surfaces.zip(self.h.surface_displacements(k - 1)) {
+                self.displacement[0] = larger(self.displacement[0], a - b);
+            }
+        }
+        if before[0] != after[0] {
+            self.close(before[0]);
+            self.dips = self.fresh_dips(k);
+        }
+        if !struck {
+            for i in 0..after.len() {
+                if before[i] != after[i] {
+                    let (_, v) = self.stored(k);
+                    let at = if i == 0 { 0 } else { self.floors() + i };
+                    self.velocity[0] = larger(self.velocity[0], v[at]);
+                }
+            }
+            self.changes(k, before);
+        }
+        self.own.pass(self.h, k, struck);
+    }
+
+    /// Whether a block at `s` with a velocity is about to pass a rigid stop.
+    fn at_wall(&self, s: f64, w: f64) -> bool {
+        let direction = if w > 0.0 { Direction::Positive } else { Direction::Negative };
+        let slack_m = self.instant_s * w.abs() + 8.0 * f64::EPSILON * self.displacement[1];
+        self.slider.wall(direction).is_some_and(|wall| (s - wall).abs() <= slack_m)
+    }
+
+    /// Judges an impact: `ṡ⁺ = −e ṡ⁻`, absolute velocities of floors and contents as before.
+    fn impact(&mut self, k: usize, (v0, v1): (&[f64], &[f64])) {
+        let e = self.slider.e.unwrap_or(0.0);
+        let (before, after) = (v0[0], v1[0]);
+        self.velocity[0] = larger(self.velocity[0], after + e * before);
+        let n = self.floors();
+        for i in 1..=n {
+            self.velocity[0] = larger(self.velocity[0], (v1[i] + after) - (v0[i] + before));
+        }
+        for (e, contents) in self.contents.iter().enumerate() {
+            let i = 1 + n + e;
+            let change = if contents.floor == 0 { before - after } else { 0.0 };
+            self.velocity[0] = larger(self.velocity[0], v1[i] - v0[i] - change);
+        }
+        let lost = 0.5 * self.structure.block_kg * (before * before - after * after);
+        self.energy.spend(0.0, 0.0, lost, 0.0);
+        let peak = self.velocity[1];
+        if before.abs() >= own::SLOWEST_IMPACT_M_PER_S {
+            let margin = before.abs() / peak;
+            self.nearest(ClosestCall { margin, time_s: self.h.time_s[k], kind: "impact" });
+        }
+    }
+
+    /// Judges the decisions at the knot `k`, at which what changes its mode has no velocity.
+    fn changes(&mut self, k: usize, before: &[Mode]) {
+        let after = self.modes(k);
+        if before == after {
+            return;
+        }
+        let table = self.h.table_acceleration_m_per_s2[k];
+        let all = self.ground.instant(self.h.time_s[k]);
+        let nearest = all.iter().map(|load| (load.table - table).abs()).fold(f64::INFINITY, f64::min);
+        let loads: Vec<Load> =
+            all.into_iter().filter(|load| (load.table - table).abs() <= nearest).collect();
+        for i in 0..after.len() {
+            if before[i] == after[i] {
+                continue;
+            }
+            // The others may have changed before it or after it.
+            let mut least = f64::INFINITY;
+            let mut margin = None;
+            for load in &loads {
+                for others in [before, after] {
+                    let mut modes = others.to_vec();
+                    modes[i] = Mode::Stick;
+                    let asked = self.asked(k, &modes, i, load);
+                    let beyond = match after[i] {
+                        Mode::Stick => asked.beyond(),
+                        Mode::Slip(Direction::Positive) => asked.demand - asked.low,
+                        Mode::Slip(Direction::Negative) => asked.high - asked.demand,
+                    };
+                    if excess(beyond) < least {
+                        least = excess(beyond);
+                        margin = asked.margin();
+                    }
+                }
+            }
+            self.excess = larger(self.excess, least);
+            if i == 0
+                && before[0] != Mode::Stick
+                && let Some(margin) = margin
+            {
+                let load = &loads[0];
+                let drift = self.structure.block_kg * load.slope.abs() * self.instant_s
+                    / self.slider.scale(load.normal, self.model.weight_n());
+                self.own.decided(margin, drift);
+                self.nearest(ClosestCall { margin, time_s: self.h.time_s[k], kind: "stop" });
+            }
+        }
+        if before[0] != Mode::Stick
+            && before[0] != after[0]
+            && let Some(margin) = self.slider.next_join(
+                self.h.surface_displacements(k),
+                before[0],
+            )
+        {
+            self.nearest(ClosestCall { margin, time_s: self.h.time_s[k], kind: "join" });
+        }
+    }
+
+    /// What a stuck interface is asked for and what holds it, in N.
+    fn asked(&self, k: usize, modes: &[Mode], i: usize, load: &Load) -> law::Asked {
+        let (x, v) = self.stored(k);
+        let b = self.between_knots(k, modes);
+        let now = self.at(&b, load, &x, &v);
+        self.holds(&now, k, x[0], i, load)
+    }
+
+    fn holds(&self, now: &Now, k: usize, s: f64, i: usize, load: &Load) -> law::Asked {
+        if i == 0 {
+            let slack_m = 8.0 * f64::EPSILON * self.displacement[1];
+            let surfaces = self.h.surface_displacements(k);
+            return self.slider.asked(now.friction, (s, slack_m), surfaces, load.normal);
+        }
+        let contents = &self.contents[i - 1];
+        let press = load.normal / self.structure.total_kg;
+        let bound = contents.static_friction * contents.mass_kg * press;
+        law::Asked { demand: contents.mass_kg * now.contents[i - 1], low: -bound, high: bound }
+    }
+
+    fn between_knots<'b>(&self, k: usize, modes: &'b [Mode]) -> Between<'b> {
+        let sliding = match modes[0] {
+            Mode::Stick => None,
+            Mode::Slip(direction) => self.slider.sliding(self.h.surface_displacements(k), direction),
+        };
+        Between { modes, contact: self.contact(k), sliding, from_m: self.h.sliding_displacement_m[k] }
+    }
+
+    /// Judges what is stored at a knot by the load that suits it best.
+    fn knot(&mut self, k: usize) {
+        let (h, modes) = (self.h, self.modes(k));
+        let (x, v) = self.stored(k);
+        let b = self.between_knots(k, modes);
+        let slope = self.model.slope_m_per_s2();
+        let mut best = [f64::INFINITY; 2];
+        let mut scale = 0.0;
+        for load in self.ground.instant(h.time_s[k]) {
+            let now = self.at(&b, &load, &x, &v);
+            let table = ((load.table - h.table_acceleration_m_per_s2[k]).abs()
+                - self.instant_s * load.slope.abs())
+            .max(0.0);
+            let mut force = self.structure.block_kg
+                * (now.block - slope - h.block_acceleration_m_per_s2[k]).abs();
+            for (i, a) in now.floors.iter().enumerate() {
+                let off = a - slope - h.storey_accelerations(k)[i];
+                force = force.max(self.structure.masses_kg[i] * off.abs());
+            }
+            for (e, contents) in self.contents.iter().enumerate() {
+                let off = now.contents[e] - slope - h.contents_state(k, e)[2];
+                force = force.max(contents.mass_kg * off.abs());
+            }
+            let asked = self.holds(&now, k, x[0], 0, &load);
+            let friction = if modes[0] == Mode::Stick { asked.taken(load.normal, &self.slider) } else { now.friction };
+            force = force.max((friction - h.friction_force_n[k]).abs());
+            let drift = load.slope.abs() * self.instant_s * self.structure.total_kg;
+            force = excess(force - drift);
+            if table + force / self.structure.total_kg < best[0] + best[1] / self.structure.total_kg
+            {
+                best = [table, force];
+                let terms = [now.slider, now.friction, now.shear, now.stop];
+                let own = terms.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+                let floors = now.floors.iter().zip(&self.structure.masses_kg);
+                scale = floors.fold(own, |most, (a, m)| most.max((a * m).abs()));
+            }
+        }
+        self.table = larger(self.table, best[0]);
+        self.force[0] = larger(self.force[0], best[1]);
+        self.force[1] = larger(self.force[1], scale);
+        self.excess = larger(self.excess, self.contact_excess(k));
+        // Surfaces in series make up s, within their travels.
+        let surfaces = h.surface_displacements(k);
+        if !surfaces.is_empty() {
+            let sum: f64 = surfaces.iter().sum();
+            self.displacement[0] = larger(self.displacement[0], sum - x[0]);
+            let beyond = self.slider.beyond_ends(surfaces);
+            self.displacement[0] = larger(self.displacement[0], beyond);
+        }
+        if let Some(beyond) = self.slider.beyond_walls(x[0]) {
+            self.displacement[0] = larger(self.displacement[0], beyond);
+        }
+    }
+
+    fn contact_excess(&self, k: usize) -> f64 {
+        let (s, w) = (self.h.sliding_displacement_m[k], self.h.sliding_velocity_m_per_s[k]);
+        self.slider.contact_excess(self.contact(k), (s, w), self.slack(w))
+    }
+
+    /// What the rounding of times makes of a position at this speed, and of the force of the stop.
+    fn slack(&self, w: f64) -> [f64; 2] {
+        let slack_m = self.instant_s * w.abs() + 8.0 * f64::EPSILON * self.displacement[1];
+        [slack_m, self.structure.stop_damper() * self.jolt]
+    }
+
+    /// Integrates from the knot `k` to the next.
+    fn interval(&mut self, k: usize) {
+        let modes = self.modes(k).to_vec();
+        let b = self.between_knots(k, &modes);
+        let (mut x, mut v) = self.stored(k);
+        let (mut from_s, end_s) = (self.h.time_s[k], self.h.time_s[k + 1]);
+        let rate = self.rate(k);
+        let mut fastest = vec![0.0; self.degrees()];
+        self.own.totals.add(&modes, b.contact, end_s - from_s, self.leans(k));
+        if let Some(sliding) = &b.sliding {
+            self.own.slides_on(self.h, k, sliding.active());
+        }
+        loop {
+            let piece = self.ground.piece(from_s, end_s);
+            let steps = (rate * (piece.to_s - from_s) / MAX_TURN).ceil().clamp(1.0, MOST_STEPS);
+            let step_s = (piece.to_s - from_s) / steps;
+            for j in 0..steps as usize {
+                let loads = [j, j + 1].map(|j| between(piece.loads, j as f64 / steps));
+                let at_s = from_s + j as f64 * step_s;
+                self.step((k, &b), at_s, step_s, loads, (&mut x, &mut v), &mut fastest);
+            }
+            from_s = piece.to_s;
+            if from_s >= end_s {
+                break;
+            }
+        }
+        let (to_x, to_v) = self.stored(k + 1);
+        for i in 0..self.degrees() {
+            let off = (x[i] - to_x[i]).abs() - self.instant_s * fastest[i];
+            self.displacement[0] = larger(self.displacement[0], excess(off));
+            let off = (v[i] - to_v[i]).abs() - self.instant_s * self.own.jerked(i);
+            self.velocity[0] = larger(self.velocity[0], excess(off));
+        }
+        if let Some(sliding) = &b.sliding {
+            let own = sliding.displacements(self.h.surface_displacements(k), x[0] - b.from_m);
+            for (own, stored) in own.iter().zip(self.h.surface_displacements(k + 1)) {
+                let off = (own - stored).abs() - self.instant_s * fastest[0];
+                self.displacement[0] = larger(self.displacement[0], excess(off));
+            }
+            let normal = self.ground.instant(end_s)[0].normal;
+            let broken = self.slider.series_excess(sliding, &own, x[0] - b.from_m);
+            self.excess = larger(self.excess, excess(normal * broken));
+        } else {
+            let stuck = self.h.surface_displacements(k).iter();
+            for (own, stored) in stuck.zip(self.h.surface_displacements(k + 1)) {
+                self.displacement[0] = larger(self.displacement[0], own - stored);
+            }
+        }
+    }
+
+    /// Whether the block rests against a rigid stop.
+    fn leans(&self, k: usize) -> bool {
+        let s = self.h.sliding_displacement_m[k];
+        self.slider.leans(s, 8.0 * f64::EPSILON * self.displacement[1]) != [false; 2]
+    }
+
+    /// One collocation step.
+    fn step(
+        &mut self,
+        (k, b): (usize, &Between<'_>),
+        from_s: f64,
+        step_s: f64,
+        loads: [Load; 2],
+        (x, v): (&mut Vec<f64>, &mut Vec<f64>),
+        fastest: &mut [f64],
+    ) {
+        let (d, rule) = (self.degrees(), self.rule);
+        let first = self.at(b, &loads[0], x, v);
+        let mut rates: Vec<Vec<f64>> = vec![first.rate.clone(); NODES];
+        let mut places = vec![vec![0.0; d]; NODES];
+        let mut speeds = vec![vec![0.0; d]; NODES];
+        let mut nodes = vec![Now::default(); NODES];
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST_PASSES {
+            for i in 0..NODES {
+                for c in 0..d {
+                    let (mut along, mut twice) = (0.0, 0.0);
+                    for (j, rate) in rates.iter().enumerate() {
+                        along += rule.a[i][j] * rate[c];
+                        twice += rule.aa[i][j] * rate[c];
+                    }
+                    speeds[i][c] = v[c] + step_s * along;
+                    places[i][c] = x[c] + step_s * (rule.c[i] * v[c] + step_s * twice);
+                }
+            }
+            let mut change: f64 = 0.0;
+            for i in 0..NODES {
+                let load = between(loads, rule.c[i]);
+                nodes[i] = self.at(b, &load, &places[i], &speeds[i]);
+                for c in 0..d {
+                    change = change.max((nodes[i].rate[c] - rates[i][c]).abs());
+                }
+                rates[i].copy_from_slice(&nodes[i].rate);
+            }
+            // A change that no longer shrinks is rounding.
+            if change == 0.0 || (change >= 0.5 * last && change <= 1e-12 * self.own.jerked(0).max(1.0)) {
+                break;
+            }
+            last = change;
+        }
+        let start = (x.clone(), v.clone());
+        for c in 0..d {
+            let (mut along, mut twice) = (0.0, 0.0);
+            for (j, rate) in rates.iter().enumerate() {
+                along += rule.weights[j] * rate[c];
+                twice += rule.weights[j] * (1.0 - rule.c[j]) * rate[c];
+            }
+            x[c] += step_s * (v[c] + step_s * twice);
+            v[c] += step_s * along;
+        }
+        let end = self.at(b, &loads[1], x, v);
+        self.spend(b, step_s, loads, (&nodes, &places, &speeds));
+        for (i, fastest) in fastest.iter_mut().enumerate() {
+            let all = speeds.iter().map(|v| v[i].abs());
+            *fastest = all.fold(fastest.max(start.1[i].abs()).max(v[i].abs()), f64::max);
+        }
+        let mut all: Vec<(&Now, &[f64], &[f64])> = vec![(&first, &start.0, &start.1)];
+        for i in 0..NODES {
+            all.push((&nodes[i], &places[i], &speeds[i]));
+        }
+        all.push((&end, x, v));
+        let normals: [f64; POINTS] = core::array::from_fn(|i| between(loads, rule.points[i]).normal);
+        self.judge_step((k, b), from_s, step_s, loads, &all);
+        self.own.see(self.model, rule, b.modes, &all, (&normals, &self.slider));
+        self.own.totals.path(b.modes, &start.0, x, self.floors());
+    }
+
+    /// Judges the inequalities at the points of a step.
+    fn judge_step(
+        &mut self,
+        (k, b): (usize, &Between<'_>),
+        from_s: f64,
+        step_s: f64,
+        loads: [Load; 2],
+        all: &[(&Now, &[f64], &[f64])],
+    ) {
+        let n = self.floors();
+        for (i, mode) in b.modes.iter().enumerate() {
+            let at = if i == 0 { 0 } else { n + i };
+            let mut speeds = [0.0; POINTS];
+            for (point, (now, x, v)) in all.iter().enumerate() {
+                let t = self.rule.points[point];
+                let load = between(loads, t);
+                match mode {
+                    Mode::Stick => {
+                        let asked = self.holds(now, k, x[0], i, &load);
+                        self.excess = larger(self.excess, excess(asked.beyond()));
+                        if i == 0
+                            && let Some(margin) = asked.margin()
+                        {
+                            self.dips.feed(from_s + t * step_s, margin);
+                        }
+                    }
+                    Mode::Slip(direction) => {
+                        speeds[point] = direction.sign() * v[at];
+                        let blur = self.still + self.instant_s * self.own.jerked(at);
+                        if speeds[point] < -blur {
+                            let force = self.slider.scale(load.normal, self.model.weight_n());
+                            self.excess = larger(self.excess, force);
+                        }
+                        if i == 0 {
+                            self.dips.feed(from_s + t * step_s, speeds[point]);
+                            let broken =
+                                self.slider.contact_excess(b.contact, (x[0], v[0]), self.slack(v[0]));
+                            self.excess = larger(self.excess, broken);
+                            if let Some(beyond) = self.slider.beyond_walls(x[0]) {
+                                let off = beyond - self.instant_s * v[0].abs();
+                                self.displacement[0] = larger(self.displacement[0], excess(off));
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds up work and losses of a step.
+    fn spend(
+        &mut self,
+        b: &Between<'_>,
+        step_s: f64,
+        loads: [Load; 2],
+        (nodes, places, speeds): (&[Now], &[Vec<f64>], &[Vec<f64>]),
+    ) {
+        let n = self.floors();
+        let (mut work, mut size, mut damping, mut friction) = (0.0, 0.0, 0.0, 0.0);
+        for i in 0..NODES {
+            let weight = step_s * self.rule.weights[i];
+            let load = between(loads, self.rule.c[i]);
+            let (x, v, now) = (&places[i], &speeds[i], &nodes[i]);
+            let mut momentum = self.structure.block_kg * v[0];
+            for j in 0..n {
+                momentum += self.structure.masses_kg[j] * (v[0] + v[1 + j]);
+            }
+            for (e, contents) in self.contents.iter().enumerate() {
+                let floor = if contents.floor == 0 { 0.0 } else { v[contents.floor] };
+                momentum += contents.mass_kg * (v[0] + floor + v[1 + n + e]);
+                if let Mode::Slip(direction) = b.modes[1 + e] {
+                    let press = load.normal / self.structure.total_kg;
+                    let force = contents.kinetic_friction * contents.mass_kg * press;
+                    friction += weight * force * direction.sign() * v[1 + n + e];
+                }
+            }
+            let power = -momentum * load.a;
+            work += weight * power;
+            size += weight * power.abs();
+            damping += weight * (self.structure.dissipation(&v[..=n]) + now.stop * v[0]);
+            if b.modes[0] != Mode::Stick {
+                // The spring of a pendulum follows the normal force: its work counts as friction's.
+                friction += weight
+                    * (self.slider.pendulum(x[0], load.normal) - now.friction)
+                    * v[0];
+            }
+        }
+        self.energy.spend(work, size, damping, friction);
+    }
+
+    fn kinetic(&self, v: &[f64]) -> f64 {
+        let n = self.floors();
+        let contents = self.contents.iter().enumerate().map(|(e, contents)| {
+            let floor = if contents.floor == 0 { 0.0 } else { v[contents.floor] };
+            let speed = v[0] + floor + v[1 + n + e];
+            0.5 * contents.mass_kg * speed * speed
+        });
+        self.structure.kinetic(&v[..=n]) + contents.sum::<f64>()
+    }
+
+    /// Strain energy; of a pendulum under vertical motion there is none.
+    fn strain(&self, x: &[f64]) -> f64 {
+        let mut own = x[..=self.floors()].to_vec();
+        if self.slider.is_pendulum() {
+            own[0] = 0.0;
+        }
+        self.structure.strain(&own)
+    }
+
+    fn nearest(&mut self, call: ClosestCall) {
+        let call = ClosestCall { margin: call.margin.abs(), ..call };
+        if self.closest.is_none_or(|closest| call.margin < closest.margin) {
+            self.closest = Some(call);
+        }
+    }
+
+    fn fresh_dips(&self, k: usize) -> Dips {
+        Dips::new(if self.modes(k)[0] == Mode::Stick { 1e-12 } else { self.still })
+    }
+
+    /// Ends a phase of the slider: its near decisions are known.
+    fn close(&mut self, mode: Mode) {
+        let call = match mode {
+            Mode::Stick => self.dips.least(),
+            Mode::Slip(direction) if self.slider.drops(direction) => self.dips.least_of_peak(),
+            Mode::Slip(_) => None,
+        };
+        if let Some(call) = call {
+            self.nearest(call);
+        }
+    }
+}

@@ -1,0 +1,578 @@
+//! Event stepping of sliders with devices: rigid stops, friction by speed, a pendulum under vertical
+//! motion, surfaces in series, contents that slide on the floors.
+//!
+//! The slider and the contents are interfaces, each of which sticks or slides. Between two events the
+//! motion is one Taylor series in physical coordinates, nonlinear where the force is; the slider's law
+//! says which force, where it ends, what holds at rest and what follows.
+
+mod body;
+mod decide;
+mod keep;
+
+use self::body::{Body, Expansion, Loads, Phase, State};
+use self::keep::Peaks;
+use super::event::EVENTS_PER_INTERVAL_LIMIT;
+use super::ground::{Ground, Normal, Stretch};
+use super::run::{Outcome, Sliding, Start, Stopping};
+use super::tables::system_of;
+use crate::error::SolveError;
+use crate::friction::{
+    Bound, Coefficient, Direction, Memory, Reached, Rest, Restraint, SlipForce, SliderLaw,
+};
+use crate::linear::polynomial::{DEGREE, Polynomial, deflated, first_root, value};
+use crate::model::Model;
+use crate::response::{
+    Contact, ContentsDemands, Event, EventKind, History, Mode, StopDemands, SurfaceDemands, Warning,
+};
+
+/// Impacts slower than this are neither listed nor counted, in m/s.
+pub(super) const SLOWEST_IMPACT_M_PER_S: f64 = 1e-3;
+
+/// What an analysis leaves behind.
+pub(super) struct Stepped {
+    pub(super) outcome: Outcome,
+    pub(super) surfaces: Vec<SurfaceDemands>,
+    pub(super) contents: Vec<ContentsDemands>,
+    pub(super) history: Option<History>,
+    pub(super) warnings: Vec<Warning>,
+}
+
+/// Solves a model with devices.
+pub(super) fn solve(
+    model: &Model,
+    ground: Ground<'_>,
+    with_history: bool,
+) -> Result<Stepped, SolveError> {
+    let law = model.slider_law(matches!(ground.normal, Normal::Varying(_)));
+    let mut run = Stepping::new(model, &law, ground, with_history);
+    run.go()?;
+    Ok(run.stepped())
+}
+
+/// Why a segment ends before the series does.
+#[derive(Clone, Copy, Debug)]
+enum End {
+    /// An interface has no velocity.
+    Still(usize),
+    /// The slider's branch ends.
+    Bound(Bound),
+    /// An interface that stuck slides.
+    Release(usize, Direction),
+}
+
+/// A rigid stop that has just been struck, and where the block is to it.
+#[derive(Clone, Copy)]
+struct Near {
+    place: f64,
+    offset: f64,
+}
+
+struct Stepping<'a> {
+    model: &'a Model,
+    law: &'a SliderLaw,
+    ground: Ground<'a>,
+    body: Body,
+    x: State,
+    modes: Vec<Mode>,
+    memory: Memory,
+    start: Vec<Option<Start>>,
+    /// An interface that has reached its bound.
+    pending: Option<(usize, Direction)>,
+    /// What the slider has just reached: that bound starts at its zero.
+    just: Option<Reached>,
+    near: Option<Near>,
+    /// The contact with an elastic stop with which the slider sets out.
+    begun: Option<Contact>,
+    series: Expansion,
+    /// Of one instant.
+    instant: Expansion,
+    unit_s: f64,
+    events: Vec<Event>,
+    events_in_interval: u32,
+    /// The last turn since the last impact.
+    turn: Option<usize>,
+    sliding: Vec<Sliding>,
+    stopping: Stopping,
+    leans_since_s: Option<f64>,
+    first_impact_s: Option<f64>,
+    peaks: Peaks,
+    ends: Vec<bool>,
+    history: Option<History>,
+}
+
+impl<'a> Stepping<'a> {
+    fn new(model: &'a Model, law: &'a SliderLaw, ground: Ground<'a>, with_history: bool) -> Self {
+        let body = Body::new(model, &system_of(model));
+        let initial = model.initial();
+        let count = body.contents.len();
+        let (s, w) = (initial.sliding_displacement_m, initial.sliding_velocity_m_per_s);
+        let x = State {
+            s,
+            w,
+            q: model.initial_storey_displacement_m(),
+            v: model.initial_storey_velocity_m_per_s(),
+            r: vec![0.0; count],
+            p: vec![0.0; count],
+        };
+        let mut modes = vec![Mode::Stick; 1 + count];
+        if w != 0.0 {
+            modes[0] =
+                Mode::Slip(if w > 0.0 { Direction::Positive } else { Direction::Negative });
+        }
+        let memory = law.initial(s, w);
+        let surfaces = law.surfaces(&memory, s).len();
+        let history = with_history.then(|| History {
+            storeys: body.storeys(),
+            interfaces: 1 + count,
+            surfaces,
+            ..History::default()
+        });
+        let mut sliding = vec![Sliding::new(s)];
+        sliding.resize(1 + count, Sliding::new(0.0));
+        Self {
+            model,
+            law,
+            ground,
+            series: body.room(),
+            instant: body.room(),
+            peaks: Peaks::new(model, surfaces),
+            body,
+            x,
+            modes,
+            memory,
+            start: vec![None; 1 + count],
+            pending: None,
+            just: None,
+            near: None,
+            begun: None,
+            unit_s: f64::INFINITY,
+            events: Vec::new(),
+            events_in_interval: 0,
+            turn: None,
+            sliding,
+            stopping: Stopping::default(),
+            leans_since_s: None,
+            first_impact_s: None,
+            ends: vec![false; surfaces],
+            history,
+        }
+    }
+
+    fn go(&mut self) -> Result<(), SolveError> {
+        let times_s = self.ground.times_s;
+        let last = times_s.len() - 1;
+        self.note_ends(0.0)?;
+        for sample in 0..last {
+            let length_s = times_s[sample + 1] - times_s[sample];
+            if length_s == 0.0 {
+                self.record_sample(sample, true);
+                continue;
+            }
+            self.events_in_interval = 0;
+            let change_s = self.ground.contact_change(sample).map(|part| part * length_s);
+            let mut from_s = 0.0;
+            for to_s in [change_s.unwrap_or(0.0), length_s] {
+                if to_s > from_s {
+                    let stretch = self.ground.stretch(sample, from_s, to_s);
+                    self.step_stretch(&stretch)?;
+                    from_s = to_s;
+                }
+            }
+        }
+        self.finish(last)
+    }
+
+    fn finish(&mut self, last: usize) -> Result<(), SolveError> {
+        let end_s = self.ground.times_s[last];
+        if !(self.x.s.is_finite() && self.x.w.is_finite()) {
+            return Err(SolveError::NotFinite { time_s: end_s });
+        }
+        if (0..self.modes.len()).any(|i| self.has_stopped(i)) {
+            // A stop at the very end is decided by the limit from the left.
+            let interval = (0..last).rev().find(|&i| self.ground.times_s[i] < end_s);
+            if let Some(interval) = interval {
+                let length_s = end_s - self.ground.times_s[interval];
+                let stretch = self.ground.stretch(interval, 0.0, length_s);
+                self.record(&stretch, length_s, false);
+                self.decide_stops(&stretch, length_s);
+            }
+        }
+        self.record_sample(last, true);
+        for i in 0..self.modes.len() {
+            if matches!(self.modes[i], Mode::Slip(_)) {
+                let place = self.place(i);
+                self.sliding[i].end(end_s, place);
+            }
+        }
+        if self.law.stop.is_some() {
+            self.stopping.change(end_s, 0.0, self.memory.contact, Contact::Free);
+        }
+        self.end_leaning(end_s);
+        Ok(())
+    }
+
+    fn stepped(self) -> Stepped {
+        let count = |interface: usize, kind| {
+            let all = self.events.iter();
+            all.filter(|e| e.interface == interface && e.kind == kind).count() as u64
+        };
+        let contents = (0..self.body.contents.len())
+            .map(|i| ContentsDemands {
+                peak_sliding_displacement_m: self.sliding[1 + i].max_m.max(-self.sliding[1 + i].min_m),
+                residual_sliding_displacement_m: self.x.r[i],
+                sliding_path_m: self.sliding[1 + i].path_m,
+                sliding_time_s: self.sliding[1 + i].time_s,
+                peak_sliding_velocity_m_per_s: self.peaks.contents_velocity[i],
+                peak_acceleration_m_per_s2: self.peaks.contents_acceleration[i],
+                slip_count: count(1 + i, EventKind::Slip),
+                reversal_count: count(1 + i, EventKind::Reversal),
+                stick_count: count(1 + i, EventKind::Stick),
+            })
+            .collect();
+        let now = self.law.surfaces(&self.memory, self.x.s);
+        let surfaces = now
+            .iter()
+            .enumerate()
+            .map(|(i, u)| SurfaceDemands {
+                peak_displacement_m: self.peaks.surfaces[i],
+                residual_displacement_m: *u,
+                end_reached: self.ends[i],
+            })
+            .collect();
+        let warnings = self.first_impact_s.map(|time_s| Warning {
+            kind: "impulses_excluded",
+            time_s: Some(time_s),
+            message: "the block strikes a rigid stop: peak accelerations and forces are those of the \
+                      motion between impacts, without the impulses"
+                .to_owned(),
+        });
+        let has_stop = self.law.stop.is_some() || self.law.rigid.is_some();
+        let demands = StopDemands {
+            impact_count: count(0, EventKind::Impact),
+            ..self.stopping.demands
+        };
+        Stepped {
+            outcome: Outcome {
+                events: self.events,
+                peaks: self.peaks.values,
+                overturns: self.peaks.overturns,
+                sliding: self.sliding[0],
+                stop: has_stop.then_some(demands),
+                residual_m: self.x.s,
+                sliding_at_end: matches!(self.modes[0], Mode::Slip(_)),
+            },
+            surfaces,
+            contents,
+            history: self.history,
+            warnings: warnings.into_iter().collect(),
+        }
+    }
+
+    // ---- what is in force -----------------------------------------------------------------------
+
+    /// Displacement of an interface.
+    fn place(&self, interface: usize) -> f64 {
+        if interface == 0 { self.x.s } else { self.x.r[interface - 1] }
+    }
+
+    /// Velocity of an interface.
+    fn velocity(&self, interface: usize) -> f64 {
+        if interface == 0 { self.x.w } else { self.x.p[interface - 1] }
+    }
+
+    /// What holds the slider at rest; off a stop by less than the rounding of `s` it does not lean on it.
+    fn rest(&self) -> Rest {
+        let rest = self.law.rest(&self.memory, self.x.s);
+        match self.near {
+            Some(near) if near.offset != 0.0 => Rest { leans: [false; 2], ..rest },
+            _ => rest,
+        }
+    }
+
+    fn loads(stretch: &Stretch, at_s: f64) -> Loads {
+        Loads {
+            acceleration: [stretch.acceleration_at(at_s), stretch.acceleration_rate],
+            normal: [stretch.normal_at(at_s), stretch.normal_rate],
+        }
+    }
+
+    /// The force of the slider in a mode; in stick what springs and stops do.
+    fn force(&self, mode: Mode) -> SlipForce {
+        match mode {
+            Mode::Slip(direction) => self.law.force(&self.memory, direction),
+            Mode::Stick => {
+                let rest = self.rest();
+                SlipForce {
+                    restraint: Restraint { stiffness_n_per_m: 0.0, damper_n_s_per_m: 0.0 },
+                    force_n: rest.force_n,
+                    of_normal: rest.of_normal,
+                    of_normal_s: 0.0,
+                    coefficient: Coefficient::Linear { at_rest: 0.0, slope_s_per_m: 0.0 },
+                }
+            }
+        }
+    }
+
+    /// Finds accelerations and forces of this instant.
+    fn look_at_instant(&mut self, loads: &Loads) {
+        let force = self.force(self.modes[0]);
+        let phase = Phase { modes: &self.modes, force };
+        self.body.expand(&self.x, &phase, loads, (1.0, 0), &mut self.instant);
+    }
+
+    // ---- steps ----------------------------------------------------------------------------------
+
+    fn step_stretch(&mut self, stretch: &Stretch) -> Result<(), SolveError> {
+        let mut at_s = stretch.from_s;
+        let mut first = at_s == 0.0;
+        loop {
+            let before = self.events.len();
+            let decided = self.decide(stretch, at_s, first);
+            if first || decided || self.events.len() > before {
+                self.record(stretch, at_s, first);
+            }
+            first = false;
+            let time_s = self.ground.times_s[stretch.interval] + at_s;
+            self.note_ends(time_s)?;
+            if self.events_in_interval > EVENTS_PER_INTERVAL_LIMIT {
+                let limit = EVENTS_PER_INTERVAL_LIMIT;
+                return Err(SolveError::TooManyEvents { time_s, limit });
+            }
+            if !(self.x.s.is_finite() && self.x.w.is_finite()) {
+                return Err(SolveError::NotFinite { time_s });
+            }
+            if at_s >= stretch.to_s {
+                return Ok(());
+            }
+            at_s = self.segment(stretch, at_s)?;
+            if at_s >= stretch.to_s && self.pending.is_none() {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Expands the motion from an instant over as much of a stretch as one series takes.
+    fn expand(&mut self, stretch: &Stretch, from_s: f64) {
+        let loads = Self::loads(stretch, from_s);
+        let left_s = stretch.to_s - from_s;
+        let force = self.force(self.modes[0]);
+        let phase = Phase { modes: &self.modes, force };
+        let fastest = 1.0 / self.body.rate_rad_per_s.max(1e-3);
+        let mut unit_s = if self.unit_s.is_finite() { self.unit_s } else { fastest };
+        loop {
+            // A hair beyond is the rounding of the times.
+            if unit_s * (1.0 + 1e-9) >= left_s {
+                unit_s = left_s;
+            }
+            self.body.expand(&self.x, &phase, &loads, (unit_s, DEGREE), &mut self.series);
+            let part = self.series.part;
+            let longer_s = unit_s * part;
+            self.unit_s = if unit_s == left_s { longer_s.max(self.unit_s) } else { longer_s };
+            if !self.unit_s.is_finite() {
+                self.unit_s = unit_s;
+            }
+            if part >= 0.25 {
+                self.series.part = part.min(1.0);
+                return;
+            }
+            unit_s *= part.max(1e-3);
+        }
+    }
+
+    /// The polynomial of a bound, less what of it is known to vanish.
+    fn of_bound(&self, bound: &Bound) -> Polynomial {
+        let (s, w) = (&self.series.s, &self.series.w);
+        let mut p: Polynomial = core::array::from_fn(|k| bound.of_s * s[k] + bound.of_w * w[k]);
+        p[0] += bound.constant;
+        match (bound.reached, self.just) {
+            (Reached::Wall(_, place), _) => {
+                if let Some(near) = self.near.filter(|near| near.place == place) {
+                    p[0] = bound.of_s * near.offset;
+                }
+                p
+            }
+            (Reached::Contact(_, None), Some(Reached::Contact(_, None))) => deflated(&p, 1),
+            (Reached::Knot(speed, _), Some(Reached::Knot(crossed, _))) if speed == crossed => {
+                p[0] = 0.0;
+                match p.iter().position(|c| *c != 0.0) {
+                    Some(order) => deflated(&p, order),
+                    None => p,
+                }
+            }
+            _ => p,
+        }
+    }
+
+    /// One segment, up to its end or the first event in it; the time reached.
+    fn segment(&mut self, stretch: &Stretch, from_s: f64) -> Result<f64, SolveError> {
+        self.expand(stretch, from_s);
+        let mut part = self.series.part;
+        let mut end = None;
+        let mut take = |at: Option<f64>, what: End| {
+            if let Some(at) = at
+                && (at < part || end.is_none())
+            {
+                (part, end) = (at, Some(what));
+            }
+        };
+        for i in 0..self.modes.len() {
+            let Mode::Slip(direction) = self.modes[i] else { continue };
+            let mut speed = self.series.speed(i, direction);
+            if let Some(start) = self.start[i] {
+                if start.order == 1 && !(speed[1] > 0.0) {
+                    speed[1] = start.acceleration * self.series.unit_s;
+                }
+                speed = deflated(&speed, start.order);
+            }
+            take(first_root(&speed, self.series.part), End::Still(i));
+        }
+        if let Mode::Slip(direction) = self.modes[0] {
+            for bound in self.law.bounds(&self.memory, direction) {
+                let p = self.of_bound(&bound);
+                take(first_root(&p, self.series.part), End::Bound(bound));
+            }
+        }
+        for i in 0..self.modes.len() {
+            if self.modes[i] == Mode::Stick
+                && let Some((at, direction)) = self.first_release(i)
+            {
+                take(Some(at), End::Release(i, direction));
+            }
+        }
+        let is_whole = end.is_none() && part == 1.0;
+        let to_s = from_s + part * self.series.unit_s;
+        // The series of a whole stretch ends where the stretch does.
+        let to_s = if is_whole && from_s + self.series.unit_s >= stretch.to_s * (1.0 - 1e-15) {
+            stretch.to_s
+        } else {
+            to_s.min(stretch.to_s)
+        };
+        self.move_to(part);
+        self.start.fill(None);
+        self.just = None;
+        self.look(part);
+        match end {
+            None => {
+                for i in 0..self.modes.len() {
+                    if let Mode::Slip(direction) = self.modes[i]
+                        && direction.sign() * self.velocity(i) <= 0.0
+                    {
+                        self.stand(i);
+                    }
+                }
+            }
+            Some(End::Still(i)) => self.stand(i),
+            Some(End::Release(i, direction)) => self.pending = Some((i, direction)),
+            Some(End::Bound(bound)) => self.reach(stretch, to_s, &bound)?,
+        }
+        Ok(to_s)
+    }
+
+    /// Moves to a part of the series.
+    fn move_to(&mut self, part: f64) {
+        let (s, w) = (self.x.s, self.modes[0]);
+        let rests = self.x.r.clone();
+        self.series.state_at(part, &mut self.x);
+        if w == Mode::Stick {
+            (self.x.s, self.x.w) = (s, 0.0);
+        }
+        for (i, r) in rests.into_iter().enumerate() {
+            if self.modes[1 + i] == Mode::Stick {
+                (self.x.r[i], self.x.p[i]) = (r, 0.0);
+            }
+        }
+        if let Some(near) = &mut self.near {
+            let mut moved = self.series.s;
+            moved[0] = 0.0;
+            near.offset += value(&moved, part);
+            self.x.s = near.place + near.offset;
+        }
+        // Further away s itself has the digits.
+        self.near = self.near.filter(|near| near.offset.abs() <= 1e-3 * near.place.abs());
+    }
+
+    /// An interface has come to a halt.
+    fn stand(&mut self, interface: usize) {
+        if interface == 0 {
+            self.x.w = 0.0;
+        } else {
+            self.x.p[interface - 1] = 0.0;
+        }
+    }
+
+    /// What follows the end of a branch of the slider.
+    fn reach(&mut self, stretch: &Stretch, at_s: f64, bound: &Bound) -> Result<(), SolveError> {
+        let Mode::Slip(direction) = self.modes[0] else { return Ok(()) };
+        let time_s = self.ground.times_s[stretch.interval] + at_s;
+        self.near = None;
+        match bound.reached {
+            Reached::Wall(_, place) => {
+                self.x.s = place;
+                self.record(stretch, at_s, false);
+                self.strike(stretch, at_s, direction);
+            }
+            Reached::Contact(to, level) => {
+                self.x.s = level.unwrap_or(self.x.s);
+                self.record(stretch, at_s, false);
+                self.change_contact(time_s, to);
+            }
+            Reached::Surface(level) => {
+                self.x.s = level;
+                self.record(stretch, at_s, false);
+                self.law.follow(&mut self.memory, bound.reached, direction);
+                self.push_event(time_s, 0, EventKind::Surface);
+            }
+            Reached::Knot(speed, _) => {
+                self.x.w = direction.sign() * speed;
+                self.record(stretch, at_s, false);
+                self.law.follow(&mut self.memory, bound.reached, direction);
+                self.events_in_interval += 1;
+            }
+        }
+        self.just = Some(bound.reached);
+        self.note_ends(time_s)?;
+        self.record(stretch, at_s, false);
+        Ok(())
+    }
+
+    /// Notes surfaces at their ends; an error where none can slide on.
+    fn note_ends(&mut self, time_s: f64) -> Result<(), SolveError> {
+        let Some(series) = &self.law.series else { return Ok(()) };
+        let now = self.law.surfaces(&self.memory, self.x.s);
+        for ((end, u), surface) in self.ends.iter_mut().zip(now).zip(series.surfaces()) {
+            *end |= surface.travel_m.is_some_and(|travel_m| u.abs() >= travel_m);
+        }
+        if self.modes[0] != Mode::Stick && self.law.at_end(&self.memory) {
+            return Err(SolveError::EndOfTravel { time_s });
+        }
+        Ok(())
+    }
+
+    /// Changes the contact with an elastic stop, which is an event.
+    fn change_contact(&mut self, time_s: f64, to: Contact) {
+        let from = self.memory.contact;
+        let kind = match (from, to) {
+            (Contact::Free, Contact::Pressed(_)) => EventKind::Contact,
+            (_, Contact::Pressed(_)) => EventKind::Press,
+            (_, Contact::Separated(_)) => EventKind::Separation,
+            (_, Contact::Free) => EventKind::Leave,
+        };
+        self.stopping.change(time_s, self.x.w.abs(), from, to);
+        self.memory.contact = to;
+        self.push_event(time_s, 0, kind);
+    }
+
+    fn push_event(&mut self, time_s: f64, interface: usize, kind: EventKind) {
+        self.events_in_interval += 1;
+        if interface == 0 {
+            self.turn = (kind == EventKind::Reversal).then_some(self.events.len());
+        }
+        self.events.push(Event {
+            time_s,
+            kind,
+            mode: self.modes[interface],
+            sliding_displacement_m: self.place(interface),
+            interface,
+        });
+    }
+}

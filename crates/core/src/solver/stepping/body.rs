@@ -1,0 +1,360 @@
+//! The structure with its contents in physical coordinates, and the Taylor series of its motion.
+
+use crate::friction::{Coefficient, Direction, SlipForce};
+use crate::linear::System;
+use crate::linear::polynomial::{DEGREE, Polynomial};
+use crate::model::{Contents, Model};
+use crate::response::Mode;
+
+/// Masses, springs and dampers of block and floors, and what stands on them.
+pub(super) struct Body {
+    pub(super) block_kg: f64,
+    pub(super) total_kg: f64,
+    pub(super) masses_kg: Vec<f64>,
+    pub(super) stiffnesses_n_per_m: Vec<f64>,
+    /// `C` row by row.
+    damping: Vec<f64>,
+    pub(super) contents: Vec<Contents>,
+    /// Bound on the rates of the structure on a block that slides free, in rad/s.
+    pub(super) rate_rad_per_s: f64,
+}
+
+/// A state: block over ground, floors over block, contents over their floors.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct State {
+    pub(super) s: f64,
+    pub(super) w: f64,
+    pub(super) q: Vec<f64>,
+    pub(super) v: Vec<f64>,
+    pub(super) r: Vec<f64>,
+    pub(super) p: Vec<f64>,
+}
+
+/// Loads from an instant on, linear in the time after it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Loads {
+    /// `a = Ü + g sin θ` in m/s², and its rate.
+    pub(super) acceleration: [f64; 2],
+    /// `N` in N, and its rate.
+    pub(super) normal: [f64; 2],
+}
+
+/// What slides, and the force of the slider where it does.
+#[derive(Clone, Copy)]
+pub(super) struct Phase<'a> {
+    /// The slider, then the contents.
+    pub(super) modes: &'a [Mode],
+    /// The force while the slider slides; what springs and stops do at rest, where it does not.
+    pub(super) force: SlipForce,
+}
+
+/// The motion from an instant on, by powers of the time over `unit_s`.
+#[derive(Clone, Debug)]
+pub(super) struct Expansion {
+    pub(super) unit_s: f64,
+    pub(super) s: Polynomial,
+    pub(super) w: Polynomial,
+    pub(super) q: Vec<Polynomial>,
+    pub(super) v: Vec<Polynomial>,
+    pub(super) r: Vec<Polynomial>,
+    pub(super) p: Vec<Polynomial>,
+    /// Accelerations with the slope's share: block, floors, contents.
+    pub(super) u: Polynomial,
+    pub(super) floors: Vec<Polynomial>,
+    pub(super) carried: Vec<Polynomial>,
+    /// `1ᵀ(K q + C v)`.
+    pub(super) shear: Polynomial,
+    /// Force of the ground on the block, all of it and that of friction alone.
+    pub(super) slider: Polynomial,
+    pub(super) friction: Polynomial,
+    /// Normal force on the slider, and on contents over their mass.
+    pub(super) normal: Polynomial,
+    pub(super) press: Polynomial,
+    /// `e^(−rate |ṡ|)`.
+    decay: Polynomial,
+    /// Restoring forces on the floors, order by order.
+    restoring: Vec<f64>,
+    /// Part of the unit up to which the series is exact to rounding.
+    pub(super) part: f64,
+}
+
+const ZERO: Polynomial = [0.0; DEGREE + 1];
+
+impl Body {
+    pub(super) fn new(model: &Model, system: &System) -> Self {
+        let frame = model.frame();
+        let (n, m) = (frame.masses_kg.len(), &frame.masses_kg);
+        let mut damping = vec![0.0; n * n];
+        // C = M Φ D Φᵀ M, column by column.
+        for j in 0..n {
+            let unit: Vec<f64> = (0..n).map(|i| if i == j { 1.0 } else { 0.0 }).collect();
+            let drag = system.drag(&system.coordinates(m, &unit));
+            let mut column = vec![0.0; n];
+            system.floors(&drag, &mut column);
+            for i in 0..n {
+                damping[i * n + j] = m[i] * column[i];
+            }
+        }
+        Self {
+            block_kg: model.block().mass_kg,
+            total_kg: model.total_mass_kg(),
+            masses_kg: m.clone(),
+            stiffnesses_n_per_m: frame.stiffnesses_n_per_m.clone(),
+            damping,
+            contents: model.devices().contents.clone(),
+            rate_rad_per_s: system.slip_rate_rad_per_s,
+        }
+    }
+
+    pub(super) fn storeys(&self) -> usize {
+        self.masses_kg.len()
+    }
+
+    /// `K q + C v`.
+    fn restoring(&self, q: impl Fn(usize) -> f64, v: impl Fn(usize) -> f64, out: &mut [f64]) {
+        let n = self.storeys();
+        for (i, out) in out.iter_mut().enumerate() {
+            let row = &self.damping[i * n..][..n];
+            *out = row.iter().enumerate().fold(0.0, |sum, (j, c)| sum + c * v(j));
+        }
+        let mut below = 0.0;
+        for i in 0..n {
+            let here = q(i);
+            let force = self.stiffnesses_n_per_m[i] * (here - below);
+            out[i] += force;
+            if i > 0 {
+                out[i - 1] -= force;
+            }
+            below = here;
+        }
+    }
+
+    /// Mass of a floor, or of the block, with the contents stuck to it.
+    pub(super) fn joined_kg(&self, floor: usize, modes: &[Mode]) -> f64 {
+        let own = if floor == 0 { self.block_kg } else { self.masses_kg[floor - 1] };
+        let stuck = self.contents.iter().zip(&modes[1..]);
+        let on = stuck.filter(|(c, mode)| c.floor == floor && **mode == Mode::Stick);
+        on.fold(own, |sum, (contents, _)| sum + contents.mass_kg)
+    }
+
+    /// Room for a series.
+    pub(super) fn room(&self) -> Expansion {
+        let (n, e) = (self.storeys(), self.contents.len());
+        Expansion {
+            unit_s: 0.0,
+            s: ZERO,
+            w: ZERO,
+            q: vec![ZERO; n],
+            v: vec![ZERO; n],
+            r: vec![ZERO; e],
+            p: vec![ZERO; e],
+            u: ZERO,
+            floors: vec![ZERO; n],
+            carried: vec![ZERO; e],
+            shear: ZERO,
+            slider: ZERO,
+            friction: ZERO,
+            normal: ZERO,
+            press: ZERO,
+            decay: ZERO,
+            restoring: vec![0.0; n],
+            part: 1.0,
+        }
+    }
+
+    /// The series from a state to the order `orders`, at most [`DEGREE`]; 0 finds accelerations and
+    /// forces only.
+    ///
+    /// With the coefficient `e_k` of `e^(−α|w|)` that of order `k + 1` is
+    /// `(k+1) e_{k+1} = −α σ Σ_{j≤k} (j+1) w_{j+1} e_{k−j}`.
+    pub(super) fn expand(
+        &self,
+        x: &State,
+        phase: &Phase<'_>,
+        loads: &Loads,
+        (unit_s, orders): (f64, usize),
+        out: &mut Expansion,
+    ) {
+        let (n, modes) = (self.storeys(), phase.modes);
+        out.unit_s = unit_s;
+        (out.s, out.w) = (ZERO, ZERO);
+        (out.s[0], out.w[0]) = (x.s, x.w);
+        for i in 0..n {
+            (out.q[i], out.v[i]) = (ZERO, ZERO);
+            (out.q[i][0], out.v[i][0]) = (x.q[i], x.v[i]);
+        }
+        for (e, contents) in self.contents.iter().enumerate() {
+            (out.r[e], out.p[e], out.carried[e]) = (ZERO, ZERO, ZERO);
+            (out.r[e][0], out.p[e][0]) = (x.r[e], x.p[e]);
+            debug_assert!(contents.floor <= n, "contents stand on a floor");
+        }
+        let mut a = ZERO;
+        (a[0], a[1]) = (loads.acceleration[0], loads.acceleration[1] * unit_s);
+        out.normal = ZERO;
+        (out.normal[0], out.normal[1]) = (loads.normal[0], loads.normal[1] * unit_s);
+        out.press = out.normal.map(|normal| normal / self.total_kg);
+        let [n0, n1] = [out.normal[0], out.normal[1]];
+        let block_kg = self.joined_kg(0, modes);
+        let floors_kg: Vec<f64> = (1..=n).map(|floor| self.joined_kg(floor, modes)).collect();
+        let force = &phase.force;
+        let sign = modes[0].sign();
+        if let Coefficient::Exponential { rate_s_per_m, .. } = force.coefficient {
+            out.decay = ZERO;
+            out.decay[0] = libm::exp(-rate_s_per_m * x.w.abs());
+        }
+        for k in 0..=orders.min(DEGREE) {
+            // The last order of accelerations would need one more of the state.
+            let mut restoring = core::mem::take(&mut out.restoring);
+            self.restoring(|i| out.q[i][k], |i| out.v[i][k], &mut restoring);
+            let shear: f64 = restoring.iter().sum();
+            let press = out.press[k];
+            // What sliding contents do to their floors.
+            let pull = |floor: usize| {
+                self.contents
+                    .iter()
+                    .zip(&modes[1..])
+                    .filter(|(c, _)| c.floor == floor)
+                    .fold(0.0, |sum, (c, mode)| {
+                        sum + mode.sign() * c.kinetic_friction * c.mass_kg * press
+                    })
+            };
+            let on_block = pull(0);
+            for i in 0..n {
+                out.floors[i][k] = (pull(i + 1) - restoring[i]) / floors_kg[i];
+            }
+            out.restoring = restoring;
+            out.shear[k] = shear;
+            let [s_k, w_k] = [out.s[k], out.w[k]];
+            let (s_before, first) = if k > 0 { (out.s[k - 1], 0.0) } else { (0.0, 1.0) };
+            // N (p0 + p1 s)
+            let [p0, p1] = [force.of_normal, force.of_normal_s];
+            let product = n0 * (p0 * first + p1 * s_k)
+                + if k > 0 { n1 * (if k == 1 { p0 } else { 0.0 } + p1 * s_before) } else { 0.0 };
+            let spring = (force.restraint.stiffness_n_per_m * s_k
+                + force.restraint.damper_n_s_per_m * w_k)
+                + (force.force_n * first + product);
+            if modes[0] == Mode::Stick {
+                out.u[k] = a[k];
+                out.slider[k] = block_kg * a[k] - shear - on_block;
+                out.friction[k] = out.slider[k] + spring;
+            } else {
+                let mu = |k: usize, w_k: f64, decay: &Polynomial| {
+                    let first = if k == 0 { 1.0 } else { 0.0 };
+                    match force.coefficient {
+                        Coefficient::Linear { at_rest, slope_s_per_m } => {
+                            at_rest * first + slope_s_per_m * (sign * w_k)
+                        }
+                        Coefficient::Exponential { fast, drop, .. } => {
+                            fast * first - drop * decay[k]
+                        }
+                    }
+                };
+                let mut resisting = n0 * mu(k, w_k, &out.decay);
+                if k > 0 {
+                    resisting += n1 * mu(k - 1, out.w[k - 1], &out.decay);
+                }
+                out.friction[k] = -sign * resisting;
+                out.slider[k] = out.friction[k] - spring;
+                out.u[k] = (out.slider[k] + shear + on_block) / block_kg;
+            }
+            for (e, contents) in self.contents.iter().enumerate() {
+                let under = if contents.floor == 0 { out.u[k] } else { out.floors[contents.floor - 1][k] };
+                let mode = modes[1 + e];
+                out.carried[e][k] = match mode {
+                    Mode::Stick => under,
+                    Mode::Slip(direction) => -direction.sign() * contents.kinetic_friction * press,
+                };
+            }
+            if k == DEGREE || k == orders {
+                break;
+            }
+            let step = unit_s / (k + 1) as f64;
+            if modes[0] != Mode::Stick {
+                out.w[k + 1] = step * (out.u[k] - a[k]);
+                out.s[k + 1] = step * out.w[k];
+                if let Coefficient::Exponential { rate_s_per_m, .. } = force.coefficient {
+                    let sum = (0..=k)
+                        .fold(0.0, |sum, j| sum + (j + 1) as f64 * out.w[j + 1] * out.decay[k - j]);
+                    out.decay[k + 1] = -rate_s_per_m * sign * sum / (k + 1) as f64;
+                }
+            }
+            for i in 0..n {
+                out.v[i][k + 1] = step * (out.floors[i][k] - out.u[k]);
+                out.q[i][k + 1] = step * out.v[i][k];
+            }
+            for (e, contents) in self.contents.iter().enumerate() {
+                if modes[1 + e] != Mode::Stick {
+                    let floor = contents.floor;
+                    let under = if floor == 0 { out.u[k] } else { out.floors[floor - 1][k] };
+                    out.p[e][k + 1] = step * (out.carried[e][k] - under);
+                    out.r[e][k + 1] = step * out.p[e][k];
+                }
+            }
+        }
+        if orders == DEGREE {
+            out.part = self.exact_part(phase, out);
+        }
+    }
+
+    /// Part of the unit over which the last terms of the series are below rounding, 4 at most.
+    fn exact_part(&self, phase: &Phase<'_>, out: &Expansion) -> f64 {
+        const NEGLIGIBLE: f64 = 1e-18;
+        // Momenta over √mass, so that all are of one kind.
+        let size = |k: usize| {
+            let own = |kg: f64, w: f64| kg * w * w;
+            let floors = (0..self.storeys())
+                .map(|i| own(self.masses_kg[i], out.v[i][k] + out.w[k]))
+                .sum::<f64>();
+            let contents = self.contents.iter().zip(&out.p);
+            let contents = contents.map(|(c, p)| own(c.mass_kg, p[k])).sum::<f64>();
+            (own(self.block_kg, out.w[k]) + floors + contents).sqrt()
+        };
+        let mut part: f64 = 4.0;
+        let mut limit = |largest: f64, k: usize, last: f64| {
+            if last > NEGLIGIBLE * largest {
+                part = part.min(libm::pow(NEGLIGIBLE * largest / last, 1.0 / k as f64));
+            }
+        };
+        let largest = (0..=DEGREE).map(size).fold(0.0, f64::max);
+        if largest.is_finite() {
+            for k in [DEGREE - 1, DEGREE] {
+                limit(largest, k, size(k));
+            }
+            if let Coefficient::Exponential { drop, .. } = phase.force.coefficient
+                && phase.modes[0] != Mode::Stick
+                && drop != 0.0
+            {
+                for k in [DEGREE - 1, DEGREE] {
+                    limit(1.0, k, 0.1 * out.decay[k].abs());
+                }
+            }
+            part
+        } else {
+            0.5
+        }
+    }
+}
+
+impl Expansion {
+    /// The state at a part of the unit.
+    pub(super) fn state_at(&self, part: f64, x: &mut State) {
+        use crate::linear::polynomial::value;
+        x.s = value(&self.s, part);
+        x.w = value(&self.w, part);
+        let move_to = |x: &mut [f64], c: &[Polynomial]| {
+            for (x, c) in x.iter_mut().zip(c) {
+                *x = value(c, part);
+            }
+        };
+        move_to(&mut x.q, &self.q);
+        move_to(&mut x.v, &self.v);
+        move_to(&mut x.r, &self.r);
+        move_to(&mut x.p, &self.p);
+    }
+
+    /// The velocity of an interface, positive along a direction.
+    pub(super) fn speed(&self, interface: usize, direction: Direction) -> Polynomial {
+        let velocity = if interface == 0 { &self.w } else { &self.p[interface - 1] };
+        velocity.map(|c| direction.sign() * c)
+    }
+}

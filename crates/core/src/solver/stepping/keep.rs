@@ -1,0 +1,241 @@
+//! Peaks of the series, and the knots of the history.
+
+use super::super::ground::Stretch;
+use super::super::outputs::output;
+use super::body::Loads;
+use super::Stepping;
+use crate::linear::polynomial::{DEGREE, Polynomial, curvature_bound, largest, value};
+use crate::model::Model;
+use crate::response::Mode;
+
+/// Largest sizes so far.
+pub(super) struct Peaks {
+    /// In the order of [`output`].
+    pub(super) values: Vec<f64>,
+    pub(super) contents_velocity: Vec<f64>,
+    pub(super) contents_acceleration: Vec<f64>,
+    pub(super) surfaces: Vec<f64>,
+    /// Whether the overturning moment is asked for.
+    pub(super) overturns: bool,
+    /// Heights of the block and of the floors above the sliding surface in m.
+    heights_m: Vec<f64>,
+}
+
+impl Peaks {
+    pub(super) fn new(model: &Model, surfaces: usize) -> Self {
+        let (n, contents) = (model.storeys(), model.devices().contents.len());
+        let block = model.block();
+        let mut above_m = block.height_m.unwrap_or(0.0);
+        let mut heights_m = vec![above_m];
+        if let Some(storeys) = &model.frame().heights_m {
+            heights_m.extend(storeys.iter().map(|height_m| {
+                above_m += height_m;
+                above_m
+            }));
+        }
+        let known = heights_m.len() == n + 1 && (n > 0 || block.height_m.is_some());
+        Self {
+            values: vec![0.0; output::STOREYS + (3 * n).saturating_sub(1)],
+            contents_velocity: vec![0.0; contents],
+            contents_acceleration: vec![0.0; contents],
+            surfaces: vec![0.0; surfaces],
+            overturns: block.width_m.is_some() && known,
+            heights_m,
+        }
+    }
+}
+
+/// Raises a peak to the largest size of a polynomial on [0, `part`].
+fn raise(peak: &mut f64, p: &Polynomial, part: f64) {
+    let ends = p[0].abs().max(value(p, part).abs());
+    *peak = peak.max(ends);
+    if ends + 0.125 * curvature_bound(p) * (part * part) <= *peak {
+        return;
+    }
+    *peak = largest(&p.map(|c| -c), part, largest(p, part, *peak));
+}
+
+fn less(p: &Polynomial, constant: f64) -> Polynomial {
+    let mut p = *p;
+    p[0] -= constant;
+    p
+}
+
+fn difference(a: &Polynomial, b: &Polynomial) -> Polynomial {
+    core::array::from_fn(|k| a[k] - b[k])
+}
+
+impl Stepping<'_> {
+    /// Looks for peaks in the part of the series just gone through.
+    pub(super) fn look(&mut self, part: f64) {
+        let (n, slope) = (self.body.storeys(), self.model.slope_m_per_s2());
+        let series = &self.series;
+        let y = &mut self.peaks.values;
+        raise(&mut y[output::VELOCITY], &series.w, part);
+        raise(&mut y[output::BLOCK], &less(&series.u, slope), part);
+        raise(&mut y[output::SLIDER], &series.slider, part);
+        raise(&mut y[output::BASE_SHEAR], &series.shear, part);
+        for i in 0..n {
+            raise(&mut y[output::displacement(i)], &series.q[i], part);
+            let acceleration = less(&series.floors[i], slope);
+            raise(&mut y[output::acceleration(n, i)], &acceleration, part);
+            if i > 0 {
+                let drift = difference(&series.q[i], &series.q[i - 1]);
+                raise(&mut y[output::drift(n, i)], &drift, part);
+            }
+        }
+        for i in 0..self.body.contents.len() {
+            raise(&mut self.peaks.contents_velocity[i], &series.p[i], part);
+            let acceleration = less(&series.carried[i], slope);
+            raise(&mut self.peaks.contents_acceleration[i], &acceleration, part);
+        }
+        if self.peaks.overturns {
+            let moment = self.moment();
+            raise(&mut self.peaks.values[output::OVERTURNING], &moment, part);
+        }
+        self.look_at_friction(part);
+        self.look_at_stop(part);
+        let now = self.law.surfaces(&self.memory, self.x.s);
+        for (peak, u) in self.peaks.surfaces.iter_mut().zip(now) {
+            *peak = peak.max(u.abs());
+        }
+    }
+
+    /// Overturning moment of the inertia of block, floors and contents about the sliding surface.
+    fn moment(&self) -> Polynomial {
+        let (body, series) = (&self.body, &self.series);
+        let heights_m = &self.peaks.heights_m;
+        core::array::from_fn(|k| {
+            let own = 0.5 * heights_m[0] * body.block_kg * series.u[k];
+            let floors = (0..body.storeys())
+                .map(|i| heights_m[i + 1] * body.masses_kg[i] * series.floors[i][k])
+                .sum::<f64>();
+            let contents = body.contents.iter().zip(&series.carried);
+            let contents = contents.map(|(c, a)| heights_m[c.floor] * c.mass_kg * a[k]).sum::<f64>();
+            own + floors + contents
+        })
+    }
+
+    /// Friction takes what it can where the block leans on a rigid stop, the stop the rest.
+    fn look_at_friction(&mut self, part: f64) {
+        let rest = self.rest();
+        let peak = &mut self.peaks.values[output::FRICTION];
+        if self.modes[0] != Mode::Stick || rest.leans == [false; 2] {
+            raise(peak, &self.series.friction, part);
+            return;
+        }
+        let bound = |k: usize| rest.bounds[k].abs();
+        let most = self.series.normal.map(|n| bound(0).max(bound(1)) * n);
+        let (mut asked, mut held) = (0.0, 0.0);
+        raise(&mut asked, &self.series.friction, part);
+        raise(&mut held, &most, part);
+        *peak = peak.max(asked.min(held));
+        for (side, sign) in [(0, -1.0), (1, 1.0)] {
+            if rest.leans[side] {
+                let beyond: Polynomial = core::array::from_fn(|k| {
+                    sign * self.series.friction[k] - bound(side) * self.series.normal[k]
+                });
+                let peak = &mut self.stopping.demands.peak_force_n;
+                *peak = largest(&beyond, part, peak.max(beyond[0]).max(value(&beyond, part)));
+            }
+        }
+    }
+
+    fn look_at_stop(&mut self, part: f64) {
+        if self.law.stop.is_none() {
+            return;
+        }
+        let mut force_n = self.law.stop_force_n(&self.memory, self.x.s, self.x.w);
+        if let Some([of_s, of_w, constant]) = self.law.stop_row(&self.memory) {
+            let (s, w) = (&self.series.s, &self.series.w);
+            let mut p: Polynomial = core::array::from_fn(|k| of_s * s[k] + of_w * w[k]);
+            p[0] += constant;
+            if self.modes[0] == Mode::Stick {
+                p[1..=DEGREE].fill(0.0);
+            }
+            force_n = largest(&p, part, force_n);
+        }
+        let peak = &mut self.stopping.demands.peak_force_n;
+        *peak = peak.max(force_n);
+    }
+
+    /// Records the knot before an event at an instant that no segment has led to.
+    pub(super) fn note_before(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) {
+        // At t = 0 nothing was before; before a jump the left side stands recorded already.
+        let (interval, times_s) = (stretch.interval, self.ground.times_s);
+        let after_jump = interval == 0 || times_s[interval - 1] == times_s[interval];
+        if !(at_sample && after_jump) {
+            self.record(stretch, at_s, false);
+        }
+    }
+
+    /// Records the present state as a knot.
+    pub(super) fn record(&mut self, stretch: &Stretch, at_s: f64, row: bool) {
+        if self.history.is_none() {
+            return;
+        }
+        let (interval, times_s) = (stretch.interval, self.ground.times_s);
+        if at_s == 0.0 {
+            self.record_sample(interval, row);
+            return;
+        }
+        let length_s = times_s[interval + 1] - times_s[interval];
+        let [from, to] = [self.ground.table[interval], self.ground.table[interval + 1]];
+        let table = from + (to - from) * (at_s / length_s);
+        self.record_knot(times_s[interval] + at_s, table, &Self::loads(stretch, at_s), row);
+    }
+
+    /// Records the present state as a knot at a sample.
+    pub(super) fn record_sample(&mut self, sample: usize, row: bool) {
+        let normal = self.ground.normal_at(sample).max(0.0);
+        let loads = Loads {
+            acceleration: [self.ground.acceleration[sample], 0.0],
+            normal: [normal, 0.0],
+        };
+        self.record_knot(self.ground.times_s[sample], self.ground.table[sample], &loads, row);
+    }
+
+    fn record_knot(&mut self, time_s: f64, table: f64, loads: &Loads, row: bool) {
+        if self.history.is_none() {
+            return;
+        }
+        self.look_at_instant(loads);
+        let slope = self.model.slope_m_per_s2();
+        let stuck = self.modes[0] == Mode::Stick;
+        let mut friction_n = self.instant.friction[0];
+        if stuck {
+            let rest = self.rest();
+            let [low, high] = rest.bounds.map(|bound| bound * loads.normal[0]);
+            if rest.leans[0] {
+                friction_n = friction_n.max(low);
+            }
+            if rest.leans[1] {
+                friction_n = friction_n.min(high);
+            }
+        }
+        let surfaces = self.law.surfaces(&self.memory, self.x.s);
+        let Some(h) = &mut self.history else { return };
+        if row {
+            h.rows.push(h.time_s.len());
+        }
+        h.time_s.push(time_s);
+        h.mode.extend_from_slice(&self.modes);
+        if self.law.stop.is_some() {
+            h.contact.push(self.memory.contact);
+        }
+        h.table_acceleration_m_per_s2.push(table);
+        h.sliding_displacement_m.push(self.x.s);
+        h.sliding_velocity_m_per_s.push(self.x.w);
+        h.block_acceleration_m_per_s2.push(if stuck { table } else { self.instant.u[0] - slope });
+        h.friction_force_n.push(friction_n);
+        h.storey_displacement_m.extend_from_slice(&self.x.q);
+        h.storey_velocity_m_per_s.extend_from_slice(&self.x.v);
+        h.storey_acceleration_m_per_s2
+            .extend(self.instant.floors.iter().map(|acceleration| acceleration[0] - slope));
+        h.surface_displacement_m.extend(surfaces);
+        h.contents_displacement_m.extend_from_slice(&self.x.r);
+        h.contents_velocity_m_per_s.extend_from_slice(&self.x.p);
+        h.contents_acceleration_m_per_s2
+            .extend(self.instant.carried.iter().map(|acceleration| acceleration[0] - slope));
+    }
+}
