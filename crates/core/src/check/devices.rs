@@ -74,6 +74,8 @@ pub(super) struct Judge<'a> {
     energy: Energy,
     closest: Option<ClosestCall>,
     dips: Dips,
+    /// How the slip went that has led to the present knot, and `s` where it began.
+    arriving: Option<(Sliding, f64)>,
     own: Own,
 }
 
@@ -106,6 +108,7 @@ pub(super) fn certificate(
         energy: Energy::default(),
         closest: None,
         dips: Dips::new(0.0),
+        arriving: None,
         own: Own::new(model, history),
     };
     judge.run(bound)
@@ -439,7 +442,9 @@ impl<'a> Judge<'a> {
                 for others in [before, after] {
                     let mut modes = others.to_vec();
                     modes[i] = Mode::Stick;
-                    let asked = self.asked(k, &modes, i, load);
+                    // A bounce below the rounding of s turns back to the stop: that does not hold it.
+                    let leans = after[i] == Mode::Stick;
+                    let asked = self.asked(k, &modes, (i, leans), load);
                     let beyond = match after[i] {
                         Mode::Stick => asked.beyond(),
                         Mode::Slip(Direction::Positive) => asked.demand - asked.low,
@@ -475,16 +480,30 @@ impl<'a> Judge<'a> {
     }
 
     /// What a stuck interface is asked for and what holds it, in N.
-    fn asked(&self, k: usize, modes: &[Mode], i: usize, load: &Load) -> law::Asked {
+    fn asked(
+        &self,
+        k: usize,
+        modes: &[Mode],
+        (i, leans): (usize, bool),
+        load: &Load,
+    ) -> law::Asked {
         let (x, v) = self.stored(k);
         let b = self.between_knots(k, modes);
         let now = self.at(&b, load, &x, &v);
-        self.holds(&now, k, x[0], i, load)
+        self.holds(&now, (k, x[0]), (i, leans), load)
     }
 
-    fn holds(&self, now: &Now, k: usize, s: f64, i: usize, load: &Load) -> law::Asked {
+    /// The same from forces known; `leans` where rigid stops hold too.
+    fn holds(
+        &self,
+        now: &Now,
+        (k, s): (usize, f64),
+        (i, leans): (usize, bool),
+        load: &Load,
+    ) -> law::Asked {
         if i == 0 {
-            let slack_m = 8.0 * f64::EPSILON * self.displacement[1];
+            let slack_m =
+                if leans { 8.0 * f64::EPSILON * self.displacement[1] } else { f64::NEG_INFINITY };
             let surfaces = self.h.surface_displacements(k);
             return self.slider.asked(now.friction, (s, slack_m), surfaces, load.normal);
         }
@@ -510,8 +529,17 @@ impl<'a> Judge<'a> {
         let slope = self.model.slope_m_per_s2();
         let mut best = [f64::INFINITY; 2];
         let mut scale = 0.0;
-        for load in self.ground.instant(h.time_s[k]) {
-            let now = self.at(&b, &load, &x, &v);
+        let led = self.arriving.take().filter(|_| modes[0] != Mode::Stick);
+        let led = led.map(|(sliding, from_m)| Between {
+            modes,
+            contact: b.contact,
+            sliding: Some(sliding),
+            from_m,
+        });
+        let sides: Vec<&Between<'_>> = core::iter::once(&b).chain(&led).collect();
+        let loads = self.ground.instant(h.time_s[k]);
+        for (load, b) in loads.iter().flat_map(|load| sides.iter().map(move |b| (load, *b))) {
+            let now = self.at(b, load, &x, &v);
             let table = ((load.table - h.table_acceleration_m_per_s2[k]).abs()
                 - self.instant_s * load.slope.abs())
             .max(0.0);
@@ -525,7 +553,7 @@ impl<'a> Judge<'a> {
                 let off = now.contents[e] - slope - h.contents_state(k, e)[2];
                 force = force.max(contents.mass_kg * off.abs());
             }
-            let asked = self.holds(&now, k, x[0], 0, &load);
+            let asked = self.holds(&now, (k, x[0]), (0, true), load);
             let friction = if modes[0] == Mode::Stick { asked.taken(load.normal, &self.slider) } else { now.friction };
             force = force.max((friction - h.friction_force_n[k]).abs());
             let drift = load.slope.abs() * self.instant_s * self.structure.total_kg;
@@ -609,6 +637,7 @@ impl<'a> Judge<'a> {
             let normal = self.ground.instant(end_s)[0].normal;
             let broken = self.slider.series_excess(sliding, &own, x[0] - b.from_m);
             self.excess = larger(self.excess, excess(normal * broken));
+            self.arriving = Some((sliding.clone(), b.from_m));
         } else {
             let stuck = self.h.surface_displacements(k).iter();
             for (own, stored) in stuck.zip(self.h.surface_displacements(k + 1)) {
@@ -712,7 +741,7 @@ impl<'a> Judge<'a> {
                 let load = between(loads, t);
                 match mode {
                     Mode::Stick => {
-                        let asked = self.holds(now, k, x[0], i, &load);
+                        let asked = self.holds(now, (k, x[0]), (i, true), &load);
                         self.excess = larger(self.excess, excess(asked.beyond()));
                         if i == 0
                             && let Some(margin) = asked.margin()

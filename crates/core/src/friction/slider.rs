@@ -70,6 +70,8 @@ pub struct SlipForce {
     pub of_normal: f64,
     /// Stiffness over the normal force in 1/m.
     pub of_normal_s: f64,
+    /// Whether these two count as friction: of surfaces in series, whose springs memory mixes with it.
+    pub is_friction: bool,
     /// `μ`.
     pub coefficient: Coefficient,
 }
@@ -189,6 +191,7 @@ impl SliderLaw {
             force_n: 0.0,
             of_normal: 0.0,
             of_normal_s: self.radius_m.map_or(0.0, |radius_m| 1.0 / radius_m),
+            is_friction: self.series.is_some(),
             coefficient: self.coefficient(memory, direction),
         };
         if let (Contact::Pressed(side), Some(stop)) = (memory.contact, self.stop) {

@@ -307,6 +307,7 @@ impl<'a> Stepping<'a> {
                     force_n: rest.force_n,
                     of_normal: rest.of_normal,
                     of_normal_s: 0.0,
+                    is_friction: false,
                     coefficient: Coefficient::Linear { at_rest: 0.0, slope_s_per_m: 0.0 },
                 }
             }

@@ -253,8 +253,9 @@ impl Body {
                 if k > 0 {
                     resisting += n1 * mu(k - 1, out.w[k - 1], &out.decay);
                 }
-                out.friction[k] = -sign * resisting;
-                out.slider[k] = out.friction[k] - spring;
+                out.slider[k] = -sign * resisting - spring;
+                let rubbing = if force.is_friction { product } else { 0.0 };
+                out.friction[k] = -sign * resisting - rubbing;
                 out.u[k] = (out.slider[k] + shear + on_block) / block_kg;
             }
             for (e, contents) in self.contents.iter().enumerate() {
