@@ -42,11 +42,13 @@ pub enum Dimension {
     Stiffness,
     /// Constant of a damper, in N s/m.
     Damper,
+    /// Rate at which friction follows the sliding speed, in s/m.
+    Slowness,
 }
 
 impl Dimension {
     /// Every dimension, in the order of the printed table.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Mass,
         Self::Force,
         Self::Length,
@@ -57,6 +59,7 @@ impl Dimension {
         Self::Acceleration,
         Self::Stiffness,
         Self::Damper,
+        Self::Slowness,
     ];
 
     /// Its name, such as "length".
@@ -73,6 +76,7 @@ impl Dimension {
             Self::Acceleration => "acceleration",
             Self::Stiffness => "stiffness",
             Self::Damper => "damper constant",
+            Self::Slowness => "rate by speed",
         }
     }
 
@@ -97,6 +101,7 @@ impl Dimension {
             Self::Acceleration => "0.3 g",
             Self::Stiffness => "143 kN/m",
             Self::Damper => "250 N s/m",
+            Self::Slowness => "25 s/m",
         }
     }
 
@@ -114,6 +119,7 @@ impl Dimension {
             Self::Acceleration => &ACCELERATION,
             Self::Stiffness => &STIFFNESS,
             Self::Damper => &DAMPER,
+            Self::Slowness => &SLOWNESS,
         }
     }
 
@@ -220,6 +226,13 @@ const DAMPER: [Unit; 7] = [
     Unit::times("MN s/m", 1e6),
     Unit::times("lbf s/in", POUND_FORCE_N / INCH_M),
     Unit::times("kip s/in", 1e3 * POUND_FORCE_N / INCH_M),
+];
+const SLOWNESS: [Unit; 5] = [
+    Unit::times("s/m", 1.0),
+    Unit::times("s/mm", 1e3),
+    Unit::times("s/cm", 1e2),
+    Unit::over("s/in", INCH_M),
+    Unit::over("s/ft", FOOT_M),
 ];
 
 /// Every unit with its dimension, in the order of the printed table.

@@ -8,8 +8,9 @@ use slipstick::response::{Event, History};
 ///
 /// Columns: time, table acceleration, sliding displacement (block minus table) and velocity, total
 /// acceleration of the block, friction force of the table on the block; for each storey its
-/// displacement and velocity relative to the block and its total acceleration. Units are in the
-/// names.
+/// displacement and velocity relative to the block and its total acceleration; the displacements of
+/// surfaces in series; of contents displacement and velocity relative to their floor and total
+/// acceleration. Units are in the names.
 ///
 /// # Errors
 /// Those of the writer.
@@ -30,6 +31,14 @@ pub fn history_csv(history: &History, to: &mut impl Write) -> io::Result<()> {
             header.push(format!("storey{storey}_{column}"));
         }
     }
+    for surface in 1..=history.surfaces {
+        header.push(format!("surface{surface}_displacement_m"));
+    }
+    for contents in 1..=history.contents() {
+        for column in ["displacement_m", "velocity_m_per_s", "acceleration_m_per_s2"] {
+            header.push(format!("contents{contents}_{column}"));
+        }
+    }
     rows.write_record(&header).map_err(of_file)?;
     for &knot in &history.rows {
         let mut row = vec![
@@ -45,6 +54,10 @@ pub fn history_csv(history: &History, to: &mut impl Write) -> io::Result<()> {
         let accelerations = history.storey_accelerations(knot);
         for ((q, v), a) in displacements.iter().zip(velocities).zip(accelerations) {
             row.extend([q, v, a]);
+        }
+        row.extend(history.surface_displacements(knot));
+        for contents in 0..history.contents() {
+            row.extend(history.contents_state(knot, contents));
         }
         rows.write_record(row.into_iter().map(digits)).map_err(of_file)?;
     }
@@ -76,7 +89,11 @@ pub fn events_csv(events: &[Event], to: &mut impl Write) -> io::Result<()> {
     for event in events {
         let direction = event.mode.sign().to_string();
         let (time, s) = (digits(event.time_s), digits(event.sliding_displacement_m));
-        let row = [&time, event.kind.name(), &direction, &s, "slider"];
+        let interface = match event.interface {
+            0 => "slider".to_owned(),
+            contents => format!("contents.{contents}"),
+        };
+        let row = [&time, event.kind.name(), &direction, &s, &interface];
         rows.write_record(row).map_err(of_file)?;
     }
     rows.flush()
@@ -105,6 +122,7 @@ mod tests {
             storey_velocity_m_per_s: vec![1.0, 2.0, 3.0],
             storey_acceleration_m_per_s2: vec![4.0, 5.0, 6.0],
             rows: vec![0, 2],
+            ..History::default()
         };
         let mut text = Vec::new();
         history_csv(&history, &mut text).unwrap();
@@ -125,7 +143,13 @@ mod tests {
 
     #[test]
     fn exact_events_have_direction_and_kind() {
-        let event = |kind, mode| Event { time_s: 0.5, kind, mode, sliding_displacement_m: 0.25 };
+        let event = |kind, mode| Event {
+            time_s: 0.5,
+            kind,
+            mode,
+            sliding_displacement_m: 0.25,
+            interface: 0,
+        };
         let events = [
             event(EventKind::Slip, Mode::Slip(Direction::Negative)),
             event(EventKind::Contact, Mode::Slip(Direction::Negative)),

@@ -2,6 +2,7 @@
 
 use core::f64::consts::TAU;
 
+use slipstick::friction::{Direction, RateCurve};
 use slipstick::model::{Damping, Model, Stop, StopKind};
 use slipstick::response::{Event, Mode};
 
@@ -26,15 +27,19 @@ pub fn model_line(model: &Model, display: DisplayUnits) -> String {
         0 => "no storeys".to_owned(),
         1 => format!("1 storey of {}", value(display, Quantity::Mass, model.frame().masses_kg[0])),
         n => {
-            let above = model.total_mass_kg() - model.block().mass_kg;
+            let above: f64 = model.frame().masses_kg.iter().sum();
             format!("{n} storeys of {} in all", value(display, Quantity::Mass, above))
         }
     });
-    parts.push(format!(
-        "friction {} static, {} kinetic",
-        by_direction(model.static_friction()),
-        by_direction(model.kinetic_friction())
-    ));
+    parts.push(match (&model.devices().series, &model.devices().rate) {
+        (Some(series), _) => format!("{} surfaces in series", series.surfaces().len()),
+        (None, rate) => format!(
+            "friction {} static, {} kinetic{}",
+            by_direction(model.static_friction()),
+            by_direction(model.kinetic_friction()),
+            if rate.is_some() { " at rest" } else { "" }
+        ),
+    });
     for (name, quantity, si) in [
         ("spring", Quantity::Stiffness, slider.stiffness_n_per_m),
         ("damper", Quantity::Damping, slider.damper_n_s_per_m),
@@ -51,6 +56,10 @@ pub fn model_line(model: &Model, display: DisplayUnits) -> String {
     }
     if let Some(stop) = &slider.stop {
         parts.push(format!("stop {}", stop_gap(stop, display)));
+    }
+    match model.devices().contents.len() {
+        0 => {}
+        n => parts.push(format!("{n} contents")),
     }
     parts.join(", ")
 }
@@ -80,6 +89,44 @@ fn by_direction([positive, negative]: [f64; 2]) -> String {
     }
 }
 
+/// Friction, by speed or on surfaces in series where the model has such.
+fn friction_rows(model: &Model, display: DisplayUnits, rows: &mut Vec<(&'static str, String)>) {
+    let devices = model.devices();
+    if let Some(series) = &devices.series {
+        for surface in series.surfaces() {
+            let length = |si: f64| value(display, Quantity::Length, si);
+            let radius = surface.radius_m.map_or("flat".to_owned(), |r| format!("R {}", length(r)));
+            let travel = surface.travel_m.map_or(String::new(), |d| format!(", travel {}", length(d)));
+            rows.push(("Surface", format!("{radius}, friction {}{travel}", compact(surface.friction))));
+        }
+        rows.push(("Static over kinetic friction", compact(series.static_ratio())));
+        return;
+    }
+    rows.push(("Static friction μₛ", by_direction(model.static_friction())));
+    let Some(rate) = &devices.rate else {
+        rows.push(("Kinetic friction μₖ", by_direction(model.kinetic_friction())));
+        return;
+    };
+    let factor = rate.factor(Direction::Positive);
+    rows.push((
+        "Kinetic friction μₖ",
+        match rate.curve() {
+            RateCurve::Exponential { slow, fast, rate_s_per_m } => format!(
+                "{} slow, {} fast, rate {} s/m",
+                compact(factor * slow),
+                compact(factor * fast),
+                compact(*rate_s_per_m)
+            ),
+            RateCurve::Pieces { speeds_m_per_s, coefficients } => speeds_m_per_s
+                .iter()
+                .zip(coefficients)
+                .map(|(v, mu)| format!("{} at {} m/s", compact(factor * mu), compact(*v)))
+                .collect::<Vec<_>>()
+                .join(", "),
+        },
+    ));
+}
+
 /// Every quantity of block, slider and start with its value, in plain characters.
 #[must_use]
 pub fn model_rows(model: &Model, display: DisplayUnits) -> Vec<(&'static str, String)> {
@@ -94,8 +141,7 @@ pub fn model_rows(model: &Model, display: DisplayUnits) -> Vec<(&'static str, St
         rows.push(("Total mass", show(Quantity::Mass, model.total_mass_kg())));
     }
     rows.push(("Weight", derived(Quantity::Force, model.weight_n())));
-    rows.push(("Static friction μₛ", by_direction(model.static_friction())));
-    rows.push(("Kinetic friction μₖ", by_direction(model.kinetic_friction())));
+    friction_rows(model, display, &mut rows);
     let k1 = slider.stiffness_n_per_m;
     if k1 > 0.0 {
         let total = model.total_mass_kg();
@@ -129,13 +175,29 @@ pub fn model_rows(model: &Model, display: DisplayUnits) -> Vec<(&'static str, St
             rows.push(("Gap", gap));
         }
         Some(stop) => {
-            let StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } = stop.kind;
             rows.push(("Stop", stop_gap(stop, display)));
-            rows.push(("  stiffness k", show(Quantity::Stiffness, stiffness_n_per_m)));
-            if damper_n_s_per_m > 0.0 {
-                rows.push(("  damper C", show(Quantity::Damping, damper_n_s_per_m)));
+            match stop.kind {
+                StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } => {
+                    rows.push(("  stiffness k", show(Quantity::Stiffness, stiffness_n_per_m)));
+                    if damper_n_s_per_m > 0.0 {
+                        rows.push(("  damper C", show(Quantity::Damping, damper_n_s_per_m)));
+                    }
+                }
+                StopKind::Rigid { restitution } => {
+                    rows.push(("  rigid, restitution e", compact(restitution)));
+                }
             }
         }
+    }
+    for contents in &model.devices().contents {
+        let place = match contents.floor {
+            0 => "on the block".to_owned(),
+            floor => format!("on storey {floor}"),
+        };
+        let mass = show(Quantity::Mass, contents.mass_kg);
+        let (fixed, kinetic) =
+            (compact(contents.static_friction), compact(contents.kinetic_friction));
+        rows.push(("Contents", format!("{mass} {place}, friction {fixed} and {kinetic}")));
     }
     if let Some(width) = block.width_m {
         rows.push(("Width of the block", show(Quantity::Length, width)));

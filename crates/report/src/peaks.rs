@@ -1,6 +1,6 @@
 //! The rows of the tables of demands, shared by the plain-text table and the report.
 
-use slipstick::response::{DemandColumn, DemandKind, PrintedRow};
+use slipstick::response::{DemandColumn, DemandKind, DemandOf, PrintedRow};
 
 use crate::display::{DisplayUnits, Unit};
 use crate::markup::shortened;
@@ -69,12 +69,16 @@ fn row(
         DemandKind::Count => value.to_string(),
         DemandKind::Flag => if *value != 0.0 { "yes" } else { "no" }.to_owned(),
     };
-    let label = match column.storey {
-        0 => match &summary.names.block {
+    let label = match (column.demand.of, column.part) {
+        (DemandOf::Run | DemandOf::Stop, _) => match &summary.names.block {
             Some(name) => printed.label.replace("block", &shortened(name, 24)),
             None => printed.label.to_owned(),
         },
-        storey => format!("{} {}", shortened(&summary.names.storey(storey), 24), printed.label),
+        (DemandOf::Storey, storey) => {
+            format!("{} {}", shortened(&summary.names.storey(storey), 24), printed.label)
+        }
+        (DemandOf::Surface, surface) => format!("Surface {surface} {}", printed.label),
+        (DemandOf::Contents, contents) => format!("Contents {contents} {}", printed.label),
     };
     Row {
         label,

@@ -32,9 +32,9 @@ pub fn table(summary: &StudySummary, display: DisplayUnits) -> String {
         let unit = display.unit(demand.dimension().into(), largest);
         let show = |si: f64| significant(unit.of(si), 4);
         let words = demand.demand.words;
-        let name = match demand.storey {
-            0 => words.to_owned(),
-            storey => format!("storey{storey} {words}"),
+        let name = match demand.demand.of.part() {
+            None => words.to_owned(),
+            Some(of) => format!("{of}{} {words}", demand.part),
         };
         let _ = writeln!(text, "\n{}", unit.label(&name));
         let friction = |text: &str| if bounded { format!("  {text:<8}") } else { String::new() };

@@ -522,10 +522,7 @@ impl<'a> Runner<'a> {
             let (design, factor) = (designs[i / 2], factors[i % 2]);
             let failed = vec![FAILED; records];
             let Ok(parts) = &parts[design] else { return Ok(failed) };
-            let Ok(friction) = parts.model.slider().friction.scaled(factor) else {
-                return Ok(failed);
-            };
-            let model = parts.model.with_friction(friction);
+            let Ok(model) = parts.model.with_friction_times(factor) else { return Ok(failed) };
             let mut running = Running::new(&model);
             let of = |record| self.run(parts, &mut running, record).unwrap_or(FAILED);
             let demands: Vec<Demand> = (0..records).map(of).collect();

@@ -9,7 +9,7 @@ use crate::motion::{GroundMotion, spectrum};
 use crate::response::{History, Response, Warning};
 use crate::solver;
 use crate::study::notices::{
-    coarse_sampling, highest_hz, longest_step_s, pendulum_under_vertical_motion, suspicious,
+    coarse_sampling, highest_hz, longest_step_s, suspicious,
 };
 
 /// Damping ratio of floor spectra.
@@ -85,8 +85,6 @@ impl Job {
         warnings.extend(suspicious(&analysis.model));
         let (highest_hz, step_s) = (highest_hz(&analysis.model), longest_step_s(&bare));
         warnings.extend(coarse_sampling(highest_hz, step_s));
-        let has_radius = analysis.value("slider.radius").is_some();
-        warnings.extend(pendulum_under_vertical_motion(has_radius, &bare));
         Ok(Self { analysis, bare, motion, warnings })
     }
 

@@ -7,8 +7,12 @@ use super::motion::{self, MotionSource};
 use super::reader::Values;
 use super::{Analysis, FrictionBounds, Names};
 use crate::error::{InputError, ModelError};
-use crate::friction::{Coulomb, Friction};
-use crate::model::{Block, Frame, InitialState, Model, Slider, Stop, StopKind};
+use crate::friction::{
+    Coulomb, Direction, Friction, RateCurve, RateLaw, Series, Surface,
+};
+use crate::model::{
+    Block, Contents, Devices, Frame, InitialState, Model, Slider, Stop, StopKind,
+};
 use crate::response::Method;
 use crate::units::STANDARD_GRAVITY_M_PER_S2;
 
@@ -31,9 +35,18 @@ pub(super) fn parts(values: &Values) -> Result<Parts, InputError> {
         height_m: values.number("block.height"),
     };
     let frame = frame::frame(values, gravity_m_per_s2)?;
-    let slider = slider(values, &block, &frame, gravity_m_per_s2)?;
+    let contents = contents(values, frame.masses_kg.len(), gravity_m_per_s2)?;
+    let carried_kg = contents.iter().map(|contents| contents.mass_kg).sum::<f64>();
+    let slider = slider(values, &block, (&frame, carried_kg), gravity_m_per_s2)?;
     let initial = initial(values, frame.masses_kg.len())?;
+    let devices = Devices {
+        rate: rate(values)?,
+        radius_m: values.number("slider.radius"),
+        series: series(values)?,
+        contents,
+    };
     let model = Model::new(block, slider, frame, gravity_m_per_s2, initial)
+        .and_then(|model| model.with_devices(devices))
         .map_err(|error| model_error(values, &error))?;
     let tail_s = values.number("analysis.tail").unwrap_or(0.0);
     Ok(Parts { model, motion: motion::motion(values)?, tail_s })
@@ -79,10 +92,11 @@ pub(super) fn mass_kg(
 fn slider(
     values: &Values,
     block: &Block,
-    frame: &Frame,
+    (frame, carried_kg): (&Frame, f64),
     gravity_m_per_s2: f64,
 ) -> Result<Slider, InputError> {
-    let total_mass_kg = frame.masses_kg.iter().fold(block.mass_kg, |sum, m| sum + m);
+    let frame_kg = frame.masses_kg.iter().fold(block.mass_kg, |sum, m| sum + m);
+    let total_mass_kg = frame_kg + carried_kg;
     let (radius_m, period_s) = (values.number("slider.radius"), values.number("slider.period"));
     let stiffness_n_per_m = if let Some(radius_m) = radius_m {
         let stiffness = total_mass_kg * gravity_m_per_s2 / radius_m;
@@ -123,6 +137,12 @@ fn stop(values: &Values, block: &Block) -> Result<Option<Stop>, InputError> {
         Some(gap_m) => [Some(gap_m); 2],
         None => [side("positive"), side("negative")],
     };
+    if let Some(restitution) = values.number("slider.stop.restitution") {
+        if restitution > 1.0 {
+            return Err(values.wrong("slider.stop.restitution", "a number from 0 to 1"));
+        }
+        return Ok(Some(Stop { gap_m, kind: StopKind::Rigid { restitution } }));
+    }
     let stiffness_n_per_m = values.required("slider.stop.stiffness")?;
     let damper_n_s_per_m = match values.number("slider.stop.damping_ratio") {
         Some(ratio) => {
@@ -147,9 +167,35 @@ pub(super) fn derived(
     Err(values.wrong(path, format!("a value whose {what} is a finite number")))
 }
 
+/// What is needed where there are no surfaces in series.
+const FRICTION: &str = "a finite number ≥ 0 or a table of positive and negative";
+
 fn friction(values: &Values) -> Result<Friction, InputError> {
+    if values.has("slider.surface") || values.has("slider.triple") {
+        // The surfaces tell; this is the first to slide.
+        return Coulomb::new([0.0; 2], [0.0; 2])
+            .map(Friction::Coulomb)
+            .map_err(|error| model_error(values, &error));
+    }
+    for path in ["slider.static_friction", "slider.kinetic_friction"] {
+        if !values.has(path) {
+            return Err(values.error(path, FRICTION, "nothing"));
+        }
+    }
     let statics = both_directions(values, "slider.static_friction")?;
-    let kinetics = both_directions(values, "slider.kinetic_friction")?;
+    let kinetics = match rate(values)? {
+        Some(law) => {
+            let path = match law.curve() {
+                RateCurve::Exponential { .. } => "slider.kinetic_friction.slow",
+                RateCurve::Pieces { .. } => "slider.kinetic_friction.coefficient.1",
+            };
+            [Direction::Positive, Direction::Negative].map(|direction| Coefficient {
+                coefficient: law.at(0.0, direction),
+                path: path.to_owned(),
+            })
+        }
+        None => both_directions(values, "slider.kinetic_friction")?,
+    };
     for (kinetic, limit) in kinetics.iter().zip(&statics) {
         if kinetic.coefficient > limit.coefficient {
             let expected = format!("at most the static friction {}", limit.coefficient);
@@ -159,6 +205,146 @@ fn friction(values: &Values) -> Result<Friction, InputError> {
     Coulomb::new(statics.map(|s| s.coefficient), kinetics.map(|k| k.coefficient))
         .map(Friction::Coulomb)
         .map_err(|error| model_error(values, &error))
+}
+
+/// Kinetic friction by sliding speed.
+fn rate(values: &Values) -> Result<Option<RateLaw>, InputError> {
+    let path = "slider.kinetic_friction";
+    let curve = if let Some(rate_s_per_m) = values.number(&format!("{path}.rate")) {
+        let slow = values.required(&format!("{path}.slow"))?;
+        let fast = values.required(&format!("{path}.fast"))?;
+        RateCurve::Exponential { slow, fast, rate_s_per_m }
+    } else if let Some(speeds_m_per_s) = values.numbers(&format!("{path}.velocity")) {
+        let coefficients = values.numbers(&format!("{path}.coefficient")).unwrap_or_default();
+        if speeds_m_per_s.first().is_none_or(|first| *first != 0.0) {
+            let expected = "velocities from 0 on";
+            return Err(match speeds_m_per_s.is_empty() {
+                true => values.error(&format!("{path}.velocity"), expected, "an empty list"),
+                false => values.wrong(&format!("{path}.velocity.1"), expected),
+            });
+        }
+        for (i, pair) in speeds_m_per_s.windows(2).enumerate() {
+            if !(pair[1] > pair[0]) {
+                let path = format!("{path}.velocity.{}", i + 2);
+                return Err(values.wrong(&path, "velocities that increase"));
+            }
+        }
+        if coefficients.len() != speeds_m_per_s.len() {
+            let expected = format!("one coefficient a velocity, {} in all", speeds_m_per_s.len());
+            let found = coefficients.len().to_string();
+            return Err(values.error(&format!("{path}.coefficient"), expected, found));
+        }
+        RateCurve::Pieces { speeds_m_per_s, coefficients }
+    } else {
+        return Ok(None);
+    };
+    RateLaw::new(curve, [1.0; 2]).map(Some).map_err(|error| model_error(values, &error))
+}
+
+/// Surfaces in series.
+fn series(values: &Values) -> Result<Option<Series>, InputError> {
+    let surfaces = if values.has("slider.triple") {
+        triple(values)?
+    } else if values.has("slider.surface") {
+        let count = values.count("slider.surface");
+        if count == 0 {
+            return Err(values.error("slider.surface", "one surface at least", "none"));
+        }
+        (1..=count)
+            .map(|i| {
+                let at = |key: &str| format!("slider.surface.{i}.{key}");
+                let friction = values.number(&at("friction")).ok_or_else(|| {
+                    let expected = "a number > 0: friction by direction or speed on surfaces in \
+                                    series is a differential-algebraic system, which is not solved";
+                    values.error(&at("friction"), expected, "a table")
+                })?;
+                let (radius_m, travel_m) =
+                    (values.number(&at("radius")), values.number(&at("travel")));
+                Ok(Surface { radius_m, friction, travel_m })
+            })
+            .collect::<Result<Vec<_>, InputError>>()?
+    } else {
+        if values.has("slider.static_ratio") {
+            let expected = "surfaces in series, of which it is the ratio; else static_friction";
+            return Err(values.error("slider.static_ratio", expected, "none"));
+        }
+        return Ok(None);
+    };
+    let static_ratio = values.number("slider.static_ratio").unwrap_or(1.0);
+    if static_ratio < 1.0 {
+        return Err(values.wrong("slider.static_ratio", "a number of at least 1"));
+    }
+    Series::new(surfaces, static_ratio).map(Some).map_err(|error| model_error(values, &error))
+}
+
+/// A triple pendulum as three elements in series (Fenz and Constantinou 2008).
+fn triple(values: &Values) -> Result<Vec<Surface>, InputError> {
+    let four = |key: &str| -> Result<[f64; 4], InputError> {
+        let path = format!("slider.triple.{key}");
+        let list = values.numbers(&path).unwrap_or_default();
+        let found = list.len().to_string();
+        list.try_into()
+            .map_err(|_| values.error(&path, "four values, one a surface from the bottom up", found))
+    };
+    let [r1, r2, r3, r4] = four("effective_radius")?;
+    let [mu1, mu2, mu3, mu4] = four("friction")?;
+    let [d1, d2, d3, d4] = four("travel")?;
+    if mu2 != mu3 {
+        let expected = format!("{mu2}, the friction of the other inner surface");
+        return Err(values.wrong("slider.triple.friction.3", expected));
+    }
+    for (i, outer, inner) in [(1, r1, r2), (4, r4, r3)] {
+        if !(outer > inner) {
+            let path = format!("slider.triple.effective_radius.{i}");
+            return Err(values.wrong(&path, "more than the effective radius of the inner surface"));
+        }
+    }
+    let (bottom_m, top_m) = (d1 * (1.0 - r2 / r1), d4 * (1.0 - r3 / r4));
+    let inner_m = (d1 + d2 + d3 + d4) - bottom_m - top_m;
+    let element = |radius_m: f64, friction: f64, travel_m: f64| Surface {
+        radius_m: Some(radius_m),
+        friction,
+        travel_m: Some(travel_m),
+    };
+    Ok(vec![
+        element(r2 + r3, mu2, inner_m),
+        element(r1 - r2, mu1, bottom_m),
+        element(r4 - r3, mu4, top_m),
+    ])
+}
+
+fn contents(
+    values: &Values,
+    storeys: usize,
+    gravity_m_per_s2: f64,
+) -> Result<Vec<Contents>, InputError> {
+    (1..=values.count("contents"))
+        .map(|i| {
+            let part = format!("contents.{i}");
+            let floor_path = format!("{part}.floor");
+            let floor = values.required(&floor_path)?;
+            if floor > storeys as f64 {
+                let expected = match storeys {
+                    0 => "0, the block: there are no storeys".to_owned(),
+                    n => format!("0 for the block, or a storey from 1 to {n}"),
+                };
+                return Err(values.wrong(&floor_path, expected));
+            }
+            let static_friction = values.required(&format!("{part}.static_friction"))?;
+            let kinetic_path = format!("{part}.kinetic_friction");
+            let kinetic_friction = values.required(&kinetic_path)?;
+            if kinetic_friction > static_friction {
+                let expected = format!("at most the static friction {static_friction}");
+                return Err(values.wrong(&kinetic_path, expected));
+            }
+            Ok(Contents {
+                floor: floor as usize,
+                mass_kg: mass_kg(values, &part, gravity_m_per_s2)?,
+                static_friction,
+                kinetic_friction,
+            })
+        })
+        .collect()
 }
 
 struct Coefficient {
@@ -215,7 +401,7 @@ fn initial(values: &Values, storeys: usize) -> Result<InitialState, InputError> 
 /// The model's objection at the key that caused it.
 fn model_error(values: &Values, error: &ModelError) -> InputError {
     // What the constructors call a quantity, and the keys that it may come from.
-    const KEYS: [(&str, &[&str]); 22] = [
+    const KEYS: [(&str, &[&str]); 29] = [
         ("block mass_kg", &["block.mass", "block.weight"]),
         ("block width_m", &["block.width"]),
         ("block height_m", &["block.height"]),
@@ -236,6 +422,13 @@ fn model_error(values: &Values, error: &ModelError) -> InputError {
         ("initial sliding_velocity_m_per_s", &["initial.sliding_velocity"]),
         ("initial storey_displacement_m", &["initial.storey_displacement"]),
         ("initial storey_velocity_m_per_s", &["initial.storey_velocity"]),
+        ("stop restitution", &["slider.stop.restitution"]),
+        ("slider radius_m", &["slider.radius"]),
+        ("surface friction", &["slider.surface", "slider.triple.friction"]),
+        ("surface radius_m", &["slider.surface", "slider.triple.effective_radius"]),
+        ("surface travel_m", &["slider.surface", "slider.triple.travel"]),
+        ("static_ratio", &["slider.static_ratio"]),
+        ("contents", &["contents"]),
         ("static_friction", &["slider.static_friction"]),
         ("kinetic_friction", &["slider.kinetic_friction"]),
     ];

@@ -2,7 +2,7 @@
 
 use super::schema::{Exclusive, Key, Kind, Range, Section};
 use crate::units::Dimension::{
-    Acceleration, Angle, Damper, Force, Frequency, Length, Mass, Stiffness, Time, Velocity,
+    Acceleration, Angle, Damper, Force, Frequency, Length, Mass, Slowness, Stiffness, Time, Velocity,
 };
 
 /// The most storeys a model may have: more than any building has, few enough that finding all their
@@ -19,6 +19,11 @@ pub static MODEL: Section = Section {
             "storey",
             Kind::Sections(&STOREY),
             "Storeys of the structure on the block: none, one or many, from the block up.",
+        ),
+        Key::optional(
+            "contents",
+            Kind::Sections(&CONTENTS),
+            "What stands unfastened on the block or on a floor and may slide there.",
         ),
         Key::optional("frame", Kind::Section(&FRAME), "What the storeys have in common."),
         Key::optional("motion", Kind::Section(&MOTION), "How the table moves."),
@@ -63,15 +68,34 @@ static BLOCK: Section = Section {
 
 static SLIDER: Section = Section {
     keys: &[
-        Key::required(
+        Key::optional(
             "static_friction",
             Kind::NumberOr(Range::NotNegative, &BY_DIRECTION),
-            "Coefficient of friction that must be overcome before the block slides.",
+            "Coefficient of friction that must be overcome before the block slides. Needed, but with \
+             surfaces in series.",
         ),
-        Key::required(
+        Key::optional(
             "kinetic_friction",
-            Kind::NumberOr(Range::NotNegative, &BY_DIRECTION),
-            "Coefficient of friction while the block slides, at most the static one.",
+            Kind::NumberOr(Range::NotNegative, &KINETIC),
+            "Coefficient of friction while the block slides; at rest at most the static one. Needed, \
+             but with surfaces in series.",
+        ),
+        Key::optional(
+            "static_ratio",
+            Kind::Number(Range::Positive),
+            "Static over kinetic friction of surfaces in series, at least 1; default 1.",
+        ),
+        Key::optional(
+            "surface",
+            Kind::Sections(&SURFACE),
+            "Sliding surfaces in series, as of a double pendulum; instead of friction, spring and \
+             radius.",
+        ),
+        Key::optional(
+            "triple",
+            Kind::Section(&TRIPLE),
+            "A triple pendulum, its four surfaces from the bottom up; instead of friction, spring and \
+             radius.",
         ),
         Key::optional(
             "spring",
@@ -132,7 +156,85 @@ static SLIDER: Section = Section {
         Exclusive::at_most(&["asymmetry", "static_friction.*"]),
         Exclusive::at_most(&["asymmetry", "kinetic_friction.*"]),
         Exclusive::at_most(&["gap", "stop"]),
+        Exclusive::at_most(&["surface", "triple", "static_friction"]),
+        Exclusive::at_most(&["surface", "triple", "kinetic_friction"]),
+        Exclusive::at_most(&["surface", "triple", "spring"]),
+        Exclusive::at_most(&["surface", "triple", "radius"]),
+        Exclusive::at_most(&["surface", "triple", "period"]),
+        Exclusive::at_most(&["surface", "triple", "damping_ratio"]),
+        Exclusive::at_most(&["surface", "triple", "asymmetry"]),
+        Exclusive::at_most(&["static_ratio", "static_friction"]),
     ],
+};
+
+static SURFACE: Section = Section {
+    keys: &[
+        Key::optional(
+            "radius",
+            Kind::Quantity(Length, Range::Positive),
+            "Radius of the surface; a flat one has none.",
+        ),
+        Key::required(
+            "friction",
+            Kind::NumberOr(Range::Positive, &KINETIC),
+            "Kinetic coefficient of friction, a number: on surfaces in series it cannot follow the \
+             speed.",
+        ),
+        Key::optional(
+            "travel",
+            Kind::Quantity(Length, Range::Positive),
+            "Displacement at which the surface reaches its end; default none.",
+        ),
+    ],
+    choices: &[],
+};
+
+static TRIPLE: Section = Section {
+    keys: &[
+        Key::required(
+            "effective_radius",
+            Kind::Quantities(Length, Range::Positive),
+            "Effective radii of the four surfaces, those of the outer ones the larger.",
+        ),
+        Key::required(
+            "friction",
+            Kind::Numbers(Range::Positive),
+            "Kinetic coefficients of friction of the four surfaces; the inner two are alike.",
+        ),
+        Key::required(
+            "travel",
+            Kind::Quantities(Length, Range::Positive),
+            "Displacement capacities of the four surfaces.",
+        ),
+    ],
+    choices: &[],
+};
+
+static CONTENTS: Section = Section {
+    keys: &[
+        Key::required(
+            "floor",
+            Kind::Whole(0, MAX_STOREYS as u64),
+            "Number of the storey on whose floor it stands; 0: on the block.",
+        ),
+        Key::optional("mass", Kind::Quantity(Mass, Range::Positive), "Its mass."),
+        Key::optional(
+            "weight",
+            Kind::Quantity(Force, Range::Positive),
+            "Its weight instead of its mass: mass = weight / g.",
+        ),
+        Key::required(
+            "static_friction",
+            Kind::Number(Range::NotNegative),
+            "Coefficient of friction that must be overcome before it slides.",
+        ),
+        Key::required(
+            "kinetic_friction",
+            Kind::Number(Range::NotNegative),
+            "Coefficient of friction while it slides, at most the static one.",
+        ),
+    ],
+    choices: &[Exclusive::one_of(&["mass", "weight"])],
 };
 
 static STOP: Section = Section {
@@ -142,23 +244,34 @@ static STOP: Section = Section {
             Kind::QuantityOr(Length, Range::Positive, &SIDES),
             "Sliding displacement at which the block reaches the stop.",
         ),
-        Key::required(
+        Key::optional(
             "stiffness",
             Kind::Quantity(Stiffness, Range::Positive),
-            "Stiffness k of the stop.",
+            "Stiffness k of an elastic stop.",
         ),
         Key::optional(
             "damper",
             Kind::Quantity(Damper, Range::NotNegative),
             "Damper C beside the stop's spring; default none. The stop pushes, it never pulls.",
-        ),
+        )
+        .beside("stiffness"),
         Key::optional(
             "damping_ratio",
             Kind::Number(Range::NotNegative),
             "Damper as a ratio ξ of critical damping of the block on the stop: C = 2 ξ √(k M1).",
+        )
+        .beside("stiffness"),
+        Key::optional(
+            "restitution",
+            Kind::Number(Range::NotNegative),
+            "Coefficient of restitution e of a rigid stop, from 0 to 1: after an impact the block \
+             moves back with e times its speed.",
         ),
     ],
-    choices: &[Exclusive::at_most(&["damper", "damping_ratio"])],
+    choices: &[
+        Exclusive::at_most(&["damper", "damping_ratio"]),
+        Exclusive::one_of(&["stiffness", "restitution"]),
+    ],
 };
 
 static SIDES: Section = Section {
@@ -175,6 +288,39 @@ static BY_DIRECTION: Section = Section {
         Key::required("negative", Kind::Number(Range::NotNegative), "For sliding towards -x."),
     ],
     choices: &[],
+};
+
+/// Kinetic friction by direction, or by speed.
+static KINETIC: Section = Section {
+    keys: &[
+        Key::optional("positive", Kind::Number(Range::NotNegative), "For sliding towards +x.")
+            .beside("negative"),
+        Key::optional("negative", Kind::Number(Range::NotNegative), "For sliding towards -x.")
+            .beside("positive"),
+        Key::optional("slow", Kind::Number(Range::NotNegative), "Coefficient at rest.")
+            .beside("fast"),
+        Key::optional("fast", Kind::Number(Range::NotNegative), "Coefficient at high speed.")
+            .beside("rate"),
+        Key::optional(
+            "rate",
+            Kind::Quantity(Slowness, Range::NotNegative),
+            "Rate α of μ = fast - (fast - slow) e^(-α |v|).",
+        )
+        .beside("slow"),
+        Key::optional(
+            "velocity",
+            Kind::Quantities(Velocity, Range::NotNegative),
+            "Sliding velocities from 0 on, between which friction follows straight lines.",
+        )
+        .beside("coefficient"),
+        Key::optional(
+            "coefficient",
+            Kind::Numbers(Range::NotNegative),
+            "Coefficients at these velocities; beyond the last it stays.",
+        )
+        .beside("velocity"),
+    ],
+    choices: &[Exclusive::one_of(&["positive", "slow", "velocity"])],
 };
 
 static BOUNDS: Section = Section {

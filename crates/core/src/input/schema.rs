@@ -176,7 +176,8 @@ impl Kind {
             Self::NameOrIndex => "a name in quotes or a number from 1".to_owned(),
             Self::Number(range) => range.expected("number"),
             Self::NumberOr(range, section) => {
-                let names = section.names().join(" and ");
+                let between = if section.choices.is_empty() { " and " } else { ", " };
+                let names = section.names().join(between);
                 format!("{} or a table of {names}", range.expected("number"))
             }
             Self::Quantity(dimension, _) => with_unit(dimension),

@@ -42,6 +42,19 @@ pub(super) fn solve(
     if model.stop().is_some() {
         return Err(SolveError::NotTaken { method: "stepwise method", what: "a stop" });
     }
+    if !model.is_plain_between_stops(motion.vertical_m_per_s2().is_some()) {
+        let devices = model.devices();
+        let what = if devices.rate.is_some() {
+            "friction that follows the sliding speed"
+        } else if devices.series.is_some() {
+            "surfaces in series"
+        } else if !devices.contents.is_empty() {
+            "contents"
+        } else {
+            "a pendulum under vertical motion, whose spring follows the normal force"
+        };
+        return Err(SolveError::NotTaken { method: "stepwise method", what });
+    }
     let (system, law) = (system_of(model), model.law());
     let slope = model.slope_m_per_s2();
     let (mass_kg, gravity) = (model.total_mass_kg(), model.normal_gravity_m_per_s2());

@@ -74,17 +74,3 @@ pub(crate) fn coarse_sampling(highest_hz: f64, longest_step_s: f64) -> Option<Wa
         ),
     })
 }
-
-/// The spring of a pendulum slider does not follow the normal force.
-pub(crate) fn pendulum_under_vertical_motion(
-    has_radius: bool,
-    motion: &GroundMotion,
-) -> Option<Warning> {
-    (has_radius && motion.vertical_m_per_s2().is_some()).then(|| Warning {
-        kind: "pendulum_under_vertical_motion",
-        time_s: None,
-        message: "the pendulum slider is a spring M_tot g / R; its true force would follow the \
-                  normal force N(t)"
-            .to_owned(),
-    })
-}

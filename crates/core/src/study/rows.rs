@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::engine::{Engine, Running, Shaking, made_motion};
-use super::notices::{coarse_sampling, longest_step_s, pendulum_under_vertical_motion};
+use super::notices::{coarse_sampling, longest_step_s};
 use super::{Case, Sample, Study, chunks};
 use crate::error::{RunError, Stopped};
 use crate::input::{MotionSource, Parts};
@@ -221,8 +221,7 @@ impl Study {
                     |_| Vec::new(),
                     |ready| {
                         let (highest_hz, step_s) = (sample.highest_hz, ready.longest_step_s);
-                        let motion = ready.motion.motion();
-                        self.noticed(case, &sample.suspicious, highest_hz, step_s, motion)
+                        self.noticed(case, &sample.suspicious, highest_hz, step_s)
                     },
                 );
                 (demand_values(&response.demands), warnings(&noticed, &response), None)
@@ -239,17 +238,10 @@ impl Study {
         suspicious: &[&'static str],
         highest_hz: f64,
         longest_step_s: f64,
-        motion: &GroundMotion,
     ) -> Vec<&'static str> {
         let of_record = self.records.get(case.record as usize).map(|record| &record.warnings);
-        let is_radius = |path: &str| path == "slider.radius";
-        let has_radius = self.variation.has("slider.radius")
-            || self.design.vary().iter().any(|varied| is_radius(&varied.path));
-        let of_model = [
-            coarse_sampling(highest_hz, longest_step_s),
-            pendulum_under_vertical_motion(has_radius, motion),
-        ];
-        let of_model = of_model.into_iter().flatten().map(|warning| warning.kind);
+        let of_model = coarse_sampling(highest_hz, longest_step_s);
+        let of_model = of_model.into_iter().map(|warning| warning.kind);
         let of_record = of_record.into_iter().flatten();
         of_record.chain(suspicious).copied().chain(of_model).collect()
     }

@@ -58,7 +58,7 @@ impl Study {
         let suspicious: Vec<_> =
             suspicious(&analysis.model).into_iter().map(|warning| warning.kind).collect();
         let highest_hz = highest_hz(&analysis.model);
-        let noticed = self.noticed(row.case, &suspicious, highest_hz, step_s, &motion);
+        let noticed = self.noticed(row.case, &suspicious, highest_hz, step_s);
         let same = row.error.is_none()
             && bits(&demand_values(&response.demands)) == bits(&row.demands)
             && warnings(&noticed, &response) == row.warnings;

@@ -135,7 +135,9 @@ pub fn assumptions(out: &mut Markup, report: &Report) {
     if model.slider().gap_m.is_some() {
         list.push("Nothing is struck: where the gap is passed, the block slides on.".to_owned());
     }
-    if report.motion.vertical_m_per_s2().is_some() && model.slider().stiffness_n_per_m > 0.0 {
+    let vertical = report.motion.vertical_m_per_s2().is_some();
+    let constant = model.pendulum_radius_m(vertical).is_none();
+    if vertical && constant && model.slider().stiffness_n_per_m > 0.0 {
         list.push(
             "The spring keeps its stiffness under vertical motion; that of a real pendulum slider \
              follows N(t)."

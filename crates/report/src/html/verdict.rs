@@ -108,6 +108,14 @@ fn rest(report: &Report) -> String {
     if let Some(stop) = &d.stop {
         let force = report.display.unit(Quantity::Force, stop.peak_force_n);
         text.push_str(&match stop.contact_count {
+            0 if stop.peak_impact_speed_m_per_s > 0.0 => {
+                let speed =
+                    report.display.unit(Quantity::Velocity, stop.peak_impact_speed_m_per_s);
+                format!(
+                    " The block strikes the rigid stops at {} or slower.",
+                    with_unit(speed, stop.peak_impact_speed_m_per_s)
+                )
+            }
             0 => " The stops are not reached.".to_owned(),
             n => format!(
                 " The stops are reached {} times, with a force of {} at most.",

@@ -9,7 +9,7 @@ use slipstick::input::Names;
 use super::{Checks, Summary, method_name};
 use crate::json::Json;
 
-/// The object; `stop`, `iterations`, `floor_spectrum` and `bounds` only where there are any.
+/// The object; `stop`, `surfaces`, `contents`, `iterations`, `floor_spectrum` and `bounds` only where there are any.
 pub fn object(summary: &Summary) -> Json {
     let mut keys = vec![
         ("slipstick", summary.slipstick.into()),
@@ -84,24 +84,33 @@ fn floor_spectrum(spectra: &FloorSpectra) -> Json {
 fn demands(demands: &Demands, names: &Names) -> Vec<(&'static str, Json)> {
     let name = |name: &Option<String>| name.as_ref().map(|name| ("name", name.as_str().into()));
     let json = |column: DemandColumn| json(column.demand.kind, column.value(demands));
-    let of_storey = |storey: usize| {
-        let own = DEMANDS.iter().filter(|demand| demand.of == DemandOf::Storey);
-        let own = own.map(|demand| (demand.key, json(DemandColumn { demand, storey })));
-        let named = names.storeys.get(storey - 1).and_then(name);
+    let of_part = |of: DemandOf, part: usize| {
+        let own = DEMANDS.iter().filter(|demand| demand.of == of);
+        let own = own.map(|demand| (demand.key, json(DemandColumn { demand, part })));
+        let storey = names.storeys.get(part - 1).filter(|_| of == DemandOf::Storey);
+        let named = storey.and_then(name);
         Json::Object(named.into_iter().chain(own).collect())
     };
     let mut keys: Vec<(&'static str, Json)> = Vec::new();
     for demand in DEMANDS.iter().filter(|demand| demand.in_summary) {
-        let value = match demand.of {
-            DemandOf::Storey if keys.iter().any(|(key, _)| *key == "storeys") => continue,
-            DemandOf::Storey => {
-                let storeys = (1..=demands.storeys.len()).map(of_storey);
-                keys.push(("storeys", Json::List(storeys.collect())));
-                continue;
+        if let Some(list) = demand.of.list() {
+            let count = match demand.of {
+                DemandOf::Surface => demands.surfaces.len(),
+                DemandOf::Contents => demands.contents.len(),
+                _ => demands.storeys.len(),
+            };
+            // Only storeys are listed where there are none.
+            let wanted = count > 0 || demand.of == DemandOf::Storey;
+            if wanted && !keys.iter().any(|(key, _)| *key == list) {
+                let parts = (1..=count).map(|part| of_part(demand.of, part));
+                keys.push((list, Json::List(parts.collect())));
             }
-            DemandOf::Stop if demands.stop.is_none() => continue,
-            DemandOf::Run | DemandOf::Stop => json(DemandColumn { demand, storey: 0 }),
-        };
+            continue;
+        }
+        if demand.of == DemandOf::Stop && demands.stop.is_none() {
+            continue;
+        }
+        let value = json(DemandColumn { demand, part: 0 });
         match (demand.key.split_once('.'), keys.last_mut()) {
             (None, _) => keys.push((demand.key, value)),
             (Some((group, key)), Some((last, Json::Object(members)))) if *last == group => {

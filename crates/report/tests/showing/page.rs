@@ -138,6 +138,7 @@ fn exact_many_events_are_cut_and_counted() {
             kind: EventKind::Stick,
             mode: Mode::Stick,
             sliding_displacement_m: 0.0,
+            interface: 0,
         })
         .collect();
     let html = report(&case, &case.summary).to_html();
