@@ -404,4 +404,12 @@ pub enum Example {
     MockUp,
     /// Five storeys on pendulum sliders
     Frame,
+    /// A building between rigid stops, on friction that follows the speed
+    Stop,
+    /// A tank on double pendulums
+    DoublePendulum,
+    /// A frame on triple pendulums
+    TriplePendulum,
+    /// A laboratory with unfastened equipment
+    Contents,
 }

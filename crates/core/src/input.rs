@@ -119,8 +119,7 @@ impl Bound {
     /// The model with this friction.
     #[must_use]
     pub fn of(&self, model: &Model) -> Model {
-        let friction = model.slider().friction;
-        model.with_friction(friction.scaled(self.friction_factor).unwrap_or(friction))
+        model.with_friction_times(self.friction_factor).unwrap_or_else(|_| model.clone())
     }
 }
 

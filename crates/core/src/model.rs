@@ -450,7 +450,9 @@ impl Model {
         let mut below_m = 0.0;
         for i in 0..m.len() {
             // Storey i carries the slope's pull on all floors from i up.
-            let carried_kg: f64 = m[i..].iter().sum();
+            let floors_kg: f64 = m[i..].iter().sum();
+            let contents = self.devices.contents.iter().filter(|contents| contents.floor > i);
+            let carried_kg = contents.fold(floors_kg, |sum, contents| sum + contents.mass_kg);
             below_m -= carried_kg * slope / k[i];
             q[i] = below_m;
         }

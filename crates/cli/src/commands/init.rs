@@ -9,6 +9,10 @@ use crate::failure::{Failure, say};
 const BLOCK: &str = include_str!("../../models/block.toml");
 const MOCK_UP: &str = include_str!("../../models/mock-up.toml");
 const FRAME: &str = include_str!("../../models/frame.toml");
+const STOP: &str = include_str!("../../models/stop.toml");
+const DOUBLE_PENDULUM: &str = include_str!("../../models/double-pendulum.toml");
+const TRIPLE_PENDULUM: &str = include_str!("../../models/triple-pendulum.toml");
+const CONTENTS: &str = include_str!("../../models/contents.toml");
 
 /// Writes `NAME.toml` into the working folder.
 pub fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
@@ -17,6 +21,10 @@ pub fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
         Example::Block => BLOCK,
         Example::MockUp => MOCK_UP,
         Example::Frame => FRAME,
+        Example::Stop => STOP,
+        Example::DoublePendulum => DOUBLE_PENDULUM,
+        Example::TriplePendulum => TRIPLE_PENDULUM,
+        Example::Contents => CONTENTS,
     };
     let path = PathBuf::from(format!("{stem}.toml"));
     let nameless = Path::new(stem).file_name().is_none() || stem.ends_with(['/', '\\']);

@@ -210,9 +210,12 @@ fn friction(values: &Values) -> Result<Friction, InputError> {
 /// Kinetic friction by sliding speed.
 fn rate(values: &Values) -> Result<Option<RateLaw>, InputError> {
     let path = "slider.kinetic_friction";
-    let curve = if let Some(rate_s_per_m) = values.number(&format!("{path}.rate")) {
-        let slow = values.required(&format!("{path}.slow"))?;
+    let curve = if let Some(slow) = values.number(&format!("{path}.slow")) {
         let fast = values.required(&format!("{path}.fast"))?;
+        let rate = format!("{path}.rate");
+        let expected = "a rate by speed with its unit, such as \"25 s/m\"";
+        let rate_s_per_m =
+            values.number(&rate).ok_or_else(|| values.error(&rate, expected, "nothing"))?;
         RateCurve::Exponential { slow, fast, rate_s_per_m }
     } else if let Some(speeds_m_per_s) = values.numbers(&format!("{path}.velocity")) {
         let coefficients = values.numbers(&format!("{path}.coefficient")).unwrap_or_default();

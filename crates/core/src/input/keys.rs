@@ -293,14 +293,12 @@ static BY_DIRECTION: Section = Section {
 /// Kinetic friction by direction, or by speed.
 static KINETIC: Section = Section {
     keys: &[
-        Key::optional("positive", Kind::Number(Range::NotNegative), "For sliding towards +x.")
-            .beside("negative"),
+        Key::optional("positive", Kind::Number(Range::NotNegative), "For sliding towards +x."),
         Key::optional("negative", Kind::Number(Range::NotNegative), "For sliding towards -x.")
             .beside("positive"),
-        Key::optional("slow", Kind::Number(Range::NotNegative), "Coefficient at rest.")
-            .beside("fast"),
+        Key::optional("slow", Kind::Number(Range::NotNegative), "Coefficient at rest."),
         Key::optional("fast", Kind::Number(Range::NotNegative), "Coefficient at high speed.")
-            .beside("rate"),
+            .beside("slow"),
         Key::optional(
             "rate",
             Kind::Quantity(Slowness, Range::NotNegative),
@@ -311,8 +309,7 @@ static KINETIC: Section = Section {
             "velocity",
             Kind::Quantities(Velocity, Range::NotNegative),
             "Sliding velocities from 0 on, between which friction follows straight lines.",
-        )
-        .beside("coefficient"),
+        ),
         Key::optional(
             "coefficient",
             Kind::Numbers(Range::NotNegative),

@@ -175,6 +175,8 @@ impl Kind {
             }
             Self::NameOrIndex => "a name in quotes or a number from 1".to_owned(),
             Self::Number(range) => range.expected("number"),
+            // Surfaces in series take no table; one is read for its reason to be refused.
+            Self::NumberOr(Range::Positive, _) => Range::Positive.expected("number"),
             Self::NumberOr(range, section) => {
                 let between = if section.choices.is_empty() { " and " } else { ", " };
                 let names = section.names().join(between);

@@ -302,7 +302,8 @@ pub static DEMANDS: [Demand; 43] = [
     Demand::count("stop.impact_count", "stop impact count", |d, _| {
         of_stop(d, |stop| stop.impact_count as f64)
     })
-    .of_stop(),
+    .of_stop()
+    .note(55, "Impacts on the stop"),
     Demand::number("stop.peak_force_n", "stop peak force", Force, |d, _| {
         of_stop(d, |stop| stop.peak_force_n)
     })

@@ -296,10 +296,14 @@ impl Own {
         let mut calls = Vec::new();
         for side in [Direction::Positive, Direction::Negative] {
             let Some(gap_m) = stop.gap_towards(side) else { continue };
-            let furthest = (0..h.len()).map(|k| (side.sign() * h.sliding_displacement_m[k], k));
-            let furthest = furthest.filter(|(s, _)| *s < gap_m);
-            // Only turns: where the block has no velocity.
-            let turns = furthest.filter(|(_, k)| h.sliding_velocity_m_per_s[*k] == 0.0);
+            // Where the block came to a halt on its way there.
+            let halts = (0..h.len().saturating_sub(1)).filter(|&k| {
+                h.modes(k)[0] == Mode::Slip(side)
+                    && h.modes(k + 1)[0] != Mode::Slip(side)
+                    && h.sliding_velocity_m_per_s[k] == 0.0
+            });
+            let turns = halts.map(|k| (side.sign() * h.sliding_displacement_m[k], k));
+            let turns = turns.filter(|(s, _)| *s < gap_m);
             if let Some((s, k)) = turns.reduce(|a, b| if b.0 > a.0 { b } else { a }) {
                 calls.push(ClosestCall {
                     margin: 1.0 - s / gap_m,

@@ -25,7 +25,7 @@ fn exact_unknown_keys_at_any_depth() {
     assert_eq!(
         changed("spring = ", "sprng = "),
         "m.toml:10:1: slider.sprng: expected one of the keys static_friction, kinetic_friction, \
-         spring, radius, period, damper, damping_ratio, tilt, asymmetry, gap, stop, bounds, found \"sprng\"; \
+         static_ratio, surface, triple, spring, radius, period, damper, damping_ratio, tilt, asymmetry, gap, stop, bounds, found \"sprng\"; \
          nearest is \"spring\""
     );
     assert_eq!(
@@ -35,7 +35,7 @@ fn exact_unknown_keys_at_any_depth() {
     );
     assert_eq!(
         changed("[analysis]", "[analyses]"),
-        "m.toml:38:2: analyses: expected one of the keys name, block, slider, storey, frame, \
+        "m.toml:38:2: analyses: expected one of the keys name, block, slider, storey, contents, frame, \
          motion, initial, analysis, found \"analyses\"; nearest is \"analysis\""
     );
     assert_eq!(
@@ -172,7 +172,7 @@ fn exact_wrong_types() {
             "0.012",
             "\"0.012\"",
             "m.toml:9:20: slider.kinetic_friction: expected a finite number ≥ 0 or a table of \
-             positive and negative, found \"0.012\"",
+             positive, negative, slow, fast, rate, velocity, coefficient, found \"0.012\"",
         ),
         (
             "{ lower = 0.8, upper = 1.3 }",
@@ -455,8 +455,7 @@ fn exact_stops_that_cannot_be() {
     );
     assert_eq!(
         stop(gap),
-        "m.toml:6:1: slider.stop.stiffness: expected a stiffness with its unit, such as \
-         \"143 kN/m\", found nothing"
+        "m.toml:6:1: slider.stop: expected one of the keys stiffness, restitution, found none"
     );
     assert_eq!(
         stop(stiff),
@@ -465,8 +464,8 @@ fn exact_stops_that_cannot_be() {
     );
     assert_eq!(
         stop(&format!("{gap}{stiff}restitution = 0.5\n")),
-        "m.toml:9:1: slider.stop.restitution: expected one of the keys gap, stiffness, damper, \
-         damping_ratio, found \"restitution\"; nearest is \"stiffness\""
+        "m.toml:9:1: slider.stop.restitution: expected only one of stiffness, restitution, found \
+         \"restitution\" besides \"stiffness\""
     );
     assert_eq!(
         stop(&format!("{gap}{stiff}damper = \"1 kN s/m\"\ndamping_ratio = 0.1\n")),
@@ -505,4 +504,144 @@ fn exact_stops_that_cannot_be() {
         "m.toml:9:17: slider.stop.damping_ratio: expected a value whose damper 2 ξ √(k M1) is a \
          finite number, found 1e200"
     );
+}
+
+/// Friction by speed, surfaces, contents and rigid stops: one clear error each.
+#[test]
+fn exact_devices_that_cannot_be() {
+    let model = |slider: &str| {
+        let head = "[block]\nmass = \"325 kg\"\n[slider]\n";
+        refused(&format!("{head}{slider}\n"))
+    };
+    let rate = |law: &str| model(&format!("static_friction = 0.05\nkinetic_friction = {{ {law} }}"));
+    let plain = "static_friction = 0.05\nkinetic_friction = 0.04\n";
+    let path = "slider.kinetic_friction";
+    for (found, wanted) in [
+        (
+            rate("slow = 0.06, fast = 0.08, rate = \"25 s/m\""),
+            format!("m.toml:5:29: {path}.slow: expected at most the static friction 0.05, found 0.06"),
+        ),
+        (
+            rate("velocity = [\"0 m/s\", \"1 m/s\"], coefficient = [0.06, 0.02]"),
+            format!(
+                "m.toml:5:66: {path}.coefficient.1: expected at most the static friction 0.05, found \
+                 0.06"
+            ),
+        ),
+        (
+            rate("velocity = [\"0.1 m/s\"], coefficient = [0.05]"),
+            format!("m.toml:5:34: {path}.velocity.1: expected velocities from 0 on, found \"0.1 m/s\""),
+        ),
+        (
+            rate("velocity = [\"0 m/s\", \"0 m/s\"], coefficient = [0.05, 0.02]"),
+            format!("m.toml:5:43: {path}.velocity.2: expected velocities that increase, found \"0 m/s\""),
+        ),
+        (
+            rate("velocity = [\"0 m/s\"], coefficient = [0.05, 0.02]"),
+            format!(
+                "m.toml:5:57: {path}.coefficient: expected one coefficient a velocity, 1 in all, \
+                 found 2"
+            ),
+        ),
+        (
+            rate("slow = 0.04, fast = 0.08, rate = \"-25 s/m\""),
+            format!("m.toml:5:55: {path}.rate: expected a finite rate by speed ≥ 0, found \"-25 s/m\""),
+        ),
+        (
+            rate("slow = 0.04, fast = 0.08"),
+            format!(
+                "m.toml:5:20: {path}.rate: expected a rate by speed with its unit, such as \"25 s/m\", \
+                 found nothing"
+            ),
+        ),
+        (
+            rate("fast = 0.08, rate = \"25 s/m\""),
+            format!(
+                "m.toml:5:20: {path}: expected one of the keys positive, slow, velocity, found none"
+            ),
+        ),
+        (
+            rate("positive = 0.04, slow = 0.04"),
+            format!(
+                "m.toml:5:39: {path}.slow: expected only one of positive, slow, velocity, found \
+                 \"slow\" besides \"positive\""
+            ),
+        ),
+        (
+            model(&format!("{plain}stop = {{ gap = \"0.1 m\", restitution = 1.5 }}")),
+            "m.toml:6:39: slider.stop.restitution: expected a number from 0 to 1, found 1.5".into(),
+        ),
+        (
+            model(&format!("{plain}stop = {{ gap = \"0.1 m\", restitution = 0.5, damper = \"1 N s/m\" }}")),
+            "m.toml:6:44: slider.stop.damper: expected this key only beside \"stiffness\", found \
+             \"damper\" beside \"restitution\""
+                .into(),
+        ),
+        (
+            model(&format!(
+                "{plain}stop = {{ gap = \"0.1 m\", restitution = 0.5 }}\n[initial]\n\
+                 sliding_displacement = \"0.2 m\""
+            )),
+            "m.toml:8:24: initial.sliding_displacement: expected a place between the rigid stops, \
+             found 0.2"
+                .into(),
+        ),
+        (
+            model("[[slider.surface]]\nradius = \"1 m\""),
+            "m.toml:4:1: slider.surface.1.friction: expected a finite number > 0, found nothing".into(),
+        ),
+        (
+            model("[[slider.surface]]\nfriction = { slow = 0.04, fast = 0.08, rate = \"25 s/m\" }"),
+            "m.toml:5:12: slider.surface.1.friction: expected a number > 0: friction by direction or \
+             speed on surfaces in series is a differential-algebraic system, which is not solved, \
+             found a table"
+                .into(),
+        ),
+        (
+            model("static_friction = 0.05\n[[slider.surface]]\nfriction = 0.04"),
+            "m.toml:5:10: slider.surface: expected only one of surface, triple, static_friction, found \
+             \"surface\" besides \"static_friction\""
+                .into(),
+        ),
+        (
+            model("static_ratio = 0.9\n[[slider.surface]]\nfriction = 0.04"),
+            "m.toml:4:16: slider.static_ratio: expected a number of at least 1, found 0.9".into(),
+        ),
+        (
+            model(
+                "[[slider.surface]]\nfriction = 0.04\ntravel = \"0.1 m\"\n[initial]\n\
+                 sliding_displacement = \"0.2 m\"",
+            ),
+            "m.toml:8:24: initial.sliding_displacement: expected less than the travel of all \
+             surfaces, found 0.2"
+                .into(),
+        ),
+        (
+            model(
+                "[slider.triple]\neffective_radius = [\"1 m\", \"1 m\", \"1 m\"]\n\
+                 friction = [0.1, 0.02, 0.02, 0.1]\ntravel = [\"1 m\", \"1 m\", \"1 m\", \"1 m\"]",
+            ),
+            "m.toml:5:20: slider.triple.effective_radius: expected four values, one a surface from \
+             the bottom up, found 3"
+                .into(),
+        ),
+        (
+            model(&format!(
+                "{plain}[[contents]]\nfloor = 1\nmass = \"1 t\"\nstatic_friction = 0.2\n\
+                 kinetic_friction = 0.1"
+            )),
+            "m.toml:7:9: contents.1.floor: expected 0, the block: there are no storeys, found 1".into(),
+        ),
+        (
+            model(&format!(
+                "{plain}[[contents]]\nfloor = 0\nmass = \"1 t\"\nstatic_friction = 0.2\n\
+                 kinetic_friction = 0.3"
+            )),
+            "m.toml:10:20: contents.1.kinetic_friction: expected at most the static friction 0.2, \
+             found 0.3"
+                .into(),
+        ),
+    ] {
+        assert_eq!(found, wanted);
+    }
 }
