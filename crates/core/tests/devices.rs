@@ -166,7 +166,6 @@ fn judge(case: &Value, response: &Response, report: &mut Report) {
         return;
     }
     let tolerances = case["events"].as_array().expect("events");
-    if std::env::var("DBG").is_ok() { for e in &response.events { println!("{} {} {} {:?} {}", e.time_s, e.interface, e.kind.name(), e.mode, e.sliding_displacement_m); } }
     for (i, (event, time_s)) in response.events.iter().zip(&times).enumerate() {
         let tolerance = match event.kind {
             EventKind::Rest => 1e-8,

@@ -193,7 +193,8 @@ fn same_mirrored(a: &Response, b: &Response) -> bool {
 fn prop_random_devices_are_certified_and_have_no_side() {
     let count = std::env::var("SLIPSTICK_DEVICES").map_or(400, |n| n.parse().expect("a number"));
     let (mut wrong, mut ends, mut events) = (Vec::new(), 0, 0);
-    for seed in 0..count {
+    let first = std::env::var("SLIPSTICK_SEED").map_or(0, |n| n.parse().expect("a number"));
+    for seed in first..first + count {
         let system = system(seed);
         let motion_s = motion(&system, 1.0);
         let response = match exact(&system.model, &motion_s) {

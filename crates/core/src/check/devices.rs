@@ -436,7 +436,7 @@ impl<'a> Judge<'a> {
                 continue;
             }
             // The others may have changed before it or after it.
-            let mut least = f64::INFINITY;
+            let (mut least, mut nearest_beyond) = (f64::INFINITY, f64::INFINITY);
             let mut margin = None;
             for load in &loads {
                 for others in [before, after] {
@@ -450,10 +450,11 @@ impl<'a> Judge<'a> {
                         Mode::Slip(Direction::Positive) => asked.demand - asked.low,
                         Mode::Slip(Direction::Negative) => asked.high - asked.demand,
                     };
-                    if excess(beyond) < least {
-                        least = excess(beyond);
+                    if core::ptr::eq(others, before) && excess(beyond) <= nearest_beyond {
+                        nearest_beyond = excess(beyond);
                         margin = asked.margin();
                     }
+                    least = least.min(excess(beyond));
                 }
             }
             self.excess = larger(self.excess, least);
@@ -510,7 +511,8 @@ impl<'a> Judge<'a> {
         let contents = &self.contents[i - 1];
         let press = load.normal / self.structure.total_kg;
         let bound = contents.static_friction * contents.mass_kg * press;
-        law::Asked { demand: contents.mass_kg * now.contents[i - 1], low: -bound, high: bound }
+        let demand = contents.mass_kg * now.contents[i - 1];
+        law::Asked { demand, low: -bound, high: bound, friction: [-bound, bound] }
     }
 
     fn between_knots<'b>(&self, k: usize, modes: &'b [Mode]) -> Between<'b> {
@@ -554,7 +556,7 @@ impl<'a> Judge<'a> {
                 force = force.max(contents.mass_kg * off.abs());
             }
             let asked = self.holds(&now, (k, x[0]), (0, true), load);
-            let friction = if modes[0] == Mode::Stick { asked.taken(load.normal, &self.slider) } else { now.friction };
+            let friction = if modes[0] == Mode::Stick { asked.taken() } else { now.friction };
             force = force.max((friction - h.friction_force_n[k]).abs());
             let drift = load.slope.abs() * self.instant_s * self.structure.total_kg;
             force = excess(force - drift);
@@ -717,9 +719,18 @@ impl<'a> Judge<'a> {
             all.push((&nodes[i], &places[i], &speeds[i]));
         }
         all.push((&end, x, v));
-        let normals: [f64; POINTS] = core::array::from_fn(|i| between(loads, rule.points[i]).normal);
+        let asked: Vec<law::Asked> = match b.modes[0] {
+            Mode::Stick => all
+                .iter()
+                .zip(rule.points)
+                .map(|((now, x, _), t)| {
+                    self.holds(now, (k, x[0]), (0, true), &between(loads, t))
+                })
+                .collect(),
+            Mode::Slip(_) => Vec::new(),
+        };
         self.judge_step((k, b), from_s, step_s, loads, &all);
-        self.own.see(self.model, rule, b.modes, &all, (&normals, &self.slider));
+        self.own.see(self.model, rule, &all, &asked);
         self.own.totals.path(b.modes, &start.0, x, self.floors());
     }
 

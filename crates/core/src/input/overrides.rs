@@ -231,7 +231,9 @@ fn set(
     }
     let index = index.unwrap_or_else(|| {
         let empty = match key.kind {
-            Kind::Sections(_) | Kind::Quantities(..) => Value::List(Vec::new()),
+            Kind::Sections(_) | Kind::Quantities(..) | Kind::Numbers(_) => {
+                Value::List(Vec::new())
+            }
             _ => Value::Table(Table(Vec::new())),
         };
         let node = Node { spot: spot.clone(), value: empty };
@@ -327,7 +329,7 @@ pub(super) fn find_kind(path: &str) -> Result<&'static Kind, (String, Option<Str
         if keys.peek().is_none() {
             return Ok(&key.kind);
         }
-        if matches!(key.kind, Kind::Sections(_) | Kind::Quantities(..)) {
+        if matches!(key.kind, Kind::Sections(_) | Kind::Quantities(..) | Kind::Numbers(_)) {
             let number = keys.next().unwrap_or("");
             if number.parse::<usize>().is_ok_and(|number| number > 0) {
                 known = join(&known, number);

@@ -193,6 +193,10 @@ impl Kind {
             Self::QuantityOrRatio(dimension, _) => {
                 format!("{} (or a ratio, where a period is given)", with_unit(dimension))
             }
+            Self::Quantities(dimension, Range::Positive | Range::NotNegative) => {
+                let (what, example) = (dimension.with_article(), dimension.example());
+                format!("a list, each {what} with its unit, such as [\"{example}\"]")
+            }
             Self::Quantities(dimension, _) => {
                 let (what, example) = (dimension.with_article(), dimension.example());
                 format!("a list with {what} for each storey, such as [\"{example}\"]")

@@ -58,6 +58,8 @@ enum End {
     Bound(Bound),
     /// An interface that stuck slides.
     Release(usize, Direction),
+    /// Friction takes all of a push against a rigid stop from here on, or no longer does.
+    Lean,
 }
 
 /// A rigid stop that has just been struck, and where the block is to it.
@@ -83,6 +85,8 @@ struct Stepping<'a> {
     near: Option<Near>,
     /// The contact with an elastic stop with which the slider sets out.
     begun: Option<Contact>,
+    /// What friction takes of a push against a rigid stop has just become all of it, or too little.
+    leant: bool,
     series: Expansion,
     /// Of one instant.
     instant: Expansion,
@@ -145,6 +149,7 @@ impl<'a> Stepping<'a> {
             just: None,
             near: None,
             begun: None,
+            leant: false,
             unit_s: f64::INFINITY,
             events: Vec::new(),
             events_in_interval: 0,
@@ -408,7 +413,7 @@ impl<'a> Stepping<'a> {
     fn segment(&mut self, stretch: &Stretch, from_s: f64) -> Result<f64, SolveError> {
         self.expand(stretch, from_s);
         let mut part = self.series.part;
-        let mut end = None;
+        let (mut end, mut lean) = (None, None);
         let mut take = |at: Option<f64>, what: End| {
             if let Some(at) = at
                 && (at < part || end.is_none())
@@ -440,6 +445,19 @@ impl<'a> Stepping<'a> {
                 take(Some(at), End::Release(i, direction));
             }
         }
+        if let Some((_, mut beyond)) = self.beyond_friction() {
+            if core::mem::take(&mut self.leant) {
+                beyond[0] = 0.0;
+            }
+            lean = Some(beyond);
+        }
+        if let Some(beyond) = lean
+            && let Some(order) = beyond.iter().position(|c| *c != 0.0)
+        {
+            let sign = beyond[order].signum();
+            let p = deflated(&beyond.map(|c| sign * c), order);
+            take(first_root(&p, self.series.part).filter(|at| *at > 0.0), End::Lean);
+        }
         let is_whole = end.is_none() && part == 1.0;
         let to_s = from_s + part * self.series.unit_s;
         // The series of a whole stretch ends where the stretch does.
@@ -464,9 +482,27 @@ impl<'a> Stepping<'a> {
             }
             Some(End::Still(i)) => self.stand(i),
             Some(End::Release(i, direction)) => self.pending = Some((i, direction)),
+            Some(End::Lean) => {
+                self.leant = true;
+                self.record(stretch, to_s, false);
+            }
             Some(End::Bound(bound)) => self.reach(stretch, to_s, &bound)?,
         }
         Ok(to_s)
+    }
+
+    /// Where the slider rests against a rigid stop: how much of its push friction cannot take, positive
+    /// where the stop takes some; and the sign of that push.
+    fn beyond_friction(&self) -> Option<(f64, Polynomial)> {
+        if self.modes[0] != Mode::Stick {
+            return None;
+        }
+        let rest = self.rest();
+        let side = rest.leans.iter().position(|leans| *leans)?;
+        let sign = if side == 0 { -1.0 } else { 1.0 };
+        let (asked, normal) = (&self.series.friction, &self.series.normal);
+        let beyond = core::array::from_fn(|k| sign * (asked[k] - rest.bounds[side] * normal[k]));
+        Some((sign, beyond))
     }
 
     /// Moves to a part of the series.

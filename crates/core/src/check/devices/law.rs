@@ -14,6 +14,8 @@ pub(super) struct Asked {
     pub(super) demand: f64,
     pub(super) low: f64,
     pub(super) high: f64,
+    /// The same of friction alone, where rigid stops hold too.
+    pub(super) friction: [f64; 2],
 }
 
 impl Asked {
@@ -34,8 +36,8 @@ impl Asked {
     }
 
     /// What friction takes of the demand; a stop takes the rest.
-    pub(super) fn taken(&self, normal: f64, slider: &Slider<'_>) -> f64 {
-        let [low, high] = slider.fixed_n(normal);
+    pub(super) fn taken(&self) -> f64 {
+        let [low, high] = self.friction;
         let least = if self.low == f64::NEG_INFINITY { low } else { f64::NEG_INFINITY };
         let most = if self.high == f64::INFINITY { high } else { f64::INFINITY };
         self.demand.max(least).min(most)
@@ -207,7 +209,7 @@ impl<'a> Slider<'a> {
     }
 
     /// What static friction holds, in N.
-    pub(super) fn fixed_n(&self, normal: f64) -> [f64; 2] {
+    fn fixed_n(&self, normal: f64) -> [f64; 2] {
         [-self.fixed[0] * normal, self.fixed[1] * normal]
     }
 
@@ -261,6 +263,7 @@ impl<'a> Slider<'a> {
                 [-most * normal, -least * normal]
             }
         };
+        let friction = [low, high];
         let [positive, negative] = self.leans(s, slack_m);
         if positive {
             low = f64::NEG_INFINITY;
@@ -268,7 +271,7 @@ impl<'a> Slider<'a> {
         if negative {
             high = f64::INFINITY;
         }
-        Asked { demand, low, high }
+        Asked { demand, low, high, friction }
     }
 
     /// How a slip in a direction goes on from these displacements of surfaces in series.

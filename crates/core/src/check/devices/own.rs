@@ -5,7 +5,7 @@ use super::super::collocation::{POINTS, Rule};
 use super::super::demands::{Comparison, first_time, raise};
 pub(super) use super::super::demands::Rounding;
 use super::super::law::contact_event;
-use super::law::Slider;
+use super::law::Asked;
 use super::Now;
 use crate::friction::Direction;
 use crate::model::{Model, StopKind};
@@ -144,9 +144,8 @@ impl Own {
         &mut self,
         model: &Model,
         rule: &Rule,
-        modes: &[Mode],
         all: &[(&Now, &[f64], &[f64])],
-        (normals, slider): (&[f64; POINTS], &Slider<'_>),
+        asked: &[Asked],
     ) {
         let of = |pick: &dyn Fn(usize) -> f64| -> [f64; POINTS] { core::array::from_fn(pick) };
         let n = model.storeys();
@@ -185,28 +184,17 @@ impl Own {
                 half * now.block + floors + carried
             }),
         );
-        // Against a rigid stop friction takes what it can.
-        let leans = slider.leans(all[0].1[0], 0.0);
-        if modes[0] == Mode::Stick && leans != [false; 2] {
-            let asked = of(&|i| all[i].0.friction);
-            let held = of(&|i| slider.fixed_n(normals[i])[1].max(-slider.fixed_n(normals[i])[0]));
-            let (mut most, mut limit) = (0.0, 0.0);
-            raise(rule, &mut most, &asked);
-            raise(rule, &mut limit, &held);
-            p.friction = p.friction.max(most.min(limit));
-            for (side, sign) in [(0, -1.0), (1, 1.0)] {
-                if leans[side] {
-                    let beyond = of(&|i| sign * (asked[i] - slider.fixed_n(normals[i])[side]));
-                    let most = beyond.iter().fold(0.0, |most: f64, x| most.max(*x));
-                    if most > 0.0 {
-                        let mut peak = 0.0;
-                        raise(rule, &mut peak, &beyond.map(|x| x.max(0.0)));
-                        p.stop = p.stop.max(most.max(if beyond.iter().all(|x| *x > 0.0) { peak } else { most }));
-                    }
-                }
-            }
-        } else {
-            raise(rule, &mut p.friction, &of(&|i| all[i].0.friction));
+        // Against a rigid stop friction takes what it can; it takes all or not in a whole step.
+        let middle = asked.get(POINTS / 2);
+        let taken = middle.map_or(0.0, |asked| asked.taken() - asked.demand);
+        let side = if taken > 0.0 { 0 } else { 1 };
+        let friction: [f64; POINTS] = core::array::from_fn(|i| match asked.get(i) {
+            Some(asked) if taken != 0.0 => asked.friction[side],
+            _ => all[i].0.friction,
+        });
+        raise(rule, &mut p.friction, &friction);
+        if taken != 0.0 {
+            raise(rule, &mut p.stop, &of(&|i| friction[i] - all[i].0.friction));
         }
     }
 

@@ -524,7 +524,7 @@ fn exact_devices_that_cannot_be() {
         (
             rate("velocity = [\"0 m/s\", \"1 m/s\"], coefficient = [0.06, 0.02]"),
             format!(
-                "m.toml:5:66: {path}.coefficient.1: expected at most the static friction 0.05, found \
+                "m.toml:5:68: {path}.coefficient.1: expected at most the static friction 0.05, found \
                  0.06"
             ),
         ),

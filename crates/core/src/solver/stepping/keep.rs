@@ -118,27 +118,15 @@ impl Stepping<'_> {
 
     /// Friction takes what it can where the block leans on a rigid stop, the stop the rest.
     fn look_at_friction(&mut self, part: f64) {
-        let rest = self.rest();
+        let friction = self.series.friction;
+        let beyond = self.beyond_friction().filter(|(_, p)| value(p, 0.5 * part) > 0.0);
         let peak = &mut self.peaks.values[output::FRICTION];
-        if self.modes[0] != Mode::Stick || rest.leans == [false; 2] {
-            raise(peak, &self.series.friction, part);
+        let Some((sign, beyond)) = beyond else {
+            raise(peak, &friction, part);
             return;
-        }
-        let bound = |k: usize| rest.bounds[k].abs();
-        let most = self.series.normal.map(|n| bound(0).max(bound(1)) * n);
-        let (mut asked, mut held) = (0.0, 0.0);
-        raise(&mut asked, &self.series.friction, part);
-        raise(&mut held, &most, part);
-        *peak = peak.max(asked.min(held));
-        for (side, sign) in [(0, -1.0), (1, 1.0)] {
-            if rest.leans[side] {
-                let beyond: Polynomial = core::array::from_fn(|k| {
-                    sign * self.series.friction[k] - bound(side) * self.series.normal[k]
-                });
-                let peak = &mut self.stopping.demands.peak_force_n;
-                *peak = largest(&beyond, part, peak.max(beyond[0]).max(value(&beyond, part)));
-            }
-        }
+        };
+        raise(peak, &core::array::from_fn(|k| friction[k] - sign * beyond[k]), part);
+        raise(&mut self.stopping.demands.peak_force_n, &beyond, part);
     }
 
     fn look_at_stop(&mut self, part: f64) {
