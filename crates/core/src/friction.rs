@@ -13,7 +13,7 @@ mod surfaces;
 pub use coulomb::{Coulomb, Friction};
 pub use law::{Branch, Contact, Exit, Hold, Law, Restraint};
 pub use rate::{Coefficient, RateCurve, RateLaw};
-pub use slider::{Bound, Memory, Reached, Rest, RigidStop, SlipForce, SliderLaw};
+pub use slider::{Bound, Memory, Reached, Rest, RigidStop, SliderLaw, SlipForce};
 pub use stop::ElasticStop;
 pub use surfaces::{Series, SeriesState, Surface};
 

@@ -209,7 +209,9 @@ impl Model {
         }
         finite("initial sliding_displacement_m", initial.sliding_displacement_m)?;
         finite("initial sliding_velocity_m_per_s", initial.sliding_velocity_m_per_s)?;
-        if let Some(Stop { gap_m: [positive, negative], kind: StopKind::Rigid { .. } }) = slider.stop {
+        if let Some(Stop { gap_m: [positive, negative], kind: StopKind::Rigid { .. } }) =
+            slider.stop
+        {
             let found = initial.sliding_displacement_m;
             let within = positive.is_none_or(|gap_m| found <= gap_m)
                 && negative.is_none_or(|gap_m| -found <= gap_m);

@@ -162,7 +162,12 @@ fn judge(case: &Value, response: &Response, report: &mut Report) {
     let times = numbers(&case["event_times"]);
     if times.len() != response.events.len() {
         let found: Vec<_> = response.events.iter().map(|e| (e.time_s, e.kind.name())).collect();
-        report.wrong.push(format!("{}: {} events, found {} {found:?}", report.id, times.len(), found.len()));
+        report.wrong.push(format!(
+            "{}: {} events, found {} {found:?}",
+            report.id,
+            times.len(),
+            found.len()
+        ));
         return;
     }
     let tolerances = case["events"].as_array().expect("events");
@@ -177,7 +182,9 @@ fn judge(case: &Value, response: &Response, report: &mut Report) {
         let kind = text_of(&wanted["kind"]);
         let same_interface = wanted.get("interface").map(text_of).as_deref()
             == interface_name(case, event.interface);
-        if event.kind.name() != kind || mode_name(event.mode) != text_of(&wanted["to"]) || !same_interface
+        if event.kind.name() != kind
+            || mode_name(event.mode) != text_of(&wanted["to"])
+            || !same_interface
         {
             report.wrong.push(format!("{}: {event:?} instead of {wanted}", report.id));
         }
@@ -262,7 +269,9 @@ fn judge(case: &Value, response: &Response, report: &mut Report) {
         }
         if state.get("r").is_some() {
             for (i, (name, tolerance)) in
-                [("r", "tol_r"), ("p", "tol_p"), ("a_equipment", "tol_a_equipment")].iter().enumerate()
+                [("r", "tol_r"), ("p", "tol_p"), ("a_equipment", "tol_a_equipment")]
+                    .iter()
+                    .enumerate()
             {
                 let found = h.contents_state(row, 0)[i];
                 let (wanted, tolerance) = (number(&state[*name]), number(&state[*tolerance]));

@@ -92,7 +92,8 @@ fn system(seed: u64) -> System {
         if r.chance(0.3) {
             surfaces[1] = surfaces[0];
         }
-        Series::new(surfaces, if r.chance(0.5) { 1.0 } else { r.between(1.0, 1.5) }).expect("surfaces")
+        Series::new(surfaces, if r.chance(0.5) { 1.0 } else { r.between(1.0, 1.5) })
+            .expect("surfaces")
     });
     let vertical = r.chance(0.4);
     let radius_m = (!in_series && r.chance(0.5)).then(|| r.between(0.5, 3.0));
@@ -103,7 +104,8 @@ fn system(seed: u64) -> System {
                 floor: (r.next() * (n as f64 + 1.0)) as usize,
                 mass_kg: r.between(5.0, 150.0),
                 static_friction,
-                kinetic_friction: static_friction * if r.chance(0.3) { 1.0 } else { r.between(0.5, 1.0) },
+                kinetic_friction: static_friction
+                    * if r.chance(0.3) { 1.0 } else { r.between(0.5, 1.0) },
             }
         })
         .collect();
@@ -141,15 +143,21 @@ fn system(seed: u64) -> System {
     let w = if r.chance(0.2) { r.between(-0.4, 0.4) } else { 0.0 };
     let build = |slider: Slider, w: f64| {
         let initial = InitialState { sliding_velocity_m_per_s: w, ..InitialState::rest() };
-        Model::new(Block { mass_kg, width_m: None, height_m: None }, slider, frame.clone(), G, initial)
-            .expect("a model")
-            .with_devices(Devices {
-                rate: rate.clone(),
-                radius_m,
-                series: series.clone(),
-                contents: contents.clone(),
-            })
-            .expect("devices")
+        Model::new(
+            Block { mass_kg, width_m: None, height_m: None },
+            slider,
+            frame.clone(),
+            G,
+            initial,
+        )
+        .expect("a model")
+        .with_devices(Devices {
+            rate: rate.clone(),
+            radius_m,
+            series: series.clone(),
+            contents: contents.clone(),
+        })
+        .expect("devices")
     };
     let turned = stop.map(|stop| Stop { gap_m: [stop.gap_m[1], stop.gap_m[0]], ..stop });
     let mirror = Slider { tilt_rad: -tilt_rad, stop: turned, ..slider };
@@ -160,8 +168,7 @@ fn system(seed: u64) -> System {
     let wave = |t: f64| a1 * libm::sin(f1 * 6.3 * t) + a2 * libm::sin(f2 * 6.3 * t + 1.0);
     let times_s: Vec<f64> = (0..=150).map(|k| 0.02 * f64::from(k)).collect();
     let horizontal = times_s.iter().map(|t| wave(*t)).collect();
-    let vertical =
-        vertical.then(|| times_s.iter().map(|t| up * libm::sin(f2 * 9.1 * t)).collect());
+    let vertical = vertical.then(|| times_s.iter().map(|t| up * libm::sin(f2 * 9.1 * t)).collect());
     System { model, mirrored, times_s, horizontal, vertical }
 }
 

@@ -96,8 +96,12 @@ fn friction_rows(model: &Model, display: DisplayUnits, rows: &mut Vec<(&'static 
         for surface in series.surfaces() {
             let length = |si: f64| value(display, Quantity::Length, si);
             let radius = surface.radius_m.map_or("flat".to_owned(), |r| format!("R {}", length(r)));
-            let travel = surface.travel_m.map_or(String::new(), |d| format!(", travel {}", length(d)));
-            rows.push(("Surface", format!("{radius}, friction {}{travel}", compact(surface.friction))));
+            let travel =
+                surface.travel_m.map_or(String::new(), |d| format!(", travel {}", length(d)));
+            rows.push((
+                "Surface",
+                format!("{radius}, friction {}{travel}", compact(surface.friction)),
+            ));
         }
         rows.push(("Static over kinetic friction", compact(series.static_ratio())));
         return;

@@ -320,7 +320,12 @@ fn faults(case: &Value, answer: &Answer) -> Vec<String> {
         if case["params"]["stop"].is_object() {
             for kind in ["contact", "impact"] {
                 let counted = number(&answer.json["stop"][format!("{kind}_count")]);
-                compare(kind.to_owned(), counted, case["counts"][kind].as_f64().unwrap_or(0.0), 0.0);
+                compare(
+                    kind.to_owned(),
+                    counted,
+                    case["counts"][kind].as_f64().unwrap_or(0.0),
+                    0.0,
+                );
             }
         }
     }

@@ -8,9 +8,7 @@ use crate::model::Model;
 use crate::motion::{GroundMotion, spectrum};
 use crate::response::{History, Response, Warning};
 use crate::solver;
-use crate::study::notices::{
-    coarse_sampling, highest_hz, longest_step_s, suspicious,
-};
+use crate::study::notices::{coarse_sampling, highest_hz, longest_step_s, suspicious};
 
 /// Damping ratio of floor spectra.
 const FLOOR_SPECTRUM_DAMPING: f64 = 0.05;

@@ -175,9 +175,8 @@ pub(super) fn raise(rule: &Rule, peak: &mut f64, values: &[f64; POINTS]) {
     let size = |value: f64| value.abs();
     let at = |best: usize, i: usize| if size(values[i]) > size(values[best]) { i } else { best };
     let best = (1..POINTS).fold(0, at);
-    let (least, most) = values
-        .iter()
-        .fold((values[0], values[0]), |(least, most), &v| (v.min(least), v.max(most)));
+    let (least, most) =
+        values.iter().fold((values[0], values[0]), |(least, most), &v| (v.min(least), v.max(most)));
     *peak = larger(*peak, values[best]);
     // Between two points the polynomial rises above both by less than a tenth of its range.
     if size(values[best]) + 0.1 * (most - least) <= *peak * (1.0 + 1e-12) {
@@ -352,7 +351,13 @@ fn of_peaks(
 }
 
 /// The printed time of the peak is that of a knot where |s| has risen to it.
-pub(super) fn first_time(c: &mut Comparison, d: &Demands, h: &History, peak_m: f64, rounding: &Rounding) {
+pub(super) fn first_time(
+    c: &mut Comparison,
+    d: &Demands,
+    h: &History,
+    peak_m: f64,
+    rounding: &Rounding,
+) {
     let at_s = d.peak_sliding_displacement_time_s;
     let size = |k: usize| h.sliding_displacement_m[k].abs();
     let near = |k: &usize| (h.time_s[*k] - at_s).abs() <= rounding.instant_s;

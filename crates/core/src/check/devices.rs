@@ -281,7 +281,10 @@ impl<'a> Judge<'a> {
         }
         Certificate {
             equilibrium_residual: equilibrium.into_iter().fold(0.0, larger),
-            friction_excess: relative([self.excess, self.slider.scale(normal, self.model.weight_n())]),
+            friction_excess: relative([
+                self.excess,
+                self.slider.scale(normal, self.model.weight_n()),
+            ]),
             energy_balance_error: self.energy.error(),
             demands_error,
             closest_call: self.closest,
@@ -321,8 +324,7 @@ impl<'a> Judge<'a> {
         let speed = sliding.max(most(&h.storey_velocity_m_per_s));
         self.displacement[1] =
             place.max(most(&h.contents_displacement_m)).max(self.instant_s * jolt);
-        self.velocity[1] =
-            speed.max(most(&h.contents_velocity_m_per_s)).max(rest).max(jolt);
+        self.velocity[1] = speed.max(most(&h.contents_velocity_m_per_s)).max(rest).max(jolt);
         self.still = STILL * sliding + 64.0 * f64::EPSILON * self.velocity[1];
         Some(())
     }
@@ -428,7 +430,8 @@ impl<'a> Judge<'a> {
         }
         let table = self.h.table_acceleration_m_per_s2[k];
         let all = self.ground.instant(self.h.time_s[k]);
-        let nearest = all.iter().map(|load| (load.table - table).abs()).fold(f64::INFINITY, f64::min);
+        let nearest =
+            all.iter().map(|load| (load.table - table).abs()).fold(f64::INFINITY, f64::min);
         let loads: Vec<Load> =
             all.into_iter().filter(|load| (load.table - table).abs() <= nearest).collect();
         for i in 0..after.len() {
@@ -471,10 +474,7 @@ impl<'a> Judge<'a> {
         }
         if before[0] != Mode::Stick
             && before[0] != after[0]
-            && let Some(margin) = self.slider.next_join(
-                self.h.surface_displacements(k),
-                before[0],
-            )
+            && let Some(margin) = self.slider.next_join(self.h.surface_displacements(k), before[0])
         {
             self.nearest(ClosestCall { margin, time_s: self.h.time_s[k], kind: "join" });
         }
@@ -518,9 +518,16 @@ impl<'a> Judge<'a> {
     fn between_knots<'b>(&self, k: usize, modes: &'b [Mode]) -> Between<'b> {
         let sliding = match modes[0] {
             Mode::Stick => None,
-            Mode::Slip(direction) => self.slider.sliding(self.h.surface_displacements(k), direction),
+            Mode::Slip(direction) => {
+                self.slider.sliding(self.h.surface_displacements(k), direction)
+            }
         };
-        Between { modes, contact: self.contact(k), sliding, from_m: self.h.sliding_displacement_m[k] }
+        Between {
+            modes,
+            contact: self.contact(k),
+            sliding,
+            from_m: self.h.sliding_displacement_m[k],
+        }
     }
 
     /// Judges what is stored at a knot by the load that suits it best.
@@ -693,7 +700,9 @@ impl<'a> Judge<'a> {
                 rates[i].copy_from_slice(&nodes[i].rate);
             }
             // A change that no longer shrinks is rounding.
-            if change == 0.0 || (change >= 0.5 * last && change <= 1e-12 * self.own.jerked(0).max(1.0)) {
+            if change == 0.0
+                || (change >= 0.5 * last && change <= 1e-12 * self.own.jerked(0).max(1.0))
+            {
                 break;
             }
             last = change;
@@ -723,9 +732,7 @@ impl<'a> Judge<'a> {
             Mode::Stick => all
                 .iter()
                 .zip(rule.points)
-                .map(|((now, x, _), t)| {
-                    self.holds(now, (k, x[0]), (0, true), &between(loads, t))
-                })
+                .map(|((now, x, _), t)| self.holds(now, (k, x[0]), (0, true), &between(loads, t)))
                 .collect(),
             Mode::Slip(_) => Vec::new(),
         };
@@ -769,8 +776,11 @@ impl<'a> Judge<'a> {
                         }
                         if i == 0 {
                             self.dips.feed(from_s + t * step_s, speeds[point]);
-                            let broken =
-                                self.slider.contact_excess(b.contact, (x[0], v[0]), self.slack(v[0]));
+                            let broken = self.slider.contact_excess(
+                                b.contact,
+                                (x[0], v[0]),
+                                self.slack(v[0]),
+                            );
                             self.excess = larger(self.excess, broken);
                             if let Some(beyond) = self.slider.beyond_walls(x[0]) {
                                 let off = beyond - self.instant_s * v[0].abs();
@@ -816,9 +826,8 @@ impl<'a> Judge<'a> {
             damping += weight * (self.structure.dissipation(&v[..=n]) + now.stop * v[0]);
             if b.modes[0] != Mode::Stick {
                 // The spring of a pendulum follows the normal force: its work counts as friction's.
-                friction += weight
-                    * (self.slider.pendulum(x[0], load.normal) - now.friction)
-                    * v[0];
+                friction +=
+                    weight * (self.slider.pendulum(x[0], load.normal) - now.friction) * v[0];
             }
         }
         self.energy.spend(work, size, damping, friction);

@@ -65,13 +65,11 @@ impl Structure {
             masses_kg: m.clone(),
             spring: model.slider().stiffness_n_per_m,
             damper: model.slider().damper_n_s_per_m,
-            stop: model.stop().map_or([0.0; 2], |stop| {
-                match stop.kind {
-                    StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } => {
-                        [stiffness_n_per_m, damper_n_s_per_m]
-                    }
-                    StopKind::Rigid { .. } => [0.0; 2],
+            stop: model.stop().map_or([0.0; 2], |stop| match stop.kind {
+                StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } => {
+                    [stiffness_n_per_m, damper_n_s_per_m]
                 }
+                StopKind::Rigid { .. } => [0.0; 2],
             }),
             stiffnesses: k.clone(),
             damping,

@@ -132,6 +132,14 @@ impl RateLaw {
     /// Coefficient at a speed in m/s.
     #[must_use]
     pub fn at(&self, speed_m_per_s: f64, direction: Direction) -> f64 {
+        if speed_m_per_s == 0.0 {
+            // As given, without the rounding of a difference.
+            let at_rest = match &self.curve {
+                RateCurve::Pieces { coefficients, .. } => coefficients[0],
+                RateCurve::Exponential { slow, .. } => *slow,
+            };
+            return self.factor(direction) * at_rest;
+        }
         self.piece(self.piece_of(speed_m_per_s), direction).at(speed_m_per_s)
     }
 

@@ -8,6 +8,9 @@ use super::rate::{Coefficient, RateLaw};
 use super::surfaces::{Series, SeriesState};
 use super::{Direction, ElasticStop, Friction};
 
+/// Levels nearer to a rigid stop than this part of its distance are at it.
+const AT_WALL: f64 = 1e-12;
+
 /// Stops that do not give way: `ṡ⁺ = −e ṡ⁻` at the end of the gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidStop {
@@ -224,12 +227,8 @@ impl SliderLaw {
     pub fn bounds(&self, memory: &Memory, direction: Direction) -> Vec<Bound> {
         let mut all = Vec::new();
         let sign = direction.sign();
-        let level = |place: f64, reached| Bound {
-            of_s: -sign,
-            of_w: 0.0,
-            constant: sign * place,
-            reached,
-        };
+        let level =
+            |place: f64, reached| Bound { of_s: -sign, of_w: 0.0, constant: sign * place, reached };
         if let Some(stop) = &self.stop {
             all.extend(stop.exits(memory.contact, direction).into_iter().flatten().map(|exit| {
                 Bound {
@@ -243,8 +242,13 @@ impl SliderLaw {
         if let Some(place) = self.rigid.and_then(|rigid| rigid.place(direction)) {
             all.push(level(place, Reached::Wall(direction, place)));
         }
+        let wall = self.rigid.and_then(|rigid| rigid.place(direction));
+        // Bounces lead the surfaces back to where they were at the stop: what joins there does not.
+        let before_wall =
+            |place: f64| wall.is_none_or(|wall| sign * (wall - place) > AT_WALL * wall.abs());
         if let Some(series) = &self.series
             && let Some(place) = series.next_level(&memory.series, direction)
+            && before_wall(place)
         {
             all.push(level(place, Reached::Surface(place)));
         }
@@ -268,8 +272,9 @@ impl SliderLaw {
         let stop_n = self.stop.map_or(0.0, |stop| stop.force_n(memory.contact, s, 0.0));
         let force_n = self.restraint.stiffness_n_per_m * s + stop_n;
         let leans = match self.rigid {
-            Some(rigid) => [Direction::Positive, Direction::Negative]
-                .map(|side| rigid.place(side).is_some_and(|place| side.sign() * (s - place) >= 0.0)),
+            Some(rigid) => [Direction::Positive, Direction::Negative].map(|side| {
+                rigid.place(side).is_some_and(|place| side.sign() * (s - place) >= 0.0)
+            }),
             None => [false; 2],
         };
         if let Some(series) = &self.series {
@@ -295,7 +300,11 @@ impl SliderLaw {
         };
         let sliding = match &self.series {
             Some(series) => series.force(&begun.series, direction)[0],
-            None => direction.sign() * self.coefficient(begun, direction).at(0.0),
+            None => {
+                let at_rest = self.rate.as_ref().map(|rate| rate.at(0.0, direction));
+                let constant = || self.friction.kinetic_coefficient(direction);
+                direction.sign() * at_rest.unwrap_or_else(constant)
+            }
         };
         direction.sign() * (held - sliding)
     }

@@ -183,9 +183,8 @@ impl Series {
     /// `φ` at the beginning of the branch and its slope over `s`.
     pub(super) fn force(&self, state: &SeriesState, direction: Direction) -> [f64; 2] {
         let active = || (0..self.surfaces.len()).filter(|&i| state.active[i]);
-        let least = active()
-            .map(|i| self.threshold(state, i, direction))
-            .fold(f64::INFINITY, f64::min);
+        let least =
+            active().map(|i| self.threshold(state, i, direction)).fold(f64::INFINITY, f64::min);
         let flat = active().any(|i| self.surfaces[i].radius_m.is_none());
         let radii: f64 = active().filter_map(|i| self.surfaces[i].radius_m).sum();
         [direction.sign() * least, if flat { 0.0 } else { 1.0 / radii }]

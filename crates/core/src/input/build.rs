@@ -7,12 +7,8 @@ use super::motion::{self, MotionSource};
 use super::reader::Values;
 use super::{Analysis, FrictionBounds, Names};
 use crate::error::{InputError, ModelError};
-use crate::friction::{
-    Coulomb, Direction, Friction, RateCurve, RateLaw, Series, Surface,
-};
-use crate::model::{
-    Block, Contents, Devices, Frame, InitialState, Model, Slider, Stop, StopKind,
-};
+use crate::friction::{Coulomb, Direction, Friction, RateCurve, RateLaw, Series, Surface};
+use crate::model::{Block, Contents, Devices, Frame, InitialState, Model, Slider, Stop, StopKind};
 use crate::response::Method;
 use crate::units::STANDARD_GRAVITY_M_PER_S2;
 
@@ -286,8 +282,9 @@ fn triple(values: &Values) -> Result<Vec<Surface>, InputError> {
         let path = format!("slider.triple.{key}");
         let list = values.numbers(&path).unwrap_or_default();
         let found = list.len().to_string();
-        list.try_into()
-            .map_err(|_| values.error(&path, "four values, one a surface from the bottom up", found))
+        list.try_into().map_err(|_| {
+            values.error(&path, "four values, one a surface from the bottom up", found)
+        })
     };
     let [r1, r2, r3, r4] = four("effective_radius")?;
     let [mu1, mu2, mu3, mu4] = four("friction")?;

@@ -2,7 +2,8 @@
 
 use super::schema::{Exclusive, Key, Kind, Range, Section};
 use crate::units::Dimension::{
-    Acceleration, Angle, Damper, Force, Frequency, Length, Mass, Slowness, Stiffness, Time, Velocity,
+    Acceleration, Angle, Damper, Force, Frequency, Length, Mass, Slowness, Stiffness, Time,
+    Velocity,
 };
 
 /// The most storeys a model may have: more than any building has, few enough that finding all their

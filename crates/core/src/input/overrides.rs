@@ -231,9 +231,7 @@ fn set(
     }
     let index = index.unwrap_or_else(|| {
         let empty = match key.kind {
-            Kind::Sections(_) | Kind::Quantities(..) | Kind::Numbers(_) => {
-                Value::List(Vec::new())
-            }
+            Kind::Sections(_) | Kind::Quantities(..) | Kind::Numbers(_) => Value::List(Vec::new()),
             _ => Value::Table(Table(Vec::new())),
         };
         let node = Node { spot: spot.clone(), value: empty };

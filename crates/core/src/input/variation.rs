@@ -153,7 +153,11 @@ impl Variation {
         DemandShape {
             storeys: self.values.count("storey"),
             stop: self.has("slider.stop"),
-            surfaces: if self.has("slider.triple") { 3 } else { self.values.count("slider.surface") },
+            surfaces: if self.has("slider.triple") {
+                3
+            } else {
+                self.values.count("slider.surface")
+            },
             contents: self.values.count("contents"),
         }
     }

@@ -17,7 +17,7 @@ use super::run::{Outcome, Sliding, Start, Stopping};
 use super::tables::system_of;
 use crate::error::SolveError;
 use crate::friction::{
-    Bound, Coefficient, Direction, Memory, Reached, Rest, Restraint, SlipForce, SliderLaw,
+    Bound, Coefficient, Direction, Memory, Reached, Rest, Restraint, SliderLaw, SlipForce,
 };
 use crate::linear::polynomial::{DEGREE, Polynomial, deflated, first_root, value};
 use crate::model::Model;
@@ -120,8 +120,7 @@ impl<'a> Stepping<'a> {
         };
         let mut modes = vec![Mode::Stick; 1 + count];
         if w != 0.0 {
-            modes[0] =
-                Mode::Slip(if w > 0.0 { Direction::Positive } else { Direction::Negative });
+            modes[0] = Mode::Slip(if w > 0.0 { Direction::Positive } else { Direction::Negative });
         }
         let memory = law.initial(s, w);
         let surfaces = law.surfaces(&memory, s).len();
@@ -223,7 +222,9 @@ impl<'a> Stepping<'a> {
         };
         let contents = (0..self.body.contents.len())
             .map(|i| ContentsDemands {
-                peak_sliding_displacement_m: self.sliding[1 + i].max_m.max(-self.sliding[1 + i].min_m),
+                peak_sliding_displacement_m: self.sliding[1 + i]
+                    .max_m
+                    .max(-self.sliding[1 + i].min_m),
                 residual_sliding_displacement_m: self.x.r[i],
                 sliding_path_m: self.sliding[1 + i].path_m,
                 sliding_time_s: self.sliding[1 + i].time_s,
@@ -247,15 +248,14 @@ impl<'a> Stepping<'a> {
         let warnings = self.first_impact_s.map(|time_s| Warning {
             kind: "impulses_excluded",
             time_s: Some(time_s),
-            message: "the block strikes a rigid stop: peak accelerations and forces are those of the \
+            message:
+                "the block strikes a rigid stop: peak accelerations and forces are those of the \
                       motion between impacts, without the impulses"
-                .to_owned(),
+                    .to_owned(),
         });
         let has_stop = self.law.stop.is_some() || self.law.rigid.is_some();
-        let demands = StopDemands {
-            impact_count: count(0, EventKind::Impact),
-            ..self.stopping.demands
-        };
+        let demands =
+            StopDemands { impact_count: count(0, EventKind::Impact), ..self.stopping.demands };
         Stepped {
             outcome: Outcome {
                 events: self.events,

@@ -449,7 +449,8 @@ fn struck() -> (System, Response) {
         time_s,
         kind,
         mode,
-        sliding_displacement_m: state(time_s).0, interface: 0
+        sliding_displacement_m: state(time_s).0,
+        interface: 0,
     };
     let events = vec![
         event(t1, EventKind::Contact, towards),

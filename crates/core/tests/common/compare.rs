@@ -68,7 +68,8 @@ pub fn by_reference(model: &Model, motion: &GroundMotion) -> Outcome {
         time_s: e.time_s,
         kind: e.kind,
         mode: e.mode,
-        sliding_displacement_m: e.s, interface: 0
+        sliding_displacement_m: e.s,
+        interface: 0,
     };
     Outcome {
         initial_mode: r.initial_mode(),

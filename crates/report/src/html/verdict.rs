@@ -109,8 +109,7 @@ fn rest(report: &Report) -> String {
         let force = report.display.unit(Quantity::Force, stop.peak_force_n);
         text.push_str(&match stop.contact_count {
             0 if stop.peak_impact_speed_m_per_s > 0.0 => {
-                let speed =
-                    report.display.unit(Quantity::Velocity, stop.peak_impact_speed_m_per_s);
+                let speed = report.display.unit(Quantity::Velocity, stop.peak_impact_speed_m_per_s);
                 format!(
                     " The block strikes the rigid stops at {} or slower.",
                     with_unit(speed, stop.peak_impact_speed_m_per_s)

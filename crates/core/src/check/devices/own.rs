@@ -2,11 +2,11 @@
 
 use super::super::ClosestCall;
 use super::super::collocation::{POINTS, Rule};
-use super::super::demands::{Comparison, first_time, raise};
 pub(super) use super::super::demands::Rounding;
+use super::super::demands::{Comparison, first_time, raise};
 use super::super::law::contact_event;
-use super::law::Asked;
 use super::Now;
+use super::law::Asked;
 use crate::friction::Direction;
 use crate::model::{Model, StopKind};
 use crate::response::{
@@ -335,7 +335,12 @@ impl Own {
         let sums = &self.totals.interfaces;
         c.same(d.sliding_at_end == (h.modes(h.len() - 1)[0] != Mode::Stick));
         c.number(d.sliding_time_s, sums[0].sliding_s, instants_s, sums[0].sliding_s);
-        c.number(d.sliding_path_m, sums[0].path_m, near_m * sums[0].path_m / peak_m.max(near_m), sums[0].path_m);
+        c.number(
+            d.sliding_path_m,
+            sums[0].path_m,
+            near_m * sums[0].path_m / peak_m.max(near_m),
+            sums[0].path_m,
+        );
         self.of_peaks(&mut c, model, d, rounding, peak_m);
         for (e, contents) in d.contents.iter().enumerate() {
             let list: Vec<f64> = (0..h.len()).map(|k| h.contents_state(k, e)[0]).collect();
@@ -461,9 +466,9 @@ impl Own {
         };
         let interfaces = self.totals.interfaces.len();
         for interface in 0..interfaces {
-            for kind in [
-                Slip, Stick, Reversal, Contact, Separation, Press, Leave, Impact, Rest, Surface,
-            ] {
+            for kind in
+                [Slip, Stick, Reversal, Contact, Separation, Press, Leave, Impact, Rest, Surface]
+            {
                 let fits = |e: &&Event| e.kind == kind && e.interface == interface;
                 let own: Vec<&Event> =
                     self.events.iter().map(|told| &told.event).filter(fits).collect();

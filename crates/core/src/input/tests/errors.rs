@@ -513,7 +513,8 @@ fn exact_devices_that_cannot_be() {
         let head = "[block]\nmass = \"325 kg\"\n[slider]\n";
         refused(&format!("{head}{slider}\n"))
     };
-    let rate = |law: &str| model(&format!("static_friction = 0.05\nkinetic_friction = {{ {law} }}"));
+    let rate =
+        |law: &str| model(&format!("static_friction = 0.05\nkinetic_friction = {{ {law} }}"));
     let plain = "static_friction = 0.05\nkinetic_friction = 0.04\n";
     let path = "slider.kinetic_friction";
     for (found, wanted) in [

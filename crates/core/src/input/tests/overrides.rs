@@ -135,7 +135,11 @@ fn exact_messages_point_into_the_option() {
 #[test]
 fn exact_stops_are_set_by_path() {
     let stop = ["slider.stop.gap=150 mm", "slider.stop.stiffness=40 kN/mm"];
-    assert!(read(FULL, &stop[..1]).unwrap_err().contains("slider.stop: expected one of the keys stiffness"));
+    assert!(
+        read(FULL, &stop[..1])
+            .unwrap_err()
+            .contains("slider.stop: expected one of the keys stiffness")
+    );
     let analysis = read(FULL, &stop).unwrap();
     assert_eq!((analysis.model.slider().gap_m, analysis.value("slider.gap")), (None, None));
     let gap_m = |set: &[&str]| read(FULL, set).unwrap().model.stop().unwrap().gap_m;

@@ -259,7 +259,8 @@ impl Body {
                 out.u[k] = (out.slider[k] + shear + on_block) / block_kg;
             }
             for (e, contents) in self.contents.iter().enumerate() {
-                let under = if contents.floor == 0 { out.u[k] } else { out.floors[contents.floor - 1][k] };
+                let under =
+                    if contents.floor == 0 { out.u[k] } else { out.floors[contents.floor - 1][k] };
                 let mode = modes[1 + e];
                 out.carried[e][k] = match mode {
                     Mode::Stick => under,

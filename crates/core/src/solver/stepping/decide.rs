@@ -79,8 +79,7 @@ impl Stepping<'_> {
             return self.instant.u[0] - a;
         }
         let floor = self.body.contents[interface - 1].floor;
-        let under =
-            if floor == 0 { self.instant.u[0] } else { self.instant.floors[floor - 1][0] };
+        let under = if floor == 0 { self.instant.u[0] } else { self.instant.floors[floor - 1][0] };
         self.instant.carried[interface - 1][0] - under
     }
 
@@ -448,13 +447,7 @@ impl Stepping<'_> {
     ///
     /// With `P` and `Q` the accelerations towards the stop on the way in and out, speeds shrink by
     /// `r = e √(P/Q)` a bounce and `T∞ = (w⁺/Q) (1 + √(Q/P)) / (1 − r)`.
-    fn comes_to_rest(
-        &mut self,
-        stretch: &Stretch,
-        at_s: f64,
-        inward: Direction,
-        e: f64,
-    ) -> bool {
+    fn comes_to_rest(&mut self, stretch: &Stretch, at_s: f64, inward: Direction, e: f64) -> bool {
         let loads = Self::loads(stretch, at_s);
         let speed = self.x.w.abs();
         let (away, memory) = (self.modes[0], self.memory.clone());

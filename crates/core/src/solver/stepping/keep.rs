@@ -2,8 +2,8 @@
 
 use super::super::ground::Stretch;
 use super::super::outputs::output;
-use super::body::Loads;
 use super::Stepping;
+use super::body::Loads;
 use crate::linear::polynomial::{DEGREE, Polynomial, curvature_bound, largest, value};
 use crate::model::Model;
 use crate::response::Mode;
@@ -111,7 +111,8 @@ impl Stepping<'_> {
                 .map(|i| heights_m[i + 1] * body.masses_kg[i] * series.floors[i][k])
                 .sum::<f64>();
             let contents = body.contents.iter().zip(&series.carried);
-            let contents = contents.map(|(c, a)| heights_m[c.floor] * c.mass_kg * a[k]).sum::<f64>();
+            let contents =
+                contents.map(|(c, a)| heights_m[c.floor] * c.mass_kg * a[k]).sum::<f64>();
             own + floors + contents
         })
     }
@@ -176,10 +177,8 @@ impl Stepping<'_> {
     /// Records the present state as a knot at a sample.
     pub(super) fn record_sample(&mut self, sample: usize, row: bool) {
         let normal = self.ground.normal_at(sample).max(0.0);
-        let loads = Loads {
-            acceleration: [self.ground.acceleration[sample], 0.0],
-            normal: [normal, 0.0],
-        };
+        let loads =
+            Loads { acceleration: [self.ground.acceleration[sample], 0.0], normal: [normal, 0.0] };
         self.record_knot(self.ground.times_s[sample], self.ground.table[sample], &loads, row);
     }
 
