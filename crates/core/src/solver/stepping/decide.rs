@@ -61,7 +61,7 @@ impl Stepping<'_> {
             let [low, high] = rest.holds_n(normal);
             let [a, b] = rest.bounds.map(|bound| (bound * normal).abs());
             let size = a.max(b).min(f64::MAX);
-            let scale = if size > 0.0 { size } else { self.ground.weight_n.abs() };
+            let scale = if size > 0.0 { size } else { self.model.weight_n() };
             Asked { demand: self.instant.friction[0], low, high, scale }
         } else {
             let contents = &self.body.contents[interface - 1];
