@@ -198,9 +198,18 @@ fn same_mirrored(a: &Response, b: &Response) -> bool {
 /// the same numbers.
 #[test]
 fn prop_random_devices_are_certified_and_have_no_side() {
-    let count = std::env::var("SLIPSTICK_DEVICES").map_or(400, |n| n.parse().expect("a number"));
+    certified(0, 400);
+}
+
+/// The same of many more.
+#[test]
+#[ignore = "takes some minutes"]
+fn prop_many_random_devices_are_certified_and_have_no_side() {
+    certified(0, 10_000);
+}
+
+fn certified(first: u64, count: u64) {
     let (mut wrong, mut ends, mut events) = (Vec::new(), 0, 0);
-    let first = std::env::var("SLIPSTICK_SEED").map_or(0, |n| n.parse().expect("a number"));
     for seed in first..first + count {
         let system = system(seed);
         let motion_s = motion(&system, 1.0);

@@ -540,7 +540,7 @@ fn exact_devices_that_cannot_be() {
         (
             rate("velocity = [\"0 m/s\"], coefficient = [0.05, 0.02]"),
             format!(
-                "m.toml:5:57: {path}.coefficient: expected one coefficient a velocity, 1 in all, \
+                "m.toml:5:58: {path}.coefficient: expected one coefficient a velocity, 1 in all, \
                  found 2"
             ),
         ),

@@ -338,10 +338,10 @@ impl Stepping<'_> {
                 self.lean(time_s);
             }
         }
-        if let Some(contact) = self.begun.take() {
-            if self.modes[0] != Mode::Stick {
-                self.change_contact(time_s, contact);
-            }
+        if let Some(contact) = self.begun.take()
+            && self.modes[0] != Mode::Stick
+        {
+            self.change_contact(time_s, contact);
         }
     }
 
