@@ -20,18 +20,23 @@ struct Said<'a> {
     what: &'a str,
 }
 
-/// Runs the test of every case of `data/reference/cases.json` and tabulates the errors reached.
+/// Runs the tests of all cases of `data/reference/` and tabulates the errors reached.
 pub fn reference(options: &[&str]) -> Outcome {
     if !matches!(options, [] | ["--write"]) {
         return Err(format!("reference: expected --write or nothing, found {}", options.join(" ")));
     }
-    let test = "test --quiet -p slipstick --test cases -- --show-output";
+    let test = "test --quiet -p slipstick --test cases --test devices -- --show-output";
     let log = shell::output(&mut shell::cargo(test))?;
-    let path = shell::root().join("data/reference/cases.json");
-    let cases = std::fs::read_to_string(&path)
-        .map_err(|error| error.to_string())
-        .and_then(|text| serde_json::from_str::<Value>(&text).map_err(|error| error.to_string()))
-        .map_err(|error| format!("{}: {error}", path.display()))?;
+    let mut all = Vec::new();
+    for file in ["cases.json", "devices.json"] {
+        let path = shell::root().join("data/reference").join(file);
+        let read = std::fs::read_to_string(&path)
+            .map_err(|error| error.to_string())
+            .and_then(|text| serde_json::from_str::<Value>(&text).map_err(|e| e.to_string()))
+            .map_err(|error| format!("{}: {error}", path.display()))?;
+        all.extend(read["cases"].as_array().cloned().unwrap_or_default());
+    }
+    let cases = serde_json::json!({ "cases": all });
     let table = table(&cases, &said(&log))?;
     if options.is_empty() {
         print!("{table}");

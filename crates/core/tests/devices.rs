@@ -127,14 +127,20 @@ fn motion(case: &Value) -> GroundMotion {
 struct Report {
     id: String,
     wrong: Vec<String>,
+    figures: usize,
     worst: f64,
+    /// The figure that is so, and its tolerance.
+    what: String,
+    tolerance: f64,
 }
 
 impl Report {
     fn compare(&mut self, what: &str, found: f64, wanted: f64, tolerance: f64) {
         let off = (found - wanted).abs();
-        if off > 0.0 {
-            self.worst = self.worst.max(off / tolerance);
+        self.figures += 1;
+        let part = if off == 0.0 { 0.0 } else { off / tolerance };
+        if part > self.worst || self.what.is_empty() {
+            (self.worst, self.what, self.tolerance) = (part, what.to_owned(), tolerance);
         }
         if !(off <= tolerance) {
             let id = &self.id;
@@ -294,7 +300,14 @@ fn run(group: &str, count: usize) {
         }
         cases += 1;
         let (model, motion) = (model(case), motion(case));
-        let mut report = Report { id: text_of(&case["id"]), wrong: vec![], worst: 0.0 };
+        let mut report = Report {
+            id: text_of(&case["id"]),
+            wrong: vec![],
+            figures: 0,
+            worst: 0.0,
+            what: String::new(),
+            tolerance: 0.0,
+        };
         let response = match exact(&model, &motion) {
             Ok(response) => response,
             Err(error) => {
@@ -317,9 +330,9 @@ fn run(group: &str, count: usize) {
         if !certificate.holds() {
             report.wrong.push(format!("{}: certificate {a:e} {b:e} {c:e} {d:e}", report.id));
         }
+        let Report { id, figures, worst, what, tolerance, .. } = &report;
         println!(
-            "{}: {:.1e} of its tolerances, certificate {a:.1e} {b:.1e} {c:.1e} {d:.1e}",
-            report.id, report.worst
+            "case {id}: {figures} figures, worst {worst:.1e} of its tolerance {tolerance:.1e} ({what})"
         );
         wrong.extend(report.wrong);
     }
