@@ -434,15 +434,22 @@ impl<'a> Judge<'a> {
             all.iter().map(|load| (load.table - table).abs()).fold(f64::INFINITY, f64::min);
         let loads: Vec<Load> =
             all.into_iter().filter(|load| (load.table - table).abs() <= nearest).collect();
+        let (_, v) = self.stored(k);
+        let held: Vec<Mode> = (0..after.len())
+            .map(|i| {
+                let velocity = if i == 0 { v[0] } else { v[self.floors() + i] };
+                if velocity == 0.0 { Mode::Stick } else { after[i] }
+            })
+            .collect();
         for i in 0..after.len() {
             if before[i] == after[i] {
                 continue;
             }
-            // The others may have changed before it or after it.
+            // The others may have changed before it or after it, or been held meanwhile.
             let (mut least, mut nearest_beyond) = (f64::INFINITY, f64::INFINITY);
             let mut margin = None;
             for load in &loads {
-                for others in [before, after] {
+                for others in [before, after, &held[..]] {
                     let mut modes = others.to_vec();
                     modes[i] = Mode::Stick;
                     // A bounce below the rounding of s turns back to the stop: that does not hold it.

@@ -8,6 +8,9 @@ use crate::response::{Contact, Mode};
 /// Thresholds closer than this part of the largest are the same.
 const SAME: f64 = 1e-10;
 
+/// A surface is at its end from this part of its travel on: bounces at a stop leave it by little more.
+const AT_END: f64 = 1.0 - 4.0 * f64::EPSILON;
+
 /// What friction is asked for and between which forces it holds, in N.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Asked {
@@ -253,10 +256,10 @@ impl<'a> Slider<'a> {
                     let place = surface.radius_m.map_or(0.0, |radius_m| u / radius_m);
                     let friction = series.static_ratio() * surface.friction;
                     let travel_m = surface.travel_m.unwrap_or(f64::INFINITY);
-                    if *u > -travel_m * (1.0 - SAME) {
+                    if *u > -travel_m * AT_END {
                         least = least.max(place - friction);
                     }
-                    if *u < travel_m * (1.0 - SAME) {
+                    if *u < travel_m * AT_END {
                         most = most.min(place + friction);
                     }
                 }
@@ -281,7 +284,7 @@ impl<'a> Slider<'a> {
         let all = || surfaces.iter().zip(series.surfaces());
         let thresholds: Vec<Option<f64>> = all()
             .map(|(u, surface)| {
-                let ended = surface.travel_m.is_some_and(|d| sign * u >= d * (1.0 - SAME));
+                let ended = surface.travel_m.is_some_and(|d| sign * u >= d * AT_END);
                 let place = surface.radius_m.map_or(0.0, |radius_m| u / radius_m);
                 (!ended).then_some(sign * place + surface.friction)
             })
@@ -313,7 +316,7 @@ impl<'a> Slider<'a> {
         let (phi, sign) = (sliding.force(moved), sliding.direction.sign());
         let mut worst: f64 = 0.0;
         for (u, surface) in surfaces.iter().zip(series.surfaces()) {
-            let ended = surface.travel_m.is_some_and(|d| sign * u >= d * (1.0 - SAME));
+            let ended = surface.travel_m.is_some_and(|d| sign * u >= d * AT_END);
             let place = surface.radius_m.map_or(0.0, |radius_m| u / radius_m);
             if !ended {
                 worst = worst.max(sign * (phi - place) - surface.friction);
@@ -343,7 +346,7 @@ impl<'a> Slider<'a> {
             .zip(series.surfaces())
             .zip(sliding.active())
             .filter(|((u, surface), active)| {
-                !active && surface.travel_m.is_none_or(|d| sign * *u < d * (1.0 - SAME))
+                !active && surface.travel_m.is_none_or(|d| sign * *u < d * AT_END)
             })
             .map(|((u, surface), _)| {
                 let place = surface.radius_m.map_or(0.0, |radius_m| u / radius_m);

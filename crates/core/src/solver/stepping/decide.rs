@@ -14,7 +14,7 @@ use crate::response::{EventKind, Mode};
 const LEAST_BOUNCE: f64 = 4.0 * f64::EPSILON;
 
 /// Longest remaining time of infinitely many bounces, in s: it is left out.
-const LONGEST_REST_S: f64 = 1e-12;
+const LONGEST_REST_S: f64 = 1e-13;
 
 /// What friction is asked for and what it holds, over one unit where from is a series.
 #[derive(Clone, Copy)]
@@ -335,6 +335,7 @@ impl Stepping<'_> {
             }
             self.push_event(time_s, i, kind);
             if i == 0 {
+                self.come_to_stop();
                 self.lean(time_s);
             }
         }
@@ -342,6 +343,17 @@ impl Stepping<'_> {
             && self.modes[0] != Mode::Stick
         {
             self.change_contact(time_s, contact);
+        }
+    }
+
+    /// A block held within the rounding of `s` off a rigid stop is at it.
+    fn come_to_stop(&mut self) {
+        if self.modes[0] == Mode::Stick
+            && let Some(near) = self.near
+            && near.offset.abs() <= 8.0 * f64::EPSILON * near.place.abs()
+        {
+            (self.x.s, self.near) = (near.place, None);
+            self.law.settle(&mut self.memory, near.place);
         }
     }
 
