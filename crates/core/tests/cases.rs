@@ -31,8 +31,11 @@ fn run(case: &Case) {
         }
         report
     };
-    let Report { figures, worst, what, wrong } = report;
-    println!("case {}: {figures} figures, worst {worst:.1e} of its tolerance ({what})", case.id);
+    let Report { figures, worst, what, tolerance, wrong } = report;
+    println!(
+        "case {}: {figures} figures, worst {worst:.1e} of its tolerance {tolerance:.1e} ({what})",
+        case.id
+    );
     assert!(wrong.is_empty(), "{}:\n{}", case.id, wrong.join("\n"));
 }
 

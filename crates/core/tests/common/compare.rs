@@ -154,6 +154,8 @@ pub struct Report {
     /// Largest error over its tolerance (0/0 = 0), and the figure that is so.
     pub worst: f64,
     pub what: String,
+    /// Tolerance of that figure.
+    pub tolerance: f64,
     /// One line for each figure outside its tolerance.
     pub wrong: Vec<String>,
 }
@@ -164,7 +166,7 @@ impl Report {
         let error = (value - expected).abs();
         let ratio = if error == 0.0 { 0.0 } else { error / tolerance };
         if self.figures == 0 || ratio > self.worst {
-            (self.worst, self.what) = (ratio, what.to_owned());
+            (self.worst, self.what, self.tolerance) = (ratio, what.to_owned(), tolerance);
         }
         self.figures += 1;
         // NaN must fail.
