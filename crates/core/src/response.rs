@@ -100,6 +100,17 @@ pub struct Event {
     pub interface: usize,
 }
 
+impl Event {
+    /// Where it happened, as files name it: `slider`, `contents.1`.
+    #[must_use]
+    pub fn interface_name(&self) -> String {
+        match self.interface {
+            0 => "slider".to_owned(),
+            contents => format!("contents.{contents}"),
+        }
+    }
+}
+
 /// States at *knots*: every sample and both sides of every event, in order of time.
 ///
 /// Between two neighbouring knots with different times the table acceleration is linear, and modes

@@ -6,60 +6,17 @@ use slipstick::response::{Event, History};
 
 /// Writes the history: a header, then a row a sample with 17 significant digits, ended by LF.
 ///
-/// Columns: time, table acceleration, sliding displacement (block minus table) and velocity, total
-/// acceleration of the block, friction force of the table on the block; for each storey its
-/// displacement and velocity relative to the block and its total acceleration; the displacements of
-/// surfaces in series; of contents displacement and velocity relative to their floor and total
-/// acceleration. Units are in the names.
+/// The columns are those of [`History::columns`].
 ///
 /// # Errors
 /// Those of the writer.
 pub fn history_csv(history: &History, to: &mut impl Write) -> io::Result<()> {
     let mut rows = csv::Writer::from_writer(to);
-    let mut header: Vec<String> = [
-        "time_s",
-        "table_acceleration_m_per_s2",
-        "sliding_displacement_m",
-        "sliding_velocity_m_per_s",
-        "block_acceleration_m_per_s2",
-        "friction_force_n",
-    ]
-    .map(str::to_owned)
-    .to_vec();
-    for storey in 1..=history.storeys {
-        for column in ["displacement_m", "velocity_m_per_s", "acceleration_m_per_s2"] {
-            header.push(format!("storey{storey}_{column}"));
-        }
-    }
-    for surface in 1..=history.surfaces {
-        header.push(format!("surface{surface}_displacement_m"));
-    }
-    for contents in 1..=history.contents() {
-        for column in ["displacement_m", "velocity_m_per_s", "acceleration_m_per_s2"] {
-            header.push(format!("contents{contents}_{column}"));
-        }
-    }
-    rows.write_record(&header).map_err(of_file)?;
-    for &knot in &history.rows {
-        let mut row = vec![
-            history.time_s[knot],
-            history.table_acceleration_m_per_s2[knot],
-            history.sliding_displacement_m[knot],
-            history.sliding_velocity_m_per_s[knot],
-            history.block_acceleration_m_per_s2[knot],
-            history.friction_force_n[knot],
-        ];
-        let displacements = history.storey_displacements(knot);
-        let velocities = history.storey_velocities(knot);
-        let accelerations = history.storey_accelerations(knot);
-        for ((q, v), a) in displacements.iter().zip(velocities).zip(accelerations) {
-            row.extend([q, v, a]);
-        }
-        row.extend(history.surface_displacements(knot));
-        for contents in 0..history.contents() {
-            row.extend(history.contents_state(knot, contents));
-        }
-        rows.write_record(row.into_iter().map(digits)).map_err(of_file)?;
+    let columns = history.columns(&history.rows);
+    rows.write_record(columns.iter().map(|(name, _)| name)).map_err(of_file)?;
+    for row in 0..history.rows.len() {
+        let cells = columns.iter().map(|(_, values)| digits(values[row]));
+        rows.write_record(cells).map_err(of_file)?;
     }
     rows.flush()
 }
@@ -89,10 +46,7 @@ pub fn events_csv(events: &[Event], to: &mut impl Write) -> io::Result<()> {
     for event in events {
         let direction = event.mode.sign().to_string();
         let (time, s) = (digits(event.time_s), digits(event.sliding_displacement_m));
-        let interface = match event.interface {
-            0 => "slider".to_owned(),
-            contents => format!("contents.{contents}"),
-        };
+        let interface = event.interface_name();
         let row = [&time, event.kind.name(), &direction, &s, &interface];
         rows.write_record(row).map_err(of_file)?;
     }

@@ -80,11 +80,12 @@ impl Response {
         Ok(columns)
     }
 
-    /// Mode at the knots: 0 stuck, 1 and −1 sliding.
+    /// Mode of the slider at the knots: 0 stuck, 1 and −1 sliding.
     fn _modes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         let history = self.response_history();
         let modes = history.map_or(&[][..], |history| &history.mode);
-        modes.iter().map(|mode| mode.sign()).collect::<Vec<_>>().into_pyarray(py)
+        let width = history.map_or(1, |history| history.interfaces.max(1));
+        modes.iter().step_by(width).map(|mode| mode.sign()).collect::<Vec<_>>().into_pyarray(py)
     }
 
     /// Energies at the knots in J.
@@ -103,12 +104,20 @@ impl Response {
         Ok(columns)
     }
 
-    /// Events as (time in s, kind, direction, sliding displacement in m).
-    fn _events(&self) -> Vec<(f64, &'static str, f64, f64)> {
+    /// Events as (time in s, kind, direction, sliding displacement in m, interface).
+    fn _events(&self) -> Vec<(f64, &'static str, f64, f64, String)> {
         let events = &self.outcome.nominal.response.events;
         events
             .iter()
-            .map(|e| (e.time_s, e.kind.name(), e.mode.sign(), e.sliding_displacement_m))
+            .map(|e| {
+                (
+                    e.time_s,
+                    e.kind.name(),
+                    e.mode.sign(),
+                    e.sliding_displacement_m,
+                    e.interface_name(),
+                )
+            })
             .collect()
     }
 

@@ -5,7 +5,9 @@ use super::History;
 impl History {
     /// Names and values of all columns at some knots: time, table acceleration, sliding displacement
     /// and velocity, total acceleration of the block, friction force; of each storey displacement and
-    /// velocity relative to the block and total acceleration. Units are in the names.
+    /// velocity relative to the block and total acceleration; displacements of surfaces in series; of
+    /// contents displacement and velocity relative to their floor and total acceleration. Units are in
+    /// the names.
     #[must_use]
     pub fn columns(&self, knots: &[usize]) -> Vec<(String, Vec<f64>)> {
         let of = |list: &[f64], width: usize, place: usize| -> Vec<f64> {
@@ -22,15 +24,33 @@ impl History {
         .into_iter()
         .map(|(name, list)| (name.to_owned(), of(list, 1, 0)))
         .collect();
-        for i in 0..self.storeys {
-            for (name, list) in [
-                ("displacement_m", &self.storey_displacement_m),
-                ("velocity_m_per_s", &self.storey_velocity_m_per_s),
-                ("acceleration_m_per_s2", &self.storey_acceleration_m_per_s2),
-            ] {
-                columns.push((format!("storey{}_{name}", i + 1), of(list, self.storeys, i)));
+        let mut add = |part: &str, count: usize, lists: [&[f64]; 3]| {
+            let kinds = ["displacement_m", "velocity_m_per_s", "acceleration_m_per_s2"];
+            for i in 0..count {
+                for (kind, list) in kinds.iter().zip(lists).filter(|(_, list)| !list.is_empty()) {
+                    columns.push((format!("{part}{}_{kind}", i + 1), of(list, count, i)));
+                }
             }
-        }
+        };
+        add(
+            "storey",
+            self.storeys,
+            [
+                &self.storey_displacement_m,
+                &self.storey_velocity_m_per_s,
+                &self.storey_acceleration_m_per_s2,
+            ],
+        );
+        add("surface", self.surfaces, [&self.surface_displacement_m, &[], &[]]);
+        add(
+            "contents",
+            self.contents(),
+            [
+                &self.contents_displacement_m,
+                &self.contents_velocity_m_per_s,
+                &self.contents_acceleration_m_per_s2,
+            ],
+        );
         columns
     }
 }

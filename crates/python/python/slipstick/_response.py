@@ -25,14 +25,17 @@ if TYPE_CHECKING:
 
 
 class Event(NamedTuple):
-    """A change between stick and slip, of the direction of sliding, or of the contact with a stop."""
+    """A change between stick and slip, of the direction of sliding, or of what the slider is in contact with."""
 
     time_s: float
-    #: ``slip``, ``stick``, ``reversal``, ``contact``, ``separation``, ``press``, ``leave`` and so on
+    #: ``slip``, ``stick``, ``reversal``, ``contact``, ``impact``, ``surface`` and so on
     kind: str
     #: Of the sliding after it: 1 towards +x, -1 towards -x, 0 stuck
     direction: int
+    #: Of the interface
     sliding_displacement_m: float
+    #: ``slider``, or ``contents.1`` and so on
+    interface: str
 
 
 def run(
@@ -126,7 +129,7 @@ class Response:
     @cached_property
     def events(self) -> list[Event]:
         """All events in order."""
-        return [Event(t, kind, int(sign), s) for t, kind, sign, s in self._core._events()]
+        return [Event(t, kind, int(sign), s, at) for t, kind, sign, s, at in self._core._events()]
 
     @property
     def plot(self) -> Plotter:
