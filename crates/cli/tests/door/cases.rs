@@ -343,8 +343,8 @@ fn faults(case: &Value, answer: &Answer) -> Vec<String> {
     faults
 }
 
-/// Runs the cases of a file that are sampled, and says how many.
-fn through_the_command(file: &str) -> usize {
+/// Runs the cases of a file that are sampled in a folder of this name, and says how many.
+fn through_the_command(folder_name: &str, file: &str) -> usize {
     let file: Value = serde_json::from_str(file).unwrap();
     let mut wrong = String::new();
     let mut compared = 0;
@@ -354,7 +354,7 @@ fn through_the_command(file: &str) -> usize {
             continue;
         }
         let id = name(&case["id"]);
-        let folder = Folder::with_model("case", &model(case));
+        let folder = Folder::with_model(folder_name, &model(case));
         folder.write("record.csv", record(case));
         let output = folder.output(&["run", "model.toml", "--json", "--out", "out"]);
         assert_eq!(output.status.code(), Some(0), "{id}: {}", text(&output.stderr));
@@ -374,12 +374,14 @@ fn through_the_command(file: &str) -> usize {
 
 #[test]
 fn reference_cases_through_the_command() {
-    let compared = through_the_command(include_str!("../../../../data/reference/cases.json"));
+    let compared =
+        through_the_command("case", include_str!("../../../../data/reference/cases.json"));
     assert_eq!(compared, 48);
 }
 
 #[test]
 fn reference_devices_through_the_command() {
-    let compared = through_the_command(include_str!("../../../../data/reference/devices.json"));
+    let compared =
+        through_the_command("device", include_str!("../../../../data/reference/devices.json"));
     assert_eq!(compared, 43);
 }
