@@ -5,7 +5,7 @@
 //! expected and what was found. [`json_schema`] and [`Override`] speak of the same keys by the same
 //! paths, because all three read one description.
 
-use crate::error::{InputError, MotionError, Place};
+use crate::error::{ChoiceError, InputError, MotionError, Place};
 use crate::model::Model;
 use crate::response::Method;
 
@@ -100,6 +100,27 @@ impl FrictionBounds {
     pub fn all(&self) -> [Bound; 3] {
         let bound = |name, friction_factor| Bound { name, friction_factor };
         [bound("lower", self.lower), Bound::NOMINAL, bound("upper", self.upper)]
+    }
+
+    /// The bounds of a model to run: those of a name, all of them without one; none for a model that
+    /// gives no bounds and is run as it stands.
+    ///
+    /// # Errors
+    /// [`ChoiceError`] for a bound of a model that gives none.
+    pub fn chosen(given: Option<Self>, name: Option<&str>) -> Result<Vec<Bound>, ChoiceError> {
+        match (given, name) {
+            (Some(given), name) => {
+                let all = given.all().into_iter();
+                Ok(all.filter(|bound| name.is_none_or(|name| name == bound.name)).collect())
+            }
+            (None, None | Some("nominal")) => Ok(Vec::new()),
+            (None, Some(name)) => Err(ChoiceError {
+                what: "bounds".to_owned(),
+                expected: "slider.bounds in the model".to_owned(),
+                found: format!("{name:?}"),
+                nearest: None,
+            }),
+        }
     }
 }
 

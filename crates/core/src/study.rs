@@ -26,7 +26,7 @@ use engine::Engine;
 
 use crate::error::{InputError, MotionError, RunError, Stopped};
 use crate::input::plan::{Levels, Plan, Target};
-use crate::input::{Bound, MAX_RUNS, Parts, Variation};
+use crate::input::{Bound, FrictionBounds, MAX_RUNS, Parts, Variation};
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{IntensityMeasures, Measure};
 use crate::motion::target::{Matched, TargetSpectrum, matching_periods, maximum_direction};
@@ -399,18 +399,12 @@ fn chunks(range: std::ops::Range<u64>) -> impl Iterator<Item = std::ops::Range<u
 
 /// The bounds of friction that a plan runs.
 fn bounds(plan: &Plan, variation: &Variation) -> Result<Vec<Bound>, InputError> {
-    let given = variation.friction_bounds()?;
-    match (given, plan.bound) {
-        (Some(given), None) => Ok(given.all().to_vec()),
-        (Some(given), Some(name)) => {
-            Ok(given.all().into_iter().filter(|bound| bound.name == name).collect())
-        }
-        (None, None | Some("nominal")) => Ok(vec![Bound::NOMINAL]),
-        (None, Some(name)) => {
-            let expected = "slider.bounds in the model, whose bounds are run";
-            Err(plan.error_at("bounds", expected, format!("\"{name}\" without them")))
-        }
-    }
+    let Ok(bounds) = FrictionBounds::chosen(variation.friction_bounds()?, plan.bound) else {
+        let expected = "slider.bounds in the model, whose bounds are run";
+        let name = plan.bound.unwrap_or_default();
+        return Err(plan.error_at("bounds", expected, format!("\"{name}\" without them")));
+    };
+    Ok(if bounds.is_empty() { vec![Bound::NOMINAL] } else { bounds })
 }
 
 /// Factors of each record's levels, record by record, and how pairs were brought to a spectrum.

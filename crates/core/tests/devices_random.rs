@@ -201,9 +201,10 @@ fn prop_random_devices_are_certified_and_have_no_side() {
     certified(0, 400);
 }
 
-/// The same of many more.
+/// The same of many more. Some of them are not certified yet: 12 by a residual of up to 3.3e-10, and two
+/// that bounce at a stop with a surface at its end (seeds 8425 and 9417).
 #[test]
-#[ignore = "takes some minutes"]
+#[ignore = "minutes, and fails: cargo test -p slipstick --test devices_random -- --ignored"]
 fn prop_many_random_devices_are_certified_and_have_no_side() {
     certified(0, 10_000);
 }

@@ -4,17 +4,16 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slipstick::assessment::AssessmentError;
 use slipstick::assessment::design::{DesignRequest, Target, run_design};
-use slipstick::assessment::grid::levels;
+use slipstick::assessment::grid;
 use slipstick::assessment::ida::{IdaLevels, IdaRequest, run_ida};
 use slipstick::assessment::models::Models;
 use slipstick::assessment::observed::{FitTo, FragilityRequest, run_fragility};
 use slipstick::assessment::spectrum::{SpectrumRequest, run_spectrum};
 use slipstick::assessment::suite::{Scaling, Suite, SuiteRecord};
-use slipstick::input::Bound as FrictionBound;
+use slipstick::input::{Bound as FrictionBound, FrictionBounds};
 use slipstick::motion::intensity::Measure;
 use slipstick::record::Units;
 use slipstick::table;
-use slipstick::units::{Dimension, parse_quantity};
 use slipstick_files::{OpenSuite, SuiteError, SuiteRequest, read_table};
 use slipstick_report::DisplayUnits;
 use slipstick_report::assessment::design::DesignReport;
@@ -23,9 +22,8 @@ use slipstick_report::assessment::ida::IdaFamily;
 use slipstick_report::assessment::key;
 use slipstick_report::assessment::spectrum::{SpectrumReport, group_names};
 use slipstick_report::assessment::{Sheet, Went};
-use slipstick_report::display::Quantity;
 
-use crate::errors::{of_argument, of_assessment, of_file, of_unit};
+use crate::errors::{of_argument, of_assessment, of_file};
 use crate::model::Model;
 use crate::motion::Motion;
 use crate::table::Table;
@@ -144,14 +142,9 @@ fn bounds(py: Python<'_>, model: &Model, name: &str) -> PyResult<Vec<FrictionBou
         let expected = "\"all\", \"lower\", \"nominal\" or \"upper\"";
         return Err(of_argument(py, "bounds", expected, &format!("{name:?}")));
     }
-    match model.analysis.friction_bounds {
-        Some(given) => {
-            let all = given.all().into_iter();
-            Ok(all.filter(|bound| name == "all" || name == bound.name).collect())
-        }
-        None if matches!(name, "all" | "nominal") => Ok(Vec::new()),
-        None => Err(of_argument(py, "bounds", "slider.bounds in the model", name)),
-    }
+    let wanted = Some(name).filter(|name| *name != "all");
+    FrictionBounds::chosen(model.analysis.friction_bounds, wanted)
+        .map_err(|error| of_assessment(py, &AssessmentError::Choice(error)))
 }
 
 fn measure(py: Python<'_>, name: &str) -> PyResult<Measure> {
@@ -166,12 +159,7 @@ fn scaling(py: Python<'_>, name: &str, level: Option<&str>) -> PyResult<(Scaling
     let Some(text) = level else {
         return Ok((Scaling::Factor(1.0), " as recorded".to_owned()));
     };
-    let of = measure(py, name)?;
-    let values = levels("level", text, &of).map_err(|error| of_assessment(py, &error))?;
-    let [value] = values[..] else {
-        return Err(of_argument(py, "level", "one level", text));
-    };
-    Ok((Scaling::Level(of, value), format!(" scaled to {of} = {}", text.trim())))
+    Scaling::to_level("level", measure(py, name)?, text).map_err(|error| of_assessment(py, &error))
 }
 
 /// A share strictly between 0 and 1.
@@ -184,25 +172,8 @@ fn share(py: Python<'_>, name: &str, value: f64) -> PyResult<f64> {
 
 /// A limit on a demand with its unit, in SI.
 fn limit(py: Python<'_>, text: &str, demand: &str) -> PyResult<f64> {
-    let dimension = match key::quantity(demand) {
-        Quantity::Length => Some(Dimension::Length),
-        Quantity::Velocity => Some(Dimension::Velocity),
-        Quantity::Acceleration => Some(Dimension::Acceleration),
-        Quantity::Force => Some(Dimension::Force),
-        Quantity::Time => Some(Dimension::Time),
-        _ => None,
-    };
-    let value = match dimension {
-        Some(dimension) => {
-            parse_quantity(text, dimension).map_err(|error| of_unit(py, "limit", &error))?
-        }
-        None => text.trim().parse().map_err(|_| of_argument(py, "limit", "a number", text))?,
-    };
-    if value.is_finite() && value > 0.0 {
-        Ok(value)
-    } else {
-        Err(of_argument(py, "limit", "a limit > 0", text))
-    }
+    key::limit("limit", text, demand)
+        .map_err(|error| of_assessment(py, &AssessmentError::Choice(error)))
 }
 
 /// Demands over one varied value, for every record.
@@ -294,8 +265,7 @@ pub(crate) fn ida(
     models.column(demand).map_err(|error| of_assessment(py, &error))?;
     let of = self::measure(py, measure)?;
     let read = |name: &str, text: &str| {
-        slipstick::assessment::grid::levels(name, text, &of)
-            .map_err(|error| of_assessment(py, &error))
+        grid::levels(name, text, &of).map_err(|error| of_assessment(py, &error))
     };
     let at = match (levels, between) {
         (Some(text), None) => IdaLevels::Fixed(read("levels", text)?),

@@ -2,22 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use slipstick::assessment::grid::levels;
 use slipstick::assessment::models::Models;
 use slipstick::assessment::suite::{Scaling, Suite};
 use slipstick::assessment::{AssessmentError, ChoiceError};
-use slipstick::input::{self, Analysis, Bound, Override};
+use slipstick::input::{self, Analysis, Bound, FrictionBounds, Override};
 use slipstick::motion::intensity::Measure;
 use slipstick::response::{Method, Warning};
 use slipstick::study::engine::Engine;
 use slipstick::table::Table;
-use slipstick::units::{Dimension, parse_quantity};
 use slipstick_files::{
     OpenJob, OpenSuite, OutputFolder, SuiteError, SuiteRequest, on_threads, sha256_hex, to_csv,
     to_parquet,
 };
 use slipstick_report::assessment::{Sheet, Went, key};
-use slipstick_report::display::Quantity;
 use slipstick_report::{FileNote, InputText};
 
 use super::compare::name as model_name;
@@ -88,14 +85,8 @@ impl Opened {
             BoundsName::Nominal => Some("nominal"),
             BoundsName::Upper => Some("upper"),
         };
-        let Some(given) = self.analysis.friction_bounds else {
-            return match wanted {
-                None | Some("nominal") => Ok(Vec::new()),
-                Some(name) => Err(message("--bounds", "slider.bounds in the model", name)),
-            };
-        };
-        let all = given.all().into_iter();
-        Ok(all.filter(|bound| wanted.is_none_or(|name| name == bound.name)).collect())
+        FrictionBounds::chosen(self.analysis.friction_bounds, wanted)
+            .map_err(|error| choice(&error))
     }
 
     /// An error of an analysis, with the model's text where it points into that.
@@ -210,12 +201,7 @@ pub fn scaling_by(
         let words = if factor == 1.0 { " as recorded".to_owned() } else { format!(" × {factor}") };
         return Ok((Scaling::Factor(factor), words));
     };
-    let measure = measure(name)?;
-    let values = levels(option, level, &measure).map_err(failure)?;
-    let [value] = values[..] else {
-        return Err(message(&format!("--{option}"), "one level", level));
-    };
-    Ok((Scaling::Level(measure, value), format!(" scaled to {measure} = {}", level.trim())))
+    Scaling::to_level(option, measure(name)?, level).map_err(failure)
 }
 
 /// A measure by its name.
@@ -223,30 +209,9 @@ pub fn measure(name: &str) -> Result<Measure, Failure> {
     Measure::parse(name).map_err(|error| Failure::Message(format!("--measure: {error}")))
 }
 
-/// A quantity of an option.
-pub fn quantity(option: &str, text: &str, dimension: Dimension) -> Result<f64, Failure> {
-    parse_quantity(text, dimension).map_err(|error| Failure::Message(format!("{option}: {error}")))
-}
-
 /// A limit > 0 on a demand: with the unit that its key ends in, or a bare number.
 pub fn limit(option: &str, text: &str, demand: &str) -> Result<f64, Failure> {
-    let dimension = match key::quantity(demand) {
-        Quantity::Length => Some(Dimension::Length),
-        Quantity::Velocity => Some(Dimension::Velocity),
-        Quantity::Acceleration => Some(Dimension::Acceleration),
-        Quantity::Force => Some(Dimension::Force),
-        Quantity::Time => Some(Dimension::Time),
-        _ => None,
-    };
-    let value = match dimension {
-        Some(dimension) => quantity(option, text, dimension)?,
-        None => text.trim().parse().map_err(|_| message(option, "a number", text))?,
-    };
-    if value.is_finite() && value > 0.0 {
-        Ok(value)
-    } else {
-        Err(message(option, "a limit > 0", text))
-    }
+    key::limit(option, text, demand).map_err(|error| Failure::Message(error.to_string()))
 }
 
 /// A share strictly between 0 and 1.

@@ -1,5 +1,6 @@
 //! The records that a model is run on, and how they are scaled.
 
+use super::grid::levels;
 use super::{AssessmentError, refuse};
 use crate::error::{MotionError, RunError};
 use crate::input::Parts;
@@ -15,6 +16,24 @@ pub enum Scaling {
     Factor(f64),
     /// So that a measure takes a value, in its SI unit.
     Level(Measure, f64),
+}
+
+impl Scaling {
+    /// That to one level of a measure as people write it, and that in words; `what` is what errors call
+    /// the level.
+    ///
+    /// # Errors
+    /// [`AssessmentError::Choice`] for text that is not one level of the measure.
+    pub fn to_level(
+        what: &str,
+        measure: Measure,
+        text: &str,
+    ) -> Result<(Self, String), AssessmentError> {
+        let [value] = levels(what, text, &measure)?[..] else {
+            return Err(refuse(what, "one level", format!("{text:?}")));
+        };
+        Ok((Self::Level(measure, value), format!(" scaled to {measure} = {}", text.trim())))
+    }
 }
 
 /// A record of a suite.

@@ -371,10 +371,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
 
     /// Records the knot before an event at an instant that no segment has led to.
     fn note_before_event(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) {
-        // At t = 0 nothing was before; before a jump the left side stands recorded already.
-        let (interval, times_s) = (stretch.interval, self.ground.times_s);
-        let after_jump = interval == 0 || times_s[interval - 1] == times_s[interval];
-        if !(at_sample && after_jump) {
+        if !(at_sample && self.ground.starts_anew(stretch.interval)) {
             self.record(stretch, at_s, false);
         }
     }
@@ -385,17 +382,16 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         if self.recorder.is_none() {
             return;
         }
-        let (interval, times_s) = (stretch.interval, self.ground.times_s);
+        let interval = stretch.interval;
         if at_s == 0.0 {
             self.record_sample(interval, row);
             return;
         }
-        let length_s = times_s[interval + 1] - times_s[interval];
-        let [from, to] = [self.ground.table[interval], self.ground.table[interval + 1]];
-        let table = from + (to - from) * (at_s / length_s);
+        let time_s = self.ground.times_s[interval] + at_s;
+        let table = self.ground.table_at(interval, at_s);
         let (a, normal) = (stretch.acceleration_at(at_s), stretch.normal_at(at_s));
         let x = core::mem::take(&mut self.x);
-        self.record_knot(times_s[interval] + at_s, &x, [table, a, normal], row);
+        self.record_knot(time_s, &x, [table, a, normal], row);
         self.x = x;
     }
 }

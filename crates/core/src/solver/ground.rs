@@ -197,6 +197,19 @@ impl Ground<'_> {
         }
     }
 
+    /// Whether an interval starts where nothing was before: at t = 0, or after a jump, whose left side
+    /// stands recorded already.
+    pub(super) fn starts_anew(&self, interval: usize) -> bool {
+        interval == 0 || self.times_s[interval - 1] == self.times_s[interval]
+    }
+
+    /// `Ü` at a time after an interval's first sample.
+    pub(super) fn table_at(&self, interval: usize, at_s: f64) -> f64 {
+        let length_s = self.times_s[interval + 1] - self.times_s[interval];
+        let [from, to] = [self.table[interval], self.table[interval + 1]];
+        from + (to - from) * (at_s / length_s)
+    }
+
     /// Where in an interval (as a part of it) contact is lost or regained.
     #[inline(always)]
     pub(super) fn contact_change(&self, interval: usize) -> Option<f64> {

@@ -203,7 +203,7 @@ fn solve(
         normal,
         sampling,
     };
-    if model.has_devices(varying.is_some()) && !model.is_plain_between_stops(varying.is_some()) {
+    if !model.is_plain_between_stops(varying.is_some()) {
         return stepped(model, motion, ground, with_history);
     }
     let law = model.law();

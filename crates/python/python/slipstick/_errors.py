@@ -3,7 +3,14 @@
 from __future__ import annotations
 
 
-class InputError(ValueError):
+class _Told(Exception):
+    """An error that pickles with its attributes."""
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _rebuild, (type(self), str(self), dict(self.__dict__))
+
+
+class InputError(_Told, ValueError):
     """A model, a plan or an argument that cannot be.
 
     Attributes
@@ -41,11 +48,8 @@ class InputError(ValueError):
         self.found = found
         self.nearest = nearest
 
-    def __reduce__(self) -> tuple[object, ...]:
-        return _rebuild, (type(self), str(self), dict(self.__dict__))
 
-
-class RecordError(ValueError):
+class RecordError(_Told, ValueError):
     """A file or an array that is no ground motion.
 
     Attributes
@@ -79,11 +83,8 @@ class RecordError(ValueError):
         self.expected = expected
         self.found = found
 
-    def __reduce__(self) -> tuple[object, ...]:
-        return _rebuild, (type(self), str(self), dict(self.__dict__))
 
-
-class SolveError(RuntimeError):
+class SolveError(_Told, RuntimeError):
     """An analysis that has no answer.
 
     Attributes
@@ -95,9 +96,6 @@ class SolveError(RuntimeError):
     def __init__(self, message: str, *, time_s: float | None = None) -> None:
         super().__init__(message)
         self.time_s = time_s
-
-    def __reduce__(self) -> tuple[object, ...]:
-        return _rebuild, (type(self), str(self), dict(self.__dict__))
 
 
 class StudyError(RuntimeError):

@@ -1,7 +1,8 @@
 //! Keys of demands and measures as people read them.
 
+use slipstick::error::{ChoiceError, UnitError};
 use slipstick::response::DemandColumn;
-use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
+use slipstick::units::{Dimension, STANDARD_GRAVITY_M_PER_S2, parse_quantity};
 
 use crate::display::{DisplayUnits, Quantity, Unit};
 
@@ -23,6 +24,37 @@ pub fn quantity(key: &str) -> Quantity {
     }
     let found = ENDINGS.iter().find(|(ending, _)| key.ends_with(ending));
     found.map_or(Quantity::Ratio, |(_, quantity)| *quantity)
+}
+
+/// A limit > 0 on a demand, in SI: with the unit that its key ends in, or a bare number; `what` is what
+/// errors call it.
+///
+/// # Errors
+/// [`ChoiceError`] for text that is no such quantity, and for one that is not > 0.
+pub fn limit(what: &str, text: &str, demand: &str) -> Result<f64, ChoiceError> {
+    let refuse = |expected: &str| ChoiceError {
+        what: what.to_owned(),
+        expected: expected.to_owned(),
+        found: format!("{text:?}"),
+        nearest: None,
+    };
+    let dimension = match quantity(demand) {
+        Quantity::Length => Some(Dimension::Length),
+        Quantity::Velocity => Some(Dimension::Velocity),
+        Quantity::Acceleration => Some(Dimension::Acceleration),
+        Quantity::Force => Some(Dimension::Force),
+        Quantity::Time => Some(Dimension::Time),
+        _ => None,
+    };
+    let value = match dimension {
+        Some(dimension) => {
+            parse_quantity(text, dimension).map_err(|UnitError { expected, found, nearest }| {
+                ChoiceError { what: what.to_owned(), expected, found, nearest }
+            })?
+        }
+        None => text.trim().parse().map_err(|_| refuse("a number"))?,
+    };
+    if value.is_finite() && value > 0.0 { Ok(value) } else { Err(refuse("a limit > 0")) }
 }
 
 /// `Peak sliding displacement` of `peak_sliding_displacement_m`.

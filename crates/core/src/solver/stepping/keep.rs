@@ -150,10 +150,7 @@ impl Stepping<'_> {
 
     /// Records the knot before an event at an instant that no segment has led to.
     pub(super) fn note_before(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) {
-        // At t = 0 nothing was before; before a jump the left side stands recorded already.
-        let (interval, times_s) = (stretch.interval, self.ground.times_s);
-        let after_jump = interval == 0 || times_s[interval - 1] == times_s[interval];
-        if !(at_sample && after_jump) {
+        if !(at_sample && self.ground.starts_anew(stretch.interval)) {
             self.record(stretch, at_s, false);
         }
     }
@@ -163,15 +160,14 @@ impl Stepping<'_> {
         if self.history.is_none() {
             return;
         }
-        let (interval, times_s) = (stretch.interval, self.ground.times_s);
+        let interval = stretch.interval;
         if at_s == 0.0 {
             self.record_sample(interval, row);
             return;
         }
-        let length_s = times_s[interval + 1] - times_s[interval];
-        let [from, to] = [self.ground.table[interval], self.ground.table[interval + 1]];
-        let table = from + (to - from) * (at_s / length_s);
-        self.record_knot(times_s[interval] + at_s, table, &Self::loads(stretch, at_s), row);
+        let time_s = self.ground.times_s[interval] + at_s;
+        let table = self.ground.table_at(interval, at_s);
+        self.record_knot(time_s, table, &Self::loads(stretch, at_s), row);
     }
 
     /// Records the present state as a knot at a sample.
