@@ -10,6 +10,7 @@ pub mod estimate;
 pub mod fit;
 pub mod fitted;
 pub mod free_vibration;
+pub mod identify;
 pub mod measured;
 pub mod metrics;
 pub mod shaking_table;

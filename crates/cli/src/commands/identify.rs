@@ -7,15 +7,16 @@ mod shaking_table;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use slipstick::input::{self, Analysis, Override};
-use slipstick::laboratory::estimate::Estimate;
-use slipstick::laboratory::fitted;
-use slipstick::response::Warning;
+use slipstick::input;
+use slipstick::laboratory::identify::{Identified, IdentifyError};
+use slipstick::laboratory::measured::Measured;
 use slipstick::units::{Dimension, parse_quantity};
-use slipstick_files::OutputFolder;
+use slipstick_files::{OutputFolder, SourceFile, TextFile};
 use slipstick_report::IdentifyReport;
 
-use super::run::ModelFile;
+use super::assessment::choice;
+use super::compare::WentIn;
+use super::run::{ModelFile, command_line};
 use crate::args::{IdentifyCommand, ResultArgs};
 use crate::failure::{Failure, print, say};
 
@@ -33,37 +34,71 @@ fn quantity(option: &str, text: &str, dimension: Dimension) -> Result<f64, Failu
     parse_quantity(text, dimension).map_err(|error| Failure::Message(format!("{option}: {error}")))
 }
 
+/// The text of a model file.
+fn text(model: &ModelFile) -> Result<String, Failure> {
+    let text = model.text();
+    if text.as_bytes() != model.bytes {
+        input::from_bytes(&model.name, &model.bytes, &[])
+            .map_err(|error| Failure::input(error, &text))?;
+    }
+    Ok(text)
+}
+
+/// What went wrong; `model` is the text of the model.
+fn failure(error: IdentifyError, model: &str) -> Failure {
+    match error {
+        IdentifyError::Input(error) => Failure::input(error, model),
+        IdentifyError::Choice(error) => choice(&error),
+        IdentifyError::Cyclic { .. } => Failure::CannotTell(error.to_string()),
+        error => Failure::Message(error.to_string()),
+    }
+}
+
 /// An output folder that replaces none of the inputs.
 fn output(args: &ResultArgs, inputs: &[PathBuf]) -> Result<Option<OutputFolder>, Failure> {
     let folder = args.out.as_deref().map(|out| OutputFolder::create(out, inputs));
     Ok(folder.transpose()?)
 }
 
-/// The model with what was told, and what had to be decided for it.
-fn fitted_model(
-    model: &ModelFile,
-    set: &[Override],
-    estimates: &[Estimate],
-) -> Result<(Analysis, Vec<Warning>), Failure> {
-    let (told, warnings) = fitted::overrides(estimates);
-    let all: Vec<Override> = set.iter().cloned().chain(told).collect();
-    let analysis = input::from_bytes(&model.name, &model.bytes, &all)
-        .map_err(|error| Failure::input(error, &model.text()))?;
-    Ok((analysis, warnings))
+/// What went into an identification: the model, the files in their order, the mapping.
+struct Inputs<'a> {
+    model: Option<&'a ModelFile>,
+    sources: &'a [&'a SourceFile],
+    mapping: Option<&'a TextFile>,
+}
+
+impl Inputs<'_> {
+    /// All that an output folder must not replace.
+    fn paths(&self) -> Vec<PathBuf> {
+        let sources = self.sources.iter().map(|source| source.path.clone());
+        let model = self.model.map(|model| model.path.clone());
+        let mapping = self.mapping.map(|file| file.source.path.clone());
+        sources.chain(model).chain(mapping).collect()
+    }
 }
 
 /// Writes and prints a result; status 1 where the data do not tell everything.
 fn finish(
     args: &ResultArgs,
     folder: Option<OutputFolder>,
-    report: &IdentifyReport,
-    more: &[(&str, Vec<u8>)],
+    inputs: &Inputs<'_>,
+    measured: &[Measured],
+    identified: &Identified,
 ) -> Result<ExitCode, Failure> {
+    let went_in = WentIn::of_files(inputs.model, inputs.sources, inputs.mapping);
+    let version = env!("CARGO_PKG_VERSION");
+    let report = IdentifyReport {
+        inputs: &went_in.inputs(),
+        files: &went_in.files(),
+        command_line: &command_line(),
+        ..IdentifyReport::of(version, measured, identified, args.display_units.into())
+    };
+    let more = identified.files();
     if let Some(mut folder) = folder {
         folder.write("identified.json", report.to_json().as_bytes())?;
         folder.write("report.html", report.to_html().as_bytes())?;
-        for (name, bytes) in more {
-            folder.write(name, bytes)?;
+        for (name, text) in &more {
+            folder.write(name, text.as_bytes())?;
         }
         folder.commit()?;
     }

@@ -1,10 +1,13 @@
 //! Identified parameters: what the three jobs have in common.
 
 use slipstick::laboratory::estimate::{Estimate, Outcome};
+use slipstick::laboratory::identify::{Found, Identified, cyclic_histories};
+use slipstick::laboratory::measured::Measured;
 use slipstick::response::Warning;
 
 use super::compare::{number_table, warning_json};
 use super::text::{aligned, field};
+use super::{cyclic, free_vibration, shaking_table};
 use crate::display::{DisplayUnits, Quantity};
 use crate::figures::Drawn;
 use crate::html::{self, Frame, inputs, name_table, warning_list};
@@ -22,7 +25,7 @@ pub struct IdentifyReport<'a> {
     /// The job: `cyclic`, `free-vibration` or `shaking-table`.
     pub job: &'static str,
     /// The measured files.
-    pub measured: &'a str,
+    pub measured: String,
     /// The estimates.
     pub estimates: Vec<Estimate>,
     /// Other figures, by name.
@@ -84,6 +87,85 @@ fn shown(display: DisplayUnits, unit: &'static str, values: [f64; 3]) -> ([Strin
 }
 
 impl IdentifyReport<'_> {
+    /// Of what was identified from measured files; what went in is left to the caller.
+    #[must_use]
+    pub fn of(
+        version: &'static str,
+        measured: &[Measured],
+        identified: &Identified,
+        display: DisplayUnits,
+    ) -> Self {
+        let names: Vec<&str> = measured.iter().map(|m| m.source_name.as_str()).collect();
+        let report = Self {
+            version,
+            job: "",
+            measured: names.join(", "),
+            estimates: identified.estimates.clone(),
+            facts: Vec::new(),
+            tables: Vec::new(),
+            assumption: String::new(),
+            json: Vec::new(),
+            figures: Vec::new(),
+            warnings: identified.warnings.clone(),
+            inputs: &[],
+            files: &[],
+            command_line: "",
+            display,
+        };
+        match &identified.found {
+            Found::Cyclic { fits, together, normal_force_n } => {
+                let tests = measured.iter().zip(fits).filter_map(|(measured, fit)| {
+                    let [displacement, force] = cyclic_histories(measured).ok()?;
+                    let (displacement_m, force_n) = (&displacement.values, &force.values);
+                    let name = measured.source_name.as_str();
+                    Some(cyclic::Test { name, displacement_m, force_n, fit })
+                });
+                let tests: Vec<cyclic::Test<'_>> = tests.collect();
+                let normal_n = *normal_force_n;
+                let mut tables =
+                    vec![("Cycle by cycle".to_owned(), cyclic::table(&tests, normal_n))];
+                if tests.len() > 1 {
+                    let unit = if normal_n.is_some() { "" } else { " (N)" };
+                    let rows = cyclic::by_test(&tests, normal_n);
+                    tables.insert(0, (format!("Test by test{unit}"), rows));
+                }
+                Self {
+                    job: "cyclic",
+                    json: cyclic::json(&tests, together),
+                    facts: cyclic::facts(&tests, normal_n),
+                    tables,
+                    assumption: cyclic::ASSUMPTION.to_owned(),
+                    figures: cyclic::figures(&tests, display),
+                    ..report
+                }
+            }
+            Found::FreeVibration { channel, times_s, values, fit } => {
+                let span_s = [times_s.first(), times_s.last()].map(|t| t.copied().unwrap_or(0.0));
+                Self {
+                    job: "free-vibration",
+                    facts: free_vibration::facts(*channel, span_s, fit),
+                    assumption: free_vibration::ASSUMPTION.to_owned(),
+                    json: free_vibration::json(*channel, span_s, fit),
+                    figures: free_vibration::figures(*channel, times_s, values, fit, display),
+                    ..report
+                }
+            }
+            Found::ShakingTable { fit, parameters, seed } => {
+                let (rows, figures) =
+                    shaking_table::agreement(fit, &report.measured, version, display);
+                Self {
+                    job: "shaking-table",
+                    facts: shaking_table::facts(fit, display),
+                    tables: vec![("Agreement with the best values".to_owned(), rows)],
+                    assumption: shaking_table::assumption(fit),
+                    json: shaking_table::json(fit, parameters, *seed),
+                    figures,
+                    ..report
+                }
+            }
+        }
+    }
+
     /// Whether the data tell every parameter.
     #[must_use]
     pub fn all_told(&self) -> bool {
@@ -148,7 +230,7 @@ impl IdentifyReport<'_> {
     #[must_use]
     pub fn table(&self) -> String {
         let mut text = format!("identify {}  (slipstick {})\n", self.job, self.version);
-        text.push_str(&field("Measured", self.measured));
+        text.push_str(&field("Measured", &self.measured));
         for (name, fact) in &self.facts {
             text.push_str(&field("", &format!("{name}: {fact}")));
         }
@@ -184,7 +266,7 @@ impl IdentifyReport<'_> {
         let mut keys: Vec<(&'static str, Json)> = vec![
             ("slipstick", self.version.into()),
             ("job", self.job.into()),
-            ("measured", self.measured.into()),
+            ("measured", self.measured.as_str().into()),
             ("confidence", 0.95.into()),
             ("estimates", Json::List(self.estimates.iter().map(estimate_json).collect())),
         ];
@@ -234,7 +316,7 @@ impl IdentifyReport<'_> {
         html::document(&Frame {
             kind: "Parameters from a test",
             title_end: ": identified parameters",
-            name: self.measured,
+            name: &self.measured,
             line: &format!("Slipstick {}, identify {}.", self.version, self.job),
             version: self.version,
             command_line: self.command_line,

@@ -1,0 +1,346 @@
+//! The three jobs of identification from measured files to estimates and, where a model is given, that
+//! model with what was told.
+
+use super::compare::table_csv;
+use super::cyclic::{
+    self, CyclicError, CyclicEstimates, CyclicFit, CyclicTest, estimates, zero_not_stated,
+};
+use super::estimate::Estimate;
+use super::fitted;
+use super::free_vibration::{FreeVibration, free_vibration as fit_free_vibration};
+use super::measured::{Measured, Series};
+use super::shaking_table::{
+    Builder, Parameter, ParameterError, TableError, TableFit, TableTest, shaking_table as fit_table,
+};
+use crate::error::{ChoiceError, InputError, RecordError, similar};
+use crate::input::{self, Analysis, Channel, Override};
+use crate::response::Warning;
+use crate::study::engine::Engine;
+
+/// The text of a model and the keys that are set from outside.
+#[derive(Clone, Copy, Debug)]
+pub struct ModelText<'a> {
+    /// What messages call it.
+    pub name: &'a str,
+    /// All its keys, as TOML.
+    pub text: &'a str,
+    /// Keys set from outside.
+    pub set: &'a [Override],
+}
+
+impl ModelText<'_> {
+    fn analysis(&self) -> Result<Analysis, InputError> {
+        input::parse(self.name, self.text, self.set)
+    }
+
+    /// The model with what was told, and what had to be decided for it.
+    fn fitted(&self, estimates: &[Estimate]) -> Result<(Analysis, Vec<Warning>), InputError> {
+        let (told, warnings) = fitted::overrides(estimates);
+        let set: Vec<Override> = self.set.iter().cloned().chain(told).collect();
+        Ok((input::parse(self.name, self.text, &set)?, warnings))
+    }
+}
+
+/// The text of a model of a block alone, whose friction a test replaces; the mass as it was written.
+#[must_use]
+pub fn block_text(mass: &str) -> String {
+    let mass = mass.trim();
+    format!("[block]\nmass = \"{mass}\"\n\n[slider]\nstatic_friction = 1\nkinetic_friction = 1\n")
+}
+
+/// What was identified.
+#[derive(Clone, Debug)]
+pub struct Identified {
+    /// One estimate a parameter.
+    pub estimates: Vec<Estimate>,
+    /// The given model with what was told.
+    pub model: Option<Analysis>,
+    /// What a reader must know.
+    pub warnings: Vec<Warning>,
+    /// What only one of the jobs has.
+    pub found: Found,
+}
+
+impl Identified {
+    /// The fitted model and what it needs beside it, by the names of their files.
+    #[must_use]
+    pub fn files(&self) -> Vec<(&'static str, String)> {
+        let table = match &self.found {
+            Found::ShakingTable { fit, .. } => Some(table_csv(&fit.comparison.motion)),
+            _ => None,
+        };
+        let record = table.as_ref().map(|_| TABLE_FILE);
+        let model = self.model.as_ref().map(|model| ("model.toml", model.to_toml(record)));
+        model.into_iter().chain(table.map(|text| (TABLE_FILE, text))).collect()
+    }
+}
+
+/// The file of a measured table acceleration.
+const TABLE_FILE: &str = "table.csv";
+
+/// What only one of the jobs has.
+#[derive(Clone, Debug)]
+pub enum Found {
+    /// Cyclic tests.
+    Cyclic {
+        /// What each test says, in the order of the files.
+        fits: Vec<CyclicFit>,
+        /// What they say together.
+        together: CyclicEstimates,
+        /// The force that presses the block on its surface, in N, where it is known.
+        normal_force_n: Option<f64>,
+    },
+    /// Free vibration.
+    FreeVibration {
+        /// The quantity that was fitted.
+        channel: Channel,
+        /// The times that were fitted, in s.
+        times_s: Vec<f64>,
+        /// Its values there, in SI.
+        values: Vec<f64>,
+        /// The fit.
+        fit: FreeVibration,
+    },
+    /// A shaking-table record.
+    ShakingTable {
+        /// The fit.
+        fit: Box<TableFit>,
+        /// What was fitted.
+        parameters: Vec<Parameter>,
+        /// Seed of the global start.
+        seed: u64,
+    },
+}
+
+/// Why nothing was identified.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum IdentifyError {
+    /// The model.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// A file lacks a quantity.
+    #[error(transparent)]
+    Measured(#[from] RecordError),
+    /// Something chosen that cannot be.
+    #[error(transparent)]
+    Choice(#[from] ChoiceError),
+    /// A key to fit.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
+    /// A cyclic test that says nothing.
+    #[error("{source_name}: {error}")]
+    Cyclic {
+        /// The file.
+        source_name: String,
+        /// Why.
+        error: CyclicError,
+    },
+    /// A shaking-table record that says nothing.
+    #[error(transparent)]
+    Table(#[from] TableError),
+}
+
+/// What is asked of cyclic tests.
+#[derive(Clone, Copy, Debug)]
+pub struct CyclicRequest<'a> {
+    /// A model that takes the friction found.
+    pub model: Option<ModelText<'a>>,
+    /// The force that presses the block on its surface, in N; the weight of the model if `None`.
+    pub normal_force_n: Option<f64>,
+    /// As in [`CyclicTest`].
+    pub slack_m: Option<f64>,
+    /// As in [`CyclicTest`].
+    pub spring: bool,
+    /// As in [`CyclicTest`].
+    pub damper: bool,
+}
+
+/// Displacement and force of a cyclic test.
+///
+/// # Errors
+/// [`RecordError`] where the file lacks either.
+pub fn cyclic_histories(measured: &Measured) -> Result<[&Series; 2], RecordError> {
+    let displacement = match measured.get(Channel::SlidingDisplacement) {
+        Some(sliding) if measured.get(Channel::Displacement).is_none() => sliding,
+        _ => measured.require(Channel::Displacement)?,
+    };
+    Ok([displacement, measured.require(Channel::Force)?])
+}
+
+/// Identifies friction, spring and damper from one or several cyclic tests.
+///
+/// # Errors
+/// [`IdentifyError`] for a model that cannot be, a normal force that is not positive, a file without
+/// displacement and force, a test in which nothing slides or with too few cycles.
+pub fn cyclic(
+    request: &CyclicRequest<'_>,
+    measured: &[Measured],
+) -> Result<Identified, IdentifyError> {
+    let given = request.model.map(|model| model.analysis()).transpose()?;
+    let weight_n = given.map(|given| given.model.weight_n());
+    let normal_force_n = request.normal_force_n.or(weight_n);
+    if let Some(found) = normal_force_n.filter(|n| !(*n > 0.0)) {
+        let (expected, found) = ("more than 0 N".to_owned(), format!("{found} N"));
+        let what = "normal-force".to_owned();
+        return Err(ChoiceError { what, expected, found, nearest: None }.into());
+    }
+    let histories: Result<Vec<_>, _> = measured.iter().map(cyclic_histories).collect();
+    let histories = histories?;
+    let mut fits = Vec::with_capacity(measured.len());
+    for (measured, [displacement, force]) in measured.iter().zip(&histories) {
+        let test = CyclicTest {
+            times_s: &displacement.times_s,
+            displacement_m: &displacement.values,
+            force_n: &force.values,
+            slack_m: request.slack_m,
+            spring: request.spring,
+            damper: request.damper,
+            // An offset of the displacement is one of the force where a spring is fitted.
+            zero_known: force.zero_known && (displacement.zero_known || !request.spring),
+        };
+        let of_file =
+            |error| IdentifyError::Cyclic { source_name: measured.source_name.clone(), error };
+        fits.push(cyclic::cyclic(&test).map_err(of_file)?);
+    }
+    let all: Vec<&CyclicFit> = fits.iter().collect();
+    let forces = histories.iter().flat_map(|[_, force]| &force.values);
+    let largest_n = forces.fold(0.0, |m: f64, f| m.max(f.abs()));
+    let together = estimates(&all, largest_n, normal_force_n);
+    let mut warnings: Vec<_> = measured.iter().flat_map(|m| m.warnings.clone()).collect();
+    warnings.extend(fits.iter().filter_map(CyclicFit::warning));
+    warnings.extend(zero_not_stated(&all));
+    let friction = together.estimates.first().and_then(Estimate::value);
+    let mut model = None;
+    if let Some(text) = request.model.filter(|_| friction.is_some()) {
+        let (analysis, decided) = text.fitted(&together.estimates)?;
+        warnings.extend(decided);
+        model = Some(analysis);
+    }
+    let estimates = together.estimates.iter().chain(&together.per_hz).cloned().collect();
+    let found = Found::Cyclic { fits, together, normal_force_n };
+    Ok(Identified { estimates, model, warnings, found })
+}
+
+/// What is asked of a record of free vibration.
+#[derive(Clone, Copy, Debug)]
+pub struct FreeVibrationRequest<'a> {
+    /// A model that takes frequency and damping ratio.
+    pub model: Option<ModelText<'a>>,
+    /// The quantity to fit; the only one of the file if `None`.
+    pub channel: Option<&'a str>,
+    /// First and last time to fit, in s.
+    pub span_s: [f64; 2],
+}
+
+/// Identifies frequency and damping ratio of a storey.
+///
+/// # Errors
+/// [`IdentifyError`] for a model that cannot be, and where the quantity is not there or must be chosen.
+pub fn free_vibration(
+    request: &FreeVibrationRequest<'_>,
+    measured: &Measured,
+) -> Result<Identified, IdentifyError> {
+    let series = chosen(measured, request.channel)?;
+    let [from_s, to_s] = request.span_s;
+    let inside = |t: &f64| (from_s..=to_s).contains(t);
+    let (times_s, values): (Vec<f64>, Vec<f64>) = series
+        .times_s
+        .iter()
+        .zip(&series.values)
+        .filter(|(t, _)| inside(t))
+        .map(|(t, v)| (*t, *v))
+        .unzip();
+    let fit = fit_free_vibration(&times_s, &values);
+    let estimates = vec![fit.frequency.clone(), fit.damping_ratio.clone()];
+    let mut warnings = measured.warnings.clone();
+    let mut model = None;
+    if let Some(text) = request.model.filter(|_| fit.frequency.value().is_some()) {
+        let (analysis, decided) = text.fitted(&estimates)?;
+        warnings.extend(decided);
+        model = Some(analysis);
+    }
+    let found = Found::FreeVibration { channel: series.channel, times_s, values, fit };
+    Ok(Identified { estimates, model, warnings, found })
+}
+
+/// The quantity asked for, else the only one.
+fn chosen<'a>(measured: &'a Measured, name: Option<&str>) -> Result<&'a Series, ChoiceError> {
+    let fault = |found: &str| {
+        let names: Vec<String> = measured.series.iter().map(|s| s.channel.name()).collect();
+        let expected = match names.as_slice() {
+            [] => format!(
+                "a quantity in {}, such as --map \"storey1_acceleration = COLUMN [g]\"",
+                measured.source_name
+            ),
+            _ => format!("one of the quantities {} of {}", names.join(", "), measured.source_name),
+        };
+        let nearest = similar(found, names.iter().map(String::as_str));
+        let (what, found) = ("channel".to_owned(), found.to_owned());
+        ChoiceError { what, expected, found, nearest }
+    };
+    match (name, measured.series.as_slice()) {
+        (Some(name), _) => {
+            let channel = Channel::parse(name).and_then(|channel| measured.get(channel));
+            channel.ok_or_else(|| fault(name))
+        }
+        (None, [only]) => Ok(only),
+        (None, _) => Err(fault("none")),
+    }
+}
+
+/// What is asked of a shaking-table record.
+#[derive(Clone, Copy, Debug)]
+pub struct ShakingTableRequest<'a> {
+    /// The model.
+    pub model: ModelText<'a>,
+    /// Its keys to fit, each perhaps with its range: `slider.spring=100 kN/m..200 kN/m`.
+    pub fit: &'a [&'a str],
+    /// Names of the quantities to fit; all that the model has if empty.
+    pub using: &'a [&'a str],
+    /// Seed of the random starts.
+    pub seed: u64,
+}
+
+/// Identifies keys of a model; the engine is told of every run of it.
+///
+/// # Errors
+/// [`IdentifyError`] for a model, a key or a quantity that cannot be, and as [`fit_table`].
+pub fn shaking_table(
+    request: &ShakingTableRequest<'_>,
+    measured: &Measured,
+    engine: &Engine<'_>,
+) -> Result<Identified, IdentifyError> {
+    let text = request.model;
+    let analysis = text.analysis()?;
+    let parameters = request.fit.iter().map(|one| Parameter::parse(one, &analysis, request.fit));
+    let parameters: Vec<Parameter> = parameters.collect::<Result<_, _>>()?;
+    let builder = Builder::new(text.name, text.text, text.set, &parameters);
+    let build = |values: &[f64]| builder.model(values);
+    let using: Result<Vec<Channel>, ChoiceError> = request.using.iter().map(used).collect();
+    let test = TableTest {
+        measured,
+        parameters: &parameters,
+        build: &build,
+        start: parameters.iter().map(|p| analysis.value(&p.path)).collect(),
+        using: Some(using?).filter(|using| !using.is_empty()),
+        seed: request.seed,
+    };
+    let fit = fit_table(&test, engine)?;
+    let (model, decided) = text.fitted(&fit.estimates)?;
+    let mut warnings = fit.comparison.warnings.clone();
+    warnings.extend(fit.warnings.iter().cloned());
+    warnings.extend(decided);
+    let estimates = fit.estimates.clone();
+    let found = Found::ShakingTable { fit: Box::new(fit), parameters, seed: request.seed };
+    Ok(Identified { estimates, model: Some(model), warnings, found })
+}
+
+/// A quantity by its name.
+fn used(name: &&str) -> Result<Channel, ChoiceError> {
+    Channel::parse(name).ok_or_else(|| ChoiceError {
+        what: "using".to_owned(),
+        expected: "a quantity such as sliding_displacement or block_acceleration".to_owned(),
+        found: format!("{name:?}"),
+        nearest: None,
+    })
+}
