@@ -65,13 +65,9 @@ impl Assessment {
     }
 
     /// The figures as SVG by their names.
-    #[getter]
-    fn figures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let figures = PyDict::new(py);
-        for figure in &self.sheet.figures {
-            figures.set_item(figure.id, figure.svg.as_str())?;
-        }
-        Ok(figures)
+    fn _figures(&self) -> Vec<(&'static str, String)> {
+        let figures = self.sheet.figures.iter();
+        figures.map(|figure| (figure.id, figure.svg.as_str().to_owned())).collect()
     }
 
     /// What the command prints.

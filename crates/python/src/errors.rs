@@ -8,7 +8,11 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slipstick::assessment::AssessmentError;
 use slipstick::error::{InputError, MotionError, RecordError, SolveError, UnitError};
-use slipstick_files::{FileError, JobError, StudyError};
+use slipstick::laboratory::compare::CompareError;
+use slipstick::laboratory::identify::IdentifyError;
+use slipstick::laboratory::measured::MeasuredError;
+use slipstick::laboratory::shaking_table::{ParameterError, TableError};
+use slipstick_files::{FileError, JobError, LaboratoryError, StudyError};
 
 /// An exception of the package with fields.
 fn exception(
@@ -41,11 +45,24 @@ pub(crate) fn of_input(py: Python<'_>, error: &InputError) -> PyErr {
 
 /// An argument that cannot be.
 pub(crate) fn of_argument(py: Python<'_>, path: &str, expected: &str, found: &str) -> PyErr {
-    let message = format!("{path}: expected {expected}, found {found}");
+    of_choice(py, path, expected, found, None)
+}
+
+/// An argument that cannot be, and what was probably meant.
+pub(crate) fn of_choice(
+    py: Python<'_>,
+    path: &str,
+    expected: &str,
+    found: &str,
+    nearest: Option<&str>,
+) -> PyErr {
+    let hint = nearest.map_or(String::new(), |nearest| format!("; nearest is \"{nearest}\""));
+    let message = format!("{path}: expected {expected}, found {found}{hint}");
     exception(py, "InputError", &message, |fields| {
         fields.set_item("path", path)?;
         fields.set_item("expected", expected)?;
-        fields.set_item("found", found)
+        fields.set_item("found", found)?;
+        fields.set_item("nearest", nearest)
     })
 }
 
@@ -121,16 +138,50 @@ pub(crate) fn of_study(py: Python<'_>, error: &StudyError) -> PyErr {
     }
 }
 
+pub(crate) fn of_laboratory(py: Python<'_>, error: &LaboratoryError) -> PyErr {
+    match error {
+        LaboratoryError::File(error) => of_file(py, error),
+        LaboratoryError::Measured(MeasuredError::File(error)) => of_record(py, error),
+        LaboratoryError::Measured(MeasuredError::Mapping(error))
+        | LaboratoryError::Mapping(error) => of_input(py, error),
+    }
+}
+
+pub(crate) fn of_compare(py: Python<'_>, error: &CompareError) -> PyErr {
+    match error {
+        CompareError::Measured(error) => of_record(py, error),
+        CompareError::Motion(error) => of_motion(py, error),
+        CompareError::Solve(error) => of_solve(py, error),
+    }
+}
+
+pub(crate) fn of_identify(py: Python<'_>, error: &IdentifyError) -> PyErr {
+    match error {
+        IdentifyError::Input(error) | IdentifyError::Parameter(ParameterError::Path(error)) => {
+            of_input(py, error)
+        }
+        IdentifyError::Parameter(ParameterError::Range { text, expected, found }) => {
+            of_argument(py, &format!("fit: {text}"), expected, found)
+        }
+        IdentifyError::Measured(error) | IdentifyError::Table(TableError::Measured(error)) => {
+            of_record(py, error)
+        }
+        IdentifyError::Choice(error) => {
+            let path = error.what.replace('-', "_");
+            of_choice(py, &path, &error.expected, &error.found, error.nearest.as_deref())
+        }
+        IdentifyError::Table(TableError::Compare(error)) => of_compare(py, error),
+        IdentifyError::Table(TableError::Stopped(_)) => PyKeyboardInterrupt::new_err(()),
+        other => exception(py, "StudyError", &other.to_string(), |_| Ok(())),
+    }
+}
+
 pub(crate) fn of_assessment(py: Python<'_>, error: &AssessmentError) -> PyErr {
     match error {
         AssessmentError::Input(error) => of_input(py, error),
         AssessmentError::Choice(error) => {
-            exception(py, "InputError", &error.to_string(), |fields| {
-                fields.set_item("path", &error.what)?;
-                fields.set_item("expected", &error.expected)?;
-                fields.set_item("found", &error.found)?;
-                fields.set_item("nearest", &error.nearest)
-            })
+            let nearest = error.nearest.as_deref();
+            of_choice(py, &error.what, &error.expected, &error.found, nearest)
         }
         AssessmentError::Motion(error) => of_motion(py, error),
         AssessmentError::Stopped(_) => PyKeyboardInterrupt::new_err(()),

@@ -2,6 +2,7 @@
 
 mod assessment;
 mod errors;
+mod laboratory;
 mod model;
 mod motion;
 mod response;
@@ -17,6 +18,11 @@ mod _core {
     #[pymodule_export]
     use super::assessment::{
         Assessment, design, fragility, ida, read_suite, spectrum, table_of_files,
+    };
+    #[pymodule_export]
+    use super::laboratory::{
+        Comparison, Identified, compare_with, identify_cyclic, identify_free_vibration,
+        identify_shaking_table,
     };
     #[pymodule_export]
     use super::model::Model;

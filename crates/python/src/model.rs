@@ -28,6 +28,18 @@ impl Model {
         self.analysis.name.as_deref().unwrap_or("model")
     }
 
+    /// What results of one analysis call it: its name, else the stem of its file.
+    pub(crate) fn title(&self) -> String {
+        let stem = self.path().file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        self.analysis.name.clone().or(stem).unwrap_or_else(|| "model".to_owned())
+    }
+
+    /// A model that was made elsewhere.
+    pub(crate) fn of(analysis: Analysis) -> Self {
+        let text = analysis.to_toml_with_motion();
+        Self { analysis, source: String::new(), text }
+    }
+
     /// All its keys.
     pub(crate) fn text(&self) -> &str {
         &self.text

@@ -28,8 +28,7 @@ pub(crate) fn run(
         let job = match motion {
             None => OpenJob::new(model.path(), analysis, None)?,
             Some(Motion(loaded)) => {
-                let stem = model.path().file_stem().map(|stem| stem.to_string_lossy().into_owned());
-                let name = analysis.name.clone().or(stem).unwrap_or_else(|| "model".to_owned());
+                let name = model.title();
                 let job = Job::new(analysis, loaded.motion.clone(), loaded.warnings.clone())?;
                 OpenJob { name, job, loaded: loaded.clone() }
             }
@@ -39,6 +38,20 @@ pub(crate) fn run(
         Ok(Response { job, outcome, summary, toml })
     };
     py.detach(work).map_err(|error| of_job(py, &error))
+}
+
+/// Units to show results in.
+pub(crate) fn display_units(py: Python<'_>, name: &str) -> PyResult<DisplayUnits> {
+    Ok(match name {
+        "si" => DisplayUnits::Si,
+        "si-g" => DisplayUnits::SiG,
+        "kn-mm" => DisplayUnits::KnMm,
+        "us" => DisplayUnits::Us,
+        _ => {
+            let expected = "\"si\", \"si-g\", \"kn-mm\" or \"us\"";
+            return Err(of_argument(py, "units", expected, &format!("{name:?}")));
+        }
+    })
 }
 
 /// What came of one analysis.
@@ -123,16 +136,7 @@ impl Response {
 
     /// The report as one page of HTML.
     fn _report_html(&self, py: Python<'_>, units: &str) -> PyResult<String> {
-        let display = match units {
-            "si" => DisplayUnits::Si,
-            "si-g" => DisplayUnits::SiG,
-            "kn-mm" => DisplayUnits::KnMm,
-            "us" => DisplayUnits::Us,
-            _ => {
-                let expected = "\"si\", \"si-g\", \"kn-mm\" or \"us\"";
-                return Err(of_argument(py, "units", expected, &format!("{units:?}")));
-            }
-        };
+        let display = display_units(py, units)?;
         let (outcome, loaded) = (&self.outcome, &self.job.loaded);
         let record = loaded.description.join("; ");
         let inputs = [InputText { path: &self.job.name, text: &self.toml }];

@@ -7,7 +7,7 @@ use arrow_array::{
     ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, StringArray,
 };
 use arrow_schema::{ArrowError, DataType, Field, Schema};
-use numpy::IntoPyArray;
+use numpy::{IntoPyArray, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict, PyList};
@@ -17,6 +17,9 @@ use slipstick_files::to_csv;
 /// Named columns of equal length.
 #[pyclass(module = "slipstick._core", frozen)]
 pub struct Table(pub(crate) table::Table);
+
+/// A column as it is pickled: name, unit, kind, cells.
+type Parts<'py> = (String, String, &'static str, Bound<'py, PyAny>);
 
 /// A column as Arrow has it; its unit stands in the field's metadata under `unit`.
 fn arrow_column(column: &Column) -> (Field, ArrayRef) {
@@ -102,6 +105,39 @@ impl Table {
         let reader = RecordBatchIterator::new([Ok(batch)], schema);
         let stream = FFI_ArrowArrayStream::new(Box::new(reader));
         PyCapsule::new_with_value(py, stream, c"arrow_array_stream")
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Vec<Parts<'py>>,))> {
+        let py = slf.py();
+        let parts = slf.get().0.columns.iter().map(|column| {
+            let (kind, cells) = match &column.cells {
+                Cells::Numbers(cells) => ("numbers", cells.clone().into_pyarray(py).into_any()),
+                Cells::Counts(cells) => ("counts", PyList::new(py, cells)?.into_any()),
+                Cells::Flags(cells) => ("flags", PyList::new(py, cells)?.into_any()),
+                Cells::Texts(cells) => ("texts", PyList::new(py, cells)?.into_any()),
+            };
+            Ok((column.name.clone(), column.unit.clone(), kind, cells))
+        });
+        let parts: Vec<Parts<'py>> = parts.collect::<PyResult<_>>()?;
+        Ok((slf.get_type().getattr("_from_columns")?, (parts,)))
+    }
+
+    #[staticmethod]
+    fn _from_columns(columns: Vec<(String, String, String, Bound<'_, PyAny>)>) -> PyResult<Self> {
+        let columns = columns.into_iter().map(|(name, unit, kind, cells)| {
+            let cells = match kind.as_str() {
+                "numbers" => Cells::Numbers(
+                    cells.extract::<PyReadonlyArray1<'_, f64>>()?.as_slice()?.to_vec(),
+                ),
+                "counts" => Cells::Counts(cells.extract()?),
+                "flags" => Cells::Flags(cells.extract()?),
+                _ => Cells::Texts(cells.extract()?),
+            };
+            Ok(Column { name, unit, cells })
+        });
+        Ok(Self(table::Table { columns: columns.collect::<PyResult<_>>()? }))
     }
 
     fn __eq__(&self, other: &Self) -> bool {

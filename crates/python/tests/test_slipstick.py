@@ -1,4 +1,4 @@
-"""The package as its users meet it. SLIPSTICK_ROOT is the checkout, SLIPSTICK_COMMAND the program."""
+"""The package as its users meet it."""
 
 import multiprocessing
 import os
@@ -16,9 +16,8 @@ import numpy as np
 import pytest
 
 import slipstick as ss
+from support import EXAMPLES, block, pulse, suite
 
-ROOT = Path(os.environ.get("SLIPSTICK_ROOT", Path(__file__).resolve().parents[3]))
-EXAMPLES = ROOT / "examples"
 MODELS = ["taft.toml", "el-centro.toml", "frame-pendulum.toml"]
 
 PLAN = """\
@@ -31,16 +30,6 @@ method = "sobol"
 count = {samples}
 seed = 1
 """
-
-
-def block() -> ss.Model:
-    return ss.Model(
-        {"block": {"mass": "325 kg"}, "slider": {"static_friction": 0.1, "kinetic_friction": 0.08}}
-    )
-
-
-def pulse() -> ss.Motion:
-    return ss.Motion([0.0, 0.2, -0.2, 0.0], dt=0.5, units="g")
 
 
 def plan(folder: Path, samples: int = 32) -> Path:
@@ -344,11 +333,6 @@ def test_figures_return_axes(tmp_path: Path) -> None:
     for draw in [response.plot.history, response.plot.acceleration, response.plot.energy]:
         assert draw().get_xlabel() == "time [s]"
     matplotlib.pyplot.close("all")
-
-
-def suite() -> dict[str, ss.Motion]:
-    records = EXAMPLES / "records"
-    return ss.read_suite([records / "taft-*.txt", records / "el-centro-180.txt"], units="g", dt_s=0.01)
 
 
 def test_ida_and_fragility_are_those_of_the_command(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::response::{History, Method, Response, Warning};
 use crate::solver;
+use crate::table::Table;
 
 mod suspicions;
 mod within;
@@ -94,6 +95,58 @@ pub fn compare(
 }
 
 impl Comparison {
+    /// The figures, one row a quantity, in SI: the unit of those that have the quantity's stands
+    /// beside its name.
+    #[must_use]
+    pub fn table(&self) -> Table {
+        let mut table = Table::default();
+        let channels = self.compared.iter().map(|c| c.pair.channel);
+        table.texts("quantity", channels.clone().map(Channel::name).collect());
+        let units = channels.map(|channel| channel.dimension().si_unit().to_owned());
+        table.texts("unit", units.collect());
+        type Figure = fn(&Metrics) -> Option<f64>;
+        let figures: [(&str, &str, Figure); 18] = [
+            ("measured_peak", "", |m| Some(m.measured_peak)),
+            ("measured_peak_time_s", "s", |m| Some(m.measured_peak_time_s)),
+            ("predicted_peak", "", |m| Some(m.predicted_peak)),
+            ("predicted_peak_time_s", "s", |m| Some(m.predicted_peak_time_s)),
+            ("peak_ratio", "", |m| m.peak_ratio),
+            ("measured_residual", "", |m| Some(m.measured_residual)),
+            ("predicted_residual", "", |m| Some(m.predicted_residual)),
+            ("residual_error", "", |m| Some(m.residual_error)),
+            ("measured_rms", "", |m| Some(m.measured_rms)),
+            ("rms_error", "", |m| Some(m.rms_error)),
+            ("normalised_rms_error", "", |m| m.normalised_rms_error),
+            ("correlation", "", |m| m.correlation),
+            ("russell_magnitude", "", |m| m.russell.map(|r| r.magnitude)),
+            ("russell_phase", "", |m| m.russell.map(|r| r.phase)),
+            ("russell_comprehensive", "", |m| m.russell.map(|r| r.comprehensive)),
+            ("anderson_whole_band", "", |m| m.anderson.map(|a| a.mean())),
+            ("arrival_lag_s", "s", |m| m.arrival_lag_s),
+            ("correlation_at_lag", "", |m| m.lagged_correlation),
+        ];
+        for (name, unit, figure) in figures {
+            let cells = self.compared.iter().map(|c| figure(&c.metrics).unwrap_or(f64::NAN));
+            table.numbers(name, unit, cells.collect());
+        }
+        table
+    }
+
+    /// Measured and predicted values at their common times, by quantity.
+    #[must_use]
+    pub fn curves(&self) -> Vec<(String, Table)> {
+        let of = |Pair { channel, times_s, measured, predicted, .. }: &Pair| {
+            let unit = channel.dimension().si_unit();
+            let mut table = Table::default();
+            table
+                .numbers("time_s", "s", times_s.clone())
+                .numbers("measured", unit, measured.clone())
+                .numbers("predicted", unit, predicted.clone());
+            (channel.name(), table)
+        };
+        self.compared.iter().map(|compared| of(&compared.pair)).collect()
+    }
+
     /// The figures of a quantity.
     #[must_use]
     pub fn get(&self, channel: Channel) -> Option<&Compared> {

@@ -3,7 +3,7 @@
 
 use super::compare::table_csv;
 use super::cyclic::{
-    self, CyclicError, CyclicEstimates, CyclicFit, CyclicTest, estimates, zero_not_stated,
+    self, Cycle, CyclicError, CyclicEstimates, CyclicFit, CyclicTest, estimates, zero_not_stated,
 };
 use super::estimate::Estimate;
 use super::fitted;
@@ -16,6 +16,7 @@ use crate::error::{ChoiceError, InputError, RecordError, similar};
 use crate::input::{self, Analysis, Channel, Override};
 use crate::response::Warning;
 use crate::study::engine::Engine;
+use crate::table::Table;
 
 /// The text of a model and the keys that are set from outside.
 #[derive(Clone, Copy, Debug)]
@@ -73,6 +74,94 @@ impl Identified {
         let model = self.model.as_ref().map(|model| ("model.toml", model.to_toml(record)));
         model.into_iter().chain(table.map(|text| (TABLE_FILE, text))).collect()
     }
+}
+
+impl Identified {
+    /// The estimates, one row a parameter; of cyclic tests also one row a cycle; of a shaking-table record
+    /// also the agreement with the best values.
+    #[must_use]
+    pub fn tables(&self, measured: &[Measured]) -> Vec<(&'static str, Table)> {
+        let all = &self.estimates;
+        let numbers = |of: &dyn Fn(&Estimate) -> Option<f64>| {
+            all.iter().map(|estimate| of(estimate).unwrap_or(f64::NAN)).collect::<Vec<f64>>()
+        };
+        let mut estimates = Table::default();
+        estimates
+            .texts("parameter", all.iter().map(|e| e.path.clone()).collect())
+            .texts("unit", all.iter().map(|e| e.unit.to_owned()).collect())
+            .numbers("value", "", numbers(&Estimate::value))
+            .numbers("low", "", numbers(&|e| e.interval().map(|[low, _]| low)))
+            .numbers("high", "", numbers(&|e| e.interval().map(|[_, high]| high)))
+            .texts("cannot_tell", all.iter().map(|e| e.why().unwrap_or("").to_owned()).collect());
+        let more = match &self.found {
+            Found::Cyclic { fits, .. } => Some(("cycles", cycles(fits, measured))),
+            Found::FreeVibration { .. } => None,
+            Found::ShakingTable { fit, .. } => Some(("agreement", fit.comparison.table())),
+        };
+        core::iter::once(("estimates", estimates)).chain(more).collect()
+    }
+
+    /// What was fitted, with the fit: displacement and force of every cyclic test, by the name of its file;
+    /// the free vibration; measured and predicted values of a shaking-table record, by quantity. A
+    /// sample that was left out has no fitted value.
+    #[must_use]
+    pub fn curves(&self, measured: &[Measured]) -> Vec<(String, Table)> {
+        match &self.found {
+            Found::Cyclic { fits, .. } => {
+                let tests = measured.iter().zip(fits).filter_map(|(measured, fit)| {
+                    let [displacement, force] = cyclic_histories(measured).ok()?;
+                    let mut table = Table::default();
+                    table
+                        .numbers("time_s", "s", displacement.times_s.clone())
+                        .numbers("displacement_m", "m", displacement.values.clone())
+                        .numbers("force_n", "N", force.values.clone())
+                        .numbers("fitted_n", "N", fit.fitted_n.clone());
+                    Some((measured.source_name.clone(), table))
+                });
+                tests.collect()
+            }
+            Found::FreeVibration { channel, times_s, values, fit } => {
+                let unit = channel.dimension().si_unit();
+                let mut fitted_values = fit.fitted.clone();
+                fitted_values.resize(times_s.len(), f64::NAN);
+                let mut table = Table::default();
+                table
+                    .numbers("time_s", "s", times_s.clone())
+                    .numbers("measured", unit, values.clone())
+                    .numbers("fitted", unit, fitted_values);
+                vec![(channel.name(), table)]
+            }
+            Found::ShakingTable { fit, .. } => fit.comparison.curves(),
+        }
+    }
+}
+
+/// One row a cycle.
+fn cycles(fits: &[CyclicFit], measured: &[Measured]) -> Table {
+    let tests = measured.iter().zip(fits);
+    let names = tests.flat_map(|(m, fit)| fit.cycles.iter().map(|_| m.source_name.clone()));
+    let mut table = Table::default();
+    table.texts("test", names.collect());
+    type Figure = fn(&Cycle) -> Option<f64>;
+    let figures: [(&str, &str, Figure); 12] = [
+        ("from_s", "s", |c| Some(c.span_s[0])),
+        ("to_s", "s", |c| Some(c.span_s[1])),
+        ("frequency_hz", "Hz", |c| Some(c.frequency_hz)),
+        ("stroke_m", "m", |c| Some(c.stroke_m)),
+        ("peak_velocity_m_per_s", "m/s", |c| Some(c.peak_velocity_m_per_s)),
+        ("kinetic_positive_n", "N", |c| Some(c.kinetic_n[0])),
+        ("kinetic_negative_n", "N", |c| Some(c.kinetic_n[1])),
+        ("static_positive_n", "N", |c| c.static_n[0]),
+        ("static_negative_n", "N", |c| c.static_n[1]),
+        ("spring_n_per_m", "N/m", |c| c.spring_n_per_m),
+        ("damper_n_s_per_m", "N s/m", |c| c.damper_n_s_per_m),
+        ("residual_n", "N", |c| Some(c.residual_n)),
+    ];
+    for (name, unit, figure) in figures {
+        let cycles = fits.iter().flat_map(|fit| &fit.cycles);
+        table.numbers(name, unit, cycles.map(|c| figure(c).unwrap_or(f64::NAN)).collect());
+    }
+    table
 }
 
 /// The file of a measured table acceleration.

@@ -23,9 +23,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from . import identify
 from ._assessment import Assessment, design, fragility, ida, read_suite, spectrum
 from ._core import Model, Motion, Table, __version__
 from ._errors import InputError, RecordError, SolveError, StudyError
+from ._laboratory import Comparison, Estimate, Identified, compare
 from ._response import Event, Response, run
 from ._study import Plan, Study, study
 
@@ -34,7 +36,10 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Assessment",
+    "Comparison",
+    "Estimate",
     "Event",
+    "Identified",
     "InputError",
     "Model",
     "Motion",
@@ -46,9 +51,11 @@ __all__ = [
     "StudyError",
     "Table",
     "__version__",
+    "compare",
     "design",
     "fragility",
     "ida",
+    "identify",
     "read_record",
     "read_suite",
     "run",

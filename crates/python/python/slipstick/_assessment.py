@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
-from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from . import _core
+from ._result import Result, write
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -19,44 +18,26 @@ if TYPE_CHECKING:
     Progress = Callable[[int, int], object]
 
 
-class Assessment:
-    """What came of an analysis over many records: tables, figures, summary, report."""
+class Assessment(Result):
+    """What came of an analysis over many records: tables, figures, summary, report.
 
-    def __init__(self, core: _core.Assessment) -> None:
-        self._core = core
+    Two compare by what they tell, and pickle as that.
+    """
 
-    @cached_property
-    def tables(self) -> dict[str, _core.Table]:
-        """The tables by name, as the command writes them."""
-        return self._core.tables
-
-    @property
-    def table(self) -> _core.Table:
-        """The first of the tables."""
-        return next(iter(self.tables.values()))
-
-    @cached_property
-    def summary(self) -> dict[str, Any]:
-        """All figures, as the command prints them with ``--json``."""
-        figures: dict[str, Any] = json.loads(self._core._summary_json())
-        return figures
-
-    @cached_property
-    def figures(self) -> dict[str, str]:
-        """The figures as SVG by name."""
-        return self._core.figures
+    _KEYS = (*Result._KEYS, ("text",), ("_report_html",))
 
     def report(self, path: str | PathLike[str]) -> Path:
-        """Write the result as one HTML page."""
-        target = Path(path)
-        target.write_text(self._core._report_html(), encoding="utf-8")
-        return target
+        """Write the result as one HTML page.
 
-    def _repr_html_(self) -> str:
-        return next(iter(self.figures.values()), "")
+        Parameters
+        ----------
+        path
+            The file.
+        """
+        return write(path, self._tell("_report_html"))
 
     def __str__(self) -> str:
-        return self._core.text
+        return str(self._tell("text"))
 
     def __repr__(self) -> str:
         return f"<slipstick.Assessment {', '.join(self.tables)}>"

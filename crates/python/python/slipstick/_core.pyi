@@ -8,15 +8,21 @@ from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "Assessment",
+    "Comparison",
+    "Identified",
     "Model",
     "Motion",
     "Response",
     "Study",
     "Table",
     "__version__",
+    "compare_with",
     "design",
     "fragility",
     "ida",
+    "identify_cyclic",
+    "identify_free_vibration",
+    "identify_shaking_table",
     "read_suite",
     "read_table",
     "run",
@@ -133,6 +139,9 @@ class Table:
     def __getitem__(self, name: str, /) -> Any: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
+    @staticmethod
+    def _from_columns(columns: list[tuple[str, str, str, Any]]) -> Table: ...
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
 
 @final
@@ -169,8 +178,7 @@ class Assessment:
 
     @property
     def tables(self) -> dict[str, Table]: ...
-    @property
-    def figures(self) -> dict[str, str]: ...
+    def _figures(self) -> list[tuple[str, str]]: ...
     @property
     def text(self) -> str: ...
     def _summary_json(self) -> str: ...
@@ -248,3 +256,88 @@ def design(
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Assessment: ...
+
+_Given = str | PathLike[str] | list[tuple[str, NDArray[np.float64]]]
+
+@final
+class Comparison:
+    """A prediction beside what was measured."""
+
+    @property
+    def motion(self) -> Motion: ...
+    @property
+    def holds(self) -> bool: ...
+    @property
+    def verdict(self) -> list[str]: ...
+    @property
+    def tables(self) -> dict[str, Table]: ...
+    @property
+    def curves(self) -> dict[str, Table]: ...
+    def _figures(self) -> list[tuple[str, str]]: ...
+    def _text(self, units: str) -> str: ...
+    def _summary_json(self) -> str: ...
+    def _report_html(self, units: str) -> str: ...
+
+@final
+class Identified:
+    """Parameters from tests."""
+
+    @property
+    def model(self) -> Model | None: ...
+    @property
+    def holds(self) -> bool: ...
+    @property
+    def verdict(self) -> list[str]: ...
+    @property
+    def tables(self) -> dict[str, Table]: ...
+    @property
+    def curves(self) -> dict[str, Table]: ...
+    def _estimates(
+        self,
+    ) -> list[tuple[str, str, float | None, float | None, float | None, str | None]]: ...
+    def _figures(self) -> list[tuple[str, str]]: ...
+    def _text(self, units: str) -> str: ...
+    def _summary_json(self) -> str: ...
+    def _report_html(self, units: str) -> str: ...
+
+def compare_with(
+    measured: _Given,
+    model: Model,
+    *,
+    mapping_file: Path | None = None,
+    mapping: list[str] = ...,
+    within: list[str] = ...,
+) -> Comparison: ...
+def identify_cyclic(
+    tests: list[_Given],
+    *,
+    mass: str | None = None,
+    normal_force: str | None = None,
+    model: Model | None = None,
+    spring: bool = True,
+    damper: bool = True,
+    slack: str | None = None,
+    mapping_file: Path | None = None,
+    mapping: list[str] = ...,
+) -> Identified: ...
+def identify_free_vibration(
+    measured: _Given,
+    *,
+    channel: str | None = None,
+    start: str | None = None,
+    end: str | None = None,
+    model: Model | None = None,
+    mapping_file: Path | None = None,
+    mapping: list[str] = ...,
+) -> Identified: ...
+def identify_shaking_table(
+    measured: _Given,
+    model: Model,
+    fit: list[str],
+    *,
+    using: list[str] = ...,
+    seed: int = 1,
+    mapping_file: Path | None = None,
+    mapping: list[str] = ...,
+    progress: Callable[[int, int], object] | None = None,
+) -> Identified: ...

@@ -7,11 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from matplotlib.animation import FuncAnimation
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
+    from ._core import Table
     from ._response import Response
 
 G = 9.80665
@@ -138,6 +141,40 @@ class Plotter:
             return [block, frame, clock]
 
         return FuncAnimation(figure, draw, frames=len(frame_s), interval=1e3 / frames_per_s, blit=True)
+
+
+#: Units of measured quantities as figures show them, with what one of them is in SI
+_SHOWN = {"m": ("mm", 1e-3), "m/s2": ("g", G), "N": ("kN", 1e3)}
+
+
+def draw_curve(name: str, curve: Table, ax: Axes | None = None) -> Axes:
+    """One measured quantity beside what was computed; a cyclic test as its loop."""
+    ax = _axes(ax)
+    columns = curve.columns
+    loop = "force_n" in columns
+    x, first, second = columns[1:4] if loop else columns[:3]
+    unit, in_si = _SHOWN.get(curve.units.get(first, ""), (curve.units.get(first, ""), 1.0))
+    across = 1e3 * curve[x] if loop else curve[x]
+    ax.plot(across, curve[first] / in_si, color="0.7", lw=2.5, label="measured")
+    ax.plot(across, curve[second] / in_si, color="C0", lw=0.9, label=second.removesuffix("_n"))
+    quantity = "force" if loop else name.replace("_", " ")
+    ax.set(xlabel="displacement [mm]" if loop else "time [s]", ylabel=f"{quantity} [{unit}]")
+    if loop:
+        ax.set_title(name)
+    ax.legend(loc="best", frameon=False)
+    return ax
+
+
+def draw_curves(curves: Mapping[str, Table]) -> NDArray[np.object_]:
+    """All of them below one another."""
+    import matplotlib.pyplot as plt
+
+    count = len(curves)
+    _, grid = plt.subplots(
+        count, 1, figsize=(7, 2.6 * count), layout="constrained", squeeze=False, sharex=True
+    )
+    axes = [draw_curve(name, curve, ax) for (name, curve), ax in zip(curves.items(), grid[:, 0])]
+    return np.array(axes, dtype=object)
 
 
 def _axes(ax: Axes | None) -> Axes:

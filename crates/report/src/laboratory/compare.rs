@@ -297,7 +297,8 @@ impl CompareReport<'_> {
     }
 
     /// How near the prediction is, quantity by quantity, and whether the bounds are kept.
-    fn verdict(&self) -> Vec<String> {
+    #[must_use]
+    pub fn verdict(&self) -> Vec<String> {
         let of = |c: &Compared| {
             let unit = self.unit(c);
             let m = &c.metrics;
@@ -356,7 +357,8 @@ impl CompareReport<'_> {
     }
 
     /// The overlays: accelerations with that of the table, then displacements and forces.
-    pub(super) fn figures(&self) -> Vec<Drawn> {
+    #[must_use]
+    pub fn figures(&self) -> Vec<Drawn> {
         let c = self.comparison;
         let panels: Vec<Panel> = c.compared.iter().map(|compared| self.panel(compared)).collect();
         let shaded = sliding(c);

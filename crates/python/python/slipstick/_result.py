@@ -1,0 +1,95 @@
+"""What results have in common: they tell themselves once, compare by what they tell, and pickle as that."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Self
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from . import _core
+
+    Key = tuple[str, ...]
+
+#: Systems of units that results are shown in
+UNITS = ("si", "si-g", "kn-mm", "us")
+
+
+class Result:
+    """Tables, figures, summary and report of some work."""
+
+    #: What the result tells, each a name of the extension's object with its arguments
+    _KEYS: tuple[Key, ...] = (("tables",), ("_figures",), ("_summary_json",))
+
+    def __init__(self, core: Any) -> None:
+        self._core = core
+        self._told: dict[Key, Any] = {}
+
+    def _tell(self, *key: str) -> Any:
+        if key not in self._told:
+            name, *arguments = key
+            value = getattr(self._core, name)
+            self._told[key] = value(*arguments) if callable(value) else value
+        return self._told[key]
+
+    @property
+    def tables(self) -> Mapping[str, _core.Table]:
+        """The tables by name."""
+        return MappingProxyType(self._tell("tables"))
+
+    @property
+    def table(self) -> _core.Table:
+        """The first of the tables."""
+        return next(iter(self.tables.values()))
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """All figures, as the command prints them with ``--json``."""
+        figures: dict[str, Any] = json.loads(self._tell("_summary_json"))
+        return figures
+
+    @property
+    def figures(self) -> Mapping[str, str]:
+        """The figures as SVG by name; a notebook shows the first."""
+        return MappingProxyType(dict(self._tell("_figures")))
+
+    def _keys(self) -> Iterator[Key]:
+        yield from self._KEYS
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        told = {key: self._tell(*key) for key in self._keys()}
+        return _restored, (type(self), told)
+
+    @classmethod
+    def _of(cls, told: dict[Key, Any]) -> Self:
+        result = cls(None)
+        result._told.update(told)
+        return result
+
+    def __eq__(self, other: object) -> bool:
+        if type(self) is not type(other):
+            return NotImplemented
+        assert isinstance(other, Result)
+        mine, theirs = self._tell("_summary_json"), other._tell("_summary_json")
+        return bool(mine == theirs and self._tell("tables") == other._tell("tables"))
+
+    def __hash__(self) -> int:
+        return hash(self._tell("_summary_json"))
+
+    def _repr_html_(self) -> str:
+        return next(iter(self.figures.values()), "")
+
+
+def _restored(cls: type[Result], told: dict[Key, Any]) -> Result:
+    return cls._of(told)
+
+
+def write(path: str | PathLike[str], text: str) -> Path:
+    """Write a page."""
+    target = Path(path)
+    target.write_text(text, encoding="utf-8")
+    return target

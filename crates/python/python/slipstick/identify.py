@@ -1,0 +1,202 @@
+"""Parameters of a model from tests: cyclic tests, free vibration, shaking-table records.
+
+Every parameter comes with its 95 % confidence interval, or with the reason why the data cannot determine it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from . import _core
+from ._laboratory import Identified, given, mapped, several
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from ._laboratory import Columns, Measured
+
+__all__ = ["cyclic", "free_vibration", "shaking_table"]
+
+
+def cyclic(
+    tests: Measured | Sequence[Measured],
+    *,
+    mass: str | None = None,
+    normal_force: str | None = None,
+    model: _core.Model | None = None,
+    spring: bool = True,
+    damper: bool = True,
+    slack: str | None = None,
+    mapping: Columns | None = None,
+) -> Identified:
+    """Identify friction, spring and damper from cyclic tests: displacement and force over time.
+
+    Parameters
+    ----------
+    tests
+        One test or several: files, patterns, or columns by name (``time_s``, ``displacement_m``,
+        ``force_n``). Several frequencies are compared.
+    mass
+        Mass of the block, ``"124 kg"``: friction becomes a coefficient, and ``model`` of the result a block
+        with it.
+    normal_force
+        Force that presses the block on its surface, ``"1200 N"``, where it is not the weight.
+    model
+        A model that takes what was found, in place of ``mass``.
+    spring, damper
+        Whether they are fitted beside friction.
+    slack
+        Travel after each reversal that is left out, ``"0.5 mm"`` (backlash); found from the force if left
+        out.
+    mapping
+        As in ``compare``.
+
+    Returns
+    -------
+    Identified
+        Friction as a coefficient, or as a force in N where no normal force is known.
+
+    Raises
+    ------
+    InputError, RecordError
+        For an argument or a file that cannot be.
+    StudyError
+        For a test in which nothing slides, or with fewer than three cycles.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import slipstick as ss
+    >>> t = np.arange(0.0, 10.0, 0.002)
+    >>> x, v = 0.02 * np.sin(2 * np.pi * t), np.cos(2 * np.pi * t)
+    >>> force = 150.0 * np.sign(v) + 1e3 * x + np.random.default_rng(1).normal(0.0, 1.0, t.size)
+    >>> found = ss.identify.cyclic({"time_s": t, "displacement_m": x, "force_n": force}, mass="100 kg")
+    >>> round(found.estimates["slider.kinetic_friction"].value, 3)  # 150 N over the weight
+    0.153
+    """
+    return Identified(
+        _core.identify_cyclic(
+            several(tests),
+            mass=mass,
+            normal_force=normal_force,
+            model=model,
+            spring=spring,
+            damper=damper,
+            slack=slack,
+            **mapped(mapping),
+        )
+    )
+
+
+def free_vibration(
+    measured: Measured,
+    *,
+    channel: str | None = None,
+    start: str | None = None,
+    end: str | None = None,
+    model: _core.Model | None = None,
+    mapping: Columns | None = None,
+) -> Identified:
+    """Identify frequency and damping ratio of a storey that vibrates freely.
+
+    Parameters
+    ----------
+    measured
+        A file, or columns by name.
+    channel
+        The quantity to fit, ``"storey1_acceleration"``; may be left out where there is one only.
+    start, end
+        The stretch to fit, ``"2 s"``: of one mode that is left alone.
+    model
+        A model that takes what was found.
+    mapping
+        As in ``compare``.
+
+    Returns
+    -------
+    Identified
+        ``storey.1.frequency`` in Hz and ``storey.1.damping_ratio``.
+
+    Raises
+    ------
+    InputError, RecordError
+        For an argument or a file that cannot be.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import slipstick as ss
+    >>> t = np.arange(0.0, 12.0, 0.01)
+    >>> noise = np.random.default_rng(1).normal(0.0, 0.01, t.size)
+    >>> a = np.exp(-0.1 * t) * np.cos(2 * np.pi * 1.6 * t) + noise
+    >>> found = ss.identify.free_vibration({"time_s": t, "storey1_acceleration_m_per_s2": a})
+    >>> round(found.estimates["storey.1.frequency"].value, 2)
+    1.6
+    """
+    return Identified(
+        _core.identify_free_vibration(
+            given(measured), channel=channel, start=start, end=end, model=model, **mapped(mapping)
+        )
+    )
+
+
+def shaking_table(
+    measured: Measured,
+    model: _core.Model,
+    fit: Sequence[str] | Mapping[str, str | None],
+    *,
+    using: Sequence[str] = (),
+    seed: int = 1,
+    mapping: Columns | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Identified:
+    """Identify keys of a model from a shaking-table record.
+
+    Parameters
+    ----------
+    measured
+        A file, or columns by name, the table acceleration among them.
+    model
+        The model; its values are where the search begins.
+    fit
+        Paths of the keys to fit; in a dict each with its range, ``{"slider.spring": "100 kN/m..200 kN/m"}``, or
+        None.
+    using
+        Measured quantities to fit; all that the model has if left out.
+    seed
+        Of the random starts.
+    mapping
+        As in ``compare``.
+    progress
+        Called with the runs of the model done and planned.
+
+    Returns
+    -------
+    Identified
+        One estimate a key, and ``model`` with them.
+
+    Raises
+    ------
+    InputError, RecordError
+        For a key, a range, a quantity or a file that cannot be.
+    StudyError
+        For too few measured values, or where no values give a response.
+    KeyboardInterrupt
+        At Ctrl-C.
+    """
+    if isinstance(fit, Mapping):
+        keys = [path if ends is None else f"{path}={ends}" for path, ends in fit.items()]
+    else:
+        keys = [fit] if isinstance(fit, str) else list(fit)
+    return Identified(
+        _core.identify_shaking_table(
+            given(measured),
+            model,
+            keys,
+            using=list(using),
+            seed=seed,
+            progress=progress,
+            **mapped(mapping),
+        )
+    )

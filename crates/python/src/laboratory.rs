@@ -1,0 +1,463 @@
+//! `compare` and `identify`: tests of a laboratory beside models.
+
+use std::path::{Path, PathBuf};
+
+use numpy::PyReadonlyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use slipstick::input::Mapping;
+use slipstick::laboratory::compare::{self, Comparison as Compared, Within};
+use slipstick::laboratory::estimate::Outcome;
+use slipstick::laboratory::identify::{
+    self, CyclicRequest, FreeVibrationRequest, Identified as Found, IdentifyError, ModelText,
+    ShakingTableRequest,
+};
+use slipstick::laboratory::measured::Measured;
+use slipstick::record::{Column, Columns};
+use slipstick::table;
+use slipstick::units::{Dimension, parse_quantity};
+use slipstick_files::{SourceFile, TextFile, expand_all, read_mapping, read_measured, sha256_hex};
+use slipstick_report::{CompareReport, DisplayUnits, FileNote, IdentifyReport, InputText};
+
+use crate::errors::{
+    of_argument, of_choice, of_compare, of_file, of_identify, of_laboratory, of_unit,
+};
+use crate::model::Model;
+use crate::motion::Motion;
+use crate::response::display_units;
+use crate::table::Table;
+use crate::work::followed;
+
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// A measured file, or its columns by name.
+#[derive(FromPyObject)]
+pub(crate) enum Given<'py> {
+    Path(PathBuf),
+    Columns(Vec<(String, PyReadonlyArray1<'py, f64>)>),
+}
+
+/// The columns of a measured file: a mapping file, and what is said beside it.
+pub(crate) struct Columned {
+    mapping: Mapping,
+    file: Option<TextFile>,
+}
+
+impl Columned {
+    fn new(py: Python<'_>, file: Option<&Path>, options: &[String]) -> PyResult<Self> {
+        let (mapping, file) =
+            read_mapping(file, options).map_err(|error| of_laboratory(py, &error))?;
+        Ok(Self { mapping, file })
+    }
+
+    /// What is measured; of a file, where it is.
+    fn read(&self, py: Python<'_>, given: &Given<'_>) -> PyResult<(Measured, Option<SourceFile>)> {
+        match given {
+            Given::Path(path) => {
+                let read = py.detach(|| read_measured(path, &self.mapping));
+                let (measured, source) = read.map_err(|error| of_laboratory(py, &error))?;
+                Ok((measured, Some(source)))
+            }
+            Given::Columns(columns) => {
+                let column = |(name, values): &(String, PyReadonlyArray1<'_, f64>)| {
+                    let values = values.as_slice()?.to_vec();
+                    Ok(Column { is_time: false, name: name.clone(), values })
+                };
+                let columns: PyResult<Vec<Column>> = columns.iter().map(column).collect();
+                let columns = Columns::new("measured", columns?).map_err(|e| e.into());
+                let read = columns.and_then(|c| Measured::of_columns(c, &self.mapping));
+                Ok((read.map_err(|error| of_laboratory(py, &error.into()))?, None))
+            }
+        }
+    }
+}
+
+/// What went in, for the report.
+struct WentIn {
+    /// Path, hash, and what it is.
+    files: Vec<(String, String, &'static str)>,
+    /// Name and text.
+    texts: Vec<(String, String)>,
+}
+
+impl WentIn {
+    fn of(model: Option<&Model>, sources: &[Option<SourceFile>], mapping: &Columned) -> Self {
+        let shown = |file: &SourceFile| file.path.display().to_string();
+        let (mut files, mut texts) = (Vec::new(), Vec::new());
+        if let Some(model) = model {
+            let hash = sha256_hex(model.text().as_bytes());
+            files.push((model.title(), hash, "model"));
+            texts.push((model.title(), model.text().to_owned()));
+        }
+        let measured = sources.iter().flatten();
+        files.extend(measured.map(|file| (shown(file), file.sha256.clone(), "measured")));
+        if let Some(file) = &mapping.file {
+            files.push((shown(&file.source), file.source.sha256.clone(), "mapping"));
+            texts.push((shown(&file.source), file.text.clone()));
+        }
+        Self { files, texts }
+    }
+
+    fn files(&self) -> Vec<FileNote<'_>> {
+        let note = |(path, sha256, description)| FileNote { path, sha256, description };
+        self.files.iter().map(|(path, hash, what)| note((path, hash, what))).collect()
+    }
+
+    fn inputs(&self) -> Vec<InputText<'_>> {
+        self.texts.iter().map(|(path, text)| InputText { path, text }).collect()
+    }
+}
+
+/// Tables by name.
+fn tables<'py, S: AsRef<str>>(
+    py: Python<'py>,
+    tables: Vec<(S, table::Table)>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let named = PyDict::new(py);
+    for (name, table) in tables {
+        named.set_item(name.as_ref(), Table(table))?;
+    }
+    Ok(named)
+}
+
+/// A prediction beside what was measured.
+#[pyclass(module = "slipstick._core", frozen)]
+pub struct Comparison {
+    model: Model,
+    measured: String,
+    comparison: Compared,
+    within: Vec<Within>,
+    went_in: WentIn,
+}
+
+impl Comparison {
+    fn report<T>(&self, display: DisplayUnits, tell: impl FnOnce(&CompareReport<'_>) -> T) -> T {
+        tell(&CompareReport {
+            version: VERSION,
+            name: &self.model.title(),
+            measured: &self.measured,
+            model: &self.model.analysis.model,
+            method: self.model.analysis.method,
+            comparison: &self.comparison,
+            within: &self.within,
+            inputs: &self.went_in.inputs(),
+            files: &self.went_in.files(),
+            command_line: "slipstick.compare(measured, model)",
+            display,
+        })
+    }
+}
+
+#[pymethods]
+impl Comparison {
+    /// The measured table acceleration.
+    #[getter]
+    fn motion(&self) -> Motion {
+        Motion::of(self.comparison.motion.clone())
+    }
+
+    /// Whether every bound is kept.
+    #[getter]
+    fn holds(&self) -> bool {
+        self.report(DisplayUnits::Si, |report| report.missed().is_empty())
+    }
+
+    /// How near the prediction is, in sentences.
+    #[getter]
+    fn verdict(&self) -> Vec<String> {
+        self.report(DisplayUnits::Si, |report| report.verdict())
+    }
+
+    /// The figures as a table.
+    #[getter]
+    fn tables<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        tables(py, vec![("figures", self.comparison.table())])
+    }
+
+    /// Measured and predicted values by quantity.
+    #[getter]
+    fn curves<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        tables(py, self.comparison.curves())
+    }
+
+    /// The figures as SVG by their names.
+    fn _figures(&self) -> Vec<(&'static str, String)> {
+        let figures = self.report(DisplayUnits::Si, |report| report.figures());
+        figures.into_iter().map(|figure| (figure.id, figure.svg.as_str().to_owned())).collect()
+    }
+
+    fn _text(&self, py: Python<'_>, units: &str) -> PyResult<String> {
+        Ok(self.report(display_units(py, units)?, |report| report.table()))
+    }
+
+    fn _summary_json(&self) -> String {
+        self.report(DisplayUnits::Si, |report| report.to_json())
+    }
+
+    fn _report_html(&self, py: Python<'_>, units: &str) -> PyResult<String> {
+        Ok(self.report(display_units(py, units)?, |report| report.to_html()))
+    }
+}
+
+/// Predicts a measured test and compares.
+#[pyfunction]
+#[pyo3(signature = (measured, model, *, mapping_file = None, mapping = Vec::new(), within = Vec::new()))]
+pub(crate) fn compare_with(
+    py: Python<'_>,
+    measured: Given<'_>,
+    model: &Model,
+    mapping_file: Option<PathBuf>,
+    mapping: Vec<String>,
+    within: Vec<String>,
+) -> PyResult<Comparison> {
+    let within = within.iter().map(|text| {
+        Within::parse(text)
+            .map_err(|e| of_choice(py, "within", &e.expected, &e.found, e.nearest.as_deref()))
+    });
+    let within: Vec<Within> = within.collect::<PyResult<_>>()?;
+    let columned = Columned::new(py, mapping_file.as_deref(), &mapping)?;
+    let (measured, source) = columned.read(py, &measured)?;
+    let (of, method) = (&model.analysis.model, model.analysis.method);
+    let comparison = followed(py, Some(1), None, |_| compare::compare(&measured, of, method))?;
+    Ok(Comparison {
+        model: model.clone(),
+        measured: measured.source_name,
+        comparison: comparison.map_err(|error| of_compare(py, &error))?,
+        within,
+        went_in: WentIn::of(Some(model), &[source], &columned),
+    })
+}
+
+/// Parameters from tests.
+#[pyclass(module = "slipstick._core", frozen)]
+pub struct Identified {
+    measured: Vec<Measured>,
+    found: Found,
+    model: Option<Model>,
+    went_in: WentIn,
+    call: &'static str,
+}
+
+impl Identified {
+    fn new(
+        py: Python<'_>,
+        call: &'static str,
+        measured: Vec<Measured>,
+        found: Result<Found, IdentifyError>,
+        went_in: WentIn,
+    ) -> PyResult<Self> {
+        let found = found.map_err(|error| of_identify(py, &error))?;
+        let model = found.model.clone().map(Model::of);
+        Ok(Self { measured, found, model, went_in, call })
+    }
+
+    fn report<T>(&self, display: DisplayUnits, tell: impl FnOnce(&IdentifyReport<'_>) -> T) -> T {
+        tell(&IdentifyReport {
+            inputs: &self.went_in.inputs(),
+            files: &self.went_in.files(),
+            command_line: self.call,
+            ..IdentifyReport::of(VERSION, &self.measured, &self.found, display)
+        })
+    }
+}
+
+/// Path, SI unit, value, ends of the interval, reason where there are none.
+type EstimateParts = (String, &'static str, Option<f64>, Option<f64>, Option<f64>, Option<String>);
+
+#[pymethods]
+impl Identified {
+    /// The estimates.
+    fn _estimates(&self) -> Vec<EstimateParts> {
+        let parts = self.found.estimates.iter().map(|estimate| {
+            let (path, unit) = (estimate.path.clone(), estimate.unit);
+            match &estimate.outcome {
+                Outcome::Told { value, low, high } => {
+                    (path, unit, Some(*value), Some(*low), Some(*high), None)
+                }
+                Outcome::CannotTell { why } => (path, unit, None, None, None, Some(why.clone())),
+            }
+        });
+        parts.collect()
+    }
+
+    /// The given model with what was told.
+    #[getter]
+    fn model(&self) -> Option<Model> {
+        self.model.clone()
+    }
+
+    /// Whether the data tell every parameter.
+    #[getter]
+    fn holds(&self) -> bool {
+        self.found.estimates.iter().all(|estimate| estimate.value().is_some())
+    }
+
+    /// What the data tell and what they do not, in sentences.
+    #[getter]
+    fn verdict(&self) -> Vec<String> {
+        self.report(DisplayUnits::Si, |report| report.verdict())
+    }
+
+    /// The tables by name.
+    #[getter]
+    fn tables<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        tables(py, self.found.tables(&self.measured))
+    }
+
+    /// What was fitted, with the fit.
+    #[getter]
+    fn curves<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        tables(py, self.found.curves(&self.measured))
+    }
+
+    /// The figures as SVG by their names.
+    fn _figures(&self) -> Vec<(&'static str, String)> {
+        self.report(DisplayUnits::Si, |report| {
+            let figures = report.figures.iter();
+            figures.map(|figure| (figure.id, figure.svg.as_str().to_owned())).collect()
+        })
+    }
+
+    fn _text(&self, py: Python<'_>, units: &str) -> PyResult<String> {
+        Ok(self.report(display_units(py, units)?, |report| report.table()))
+    }
+
+    fn _summary_json(&self) -> String {
+        self.report(DisplayUnits::Si, |report| report.to_json())
+    }
+
+    fn _report_html(&self, py: Python<'_>, units: &str) -> PyResult<String> {
+        Ok(self.report(display_units(py, units)?, |report| report.to_html()))
+    }
+}
+
+fn quantity(
+    py: Python<'_>,
+    name: &str,
+    text: Option<&str>,
+    dimension: Dimension,
+) -> PyResult<Option<f64>> {
+    let read = text.map(|text| parse_quantity(text, dimension)).transpose();
+    read.map_err(|error| of_unit(py, name, &error))
+}
+
+fn text_of(model: &Model) -> ModelText<'_> {
+    ModelText { name: &model.source, text: model.text(), set: &[] }
+}
+
+/// Friction, spring and damper from cyclic tests.
+#[pyfunction]
+#[pyo3(signature = (
+    tests, *, mass = None, normal_force = None, model = None, spring = true, damper = true,
+    slack = None, mapping_file = None, mapping = Vec::new()
+))]
+#[expect(clippy::too_many_arguments, reason = "they have names in Python")]
+pub(crate) fn identify_cyclic(
+    py: Python<'_>,
+    tests: Vec<Given<'_>>,
+    mass: Option<&str>,
+    normal_force: Option<&str>,
+    model: Option<Model>,
+    spring: bool,
+    damper: bool,
+    slack: Option<&str>,
+    mapping_file: Option<PathBuf>,
+    mapping: Vec<String>,
+) -> PyResult<Identified> {
+    let columned = Columned::new(py, mapping_file.as_deref(), &mapping)?;
+    quantity(py, "mass", mass, Dimension::Mass)?;
+    let normal_force_n = quantity(py, "normal_force", normal_force, Dimension::Force)?;
+    let slack_m = quantity(py, "slack", slack, Dimension::Length)?;
+    if mass.is_some() && model.is_some() {
+        return Err(of_argument(py, "mass", "mass or model", "both"));
+    }
+    let (mut measured, mut sources) = (Vec::new(), Vec::new());
+    for test in tests {
+        let expanded = match test {
+            Given::Path(path) => {
+                let files = expand_all(Path::new(""), &[path.to_string_lossy()])
+                    .map_err(|error| of_file(py, &error))?;
+                files.into_iter().map(Given::Path).collect()
+            }
+            columns @ Given::Columns(_) => vec![columns],
+        };
+        for one in expanded {
+            let (one, source) = columned.read(py, &one)?;
+            measured.push(one);
+            sources.push(source);
+        }
+    }
+    if measured.is_empty() {
+        return Err(of_argument(py, "tests", "at least one cyclic test", "none"));
+    }
+    let block = mass.map(identify::block_text);
+    let base = match (&model, &block) {
+        (Some(model), _) => Some(text_of(model)),
+        (None, Some(text)) => Some(ModelText { name: "mass", text, set: &[] }),
+        (None, None) => None,
+    };
+    let request = CyclicRequest { model: base, normal_force_n, slack_m, spring, damper };
+    let found = followed(py, Some(1), None, |_| identify::cyclic(&request, &measured))?;
+    let went_in = WentIn::of(model.as_ref(), &sources, &columned);
+    Identified::new(py, "slipstick.identify.cyclic(tests)", measured, found, went_in)
+}
+
+/// Frequency and damping ratio from free vibration.
+#[pyfunction]
+#[pyo3(signature = (
+    measured, *, channel = None, start = None, end = None, model = None, mapping_file = None,
+    mapping = Vec::new()
+))]
+#[expect(clippy::too_many_arguments, reason = "they have names in Python")]
+pub(crate) fn identify_free_vibration(
+    py: Python<'_>,
+    measured: Given<'_>,
+    channel: Option<&str>,
+    start: Option<&str>,
+    end: Option<&str>,
+    model: Option<Model>,
+    mapping_file: Option<PathBuf>,
+    mapping: Vec<String>,
+) -> PyResult<Identified> {
+    let columned = Columned::new(py, mapping_file.as_deref(), &mapping)?;
+    let start_s = quantity(py, "start", start, Dimension::Time)?.unwrap_or(f64::NEG_INFINITY);
+    let end_s = quantity(py, "end", end, Dimension::Time)?.unwrap_or(f64::INFINITY);
+    let (measured, source) = columned.read(py, &measured)?;
+    let base = model.as_ref().map(text_of);
+    let request = FreeVibrationRequest { model: base, channel, span_s: [start_s, end_s] };
+    let found = followed(py, Some(1), None, |_| identify::free_vibration(&request, &measured))?;
+    let went_in = WentIn::of(model.as_ref(), &[source], &columned);
+    let call = "slipstick.identify.free_vibration(measured)";
+    Identified::new(py, call, vec![measured], found, went_in)
+}
+
+/// Keys of a model from a shaking-table record.
+#[pyfunction]
+#[pyo3(signature = (
+    measured, model, fit, *, using = Vec::new(), seed = 1, mapping_file = None,
+    mapping = Vec::new(), progress = None
+))]
+#[expect(clippy::too_many_arguments, reason = "they have names in Python")]
+pub(crate) fn identify_shaking_table(
+    py: Python<'_>,
+    measured: Given<'_>,
+    model: &Model,
+    fit: Vec<String>,
+    using: Vec<String>,
+    seed: u64,
+    mapping_file: Option<PathBuf>,
+    mapping: Vec<String>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Identified> {
+    let columned = Columned::new(py, mapping_file.as_deref(), &mapping)?;
+    let (measured, source) = columned.read(py, &measured)?;
+    let fit: Vec<&str> = fit.iter().map(String::as_str).collect();
+    let using: Vec<&str> = using.iter().map(String::as_str).collect();
+    let request = ShakingTableRequest { model: text_of(model), fit: &fit, using: &using, seed };
+    let found = followed(py, Some(1), progress, |engine| {
+        identify::shaking_table(&request, &measured, engine)
+    })?;
+    let went_in = WentIn::of(Some(model), &[source], &columned);
+    let call = "slipstick.identify.shaking_table(measured, model, fit)";
+    Identified::new(py, call, vec![measured], found, went_in)
+}
