@@ -9,6 +9,7 @@ mod python;
 mod reference;
 mod shell;
 mod tools;
+mod web;
 
 use std::process::ExitCode;
 
@@ -42,6 +43,8 @@ Usage: cargo xtask TASK
                                  and pyrotd (--write: into book/src/generated/records.md)
   readers                        reads the parts of a study in pandas, Polars and DuckDB
                                  (needs python3; makes .venv)
+  web [--serve]                  the page, into target/web: a folder for any static host, and
+                                 slipstick.html (needs node and npm; --serve: shows it)
   fuzz [TARGET] [--seconds N]    all fuzz targets or one, 60 s each (installs cargo-fuzz)
   fuzz --minutes N               all fuzz targets in so many minutes together
   coverage                       how often intervals of identify cover the truth, 200 tests a
@@ -68,6 +71,7 @@ fn main() -> ExitCode {
         ["bench-study", options @ ..] => peers::bench_study(options),
         ["readers"] => peers::readers(),
         ["bench-records", options @ ..] => peers::bench_records(options),
+        ["web", options @ ..] => web::web(options),
         ["fuzz", options @ ..] => tools::fuzz(options),
         ["coverage"] => tools::coverage(),
         ["deny"] => tools::deny(),

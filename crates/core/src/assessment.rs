@@ -19,6 +19,7 @@ pub mod sensitivity;
 pub mod single;
 pub mod spectrum;
 pub mod suite;
+pub mod sweep;
 #[cfg(test)]
 mod tests;
 

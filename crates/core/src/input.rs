@@ -10,6 +10,7 @@ use crate::model::Model;
 use crate::response::Method;
 
 mod build;
+mod edit;
 mod frame;
 mod json;
 mod json_schema;
@@ -30,6 +31,7 @@ mod variation;
 mod write;
 
 pub use build::Parts;
+pub use edit::with_keys;
 pub use json_schema::{json_schema, plan_json_schema};
 pub use keys::MAX_STOREYS;
 pub use mapping::{Channel, ColumnRef, MappedColumn, Mapping, Zero};

@@ -16,7 +16,6 @@ mod run;
 mod study;
 mod suite;
 mod table;
-mod tables;
 mod threads;
 mod write;
 
@@ -37,6 +36,6 @@ pub use study::{
 };
 pub use suite::{OpenSuite, SuiteError, SuiteRequest, stems_or_paths};
 pub use table::{ReadTable, read_table, to_csv, to_parquet};
-pub use tables::{events_csv, history_csv};
+pub use slipstick_report::tables::{events_csv, history_csv};
 pub use threads::on_threads;
 pub use write::{OutputFolder, refuse_inputs, remove_temporaries, write_whole};

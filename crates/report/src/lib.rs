@@ -20,7 +20,7 @@
 //!     motion: &motion,
 //!     record: motion.figures(),
 //!     response: &response,
-//!     certificate: &certificate,
+//!     certificate: Some(&certificate),
 //!     friction_factor: 1.0,
 //!     warnings: &[],
 //! });
@@ -52,6 +52,7 @@ pub mod report;
 pub mod study;
 pub mod summary;
 pub mod table;
+pub mod tables;
 
 pub use display::DisplayUnits;
 pub use laboratory::{CompareReport, IdentifyReport};

@@ -23,8 +23,8 @@ pub struct SummaryInputs<'a> {
     pub record: Figures,
     /// The answer.
     pub response: &'a Response,
-    /// Its certificate.
-    pub certificate: &'a Certificate,
+    /// Its certificate; `None` while it is not checked.
+    pub certificate: Option<&'a Certificate>,
     /// Factor on both coefficients of friction: 1 but for lower- and upper-bound runs.
     pub friction_factor: f64,
     /// What reading the model and the record gave notice of.
@@ -46,8 +46,22 @@ pub struct Checks {
     pub closest_call: Option<ClosestCall>,
     /// What the first four must stay below.
     pub bound: f64,
-    /// Whether they do; `None` of the stepwise method, which is reported, never judged.
+    /// Whether they do; `None` of the stepwise method, which is reported, never judged, and of a
+    /// response that is not checked.
     pub holds: Option<bool>,
+}
+
+impl Checks {
+    /// Of a response that is not checked: no figure is a number.
+    pub const NONE: Self = Self {
+        equilibrium_residual: f64::NAN,
+        friction_excess: f64::NAN,
+        energy_balance_error: f64::NAN,
+        demands_error: f64::NAN,
+        closest_call: None,
+        bound: f64::NAN,
+        holds: None,
+    };
 }
 
 /// Summaries of the runs with lower- and upper-bound friction.
@@ -118,7 +132,7 @@ impl Summary {
             demands: response.demands.clone(),
             contact_loss_s: response.contact_loss_s.clone(),
             iterations: response.iterations,
-            checks: Checks {
+            checks: certificate.map_or(Checks::NONE, |certificate| Checks {
                 equilibrium_residual: certificate.equilibrium_residual,
                 friction_excess: certificate.friction_excess,
                 energy_balance_error: certificate.energy_balance_error,
@@ -126,7 +140,7 @@ impl Summary {
                 closest_call: certificate.closest_call.filter(|_| exact),
                 bound: certificate.bound,
                 holds: exact.then(|| certificate.holds()),
-            },
+            }),
             warnings: warnings::assemble(inputs),
             bounds: None,
             floor_spectra: None,
@@ -144,7 +158,7 @@ impl Summary {
                 motion: &job.motion,
                 record,
                 response: &judged.response,
-                certificate: &judged.certificate,
+                certificate: Some(&judged.certificate),
                 friction_factor: judged.friction_factor,
                 warnings: &job.warnings,
             });

@@ -91,12 +91,24 @@ impl Job {
     /// # Errors
     /// [`SolveError`] with time and cause.
     pub fn run(&self, floor_spectra: bool) -> Result<Outcome, SolveError> {
+        self.run_on(self.solve(&self.analysis.model)?, floor_spectra)
+    }
+
+    /// The same where the nominal response, with its history, is known.
+    ///
+    /// # Errors
+    /// [`SolveError`] with time and cause.
+    pub fn run_on(&self, nominal: Response, floor_spectra: bool) -> Result<Outcome, SolveError> {
         let model = &self.analysis.model;
-        let nominal = self.judged(model.clone(), 1.0)?;
+        let nominal = self.judged(model.clone(), 1.0, nominal);
         let bounds = match self.analysis.friction_bounds {
             None => None,
             Some(factors) => {
-                let with = |bound: Bound| self.judged(bound.of(model), bound.friction_factor);
+                let with = |bound: Bound| {
+                    let model = bound.of(model);
+                    let response = self.solve(&model)?;
+                    Ok(self.judged(model, bound.friction_factor, response))
+                };
                 let [lower, _, upper] = factors.all();
                 Some([with(lower)?, with(upper)?])
             }
@@ -106,10 +118,13 @@ impl Job {
         Ok(Outcome { nominal, bounds, floor_spectra })
     }
 
-    fn judged(&self, model: Model, friction_factor: f64) -> Result<Judged, SolveError> {
-        let response = solver::solve(&model, &self.motion, self.analysis.method)?;
+    fn solve(&self, model: &Model) -> Result<Response, SolveError> {
+        solver::solve(model, &self.motion, self.analysis.method)
+    }
+
+    fn judged(&self, model: Model, friction_factor: f64, response: Response) -> Judged {
         let certificate = check::check(&model, &self.motion, &response);
-        Ok(Judged { friction_factor, model, response, certificate })
+        Judged { friction_factor, model, response, certificate }
     }
 }
 

@@ -1,8 +1,22 @@
 //! The columns of a history, named as the files name them.
 
 use super::History;
+use crate::model::Model;
 
 impl History {
+    /// Force of the block on its slider at a knot in N, friction, spring, damper and stop together: it
+    /// rises with the sliding displacement, as a data sheet draws it.
+    #[must_use]
+    pub fn slider_force_n(&self, model: &Model, knot: usize) -> f64 {
+        // −(M₁ (Ẍ₁ + g sinθ) + Σ mᵢ (Ẍᵢ + g sinθ))
+        let floors = model.frame().masses_kg.iter().zip(self.storey_accelerations(knot));
+        let inertia = model.block().mass_kg * self.block_acceleration_m_per_s2[knot]
+            + floors.map(|(m, a)| m * a).sum::<f64>();
+        let tilt_n =
+            model.total_mass_kg() * model.gravity_m_per_s2() * libm::sin(model.slider().tilt_rad);
+        -(inertia + tilt_n)
+    }
+
     /// Names and values of all columns at some knots: time, table acceleration, sliding displacement
     /// and velocity, total acceleration of the block, friction force; of each storey displacement and
     /// velocity relative to the block and total acceleration; displacements of surfaces in series; of

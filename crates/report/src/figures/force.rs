@@ -16,15 +16,7 @@ pub fn loops(scene: &Scene) -> Drawn {
     let restrained =
         slider.stiffness_n_per_m > 0.0 || slider.damper_n_s_per_m > 0.0 || slider.stop.is_some();
     let length = report.display.unit(Quantity::Length, demands.peak_sliding_displacement_m);
-    let floors_kg = &model.frame().masses_kg;
-    let tilt_n = model.total_mass_kg() * model.gravity_m_per_s2() * libm::sin(slider.tilt_rad);
-    // −(M₁ (Ẍ₁ + g sinθ) + Σ mᵢ (Ẍᵢ + g sinθ)): friction, spring, damper and stop together.
-    let whole = |knot: usize| {
-        let floors = floors_kg.iter().zip(history.storey_accelerations(knot));
-        let inertia = model.block().mass_kg * history.block_acceleration_m_per_s2[knot]
-            + floors.map(|(m, a)| m * a).sum::<f64>();
-        -(inertia + tilt_n)
-    };
+    let whole = |knot: usize| history.slider_force_n(model, knot);
     let friction = |knot: usize| -history.friction_force_n[knot];
     let panel = |label: &str, peak_n: f64, force: &dyn Fn(usize) -> f64| {
         let unit = report.display.unit(Quantity::Force, peak_n);

@@ -12,9 +12,9 @@ const CLOSE_CALL_MARGIN: f64 = 1e-6;
 /// Those that follow from the figures, then the solver's, then those given; each once, notes last.
 pub fn assemble(inputs: &SummaryInputs) -> Vec<Warning> {
     let derived = [
-        check_failed(inputs.response, inputs.certificate),
+        inputs.certificate.and_then(|certificate| check_failed(inputs.response, certificate)),
         gap_exceeded(inputs),
-        close_call(inputs.response, inputs.certificate),
+        inputs.certificate.and_then(|certificate| close_call(inputs.response, certificate)),
         nothing_slides(inputs.response),
     ];
     let mut all: Vec<Warning> = derived.into_iter().flatten().collect();

@@ -80,7 +80,7 @@ pub fn summarise(
         motion,
         record: motion.figures(),
         response,
-        certificate,
+        certificate: Some(certificate),
         friction_factor,
         warnings,
     })

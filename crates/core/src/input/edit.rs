@@ -1,0 +1,237 @@
+//! Keys set in a model's text, all else as it stands: comments, blanks, the order of the keys.
+
+use std::ops::Range;
+
+use super::keys::MODEL;
+use super::reader::{Given, Values};
+use super::tree::{self, Entry, Sources, Table, Value};
+use super::{Override, build, write};
+use crate::error::InputError;
+
+/// A model's text with keys set in it, in their order; keys that exclude a new one are taken out.
+///
+/// What is not set stays as it was written, comments included. Where the text has no room for a key (a
+/// table in braces over several lines, say), it is written anew from its values.
+///
+/// # Errors
+/// [`InputError`], the one of [`parse`](super::parse) with the same keys set.
+///
+/// # Examples
+/// ```
+/// use slipstick::input::{Override, with_keys};
+///
+/// let text = "[block]\nmass = \"325 kg\"\n[slider]\nstatic_friction = 0.02 # measured\n\
+///             kinetic_friction = 0.012\nradius = \"2 m\"\n";
+/// let set = [Override::parse("slider.static_friction=0.03")?, Override::parse("slider.spring=19 kN/m")?];
+/// let expected = "[block]\nmass = \"325 kg\"\n[slider]\nstatic_friction = 0.03 # measured\n\
+///                 kinetic_friction = 0.012\nspring = \"19 kN/m\"\n";
+/// assert_eq!(with_keys("model.toml", text, &set)?, expected);
+/// # Ok::<(), slipstick::error::InputError>(())
+/// ```
+pub fn with_keys(source_name: &str, text: &str, set: &[Override]) -> Result<String, InputError> {
+    let mut text = text.to_owned();
+    for one in set {
+        let wanted = read(source_name, &text, std::slice::from_ref(one))?;
+        let edited = edited(source_name, &text, one);
+        let same = |edited: &String| {
+            read(source_name, edited, &[]).is_ok_and(|found| alike(&found, &wanted))
+        };
+        text =
+            edited.filter(same).unwrap_or_else(|| write::toml(&wanted, write::Motion::AsWritten));
+    }
+    Ok(text)
+}
+
+/// The checked values of a text with keys set.
+fn read(source_name: &str, text: &str, set: &[Override]) -> Result<Values, InputError> {
+    let (mut sources, mut root) = tree_of(source_name, text)?;
+    for one in set {
+        one.apply(&mut sources, &mut root)?;
+    }
+    let values = Values::read(sources, &root, &MODEL)?;
+    build::analysis(values.clone())?;
+    Ok(values)
+}
+
+fn tree_of(source_name: &str, text: &str) -> Result<(Sources, Table), InputError> {
+    let mut sources = Sources::default();
+    let file = sources.add(source_name, text);
+    let root = tree::parse_document(&sources, file)?;
+    Ok((sources, root))
+}
+
+/// Whether two texts say the same.
+fn alike(a: &Values, b: &Values) -> bool {
+    let said = |values: &Values| -> Vec<(String, Given)> {
+        values.leaves.iter().map(|leaf| (leaf.path.clone(), leaf.given.clone())).collect()
+    };
+    said(a) == said(b)
+}
+
+/// The text with one key set in place; `None` where there is no place.
+fn edited(source_name: &str, text: &str, set: &Override) -> Option<String> {
+    let (_, before) = tree_of(source_name, text).ok()?;
+    let literal = literal(set)?;
+    if let Some(entry) = find(&before, set.path())
+        && matches!(entry.node.value, Value::Text(_) | Value::Number(..))
+    {
+        return Some(replaced(text, entry.node.spot.span.clone(), &literal));
+    }
+    let (mut sources, mut after) = tree_of(source_name, text).ok()?;
+    set.apply(&mut sources, &mut after).ok()?;
+    let mut gone = Vec::new();
+    taken_out(&before, &after, &mut gone);
+    let (head, name) = set.path().rsplit_once('.')?;
+    let line = format!("{name} = {literal}");
+    // In the place of what it excludes, else below the last key of its table.
+    let mut edits: Vec<(Range<usize>, String)> = Vec::new();
+    for (i, span) in gone.iter().enumerate() {
+        let lines = whole_lines(text, span)?;
+        let instead = if i == 0 { format!("{line}\n") } else { String::new() };
+        edits.push((lines, instead));
+    }
+    if edits.is_empty() {
+        edits.push(match find(&before, head).map(|entry| &entry.node) {
+            Some(node) => {
+                let Value::Table(table) = &node.value else { return None };
+                let last = table.0.iter().map(|entry| entry.node.spot.span.end).max();
+                let end = end_of_line(text, last.unwrap_or(node.spot.span.end));
+                (end..end, format!("\n{line}"))
+            }
+            None if head.contains('.') => return None,
+            None => {
+                let end = text.trim_end().len();
+                (end..text.len(), format!("\n\n[{head}]\n{line}\n"))
+            }
+        });
+    }
+    edits.sort_by_key(|(span, _)| span.start);
+    let mut text = text.to_owned();
+    for (span, new) in edits.into_iter().rev() {
+        text = replaced(&text, span, &new);
+    }
+    Some(text)
+}
+
+fn replaced(text: &str, span: Range<usize>, new: &str) -> String {
+    let (before, after) = (text.get(..span.start), text.get(span.end..));
+    format!("{}{new}{}", before.unwrap_or(""), after.unwrap_or(""))
+}
+
+/// The value of an option as TOML.
+fn literal(set: &Override) -> Option<String> {
+    let (_, value) = set.text().split_once('=')?;
+    let value = value.trim();
+    match tree::parse_value(value, 0, 0).value {
+        Value::Number(..) => Some(value.to_owned()),
+        Value::Text(text) => Some(write::quoted(&text)),
+        _ => None,
+    }
+}
+
+/// The entry at a path, storeys counted from 1.
+fn find<'a>(root: &'a Table, path: &str) -> Option<&'a Entry> {
+    let mut keys = path.split('.');
+    let mut entry = root.get(keys.next()?)?;
+    while let Some(key) = keys.next() {
+        entry = match &entry.node.value {
+            Value::Table(table) => table.get(key)?,
+            Value::List(items) => {
+                let item = items.get(key.parse::<usize>().ok()?.checked_sub(1)?)?;
+                let Value::Table(table) = &item.value else { return None };
+                table.get(keys.next()?)?
+            }
+            _ => return None,
+        };
+    }
+    Some(entry)
+}
+
+/// Where the keys stand that the first table has and the second has not.
+fn taken_out(before: &Table, after: &Table, gone: &mut Vec<Range<usize>>) {
+    for entry in &before.0 {
+        let Some(other) = after.get(&entry.name) else {
+            gone.push(entry.key.span.start..entry.node.spot.span.end);
+            continue;
+        };
+        match (&entry.node.value, &other.node.value) {
+            (Value::Table(a), Value::Table(b)) => taken_out(a, b, gone),
+            (Value::List(a), Value::List(b)) => {
+                for (a, b) in a.iter().zip(b) {
+                    if let (Value::Table(a), Value::Table(b)) = (&a.value, &b.value) {
+                        taken_out(a, b, gone);
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The lines of a key that has them to itself.
+fn whole_lines(text: &str, span: &Range<usize>) -> Option<Range<usize>> {
+    let start = text.get(..span.start)?.rfind('\n').map_or(0, |newline| newline + 1);
+    let end = end_of_line(text, span.end);
+    let after = text.get(span.end..end)?.trim_start();
+    let alone = text.get(start..span.start)?.trim().is_empty();
+    let ends = after.is_empty() || after.starts_with('#');
+    (alone && ends).then_some(start..(end + 1).min(text.len()))
+}
+
+fn end_of_line(text: &str, from: usize) -> usize {
+    text.get(from..).and_then(|rest| rest.find('\n')).map_or(text.len(), |newline| from + newline)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MODEL: &str = "# A tank.\nname = \"Tank\"\n\n[block]\nmass = \"325 kg\" # weighed\n\n\
+        [slider]\nstatic_friction  = 0.06\nkinetic_friction = 0.05\nradius = \"2 m\"  # bought\n\
+        gap = \"150 mm\"\n\n[[storey]]\nmass = \"201 kg\"\nfrequency = \"2.15 Hz\"\n\
+        damping_ratio = 0.01\n\n[motion]\nsine = { frequency = \"1 Hz\", amplitude = \"1 m/s2\", \
+        duration = \"2 s\", dt = \"0.01 s\" }\n";
+
+    fn set(options: &[&str]) -> String {
+        let options: Vec<_> = options.iter().map(|text| Override::parse(text).unwrap()).collect();
+        let edited = with_keys("model.toml", MODEL, &options).unwrap();
+        let wanted = read("model.toml", MODEL, &options).unwrap();
+        assert!(alike(&read("model.toml", &edited, &[]).unwrap(), &wanted), "{edited}");
+        edited
+    }
+
+    #[test]
+    fn exact_value_is_replaced_where_it_stands() {
+        let edited = set(&["slider.kinetic_friction=0.04", "block.mass=400 kg"]);
+        let expected = MODEL.replace("0.05", "0.04").replace("325 kg", "400 kg");
+        assert_eq!(edited, expected);
+    }
+
+    #[test]
+    fn exact_value_in_braces_and_of_a_storey() {
+        let edited = set(&["motion.sine.frequency=1.5 Hz", "storey.1.mass=300 kg"]);
+        assert_eq!(edited, MODEL.replace("\"1 Hz\"", "\"1.5 Hz\"").replace("201 kg", "300 kg"));
+    }
+
+    #[test]
+    fn exact_excluded_key_gives_its_line() {
+        let edited = set(&["slider.spring=19 kN/m"]);
+        assert_eq!(edited, MODEL.replace("radius = \"2 m\"  # bought", "spring = \"19 kN/m\""));
+    }
+
+    #[test]
+    fn exact_new_key_and_new_table() {
+        let edited = set(&["slider.tilt=1 mrad", "analysis.tail=5 s"]);
+        let expected = MODEL.replace("gap = \"150 mm\"\n", "gap = \"150 mm\"\ntilt = \"1 mrad\"\n");
+        assert_eq!(edited, format!("{expected}\n[analysis]\ntail = \"5 s\"\n"));
+    }
+
+    #[test]
+    fn exact_what_has_no_room_is_written_anew() {
+        let text = MODEL.replace("0.05", "{ positive = 0.05, negative = 0.04 }");
+        let options = [Override::parse("slider.kinetic_friction.positive=0.03").unwrap()];
+        assert!(with_keys("m", &text, &options).unwrap().contains("{ positive = 0.03,"));
+        let options = [Override::parse("motion.pulse.duration=1 s").unwrap()];
+        assert!(with_keys("m", &text, &options).is_err());
+    }
+}

@@ -1,0 +1,252 @@
+/** Sliders and fields of the model's values, each with its unit. */
+
+import { digits, fill, h } from "./dom";
+import type { InputValue, Setting, State } from "./types";
+
+interface Spec {
+  label: string;
+  /** Ends of the slider in SI. */
+  min: number;
+  max: number;
+  log?: boolean;
+}
+
+/** Words and ranges of the keys that have a slider; `#` stands for a number. */
+const SPECS: Record<string, Spec> = {
+  "slider.static_friction": { label: "Static friction", min: 0, max: 0.3 },
+  "slider.kinetic_friction": { label: "Kinetic friction", min: 0, max: 0.3 },
+  "slider.kinetic_friction.slow": { label: "Kinetic friction at rest", min: 0, max: 0.3 },
+  "slider.kinetic_friction.fast": { label: "Kinetic friction, fast", min: 0, max: 0.3 },
+  "slider.static_friction.positive": { label: "Static friction, +x", min: 0, max: 0.3 },
+  "slider.static_friction.negative": { label: "Static friction, −x", min: 0, max: 0.3 },
+  "slider.kinetic_friction.positive": { label: "Kinetic friction, +x", min: 0, max: 0.3 },
+  "slider.kinetic_friction.negative": { label: "Kinetic friction, −x", min: 0, max: 0.3 },
+  "slider.radius": { label: "Radius of the pendulum", min: 0.2, max: 10, log: true },
+  "slider.period": { label: "Sliding period", min: 0.5, max: 8 },
+  "slider.spring": { label: "Spring", min: 100, max: 1e8, log: true },
+  "slider.damping_ratio": { label: "Damping of the slider", min: 0, max: 0.5 },
+  "slider.tilt": { label: "Tilt", min: -0.05, max: 0.05 },
+  "slider.asymmetry": { label: "Asymmetry", min: -0.5, max: 0.5 },
+  "slider.gap": { label: "Gap", min: 0.01, max: 1, log: true },
+  "slider.stop.gap": { label: "Gap to the stop", min: 0.01, max: 1, log: true },
+  "slider.stop.restitution": { label: "Restitution of the stop", min: 0, max: 1 },
+  "slider.bounds.lower": { label: "Lower bound ×", min: 0.3, max: 1 },
+  "slider.bounds.upper": { label: "Upper bound ×", min: 1, max: 3 },
+  "block.mass": { label: "Mass of the block", min: 0, max: 0, log: true },
+  "block.weight": { label: "Weight of the block", min: 0, max: 0, log: true },
+  "storey.#.mass": { label: "Mass", min: 0, max: 0, log: true },
+  "storey.#.weight": { label: "Weight", min: 0, max: 0, log: true },
+  "storey.#.frequency": { label: "Frequency on a fixed base", min: 0.2, max: 20, log: true },
+  "storey.#.period": { label: "Period on a fixed base", min: 0.05, max: 5, log: true },
+  "storey.#.stiffness": { label: "Stiffness", min: 0, max: 0, log: true },
+  "storey.#.damping_ratio": { label: "Damping ratio", min: 0, max: 0.2 },
+  "frame.period": { label: "First period on a fixed base", min: 0.05, max: 5, log: true },
+  "motion.scale": { label: "Scale of the record", min: 0.1, max: 5, log: true },
+  "motion.scale_to": { label: "Peak acceleration of the table", min: 0.1, max: 15 },
+  "motion.sine.frequency": { label: "Frequency", min: 0.1, max: 20, log: true },
+  "motion.sine.amplitude": { label: "Amplitude", min: 0.1, max: 15 },
+  "motion.sweep.from": { label: "From", min: 0.1, max: 20, log: true },
+  "motion.sweep.to": { label: "To", min: 0.1, max: 20, log: true },
+  "motion.sweep.amplitude": { label: "Amplitude", min: 0.1, max: 15 },
+  "motion.pulse.amplitude": { label: "Amplitude", min: 0.1, max: 15 },
+  "motion.pulse.duration": { label: "Duration of the pulse", min: 0.05, max: 5, log: true },
+  "analysis.tail": { label: "Free vibration after it", min: 0, max: 30 },
+};
+
+const GROUPS: [prefix: string, label: string][] = [
+  ["slider", "Slider"],
+  ["block", "Block"],
+  ["storey", "Structure"],
+  ["frame", "Structure"],
+  ["motion", "Ground motion"],
+  ["analysis", "Ground motion"],
+];
+
+const pattern = (path: string) => path.replace(/\.\d+(?=\.|$)/g, ".#");
+const round = (value: number, count = 3) => Number(value.toPrecision(count));
+
+/** One value: its field, its unit, its slider. */
+class Control {
+  readonly element: HTMLElement;
+  private readonly range: HTMLInputElement;
+  private readonly field: HTMLInputElement;
+  private readonly unit: HTMLElement;
+  private ends: [number, number] = [0, 1];
+  input: InputValue;
+
+  constructor(
+    input: InputValue,
+    private readonly spec: Spec,
+    label: string,
+    private readonly onset: (path: string, value: string, rest: boolean) => void,
+  ) {
+    this.input = input;
+    const id = `value-${input.path.replace(/\W/g, "-")}-${++made}`;
+    this.field = h("input", { type: "text", id, inputmode: "decimal", autocomplete: "off", spellcheck: "false" });
+    this.unit = h("span", { class: "unit" });
+    this.range = h("input", { type: "range", min: 0, max: 1000, step: 1, "aria-label": label });
+    this.element = h("div", { class: "control" }, h("label", { for: id }, label), this.field, this.unit, this.range);
+    this.range.addEventListener("input", () => {
+      const value = this.valueAt(Number(this.range.value) / 1000);
+      this.paint();
+      this.field.value = digits(value / (this.input.in_si ?? 1), 3).replace("−", "-");
+      this.onset(this.input.path, this.written(value), false);
+    });
+    this.range.addEventListener("change", () => this.onset(this.input.path, this.written(this.valueAt(Number(this.range.value) / 1000)), true));
+    this.field.addEventListener("change", () => {
+      const text = this.field.value.trim().replace("−", "-").replace(/^(\d+),(\d+)$/, "$1.$2");
+      const symbol = this.input.symbol ?? "";
+      const bare = /^[-+]?[\d.]+(e[-+]?\d+)?$/i.test(text);
+      this.onset(this.input.path, bare && symbol ? `${text} ${symbol}` : text, true);
+    });
+    this.update(input);
+  }
+
+  private written(si: number): string {
+    const shown = String(round(si / (this.input.in_si ?? 1)));
+    return this.input.symbol ? `${shown} ${this.input.symbol}` : shown;
+  }
+
+  private valueAt(share: number): number {
+    const [min, max] = this.ends;
+    const value = this.spec.log ? min * (max / min) ** share : min + (max - min) * share;
+    return this.spec.log ? value : Math.round(value / ((max - min) / 1000)) * ((max - min) / 1000);
+  }
+
+  private shareOf(value: number): number {
+    const [min, max] = this.ends;
+    return this.spec.log ? Math.log(Math.max(value, min) / min) / Math.log(max / min) : (value - min) / (max - min);
+  }
+
+  private paint(): void {
+    this.range.style.setProperty("--at", `${Number(this.range.value) / 10}%`);
+  }
+
+  get dragging(): boolean {
+    return this.range.matches(":active");
+  }
+
+  update(input: InputValue): void {
+    this.input = input;
+    const value = input.value ?? 0;
+    let { min, max } = this.spec;
+    if (max === 0) {
+      // A decade to each side of where it stood.
+      if (this.ends[0] === 0 || value < this.ends[0] || value > this.ends[1]) {
+        this.ends = [value / 10, value * 10];
+      }
+    } else {
+      if (value > max) max = value * 1.5;
+      if (value < min) min = this.spec.log ? value / 2 : value * 1.5;
+      this.ends = [min, max];
+    }
+    this.unit.textContent = input.symbol ?? "";
+    this.unit.title = `written as ${input.text}`;
+    if (document.activeElement !== this.field && this.root() !== this.field) this.field.value = input.shown ?? "";
+    if (!this.dragging) {
+      this.range.value = String(Math.round(1000 * this.shareOf(value)));
+      this.range.setAttribute("aria-valuetext", `${input.shown} ${input.symbol ?? ""}`.trim());
+      this.paint();
+    }
+  }
+
+  private root(): Element | null {
+    const root = this.field.getRootNode();
+    return root instanceof ShadowRoot ? root.activeElement : null;
+  }
+}
+
+let made = 0;
+
+const RESTORING: [key: string, label: string, first: (state: State) => string][] = [
+  ["none", "None", () => ""],
+  ["radius", "Pendulum, radius", () => "2 m"],
+  ["period", "Spring, by its period", () => "3 s"],
+  ["spring", "Spring, by its stiffness", (state) => `${round((state.structure.weight_n / 2))} N/m`],
+];
+
+/** All controls of a model. */
+export class Controls {
+  readonly element = h("div", {});
+  private controls = new Map<string, Control>();
+  private shape = "";
+
+  constructor(
+    private readonly onset: (settings: Setting[], rest: boolean) => void,
+    /** What is put at the head of the ground motion's group. */
+    private readonly motion: HTMLElement,
+  ) {}
+
+  update(state: State): void {
+    const wanted = state.inputs.filter((input) => input.value !== undefined && input.value !== null && SPECS[pattern(input.path)]);
+    const restoring = this.restoring(state);
+    const shape = `${wanted.map((input) => `${input.path} ${input.symbol}`).join()}|${restoring}|${state.structure.storeyNames.join()}`;
+    if (shape !== this.shape) {
+      this.shape = shape;
+      this.build(state, wanted);
+    }
+    for (const input of wanted) this.controls.get(input.path)?.update(input);
+  }
+
+  private restoring(state: State): string {
+    const has = (key: string) => state.inputs.find((input) => input.path === `slider.${key}`);
+    if (has("surface.1.friction") || has("triple.friction.1")) return "";
+    const key = ["radius", "period", "spring"].find(has);
+    return key === undefined || (key === "spring" && has("spring")?.value === 0) ? "none" : key;
+  }
+
+  private build(state: State, wanted: InputValue[]): void {
+    // A value that a person is about to change keeps its place.
+    const groups = new Map<string, HTMLElement[]>();
+    const into = (label: string, element: HTMLElement) => groups.set(label, [...(groups.get(label) ?? []), element]);
+    const old = this.controls;
+    this.controls = new Map();
+    const storeys = state.structure.storeyNames.length;
+    for (const input of wanted) {
+      const spec = SPECS[pattern(input.path)]!;
+      const group = GROUPS.find(([prefix]) => input.path.startsWith(prefix))?.[1];
+      if (!group || (input.path === "slider.spring" && input.value === 0)) continue;
+      const storey = /^storey\.(\d+)/.exec(input.path)?.[1];
+      const label = storey && storeys > 1 ? `${state.structure.storeyNames[Number(storey) - 1]}: ${spec.label.toLowerCase()}` : storey && spec.label === "Mass" ? "Mass of the storey" : spec.label;
+      const kept = old.get(input.path);
+      const control = kept ?? new Control(input, spec, label, (path, value, rest) => this.set(path, value, rest));
+      this.controls.set(input.path, control);
+      into(group, control.element);
+    }
+    const restoring = this.restoring(state);
+    if (restoring) {
+      const select = h("select", { id: `restoring-${++made}` }, ...RESTORING.map(([key, label]) => h("option", { value: key, selected: key === restoring }, label)));
+      select.addEventListener("change", () => {
+        const chosen = RESTORING.find(([key]) => key === select.value)!;
+        const setting: Setting = select.value === "none" ? ["slider.spring", "0 N/m"] : [`slider.${chosen[0]}`, chosen[2](state)];
+        this.onset([setting], true);
+      });
+      const place = h("div", { class: "choice" }, h("label", { for: select.id }, "Restoring force"), select);
+      const slider = groups.get("Slider") ?? [];
+      groups.set("Slider", [...slider.slice(0, 2), place, ...slider.slice(2)]);
+    }
+    groups.set("Ground motion", [this.motion, ...(groups.get("Ground motion") ?? [])]);
+    const order = ["Slider", "Ground motion", "Structure", "Block"];
+    fill(
+      this.element,
+      ...order.filter((label) => groups.has(label)).map((label) => {
+        const all = groups.get(label)!;
+        const many = label === "Structure" && all.length > 6;
+        return h("fieldset", { class: "group" }, h("legend", {}, label), ...(many ? [h("details", { class: "fold" }, h("summary", {}, `${all.length} values`), ...all)] : all));
+      }),
+    );
+  }
+
+  /** Kinetic friction is at most the static one: the one that is moved takes the other along. */
+  private set(path: string, value: string, rest: boolean): void {
+    const settings: Setting[] = [[path, value]];
+    const number = Number(value);
+    const other = path === "slider.kinetic_friction" ? "slider.static_friction" : path === "slider.static_friction" ? "slider.kinetic_friction" : undefined;
+    const beside = other && this.controls.get(other)?.input.value;
+    if (other && typeof beside === "number" && Number.isFinite(number)) {
+      const passed = path === "slider.kinetic_friction" ? number > beside : number < beside;
+      if (passed) settings.unshift([other, value]);
+    }
+    this.onset(settings, rest);
+  }
+}

@@ -1,0 +1,202 @@
+/** What the module returns, and what workers and page say to each other. */
+
+export type Display = "si" | "si-g" | "kN-mm" | "us";
+
+export interface Unit {
+  in_si: number;
+  symbol: string;
+}
+
+/** A value of the model in use. */
+export interface InputValue {
+  path: string;
+  text: string;
+  value?: number | null;
+  in_si?: number;
+  symbol?: string;
+  shown?: string;
+}
+
+export interface Row {
+  label: string;
+  unit: string;
+  values: string[];
+  governing: number | null;
+}
+
+export interface Warning {
+  label: string;
+  kind: string;
+  run: string | null;
+  time_s: number | null;
+  message: string;
+}
+
+export interface State {
+  text: string;
+  name: string;
+  line: string;
+  inputs: InputValue[];
+  motion: {
+    kind: string;
+    words: string;
+    pga_m_per_s2: number;
+    duration_s: number;
+    dt_s: number | null;
+  };
+  structure: {
+    blockMass_kg: number;
+    storeyMasses_kg: number[];
+    heights_m: number[];
+    width_m: number | null;
+    gap_m: number | null;
+    stop_m: (number | null)[] | null;
+    radius_m: number | null;
+    springs: boolean;
+    weight_n: number;
+    tilt_rad: number;
+    contents: number;
+    storeyNames: string[];
+    blockName: string;
+  };
+  rows: Row[];
+  runs: string[];
+  warnings: Warning[];
+  units: Record<"length" | "velocity" | "acceleration" | "force" | "energy", Unit>;
+  headline: {
+    peak_m: number;
+    peakTime_s: number;
+    residual_m: number;
+    block_m_per_s2: number;
+    roof_m_per_s2: number | null;
+    gapRatio: number | null;
+    slips: number;
+    baseShear: number;
+  };
+  method: string;
+}
+
+/** A response that is not judged yet; SI. */
+export interface Answer {
+  state: State;
+  time: Float64Array;
+  table: Float64Array;
+  s: Float64Array;
+  velocity: Float64Array;
+  block: Float64Array;
+  friction: Float64Array;
+  force: Float64Array;
+  storeyDisplacement: Float64Array;
+  storeyAcceleration: Float64Array;
+  contents: Float64Array;
+  mode: Int8Array;
+  eventTimes: Float64Array;
+  eventKinds: Uint8Array;
+  ground: number;
+  /** Only where the table moves otherwise than in the last answer. */
+  tableTimes?: Float64Array;
+  tableDisplacement?: Float64Array;
+}
+
+export interface Beside {
+  time: Float64Array;
+  s: Float64Array;
+}
+
+export interface Judgement {
+  rows: Row[];
+  runs: string[];
+  warnings: Warning[];
+  certificate: {
+    holds: boolean | null;
+    bound: string;
+    figures: { name: string; value: string }[];
+    closestCall: { margin: string; time_s: number; kind: string } | null;
+    iterations: { mean: string; max: number } | null;
+  };
+  fixedBase?: { label: string; unit: string; fixed: string; sliding: string; ratio: string }[];
+  stepwise?: {
+    error?: string;
+    rows?: { label: string; unit: string; exact: string; stepwise: string }[];
+    iterations?: string | null;
+  };
+  energy: Float64Array[];
+  lower?: Beside;
+  upper?: Beside;
+  steps?: Beside;
+}
+
+export interface Drawing {
+  id: string;
+  caption: string;
+  svg: string;
+}
+
+export interface Sheet {
+  kind: string;
+  line: string;
+  first: string | null;
+  verdict: string[];
+  warnings: Warning[];
+  tables: { heading: string; rows: string[][] }[];
+  notes: string[];
+  method: string[];
+  figures: Drawing[];
+  html: string;
+  json: string;
+}
+
+/** What is in a dropped record. */
+export interface Inspected {
+  layout: string;
+  channels: {
+    name: string;
+    quantity: string;
+    usable: boolean;
+    counts: boolean;
+    values: number;
+    dt_s: number | null;
+    words: string;
+  }[];
+}
+
+/** An error with its place in a text. */
+export interface Fault {
+  message: string;
+  source?: string;
+  start?: number;
+  end?: number;
+  /** The module is gone; its worker has to be replaced. */
+  fatal?: boolean;
+}
+
+export type Setting = [path: string, value: string];
+
+export interface Calls {
+  add: (name: string, bytes: Uint8Array) => void;
+  remove: (name: string) => void;
+  hash: (bytes: Uint8Array) => string;
+  inspect: (name: string, units: string, dt: string) => Inspected;
+  analyse: (text: string, set: Setting[], display: Display) => Answer;
+  judge: (stepwise: boolean) => Judgement;
+  file: (name: string, text: string, command: string) => string;
+  sweep: (text: string, over: string, from: number, to: number) => Float64Array;
+  assess: (what: string, text: string, options: Setting[], display: Display) => Sheet;
+  study: (plan: string, text: string, names: string[], display: Display) => Sheet;
+  wait: (ms: number) => void;
+  trap: () => void;
+}
+
+export type Op = keyof Calls;
+
+export interface Request {
+  id: number;
+  op: Op;
+  args: unknown[];
+}
+
+export type Reply =
+  | { id: number; result: unknown }
+  | { id: number; fault: Fault }
+  | { progress: [done: number, planned: number] }
+  | { ready: string };

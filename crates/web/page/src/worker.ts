@@ -1,0 +1,142 @@
+/** The worker: holds a session of the module and answers one request after the other. */
+
+import { initSync, Session, sha256, version } from "../pkg/slipstick_web.js";
+import type { Answer, Calls, Fault, Judgement, Op, Reply, Request, Sheet } from "./types";
+
+
+const scope = globalThis as unknown as DedicatedWorkerGlobalScope & {
+  slipstickProgress: (done: number, planned: number) => void;
+};
+
+const say = (reply: Reply, transfer: Transferable[] = []) => scope.postMessage(reply, transfer);
+
+let told = 0;
+scope.slipstickProgress = (done, planned) => {
+  const now = performance.now();
+  if (now - told > 50) {
+    told = now;
+    say({ progress: [done, planned] });
+  }
+};
+
+let session: Session;
+let lastGround = 0;
+
+const flat = (pairs: [string, string][]) => pairs.flat();
+
+const calls: Calls = {
+  add: (name, bytes) => session.addRecord(name, bytes),
+  remove: (name) => session.removeRecord(name),
+  hash: (bytes) => sha256(bytes),
+  inspect: (name, units, dt) => JSON.parse(session.inspect(name, units, dt)),
+  analyse(text, set, display): Answer {
+    const answer = session.analyse(text, flat(set), display);
+    const column = (number: number) => answer.column(number) as Float64Array;
+    const ground = answer.ground();
+    const result: Answer = {
+      state: JSON.parse(answer.state()),
+      time: column(0),
+      table: column(1),
+      s: column(2),
+      velocity: column(3),
+      block: column(4),
+      friction: column(5),
+      force: column(6),
+      storeyDisplacement: column(7),
+      storeyAcceleration: column(8),
+      contents: column(9),
+      mode: answer.mode() as Int8Array,
+      eventTimes: answer.eventTimes() as Float64Array,
+      eventKinds: answer.eventKinds() as Uint8Array,
+      ground,
+    };
+    answer.free();
+    if (ground !== lastGround) {
+      lastGround = ground;
+      result.tableTimes = session.tableTimes() as Float64Array;
+      result.tableDisplacement = session.tableDisplacement() as Float64Array;
+    }
+    return result;
+  },
+  judge(stepwise): Judgement {
+    const judged = session.judge(stepwise);
+    const beside = (number: number) => {
+      const [time, s] = [judged.beside(2 * number), judged.beside(2 * number + 1)];
+      return time.length > 0 ? { time: time as Float64Array, s: s as Float64Array } : undefined;
+    };
+    const result: Judgement = {
+      ...JSON.parse(judged.state()),
+      energy: [0, 1, 2, 3, 4].map((kind) => judged.energy(kind) as Float64Array),
+      lower: beside(0),
+      upper: beside(1),
+      steps: beside(2),
+    };
+    judged.free();
+    return result;
+  },
+  file: (name, text, command) => session.file(name, text, command),
+  sweep: (text, over, from, to) => session.sweep(text, over, from, to) as Float64Array,
+  assess(what, text, options, display): Sheet {
+    const page = session.assess(what, text, flat(options), display);
+    const sheet = { ...JSON.parse(page.state()), html: page.html(), json: page.json() };
+    page.free();
+    return sheet;
+  },
+  study(plan, text, names, display): Sheet {
+    const page = session.study(plan, text, names, display);
+    const sheet = { ...JSON.parse(page.state()), html: page.html(), json: page.json() };
+    page.free();
+    return sheet;
+  },
+  // For the tests: a worker that is silent, and one whose module traps.
+  wait(ms) {
+    const end = performance.now() + ms;
+    while (performance.now() < end);
+  },
+  trap() {
+    throw new WebAssembly.RuntimeError("unreachable");
+  },
+};
+
+/** Buffers of a result, which need not be copied. */
+function buffers(result: unknown, found: Transferable[] = []): Transferable[] {
+  if (ArrayBuffer.isView(result)) {
+    found.push(result.buffer as ArrayBuffer);
+  } else if (result && typeof result === "object") {
+    for (const value of Object.values(result)) {
+      if (value && typeof value === "object") buffers(value, found);
+    }
+  }
+  return found;
+}
+
+function fault(error: unknown): Fault {
+  if (typeof error === "string") {
+    try {
+      return JSON.parse(error) as Fault;
+    } catch {
+      return { message: error };
+    }
+  }
+  // A trap leaves the module in no state to go on with.
+  return { message: error instanceof Error ? error.message : String(error), fatal: true };
+}
+
+function answer({ id, op, args }: Request) {
+  try {
+    const call = calls[op as Op] as (...args: unknown[]) => unknown;
+    const result = call(...args);
+    say({ id, result }, buffers(result));
+  } catch (error) {
+    say({ id, fault: fault(error) });
+  }
+}
+
+scope.onmessage = (event: MessageEvent) => {
+  if (event.data?.module) {
+    initSync({ module: event.data.module as WebAssembly.Module });
+    session = new Session();
+    scope.onmessage = (event: MessageEvent) => answer(event.data as Request);
+    say({ ready: version() });
+  }
+};

@@ -1,0 +1,581 @@
+//! Results as the page takes them: typed arrays over time, and one object of everything else.
+
+use slipstick::assessment::single::{Job, Judged, Outcome};
+use slipstick::error::SolveError;
+use slipstick::input::{Input, MotionSource};
+use slipstick::response::{Demands, EventKind, History, Response};
+use slipstick::units::{Dimension, parse_unit};
+use slipstick_report::display::{DisplayUnits, Quantity};
+use slipstick_report::json::Json;
+use slipstick_report::number::{compact, significant};
+use slipstick_report::peaks;
+use slipstick_report::tables::{events_csv, history_csv};
+use slipstick_report::{FileNote, InputText, Report, Summary, describe, figures};
+use wasm_bindgen::prelude::*;
+
+use crate::failure::Failure;
+
+/// A response that is not judged yet.
+#[wasm_bindgen]
+pub struct Answer {
+    state: String,
+    columns: Vec<Vec<f64>>,
+    mode: Vec<i8>,
+    event_times_s: Vec<f64>,
+    event_kinds: Vec<u8>,
+    ground: u32,
+}
+
+/// Kinds of events in the order of their numbers.
+const KINDS: [EventKind; 10] = [
+    EventKind::Slip,
+    EventKind::Stick,
+    EventKind::Reversal,
+    EventKind::Contact,
+    EventKind::Separation,
+    EventKind::Press,
+    EventKind::Leave,
+    EventKind::Impact,
+    EventKind::Rest,
+    EventKind::Surface,
+];
+
+#[wasm_bindgen]
+impl Answer {
+    /// All but the histories: the model's text, its values, the peaks, the warnings, the units.
+    #[must_use]
+    pub fn state(&self) -> String {
+        self.state.clone()
+    }
+
+    /// A history at the knots, SI: 0 time, 1 table acceleration, 2 sliding displacement, 3 sliding
+    /// velocity, 4 total acceleration of the block, 5 friction force, 6 force of the block on its slider,
+    /// 7 storey displacements and 8 storey accelerations, all storeys of a knot together, 9 displacements
+    /// of the contents.
+    #[must_use]
+    pub fn column(&mut self, number: usize) -> Vec<f64> {
+        self.columns.get_mut(number).map(std::mem::take).unwrap_or_default()
+    }
+
+    /// Sign of the sliding velocity at the knots, 0 in stick.
+    #[must_use]
+    pub fn mode(&self) -> Vec<i8> {
+        self.mode.clone()
+    }
+
+    /// Times of the events in s.
+    #[wasm_bindgen(js_name = eventTimes)]
+    #[must_use]
+    pub fn event_times(&self) -> Vec<f64> {
+        self.event_times_s.clone()
+    }
+
+    /// Kinds of the events: slip, stick, reversal, contact, separation, press, leave, impact, rest,
+    /// surface, from 0.
+    #[wasm_bindgen(js_name = eventKinds)]
+    #[must_use]
+    pub fn event_kinds(&self) -> Vec<u8> {
+        self.event_kinds.clone()
+    }
+
+    /// Number of the ground motion: another one where the table moves otherwise.
+    #[must_use]
+    pub fn ground(&self) -> u32 {
+        self.ground
+    }
+}
+
+impl Answer {
+    /// Gathers what the page draws.
+    pub fn new(
+        text: &str,
+        job: &Job,
+        words: &str,
+        response: &Response,
+        summary: &Summary,
+        display: DisplayUnits,
+        ground: u32,
+    ) -> Self {
+        let empty = History::default();
+        let history = response.history.as_ref().unwrap_or(&empty);
+        let model = &job.analysis.model;
+        let force = (0..history.len()).map(|knot| history.slider_force_n(model, knot)).collect();
+        let columns = vec![
+            history.time_s.clone(),
+            history.table_acceleration_m_per_s2.clone(),
+            history.sliding_displacement_m.clone(),
+            history.sliding_velocity_m_per_s.clone(),
+            history.block_acceleration_m_per_s2.clone(),
+            history.friction_force_n.iter().map(|force| -force).collect(),
+            force,
+            history.storey_displacement_m.clone(),
+            history.storey_acceleration_m_per_s2.clone(),
+            history.contents_displacement_m.clone(),
+        ];
+        let sliders = history.mode.iter().step_by(history.interfaces.max(1));
+        let events = response.events.iter();
+        let kind = |kind: EventKind| KINDS.iter().position(|k| *k == kind).unwrap_or(0) as u8;
+        Self {
+            state: state(text, job, words, summary, display).to_pretty(),
+            columns,
+            mode: sliders.map(|mode| mode.sign() as i8).collect(),
+            event_times_s: events.clone().map(|event| event.time_s).collect(),
+            event_kinds: events.map(|event| kind(event.kind)).collect(),
+            ground,
+        }
+    }
+}
+
+/// What the check says, and what stands beside the response.
+#[wasm_bindgen]
+pub struct Judgement {
+    state: String,
+    energy: Vec<Vec<f64>>,
+    beside: Vec<Vec<f64>>,
+}
+
+#[wasm_bindgen]
+impl Judgement {
+    /// The peaks with those of the bounds, the warnings, the certificate, the fixed base, the stepwise
+    /// method.
+    #[must_use]
+    pub fn state(&self) -> String {
+        self.state.clone()
+    }
+
+    /// Energy at the knots in J: 0 input, 1 kinetic, 2 strain, 3 damping, 4 friction.
+    #[must_use]
+    pub fn energy(&mut self, number: usize) -> Vec<f64> {
+        self.energy.get_mut(number).map(std::mem::take).unwrap_or_default()
+    }
+
+    /// Responses beside the nominal one, two lists each, times in s and sliding displacement in m: lower
+    /// friction, upper friction, stepwise; empty where there is none.
+    #[must_use]
+    pub fn beside(&mut self, number: usize) -> Vec<f64> {
+        self.beside.get_mut(number).map(std::mem::take).unwrap_or_default()
+    }
+}
+
+impl Judgement {
+    /// Gathers it.
+    pub fn new(
+        outcome: &Outcome,
+        summary: &Summary,
+        fixed: Option<Demands>,
+        stepwise: Option<Result<Response, SolveError>>,
+        display: DisplayUnits,
+    ) -> Self {
+        let of = |response: &Response| {
+            let history = response.history.as_ref();
+            history.map_or_else(Default::default, |history| {
+                [history.time_s.clone(), history.sliding_displacement_m.clone()]
+            })
+        };
+        let none = || [Vec::new(), Vec::new()];
+        let (lower, upper) = match &outcome.bounds {
+            Some([lower, upper]) => (of(&lower.response), of(&upper.response)),
+            None => (none(), none()),
+        };
+        let solved = stepwise.as_ref().and_then(|response| response.as_ref().ok());
+        let third = solved.map_or_else(none, of);
+        let certificate = &outcome.nominal.certificate;
+        let energy = &certificate.energy;
+        let mut keys = vec![
+            ("rows", rows(summary, display)),
+            ("runs", crate::session::texts(summary.runs().iter().map(|(name, _)| *name))),
+            ("warnings", warnings(summary, display)),
+            ("certificate", checks(summary, outcome)),
+        ];
+        if let Some(fixed) = fixed {
+            keys.push(("fixedBase", fixed_base(&fixed, &outcome.nominal, display)));
+        }
+        if let Some(stepwise) = &stepwise {
+            keys.push(("stepwise", beside_stepwise(stepwise, &outcome.nominal.response, display)));
+        }
+        Self {
+            state: Json::Object(keys).to_pretty(),
+            energy: vec![
+                energy.input_j.clone(),
+                energy.kinetic_j.clone(),
+                energy.strain_j.clone(),
+                energy.damping_j.clone(),
+                energy.friction_j.clone(),
+            ],
+            beside: [lower, upper, third].into_iter().flatten().collect(),
+        }
+    }
+}
+
+/// A row of a sweep.
+pub fn sweep_row(value: f64, demands: &Demands) -> [f64; 6] {
+    let block = demands.peak_block_acceleration_m_per_s2;
+    let roof = demands.storeys.last().map_or(block, |roof| roof.peak_acceleration_m_per_s2);
+    [
+        value,
+        demands.peak_sliding_displacement_m,
+        demands.residual_sliding_displacement_m,
+        block,
+        roof,
+        demands.peak_base_shear_n,
+    ]
+}
+
+/// A judged response, from which files are made.
+pub struct Made<'a> {
+    /// Model and motion.
+    pub job: &'a Job,
+    /// What was understood of the records.
+    pub words: &'a str,
+    /// The responses.
+    pub outcome: &'a Outcome,
+    /// Their figures.
+    pub summary: &'a Summary,
+}
+
+impl Made<'_> {
+    /// The file of a name.
+    pub fn file(
+        &self,
+        name: &str,
+        text: &str,
+        command: &str,
+        hashes: &Vec<(String, String)>,
+        display: DisplayUnits,
+    ) -> Result<String, Failure> {
+        let nominal = &self.outcome.nominal;
+        let written = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).into_owned();
+        let empty = History::default();
+        let history = nominal.response.history.as_ref().unwrap_or(&empty);
+        let mut bytes = Vec::new();
+        match name {
+            "summary.json" => return Ok(self.summary.to_json()),
+            "history.csv" => {
+                history_csv(history, &mut bytes).map_err(Failure::of)?;
+                return Ok(written(bytes));
+            }
+            "events.csv" => {
+                events_csv(&nominal.response.events, &mut bytes).map_err(Failure::of)?;
+                return Ok(written(bytes));
+            }
+            _ => {}
+        }
+        let sha256 = crate::sha256(text.as_bytes());
+        let path = crate::session::MODEL;
+        let mut files = vec![FileNote { path, sha256: &sha256, description: "model" }];
+        for (path, sha256) in hashes {
+            files.push(FileNote { path, sha256, description: self.words });
+        }
+        let inputs = [InputText { path, text }];
+        let bounds = self.outcome.bounds.as_ref();
+        let report = Report {
+            summary: self.summary,
+            model: &self.job.analysis.model,
+            motion: &self.job.motion,
+            record: self.words,
+            response: &nominal.response,
+            certificate: &nominal.certificate,
+            bounds: bounds.map(|[lower, upper]| [&lower.response, &upper.response]),
+            floor_spectra: None,
+            inputs: &inputs,
+            files: &files,
+            command_line: command,
+            display,
+        };
+        match name {
+            "report.html" => Ok(report.to_html()),
+            "figures" => Ok(drawings(&figures::all(&report)).to_pretty()),
+            other => Err(Failure::of(format!("expected a file of a run, found {other:?}"))),
+        }
+    }
+}
+
+/// Figures as `[{id, caption, svg}]`.
+pub fn drawings(figures: &[figures::Drawn]) -> Json {
+    let one = |figure: &figures::Drawn| {
+        Json::Object(vec![
+            ("id", figure.id.into()),
+            ("caption", figure.caption.as_str().into()),
+            ("svg", figure.svg.as_str().into()),
+        ])
+    };
+    Json::List(figures.iter().map(one).collect())
+}
+
+fn state(text: &str, job: &Job, words: &str, summary: &Summary, display: DisplayUnits) -> Json {
+    let analysis = &job.analysis;
+    let model = &analysis.model;
+    let slider = model.slider();
+    let kind = match &analysis.motion {
+        Some(MotionSource::Record(_)) => "record",
+        Some(MotionSource::Sine(_)) => "sine",
+        Some(MotionSource::Sweep(_)) => "sweep",
+        Some(MotionSource::Pulse(_)) => "pulse",
+        None => "",
+    };
+    let numbers = |values: &[f64]| Json::List(values.iter().map(|v| (*v).into()).collect());
+    let frame = model.frame();
+    let heights = frame.heights_m.as_deref().unwrap_or(&[]);
+    let stop_m = slider.stop.as_ref().map(|stop| numbers(&stop_gaps(&stop.gap_m)));
+    let names = (1..=model.storeys()).map(|i| Json::Text(analysis.names.storey(i)));
+    let demands = &summary.demands;
+    Json::Object(vec![
+        ("text", text.into()),
+        ("name", Json::Text(summary.model.clone())),
+        ("line", Json::Text(describe::model_line(model, display))),
+        ("inputs", Json::List(analysis.inputs().map(|input| value(&input, display)).collect())),
+        (
+            "motion",
+            Json::Object(vec![
+                ("kind", kind.into()),
+                ("words", words.into()),
+                ("pga_m_per_s2", summary.record.pga_m_per_s2.into()),
+                ("duration_s", summary.duration_s.into()),
+                ("dt_s", summary.dt_s.into()),
+            ]),
+        ),
+        (
+            "structure",
+            Json::Object(vec![
+                ("blockMass_kg", model.block().mass_kg.into()),
+                ("storeyMasses_kg", numbers(&frame.masses_kg)),
+                ("heights_m", numbers(heights)),
+                ("width_m", model.block().width_m.into()),
+                ("gap_m", slider.gap_m.into()),
+                ("stop_m", stop_m.unwrap_or(Json::Null)),
+                ("radius_m", model.pendulum_radius_m(false).into()),
+                ("springs", (slider.stiffness_n_per_m > 0.0).into()),
+                ("weight_n", model.weight_n().into()),
+                ("tilt_rad", slider.tilt_rad.into()),
+                ("contents", (demands.contents.len() as u64).into()),
+                ("storeyNames", Json::List(names.collect())),
+                ("blockName", analysis.names.block().into()),
+            ]),
+        ),
+        ("rows", rows(summary, display)),
+        ("runs", crate::session::texts(["nominal"].into_iter())),
+        ("warnings", warnings(summary, display)),
+        ("units", units(display, demands)),
+        (
+            "headline",
+            Json::Object(vec![
+                ("peak_m", demands.peak_sliding_displacement_m.into()),
+                ("peakTime_s", demands.peak_sliding_displacement_time_s.into()),
+                ("residual_m", demands.residual_sliding_displacement_m.into()),
+                ("block_m_per_s2", demands.peak_block_acceleration_m_per_s2.into()),
+                (
+                    "roof_m_per_s2",
+                    demands.storeys.last().map(|roof| roof.peak_acceleration_m_per_s2).into(),
+                ),
+                ("gapRatio", demands.gap_ratio.into()),
+                ("slips", demands.slip_count.into()),
+                ("baseShear", demands.base_shear_coefficient.into()),
+            ]),
+        ),
+        ("method", slipstick_report::summary::method_name(summary.method).into()),
+    ])
+}
+
+fn stop_gaps(gaps_m: &[Option<f64>; 2]) -> Vec<f64> {
+    gaps_m.iter().map(|gap| gap.unwrap_or(f64::NAN)).collect()
+}
+
+/// A value in use: as written, and as it is shown and may be written in the units of the display.
+fn value(input: &Input<'_>, display: DisplayUnits) -> Json {
+    let mut keys = vec![("path", Json::from(input.path)), ("text", input.text.into())];
+    if let Some(si) = input.value {
+        let dimension = Dimension::ALL.into_iter().find(|d| d.si_unit() == input.unit);
+        let quantity = Quantity::from(dimension.filter(|_| !input.unit.is_empty()));
+        let as_written = matches!(display, DisplayUnits::Si) || quantity == Quantity::Ratio;
+        let shown = match dimension.filter(|_| as_written && !input.unit.is_empty()) {
+            Some(dimension) => {
+                // Times, frequencies and angles are in the same units everywhere.
+                let symbol = input
+                    .text
+                    .trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE_ ".contains(c));
+                let known = parse_unit(symbol, dimension).is_ok();
+                let one = if known { in_si(symbol, dimension) } else { 1.0 };
+                (one, if known { symbol } else { input.unit }.to_owned())
+            }
+            None => {
+                let unit = display.unit(quantity, si);
+                (unit.in_si, unit.symbol.to_owned())
+            }
+        };
+        keys.extend([
+            ("value", si.into()),
+            ("in_si", shown.0.into()),
+            ("symbol", Json::Text(shown.1)),
+            ("shown", Json::Text(compact(rounded(si / shown.0)))),
+        ]);
+    }
+    Json::Object(keys)
+}
+
+/// A value to six digits: `0.3 g` in other units and back is no `0.30000000000000004`.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+fn in_si(symbol: &str, dimension: Dimension) -> f64 {
+    parse_unit(symbol, dimension).map_or(1.0, |unit| unit.to_si(1.0))
+}
+
+/// Units of the plots, each by its largest value.
+fn units(display: DisplayUnits, demands: &Demands) -> Json {
+    let roof = demands.storeys.iter().fold(0.0_f64, |l, s| l.max(s.peak_displacement_m));
+    let unit = |quantity, largest: f64| {
+        let unit = display.unit(quantity, largest);
+        Json::Object(vec![("in_si", unit.in_si.into()), ("symbol", unit.symbol.into())])
+    };
+    Json::Object(vec![
+        ("length", unit(Quantity::Length, demands.peak_sliding_displacement_m.max(roof))),
+        ("velocity", unit(Quantity::Velocity, demands.peak_sliding_velocity_m_per_s)),
+        ("acceleration", unit(Quantity::Acceleration, demands.peak_block_acceleration_m_per_s2)),
+        ("force", unit(Quantity::Force, demands.peak_slider_force_n)),
+        (
+            "energy",
+            unit(Quantity::Energy, demands.peak_slider_force_n * demands.sliding_path_m * 0.5),
+        ),
+    ])
+}
+
+fn rows(summary: &Summary, display: DisplayUnits) -> Json {
+    let all = peaks::rows(summary, display).into_iter().chain(peaks::count_rows(summary));
+    let one = |row: peaks::Row| {
+        Json::Object(vec![
+            ("label", Json::Text(row.label)),
+            ("unit", row.unit.into()),
+            ("values", Json::List(row.values.into_iter().map(Json::Text).collect())),
+            ("governing", row.governing.map_or(Json::Null, |i| Json::Count(i as u64))),
+        ])
+    };
+    Json::List(all.map(one).collect())
+}
+
+fn warnings(summary: &Summary, display: DisplayUnits) -> Json {
+    let all = summary.all_warnings();
+    let one = |(run, warning): &(Option<&'static str>, &slipstick::response::Warning)| {
+        Json::Object(vec![
+            ("label", warning.label().into()),
+            ("kind", Json::Text(warning.kind.replace('_', " "))),
+            ("run", run.map_or(Json::Null, Json::from)),
+            ("time_s", warning.time_s.into()),
+            ("message", Json::Text(display.sentence(&warning.message))),
+        ])
+    };
+    Json::List(all.iter().map(one).collect())
+}
+
+fn checks(summary: &Summary, outcome: &Outcome) -> Json {
+    let checks = &summary.checks;
+    let figure = |name: &'static str, value: f64| {
+        Json::Object(vec![("name", name.into()), ("value", Json::Text(significant(value, 2)))])
+    };
+    let holds = checks.holds.map(|_| !summary.check_failed());
+    let call = checks.closest_call.map_or(Json::Null, |call| {
+        Json::Object(vec![
+            ("margin", Json::Text(significant(call.margin, 2))),
+            ("time_s", call.time_s.into()),
+            ("kind", call.kind.into()),
+        ])
+    });
+    let iterations = outcome.nominal.response.iterations.map_or(Json::Null, |iterations| {
+        Json::Object(vec![
+            ("mean", Json::Text(significant(iterations.mean, 3))),
+            ("max", Json::Count(u64::from(iterations.max))),
+        ])
+    });
+    Json::Object(vec![
+        ("holds", holds.map_or(Json::Null, Json::Bool)),
+        ("bound", Json::Text(significant(checks.bound, 2))),
+        (
+            "figures",
+            Json::List(vec![
+                figure("Equilibrium residual", checks.equilibrium_residual),
+                figure("Friction excess", checks.friction_excess),
+                figure("Energy balance error", checks.energy_balance_error),
+                figure("Demands error", checks.demands_error),
+            ]),
+        ),
+        ("closestCall", call),
+        ("iterations", iterations),
+    ])
+}
+
+/// The structure on a fixed base beside the sliding one.
+fn fixed_base(fixed: &Demands, nominal: &Judged, display: DisplayUnits) -> Json {
+    let sliding = &nominal.response.demands;
+    let row = |label: &'static str, quantity, fixed: f64, sliding: f64| {
+        let unit = display.unit(quantity, fixed.max(sliding));
+        Json::Object(vec![
+            ("label", label.into()),
+            ("unit", unit.symbol.into()),
+            ("fixed", Json::Text(significant(unit.of(fixed), 4))),
+            ("sliding", Json::Text(significant(unit.of(sliding), 4))),
+            ("ratio", Json::Text(significant(sliding / fixed, 3))),
+        ])
+    };
+    let roof = |demands: &Demands| demands.storeys.last().copied().unwrap_or_default();
+    let drift =
+        |demands: &Demands| demands.storeys.iter().fold(0.0, |l: f64, s| l.max(s.peak_drift_m));
+    Json::List(vec![
+        row(
+            "Roof acceleration",
+            Quantity::Acceleration,
+            roof(fixed).peak_acceleration_m_per_s2,
+            roof(sliding).peak_acceleration_m_per_s2,
+        ),
+        row("Largest drift", Quantity::Length, drift(fixed), drift(sliding)),
+        row("Base shear", Quantity::Force, fixed.peak_base_shear_n, sliding.peak_base_shear_n),
+    ])
+}
+
+/// The stepwise method beside the exact one.
+fn beside_stepwise(
+    stepwise: &Result<Response, SolveError>,
+    exact: &Response,
+    display: DisplayUnits,
+) -> Json {
+    let stepwise = match stepwise {
+        Ok(stepwise) => stepwise,
+        Err(error) => return Json::Object(vec![("error", Json::Text(error.to_string()))]),
+    };
+    let row = |label: &'static str, exact: f64, stepwise: f64| {
+        let unit = display.unit(Quantity::Length, exact.abs().max(stepwise.abs()));
+        Json::Object(vec![
+            ("label", label.into()),
+            ("unit", unit.symbol.into()),
+            ("exact", Json::Text(significant(unit.of(exact), 4))),
+            ("stepwise", Json::Text(significant(unit.of(stepwise), 4))),
+        ])
+    };
+    let (a, b) = (&exact.demands, &stepwise.demands);
+    let iterations = stepwise.iterations.map_or(Json::Null, |iterations| {
+        let words = format!(
+            "{} iterations a step, {} at most",
+            significant(iterations.mean, 3),
+            iterations.max
+        );
+        Json::Text(words)
+    });
+    Json::Object(vec![
+        (
+            "rows",
+            Json::List(vec![
+                row(
+                    "Peak sliding displacement",
+                    a.peak_sliding_displacement_m,
+                    b.peak_sliding_displacement_m,
+                ),
+                row(
+                    "Residual sliding displacement",
+                    a.residual_sliding_displacement_m,
+                    b.residual_sliding_displacement_m,
+                ),
+                row("Sliding path", a.sliding_path_m, b.sliding_path_m),
+            ]),
+        ),
+        ("iterations", iterations),
+    ])
+}

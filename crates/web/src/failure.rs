@@ -1,0 +1,52 @@
+//! Errors as the page reads them.
+
+use std::fmt::Display;
+
+use slipstick::assessment::AssessmentError;
+use slipstick::error::InputError;
+use slipstick_report::json::Json;
+use wasm_bindgen::JsValue;
+
+/// What went wrong: a message, and where it points into a text that the page shows.
+#[derive(Debug)]
+pub struct Failure {
+    message: String,
+    place: Option<(String, [usize; 2])>,
+}
+
+impl Failure {
+    /// An error that says all in its message.
+    pub fn of(error: impl Display) -> Self {
+        Self { message: error.to_string(), place: None }
+    }
+
+    /// An error that points into a text.
+    pub fn input(error: &InputError, text: &str) -> Self {
+        // The page counts as its editor does, in units of UTF-16.
+        let units = |byte: usize| text.get(..byte).unwrap_or(text).encode_utf16().count();
+        let place = &error.place;
+        let known = !place.source_name.is_empty() && place.span.end <= text.len();
+        let at = || (place.source_name.clone(), [units(place.span.start), units(place.span.end)]);
+        Self { message: error.to_string(), place: known.then(at) }
+    }
+
+    /// An error of an analysis over a suite.
+    pub fn assessment(error: &AssessmentError, text: &str) -> Self {
+        match error {
+            AssessmentError::Input(error) => Self::input(error, text),
+            other => Self::of(other),
+        }
+    }
+}
+
+impl From<Failure> for JsValue {
+    fn from(failure: Failure) -> Self {
+        let mut keys = vec![("message", Json::Text(failure.message))];
+        if let Some((source, [start, end])) = failure.place {
+            keys.push(("source", Json::Text(source)));
+            keys.push(("start", Json::Count(start as u64)));
+            keys.push(("end", Json::Count(end as u64)));
+        }
+        Self::from_str(&Json::Object(keys).to_pretty())
+    }
+}

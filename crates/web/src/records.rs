@@ -1,0 +1,154 @@
+//! Records that were dropped on the page, by their names.
+
+use slipstick::assessment::single::described;
+use slipstick::error::RecordError;
+use slipstick::input::loaded::{LoadError, Loaded, Wanted};
+use slipstick::input::{Analysis, MotionSource, RecordSource};
+use slipstick::record::{self, Options, Quantity, Record, Sampling, Units};
+use slipstick::units::{Dimension, parse_quantity};
+use slipstick_report::json::Json;
+
+use crate::failure::Failure;
+
+/// A file and, once read, what is in it.
+struct File {
+    name: String,
+    bytes: Vec<u8>,
+    read: Option<(Options, Record)>,
+}
+
+/// All files of a session.
+#[derive(Default)]
+pub struct Records(Vec<File>);
+
+impl Records {
+    /// Keeps a file, in place of one of the same name.
+    pub fn add(&mut self, name: &str, bytes: Vec<u8>) {
+        self.remove(name);
+        self.0.push(File { name: name.to_owned(), bytes, read: None });
+    }
+
+    /// Forgets a file.
+    pub fn remove(&mut self, name: &str) {
+        self.0.retain(|file| file.name != name);
+    }
+
+    /// The bytes of a file: of its whole path as the model gives it, else of its name alone.
+    pub fn bytes(&self, path: &str) -> Option<&[u8]> {
+        self.position(path).map(|i| self.0[i].bytes.as_slice())
+    }
+
+    fn position(&self, path: &str) -> Option<usize> {
+        let of = |wanted: &str| self.0.iter().position(|file| file.name == wanted);
+        of(path).or_else(|| of(path.rsplit(['/', '\\']).next().unwrap_or(path)))
+    }
+
+    /// The record of a file, read once.
+    pub fn read(&mut self, path: &str, options: &Options) -> Option<Result<&Record, RecordError>> {
+        let position = self.position(path)?;
+        let file = &mut self.0[position];
+        if file.read.as_ref().is_none_or(|(of, _)| of != options) {
+            match record::read(&file.name, &file.bytes, options) {
+                Ok(record) => file.read = Some((options.clone(), record)),
+                Err(error) => return Some(Err(error)),
+            }
+        }
+        file.read.as_ref().map(|(_, record)| Ok(record))
+    }
+
+    /// The motion that an analysis asks for.
+    pub fn motion(&mut self, analysis: &Analysis, text: &str) -> Result<Loaded, Failure> {
+        let of_input = |error| Failure::input(&error, text);
+        let source = analysis.required_motion().map_err(of_input)?;
+        if let MotionSource::Record(record) = source {
+            return self.recorded(analysis, record, text);
+        }
+        let made = described(source).map_err(|e| of_input(analysis.motion_error(&e)))?;
+        let none = || of_input(analysis.error_at("motion", "a motion", "none"));
+        made.map(|(motion, words)| Loaded::made(motion, words)).ok_or_else(none)
+    }
+
+    fn recorded(
+        &mut self,
+        analysis: &Analysis,
+        source: &RecordSource,
+        text: &str,
+    ) -> Result<Loaded, Failure> {
+        let options = Options { format: None, units: source.units, dt_s: source.dt_s };
+        let missing = |key: &str, path: &str| {
+            let expected = "the file of this record, dropped on the page";
+            Failure::input(&analysis.error_at(key, expected, format!("none named {path}")), text)
+        };
+        let horizontal = self
+            .read(&source.path, &options)
+            .ok_or_else(|| missing("motion.record", &source.path))?
+            .map_err(Failure::of)?
+            .clone();
+        let vertical = match &source.vertical {
+            None => None,
+            Some(path) => Some(
+                self.read(path, &options)
+                    .ok_or_else(|| missing("motion.vertical", path))?
+                    .map_err(Failure::of)?,
+            ),
+        };
+        let along = Wanted { record: &horizontal, channel: source.channel.as_deref() };
+        let up = vertical
+            .map(|record| (Wanted { record, channel: None }, source.vertical_scale.unwrap_or(1.0)));
+        Loaded::recorded(along, up, Some(source.scale)).map_err(|error| match &error {
+            LoadError::Motion { error, .. } => Failure::input(&analysis.motion_error(error), text),
+            LoadError::Channel { key, .. } => {
+                let key = format!("motion.{}", key.unwrap_or("channel"));
+                Failure::input(&analysis.error_at(&key, error.to_string(), "nothing"), text)
+            }
+        })
+    }
+
+    /// What is in a file, and what it does not say: `{layout, channels, expected}`.
+    pub fn inspect(&mut self, name: &str, units: &str, dt: &str) -> Result<Json, Failure> {
+        let options = options(units, dt)?;
+        let missing = || Failure::of(format!("{name}: expected a file, found none of this name"));
+        let record = self.read(name, &options).ok_or_else(missing)?.map_err(Failure::of)?;
+        let channels = record.channels.iter().enumerate().map(|(i, channel)| {
+            let dt_s = match channel.sampling {
+                Sampling::Dt(dt_s) => Some(dt_s),
+                Sampling::Times(_) => None,
+            };
+            let alone = record.channels.iter().filter(|c| c.name == channel.name).count() == 1;
+            let name = if alone { channel.name.clone() } else { (i + 1).to_string() };
+            Json::Object(vec![
+                ("name", Json::Text(name)),
+                ("quantity", channel.units.quantity().name().into()),
+                ("usable", (channel.units.quantity() == Quantity::Acceleration).into()),
+                ("counts", (channel.units.quantity() == Quantity::Counts).into()),
+                ("values", (channel.values.len() as u64).into()),
+                ("dt_s", dt_s.into()),
+                ("words", Json::Text(record.describe(channel))),
+            ])
+        });
+        Ok(Json::Object(vec![
+            ("layout", record.layout.as_str().into()),
+            ("channels", Json::List(channels.collect())),
+        ]))
+    }
+}
+
+/// Options from what a person writes; nothing where the text is empty.
+pub fn options(units: &str, dt: &str) -> Result<Options, Failure> {
+    let units = match units.trim() {
+        "" => None,
+        text => Some(Units::parse(text).ok_or_else(|| {
+            Failure::of(format!(
+                "units: expected a unit of acceleration, such as g, found {text:?}"
+            ))
+        })?),
+    };
+    let dt_s = match dt.trim() {
+        "" => None,
+        text => Some(
+            parse_quantity(text, Dimension::Time)
+                .map_err(|error| Failure::of(format!("dt: {error}")))?,
+        ),
+    };
+    Ok(Options { format: None, units, dt_s })
+}

@@ -1,0 +1,349 @@
+//! What a worker keeps between two calls: the files, the motion, what the solver has prepared.
+
+use std::sync::Arc;
+
+use slipstick::assessment::models::Models;
+use slipstick::assessment::single::{Job, Outcome};
+use slipstick::assessment::spectrum::{fixed_base, without_vertical};
+use slipstick::assessment::sweep::Sweep;
+use slipstick::input::loaded::Loaded;
+use slipstick::input::{self, Analysis, MotionSource, Override};
+use slipstick::motion::processing::{Step, process};
+use slipstick::motion::{GroundMotion, Quantity};
+use slipstick::response::{Method, Response};
+use slipstick::solver::{self, Prepared, PreparedMotion};
+use slipstick_report::json::Json;
+use slipstick_report::{DisplayUnits, Summary, SummaryInputs};
+use wasm_bindgen::prelude::*;
+
+use crate::answer::{self, Answer, Judgement};
+use crate::failure::Failure;
+use crate::records::Records;
+use crate::sheets::{self, Page};
+
+/// What errors call the model's text.
+pub(crate) const MODEL: &str = "model.toml";
+
+/// A ground motion ready to be used again.
+struct Ground {
+    source: Option<MotionSource>,
+    tail_s: f64,
+    loaded: Loaded,
+    with_tail: PreparedMotion,
+    number: u32,
+}
+
+/// The last answer, which is judged and written when the page asks.
+struct Last {
+    job: Job,
+    name: String,
+    words: String,
+    loaded: Loaded,
+    response: Response,
+    judged: Option<(Outcome, Summary)>,
+    display: DisplayUnits,
+}
+
+/// The state of a worker.
+#[wasm_bindgen]
+#[derive(Default)]
+pub struct Session {
+    records: Records,
+    ground: Option<Ground>,
+    prepared: Option<Prepared>,
+    last: Option<Last>,
+    sweep: Option<(String, Sweep)>,
+    grounds: u32,
+}
+
+#[wasm_bindgen]
+impl Session {
+    /// A session without files.
+    #[wasm_bindgen(constructor)]
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Keeps the bytes of a record under its name.
+    #[wasm_bindgen(js_name = addRecord)]
+    pub fn add_record(&mut self, name: &str, bytes: Vec<u8>) {
+        self.records.add(name, bytes);
+        self.ground = None;
+    }
+
+    /// Forgets a record.
+    #[wasm_bindgen(js_name = removeRecord)]
+    pub fn remove_record(&mut self, name: &str) {
+        self.records.remove(name);
+        self.ground = None;
+    }
+
+    /// What is in a record, as JSON; `units` and `dt` say what the file does not, or are empty.
+    ///
+    /// # Errors
+    /// With line and column where the bytes are no record.
+    pub fn inspect(&mut self, name: &str, units: &str, dt: &str) -> Result<String, JsValue> {
+        Ok(self.records.inspect(name, units, dt)?.to_pretty())
+    }
+
+    /// Analyses a model with keys set, `[path, value, …]`, without judging the response.
+    ///
+    /// # Errors
+    /// With the place in the text where the model cannot be understood, with time and cause where it
+    /// cannot be solved.
+    pub fn analyse(
+        &mut self,
+        text: &str,
+        set: Vec<String>,
+        display: &str,
+    ) -> Result<Answer, JsValue> {
+        let text = with_keys(text, &set)?;
+        let analysis = parse(&text)?;
+        let display = display_units(display);
+        self.load(&analysis, &text)?;
+        let Some(ground) = &self.ground else { return Err(Failure::of("no motion").into()) };
+        let bare = ground.loaded.motion.clone();
+        let mut noticed = ground.loaded.warnings.clone();
+        let job = Job::new(analysis, bare, std::mem::take(&mut noticed))
+            .map_err(|error| Failure::input(&error, &text))?;
+        let model = &job.analysis.model;
+        let response = match job.analysis.method {
+            Method::Exact => {
+                let prepared = match self.prepared.take() {
+                    Some(prepared) => prepared.with_model(model.clone()),
+                    None => Prepared::new(model.clone(), ground.with_tail.dt_s()),
+                };
+                let response = prepared.response(&ground.with_tail);
+                self.prepared = Some(prepared);
+                response
+            }
+            Method::Stepwise => solver::stepwise(model, &job.motion),
+        };
+        let response = response.map_err(Failure::of)?;
+        let name = job.analysis.name.clone().unwrap_or_else(|| "Model".to_owned());
+        let words = ground.loaded.description.join("; ");
+        let loaded = Loaded {
+            motion: GroundMotion::evenly_spaced(1.0, vec![0.0, 0.0], None).map_err(Failure::of)?,
+            ..ground.loaded.clone()
+        };
+        let summary = Summary {
+            dt_s: job.bare.dt_s(),
+            names: job.analysis.names.clone(),
+            ..Summary::new(&SummaryInputs {
+                name: &name,
+                model,
+                motion: &job.motion,
+                record: loaded.figures,
+                response: &response,
+                certificate: None,
+                friction_factor: 1.0,
+                warnings: &job.warnings,
+            })
+        };
+        let answer = Answer::new(&text, &job, &words, &response, &summary, display, ground.number);
+        self.last = Some(Last { job, name, words, loaded, response, judged: None, display });
+        Ok(answer)
+    }
+
+    /// Judges the last answer, with lower- and upper-bound friction, the same structure on a fixed base
+    /// and, where asked for, the paper's stepwise method.
+    ///
+    /// # Errors
+    /// Where nothing was analysed, or a bound cannot be solved.
+    pub fn judge(&mut self, stepwise: bool) -> Result<Judgement, JsValue> {
+        let last = self.last.as_mut().ok_or_else(|| Failure::of("nothing was analysed"))?;
+        let outcome = last.job.run_on(last.response.clone(), false).map_err(Failure::of)?;
+        let summary = Summary::of(&last.name, &last.job, last.loaded.figures, &outcome);
+        let model = &last.job.analysis.model;
+        let fixed = (model.storeys() > 0).then(|| {
+            let model = fixed_base(model).ok()?;
+            let motion = without_vertical(&last.job.motion).ok()?;
+            solver::exact_demands(&model, &motion).ok().map(|response| response.demands)
+        });
+        let stepwise = stepwise.then(|| solver::stepwise(model, &last.job.motion));
+        let judgement = Judgement::new(&outcome, &summary, fixed.flatten(), stepwise, last.display);
+        last.judged = Some((outcome, summary));
+        Ok(judgement)
+    }
+
+    /// Times at which the table's displacement is known, in s.
+    #[wasm_bindgen(js_name = tableTimes)]
+    #[must_use]
+    pub fn table_times(&self) -> Vec<f64> {
+        self.ground.as_ref().map_or_else(Vec::new, |ground| ground.loaded.motion.times_s().to_vec())
+    }
+
+    /// Displacement of the table in m at these times, without the drift of its record, to be looked at.
+    #[wasm_bindgen(js_name = tableDisplacement)]
+    #[must_use]
+    pub fn table_displacement(&self) -> Vec<f64> {
+        const STEPS: [Step; 4] = [
+            Step::To { quantity: Quantity::Velocity },
+            Step::RemovePolynomial { degree: 2 },
+            Step::To { quantity: Quantity::Displacement },
+            Step::RemovePolynomial { degree: 2 },
+        ];
+        let Some(ground) = &self.ground else { return Vec::new() };
+        let moved = process(&ground.loaded.motion.series(), &STEPS);
+        moved.map_or_else(|_| Vec::new(), |series| series.values().to_vec())
+    }
+
+    /// A file made of the last judged answer: `summary.json`, `history.csv`, `events.csv`,
+    /// `report.html`, or `figures` as JSON `[{id, caption, svg}]`.
+    ///
+    /// # Errors
+    /// Where nothing was judged, or no such file is written.
+    pub fn file(&mut self, name: &str, text: &str, command: &str) -> Result<String, JsValue> {
+        let nothing = || Failure::of("nothing was checked yet");
+        let last = self.last.as_mut().ok_or_else(nothing)?;
+        let (outcome, summary) = last.judged.as_ref().ok_or_else(nothing)?;
+        let paths = last.job.analysis.motion.as_ref();
+        let hash = |path: &String| {
+            let bytes = self.records.bytes(path)?;
+            Some((path.clone(), crate::sha256(bytes)))
+        };
+        let hashes = match paths {
+            Some(MotionSource::Record(record)) => {
+                let both = [Some(&record.path), record.vertical.as_ref()];
+                both.into_iter().flatten().filter_map(hash).collect()
+            }
+            _ => Vec::new(),
+        };
+        let made = answer::Made { job: &last.job, words: &last.words, outcome, summary };
+        Ok(made.file(name, text, command, &hashes, last.display)?)
+    }
+
+    /// Demands of the models of a range of values on the model's own motion: for each value it, the peak
+    /// and the residual sliding displacement, the peak acceleration of block and roof, the peak base
+    /// shear; NaN where a run has no answer.
+    ///
+    /// # Errors
+    /// With the place in the text; for values that make no model.
+    pub fn sweep(
+        &mut self,
+        text: &str,
+        over: &str,
+        from: usize,
+        to: usize,
+    ) -> Result<Vec<f64>, JsValue> {
+        let key = format!("{over}\n{text}");
+        if self.sweep.as_ref().is_none_or(|(of, _)| *of != key) {
+            let analysis = parse(text)?;
+            self.load(&analysis, text)?;
+            let Some(ground) = &self.ground else { return Err(Failure::of("no motion").into()) };
+            let options = [("over", over.to_owned())];
+            let models = Models::new(MODEL, text, &[], &options, true)
+                .map_err(|error| Failure::assessment(&error, text))?;
+            let motion = ground.with_tail.motion().clone();
+            self.sweep = Some((key, Sweep::new(models, motion)));
+        }
+        let Some((_, sweep)) = &mut self.sweep else { return Ok(Vec::new()) };
+        let values: Vec<f64> = match sweep.models().grid().axes() {
+            [axis] => axis.values.clone(),
+            _ => Vec::new(),
+        };
+        let demands = sweep.demands(from..to);
+        let row = |(value, demands): (&f64, &Result<_, _>)| match demands {
+            Ok(demands) => answer::sweep_row(*value, demands),
+            Err(_) => [*value, f64::NAN, f64::NAN, f64::NAN, f64::NAN, f64::NAN],
+        };
+        Ok(values.iter().skip(from).zip(&demands).flat_map(row).collect())
+    }
+
+    /// An analysis over a suite: `spectrum`, `ida`, `fragility` or `design`. The options are those of
+    /// the command, as `[name, value, …]`; `record` names a record and may be repeated.
+    ///
+    /// # Errors
+    /// One message, with the place in the model's text where it has one.
+    pub fn assess(
+        &mut self,
+        what: &str,
+        text: &str,
+        options: Vec<String>,
+        display: &str,
+    ) -> Result<Page, JsValue> {
+        Ok(sheets::assess(&mut self.records, what, text, &options, display_units(display))?)
+    }
+
+    /// A study: a plan, the model that it names, and the records that its patterns match among the files.
+    ///
+    /// # Errors
+    /// One message, with the place in plan or model where it has one.
+    pub fn study(
+        &mut self,
+        plan: &str,
+        text: &str,
+        names: Vec<String>,
+        display: &str,
+    ) -> Result<Page, JsValue> {
+        Ok(sheets::study(&mut self.records, plan, text, &names, display_units(display))?)
+    }
+
+    fn load(&mut self, analysis: &Analysis, text: &str) -> Result<(), Failure> {
+        let known = self.ground.as_ref().is_some_and(|ground| {
+            ground.source == analysis.motion && ground.tail_s == analysis.tail_s
+        });
+        if known {
+            return Ok(());
+        }
+        let loaded = self.records.motion(analysis, text)?;
+        let with_tail = match analysis.tail_s {
+            0.0 => loaded.motion.clone(),
+            tail_s => {
+                let tailed = loaded.motion.with_tail(tail_s);
+                tailed.map_err(|e| Failure::input(&analysis.motion_error(&e), text))?
+            }
+        };
+        self.grounds += 1;
+        self.ground = Some(Ground {
+            source: analysis.motion.clone(),
+            tail_s: analysis.tail_s,
+            loaded,
+            with_tail: PreparedMotion::new(Arc::new(with_tail)),
+            number: self.grounds,
+        });
+        Ok(())
+    }
+}
+
+/// A model's text with keys set, `[path, value, …]`, comments kept.
+///
+/// # Errors
+/// With the place in the text.
+#[wasm_bindgen(js_name = withKeys)]
+pub fn with_keys_of(text: &str, set: Vec<String>) -> Result<String, JsValue> {
+    Ok(with_keys(text, &set)?)
+}
+
+/// The units that may be written and what a model takes, as the schema of the command.
+#[wasm_bindgen(js_name = modelSchema)]
+#[must_use]
+pub fn model_schema() -> String {
+    input::json_schema()
+}
+
+fn with_keys(text: &str, set: &[String]) -> Result<String, Failure> {
+    let set: Result<Vec<Override>, _> =
+        set.chunks_exact(2).map(|pair| Override::text_value(&pair[0], &pair[1])).collect();
+    let set = set.map_err(|error| Failure::input(&error, ""))?;
+    input::with_keys(MODEL, text, &set).map_err(|error| Failure::input(&error, text))
+}
+
+pub(crate) fn parse(text: &str) -> Result<Analysis, Failure> {
+    input::parse(MODEL, text, &[]).map_err(|error| Failure::input(&error, text))
+}
+
+fn display_units(name: &str) -> DisplayUnits {
+    match name {
+        "kN-mm" => DisplayUnits::KnMm,
+        "us" => DisplayUnits::Us,
+        "si-g" => DisplayUnits::SiG,
+        _ => DisplayUnits::Si,
+    }
+}
+
+/// A list of texts.
+pub(crate) fn texts<'a>(texts: impl Iterator<Item = &'a str>) -> Json {
+    Json::List(texts.map(Json::from).collect())
+}

@@ -1,0 +1,582 @@
+//! Analyses over a suite and studies, laid out as the command lays them out.
+
+use std::cell::Cell;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use slipstick::assessment::design::{DesignRequest, Target, run_design};
+use slipstick::assessment::grid::levels;
+use slipstick::assessment::ida::{IdaLevels, IdaRequest, run_ida};
+use slipstick::assessment::models::Models;
+use slipstick::assessment::observed::{FragilityRequest, run_fragility};
+use slipstick::assessment::spectrum::{SpectrumRequest, run_spectrum};
+use slipstick::assessment::suite::{Scaling, Suite, SuiteRecord};
+use slipstick::input::loaded::{Loaded, Wanted};
+use slipstick::input::plan::Plan;
+use slipstick::input::{Analysis, FrictionBounds, MotionSource};
+use slipstick::motion::intensity::Measure;
+use slipstick::record::Options;
+use slipstick::response::{Method, Warning};
+use slipstick::study::engine::Engine;
+use slipstick::study::summary::{Rows, Take};
+use slipstick::study::{Record, Study};
+use slipstick_report::DisplayUnits;
+use slipstick_report::assessment::design::DesignReport;
+use slipstick_report::assessment::fragility::FragilityReport;
+use slipstick_report::assessment::ida::IdaFamily;
+use slipstick_report::assessment::spectrum::{SpectrumReport, group_names};
+use slipstick_report::assessment::{Sheet, Went, key};
+use slipstick_report::json::Json;
+use slipstick_report::study::StudyReport;
+use slipstick_report::{FileNote, InputText};
+use wasm_bindgen::prelude::*;
+
+use crate::answer::drawings;
+use crate::failure::Failure;
+use crate::records::Records;
+use crate::session::{MODEL, parse, texts};
+
+#[wasm_bindgen]
+extern "C" {
+    /// Told how many runs are done of how many.
+    #[wasm_bindgen(js_namespace = globalThis, js_name = slipstickProgress)]
+    fn progress(done: f64, planned: f64);
+}
+
+/// A result laid out.
+#[wasm_bindgen]
+pub struct Page {
+    state: String,
+    html: String,
+    json: String,
+}
+
+#[wasm_bindgen]
+impl Page {
+    /// What the page shows: `{kind, line, verdict, tables, notes, warnings, figures, method}`.
+    #[must_use]
+    pub fn state(&self) -> String {
+        self.state.clone()
+    }
+
+    /// The command's `report.html`.
+    #[must_use]
+    pub fn html(&self) -> String {
+        self.html.clone()
+    }
+
+    /// The command's `summary.json`.
+    #[must_use]
+    pub fn json(&self) -> String {
+        self.json.clone()
+    }
+}
+
+impl Page {
+    fn new(sheet: &Sheet, inputs: &[InputText<'_>], files: &[FileNote<'_>], command: &str) -> Self {
+        let table = |(heading, rows): &(String, Vec<Vec<String>>)| {
+            let rows = rows.iter().map(|row| texts(row.iter().map(String::as_str)));
+            Json::Object(vec![
+                ("heading", heading.as_str().into()),
+                ("rows", Json::List(rows.collect())),
+            ])
+        };
+        let warning = |warning: &Warning| {
+            Json::Object(vec![
+                ("label", warning.label().into()),
+                ("kind", Json::Text(warning.kind.replace('_', " "))),
+                ("run", Json::Null),
+                ("time_s", warning.time_s.into()),
+                ("message", Json::Text(sheet.display.sentence(&warning.message))),
+            ])
+        };
+        let list = |all: &[String]| texts(all.iter().map(String::as_str));
+        let first = sheet.first.as_ref().map(|(name, sentence)| format!("{name}: {sentence}"));
+        let state = Json::Object(vec![
+            ("kind", sheet.kind.into()),
+            ("line", sheet.line.as_str().into()),
+            ("first", first.map_or(Json::Null, Json::Text)),
+            ("verdict", list(&sheet.verdict)),
+            ("warnings", Json::List(sheet.warnings.iter().map(warning).collect())),
+            ("tables", Json::List(sheet.tables.iter().map(table).collect())),
+            ("notes", list(&sheet.notes)),
+            ("method", list(&sheet.method)),
+            ("figures", drawings(&sheet.figures)),
+        ]);
+        let version = env!("CARGO_PKG_VERSION");
+        let went = Went { version, command_line: command, files, inputs };
+        Self { state: state.to_pretty(), html: sheet.to_html(&went), json: sheet.to_json() }
+    }
+}
+
+/// Options of a command: names and values.
+struct Asked<'a>(&'a [String]);
+
+impl Asked<'_> {
+    fn all(&self, name: &str) -> impl Iterator<Item = &str> {
+        let pairs = self.0.chunks_exact(2).filter(move |pair| pair[0] == name);
+        pairs.map(|pair| pair[1].as_str()).filter(|value| !value.trim().is_empty())
+    }
+
+    fn one(&self, name: &str) -> Option<&str> {
+        self.all(name).last()
+    }
+
+    fn number(&self, name: &str, default: f64) -> Result<f64, Failure> {
+        let Some(text) = self.one(name) else { return Ok(default) };
+        let number = text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+        number.ok_or_else(|| Failure::of(format!("--{name}: expected a number, found {text:?}")))
+    }
+
+    /// What was asked, as the command takes it.
+    fn command(&self, what: &str) -> String {
+        let pairs = self.0.chunks_exact(2).filter(|pair| !pair[1].trim().is_empty());
+        let options: String = pairs.map(|pair| format!(" --{} {:?}", pair[0], pair[1])).collect();
+        format!("slipstick {what} {MODEL}{options}")
+    }
+}
+
+thread_local! {
+    /// The runs planned by the engine at work.
+    static PLANNED: Cell<u64> = const { Cell::new(0) };
+}
+
+/// Runs something with an engine that tells the page of its progress.
+fn followed<T>(work: impl FnOnce(&Engine<'_>) -> T) -> T {
+    let done = AtomicU64::new(0);
+    PLANNED.set(0);
+    let follow = |runs: u64| {
+        let all = done.fetch_add(runs, Ordering::Relaxed) + runs;
+        // A message costs more than a run.
+        if all % 16 == 0 {
+            progress(all as f64, PLANNED.get() as f64);
+        }
+        ControlFlow::Continue(())
+    };
+    let engine = Engine::new(&follow);
+    work(&engine)
+}
+
+/// An analysis over a suite.
+pub fn assess(
+    records: &mut Records,
+    what: &str,
+    text: &str,
+    options: &[String],
+    display: DisplayUnits,
+) -> Result<Page, Failure> {
+    let asked = Asked(options);
+    let analysis = parse(text)?;
+    if analysis.method != Method::Exact {
+        let expected = "the exact method, which is the only one over a suite";
+        let error = analysis.error_at("analysis.method", expected, "\"stepwise\"");
+        return Err(Failure::input(&error, text));
+    }
+    let work = Work {
+        name: analysis.name.clone().unwrap_or_else(|| "Model".to_owned()),
+        suite: suite(records, &asked, &analysis, text)?,
+        analysis,
+        asked,
+        text,
+        display,
+    };
+    let sheet = match what {
+        "spectrum" => work.spectrum(),
+        "ida" => work.ida(),
+        "fragility" => work.fragility(),
+        "design" => work.design(),
+        other => Err(Failure::of(format!("expected an analysis over a suite, found {other:?}"))),
+    }?;
+    let inputs = [InputText { path: MODEL, text }];
+    let hashes: Vec<(String, String)> = records_of(&work.asked)
+        .filter_map(|name| Some((name.to_owned(), crate::sha256(records.bytes(name)?))))
+        .collect();
+    let files: Vec<FileNote> = hashes
+        .iter()
+        .map(|(path, sha256)| FileNote { path, sha256, description: "record" })
+        .collect();
+    Ok(Page::new(&sheet, &inputs, &files, &work.asked.command(what)))
+}
+
+fn records_of<'a>(asked: &'a Asked<'_>) -> impl Iterator<Item = &'a str> {
+    asked.all("records")
+}
+
+/// The records that were asked for, else the model's own motion.
+fn suite(
+    records: &mut Records,
+    asked: &Asked<'_>,
+    analysis: &Analysis,
+    text: &str,
+) -> Result<Suite, Failure> {
+    let options =
+        crate::records::options(asked.one("units").unwrap_or(""), asked.one("dt").unwrap_or(""))?;
+    let mut suite = Suite::default();
+    for name in records_of(asked) {
+        let loaded = recorded(records, name, &options, asked.one("channel"))?;
+        let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+        let stem = stem.rsplit('/').next().unwrap_or(stem);
+        suite.records.push(SuiteRecord { name: stem.to_owned(), motion: loaded.motion });
+    }
+    if suite.records.is_empty() {
+        suite.made = !matches!(analysis.motion, Some(MotionSource::Record(_)));
+        let loaded = records.motion(analysis, text)?;
+        let name = loaded.description.join("; ");
+        suite.records.push(SuiteRecord { name, motion: loaded.motion });
+    }
+    Ok(suite)
+}
+
+/// A record as it is; what files state themselves needs no option.
+fn recorded(
+    records: &mut Records,
+    name: &str,
+    options: &Options,
+    channel: Option<&str>,
+) -> Result<Loaded, Failure> {
+    let stated = matches!(records.read(name, &Options::default()), Some(Ok(_)));
+    let options = if stated { Options::default() } else { options.clone() };
+    let missing = || Failure::of(format!("{name}: expected a record, dropped on the page"));
+    let record = records.read(name, &options).ok_or_else(missing)?.map_err(Failure::of)?;
+    let loaded = Loaded::recorded(Wanted { record, channel }, None, None);
+    loaded.map_err(|error| Failure::of(format!("{name}: {error}")))
+}
+
+struct Work<'a> {
+    name: String,
+    analysis: Analysis,
+    suite: Suite,
+    asked: Asked<'a>,
+    text: &'a str,
+    display: DisplayUnits,
+}
+
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+impl Work<'_> {
+    fn failed(&self) -> impl Fn(slipstick::assessment::AssessmentError) -> Failure + '_ {
+        |error| Failure::assessment(&error, self.text)
+    }
+
+    fn models(&self, over: Option<&str>) -> Result<Models, Failure> {
+        let mut options: Vec<(&str, String)> =
+            self.asked.all("vary").map(|text| ("vary", text.to_owned())).collect();
+        if let Some(values) = self.asked.one("friction") {
+            options.push(("friction", format!("slider.kinetic_friction={values}")));
+        }
+        options.extend(over.map(|over| ("over", over.to_owned())));
+        let coupled = options.iter().any(|(_, text)| text.starts_with("slider.kinetic_friction"));
+        Models::new(MODEL, self.text, &[], &options, coupled).map_err(self.failed())
+    }
+
+    fn measure(&self) -> Result<Measure, Failure> {
+        let name = self.asked.one("measure").unwrap_or("PGA");
+        Measure::parse(name).map_err(|error| Failure::of(format!("--measure: {error}")))
+    }
+
+    fn scaling(&self) -> Result<(Scaling, String), Failure> {
+        match self.asked.one("level") {
+            Some(level) => {
+                Scaling::to_level("level", self.measure()?, level).map_err(self.failed())
+            }
+            None => Ok((Scaling::Factor(1.0), " as recorded".to_owned())),
+        }
+    }
+
+    fn bounds(&self) -> Result<Vec<slipstick::input::Bound>, Failure> {
+        let wanted = self.asked.one("bounds").filter(|name| *name != "all");
+        FrictionBounds::chosen(self.analysis.friction_bounds, wanted).map_err(Failure::of)
+    }
+
+    fn limit(&self, name: &str, demand: &str) -> Result<Option<f64>, Failure> {
+        let given = self.asked.one(name);
+        let gap = self.analysis.model.slider().gap_m;
+        let slides = demand == "peak_sliding_displacement_m";
+        match given {
+            Some(text) => key::limit(name, text, demand).map(Some).map_err(Failure::of),
+            None => Ok(gap.filter(|_| slides)),
+        }
+    }
+
+    fn spectrum(&self) -> Result<Sheet, Failure> {
+        let over = self.asked.one("over").unwrap_or("isolator.period=1..5s:40");
+        let models = self.models(Some(over))?;
+        let (scaling, scaled) = self.scaling()?;
+        let bounds = self.bounds()?;
+        let suite = &self.suite;
+        let request =
+            SpectrumRequest { models: &models, suite, scaling, demands: &[], bounds: &bounds };
+        PLANNED.set(request.runs());
+        let run = followed(|engine| {
+            PLANNED.set(request.runs());
+            run_spectrum(&request, engine)
+        })
+        .map_err(self.failed())?;
+        Ok(SpectrumReport {
+            version: VERSION,
+            name: &self.name,
+            over: &run.over,
+            unit: &run.unit,
+            values: &run.values,
+            groups: &group_names(&run),
+            records: &self.suite.names(),
+            scaled: if self.suite.made { "" } else { &scaled },
+            curves: &run.curves,
+            windows: Some((&run.window_key, &run.windows)),
+            failures: &run.failures,
+            runs: run.runs,
+            warnings: &[],
+            display: self.display,
+        }
+        .sheet())
+    }
+
+    fn demand(&self) -> &str {
+        self.asked.one("demand").unwrap_or("peak_sliding_displacement_m")
+    }
+
+    fn levels(&self, measure: &Measure) -> Result<Vec<f64>, Failure> {
+        let text = self.asked.one("levels").unwrap_or("0.1..1.5 g:15");
+        levels("levels", text, measure).map_err(self.failed())
+    }
+
+    fn ida_of(
+        &self,
+        measure: Measure,
+        models: &Models,
+        bounds: &[slipstick::input::Bound],
+    ) -> Result<slipstick::assessment::ida::IdaRun, Failure> {
+        let levels = self.levels(&measure)?;
+        let runs =
+            levels.len() * self.suite.records.len() * bounds.len().max(1) * models.grid().len();
+        let request = IdaRequest {
+            models,
+            bounds,
+            suite: &self.suite,
+            measure,
+            demand: self.demand(),
+            limit: self.limit("to", self.demand())?,
+            levels: IdaLevels::Fixed(levels),
+            keep: &[],
+            by: None,
+        };
+        followed(|engine| {
+            PLANNED.set(runs as u64);
+            run_ida(&request, engine)
+        })
+        .map_err(self.failed())
+    }
+
+    fn ida(&self) -> Result<Sheet, Failure> {
+        let (models, measure) = (self.models(None)?, self.measure()?);
+        let run = self.ida_of(measure, &models, &self.bounds()?)?;
+        Ok(IdaFamily {
+            version: VERSION,
+            name: &self.name,
+            measure: &measure,
+            demand: self.demand(),
+            limit: self.limit("to", self.demand())?,
+            fixed_levels: true,
+            run: &run,
+            warnings: &[],
+            display: self.display,
+        }
+        .sheet())
+    }
+
+    /// The incremental dynamic analysis, and the curve that fits it.
+    fn fragility(&self) -> Result<Sheet, Failure> {
+        let (models, measure) = (self.models(None)?, self.measure()?);
+        let demand = self.demand();
+        let limit = self.limit("to", demand)?;
+        let Some(limit) = limit else {
+            let expected = "a limit, such as 150 mm (or slider.gap in the model)";
+            return Err(Failure::of(format!("--to: expected {expected}, found nothing")));
+        };
+        let nominal = self.analysis.friction_bounds.map(|_| slipstick::input::Bound::NOMINAL);
+        let bounds: Vec<_> = nominal.into_iter().collect();
+        let run = self.ida_of(measure, &models, &bounds)?;
+        let request = FragilityRequest {
+            table: &run.rows,
+            source_name: "the incremental dynamic analysis",
+            demand,
+            limit: Some(limit),
+            measure: None,
+            units: None,
+            fit_to: None,
+            floor: None,
+            cap: None,
+            keep: &[],
+            bootstrap: None,
+        };
+        let fit = run_fragility(&request, &Engine::unwatched()).map_err(self.failed())?;
+        Ok(FragilityReport {
+            version: VERSION,
+            name: &self.name,
+            demand,
+            limit: Some(limit),
+            run: &fit,
+            confidence: 0.9,
+            display: self.display,
+        }
+        .sheet())
+    }
+
+    fn design(&self) -> Result<Sheet, Failure> {
+        let models = self.models(None)?;
+        let (scaling, scaled) = self.scaling()?;
+        let demand = "peak_sliding_displacement_m";
+        let Some(gap_m) = self.limit("gap", demand)? else {
+            let expected = "a length, such as 150 mm (or slider.gap in the model)";
+            return Err(Failure::of(format!("--gap: expected {expected}, found nothing")));
+        };
+        let target = Target {
+            gap_m,
+            probability: self.asked.number("probability", 0.9)?,
+            acceleration_share: 0.5,
+        };
+        let acceleration = models.roof_acceleration();
+        let given = self.analysis.friction_bounds;
+        let bounds = given.map(|bounds| [bounds.lower, bounds.upper]);
+        let request = DesignRequest {
+            models: &models,
+            suite: &self.suite,
+            scaling,
+            target,
+            acceleration: &acceleration,
+            bounds,
+            sensitivity: self.asked.number("sensitivity", 0.0)? as u32,
+            seed: 1,
+            confidence: 0.9,
+        };
+        let runs = models.grid().len() * self.suite.records.len();
+        let run = followed(|engine| {
+            PLANNED.set(runs as u64);
+            run_design(&request, engine)
+        })
+        .map_err(self.failed())?;
+        Ok(DesignReport {
+            version: VERSION,
+            name: &self.name,
+            records: self.suite.records.len(),
+            scaled: if self.suite.made { "" } else { &scaled },
+            target,
+            variables: &run.variables,
+            acceleration: &acceleration,
+            found: &run.found,
+            bounds: bounds.zip(run.bounded.as_deref()),
+            map: run.map.as_ref(),
+            sensitivity: run.sensitivity.as_ref(),
+            confidence: 0.9,
+            failures: &run.failures,
+            warnings: &[],
+            display: self.display,
+        }
+        .sheet())
+    }
+}
+
+/// What errors call the plan's text.
+const PLAN: &str = "plan.toml";
+
+/// A study of a dropped plan.
+pub fn study(
+    records: &mut Records,
+    plan_text: &str,
+    text: &str,
+    names: &[String],
+    display: DisplayUnits,
+) -> Result<Page, Failure> {
+    let in_plan = |error| Failure::input(&error, plan_text);
+    let plan = Plan::parse(PLAN, plan_text).map_err(in_plan)?;
+    let mut suite = Vec::new();
+    if let Some(wanted) = &plan.records {
+        let refused = [("second", &wanted.second), ("vertical", &wanted.vertical)];
+        if let Some((key, _)) = refused.into_iter().find(|(_, files)| !files.is_empty()) {
+            let expected = "single horizontal components: run this plan with slipstick study";
+            let found = format!("records.{key}");
+            return Err(in_plan(plan.error_at(&found.clone(), expected, found)));
+        }
+        let mut missing = Vec::new();
+        for pattern in &wanted.files {
+            let matching: Vec<&String> =
+                names.iter().filter(|name| matches(pattern, name)).collect();
+            if matching.is_empty() {
+                missing.push(format!("{pattern:?}"));
+            }
+            for name in matching {
+                let options = Options { format: None, units: wanted.units, dt_s: wanted.dt_s };
+                let loaded = recorded(records, name, &options, wanted.channel.as_deref())?;
+                suite.push(Record {
+                    name: name.clone(),
+                    channel: loaded.channel.clone(),
+                    warnings: loaded.warnings.iter().map(|warning| warning.kind).collect(),
+                    motion: loaded.motion,
+                    pair: None,
+                });
+            }
+        }
+        if !missing.is_empty() {
+            let expected = format!(
+                "the plan's records, dropped on the page; {} of {} are missing",
+                missing.len(),
+                wanted.files.len()
+            );
+            let found = format!("no file for {}", missing.join(", "));
+            return Err(in_plan(plan.error_at("records.files", expected, found)));
+        }
+    }
+    let study = Study::new(&plan, MODEL, text, suite).map_err(|error| {
+        let of_plan = error.place.source_name == PLAN;
+        Failure::input(&error, if of_plan { plan_text } else { text })
+    })?;
+    const MOST_RUNS: u64 = 1_000_000;
+    let runs = study.runs();
+    if runs > MOST_RUNS {
+        let expected = format!("at most {MOST_RUNS} runs on the page: use slipstick study");
+        return Err(in_plan(plan.error_at("sampling.count", expected, runs.to_string())));
+    }
+    let stopped = |error| Failure::of(error);
+    let rows = followed(|engine| {
+        PLANNED.set(runs);
+        study.rows(0..runs, engine)
+    })
+    .map_err(stopped)?;
+    let solved = |take: Take<'_, bool>| {
+        rows.iter().for_each(|row| take(row.run, row.error.is_none()));
+        Ok::<(), slipstick::error::Stopped>(())
+    };
+    let demand = |column: usize, take: Take<'_, f64>| {
+        rows.iter().for_each(|row| take(row.run, row.demands[column]));
+        Ok(())
+    };
+    let passes = Rows { solved: &solved, demand: &demand };
+    let name = plan.name.clone().unwrap_or_else(|| "Study".to_owned());
+    let summary = study.summary(&name, &passes, &Engine::unwatched()).map_err(stopped)?;
+    let report = StudyReport {
+        version: VERSION,
+        study: &study,
+        summary: &summary,
+        checked: 0,
+        notices: &[],
+        display,
+    };
+    let inputs = [InputText { path: PLAN, text: plan_text }, InputText { path: MODEL, text }];
+    Ok(Page::new(&report.sheet(), &inputs, &[], "slipstick study plan.toml"))
+}
+
+/// Whether a pattern of a plan names a file: `*` stands for any part of its name; folders are not looked
+/// at, for files on the page have none.
+fn matches(pattern: &str, name: &str) -> bool {
+    let last = |path: &str| path.rsplit(['/', '\\']).next().unwrap_or("").to_lowercase();
+    let (pattern, name) = (last(pattern), last(name));
+    let mut parts = pattern.split('*');
+    let Some(mut rest) = name.strip_prefix(parts.next().unwrap_or("")) else { return false };
+    let parts: Vec<&str> = parts.collect();
+    let Some((end, middle)) = parts.split_last() else { return rest.is_empty() };
+    for part in middle {
+        let Some(at) = rest.find(part) else { return false };
+        rest = &rest[at + part.len()..];
+    }
+    rest.ends_with(end)
+}
