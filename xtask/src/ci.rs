@@ -2,6 +2,7 @@
 
 mod licences;
 mod package;
+mod page;
 mod steps;
 mod testing;
 
@@ -47,6 +48,7 @@ const STEPS: &[(&str, Step)] = &[
     ("wasm build of core and report", steps::wasm_build),
     ("golden values equal in bits under wasm", steps::wasm_golden),
     ("Python package", package::python),
+    ("the page in a browser", page::page),
     ("licences of all dependencies", licences::licences),
 ];
 

@@ -45,6 +45,8 @@ Usage: cargo xtask TASK
                                  (needs python3; makes .venv)
   web [--serve]                  the page, into target/web: a folder for any static host, and
                                  slipstick.html (needs node and npm; --serve: shows it)
+  bench-web [--write]            measures the page in Chromium against its bars
+                                 (--write: into book/src/generated/web.md)
   fuzz [TARGET] [--seconds N]    all fuzz targets or one, 60 s each (installs cargo-fuzz)
   fuzz --minutes N               all fuzz targets in so many minutes together
   coverage                       how often intervals of identify cover the truth, 200 tests a
@@ -72,6 +74,7 @@ fn main() -> ExitCode {
         ["readers"] => peers::readers(),
         ["bench-records", options @ ..] => peers::bench_records(options),
         ["web", options @ ..] => web::web(options),
+        ["bench-web", options @ ..] => web::bench(options),
         ["fuzz", options @ ..] => tools::fuzz(options),
         ["coverage"] => tools::coverage(),
         ["deny"] => tools::deny(),

@@ -23,6 +23,95 @@ pub fn web(options: &[&str]) -> Outcome {
     if serve { self::serve(&folder) } else { Ok(()) }
 }
 
+/// A measured figure, and what it must keep.
+struct Bar {
+    what: &'static str,
+    bar: &'static str,
+    found: String,
+    kept: bool,
+}
+
+/// Measures the page in Chromium; `--write` puts the table into the book.
+pub fn bench(options: &[&str]) -> Outcome {
+    let write = match options {
+        [] => false,
+        ["--write"] => true,
+        _ => return Err("bench-web: expected [--write]".to_owned()),
+    };
+    let chromium = chromium().map_err(|reason| format!("bench-web: {reason}"))?;
+    let folder = build()?;
+    let mut bars = shell::command("node");
+    bars.arg(shell::root().join(PAGE).join("tests/bars.mjs")).arg(&folder);
+    let text = shell::output(bars.env("SLIPSTICK_CHROMIUM", chromium))?;
+    let found: serde_json::Value =
+        serde_json::from_str(&text).map_err(|error| format!("bars.mjs: {error}"))?;
+    let native = "run --release --quiet --package slipstick --example histories";
+    let native = shell::output(&mut shell::cargo(native))?;
+    let native_ms: f64 = native.trim().parse().map_err(|error| format!("histories: {error}"))?;
+    let number = |key: &str| found[key].as_f64().unwrap_or(f64::NAN);
+    let history_ms = number("history_ms");
+    let bar = |what, bar, found, kept| Bar { what, bar, found, kept };
+    let (updates, within) = (number("updates_per_s"), number("frames_within"));
+    let bars = [
+        bar(
+            "first picture, local host",
+            "1 s",
+            format!("{:.2} s", number("first_s")),
+            number("first_s") <= 1.0,
+        ),
+        bar(
+            "slider dragged for 4 s: updates a second",
+            "55",
+            format!("{updates:.0}"),
+            updates >= 55.0,
+        ),
+        bar("… frames within 33 ms", "95 %", format!("{within:.0} %"), within >= 95.0),
+        bar(
+            "certified after the value rests",
+            "100 ms",
+            format!("{:.0} ms", number("certified_ms")),
+            number("certified_ms") <= 100.0,
+        ),
+        bar(
+            "history in WebAssembly over native",
+            "2 ×",
+            format!("{:.2} × ({history_ms:.3} ms, {native_ms:.3} ms)", history_ms / native_ms),
+            history_ms <= 2.0 * native_ms,
+        ),
+        bar(
+            "friction sweep of 1000 runs, one worker",
+            "0.5 s",
+            format!("{:.2} s", number("sweep_s")),
+            number("sweep_s") <= 0.5,
+        ),
+        bar(
+            "folder, gzipped",
+            "480 kB",
+            format!("{:.0} kB", number("folder_kB")),
+            number("folder_kB") <= 480.0,
+        ),
+        bar(
+            "`slipstick.html`",
+            "1.8 MB",
+            format!("{:.2} MB", number("single_MB")),
+            number("single_MB") <= 1.8,
+        ),
+    ];
+    let mut table = format!(
+        "| what (Chromium {}) | bar | measured | |\n|---|--:|--:|---|\n",
+        found["chromium"].as_str().unwrap_or_default()
+    );
+    for Bar { what, bar, found, kept } in &bars {
+        let missed = if *kept { "" } else { "missed" };
+        table.push_str(&format!("| {what} | {bar} | {found} | {missed} |\n"));
+    }
+    print!("{table}");
+    if write {
+        shell::write(&shell::root().join("book/src/generated/web.md"), &table)?;
+    }
+    Ok(())
+}
+
 /// What building the page needs and is not there; a sentence.
 pub fn missing() -> Option<String> {
     if !shell::answers("node", "--version") {
@@ -30,6 +119,20 @@ pub fn missing() -> Option<String> {
     }
     let npm = shell::answers(npm(), "--version");
     (!npm).then(|| "expected npm, which comes with node, found none".to_owned())
+}
+
+/// Chromium or Chrome, where it usually is; `SLIPSTICK_CHROMIUM` names another.
+///
+/// # Errors
+/// A sentence where there is none.
+pub fn chromium() -> Result<String, String> {
+    if let Ok(named) = std::env::var("SLIPSTICK_CHROMIUM") {
+        return Ok(named);
+    }
+    const MACOS: &str = "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome";
+    let paths = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome", MACOS];
+    let found = paths.into_iter().find(|path| Path::new(path).is_file());
+    found.map(str::to_owned).ok_or_else(|| "expected Chromium, found none".to_owned())
 }
 
 fn npm() -> &'static str {

@@ -7,7 +7,7 @@ use slipstick::response::{Demands, EventKind, History, Response};
 use slipstick::units::{Dimension, parse_unit};
 use slipstick_report::display::{DisplayUnits, Quantity};
 use slipstick_report::json::Json;
-use slipstick_report::number::{compact, significant};
+use slipstick_report::number::{compact, rounded, significant};
 use slipstick_report::peaks;
 use slipstick_report::tables::{events_csv, history_csv};
 use slipstick_report::{FileNote, InputText, Report, Summary, describe, figures};
@@ -406,15 +406,17 @@ fn value(input: &Input<'_>, display: DisplayUnits) -> Json {
             ("value", si.into()),
             ("in_si", shown.0.into()),
             ("symbol", Json::Text(shown.1)),
-            ("shown", Json::Text(compact(rounded(si / shown.0)))),
+            (
+                "shown",
+                Json::Text(if as_written {
+                    compact(si / shown.0)
+                } else {
+                    rounded(si / shown.0, 4)
+                }),
+            ),
         ]);
     }
     Json::Object(keys)
-}
-
-/// A value to six digits: `0.3 g` in other units and back is no `0.30000000000000004`.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 fn in_si(symbol: &str, dimension: Dimension) -> f64 {

@@ -24,6 +24,9 @@ use crate::sheets::{self, Page};
 /// What errors call the model's text.
 pub(crate) const MODEL: &str = "model.toml";
 
+/// Most samples whose history the page can hold and draw.
+const MOST_SAMPLES: usize = 1_000_000;
+
 /// A ground motion ready to be used again.
 struct Ground {
     source: Option<MotionSource>,
@@ -214,6 +217,21 @@ impl Session {
         Ok(made.file(name, text, command, &hashes, last.display)?)
     }
 
+    /// Solves the last model so many times with its history, to be timed.
+    ///
+    /// # Errors
+    /// Where nothing was analysed, or it cannot be solved.
+    pub fn histories(&self, count: u32) -> Result<(), JsValue> {
+        let (Some(prepared), Some(ground)) = (&self.prepared, &self.ground) else {
+            return Err(Failure::of("nothing was analysed").into());
+        };
+        for _ in 0..count {
+            let response = prepared.response(&ground.with_tail).map_err(Failure::of)?;
+            std::hint::black_box(response);
+        }
+        Ok(())
+    }
+
     /// Demands of the models of a range of values on the model's own motion: for each value it, the peak
     /// and the residual sliding displacement, the peak acceleration of block and roof, the peak base
     /// shear; NaN where a run has no answer.
@@ -288,6 +306,12 @@ impl Session {
             return Ok(());
         }
         let loaded = self.records.motion(analysis, text)?;
+        let samples = loaded.motion.len();
+        if samples > MOST_SAMPLES {
+            let expected = format!("at most {MOST_SAMPLES} samples on the page");
+            let error = analysis.error_at("motion", expected, samples.to_string());
+            return Err(Failure::input(&error, text));
+        }
         let with_tail = match analysis.tail_s {
             0.0 => loaded.motion.clone(),
             tail_s => {
@@ -314,13 +338,6 @@ impl Session {
 #[wasm_bindgen(js_name = withKeys)]
 pub fn with_keys_of(text: &str, set: Vec<String>) -> Result<String, JsValue> {
     Ok(with_keys(text, &set)?)
-}
-
-/// The units that may be written and what a model takes, as the schema of the command.
-#[wasm_bindgen(js_name = modelSchema)]
-#[must_use]
-pub fn model_schema() -> String {
-    input::json_schema()
 }
 
 fn with_keys(text: &str, set: &[String]) -> Result<String, Failure> {

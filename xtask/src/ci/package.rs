@@ -41,8 +41,8 @@ pub fn python(tally: &mut Tally) -> Result<(), Problem> {
     Ok(shell::run(&mut at("-m mypy.stubtest --concise slipstick._core"))?)
 }
 
-/// What the last line of pytest says: `36 passed, 1 skipped in 20.1s`.
-fn counted(text: &str) -> Tally {
+/// What the last line says: `36 passed, 1 skipped in 20.1s`.
+pub(super) fn counted(text: &str) -> Tally {
     let last = text.lines().last().unwrap_or_default();
     let words: Vec<&str> = last.split([' ', ',']).filter(|word| !word.is_empty()).collect();
     let count = |what: &str| {

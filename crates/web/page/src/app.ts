@@ -290,7 +290,7 @@ export class App {
       { class: "results", "aria-label": "Results" },
       this.certificate,
       h("div", { class: "card pad" }, h("h2", {}, "Force on the slider"), this.loopCanvas),
-      h("div", { class: "card pad" }, h("h2", {}, "Peaks"), this.peaks, this.warnings),
+      h("div", { class: "card pad peaks" }, h("h2", {}, "Peaks"), this.peaks, this.warnings),
       h("div", { class: "card pad" }, h("h2", {}, "Beside it"), h("label", { class: "switch" }, this.stepwise, "The paper's stepwise method"), this.beside),
       h("details", { class: "card pad fold" }, h("summary", {}, "Events"), this.events),
     );
@@ -331,6 +331,9 @@ export class App {
     this.select("motion", false);
     this.listRecords();
     this.certify();
+    // The colours are those of the place where the canvases now are.
+    this.scene.restyle();
+    this.loop.restyle();
   }
 
   private select(id: string, remember: boolean): void {
@@ -670,14 +673,14 @@ export class App {
 
   private drawPeaks(): void {
     const { rows, runs, warnings } = this.judgement ?? this.answer!.state;
-    const head = runs.length > 1 ? [h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "Friction"), ...runs.map((run) => h("th", { scope: "col", class: "number" }, run)), h("th", { scope: "col" }, h("span", { class: "hidden" }, "Unit"))))] : [];
+    const head = runs.length > 1 ? [h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "Friction"), ...runs.map((run) => h("th", { scope: "col", class: "number" }, run))))] : [];
     fill(
       this.peaks,
       h(
         "table",
         {},
         ...head,
-        h("tbody", {}, ...rows.map((row) => h("tr", {}, h("th", { scope: "row" }, row.label), ...row.values.map((value, i) => h("td", { class: row.governing === i ? "number governs" : "number" }, value.replace("-", "−"))), h("td", {}, row.unit)))),
+        h("tbody", {}, ...rows.map((row) => h("tr", {}, h("th", { scope: "row" }, row.label, row.unit && h("small", {}, ` ${row.unit}`)), ...row.values.map((value, i) => h("td", { class: row.governing === i ? "number governs" : "number" }, value.replace("-", "−")))))),
       ),
     );
     fill(this.warnings, ...warningList(warnings));
@@ -912,10 +915,7 @@ export class App {
         if (!(error instanceof ModuleError)) throw error;
         fault = error.fault;
       }
-      const most = Math.max(0, ...(inspected?.channels.map((channel) => channel.values) ?? []));
-      if (most > MOST_SAMPLES) {
-        throw new ModuleError({ message: `${name}: expected at most ${MOST_SAMPLES} samples on the page, found ${most}; the command slipstick takes more` });
-      }
+      if (inspected) refuseLong(name, inspected);
       const usable = inspected?.channels.filter((channel) => channel.usable) ?? [];
       if (inspected && usable.length === 1) {
         choice = { name, ...(inspected.channels.length > 1 ? { channel: usable[0]!.name } : {}) };
@@ -976,6 +976,12 @@ export class App {
         event.preventDefault();
         this.desk.helper.call("inspect", name, units.value, dt.value).then(
           (read) => {
+            try {
+              refuseLong(name, read);
+            } catch (error) {
+              problem.textContent = (error as Error).message;
+              return;
+            }
             const usable = read.channels.filter((c) => c.usable);
             if (usable.length === 0 || (read.channels.length > 1 && channelField.hidden)) {
               choices(read);
@@ -1065,7 +1071,8 @@ export class App {
         else {
           const image = drawing(drawn.svg, drawn.caption);
           await image.decode();
-          const canvas = h("canvas", { width: image.naturalWidth * 2, height: image.naturalHeight * 2 });
+          const [, , , width = "800", height = "400"] = /viewBox="(\S+) (\S+) ([\d.]+) ([\d.]+)"/.exec(drawn.svg) ?? [];
+          const canvas = h("canvas", { width: Math.round(Number(width) * 3), height: Math.round(Number(height) * 3) });
           const c = canvas.getContext("2d")!;
           c.fillStyle = "#fff";
           c.fillRect(0, 0, canvas.width, canvas.height);
@@ -1144,7 +1151,15 @@ export class App {
   }
 }
 
+/** Refuses what is too long to be drawn. */
+function refuseLong(name: string, inspected: Inspected): void {
+  const most = Math.max(0, ...inspected.channels.map((channel) => channel.values));
+  if (most > MOST_SAMPLES) {
+    throw new ModuleError({ message: `${name}: expected at most ${MOST_SAMPLES} samples on the page, found ${most}; the command slipstick takes more` });
+  }
+}
+
 /** Whether a message of the reader asks for what the file does not say. */
 function asks(message: string): boolean {
-  return /\b(units|dt|time step|step)\b/i.test(message);
+  return /\badd (units|dt) = /.test(message);
 }

@@ -74,7 +74,6 @@ export class Chart {
   private content: Content | undefined;
   private shape = "";
   private time = 0;
-  private setting = false;
 
   constructor(
     private readonly clock: Clock,
@@ -109,11 +108,7 @@ export class Chart {
       this.make(data);
     } else {
       this.plot.setData(data, false);
-      this.plot.batch(() => {
-        this.setting = true;
-        this.plot!.setScale("x", this.range());
-        this.setting = false;
-      });
+      this.plot.setScale("x", this.range());
     }
     const keys = [...content.lines, ...(content.overlays ?? [])];
     fill(
@@ -130,9 +125,7 @@ export class Chart {
 
   zoom(range: [number, number] | null): void {
     if (!this.plot || !this.content) return;
-    this.setting = true;
     this.plot.setScale("x", range ? { min: range[0], max: range[1] } : this.range());
-    this.setting = false;
     this.now(this.time);
   }
 
@@ -193,7 +186,7 @@ export class Chart {
         height: this.height,
         padding: [8, 12, 0, 0],
         legend: { show: false },
-        cursor: { sync: { key: "slipstick", setSeries: false }, y: false, points: { show: false }, drag: { x: true, y: false, dist: 6 } },
+        cursor: { sync: { key: "slipstick", setSeries: false }, y: false, points: { show: false }, drag: { x: true, y: false, dist: 6, setScale: false } },
         scales: { x: { time: false }, y: { range: (_, low, high) => this.bounds(low, high) } },
         axes: [
           { ...axis, size: 30, values: minus },
@@ -212,11 +205,12 @@ export class Chart {
         hooks: {
           drawClear: [(plot) => this.behind(plot)],
           draw: [(plot) => this.limits(plot)],
-          setScale: [
-            (plot, key) => {
-              if (key !== "x" || this.setting || plot !== this.plot) return;
-              const { min, max } = plot.scales.x!;
-              if (min !== undefined && max !== undefined && min !== null && max !== null) this.clock.zoom([min, max]);
+          setSelect: [
+            (plot) => {
+              const { left, width } = plot.select;
+              if (width < 4) return;
+              this.clock.zoom([plot.posToVal(left, "x"), plot.posToVal(left + width, "x")]);
+              plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
             },
           ],
           setCursor: [
@@ -233,10 +227,9 @@ export class Chart {
     );
     sync ??= uPlot.sync("slipstick");
     this.plot.over.append(this.marker);
+    // Two clicks show all; a drag shows a part.
     this.plot.over.addEventListener("dblclick", () => this.clock.zoom(null));
-    this.setting = true;
     this.plot.setScale("x", this.range());
-    this.setting = false;
     this.now(this.time);
   }
 

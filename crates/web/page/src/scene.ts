@@ -182,7 +182,8 @@ export class Scene {
     c.globalAlpha = 1;
 
     // A spring or a dish.
-    if (structure.springs && structure.radius_m === null) {
+    const pendulum = answer.state.inputs.some(({ path }) => path === "slider.radius");
+    if (structure.springs && !pendulum) {
       this.spring(c, tableX - reach + 6, blockX - bw / 2, floorY - bh / 2);
     }
 
@@ -191,9 +192,9 @@ export class Scene {
     c.fillRect(blockX - bw / 2, floorY - bh, bw, bh - 3);
     c.fillStyle = mode === 0 ? colour.stick! : colour.slide!;
     c.fillRect(blockX - bw / 2, floorY - 4, bw, 4);
-    if (structure.radius_m !== null) {
-      c.strokeStyle = colour.table!;
-      c.lineWidth = 1.5;
+    if (pendulum) {
+      c.strokeStyle = colour["steel-soft"]!;
+      c.lineWidth = 2;
       c.beginPath();
       const depth = Math.min(9, 0.09 * bw);
       c.moveTo(blockX - bw / 2, floorY - bh + 4);

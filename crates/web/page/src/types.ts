@@ -183,6 +183,7 @@ export interface Calls {
   sweep: (text: string, over: string, from: number, to: number) => Float64Array;
   assess: (what: string, text: string, options: Setting[], display: Display) => Sheet;
   study: (plan: string, text: string, names: string[], display: Display) => Sheet;
+  histories: (count: number) => number;
   wait: (ms: number) => void;
   trap: () => void;
 }

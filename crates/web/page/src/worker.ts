@@ -88,6 +88,12 @@ const calls: Calls = {
     page.free();
     return sheet;
   },
+  // For the measurements: ms for a history, so many of them in turn.
+  histories(count) {
+    const start = performance.now();
+    session.histories(count);
+    return (performance.now() - start) / count;
+  },
   // For the tests: a worker that is silent, and one whose module traps.
   wait(ms) {
     const end = performance.now() + ms;

@@ -1,0 +1,94 @@
+// A browser, a static host that remembers what was asked of it, and pages on it.
+
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { createServer } from "node:http";
+import { tmpdir } from "node:os";
+import { extname, join } from "node:path";
+import { chromium } from "playwright-core";
+
+const TYPES = {
+  ".html": "text/html; charset=utf-8",
+  ".js": "text/javascript; charset=utf-8",
+  ".css": "text/css; charset=utf-8",
+  ".wasm": "application/wasm",
+  ".svg": "image/svg+xml",
+  ".webmanifest": "application/manifest+json",
+};
+
+/** Serves a folder on this machine. */
+export async function host(folder) {
+  const asked = [];
+  const server = createServer((request, response) => {
+    const path = new URL(request.url, "http://localhost").pathname;
+    asked.push(path);
+    const file = join(folder, path === "/" ? "index.html" : path);
+    if (path.includes("..") || !existsSync(file)) {
+      response.writeHead(404).end();
+      return;
+    }
+    response.writeHead(200, { "content-type": TYPES[extname(file)] ?? "text/plain", "x-content-type-options": "nosniff" });
+    response.end(readFileSync(file));
+  });
+  await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  return { url: `http://localhost:${server.address().port}/`, asked, close: () => server.close() };
+}
+
+/** Chromium without anything that looks for a network. */
+export function browser() {
+  return chromium.launch({
+    executablePath: process.env.SLIPSTICK_CHROMIUM ?? "/usr/bin/chromium",
+    args: ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+  });
+}
+
+/** A page with a record of what went wrong on it. */
+export async function open(browser, url, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1300, height: 900 }, serviceWorkers: "block", ...options });
+  const page = await context.newPage();
+  page.setDefaultTimeout(15000);
+  const said = [];
+  page.on("console", (message) => {
+    const text = message.text();
+    if (["error", "warning"].includes(message.type()) && !/Service Worker registration blocked|preload/.test(text)) said.push(text);
+  });
+  page.on("pageerror", (error) => said.push(String(error)));
+  const outside = [];
+  page.on("request", (request) => {
+    const at = request.url();
+    if (!at.startsWith(url.split("#")[0].replace(/[^/]*$/, "")) && !/^(blob|data):/.test(at)) outside.push(at);
+  });
+  await page.goto(url);
+  await settled(page);
+  return { page, context, said, outside, close: () => context.close() };
+}
+
+/** Waits until what is shown is judged. */
+export function settled(page, timeout = 20000) {
+  return page.waitForFunction(
+    () => {
+      const app = globalThis.slipstick;
+      const helper = app?.desk.helper;
+      return app?.updates > 0 && helper.idle && app.pending.length === 0 && app.judgement && !app.dirty;
+    },
+    null,
+    { timeout },
+  );
+}
+
+/** Drops files, `[name, bytes or text]`, on the page. */
+export async function drop(page, ...files) {
+  const plain = files.map(([name, data]) => [name, Buffer.from(data).toString("base64")]);
+  await page.evaluate((plain) => {
+    const made = plain.map(([name, data]) => new File([Uint8Array.from(atob(data), (c) => c.charCodeAt(0))], name));
+    globalThis.dropped = globalThis.slipstick.files(made);
+  }, plain);
+}
+
+export const message = (page) => page.locator(".note-bar:not(.busy)").innerText();
+export const headline = (page) => page.locator(".headline dd").allInnerTexts();
+
+/** A folder that is there while a program runs. */
+export function temporary() {
+  const folder = mkdtempSync(join(tmpdir(), "slipstick-page-"));
+  return { folder, remove: () => rmSync(folder, { recursive: true, force: true }) };
+}

@@ -1,0 +1,488 @@
+// The page as a person uses it: `node tests/page.mjs FOLDER [NAME]`. The last line counts.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdirSync, readFileSync, readdirSync } from "node:fs";
+import { createRequire } from "node:module";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+import { browser, drop, headline, host, message, open, settled, temporary } from "./harness.mjs";
+
+const folder = resolve(process.argv[2]);
+const only = process.argv[3];
+const root = resolve(dirname(fileURLToPath(import.meta.url)), "../../../..");
+const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
+const site = await host(folder);
+let chromium = await browser();
+const shots = join(folder, "../web-pictures");
+mkdirSync(shots, { recursive: true });
+
+const tests = [];
+const test = (name, run) => tests.push([name, run]);
+
+/** A page of its own, on which nothing may go wrong. */
+async function on(run, options, url = site.url) {
+  const opened = await open(chromium, url, options);
+  try {
+    await run(opened.page, opened);
+    assert.deepEqual(opened.said, [], "said on the console");
+    assert.deepEqual(opened.outside, [], "asked of others");
+  } finally {
+    await opened.close();
+  }
+}
+
+const slider = (page, label) => page.getByRole("slider", { name: label, exact: true });
+const field = (page, label) => page.getByRole("textbox", { name: label, exact: true });
+
+async function setField(page, label, text) {
+  await field(page, label).fill(text);
+  await field(page, label).press("Enter");
+  await field(page, label).blur();
+}
+
+test("the first picture shows the Taft example, moving and checked", () =>
+  on(async (page) => {
+    const [peak] = await headline(page);
+    assert.match(peak, /^6\d\.\d+\s*mm$/);
+    assert.match(await page.locator(".certificate").innerText(), /Checked: it holds/);
+    const time = () => page.evaluate(() => globalThis.slipstick.time);
+    const before = await time();
+    await page.waitForTimeout(300);
+    assert.ok((await time()) > before, "it moves");
+    const painted = await page.evaluate(() => {
+      const canvas = document.querySelector("canvas.scene");
+      const data = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+      const colours = new Set();
+      for (let i = 0; i < data.length; i += 4) colours.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
+      return colours.size;
+    });
+    assert.ok(painted > 6, `${painted} colours`);
+  }));
+
+test("a slider that is dragged is followed, and checked when it rests", () =>
+  on(async (page) => {
+    const box = await slider(page, "Kinetic friction").boundingBox();
+    const before = await page.evaluate(() => globalThis.slipstick.updates);
+    await page.mouse.move(box.x + box.width * 0.17, box.y + box.height / 2);
+    await page.mouse.down();
+    for (let i = 0; i <= 30; i++) await page.mouse.move(box.x + box.width * (0.17 + 0.01 * i), box.y + box.height / 2);
+    assert.match(await page.locator(".certificate").innerText(), /Not yet checked|Checked/);
+    await page.mouse.up();
+    await settled(page);
+    const after = await page.evaluate(() => globalThis.slipstick.updates);
+    assert.ok(after - before > 5, `${after - before} updates`);
+    // Static friction went along, and the text says both.
+    const text = await page.locator("#model-text").inputValue();
+    const [, s] = /static_friction\s*=\s*([\d.]+)/.exec(text);
+    const [, k] = /kinetic_friction\s*=\s*([\d.]+)/.exec(text);
+    assert.ok(Number(k) > 0.12 && s === k, text);
+    assert.match(text, /# A building of one storey/, "comments stay");
+    assert.match(await page.locator(".certificate").innerText(), /Checked: it holds/);
+  }));
+
+test("what is shown is what the text says, in every field", () =>
+  on(async (page) => {
+    await setField(page, "Radius of the pendulum", "120 in");
+    await settled(page);
+    assert.match(await page.locator("#model-text").inputValue(), /radius = "120 in"/);
+    await setField(page, "Radius of the pendulum", "3");
+    await settled(page);
+    assert.match(await page.locator("#model-text").inputValue(), /radius = "3 in"/);
+    await page.getByLabel("Restoring force").selectOption("spring");
+    await settled(page);
+    const text = await page.locator("#model-text").inputValue();
+    assert.ok(/spring = "/.test(text) && !/radius/.test(text), text);
+    await page.getByLabel("Table moves by").selectOption("sine");
+    await settled(page);
+    assert.match(await page.locator("#model-text").inputValue(), /\[motion\]\nsine = \{/);
+    await page.getByLabel("Table moves by").selectOption("record:records/el-centro-180.txt");
+    await settled(page);
+    assert.match(await page.locator("#model-text").inputValue(), /record = "records\/el-centro-180.txt"/);
+  }));
+
+test("units: the same motion in three systems", () =>
+  on(async (page) => {
+    for (const [system, unit] of [["us", "in"], ["kN-mm", "mm"], ["si-g", "mm"], ["si", "mm"]]) {
+      await page.getByLabel("Units", { exact: true }).selectOption(system);
+      await settled(page);
+      assert.match((await headline(page))[0], new RegExp(`${unit}$`));
+    }
+    await page.getByLabel("Units", { exact: true }).selectOption("us");
+    await settled(page);
+    await setField(page, "Gap", "5");
+    await settled(page);
+    assert.match(await page.locator("#model-text").inputValue(), /gap\s+= "5 in"/);
+  }));
+
+test("history, summary and events are those of the command, digit by digit", () =>
+  on(async (page) => {
+    const command = process.env.SLIPSTICK_COMMAND;
+    if (!command) return "skipped: SLIPSTICK_COMMAND names no command";
+    const out = temporary();
+    try {
+      for (const name of ["taft", "el-centro", "frame-pendulum"]) {
+        const model = join(root, "examples", `${name}.toml`);
+        execFileSync(command, ["run", model, "-q", "--out", out.folder], { stdio: ["ignore", "ignore", "inherit"] });
+        await drop(page, [`${name}.toml`, readFileSync(model)]);
+        await page.evaluate(() => globalThis.dropped);
+        await settled(page);
+        for (const file of ["history.csv", "events.csv", "summary.json"]) {
+          const here = await page.evaluate((file) => globalThis.slipstick.desk.helper.call("file", file, globalThis.slipstick.text, ""), file);
+          const there = readFileSync(join(out.folder, file), "utf8");
+          assert.ok(here === there, `${name}: ${file} differs from the command's`);
+        }
+      }
+    } finally {
+      out.remove();
+    }
+  }));
+
+test("every format that is read can be dropped", () =>
+  on(async (page) => {
+    const records = join(root, "data/records");
+    const taken = [];
+    for (const name of readdirSync(records).filter((name) => name !== "README.md")) {
+      await drop(page, [name, readFileSync(join(records, name))]);
+      const dialog = page.locator("dialog");
+      await Promise.race([page.evaluate(() => globalThis.dropped.then(() => "done")), dialog.waitFor()]);
+      if (await dialog.count()) {
+        for (let round = 0; round < 3 && (await dialog.count()); round++) {
+          const units = dialog.locator("input[name=units]");
+          if (await units.isVisible()) await units.fill(/counts/i.test(await dialog.innerText()) ? "1e-5 m/s2" : "g");
+          const dt = dialog.locator("input[name=dt]");
+          const wants = /step|dt/.test(await dialog.locator(".fault").innerText());
+          if ((await dt.isVisible()) && wants) await dt.fill("0.01 s");
+          const channel = dialog.locator("select");
+          if (await channel.isVisible()) await channel.selectOption({ index: 0 }).catch(() => {});
+          await dialog.getByRole("button", { name: "Use it" }).click();
+          await page.waitForTimeout(150);
+        }
+        if (await dialog.count()) await dialog.getByRole("button", { name: "Leave it" }).click();
+        await page.evaluate(() => globalThis.dropped);
+      }
+      const text = await page.locator("#model-text").inputValue();
+      if (text.includes(JSON.stringify(name))) taken.push(name);
+      else assert.match(await message(page), new RegExp(name.replaceAll(".", "\\.")), name);
+    }
+    console.log(`    ${taken.length} records taken`);
+    for (const ending of ["AT2", "V1", "V2c", "smc", "m0a", "v1", "EW", "ASC", "acc", "asa", "dat", "V1A", "mseed", "sac", "csv", "txt"]) {
+      assert.ok(taken.some((name) => name.endsWith(`.${ending}`)), `a record .${ending}`);
+    }
+  }));
+
+test("bad input is one message, and the last good state stays", () =>
+  on(async (page) => {
+    const before = await headline(page);
+    const stays = async (why, pattern) => {
+      await page.locator(".note-bar:not(.busy)").waitFor();
+      assert.match(await message(page), pattern, why);
+      assert.deepEqual(await headline(page), before, why);
+      await page.evaluate(() => (document.querySelector(".note-bar").hidden = true));
+    };
+    const dropped = async (name, data) => {
+      await drop(page, [name, data]);
+      await page.evaluate(() => globalThis.dropped);
+    };
+    const noise = Buffer.from(Array.from({ length: 5000 }, (_, i) => (i * 7919 + (i >> 3) * 104729) & 255));
+    await dropped("noise.bin", noise);
+    await stays("binary garbage", /noise\.bin.*expected/);
+    await dropped("empty.txt", "");
+    await stays("an empty file", /empty\.txt.*expected.*found/);
+    await page.evaluate(() => (globalThis.dropped = globalThis.slipstick.files([new File([new Uint8Array(2e8)], "large.txt")])));
+    await page.evaluate(() => globalThis.dropped);
+    await stays("200 MB", /large\.txt: expected a file of at most 128 MiB, found 191 MiB/);
+    await page.evaluate(() => (globalThis.dropped = globalThis.slipstick.files([new File(["0.1\n".repeat(1e7)], "long.txt")])));
+    const dialog = page.locator("dialog");
+    await Promise.race([page.evaluate(() => globalThis.dropped.then(() => "done")), dialog.waitFor()]);
+    if (await dialog.count()) {
+      await dialog.locator("input[name=units]").fill("g");
+      await dialog.locator("input[name=dt]").fill("0.01 s");
+      await dialog.getByRole("button", { name: "Use it" }).click();
+      await page.waitForFunction(() => /at most 1000000 samples/.test(document.querySelector("dialog .fault")?.textContent ?? ""), null, { timeout: 30000 });
+      await dialog.getByRole("button", { name: "Leave it" }).click();
+      await page.evaluate(() => globalThis.dropped);
+    } else await stays("10⁷ samples", /long\.txt.*at most 1000000 samples/);
+    assert.deepEqual(await headline(page), before);
+
+    await dropped("model.toml", noise);
+    await stays("a model that is no text", /model\.toml.*expected text in UTF-8/);
+    const good = await page.locator("#model-text").inputValue();
+    await page.locator("#model-text").fill(good.replace("kinetic_friction", "kinetic_fricton"));
+    await stays("a wrong key", /model\.toml:\d+:\d+:.*kinetic_fricton.*nearest is "kinetic_friction"|model\.toml:\d+:\d+:.*expected/s);
+    assert.equal(await page.locator("#model-text").getAttribute("aria-invalid"), "true");
+    await page.locator("#model-text").fill(good);
+    await settled(page);
+    assert.ok(!(await page.locator(".note-bar:not(.busy)").isVisible()), "a good text clears the message");
+
+    await dropped("plan.toml", 'model = "m.toml"\n[records]\nfiles = ["far-field/*.AT2"]\nscale = [1.0]\n');
+    await page.locator("#panel-study .fault").waitFor();
+    assert.match(await page.locator("#panel-study .fault").innerText(), /plan\.toml:3:\d+: records\.files: expected the plan's records.*found no file for "far-field/);
+  }));
+
+test("half an address is one message, and the example is shown", () =>
+  on(
+    async (page) => {
+      assert.match(await message(page), /the address: expected an address that this page made/);
+      assert.match((await headline(page))[0], /mm$/);
+    },
+    {},
+    `${site.url}#v1.7VPLbtswEPwVg2cXlm`,
+  ));
+
+test("text that people wrote is never markup", () =>
+  on(async (page) => {
+    const evil = '<img src=x onerror="globalThis.hacked=1">';
+    const text = (await page.locator("#model-text").inputValue()).replace(/^name = .*$/m, `name = ${JSON.stringify(evil)}`);
+    await drop(page, ["model.toml", text], [`${evil.slice(0, 20)}.txt`, "x"]);
+    await page.evaluate(() => globalThis.dropped);
+    await settled(page);
+    assert.equal(await page.locator(".brand span").innerText(), evil);
+    await page.waitForTimeout(1200);
+    assert.equal(await page.evaluate(() => globalThis.hacked), undefined);
+    assert.equal(await page.locator("img[src=x]").count(), 0);
+  }));
+
+test("an address holds the state, and Back undoes", () =>
+  on(async (page, { context }) => {
+    const start = await headline(page);
+    await page.waitForFunction(() => location.hash.startsWith("#v1."));
+    await setField(page, "Kinetic friction", "0.03");
+    await settled(page);
+    const changed = await headline(page);
+    assert.notDeepEqual(changed, start);
+    await page.waitForTimeout(150);
+    const other = await context.newPage();
+    await other.goto(page.url());
+    await settled(other);
+    assert.deepEqual(await headline(other), changed);
+    await other.close();
+    await page.goBack();
+    await page.waitForFunction((text) => document.querySelector(".headline dd").innerText === text, start[0]);
+    assert.deepEqual(await headline(page), start);
+    await page.goForward();
+    await page.waitForFunction((text) => document.querySelector(".headline dd").innerText === text, changed[0]);
+  }));
+
+test("a silent worker is shown as busy and can be replaced", () =>
+  on(async (page) => {
+    const before = await headline(page);
+    await page.evaluate(() => void globalThis.slipstick.desk.helper.call("wait", 60000).catch(() => {}));
+    await page.locator(".note-bar.busy").waitFor({ timeout: 4000 });
+    assert.deepEqual(await headline(page), before);
+    await page.getByRole("button", { name: "Start another" }).click();
+    await setField(page, "Kinetic friction", "0.04");
+    await settled(page);
+    assert.notDeepEqual(await headline(page), before);
+  }));
+
+test("a trap ends its worker only", () =>
+  on(async (page) => {
+    const before = await headline(page);
+    const said = await page.evaluate(() => globalThis.slipstick.desk.helper.call("trap").catch((error) => error.message));
+    assert.match(said, /ended unexpectedly/);
+    assert.deepEqual(await headline(page), before);
+    await setField(page, "Kinetic friction", "0.04");
+    await settled(page);
+    assert.notDeepEqual(await headline(page), before);
+  }));
+
+test("a sweep runs in slices, and can be cancelled", () =>
+  on(async (page) => {
+    await page.locator("#tab-sweep").click();
+    await page.locator("#panel-sweep .u-over").first().waitFor();
+    assert.equal(await page.locator("#panel-sweep .plot").count(), 2);
+    await page.getByLabel("Number of runs").fill("50000");
+    await page.locator("#panel-sweep button.main").click();
+    await page.locator("#panel-sweep .progress").waitFor();
+    await page.locator("#panel-sweep").getByRole("button", { name: "Cancel" }).click();
+    await page.locator("#panel-sweep .progress").waitFor({ state: "hidden" });
+    await page.getByLabel("Number of runs").fill("40");
+    await page.locator("#panel-sweep button.main").click();
+    await page.locator("#panel-sweep .progress").waitFor({ state: "hidden" });
+    const box = await page.locator("#panel-sweep .u-over").first().boundingBox();
+    await page.mouse.click(box.x + box.width * 0.5, box.y + box.height / 2);
+    await page.waitForFunction(() => !/kinetic_friction = 0.050/.test(document.querySelector("#model-text").value));
+  }));
+
+for (const [id, heading] of [["spectrum", /sliding spectra/i], ["ida", /incremental dynamic/i], ["fragility", /fragility/i], ["design", /design/i], ["study", /study/i]]) {
+  test(`${id} runs over the records, as the command draws it`, () =>
+    on(async (page) => {
+      await page.locator(`#tab-${id}`).click();
+      await page.locator(`#panel-${id} button.main`).click();
+      await page.locator(`#panel-${id} .sheet`).waitFor({ timeout: 60000 });
+      assert.match(await page.locator(`#panel-${id} .sheet h2`).innerText(), heading);
+      const image = page.locator(`#panel-${id} .sheet img`).first();
+      await image.waitFor();
+      assert.ok(await image.evaluate(async (image) => (await image.decode(), image.naturalWidth > 100)));
+      await page.screenshot({ path: join(shots, `tab-${id}.png`), fullPage: true });
+    }));
+}
+
+test("all files out", () =>
+  on(async (page) => {
+    for (const [label, name] of [
+      ["Model (TOML)", "model.toml"],
+      ["History (CSV)", "history.csv"],
+      ["Events (CSV)", "events.csv"],
+      ["Summary (JSON)", "summary.json"],
+      ["Report (HTML)", "report.html"],
+      ["Animation as it stands (PNG)", "animation.png"],
+      ["Figures (SVG)", "sliding-displacement.svg"],
+      ["Figures (PNG)", "sliding-displacement.png"],
+    ]) {
+      await page.getByText("Export", { exact: true }).click();
+      const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: label, exact: true }).click()]);
+      assert.equal(download.suggestedFilename(), name);
+      await page.waitForTimeout(400);
+    }
+  }, { acceptDownloads: true }));
+
+test("everything is done by keyboard", () =>
+  on(async (page) => {
+    await page.keyboard.press("Tab");
+    assert.equal(await page.evaluate(() => document.activeElement.className), "skip");
+    const seen = new Set();
+    for (let i = 0; i < 60; i++) {
+      await page.keyboard.press("Tab");
+      const at = await page.evaluate(() => {
+        const element = document.activeElement;
+        const outline = getComputedStyle(element).outlineStyle;
+        return [element.tagName, element.getAttribute("aria-label") ?? element.labels?.[0]?.textContent ?? element.textContent.slice(0, 30), outline];
+      });
+      if (at[0] === "BODY") break;
+      assert.notEqual(at[2], "none", `${at[1]} shows its focus`);
+      seen.add(at[1]);
+    }
+    for (const wanted of ["Kinetic friction", "Pause", "Time"]) assert.ok(seen.has(wanted), `${wanted} is reached`);
+    await slider(page, "Kinetic friction").focus();
+    const before = await headline(page);
+    for (let i = 0; i < 40; i++) await page.keyboard.press("ArrowLeft");
+    await settled(page);
+    assert.notDeepEqual(await headline(page), before);
+    await page.locator("#tab-motion").focus();
+    await page.keyboard.press("ArrowRight");
+    assert.equal(await page.locator("#tab-sweep").getAttribute("aria-selected"), "true");
+    await page.keyboard.press("ArrowLeft");
+    await page.locator("main").focus();
+    const label = () => page.locator(".play").getAttribute("aria-label");
+    assert.equal(await label(), "Pause");
+    await page.keyboard.press("Space");
+    assert.equal(await label(), "Play");
+  }));
+
+for (const scheme of ["light", "dark"]) {
+  test(`no violation of WCAG AA, ${scheme}`, () =>
+    on(
+      async (page) => {
+        await page.addScriptTag({ path: axe }).catch(async () => page.evaluate(readFileSync(axe, "utf8")));
+        for (const tab of ["motion", "sweep", "spectrum", "ida", "fragility", "design", "study"]) {
+          await page.locator(`#tab-${tab}`).click();
+          if (tab === "spectrum") {
+            await page.locator("#panel-spectrum button.main").click();
+            await page.locator("#panel-spectrum .sheet").waitFor({ timeout: 60000 });
+          }
+          await page.waitForTimeout(300);
+          const found = await page.evaluate(async () => {
+            const result = await globalThis.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"] });
+            return result.violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.target.join(" ")).slice(0, 4).join(", ")}`);
+          });
+          assert.deepEqual(found, [], tab);
+        }
+      },
+      { colorScheme: scheme, bypassCSP: true },
+    ));
+}
+
+test("it opens without a network once it was open, and asks for nothing after it", async () => {
+  const opened = await open(chromium, site.url, { serviceWorkers: "allow" });
+  try {
+    const { page, context } = opened;
+    await page.evaluate(() => navigator.serviceWorker.ready);
+    await page.waitForTimeout(500);
+    const count = site.asked.length;
+    await setField(page, "Kinetic friction", "0.04");
+    await settled(page);
+    await page.locator("#tab-sweep").click();
+    await page.locator("#panel-sweep .u-over").first().waitFor();
+    assert.equal(site.asked.length, count, `asked for ${site.asked.slice(count)}`);
+    await context.setOffline(true);
+    await page.reload();
+    await settled(page);
+    assert.match((await headline(page))[0], /mm$/);
+    assert.deepEqual(opened.said, []);
+  } finally {
+    await opened.close();
+  }
+});
+
+test("slipstick.html opens from a file", () =>
+  on(
+    async (page) => {
+      assert.match((await headline(page))[0], /^60\.0\d\s*mm$/);
+      await setField(page, "Kinetic friction", "0.04");
+      await settled(page);
+      await page.locator("#tab-sweep").click();
+      await page.locator("#panel-sweep .u-over").first().waitFor();
+    },
+    {},
+    pathToFileURL(join(folder, "slipstick.html")).href,
+  ));
+
+test("reduced motion: it stands at its peak", () =>
+  on(
+    async (page) => {
+      assert.equal(await page.locator(".play").getAttribute("aria-label"), "Play");
+      const [time, peak] = await page.evaluate(() => [globalThis.slipstick.time, globalThis.slipstick.answer.state.headline.peakTime_s]);
+      assert.ok(Math.abs(time - peak) < 1e-9);
+    },
+    { reducedMotion: "reduce" },
+  ));
+
+test("it prints as pages of A4 with the report's figures", () =>
+  on(async (page) => {
+    await page.locator(".print-only figure").nth(3).waitFor({ state: "attached", timeout: 8000 });
+    const pdf = await page.pdf({ format: "A4", printBackground: true });
+    const pages = pdf.toString("latin1").match(/\/Type\s*\/Page\b/g)?.length ?? 0;
+    assert.ok(pages >= 2 && pages <= 8, `${pages} pages`);
+  }));
+
+test("pictures at three widths, in light and dark", async () => {
+  for (const [width, height] of [[390, 844], [900, 900], [1600, 1000]]) {
+    for (const colorScheme of ["light", "dark"]) {
+      await on(
+        async (page) => {
+          await page.waitForTimeout(1300);
+          const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+          assert.ok(wide <= 0, `${width}: ${wide} px too wide`);
+          await page.screenshot({ path: join(shots, `${width}-${colorScheme}.png`), fullPage: width < 1500 });
+        },
+        { viewport: { width, height }, colorScheme },
+      );
+    }
+  }
+});
+
+let [passed, failed, skipped] = [0, 0, 0];
+for (const [name, run] of tests) {
+  if (only && !name.includes(only)) continue;
+  try {
+    if (!chromium.isConnected()) chromium = await browser();
+    let timer;
+    const late = new Promise((_, reject) => {
+      timer = setTimeout(() => reject(new Error("it took longer than 120 s")), 120_000);
+    });
+    const said = await Promise.race([run(), late]).finally(() => clearTimeout(timer));
+    if (typeof said === "string") {
+      skipped++;
+      console.log(`  ${said}`);
+    } else passed++;
+  } catch (error) {
+    failed++;
+    console.log(`  FAILED: ${name}\n    ${String(error.stack ?? error).split("\n").slice(0, 14).join("\n    ")}`);
+  }
+}
+await chromium.close();
+site.close();
+console.log(`${passed} passed, ${failed} failed, ${skipped} skipped`);
+process.exitCode = failed > 0 ? 1 : 0;
