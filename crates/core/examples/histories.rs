@@ -1,6 +1,12 @@
 //! Time of a history of the Taft example in ms, the best of several hundreds: what the page's module is
 //! measured against.
 
+#![allow(
+    clippy::disallowed_macros,
+    clippy::disallowed_methods,
+    reason = "a program may print and read the clock"
+)]
+
 use std::time::Instant;
 
 use slipstick::input::loaded::{Loaded, Wanted};

@@ -30,12 +30,12 @@ pub use records::{
     FileNames, RecordOptions, Wanted, WrittenFormat, channels, one_channel, open_record,
 };
 pub use run::{JobError, OpenJob, time_left};
+pub use slipstick_report::tables::{events_csv, history_csv};
 pub use study::{
     Checks, Merged, OpenStudy, STUDY_REPORT, Shard, ShardOutcome, StudyError, clear, conclude,
     estimate, has_parts, kept_runs, merge, part_rows, quoted, run_shard,
 };
 pub use suite::{OpenSuite, SuiteError, SuiteRequest, stems_or_paths};
 pub use table::{ReadTable, read_table, to_csv, to_parquet};
-pub use slipstick_report::tables::{events_csv, history_csv};
 pub use threads::on_threads;
 pub use write::{OutputFolder, refuse_inputs, remove_temporaries, write_whole};

@@ -148,7 +148,7 @@ fn followed<T>(work: impl FnOnce(&Engine<'_>) -> T) -> T {
     let follow = |runs: u64| {
         let all = done.fetch_add(runs, Ordering::Relaxed) + runs;
         // A message costs more than a run.
-        if all % 16 == 0 {
+        if all.is_multiple_of(16) {
             progress(all as f64, PLANNED.get() as f64);
         }
         ControlFlow::Continue(())
