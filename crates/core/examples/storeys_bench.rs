@@ -13,8 +13,10 @@
 
 use slipstick::check::check;
 use slipstick::error::SolveError;
-use slipstick::friction::{Coulomb, Friction};
-use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
+use slipstick::friction::{Coulomb, Friction, RateCurve, RateLaw, Series, Surface};
+use slipstick::model::{
+    Block, Contents, Damping, Devices, Frame, InitialState, Model, Slider, Stop, StopKind,
+};
 use slipstick::motion::GroundMotion;
 use slipstick::solver::{Prepared, PreparedMotion};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
@@ -41,6 +43,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("n = 1, T = 0.1 s", model(1, 0.1, [0.06, 0.05])?, &level),
         ("n = 1, vertical motion", model(1, 0.5, [0.06, 0.05])?, &vertical),
     ];
+    for (name, model) in with_devices()? {
+        systems.push((name, model, &level));
+    }
     for (name, n) in [("n = 2", 2), ("n = 5", 5), ("n = 10", 10), ("n = 20", 20)] {
         systems.push((name, model(n, 0.1 * n as f64, [0.06, 0.05])?, &level));
     }
@@ -113,6 +118,68 @@ fn taft() -> Result<[GroundMotion; 2], Box<dyn Error>> {
     Ok([
         GroundMotion::evenly_spaced(0.01, scaled.clone(), None)?,
         GroundMotion::evenly_spaced(0.01, scaled, Some(upwards))?,
+    ])
+}
+
+/// One storey with devices, each beside the same friction without.
+fn with_devices() -> Result<Vec<(&'static str, Model)>, Box<dyn Error>> {
+    let plain = || model(1, 0.5, [0.06, 0.05]);
+    let rate = |curve| RateLaw::new(curve, [1.0; 2]);
+    let pieces = RateCurve::Pieces {
+        speeds_m_per_s: vec![0.0, 0.02, 0.1, 0.3],
+        coefficients: vec![0.03, 0.04, 0.05, 0.055],
+    };
+    let exponential = RateCurve::Exponential { slow: 0.03, fast: 0.055, rate_s_per_m: 30.0 };
+    let surface = |radius_m, friction, travel_m| Surface {
+        radius_m: Some(radius_m),
+        friction,
+        travel_m: Some(travel_m),
+    };
+    let double = Series::new(vec![surface(0.4, 0.03, 0.05), surface(1.6, 0.055, 0.6)], 1.1)?;
+    let rigid = Slider {
+        stop: Some(Stop { gap_m: [Some(1.0); 2], kind: StopKind::Rigid { restitution: 0.5 } }),
+        ..*plain()?.slider()
+    };
+    let contents =
+        Contents { floor: 1, mass_kg: 50.0, static_friction: 0.4, kinetic_friction: 0.3 };
+    let without = |slider: Slider| {
+        let slider = Slider { stiffness_n_per_m: 0.0, ..slider };
+        let plain = plain()?;
+        let (block, frame) = (*plain.block(), plain.frame().clone());
+        Model::new(block, slider, frame, STANDARD_GRAVITY_M_PER_S2, InitialState::rest())
+            .map_err(Box::<dyn Error>::from)
+    };
+    let slider = *plain()?.slider();
+    let plain_with =
+        |devices| -> Result<Model, Box<dyn Error>> { Ok(plain()?.with_devices(devices)?) };
+    Ok(vec![
+        (
+            "n = 1, friction in pieces",
+            plain_with(Devices { rate: Some(rate(pieces)?), ..Devices::default() })?,
+        ),
+        (
+            "n = 1, exponential friction",
+            plain_with(Devices { rate: Some(rate(exponential)?), ..Devices::default() })?,
+        ),
+        (
+            "n = 1, double pendulum",
+            without(slider)?
+                .with_devices(Devices { series: Some(double), ..Devices::default() })?,
+        ),
+        (
+            "n = 1, rigid stop not reached",
+            Model::new(
+                *plain()?.block(),
+                rigid,
+                plain()?.frame().clone(),
+                STANDARD_GRAVITY_M_PER_S2,
+                InitialState::rest(),
+            )?,
+        ),
+        (
+            "n = 1, contents",
+            plain_with(Devices { contents: vec![contents], ..Devices::default() })?,
+        ),
     ])
 }
 

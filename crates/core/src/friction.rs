@@ -1,20 +1,20 @@
 //! The force between ground and block: one file a law.
 //!
 //! [`Coulomb`] friction, [`RateLaw`]s, the [`ElasticStop`] and [`RigidStop`], [`Series`] of surfaces; and
-//! [`Law`] and [`SliderLaw`], by which the solver asks for what is in force.
+//! the [`Law`] of them all, which the solver asks for what is in force.
 
 mod coulomb;
 mod law;
 mod rate;
-mod slider;
 mod stop;
 mod surfaces;
 
 pub use coulomb::{Coulomb, Friction};
-pub use law::{Branch, Contact, Exit, Hold, Law, Restraint};
+pub use law::{
+    Affine, Contact, EXITS, Exit, Hold, Law, Memory, Reached, Restraint, Restraints, SlipForce,
+};
 pub use rate::{Coefficient, RateCurve, RateLaw};
-pub use slider::{Bound, Memory, Reached, Rest, RigidStop, SliderLaw, SlipForce};
-pub use stop::ElasticStop;
+pub use stop::{ElasticStop, RigidStop};
 pub use surfaces::{Series, SeriesState, Surface};
 
 /// Direction of sliding along x.

@@ -5,9 +5,7 @@ mod devices;
 pub use devices::{Contents, Devices};
 
 use crate::error::ModelError;
-use crate::friction::{
-    Coulomb, Direction, ElasticStop, Friction, Law, Restraint, RigidStop, SliderLaw,
-};
+use crate::friction::{Coulomb, Direction, ElasticStop, Friction, Law, Restraint, RigidStop};
 use crate::units::STANDARD_GRAVITY_M_PER_S2;
 
 /// The rigid block that slides, `M1`.
@@ -366,6 +364,12 @@ impl Model {
         self.gravity_m_per_s2 * libm::cos(self.slider.tilt_rad)
     }
 
+    /// What presses the block on the surface without vertical motion, in N.
+    #[must_use]
+    pub fn normal_n(&self) -> f64 {
+        self.total_mass_kg() * self.normal_gravity_m_per_s2()
+    }
+
     /// The same model with another friction law (lower- and upper-bound friction).
     #[must_use]
     pub fn with_friction(&self, friction: Friction) -> Self {
@@ -384,27 +388,17 @@ impl Model {
         Ok(model)
     }
 
-    /// The law of the one force between ground and block.
+    /// The law of the one force between ground and block, under a motion with or without a vertical
+    /// component.
     #[must_use]
-    pub fn law(&self) -> Law {
-        let slider = &self.slider;
-        let restraint = Restraint {
-            stiffness_n_per_m: slider.stiffness_n_per_m,
-            damper_n_s_per_m: slider.damper_n_s_per_m,
-        };
-        Law::new(slider.friction, restraint, self.elastic_stop())
-    }
-
-    /// The same with all devices, under a motion with or without a vertical component.
-    #[must_use]
-    pub fn slider_law(&self, vertical: bool) -> SliderLaw {
+    pub fn law(&self, vertical: bool) -> Law {
         let slider = &self.slider;
         let radius_m = self.pendulum_radius_m(vertical);
         let rigid = |stop: &Stop| match stop.kind {
             StopKind::Elastic { .. } => None,
             StopKind::Rigid { restitution } => Some(RigidStop { gap_m: stop.gap_m, restitution }),
         };
-        SliderLaw {
+        Law {
             friction: slider.friction,
             rate: self.devices.rate.clone(),
             radius_m,

@@ -149,6 +149,14 @@ impl RateLaw {
         Self { curve: self.curve.clone(), factors: self.factors.map(|own| own * factor) }
     }
 
+    /// Number of pieces.
+    pub(super) fn pieces(&self) -> usize {
+        match &self.curve {
+            RateCurve::Pieces { speeds_m_per_s, .. } => speeds_m_per_s.len(),
+            RateCurve::Exponential { .. } => 1,
+        }
+    }
+
     /// The piece to which a speed belongs: at a knot the one above it.
     pub(super) fn piece_of(&self, speed: f64) -> usize {
         match &self.curve {

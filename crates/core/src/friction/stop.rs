@@ -1,10 +1,10 @@
-//! The elastic stop at the end of the gap.
+//! Stops at the ends of the gap.
 //!
-//! With `δ = s − d` the pad pushes the block back by `max(0, k δ + c ṡ)` while `δ > 0`, and never
+//! Elastic: with `δ = s − d` the pad pushes the block back by `max(0, k δ + c ṡ)` while `δ > 0`, and never
 //! pulls; left behind, it has recovered. Mirrored on the other side.
 
 use super::Direction;
-use super::law::{Contact, Exit, Restraint};
+use super::law::{Contact, Exit, Reached, Restraint};
 
 /// Pads at the ends of the gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,14 +17,34 @@ pub struct ElasticStop {
     pub damper_n_s_per_m: f64,
 }
 
+/// Stops that do not give way: `ṡ⁺ = −e ṡ⁻` at the end of the gap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidStop {
+    /// Distances from `s = 0` to the stops towards +x and −x in m; none where there is no stop.
+    pub gap_m: [Option<f64>; 2],
+    /// `e`, from 0 to 1.
+    pub restitution: f64,
+}
+
+/// `s` at the end of the gap on a side.
+fn place([positive, negative]: [Option<f64>; 2], side: Direction) -> Option<f64> {
+    match side {
+        Direction::Positive => positive,
+        Direction::Negative => negative.map(|gap_m| -gap_m),
+    }
+}
+
+impl RigidStop {
+    /// `s` at the stop on a side.
+    pub(super) fn place(&self, side: Direction) -> Option<f64> {
+        place(self.gap_m, side)
+    }
+}
+
 impl ElasticStop {
     /// `s` at the pad on a side.
     fn place(&self, side: Direction) -> Option<f64> {
-        let [positive, negative] = self.gap_m;
-        match side {
-            Direction::Positive => positive,
-            Direction::Negative => negative.map(|gap_m| -gap_m),
-        }
+        place(self.gap_m, side)
     }
 
     /// Spring and damper of slider and pad.
@@ -54,7 +74,8 @@ impl ElasticStop {
             let place = self.place(side)?;
             let of_s = if inward { -side.sign() } else { side.sign() };
             let constant = -of_s * place;
-            Some(Exit { of_s, of_w: 0.0, constant, level_m: Some(place), to })
+            let reached = Reached::Contact(to, Some(place));
+            Some(Exit { of_s, of_w: 0.0, constant, reached })
         };
         // ±(k δ + c ṡ)
         let force = |side: Direction, sign: f64, to: Contact| {
@@ -64,8 +85,7 @@ impl ElasticStop {
                 of_s: sign * k,
                 of_w: sign * c,
                 constant: sign * self.constant_n(side),
-                level_m: None,
-                to,
+                reached: Reached::Contact(to, None),
             })
         };
         match contact {

@@ -172,7 +172,7 @@ impl System {
         let per_mass = self.per_block_mass;
         let [pull, drag] = [dot(l, &elastic), dot(l, &drag)].map(|x| x * per_mass);
         let (spring, damper) =
-            (self.stiffness_n_per_m * per_mass, self.damper_n_s_per_m * per_mass);
+            (self.stiffness_n_per_m * per_mass, self.damper_n_s_per_m.abs() * per_mass);
         self.stick_rate_rad_per_s = omega2.sqrt() + decay;
         self.slip_rate_rad_per_s = (omega2 + (spring + pull)).sqrt() + decay + (damper + drag);
     }
@@ -245,6 +245,13 @@ impl System {
         }
         let of_block = self.stiffness_n_per_m * (s * s) + self.block_mass_kg * (w * w);
         (of_block + ((sums[0] + sums[1]) + (sums[2] + sums[3]))).sqrt()
+    }
+
+    /// How much the energy norm can grow over a length of time: a damper `c < 0` feeds
+    /// `d‖x‖²/dt = −2 c ṡ² ≤ 2 (|c| / M1) ‖x‖²`.
+    #[must_use]
+    pub fn growth(&self, length_s: f64) -> f64 {
+        libm::exp((-self.damper_n_s_per_m).max(0.0) * self.per_block_mass * length_s)
     }
 
     /// Largest value on states of energy norm 1 of the row `c`, in stick on those at `s = ṡ = 0`.

@@ -10,7 +10,7 @@ use super::outputs::output;
 use super::run::{Run, Start};
 use super::tables::Phase;
 use crate::error::SolveError;
-use crate::friction::{Contact, Direction, Exit};
+use crate::friction::{Contact, Direction, Exit, Memory, Reached};
 use crate::linear::lanes::{Width, least};
 use crate::linear::polynomial::{DEGREE, Polynomial, curvature_bound, deflated, first_root, value};
 use crate::linear::{Load, Series};
@@ -79,6 +79,9 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
             }
             first = false;
             let time_s = self.ground.times_s[stretch.interval] + at_s;
+            if self.mode != Mode::Stick && self.law.at_end(&self.memory) {
+                return Err(SolveError::EndOfTravel { time_s });
+            }
             if self.events_in_interval > EVENTS_PER_INTERVAL_LIMIT {
                 let limit = EVENTS_PER_INTERVAL_LIMIT;
                 return Err(SolveError::TooManyEvents { time_s, limit });
@@ -144,13 +147,12 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         let segment = Self::segment(phase, stretch, from_s);
         let load = self.load(phase, stretch, from_s, 0.0);
         Self::expand(self.simd, self.width, phase, &self.x, &load, &mut self.series);
-        let stop_n = self.stop_input(Mode::Stick, self.contact, self.x[0]);
+        let stop_n = self.now.stop;
         let demand =
             output_series(self.width, phase, output::FRICTION, &self.series, &load, stop_n);
         let curvature = curvature_bound(&demand) * (segment.part * segment.part);
         let demand_end = value(&demand, segment.part);
-        let hold = self.law.hold(self.contact, self.x[0]);
-        let [low, high] = hold.bounds;
+        let [low, high] = self.hold.bounds;
         let (normal, rise) = (stretch.normal_at(from_s), stretch.normal_rate * phase.unit_s);
         let mut release: Option<(f64, Direction)> = None;
         for (sign, bound, direction) in
@@ -190,11 +192,10 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
     /// One segment of slip, up to its end or the first of its exits in it; the time reached.
     #[inline(always)]
     fn slip_segment(&mut self, stretch: &Stretch, direction: Direction, from_s: f64) -> f64 {
-        let branch = self.law.branch(self.contact, direction);
-        let phase = &self.tables.slip[branch.restraint];
+        let phase = self.now.phase;
         let segment = Self::segment(phase, stretch, from_s);
-        let mut load = self.load(phase, stretch, from_s, -branch.coefficient);
-        load.force -= branch.force_n;
+        let mut load = self.load(phase, stretch, from_s, self.now.friction);
+        load.force -= self.now.stop;
         Self::expand(self.simd, self.width, phase, &self.x, &load, &mut self.series);
         let sign = direction.sign();
         let mut speed = self.series.component(self.width, 1, sign);
@@ -205,13 +206,11 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
             speed = deflated(&speed, start.order);
         }
         let mut first = first_root(&speed, segment.part).map(|part| (part, None));
-        if self.law.has_stop() {
-            let at_zero = core::mem::take(&mut self.at_zero_force);
-            for exit in self.law.exits(self.contact, direction).into_iter().flatten() {
-                let to = first.map_or(segment.part, |(part, _)| part);
-                if let Some(part) = first_exit(self.width, &exit, &self.series, to, at_zero) {
-                    first = Some((part, Some(exit)));
-                }
+        let just = self.just.take();
+        for exit in self.exits.iter().flatten() {
+            let to = first.map_or(segment.part, |(part, _)| part);
+            if let Some(part) = first_exit(self.width, exit, &self.series, to, just) {
+                first = Some((part, Some(*exit)));
             }
         }
         let segment = match first {
@@ -223,13 +222,16 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
             None if sign * self.x[1] <= 0.0 => self.x[1] = 0.0,
             None => {}
             Some((_, None)) => self.x[1] = 0.0,
-            Some((_, Some(exit))) => self.x[0] = exit.level_m.unwrap_or(self.x[0]),
+            Some((_, Some(exit))) => match exit.reached {
+                Reached::Knot(speed, _) => self.x[1] = sign * speed,
+                _ => self.x[0] = exit.level_m().unwrap_or(self.x[0]),
+            },
         }
         self.look(phase, stretch, &segment);
         let at_s = segment.to_s;
         let Some((_, exit)) = first else { return at_s };
         if let Some(exit) = exit {
-            self.leave_branch(stretch, at_s, &exit);
+            self.leave_branch(stretch, at_s, direction, &exit);
         } else if at_s < stretch.to_s {
             self.record(stretch, at_s, false);
             self.stop(stretch, at_s);
@@ -239,16 +241,30 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
     }
 
     /// What follows an exit other than a stop.
-    fn leave_branch(&mut self, stretch: &Stretch, at_s: f64, exit: &Exit) {
+    fn leave_branch(&mut self, stretch: &Stretch, at_s: f64, direction: Direction, exit: &Exit) {
         self.record(stretch, at_s, false);
-        self.change_contact(stretch, at_s, exit.to);
-        self.at_zero_force = exit.level_m.is_none();
+        match exit.reached {
+            Reached::Contact(to, _) => self.change_contact(stretch, at_s, to),
+            reached => {
+                self.surfaces.note(self.law, &self.memory, self.x[0]);
+                self.law.follow(&mut self.memory, reached, direction);
+                match reached {
+                    Reached::Surface(_) => {
+                        let time_s = self.ground.times_s[stretch.interval] + at_s;
+                        self.push_event(time_s, EventKind::Surface);
+                    }
+                    _ => self.events_in_interval += 1,
+                }
+            }
+        }
+        self.set_in_force();
+        self.just = Some(exit.reached);
         self.record(stretch, at_s, false);
     }
 
     /// Changes the contact, which is an event.
     fn change_contact(&mut self, stretch: &Stretch, at_s: f64, to: Contact) {
-        let from = self.contact;
+        let from = self.memory.contact;
         let kind = match (from, to) {
             (Contact::Free, Contact::Pressed(_)) => EventKind::Contact,
             (_, Contact::Pressed(_)) => EventKind::Press,
@@ -257,48 +273,63 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         };
         let time_s = self.ground.times_s[stretch.interval] + at_s;
         self.stopping.change(time_s, self.x[1].abs(), from, to);
-        self.contact = to;
+        self.memory.contact = to;
         self.push_event(time_s, kind);
     }
 
     /// The sliding velocity is zero: stick if friction holds, eq. (4), else slip on, eq. (3).
     pub(super) fn stop(&mut self, stretch: &Stretch, at_s: f64) {
-        let demand = self.demand(stretch.acceleration_at(at_s));
         let normal = stretch.normal_at(at_s);
-        let hold = self.law.hold(self.contact, self.x[0]);
-        self.sliding.decide(demand, &hold, normal);
+        self.surfaces.note(self.law, &self.memory, self.x[0]);
+        self.law.settle(&mut self.memory, self.x[0]);
+        let hold = self.law.hold(&self.memory, self.x[0]);
+        let demand = self.demand(&hold, stretch.acceleration_at(at_s));
+        self.sliding.decide(hold.margin(demand, normal));
         let time_s = self.ground.times_s[stretch.interval] + at_s;
         let Some(direction) = hold.gives_way(demand, normal) else {
             self.sliding.end(time_s, self.x[0]);
             self.mode = Mode::Stick;
             self.push_event(time_s, EventKind::Stick);
-            self.set_limits();
+            self.set_in_force();
             return;
         };
-        let kinetic_n = self.law.branch(self.contact, direction).coefficient.abs() * normal;
-        let mass_kg = self.tables.stick.system.block_mass_kg;
-        let acceleration = (demand.abs() - kinetic_n) / mass_kg;
-        self.start = Some(Start { order: 1, acceleration });
-        if self.mode != Mode::Slip(direction) {
+        self.start = Some(self.start_beyond(demand, normal, direction));
+        if self.mode == Mode::Slip(direction) {
+            self.law.resume(&mut self.memory, 0.0, direction);
+            self.set_in_force();
+        } else {
             self.sliding.end(time_s, self.x[0]);
             self.begin_slip(stretch, at_s, direction, EventKind::Reversal);
         }
     }
 
+    /// What is in force once the block leaves rest in a direction.
+    fn begun(&self, direction: Direction) -> Memory {
+        let mut memory = self.memory.clone();
+        self.law.begin(&mut memory, self.x[0], direction);
+        memory
+    }
+
+    /// How a slip starts under a force beyond what holds: `|s̈| = (|T| − μ_k N) / M1`.
+    fn start_beyond(&self, demand: f64, normal: f64, direction: Direction) -> Start {
+        let kinetic_n = self.law.resistance(&self.begun(direction), direction) * normal;
+        let asked_n = -direction.sign() * demand;
+        let mass_kg = self.tables.stick.system.block_mass_kg;
+        Start { order: 1, acceleration: (asked_n - kinetic_n) / mass_kg }
+    }
+
     /// In stick: slip if the demand is beyond its bound (a jump), or on it and about to pass it.
     #[inline(always)]
     fn release_if_due(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) {
-        let demand = self.demand(stretch.acceleration_at(at_s));
+        let hold = self.hold;
+        let demand = self.demand(&hold, stretch.acceleration_at(at_s));
         let normal = stretch.normal_at(at_s);
-        let hold = self.law.hold(self.contact, self.x[0]);
         let [low, high] = hold.bounds.map(|bound| bound * normal);
         if low < demand && demand < high {
             return;
         }
         let (direction, start) = if let Some(direction) = hold.gives_way(demand, normal) {
-            let kinetic_n = self.law.branch(self.contact, direction).coefficient.abs() * normal;
-            let mass_kg = self.tables.stick.system.block_mass_kg;
-            (direction, Start { order: 1, acceleration: (demand.abs() - kinetic_n) / mass_kg })
+            (direction, self.start_beyond(demand, normal, direction))
         } else {
             let ways = [(high, Direction::Negative), (low, Direction::Positive)];
             let due = ways.into_iter().filter(|(bound, _)| demand == *bound).find_map(
@@ -327,8 +358,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         let load = self.load(phase, stretch, at_s, 0.0);
         Self::expand(self.simd, self.width, phase, &self.x, &load, &mut self.series);
         let demand = output_series(self.width, phase, output::FRICTION, &self.series, &load, 0.0);
-        let hold = self.law.hold(self.contact, self.x[0]);
-        let [low, high] = hold.bounds.map(|b| b * (stretch.normal_rate * phase.unit_s));
+        let [low, high] = self.hold.bounds.map(|b| b * (stretch.normal_rate * phase.unit_s));
         let sign = -direction.sign();
         let bound = if sign > 0.0 { high } else { low };
         (1..=DEGREE)
@@ -350,10 +380,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
 
     /// `|s̈|` just after a release on the bound: `(μ_s − μ_k) N / M1`.
     fn drop_at_release(&self, stretch: &Stretch, at_s: f64, direction: Direction) -> f64 {
-        let bounds = self.law.hold(self.contact, self.x[0]).bounds;
-        let bound = bounds[if direction == Direction::Positive { 0 } else { 1 }];
-        let kinetic = self.law.branch(self.contact, direction).coefficient;
-        (bound.abs() - kinetic.abs()) * stretch.normal_at(at_s)
+        self.law.drop(&self.hold, &self.begun(direction), direction) * stretch.normal_at(at_s)
             / self.tables.stick.system.block_mass_kg
     }
 
@@ -362,11 +389,14 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         self.mode = Mode::Slip(direction);
         self.sliding.begin(time_s, self.x[0]);
         self.push_event(time_s, kind);
-        let contact = self.law.begin(self.contact, self.x[0], direction);
-        if contact != self.contact {
-            self.change_contact(stretch, at_s, contact);
+        let contact = self.memory.contact;
+        self.law.begin(&mut self.memory, self.x[0], direction);
+        // The change of contact is an event of its own.
+        let begun = core::mem::replace(&mut self.memory.contact, contact);
+        if begun != contact {
+            self.change_contact(stretch, at_s, begun);
         }
-        self.set_limits();
+        self.set_in_force();
     }
 
     /// Records the knot before an event at an instant that no segment has led to.
@@ -432,13 +462,25 @@ fn first_exit<W: Width>(
     exit: &Exit,
     series: &Series,
     to: f64,
-    at_zero: bool,
+    just: Option<Reached>,
 ) -> Option<f64> {
     let [s, w] = [(0, exit.of_s), (1, exit.of_w)].map(|(i, of)| series.component(width, i, of));
     let mut p: Polynomial = core::array::from_fn(|k| s[k] + w[k]);
     p[0] += exit.constant;
-    if at_zero && exit.level_m.is_none() {
-        return first_root(&deflated(&p, 1), to);
+    first_root(&less_zero(p, exit.reached, just), to)
+}
+
+/// The polynomial of an exit without the zero at which it starts, where the same has just been reached.
+pub(super) fn less_zero(mut p: Polynomial, reached: Reached, just: Option<Reached>) -> Polynomial {
+    match (reached, just) {
+        (Reached::Contact(_, None), Some(Reached::Contact(_, None))) => deflated(&p, 1),
+        (Reached::Knot(speed, _), Some(Reached::Knot(crossed, _))) if speed == crossed => {
+            p[0] = 0.0;
+            match p.iter().position(|c| *c != 0.0) {
+                Some(order) => deflated(&p, order),
+                None => p,
+            }
+        }
+        _ => p,
     }
-    first_root(&p, to)
 }

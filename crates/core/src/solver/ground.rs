@@ -126,8 +126,7 @@ pub(super) fn varying_normal(model: &Model, motion: &GroundMotion) -> Option<Vec
 impl<'a> Normal<'a> {
     /// That of a model, varying where there is vertical motion.
     pub(super) fn new(model: &Model, varying: Option<&'a [f64]>) -> Self {
-        let weight_n = model.total_mass_kg() * model.normal_gravity_m_per_s2();
-        varying.map_or(Self::Constant(weight_n), Self::Varying)
+        varying.map_or(Self::Constant(model.normal_n()), Self::Varying)
     }
 }
 

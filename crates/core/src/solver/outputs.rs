@@ -1,10 +1,11 @@
 //! The tracked outputs: every number of which the analysis reports a peak, as a row.
 //!
-//! Each is a linear function of the state, the acceleration `a = Ü + g sin θ` and the friction force
-//! `T`, with other coefficients in stick than in slip. [`rows`] is the one place that lists them: a
+//! Each is a linear function of the state, the acceleration `a = Ü + g sin θ` and the constant part of
+//! the friction force `T`, with other coefficients in stick than in slip. [`rows`] is the one place that lists them: a
 //! new peak is a row here and a field in [`Demands`](crate::response::Demands). They are looked at
 //! eight at a time.
 
+use crate::friction::Restraint;
 use crate::linear::System;
 use crate::linear::lanes::{Eight, dot};
 use crate::model::Model;
@@ -96,10 +97,10 @@ pub(super) fn overturning(model: &Model, system: &System) -> Option<Overturning>
     Some(Overturning { arm, block: 0.5 * block_height_m * block.mass_kg })
 }
 
-/// All outputs of a phase in their order.
+/// All outputs of stick, or of slip with what of its restraint is friction, in their order.
 pub(super) fn rows(
     system: &System,
-    slip: bool,
+    slip: Option<&Restraint>,
     overturning: Option<&Overturning>,
     slope: f64,
 ) -> Vec<OutputRow> {
@@ -131,7 +132,7 @@ pub(super) fn rows(
     let (mass, per_mass) = (system.block_mass_kg, system.per_block_mass);
     // u, of which slip has u = (T − stop − c ṡ − k s + L·f) / M1 and stick u = a.
     let mut u = none();
-    if slip {
+    if slip.is_some() {
         u = of_f(l, per_mass);
         u.state[0] = -system.stiffness_n_per_m * per_mass;
         u.state[1] = -system.damper_n_s_per_m * per_mass;
@@ -142,11 +143,13 @@ pub(super) fn rows(
     let mut velocity = none();
     let mut slider = none();
     let mut friction = none();
-    if slip {
+    if let Some(of_friction) = slip {
         velocity.state[1] = 1.0;
         (slider.state[0], slider.state[1]) = (-system.stiffness_n_per_m, -system.damper_n_s_per_m);
         (slider.of_friction, slider.of_stop) = (1.0, -1.0);
         friction.of_friction = 1.0;
+        friction.state[0] = -of_friction.stiffness_n_per_m;
+        friction.state[1] = -of_friction.damper_n_s_per_m;
     } else {
         slider = of_f(l, -1.0);
         slider.of_a = mass;

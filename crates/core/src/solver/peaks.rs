@@ -10,9 +10,8 @@ use fearless_simd::prelude::*;
 
 use super::event::{Segment, output_series};
 use super::ground::Stretch;
-use super::run::{Curvature, Run};
+use super::run::{Curvature, InForce, Run};
 use super::tables::{Batch, Phase};
-use crate::friction::Contact;
 use crate::linear::lanes::{Eight, Width, eight, greatest, larger};
 use crate::linear::polynomial::largest;
 use crate::linear::{BATCH, Force};
@@ -22,13 +21,13 @@ use crate::response::Mode;
 const ROOM: usize = 64;
 
 /// Peaks attained, and the candidates for more.
-pub(super) struct Peaks {
+pub(super) struct Peaks<'a> {
     pub(super) peak: Vec<Eight>,
     /// Sizes that are no news: the peaks, or infinite where a size cannot grow.
     pub(super) limit: Vec<Eight>,
     /// Bounds on the outputs in the place just weighed; zero where it cannot hold a peak.
     pub(super) above: Vec<Eight>,
-    candidates: Vec<Candidate>,
+    candidates: Vec<Candidate<'a>>,
     /// State at the start of each candidate, and its bounds.
     states: Vec<f64>,
     bounds: Vec<Eight>,
@@ -41,11 +40,10 @@ pub(super) struct Peaks {
 
 /// A place that may hold a peak.
 #[derive(Clone, Copy)]
-struct Candidate {
+struct Candidate<'a> {
     sample: usize,
     extent: Extent,
-    mode: Mode,
-    contact: Contact,
+    now: InForce<'a>,
 }
 
 /// How far a candidate reaches.
@@ -57,7 +55,7 @@ pub(super) enum Extent {
     Samples(usize, Curvature),
 }
 
-impl Peaks {
+impl Peaks<'_> {
     pub(super) fn new(groups: usize, outputs: usize, stride: usize) -> Self {
         let zeros = || vec![Eight::ZERO; groups];
         Self {
@@ -126,14 +124,14 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let second = &self.series.order(2)[..d];
         // Twice the second coefficient is ẍ times the unit squared.
         let part = segment.part;
-        let reach = eight(simd, 0.25 * phase.system.energy_norm(second) * (part * part));
-        let coefficient = self.friction_of(self.mode, self.contact);
-        let stop = self.stop_input(self.mode, self.contact, self.x[0]);
+        let norm = phase.growth * phase.system.energy_norm(second);
+        let reach = eight(simd, 0.25 * norm * (part * part));
+        let InForce { friction: coefficient, stop, .. } = self.now;
         let (from_s, to_s) = (segment.from_s, segment.to_s);
         let first =
             [coefficient * stretch.normal_at(from_s), stretch.acceleration_at(from_s), stop];
         let last = [coefficient * stretch.normal_at(to_s), stretch.acceleration_at(to_s), stop];
-        if self.law.has_stop() {
+        if self.law.stop.is_some() {
             self.look_at_stop(part);
         }
         let stride = 4 * self.width.fours();
@@ -180,8 +178,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     /// Looks at the force of the stop in the last series.
     #[inline(never)]
     fn look_at_stop(&mut self, part: f64) {
-        let mut force_n = self.law.stop_force_n(self.contact, self.x[0], self.x[1]);
-        if let Some([of_s, of_w, constant]) = self.law.stop_row(self.contact) {
+        let contact = self.memory.contact;
+        let mut force_n = self.law.stop_force_n(contact, self.x[0], self.x[1]);
+        if let Some([of_s, of_w, constant]) = self.law.stop_row(contact) {
             let [s, w] =
                 [(0, of_s), (1, of_w)].map(|(i, of)| self.series.component(self.width, i, of));
             let mut p = core::array::from_fn(|k| s[k] + w[k]);
@@ -202,9 +201,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 self.settle_peaks();
             }
         }
-        let (mode, contact) = (self.mode, self.contact);
+        let now = self.now;
         let peaks = &mut self.peaks;
-        peaks.candidates.push(Candidate { sample, extent, mode, contact });
+        peaks.candidates.push(Candidate { sample, extent, now });
         peaks.states.extend_from_slice(if moved { &self.next } else { &self.x });
         peaks.bounds.extend_from_slice(&peaks.above);
         peaks.samples.resize(8 * peaks.bounds.len(), u8::MAX);
@@ -237,8 +236,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     #[inline(always)]
     fn look_at_samples(&mut self, i: usize) {
         let simd = self.simd;
-        let Candidate { sample, extent, mode, contact } = self.peaks.candidates[i];
-        let phase = self.phase_of(mode, contact);
+        let Candidate { sample, extent, now: InForce { phase, stop, .. } } =
+            self.peaks.candidates[i];
         let (Extent::Samples(steps, curvature), Some(batch)) = (extent, &phase.batch) else {
             return;
         };
@@ -246,7 +245,6 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let force = self.candidate_force(i);
         let (groups, stride) = (self.peaks.peak.len(), 4 * self.width.fours());
         let x = &self.peaks.states[i * self.peaks.x.len()..][..stride];
-        let stop = self.stop_input(mode, contact, x[0]);
         let near = 0.125 * batch.dt_s * batch.dt_s;
         for g in 0..groups {
             let bounds = self.peaks.bounds[i * groups + g];
@@ -278,18 +276,18 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     /// Friction force over a candidate of whole samples.
     #[inline(always)]
     fn candidate_force(&self, i: usize) -> Force<'a> {
-        let Candidate { sample, mode, contact, .. } = self.peaks.candidates[i];
-        match mode {
+        let Candidate { sample, now, .. } = self.peaks.candidates[i];
+        match now.mode {
             Mode::Stick => Force::Constant(0.0),
-            Mode::Slip(_) => self.batch_force(self.friction_of(mode, contact), sample),
+            Mode::Slip(_) => self.batch_force(now.friction, sample),
         }
     }
 
     /// Settles a candidate by the series of the segment, or of the samples, that may hold a peak.
     #[inline(always)]
     fn settle(&mut self, i: usize) {
-        let Candidate { sample, extent, mode, contact } = self.peaks.candidates[i];
-        let phase = self.phase_of(mode, contact);
+        let Candidate { sample, extent, now: InForce { mode, phase, .. } } =
+            self.peaks.candidates[i];
         let mut x = core::mem::take(&mut self.peaks.x);
         let stride = x.len();
         x.copy_from_slice(&self.peaks.states[i * stride..][..stride]);
@@ -361,11 +359,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         (stretch, segment): (&Stretch, &Segment),
         x: &[f64],
     ) {
-        let Candidate { mode, contact, .. } = self.peaks.candidates[i];
-        let coefficient = self.friction_of(mode, contact);
+        let InForce { mode, friction: coefficient, stop, .. } = self.peaks.candidates[i].now;
         let mut load = self.load(phase, stretch, segment.from_s, coefficient);
         let friction = load.force;
-        let stop = self.stop_input(mode, contact, x[0]);
         if mode != Mode::Stick {
             load.force -= stop;
         }

@@ -154,13 +154,11 @@ pub(super) fn solve_once(
 }
 
 fn tables_of(model: &Model, dt_s: Option<f64>) -> Tables {
-    let law = model.law();
-    InstructionSet::best().run(TablesOf { model, law: &law, dt_s })
+    InstructionSet::best().run(TablesOf { model, dt_s })
 }
 
 struct TablesOf<'a> {
     model: &'a Model,
-    law: &'a Law,
     dt_s: Option<f64>,
 }
 
@@ -169,7 +167,7 @@ impl Job for TablesOf<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Tables {
-        Tables::new(simd, self.model, self.law, self.dt_s)
+        Tables::new(simd, self.model, self.dt_s)
     }
 }
 
@@ -180,7 +178,7 @@ fn solve(
     (motion, sampling): (&GroundMotion, &Sampling),
     with_history: bool,
 ) -> Result<Response, SolveError> {
-    let rate = tables.slip.iter().fold(0.0, |rate: f64, p| rate.max(p.system.slip_rate_rad_per_s));
+    let rate = tables.rate_rad_per_s();
     let masses = (1 + model.storeys()) as f64;
     let (work, limit) = (rate * motion.duration_s() * masses * masses, WORK_LIMIT);
     if !(work <= limit) {
@@ -203,20 +201,21 @@ fn solve(
         normal,
         sampling,
     };
-    if !model.is_plain_between_stops(varying.is_some()) {
-        return stepped(model, motion, ground, with_history);
+    let law = model.law(varying.is_some());
+    if !(model.devices().contents.is_empty() && law.is_affine(varying.is_some())) {
+        return stepped(model, &law, motion, ground, with_history);
     }
-    let law = model.law();
-    let recorder = with_history
-        .then(|| Recorder::new(&tables.stick.system, motion.len(), slope, law.has_stop()));
+    // Away from rigid stops they change nothing.
+    let away = Law { rigid: None, ..law.clone().under(model.normal_n()) };
+    let recorder =
+        with_history.then(|| Recorder::new(&tables.stick.system, &away, motion.len(), slope));
     let (mut outcome, recorder) =
-        instructions.run(Analysis { model, tables, law: &law, ground, recorder })?;
+        instructions.run(Analysis { model, tables, law: &away, ground, recorder })?;
     if let Some(Stop { gap_m: [positive, negative], kind: StopKind::Rigid { .. } }) = model.stop() {
-        // Away from rigid stops they change nothing.
         let within = |gap_m: &Option<f64>, s: f64| gap_m.is_none_or(|gap_m| s < gap_m);
         let Sliding { max_m, min_m, .. } = outcome.sliding;
         if !(within(positive, max_m) && within(negative, -min_m)) {
-            return stepped(model, motion, ground, with_history);
+            return stepped(model, &law, motion, ground, with_history);
         }
         outcome.stop = Some(StopDemands::default());
     }
@@ -236,16 +235,17 @@ fn solve(
 /// Response of a model with devices.
 fn stepped(
     model: &Model,
+    law: &Law,
     motion: &GroundMotion,
     ground: Ground<'_>,
     with_history: bool,
 ) -> Result<Response, SolveError> {
     let contact_loss_s = contact_loss_s(motion.times_s(), ground.normal);
-    let stepped = stepping::solve(model, ground, with_history)?;
+    let stepped = stepping::solve(model, law, ground, with_history)?;
     let mut warnings = summary::warnings(model, &stepped.outcome.events, &contact_loss_s);
     warnings.extend(stepped.warnings);
     let mut demands = summary::demands(model, &stepped.outcome);
-    (demands.surfaces, demands.contents) = (stepped.surfaces, stepped.contents);
+    demands.contents = stepped.contents;
     Ok(Response {
         method: Method::Exact,
         demands,

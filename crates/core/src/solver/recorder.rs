@@ -1,6 +1,6 @@
 //! Keeps the history of a response.
 
-use crate::friction::Contact;
+use crate::friction::{Contact, Law};
 use crate::linear::System;
 use crate::linear::lanes::dot;
 use crate::response::{History, Mode};
@@ -18,7 +18,7 @@ pub(super) struct Knot<'a> {
     pub(super) state: &'a [f64],
     /// Friction force in slip, in N.
     pub(super) friction_n: f64,
-    /// In slip the constant force of the stop on the ground's side, in stick that of springs and stop.
+    /// In slip the constant part of the force on the block, in stick the force of springs and stop.
     pub(super) force_n: f64,
 }
 
@@ -32,9 +32,10 @@ pub(super) struct Recorder {
 }
 
 impl Recorder {
-    pub(super) fn new(system: &System, samples: usize, slope_m_per_s2: f64, stop: bool) -> Self {
-        let storeys = system.storeys;
-        let mut history = History { storeys, ..History::default() };
+    pub(super) fn new(system: &System, law: &Law, samples: usize, slope_m_per_s2: f64) -> Self {
+        let (storeys, stop) = (system.storeys, law.stop.is_some());
+        let surfaces = law.series.as_ref().map_or(0, |series| series.surfaces().len());
+        let mut history = History { storeys, surfaces, ..History::default() };
         let room = samples + samples / 8;
         for column in [
             &mut history.time_s,
@@ -118,8 +119,7 @@ impl Recorder {
                 (knot.table, (inertia + knot.force_n) - shear_n)
             }
             Mode::Slip(_) => {
-                let force_n = knot.friction_n - knot.force_n;
-                let u = system.block_acceleration(x[0], x[1], shear_n, force_n);
+                let u = system.block_acceleration(x[0], x[1], shear_n, knot.force_n);
                 (u - self.slope_m_per_s2, knot.friction_n)
             }
         };

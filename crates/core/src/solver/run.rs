@@ -11,13 +11,15 @@ use super::ground::{Ground, Normal, Roughness};
 use super::outputs::{Group, output};
 use super::peaks::Peaks;
 use super::recorder::{Knot, Recorder};
-use super::tables::{Phase, Tables};
+use super::tables::{Batch, Phase, Tables};
 use crate::error::SolveError;
-use crate::friction::{Contact, Direction, Hold, Law};
+use crate::friction::{
+    Affine, Contact, Direction, EXITS, Exit, Hold, Law, Memory, Reached, Restraint,
+};
 use crate::linear::lanes::{Eight, Width, combine8, dot, eight};
 use crate::linear::{BATCH, Force, Load, Series};
 use crate::model::Model;
-use crate::response::{Event, EventKind, Mode, StopDemands};
+use crate::response::{Event, EventKind, Mode, StopDemands, SurfaceDemands};
 
 /// Extremes, path and duration of sliding; `s` is monotone between two events.
 #[derive(Clone, Copy)]
@@ -45,13 +47,9 @@ impl Sliding {
         }
     }
 
-    /// A stop is decided: friction is asked for `demand`. Without a bound there is nothing to decide.
-    pub(super) fn decide(&mut self, demand: f64, hold: &Hold, normal: f64) {
-        let [low, high] = hold.bounds;
-        let bound = normal * if demand < 0.0 { -low } else { high };
-        if bound > 0.0 {
-            self.closest_stop = self.closest_stop.min((1.0 - demand.abs() / bound).abs());
-        }
+    /// A stop is decided by a margin, if it is one.
+    pub(super) fn decide(&mut self, margin: Option<f64>) {
+        self.closest_stop = self.closest_stop.min(margin.unwrap_or(f64::INFINITY));
     }
 
     /// The block starts to slide, one way or the other.
@@ -113,6 +111,7 @@ pub(super) struct Outcome {
     pub(super) overturns: bool,
     pub(super) sliding: Sliding,
     pub(super) stop: Option<StopDemands>,
+    pub(super) surfaces: Vec<SurfaceDemands>,
     pub(super) residual_m: f64,
     pub(super) sliding_at_end: bool,
 }
@@ -154,6 +153,41 @@ impl Curvature {
     }
 }
 
+/// What is in force between two events.
+#[derive(Clone, Copy)]
+pub(super) struct InForce<'a> {
+    pub(super) mode: Mode,
+    pub(super) contact: Contact,
+    pub(super) phase: &'a Phase,
+    /// Constant part of the friction force over the normal force, `−σ μ_k`; 0 in stick.
+    pub(super) friction: f64,
+    /// What the stop does to the outputs: in slip the constant force of its branch, in stick its force.
+    pub(super) stop: f64,
+}
+
+/// Peaks of surfaces in series, which move one way between two events.
+#[derive(Clone, Default)]
+pub(super) struct Surfaces(Vec<SurfaceDemands>);
+
+impl Surfaces {
+    /// Notes where they are, and whether at their ends.
+    pub(super) fn note(&mut self, law: &Law, memory: &Memory, s: f64) {
+        let Some(series) = &law.series else { return };
+        self.0.resize(series.surfaces().len(), SurfaceDemands::default());
+        let now = law.surfaces(memory, s);
+        for ((demands, u), surface) in self.0.iter_mut().zip(now).zip(series.surfaces()) {
+            demands.peak_displacement_m = demands.peak_displacement_m.max(u.abs());
+            demands.residual_displacement_m = u;
+            demands.end_reached |= surface.travel_m.is_some_and(|travel_m| u.abs() >= travel_m);
+        }
+    }
+
+    /// What is left behind.
+    pub(super) fn demands(self) -> Vec<SurfaceDemands> {
+        self.0
+    }
+}
+
 /// An analysis under way.
 pub(super) struct Run<'a, S, W> {
     pub(super) simd: S,
@@ -172,16 +206,23 @@ pub(super) struct Run<'a, S, W> {
     pub(super) series: Series,
     /// Room for two lists of storey coordinates.
     pub(super) spare: [Vec<f64>; 2],
-    pub(super) peaks: Peaks,
+    pub(super) peaks: Peaks<'a>,
     pub(super) mode: Mode,
-    pub(super) contact: Contact,
+    pub(super) memory: Memory,
+    /// What follows from mode and memory.
+    pub(super) now: InForce<'a>,
+    /// In slip how the branch can end.
+    pub(super) exits: [Option<Exit>; EXITS],
+    /// What holds the block at rest, in stick.
+    pub(super) hold: Hold,
     /// Set while a slip has just started.
     pub(super) start: Option<Start>,
-    /// The stop's force has just passed zero: an exit that waits for that starts at its zero.
-    pub(super) at_zero_force: bool,
+    /// What has just been reached: an exit that waits for the same starts at its zero.
+    pub(super) just: Option<Reached>,
     pub(super) events: Vec<Event>,
     pub(super) sliding: Sliding,
     pub(super) stopping: Stopping,
+    pub(super) surfaces: Surfaces,
     pub(super) events_in_interval: u32,
 }
 
@@ -211,6 +252,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             _ => Mode::Stick,
         };
         let groups = tables.stick.outputs.groups.len();
+        let memory = law.initial(s, w);
+        let (contact, hold) = (memory.contact, law.hold(&memory, s));
+        let now = InForce { mode, contact, phase: &tables.stick, friction: 0.0, stop: 0.0 };
         Self {
             simd,
             width,
@@ -224,12 +268,16 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             spare: [vec![0.0; n], vec![0.0; n]],
             peaks: Peaks::new(groups, tables.stick.outputs.rows.len(), stride),
             mode,
-            contact: law.initial(s, w),
+            memory,
+            now,
+            exits: [None; EXITS],
+            hold,
             start: None,
-            at_zero_force: false,
+            just: None,
             events: Vec::new(),
             sliding: Sliding::new(s),
             stopping: Stopping::default(),
+            surfaces: Surfaces::default(),
             events_in_interval: 0,
             x,
         }
@@ -241,7 +289,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let times_s = self.ground.times_s;
         let last = times_s.len() - 1;
         let mut sample = 0;
-        self.set_limits();
+        self.set_in_force();
+        self.surfaces.note(self.law, &self.memory, self.x[0]);
         while sample < last {
             if times_s[sample + 1] == times_s[sample] {
                 // The left side of a jump; the right side decides, as the next sample does.
@@ -278,9 +327,10 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         if matches!(self.mode, Mode::Slip(_)) {
             self.sliding.end(end_s, self.x[0]);
         }
-        if self.law.has_stop() {
-            self.stopping.change(end_s, 0.0, self.contact, Contact::Free);
+        if self.law.stop.is_some() {
+            self.stopping.change(end_s, 0.0, self.memory.contact, Contact::Free);
         }
+        self.surfaces.note(self.law, &self.memory, self.x[0]);
         self.settle_peaks();
         Ok(())
     }
@@ -290,9 +340,10 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let outcome = Outcome {
             peaks: self.peaks.attained(),
             events: self.events,
-            overturns: self.tables.overturns,
+            overturns: self.tables.overturns(),
             sliding: self.sliding,
-            stop: self.law.has_stop().then_some(self.stopping.demands),
+            stop: self.law.stop.map(|_| self.stopping.demands),
+            surfaces: self.surfaces.demands(),
             residual_m: self.x[0],
             sliding_at_end: matches!(self.mode, Mode::Slip(_)),
         };
@@ -301,44 +352,34 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
 
     // ---- what is in force -----------------------------------------------------------------------
 
-    /// Tables of the present phase.
-    #[inline(always)]
-    pub(super) fn phase(&self) -> &'a Phase {
-        self.phase_of(self.mode, self.contact)
-    }
-
-    #[inline(always)]
-    pub(super) fn phase_of(&self, mode: Mode, contact: Contact) -> &'a Phase {
-        match mode {
-            Mode::Stick => &self.tables.stick,
-            Mode::Slip(direction) => {
-                &self.tables.slip[self.law.branch(contact, direction).restraint]
-            }
-        }
-    }
-
-    /// Friction force over the normal force in a mode, `−σ μ_k`; 0 in stick.
-    #[inline(always)]
-    pub(super) fn friction_of(&self, mode: Mode, contact: Contact) -> f64 {
-        match mode {
-            Mode::Stick => 0.0,
-            Mode::Slip(direction) => -self.law.branch(contact, direction).coefficient,
-        }
-    }
-
-    /// What the stop does to the outputs: in slip the constant force of its branch, in stick its force.
-    #[inline(always)]
-    pub(super) fn stop_input(&self, mode: Mode, contact: Contact, s: f64) -> f64 {
-        if !self.law.has_stop() {
-            return 0.0;
-        }
+    /// Finds what follows from mode and memory.
+    pub(super) fn set_in_force(&mut self) {
+        let (mode, contact, s) = (self.mode, self.memory.contact, self.x[0]);
+        let normal_n = match self.ground.normal {
+            Normal::Constant(normal_n) => normal_n,
+            // The restraints of a law that is affine under any force do not ask for it.
+            Normal::Varying(_) => 0.0,
+        };
+        let stick = &self.tables.stick;
+        self.now = InForce { mode, contact, phase: stick, friction: 0.0, stop: 0.0 };
         match mode {
             Mode::Stick => {
-                let spring_n = self.tables.stick.system.stiffness_n_per_m * s;
-                self.law.hold(contact, s).force_n - spring_n
+                self.hold = self.law.hold(&self.memory, s);
+                if self.law.stop.is_some() {
+                    self.now.stop = self.hold.force_n - stick.system.stiffness_n_per_m * s;
+                }
             }
-            Mode::Slip(direction) => self.law.branch(contact, direction).force_n,
+            Mode::Slip(direction) => {
+                self.exits = self.law.exits(&self.memory, direction);
+                let force = self.law.force(&self.memory, direction);
+                if let Some(Affine { restraints, force_n, coefficient }) = force.affine(normal_n) {
+                    let phase = self.tables.under(self.simd, restraints);
+                    self.now =
+                        InForce { mode, contact, phase, friction: -coefficient, stop: force_n };
+                }
+            }
         }
+        self.set_limits();
     }
 
     /// The friction force of a batch of slip, from its coefficient.
@@ -405,8 +446,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         phase: &Phase,
         coefficient: f64,
         sample: usize,
-        per_dt: f64,
+        batch: &Batch,
     ) -> Curvature {
+        let per_dt = batch.per_dt;
         let a = self.ground.acceleration;
         let jerk = (a[sample + 1] - a[sample]) * per_dt;
         let normal = self.ground.normal_at(sample);
@@ -455,17 +497,18 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             curvature.force_rate = per_dt * (of_normal * vertical.change);
             curvature.bend_of_force = BEND * (of_normal * vertical.kinks);
         }
+        curvature.first *= batch.growth;
+        curvature.second *= batch.growth;
         curvature
     }
 
     /// The force that keeps the block stuck under an acceleration, eqs (8), (14).
-    pub(super) fn demand(&mut self, a: f64) -> f64 {
+    pub(super) fn demand(&mut self, hold: &Hold, a: f64) -> f64 {
         let system = &self.tables.stick.system;
         let n = self.width.modes();
         let (eta, rate) = (&self.x[2..2 + n], &self.x[2 + n..2 + 2 * n]);
         let f = &mut self.spare[0];
         system.restoring(eta, rate, f);
-        let hold = self.law.hold(self.contact, self.x[0]);
         (system.block_mass_kg * a + hold.force_n) - dot(&system.participation, f)
     }
 
@@ -500,16 +543,22 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         [table, acceleration, normal]: [f64; 3],
         row: bool,
     ) {
-        let (mode, contact, system) = (self.mode, self.contact, &self.phase().system);
+        let InForce { mode, contact, phase, friction, stop } = self.now;
+        let mut friction_n = friction * normal;
         let force_n = match mode {
-            Mode::Stick => self.law.hold(contact, x[0]).force_n,
-            Mode::Slip(direction) => self.law.branch(contact, direction).force_n,
+            Mode::Stick => self.hold.force_n,
+            Mode::Slip(_) => friction_n - stop,
         };
-        let friction_n = self.friction_of(mode, contact) * normal;
+        if phase.of_friction != Restraint::default() {
+            let Restraint { stiffness_n_per_m: k, damper_n_s_per_m: c } = phase.of_friction;
+            friction_n -= k * x[0] + c * x[1];
+        }
         let knot =
             Knot { time_s, mode, contact, table, acceleration, state: x, friction_n, force_n };
         if let Some(recorder) = &mut self.recorder {
-            recorder.knot(system, &knot, row);
+            recorder.knot(&phase.system, &knot, row);
+            let now = self.law.surfaces(&self.memory, x[0]);
+            recorder.history.surface_displacement_m.extend(now);
         }
     }
 
@@ -524,7 +573,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             if first[output::FRICTION] >= bound {
                 first[output::FRICTION] = f64::INFINITY;
             }
-            let free = self.tables.stick.system.stiffness_n_per_m == 0.0 && !self.law.has_stop();
+            let free = self.tables.stick.system.stiffness_n_per_m == 0.0 && self.law.stop.is_none();
             if free && first[output::SLIDER] >= bound {
                 first[output::SLIDER] = f64::INFINITY;
             }

@@ -33,7 +33,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     /// Takes samples up to the end of the evenly spaced ones; the first that the bounds leave open.
     #[inline(always)]
     pub(super) fn screened(&mut self, sample: usize, end: usize) -> usize {
-        let phase = self.phase();
+        let phase = self.now.phase;
         let Some(batch) = &phase.batch else { return sample };
         if self.start.is_some() || sample + BATCH > end {
             return sample;
@@ -63,12 +63,12 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let (simd, sign, stride) = (self.simd, direction.sign(), 4 * self.width.fours());
         let near = 0.125 * batch.dt_s * batch.dt_s;
         let far = (BATCH * BATCH) as f64 * near;
-        let exits = self.law.exits(self.contact, direction);
-        if exits.iter().flatten().any(|exit| exit.level_m.is_none()) {
+        let exits = self.exits;
+        if exits.iter().flatten().any(|exit| exit.of_s != 0.0 && exit.of_w != 0.0) {
             return sample;
         }
         let varying = matches!(self.ground.normal, Normal::Varying(_));
-        let coefficient = self.friction_of(self.mode, self.contact);
+        let coefficient = self.now.friction;
         let system = &phase.system;
         let batch_s = BATCH as f64 * batch.dt_s;
         let mut known = 0;
@@ -80,7 +80,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             let (a, force) = (self.window(sample), self.batch_force(coefficient, sample));
             batch.maps.after(simd, BATCH, &self.x[..stride], a, force, &mut self.next[..stride]);
             let (w, next_w) = (sign * self.x[1], sign * self.next[1]);
-            let curvature = self.curvature(phase, coefficient, sample, batch.per_dt);
+            let curvature = self.curvature(phase, coefficient, sample, batch);
             let slack = curvature.slack_over_batch(simd, &phase.outputs.groups[0], far);
             let hidden = slack.as_array()[output::VELOCITY];
             let mut steps = BATCH;
@@ -92,6 +92,17 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 steps = clear_steps(clear, w > hidden);
             }
             for exit in exits.iter().flatten() {
+                if exit.of_w != 0.0 {
+                    let start = exit.value(0.0, self.x[1]);
+                    if !(start > hidden && exit.value(0.0, self.next[1]) > hidden) {
+                        let speed = batch.rows[output::VELOCITY].values(simd, x, a, force);
+                        let value = speed * eight(simd, exit.of_w) + eight(simd, exit.constant);
+                        let hidden = hidden * PER_SAMPLE;
+                        let clear = value.simd_gt(eight(simd, hidden)).to_bitmask();
+                        steps = steps.min(clear_steps(clear, start > hidden));
+                    }
+                    continue;
+                }
                 // s is monotone while the block slides: its value at a sample speaks for all before.
                 if steps < BATCH || !(exit.value(self.next[0], self.next[1]) > 0.0) {
                     let s = batch.displacement.values(simd, x, a, force);
@@ -112,7 +123,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 let friction = coefficient.abs() * most_normal;
                 let growth = system.root_total_mass * size + friction * system.per_root_block;
                 let norm = system.energy_norm(&x[..self.width.components()]) + batch_s * growth;
-                Coarse { norm, size, friction }
+                Coarse { norm: batch.growth * norm, size, friction }
             });
             let inputs = [[force.at(0), a[0], 0.0], [force.at(steps), a[steps], 0.0]];
             let extent = Extent::Samples(steps, curvature);
@@ -138,9 +149,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     ) -> usize {
         let (simd, stride) = (self.simd, 4 * self.width.fours());
         let system = &phase.system;
-        let hold = self.law.hold(self.contact, self.x[0]);
+        let hold = self.hold;
         let [low, high] = hold.bounds;
-        let stop = self.stop_input(Mode::Stick, self.contact, self.x[0]);
+        let stop = self.now.stop;
         // Of the demand without the springs' part.
         let norm_of_demand = phase.outputs.groups[0].norm.0[output::FRICTION];
         let size_of_a = phase.outputs.groups[0].size_of_a.0[output::FRICTION];
@@ -187,7 +198,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             }
             let (x, next) = (&self.x[..stride], &mut self.next[..stride]);
             batch.maps.after(simd, BATCH, x, a, force, next);
-            let curvature = self.curvature(phase, 0.0, sample, batch.per_dt);
+            let curvature = self.curvature(phase, 0.0, sample, batch);
             let slack = curvature.slack_over_batch(simd, &phase.outputs.groups[0], far);
             let [before, after] = [[0.0, a[0], stop], [0.0, a[BATCH], stop]];
             let y = self.outputs_known(phase, 0, before, &mut known);

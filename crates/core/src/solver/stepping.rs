@@ -11,18 +11,18 @@ mod keep;
 
 use self::body::{Body, Expansion, Loads, Phase, State};
 use self::keep::Peaks;
-use super::event::EVENTS_PER_INTERVAL_LIMIT;
-use super::ground::{Ground, Normal, Stretch};
-use super::run::{Outcome, Sliding, Start, Stopping};
+use super::event::{EVENTS_PER_INTERVAL_LIMIT, less_zero};
+use super::ground::{Ground, Stretch};
+use super::run::{Outcome, Sliding, Start, Stopping, Surfaces};
 use super::tables::system_of;
 use crate::error::SolveError;
 use crate::friction::{
-    Bound, Coefficient, Direction, Memory, Reached, Rest, Restraint, SliderLaw, SlipForce,
+    Coefficient, Direction, Exit, Hold, Law, Memory, Reached, Restraint, SlipForce,
 };
 use crate::linear::polynomial::{DEGREE, Polynomial, deflated, first_root, value};
 use crate::model::Model;
 use crate::response::{
-    Contact, ContentsDemands, Event, EventKind, History, Mode, StopDemands, SurfaceDemands, Warning,
+    Contact, ContentsDemands, Event, EventKind, History, Mode, StopDemands, Warning,
 };
 
 /// Impacts slower than this are neither listed nor counted, in m/s.
@@ -31,7 +31,6 @@ pub(super) const SLOWEST_IMPACT_M_PER_S: f64 = 1e-3;
 /// What an analysis leaves behind.
 pub(super) struct Stepped {
     pub(super) outcome: Outcome,
-    pub(super) surfaces: Vec<SurfaceDemands>,
     pub(super) contents: Vec<ContentsDemands>,
     pub(super) history: Option<History>,
     pub(super) warnings: Vec<Warning>,
@@ -40,11 +39,11 @@ pub(super) struct Stepped {
 /// Solves a model with devices.
 pub(super) fn solve(
     model: &Model,
+    law: &Law,
     ground: Ground<'_>,
     with_history: bool,
 ) -> Result<Stepped, SolveError> {
-    let law = model.slider_law(matches!(ground.normal, Normal::Varying(_)));
-    let mut run = Stepping::new(model, &law, ground, with_history);
+    let mut run = Stepping::new(model, law, ground, with_history);
     run.go()?;
     Ok(run.stepped())
 }
@@ -55,7 +54,7 @@ enum End {
     /// An interface has no velocity.
     Still(usize),
     /// The slider's branch ends.
-    Bound(Bound),
+    Exit(Exit),
     /// An interface that stuck slides.
     Release(usize, Direction),
     /// Friction takes all of a push against a rigid stop from here on, or no longer does.
@@ -71,7 +70,7 @@ struct Near {
 
 struct Stepping<'a> {
     model: &'a Model,
-    law: &'a SliderLaw,
+    law: &'a Law,
     ground: Ground<'a>,
     body: Body,
     x: State,
@@ -100,12 +99,12 @@ struct Stepping<'a> {
     leans_since_s: Option<f64>,
     first_impact_s: Option<f64>,
     peaks: Peaks,
-    ends: Vec<bool>,
+    surfaces: Surfaces,
     history: Option<History>,
 }
 
 impl<'a> Stepping<'a> {
-    fn new(model: &'a Model, law: &'a SliderLaw, ground: Ground<'a>, with_history: bool) -> Self {
+    fn new(model: &'a Model, law: &'a Law, ground: Ground<'a>, with_history: bool) -> Self {
         let body = Body::new(model, &system_of(model));
         let initial = model.initial();
         let count = body.contents.len();
@@ -138,7 +137,7 @@ impl<'a> Stepping<'a> {
             ground,
             series: body.room(),
             instant: body.room(),
-            peaks: Peaks::new(model, surfaces),
+            peaks: Peaks::new(model),
             body,
             x,
             modes,
@@ -157,7 +156,7 @@ impl<'a> Stepping<'a> {
             stopping: Stopping::default(),
             leans_since_s: None,
             first_impact_s: None,
-            ends: vec![false; surfaces],
+            surfaces: Surfaces::default(),
             history,
         }
     }
@@ -212,6 +211,7 @@ impl<'a> Stepping<'a> {
             self.stopping.change(end_s, 0.0, self.memory.contact, Contact::Free);
         }
         self.end_leaning(end_s);
+        self.surfaces.note(self.law, &self.memory, self.x.s);
         Ok(())
     }
 
@@ -235,16 +235,6 @@ impl<'a> Stepping<'a> {
                 stick_count: count(1 + i, EventKind::Stick),
             })
             .collect();
-        let now = self.law.surfaces(&self.memory, self.x.s);
-        let surfaces = now
-            .iter()
-            .enumerate()
-            .map(|(i, u)| SurfaceDemands {
-                peak_displacement_m: self.peaks.surfaces[i],
-                residual_displacement_m: *u,
-                end_reached: self.ends[i],
-            })
-            .collect();
         let warnings = self.first_impact_s.map(|time_s| Warning {
             kind: "impulses_excluded",
             time_s: Some(time_s),
@@ -263,10 +253,10 @@ impl<'a> Stepping<'a> {
                 overturns: self.peaks.overturns,
                 sliding: self.sliding[0],
                 stop: has_stop.then_some(demands),
+                surfaces: self.surfaces.demands(),
                 residual_m: self.x.s,
                 sliding_at_end: matches!(self.modes[0], Mode::Slip(_)),
             },
-            surfaces,
             contents,
             history: self.history,
             warnings: warnings.into_iter().collect(),
@@ -286,11 +276,11 @@ impl<'a> Stepping<'a> {
     }
 
     /// What holds the slider at rest; off a stop by less than the rounding of `s` it does not lean on it.
-    fn rest(&self) -> Rest {
-        let rest = self.law.rest(&self.memory, self.x.s);
+    fn held(&self) -> Hold {
+        let hold = self.law.hold(&self.memory, self.x.s);
         match self.near {
-            Some(near) if near.offset != 0.0 => Rest { leans: [false; 2], ..rest },
-            _ => rest,
+            Some(near) if near.offset != 0.0 => Hold { leans: [false; 2], ..hold },
+            _ => hold,
         }
     }
 
@@ -306,13 +296,15 @@ impl<'a> Stepping<'a> {
         match mode {
             Mode::Slip(direction) => self.law.force(&self.memory, direction),
             Mode::Stick => {
-                let rest = self.rest();
+                let hold = self.held();
                 SlipForce {
-                    restraint: Restraint { stiffness_n_per_m: 0.0, damper_n_s_per_m: 0.0 },
-                    force_n: rest.force_n,
-                    of_normal: rest.of_normal,
+                    restraint: Restraint::default(),
+                    is_pressed: false,
+                    force_n: hold.force_n,
+                    of_normal: hold.of_normal,
                     of_normal_s: 0.0,
                     is_friction: false,
+                    sign: 0.0,
                     coefficient: Coefficient::Linear { at_rest: 0.0, slope_s_per_m: 0.0 },
                 }
             }
@@ -385,28 +377,17 @@ impl<'a> Stepping<'a> {
         }
     }
 
-    /// The polynomial of a bound, less what of it is known to vanish.
-    fn of_bound(&self, bound: &Bound) -> Polynomial {
+    /// The polynomial of an exit, less what of it is known to vanish.
+    fn of_exit(&self, exit: &Exit) -> Polynomial {
         let (s, w) = (&self.series.s, &self.series.w);
-        let mut p: Polynomial = core::array::from_fn(|k| bound.of_s * s[k] + bound.of_w * w[k]);
-        p[0] += bound.constant;
-        match (bound.reached, self.just) {
-            (Reached::Wall(_, place), _) => {
-                if let Some(near) = self.near.filter(|near| near.place == place) {
-                    p[0] = bound.of_s * near.offset;
-                }
-                p
-            }
-            (Reached::Contact(_, None), Some(Reached::Contact(_, None))) => deflated(&p, 1),
-            (Reached::Knot(speed, _), Some(Reached::Knot(crossed, _))) if speed == crossed => {
-                p[0] = 0.0;
-                match p.iter().position(|c| *c != 0.0) {
-                    Some(order) => deflated(&p, order),
-                    None => p,
-                }
-            }
-            _ => p,
+        let mut p: Polynomial = core::array::from_fn(|k| exit.of_s * s[k] + exit.of_w * w[k]);
+        p[0] += exit.constant;
+        if let Reached::Wall(_, place) = exit.reached
+            && let Some(near) = self.near.filter(|near| near.place == place)
+        {
+            p[0] = exit.of_s * near.offset;
         }
+        less_zero(p, exit.reached, self.just)
     }
 
     /// One segment, up to its end or the first event in it; the time reached.
@@ -433,9 +414,9 @@ impl<'a> Stepping<'a> {
             take(first_root(&speed, self.series.part), End::Still(i));
         }
         if let Mode::Slip(direction) = self.modes[0] {
-            for bound in self.law.bounds(&self.memory, direction) {
-                let p = self.of_bound(&bound);
-                take(first_root(&p, self.series.part), End::Bound(bound));
+            for exit in self.law.exits(&self.memory, direction).into_iter().flatten() {
+                let p = self.of_exit(&exit);
+                take(first_root(&p, self.series.part), End::Exit(exit));
             }
         }
         for i in 0..self.modes.len() {
@@ -486,7 +467,7 @@ impl<'a> Stepping<'a> {
                 self.leant = true;
                 self.record(stretch, to_s, false);
             }
-            Some(End::Bound(bound)) => self.reach(stretch, to_s, &bound)?,
+            Some(End::Exit(exit)) => self.reach(stretch, to_s, exit.reached)?,
         }
         Ok(to_s)
     }
@@ -497,11 +478,11 @@ impl<'a> Stepping<'a> {
         if self.modes[0] != Mode::Stick {
             return None;
         }
-        let rest = self.rest();
-        let side = rest.leans.iter().position(|leans| *leans)?;
+        let hold = self.held();
+        let side = hold.leans.iter().position(|leans| *leans)?;
         let sign = if side == 0 { -1.0 } else { 1.0 };
         let (asked, normal) = (&self.series.friction, &self.series.normal);
-        let beyond = core::array::from_fn(|k| sign * (asked[k] - rest.bounds[side] * normal[k]));
+        let beyond = core::array::from_fn(|k| sign * (asked[k] - hold.bounds[side] * normal[k]));
         Some((sign, beyond))
     }
 
@@ -538,11 +519,11 @@ impl<'a> Stepping<'a> {
     }
 
     /// What follows the end of a branch of the slider.
-    fn reach(&mut self, stretch: &Stretch, at_s: f64, bound: &Bound) -> Result<(), SolveError> {
+    fn reach(&mut self, stretch: &Stretch, at_s: f64, reached: Reached) -> Result<(), SolveError> {
         let Mode::Slip(direction) = self.modes[0] else { return Ok(()) };
         let time_s = self.ground.times_s[stretch.interval] + at_s;
         self.near = None;
-        match bound.reached {
+        match reached {
             Reached::Wall(_, place) => {
                 self.x.s = place;
                 self.record(stretch, at_s, false);
@@ -556,17 +537,17 @@ impl<'a> Stepping<'a> {
             Reached::Surface(level) => {
                 self.x.s = level;
                 self.record(stretch, at_s, false);
-                self.law.follow(&mut self.memory, bound.reached, direction);
+                self.law.follow(&mut self.memory, reached, direction);
                 self.push_event(time_s, 0, EventKind::Surface);
             }
             Reached::Knot(speed, _) => {
                 self.x.w = direction.sign() * speed;
                 self.record(stretch, at_s, false);
-                self.law.follow(&mut self.memory, bound.reached, direction);
+                self.law.follow(&mut self.memory, reached, direction);
                 self.events_in_interval += 1;
             }
         }
-        self.just = Some(bound.reached);
+        self.just = Some(reached);
         self.note_ends(time_s)?;
         self.record(stretch, at_s, false);
         Ok(())
@@ -574,11 +555,7 @@ impl<'a> Stepping<'a> {
 
     /// Notes surfaces at their ends; an error where none can slide on.
     fn note_ends(&mut self, time_s: f64) -> Result<(), SolveError> {
-        let Some(series) = &self.law.series else { return Ok(()) };
-        let now = self.law.surfaces(&self.memory, self.x.s);
-        for ((end, u), surface) in self.ends.iter_mut().zip(now).zip(series.surfaces()) {
-            *end |= surface.travel_m.is_some_and(|travel_m| u.abs() >= travel_m);
-        }
+        self.surfaces.note(self.law, &self.memory, self.x.s);
         if self.modes[0] != Mode::Stick && self.law.at_end(&self.memory) {
             return Err(SolveError::EndOfTravel { time_s });
         }

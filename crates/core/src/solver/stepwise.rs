@@ -7,7 +7,7 @@ use super::run::{Outcome, Sliding};
 use super::summary;
 use super::tables::system_of;
 use crate::error::SolveError;
-use crate::friction::{Contact, Direction, Law};
+use crate::friction::{Contact, Direction, Law, Memory};
 use crate::linear::System;
 use crate::linear::lanes::{dot, greatest};
 use crate::model::Model;
@@ -55,7 +55,7 @@ pub(super) fn solve(
         };
         return Err(SolveError::NotTaken { method: "stepwise method", what });
     }
-    let (system, law) = (system_of(model), model.law());
+    let (system, law) = (system_of(model), model.law(false));
     let slope = model.slope_m_per_s2();
     let (mass_kg, gravity) = (model.total_mass_kg(), model.normal_gravity_m_per_s2());
     let table = motion.horizontal_m_per_s2();
@@ -66,6 +66,7 @@ pub(super) fn solve(
     let program = Program {
         system: &system,
         law: &law,
+        memory: &law.initial(0.0, 0.0),
         times_s: motion.times_s(),
         acceleration: table.iter().map(|a| a + slope).collect(),
         normal_n: (0..motion.len()).map(normal_n).collect(),
@@ -73,7 +74,7 @@ pub(super) fn solve(
     };
     let n = system.storeys;
     let overturning = outputs::overturning(model, &system);
-    let mut recorder = Recorder::new(&system, motion.len(), slope, false);
+    let mut recorder = Recorder::new(&system, &law, motion.len(), slope);
     let mut peaks = vec![0.0; output::drift(n, n.max(1)).max(output::STOREYS + 3 * n)];
     let mut step = program.start(model);
     let mut sliding = Sliding::new(step.s);
@@ -145,6 +146,7 @@ pub(super) fn solve(
         overturns: overturning.is_some(),
         sliding,
         stop: None,
+        surfaces: Vec::new(),
         residual_m: step.s,
         sliding_at_end: step.mode != Mode::Stick,
     };
@@ -175,6 +177,8 @@ impl Step {
 struct Program<'a> {
     system: &'a System,
     law: &'a Law,
+    /// Of a law without any.
+    memory: &'a Memory,
     times_s: &'a [f64],
     /// `a = Ü + g sin θ` at the samples.
     acceleration: Vec<f64>,
@@ -255,7 +259,7 @@ impl Program<'_> {
     }
 
     fn held_or_not(&self, step: &Step, sample: usize) -> Mode {
-        let hold = self.law.hold(Contact::Free, step.s);
+        let hold = self.law.hold(self.memory, step.s);
         hold.gives_way(self.demand_n(step, sample), self.normal_n[sample])
             .map_or(Mode::Stick, Mode::Slip)
     }
@@ -270,7 +274,8 @@ impl Program<'_> {
         match step.mode {
             Mode::Stick => self.demand_n(step, sample),
             Mode::Slip(direction) => {
-                -self.law.branch(Contact::Free, direction).coefficient * self.normal_n[sample]
+                -(direction.sign() * self.law.resistance(self.memory, direction))
+                    * self.normal_n[sample]
             }
         }
     }

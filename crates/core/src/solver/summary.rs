@@ -59,7 +59,7 @@ pub(super) fn demands(model: &Model, outcome: &Outcome) -> Demands {
             .filter(|_| outcome.overturns)
             .map(|width_m| peak(output::OVERTURNING) / (0.5 * width_m * weight_n)),
         stop: outcome.stop,
-        surfaces: Vec::new(),
+        surfaces: outcome.surfaces.clone(),
         contents: Vec::new(),
     }
 }

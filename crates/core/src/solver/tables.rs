@@ -1,11 +1,14 @@
 //! What an analysis needs to know of a structure and a step, made once.
 
+use std::sync::OnceLock;
+
 use fearless_simd::prelude::*;
 
-use super::outputs::{self, Outputs};
-use crate::friction::Law;
+use super::outputs::{self, Outputs, Overturning};
+use crate::friction::{Restraint, Restraints};
 use crate::linear::{
-    MAX_RATE_STEP, Maps, Row, SeriesTable, StoreyDamping, System, Units, orders, series_table,
+    BATCH, MAX_RATE_STEP, Maps, Row, SeriesTable, StoreyDamping, System, Units, orders,
+    series_table,
 };
 use crate::model::{Damping, Model};
 
@@ -15,18 +18,27 @@ const BATCH_STOREYS: usize = 32;
 /// Largest rate times step for batches: beyond, their bounds say nothing.
 const BATCH_RATE_STEP: f64 = 8.0;
 
-/// Tables of a structure, its springs and dampers, and a step. Friction has no part in them.
+/// Tables of a structure, its restraints by the ground, and a step.
 #[derive(Debug)]
 pub(super) struct Tables {
     pub(super) stick: Phase,
     /// One for each restraint of the law.
-    pub(super) slip: Vec<Phase>,
+    slip: Vec<Slip>,
     /// Orders of all series.
     pub(super) orders: usize,
-    /// Whether the overturning moment is an output.
-    pub(super) overturns: bool,
+    /// Moment arms, where the overturning moment is an output.
+    overturning: Option<Overturning>,
     /// `g sin θ`.
     pub(super) slope: f64,
+    dt_s: Option<f64>,
+}
+
+/// Tables of slip under one restraint, made where it is first in force.
+#[derive(Debug)]
+struct Slip {
+    restraints: Restraints,
+    system: System,
+    phase: OnceLock<Phase>,
 }
 
 /// Tables of stick, or of slip under one restraint.
@@ -38,6 +50,10 @@ pub(super) struct Phase {
     pub(super) unit_s: f64,
     pub(super) series: Option<SeriesTable>,
     pub(super) outputs: Outputs,
+    /// What of the restraint is friction.
+    pub(super) of_friction: Restraint,
+    /// How much the energy norm can grow over one series: friction that falls with the speed feeds it.
+    pub(super) growth: f64,
     pub(super) batch: Option<Batch>,
 }
 
@@ -50,6 +66,8 @@ pub(super) struct Batch {
     pub(super) rows: Vec<Row>,
     /// `s`.
     pub(super) displacement: Row,
+    /// How much the energy norm can grow over a batch.
+    pub(super) growth: f64,
 }
 
 /// The linear system of a model.
@@ -70,35 +88,90 @@ pub(super) fn system_of(model: &Model) -> System {
 }
 
 impl Tables {
-    /// Tables for a step, or for motions that have none.
+    /// Tables for a step, or for motions that have none. A law of which not every branch is affine
+    /// needs no more than the systems.
     #[inline(always)]
-    pub(super) fn new<S: Simd>(simd: S, model: &Model, law: &Law, dt_s: Option<f64>) -> Self {
+    pub(super) fn new<S: Simd>(simd: S, model: &Model, dt_s: Option<f64>) -> Self {
+        let normal_n = model.normal_n();
+        let law = model.law(false);
+        let is_affine = model.devices().contents.is_empty() && law.is_affine(false);
+        let law = law.under(normal_n);
         let free = system_of(model);
-        let overturning = outputs::overturning(model, &free);
-        let slope = model.slope_m_per_s2();
-        let moment = overturning.as_ref();
-        let systems: Vec<System> = law
-            .restraints()
-            .enumerate()
-            .map(|(i, restraint)| {
-                let (k, c) = (restraint.stiffness_n_per_m, restraint.damper_n_s_per_m);
-                if i == 0 { free.clone() } else { free.restrained(k, c) }
+        let Restraint { stiffness_n_per_m, damper_n_s_per_m } = law.restraint;
+        let free = if stiffness_n_per_m == free.stiffness_n_per_m {
+            free
+        } else {
+            free.restrained(stiffness_n_per_m, damper_n_s_per_m)
+        };
+        let slip: Vec<Slip> = law
+            .restraints(normal_n)
+            .into_iter()
+            .map(|restraints| {
+                let Restraint { stiffness_n_per_m: k, damper_n_s_per_m: c } = restraints.all;
+                let same = k == free.stiffness_n_per_m && c == free.damper_n_s_per_m;
+                let system = if same { free.clone() } else { free.restrained(k, c) };
+                Slip { restraints, system, phase: OnceLock::new() }
             })
             .collect();
-        let rates = systems.iter().map(|system| system.slip_rate_rad_per_s);
+        let rates = slip.iter().map(|slip| slip.system.slip_rate_rad_per_s);
         let rate_step = |rate: f64| rate * unit_s(rate, dt_s);
         let orders =
             orders(rates.map(rate_step).fold(rate_step(free.stick_rate_rad_per_s), f64::max));
-        let rows = outputs::rows(&free, false, moment, slope);
-        let stick = Phase::new(simd, free, false, (dt_s, dt_s), orders, rows);
-        let mut slip = Vec::with_capacity(systems.len());
-        for system in systems {
-            let rows = outputs::rows(&system, true, moment, slope);
-            // Pressed against a stop, samples go one by one.
-            let batch_s = dt_s.filter(|_| slip.is_empty());
-            slip.push(Phase::new(simd, system, true, (dt_s, batch_s), orders, rows));
+        let overturning = outputs::overturning(model, &free);
+        let slope = model.slope_m_per_s2();
+        let rows = outputs::rows(&free, None, overturning.as_ref(), slope);
+        let batch_s = dt_s.filter(|_| is_affine);
+        let stick = Phase::new(simd, free, None, (dt_s, batch_s), orders, rows);
+        let tables = Self { stick, slip, orders, overturning, slope, dt_s };
+        if is_affine {
+            tables.slip(simd, 0);
         }
-        Self { stick, slip, orders, overturns: overturning.is_some(), slope }
+        tables
+    }
+
+    /// Whether the overturning moment is an output.
+    pub(super) fn overturns(&self) -> bool {
+        self.overturning.is_some()
+    }
+
+    /// Largest rate of slip under any restraint, in rad/s.
+    pub(super) fn rate_rad_per_s(&self) -> f64 {
+        self.slip.iter().fold(0.0, |rate, slip| slip.system.slip_rate_rad_per_s.max(rate))
+    }
+
+    /// Tables of slip under the restraints of a branch.
+    #[inline(always)]
+    pub(super) fn under<S: Simd>(&self, simd: S, restraints: Restraints) -> &Phase {
+        let place = self.slip.iter().position(|slip| slip.restraints == restraints);
+        self.slip(simd, place.unwrap_or_default())
+    }
+
+    #[inline(always)]
+    fn slip<S: Simd>(&self, simd: S, i: usize) -> &Phase {
+        match self.slip[i].phase.get() {
+            Some(phase) => phase,
+            None => self.made(simd, i),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn made<S: Simd>(&self, simd: S, i: usize) -> &Phase {
+        let Slip { restraints: Restraints { of_friction, is_pressed, .. }, system, phase } =
+            &self.slip[i];
+        phase.get_or_init(|| {
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    let moment = self.overturning.as_ref();
+                    let rows = outputs::rows(system, Some(of_friction), moment, self.slope);
+                    // Pressed against a stop, samples go one by one.
+                    let batch_s = self.dt_s.filter(|_| !is_pressed);
+                    let lengths = (self.dt_s, batch_s);
+                    Phase::new(simd, system.clone(), Some(*of_friction), lengths, self.orders, rows)
+                },
+            )
+        })
     }
 }
 
@@ -113,18 +186,21 @@ fn unit_s(rate_rad_per_s: f64, dt_s: Option<f64>) -> f64 {
 }
 
 impl Phase {
+    /// Tables of slip with what of its restraint is friction, or of stick.
     #[inline(always)]
     fn new<S: Simd>(
         simd: S,
         system: System,
-        slip: bool,
+        slip: Option<Restraint>,
         (dt_s, batch_s): (Option<f64>, Option<f64>),
         orders: usize,
         rows: Vec<outputs::OutputRow>,
     ) -> Self {
+        let (of_friction, slip) = (slip.unwrap_or_default(), slip.is_some());
         let rate = if slip { system.slip_rate_rad_per_s } else { system.stick_rate_rad_per_s };
         let unit_s = unit_s(rate, dt_s);
         let series = series_table(&system, slip, unit_s, orders);
+        let growth = |length_s| if slip { system.growth(length_s) } else { 1.0 };
         let batch = batch_s
             .filter(|dt_s| system.storeys <= BATCH_STOREYS && dt_s * rate <= BATCH_RATE_STEP);
         let batch = if let Some(dt_s) = batch {
@@ -141,11 +217,13 @@ impl Phase {
                 maps: units.maps(slip),
                 rows: of_rows,
                 displacement: units.row(simd, &of_s, 0.0, 0.0),
+                growth: growth(BATCH as f64 * dt_s),
             })
         } else {
             None
         };
+        let growth = growth(unit_s);
         let outputs = Outputs::new(&system, slip, rows);
-        Self { system, slip, unit_s, series, outputs, batch }
+        Self { system, slip, unit_s, series, outputs, of_friction, growth, batch }
     }
 }

@@ -30,9 +30,9 @@ impl Asked {
     /// Distance from the nearest bound over the larger one, or over the one that the demand is on the
     /// side of.
     pub(super) fn margin(&self) -> Option<f64> {
-        if self.low < 0.0 && self.high > 0.0 {
+        if self.low <= 0.0 && self.high >= 0.0 {
             let bound = if self.demand < 0.0 { -self.low } else { self.high };
-            return Some((1.0 - self.demand.abs() / bound).abs());
+            return (bound > 0.0).then(|| (1.0 - self.demand.abs() / bound).abs());
         }
         let scale = self.low.abs().max(self.high.abs());
         (self.high > self.low && scale.is_finite()).then(|| self.beyond().abs() / scale)

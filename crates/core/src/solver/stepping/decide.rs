@@ -56,10 +56,10 @@ impl Stepping<'_> {
     /// What a stuck interface is asked for at the instant last looked at.
     fn asked(&self, interface: usize) -> Asked {
         if interface == 0 {
-            let rest = self.rest();
+            let hold = self.held();
             let normal = self.instant.normal[0];
-            let [low, high] = rest.holds_n(normal);
-            let [a, b] = rest.bounds.map(|bound| (bound * normal).abs());
+            let [low, high] = hold.holds_n(normal);
+            let [a, b] = hold.bounds.map(|bound| (bound * normal).abs());
             let size = a.max(b).min(f64::MAX);
             let scale = if size > 0.0 { size } else { self.model.weight_n() };
             Asked { demand: self.instant.friction[0], low, high, scale }
@@ -91,9 +91,9 @@ impl Stepping<'_> {
             return contents.static_friction - contents.kinetic_friction;
         }
         let mut memory = self.memory.clone();
-        let rest = self.rest();
+        let hold = self.held();
         self.law.begin(&mut memory, self.x.s, direction);
-        self.law.drop(&rest, &memory, direction)
+        self.law.drop(&hold, &memory, direction)
     }
 
     /// Decides all that is due at an instant; whether something was.
@@ -120,17 +120,8 @@ impl Stepping<'_> {
         stopped.iter().for_each(|&i| self.hold(i));
         if was[0] != self.modes[0] {
             self.look_at_instant(&loads);
-            let asked = self.asked(0);
-            let margin = if asked.low < 0.0 && asked.high > 0.0 {
-                let bound = if asked.demand < 0.0 { -asked.low } else { asked.high };
-                (1.0 - asked.demand.abs() / bound).abs()
-            } else {
-                asked.beyond().abs()
-            };
-            if asked.high > asked.low && margin.is_finite() {
-                let least = &mut self.sliding[0].closest_stop;
-                *least = least.min(margin);
-            }
+            let margin = self.held().margin(self.instant.friction[0], self.instant.normal[0]);
+            self.sliding[0].decide(margin);
         }
         if let Some((i, direction)) = pending {
             let drop = self.drop(i, direction);
@@ -258,8 +249,8 @@ impl Stepping<'_> {
         let sign = -direction.sign();
         let side = if direction == Direction::Positive { 0 } else { 1 };
         let (demand, normal, bound) = if interface == 0 {
-            let rest = self.rest();
-            let bound = if rest.leans[side] { f64::INFINITY } else { sign * rest.bounds[side] };
+            let hold = self.held();
+            let bound = if hold.leans[side] { f64::INFINITY } else { sign * hold.bounds[side] };
             (&self.series.friction, &self.series.normal, bound)
         } else {
             let contents = &self.body.contents[interface - 1];
@@ -303,7 +294,7 @@ impl Stepping<'_> {
         }
     }
 
-    /// Lets an interface slide from rest.
+    /// Lets an interface slide from hold.
     fn let_go(&mut self, interface: usize, direction: Direction) {
         self.modes[interface] = Mode::Slip(direction);
         if interface == 0 {
@@ -360,7 +351,7 @@ impl Stepping<'_> {
     /// Begins or ends the time at rest at a rigid stop.
     fn lean(&mut self, time_s: f64) {
         self.end_leaning(time_s);
-        let leans = self.rest().leans;
+        let leans = self.held().leans;
         if self.modes[0] == Mode::Stick && leans != [false; 2] {
             self.leans_since_s = Some(time_s);
         }

@@ -14,7 +14,6 @@ pub(super) struct Peaks {
     pub(super) values: Vec<f64>,
     pub(super) contents_velocity: Vec<f64>,
     pub(super) contents_acceleration: Vec<f64>,
-    pub(super) surfaces: Vec<f64>,
     /// Whether the overturning moment is asked for.
     pub(super) overturns: bool,
     /// Heights of the block and of the floors above the sliding surface in m.
@@ -22,7 +21,7 @@ pub(super) struct Peaks {
 }
 
 impl Peaks {
-    pub(super) fn new(model: &Model, surfaces: usize) -> Self {
+    pub(super) fn new(model: &Model) -> Self {
         let (n, contents) = (model.storeys(), model.devices().contents.len());
         let block = model.block();
         let mut above_m = block.height_m.unwrap_or(0.0);
@@ -38,7 +37,6 @@ impl Peaks {
             values: vec![0.0; output::STOREYS + (3 * n).saturating_sub(1)],
             contents_velocity: vec![0.0; contents],
             contents_acceleration: vec![0.0; contents],
-            surfaces: vec![0.0; surfaces],
             overturns: block.width_m.is_some() && known,
             heights_m,
         }
@@ -95,10 +93,7 @@ impl Stepping<'_> {
         }
         self.look_at_friction(part);
         self.look_at_stop(part);
-        let now = self.law.surfaces(&self.memory, self.x.s);
-        for (peak, u) in self.peaks.surfaces.iter_mut().zip(now) {
-            *peak = peak.max(u.abs());
-        }
+        self.surfaces.note(self.law, &self.memory, self.x.s);
     }
 
     /// Overturning moment of the inertia of block, floors and contents about the sliding surface.
@@ -134,8 +129,8 @@ impl Stepping<'_> {
         if self.law.stop.is_none() {
             return;
         }
-        let mut force_n = self.law.stop_force_n(&self.memory, self.x.s, self.x.w);
-        if let Some([of_s, of_w, constant]) = self.law.stop_row(&self.memory) {
+        let mut force_n = self.law.stop_force_n(self.memory.contact, self.x.s, self.x.w);
+        if let Some([of_s, of_w, constant]) = self.law.stop_row(self.memory.contact) {
             let (s, w) = (&self.series.s, &self.series.w);
             let mut p: Polynomial = core::array::from_fn(|k| of_s * s[k] + of_w * w[k]);
             p[0] += constant;
@@ -187,12 +182,12 @@ impl Stepping<'_> {
         let stuck = self.modes[0] == Mode::Stick;
         let mut friction_n = self.instant.friction[0];
         if stuck {
-            let rest = self.rest();
-            let [low, high] = rest.bounds.map(|bound| bound * loads.normal[0]);
-            if rest.leans[0] {
+            let hold = self.held();
+            let [low, high] = hold.bounds.map(|bound| bound * loads.normal[0]);
+            if hold.leans[0] {
                 friction_n = friction_n.max(low);
             }
-            if rest.leans[1] {
+            if hold.leans[1] {
                 friction_n = friction_n.min(high);
             }
         }
