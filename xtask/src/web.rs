@@ -9,6 +9,9 @@ use crate::shell::{self, Outcome};
 /// The folder of the page's sources.
 pub const PAGE: &str = "crates/web/page";
 
+/// The same bundle for notebooks, where the Python package takes it from.
+const WIDGET: &str = "crates/python/python/slipstick/page.js";
+
 const WASM: &str = "wasm32-unknown-unknown";
 
 /// Builds the page into `web` of the target folder; serves it where asked to.
@@ -145,16 +148,18 @@ pub fn build() -> Result<PathBuf, String> {
         return Err(format!("web: {missing}"));
     }
     add_target()?;
-    let build = format!("build --package slipstick-web --profile web --target {WASM}");
+    let build = format!("build --package slipstick-web --profile page --target {WASM}");
     shell::run(&mut shell::cargo(&build))?;
     let target = shell::target_folder()?;
-    let module = target.join(WASM).join("web/slipstick_web.wasm");
+    let module = target.join(WASM).join("page/slipstick_web.wasm");
     let page = shell::root().join(PAGE);
     let bindgen = "run --quiet --package xtask --features bindgen --bin bindgen --";
     shell::run(shell::cargo(bindgen).arg(&module).arg(page.join("pkg")))?;
     packages(&page)?;
     let folder = target.join("web");
-    shell::run(shell::command("node").arg(page.join("build.mjs")).arg(&folder))?;
+    let mut put_together = shell::command("node");
+    put_together.arg(page.join("build.mjs")).arg(&folder).arg(shell::root().join(WIDGET));
+    shell::run(&mut put_together)?;
     Ok(folder)
 }
 

@@ -76,6 +76,12 @@ const packed = gzipSync(wasm, { level: 9 }).toString("base64");
 const parts = { icon: read("icon.svg").toString("base64"), style, wasm: packed, worker: inline(worker), app: inline(single) };
 const whole = read("single.html").toString().replace(/\{(icon|style|wasm|worker|app)\}/g, (_, name) => parts[name]);
 
+const widget = await bundle("widget.ts", {
+  format: "esm",
+  define: { SLIPSTICK_WASM: JSON.stringify(packed), SLIPSTICK_WORKER: JSON.stringify(worker), SLIPSTICK_STYLE: JSON.stringify(style) },
+});
+if (process.argv[3]) writeFileSync(process.argv[3], widget);
+
 for (const [name, data] of Object.entries(files)) writeFileSync(join(out, name), data);
 const zipped = Object.values(files).reduce((sum, data) => sum + gzipSync(data, { level: 9 }).length, 0);
 writeFileSync(join(out, "slipstick.html"), whole);

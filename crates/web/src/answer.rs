@@ -42,7 +42,7 @@ const KINDS: [EventKind; 10] = [
 
 #[wasm_bindgen]
 impl Answer {
-    /// All but the histories: the model's text, its values, the peaks, the warnings, the units.
+    /// All but the histories: the model's values, the peaks, the warnings, the units.
     #[must_use]
     pub fn state(&self) -> String {
         self.state.clone()
@@ -88,7 +88,6 @@ impl Answer {
 impl Answer {
     /// Gathers what the page draws.
     pub fn new(
-        text: &str,
         job: &Job,
         words: &str,
         response: &Response,
@@ -116,7 +115,7 @@ impl Answer {
         let events = response.events.iter();
         let kind = |kind: EventKind| KINDS.iter().position(|k| *k == kind).unwrap_or(0) as u8;
         Self {
-            state: state(text, job, words, summary, display).to_pretty(),
+            state: state(job, words, summary, display).to_pretty(),
             columns,
             mode: sliders.map(|mode| mode.sign() as i8).collect(),
             event_times_s: events.clone().map(|event| event.time_s).collect(),
@@ -136,7 +135,7 @@ pub struct Judgement {
 
 #[wasm_bindgen]
 impl Judgement {
-    /// The peaks with those of the bounds, the warnings, the certificate, the fixed base, the stepwise
+    /// The model's text, the peaks with those of the bounds, the warnings, the certificate, the fixed base, the stepwise
     /// method.
     #[must_use]
     pub fn state(&self) -> String {
@@ -160,6 +159,7 @@ impl Judgement {
 impl Judgement {
     /// Gathers it.
     pub fn new(
+        text: &str,
         outcome: &Outcome,
         summary: &Summary,
         fixed: Option<Demands>,
@@ -182,6 +182,7 @@ impl Judgement {
         let certificate = &outcome.nominal.certificate;
         let energy = &certificate.energy;
         let mut keys = vec![
+            ("text", text.into()),
             ("rows", rows(summary, display)),
             ("runs", crate::session::texts(summary.runs().iter().map(|(name, _)| *name))),
             ("warnings", warnings(summary, display)),
@@ -302,7 +303,7 @@ pub fn drawings(figures: &[figures::Drawn]) -> Json {
     Json::List(figures.iter().map(one).collect())
 }
 
-fn state(text: &str, job: &Job, words: &str, summary: &Summary, display: DisplayUnits) -> Json {
+fn state(job: &Job, words: &str, summary: &Summary, display: DisplayUnits) -> Json {
     let analysis = &job.analysis;
     let model = &analysis.model;
     let slider = model.slider();
@@ -320,7 +321,6 @@ fn state(text: &str, job: &Job, words: &str, summary: &Summary, display: Display
     let names = (1..=model.storeys()).map(|i| Json::Text(analysis.names.storey(i)));
     let demands = &summary.demands;
     Json::Object(vec![
-        ("text", text.into()),
         ("name", Json::Text(summary.model.clone())),
         ("line", Json::Text(describe::model_line(model, display))),
         ("inputs", Json::List(analysis.inputs().map(|input| value(&input, display)).collect())),

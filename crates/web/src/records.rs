@@ -104,7 +104,7 @@ impl Records {
         })
     }
 
-    /// What is in a file, and what it does not say: `{layout, channels, expected}`.
+    /// What is in a file: `{layout, plain, channels}`, plain where it needs no more to be a motion.
     pub fn inspect(&mut self, name: &str, units: &str, dt: &str) -> Result<Json, Failure> {
         let options = options(units, dt)?;
         let missing = || Failure::of(format!("{name}: expected a file, found none of this name"));
@@ -126,8 +126,10 @@ impl Records {
                 ("words", Json::Text(record.describe(channel))),
             ])
         });
+        let plain = Loaded::recorded(Wanted { record, channel: None }, None, None).is_ok();
         Ok(Json::Object(vec![
             ("layout", record.layout.as_str().into()),
+            ("plain", plain.into()),
             ("channels", Json::List(channels.collect())),
         ]))
     }

@@ -9,7 +9,7 @@ use slipstick::assessment::sweep::Sweep;
 use slipstick::input::loaded::Loaded;
 use slipstick::input::{self, Analysis, MotionSource, Override};
 use slipstick::motion::processing::{Step, process};
-use slipstick::motion::{GroundMotion, Quantity};
+use slipstick::motion::{Figures, Quantity};
 use slipstick::response::{Method, Response};
 use slipstick::solver::{self, Prepared, PreparedMotion};
 use slipstick_report::json::Json;
@@ -31,7 +31,7 @@ const MOST_SAMPLES: usize = 1_000_000;
 struct Ground {
     source: Option<MotionSource>,
     tail_s: f64,
-    loaded: Loaded,
+    loaded: Arc<Loaded>,
     with_tail: PreparedMotion,
     number: u32,
 }
@@ -41,7 +41,11 @@ struct Last {
     job: Job,
     name: String,
     words: String,
-    loaded: Loaded,
+    /// Of the record as it is analysed, without the tail.
+    figures: Figures,
+    /// The model's text, and the keys set in it.
+    text: String,
+    set: Vec<Override>,
     response: Response,
     judged: Option<(Outcome, Summary)>,
     display: DisplayUnits,
@@ -101,15 +105,15 @@ impl Session {
         set: Vec<String>,
         display: &str,
     ) -> Result<Answer, JsValue> {
-        let text = with_keys(text, &set)?;
-        let analysis = parse(&text)?;
+        let set = overrides(&set)?;
+        let analysis =
+            input::parse(MODEL, text, &set).map_err(|error| Failure::input(&error, text))?;
         let display = display_units(display);
-        self.load(&analysis, &text)?;
+        self.load(&analysis, text)?;
         let Some(ground) = &self.ground else { return Err(Failure::of("no motion").into()) };
-        let bare = ground.loaded.motion.clone();
-        let mut noticed = ground.loaded.warnings.clone();
-        let job = Job::new(analysis, bare, std::mem::take(&mut noticed))
-            .map_err(|error| Failure::input(&error, &text))?;
+        let loaded = &ground.loaded;
+        let job = Job::new(analysis, loaded.motion.clone(), loaded.warnings.clone())
+            .map_err(|error| Failure::input(&error, text))?;
         let model = &job.analysis.model;
         let response = match job.analysis.method {
             Method::Exact => {
@@ -125,11 +129,8 @@ impl Session {
         };
         let response = response.map_err(Failure::of)?;
         let name = job.analysis.name.clone().unwrap_or_else(|| "Model".to_owned());
-        let words = ground.loaded.description.join("; ");
-        let loaded = Loaded {
-            motion: GroundMotion::evenly_spaced(1.0, vec![0.0, 0.0], None).map_err(Failure::of)?,
-            ..ground.loaded.clone()
-        };
+        let words = loaded.description.join("; ");
+        let figures = loaded.figures;
         let summary = Summary {
             dt_s: job.bare.dt_s(),
             names: job.analysis.names.clone(),
@@ -137,19 +138,20 @@ impl Session {
                 name: &name,
                 model,
                 motion: &job.motion,
-                record: loaded.figures,
+                record: figures,
                 response: &response,
                 certificate: None,
                 friction_factor: 1.0,
                 warnings: &job.warnings,
             })
         };
-        let answer = Answer::new(&text, &job, &words, &response, &summary, display, ground.number);
-        self.last = Some(Last { job, name, words, loaded, response, judged: None, display });
+        let answer = Answer::new(&job, &words, &response, &summary, display, ground.number);
+        let (text, judged) = (text.to_owned(), None);
+        self.last = Some(Last { job, name, words, figures, text, set, response, judged, display });
         Ok(answer)
     }
 
-    /// Judges the last answer, with lower- and upper-bound friction, the same structure on a fixed base
+    /// Judges the last answer and says its model's text with the keys set, comments kept; with lower- and upper-bound friction, the same structure on a fixed base
     /// and, where asked for, the paper's stepwise method.
     ///
     /// # Errors
@@ -157,7 +159,9 @@ impl Session {
     pub fn judge(&mut self, stepwise: bool) -> Result<Judgement, JsValue> {
         let last = self.last.as_mut().ok_or_else(|| Failure::of("nothing was analysed"))?;
         let outcome = last.job.run_on(last.response.clone(), false).map_err(Failure::of)?;
-        let summary = Summary::of(&last.name, &last.job, last.loaded.figures, &outcome);
+        let summary = Summary::of(&last.name, &last.job, last.figures, &outcome);
+        let text = input::with_keys(MODEL, &last.text, &last.set)
+            .map_err(|error| Failure::input(&error, &last.text))?;
         let model = &last.job.analysis.model;
         let fixed = (model.storeys() > 0).then(|| {
             let model = fixed_base(model).ok()?;
@@ -165,7 +169,8 @@ impl Session {
             solver::exact_demands(&model, &motion).ok().map(|response| response.demands)
         });
         let stepwise = stepwise.then(|| solver::stepwise(model, &last.job.motion));
-        let judgement = Judgement::new(&outcome, &summary, fixed.flatten(), stepwise, last.display);
+        let judgement =
+            Judgement::new(&text, &outcome, &summary, fixed.flatten(), stepwise, last.display);
         last.judged = Some((outcome, summary));
         Ok(judgement)
     }
@@ -323,7 +328,7 @@ impl Session {
         self.ground = Some(Ground {
             source: analysis.motion.clone(),
             tail_s: analysis.tail_s,
-            loaded,
+            loaded: Arc::new(loaded),
             with_tail: PreparedMotion::new(Arc::new(with_tail)),
             number: self.grounds,
         });
@@ -331,20 +336,10 @@ impl Session {
     }
 }
 
-/// A model's text with keys set, `[path, value, …]`, comments kept.
-///
-/// # Errors
-/// With the place in the text.
-#[wasm_bindgen(js_name = withKeys)]
-pub fn with_keys_of(text: &str, set: Vec<String>) -> Result<String, JsValue> {
-    Ok(with_keys(text, &set)?)
-}
-
-fn with_keys(text: &str, set: &[String]) -> Result<String, Failure> {
-    let set: Result<Vec<Override>, _> =
-        set.chunks_exact(2).map(|pair| Override::text_value(&pair[0], &pair[1])).collect();
-    let set = set.map_err(|error| Failure::input(&error, ""))?;
-    input::with_keys(MODEL, text, &set).map_err(|error| Failure::input(&error, text))
+/// Keys and their values, `[path, value, …]`.
+fn overrides(set: &[String]) -> Result<Vec<Override>, Failure> {
+    let set = set.chunks_exact(2).map(|pair| Override::text_value(&pair[0], &pair[1]));
+    set.collect::<Result<_, _>>().map_err(|error| Failure::input(&error, ""))
 }
 
 pub(crate) fn parse(text: &str) -> Result<Analysis, Failure> {

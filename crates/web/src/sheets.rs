@@ -109,6 +109,14 @@ impl Page {
     }
 }
 
+/// A record, and what its file does not say; empty where it does.
+struct Asks<'a> {
+    name: &'a str,
+    units: &'a str,
+    dt: &'a str,
+    channel: &'a str,
+}
+
 /// Options of a command: names and values.
 struct Asked<'a>(&'a [String]);
 
@@ -122,6 +130,15 @@ impl Asked<'_> {
         self.all(name).last()
     }
 
+    /// The records, each with what its file does not say: `NAME`, units, step and channel, by line ends.
+    fn records(&self) -> impl Iterator<Item = Asks<'_>> {
+        self.all("records").map(|text| {
+            let mut parts = text.split('\n');
+            let mut next = || parts.next().unwrap_or("");
+            Asks { name: next(), units: next(), dt: next(), channel: next() }
+        })
+    }
+
     fn number(&self, name: &str, default: f64) -> Result<f64, Failure> {
         let Some(text) = self.one(name) else { return Ok(default) };
         let number = text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
@@ -131,7 +148,9 @@ impl Asked<'_> {
     /// What was asked, as the command takes it.
     fn command(&self, what: &str) -> String {
         let pairs = self.0.chunks_exact(2).filter(|pair| !pair[1].trim().is_empty());
-        let options: String = pairs.map(|pair| format!(" --{} {:?}", pair[0], pair[1])).collect();
+        let options: String = pairs
+            .map(|pair| format!(" --{} {:?}", pair[0], pair[1].split('\n').next().unwrap_or("")))
+            .collect();
         format!("slipstick {what} {MODEL}{options}")
     }
 }
@@ -188,18 +207,16 @@ pub fn assess(
         other => Err(Failure::of(format!("expected an analysis over a suite, found {other:?}"))),
     }?;
     let inputs = [InputText { path: MODEL, text }];
-    let hashes: Vec<(String, String)> = records_of(&work.asked)
-        .filter_map(|name| Some((name.to_owned(), crate::sha256(records.bytes(name)?))))
+    let hashes: Vec<(String, String)> = work
+        .asked
+        .records()
+        .filter_map(|asks| Some((asks.name.to_owned(), crate::sha256(records.bytes(asks.name)?))))
         .collect();
     let files: Vec<FileNote> = hashes
         .iter()
         .map(|(path, sha256)| FileNote { path, sha256, description: "record" })
         .collect();
     Ok(Page::new(&sheet, &inputs, &files, &work.asked.command(what)))
-}
-
-fn records_of<'a>(asked: &'a Asked<'_>) -> impl Iterator<Item = &'a str> {
-    asked.all("records")
 }
 
 /// The records that were asked for, else the model's own motion.
@@ -209,11 +226,11 @@ fn suite(
     analysis: &Analysis,
     text: &str,
 ) -> Result<Suite, Failure> {
-    let options =
-        crate::records::options(asked.one("units").unwrap_or(""), asked.one("dt").unwrap_or(""))?;
     let mut suite = Suite::default();
-    for name in records_of(asked) {
-        let loaded = recorded(records, name, &options, asked.one("channel"))?;
+    for Asks { name, units, dt, channel } in asked.records() {
+        let options = crate::records::options(units, dt)?;
+        let channel = Some(channel).filter(|channel| !channel.is_empty());
+        let loaded = recorded(records, name, &options, channel)?;
         let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
         let stem = stem.rsplit('/').next().unwrap_or(stem);
         suite.records.push(SuiteRecord { name: stem.to_owned(), motion: loaded.motion });

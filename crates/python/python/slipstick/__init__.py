@@ -30,6 +30,7 @@ from ._errors import InputError, RecordError, SolveError, StudyError
 from ._laboratory import Comparison, Estimate, Identified, compare
 from ._response import Event, Response, run
 from ._study import Plan, Study, study
+from ._widget import widget
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -61,6 +62,7 @@ __all__ = [
     "run",
     "spectrum",
     "study",
+    "widget",
 ]
 
 

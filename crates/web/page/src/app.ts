@@ -18,7 +18,7 @@ export interface Options {
   /** The model's text; the address or the example where it is not given. */
   model?: string;
   /** Records besides those that the page carries. */
-  records?: { name: string; text: string }[];
+  records?: { name: string; bytes: Uint8Array }[];
   /** Whether the state is kept in the address. */
   address: boolean;
   /** Told of every state at rest. */
@@ -55,6 +55,8 @@ export class App {
   private display: Display = "si";
   private tab = "motion";
   private pending: Setting[] = [];
+  /** What the last answer answers. */
+  private good: Wish = { text: "", set: [], display: "si" };
   private answer: Answer | undefined;
   private judgement: Judgement | undefined;
   private shown: Shown | undefined;
@@ -124,8 +126,8 @@ export class App {
     this.layout();
     this.wire();
     for (const record of RECORDS) this.desk.records.set(record.name, new TextEncoder().encode(record.text));
-    for (const { name, text } of options.records ?? []) {
-      this.desk.records.set(name, new TextEncoder().encode(text));
+    for (const { name, bytes } of options.records ?? []) {
+      this.desk.records.set(name, bytes);
       this.own.set(name, { sha256: "", choice: { name } });
     }
     void this.begin();
@@ -304,6 +306,8 @@ export class App {
       display: () => this.display,
       colours: () => this.colours,
       records: () => this.allRecords(),
+      choice: (name) => RECORDS.find((record) => record.name === name) ?? this.own.get(name)?.choice ?? { name },
+      text: () => this.text,
       set: (settings) => this.set(settings, true),
       say: (text) => (this.live.textContent = text),
       fault: (fault) => this.fault(fault),
@@ -356,7 +360,7 @@ export class App {
   private wire(): void {
     const desk = this.desk;
     desk.onanswer = (answer, wish) => this.take(answer, wish);
-    desk.onjudged = (judgement) => this.judged(judgement);
+    desk.onjudged = (judgement, wish) => this.judged(judgement, wish);
     desk.onfault = (fault, wish) => this.fault(fault, wish);
     desk.onrest = () => {
       void this.remember();
@@ -415,6 +419,7 @@ export class App {
         event.preventDefault();
         this.play(!this.playing);
       }
+      if (!/^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName) && !event.ctrlKey && !event.metaKey && /^[-+0]$/.test(event.key)) this.zoomBy(event.key);
     });
     let depth = 0;
     const carries = (event: DragEvent) => event.dataTransfer?.types.includes("Files") ?? false;
@@ -459,7 +464,6 @@ export class App {
   // ---- state
 
   private wish(): void {
-    this.certify();
     this.desk.want({ text: this.text, set: [...this.pending], display: this.display });
   }
 
@@ -479,21 +483,14 @@ export class App {
   }
 
   private take(answer: Answer, wish: Wish): void {
+    this.good = wish;
     this.bar.hidden = true;
     this.editorFault.hidden = true;
     this.editor.removeAttribute("aria-invalid");
-    const answered = new Map(wish.set);
-    // What was set since then stays to be set.
-    if (wish.text === this.text || wish.set.length > 0) {
-      this.pending = this.pending.filter(([path, value]) => answered.get(path) !== value);
-      if (wish.text === this.text) {
-        this.text = answer.state.text;
-        if (this.editor.value !== this.text) this.editor.value = this.text;
-      }
-    }
     const before = this.shown;
     this.answer = answer;
     this.judgement = undefined;
+    this.certify();
     const tableTimes = answer.tableTimes ?? before?.tableTimes ?? new Float64Array();
     const tableDisplacement = answer.tableDisplacement ?? before?.tableDisplacement ?? new Float64Array();
     let tablePeak = answer.tableDisplacement ? 0 : (before?.tablePeak ?? 0);
@@ -542,6 +539,18 @@ export class App {
   private seek(time: number): void {
     this.time = time;
     this.stale = true;
+  }
+
+  /** By keyboard: + and − around the present instant, 0 the whole record. */
+  private zoomBy(key: string): void {
+    const end = this.answer?.time.at(-1) ?? 0;
+    const [from, to] = this.clock.zoomed ?? [0, end];
+    const span = key === "0" ? Infinity : (to - from) * (key === "+" ? 0.5 : 2);
+    if (span >= end) this.clock.zoom(null);
+    else {
+      const start = Math.min(Math.max(0, this.time - span / 2), end - span);
+      this.clock.zoom([start, start + span]);
+    }
   }
 
   private play(on: boolean): void {
@@ -671,20 +680,35 @@ export class App {
     );
   }
 
+  private peaksShape = "";
+  private peakCells: HTMLElement[][] = [];
+
   private drawPeaks(): void {
     const { rows, runs, warnings } = this.judgement ?? this.answer!.state;
-    const head = runs.length > 1 ? [h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "Friction"), ...runs.map((run) => h("th", { scope: "col", class: "number" }, run))))] : [];
-    fill(
-      this.peaks,
-      h(
-        "table",
-        {},
-        ...head,
-        h("tbody", {}, ...rows.map((row) => h("tr", {}, h("th", { scope: "row" }, row.label, row.unit && h("small", {}, ` ${row.unit}`)), ...row.values.map((value, i) => h("td", { class: row.governing === i ? "number governs" : "number" }, value.replace("-", "−")))))),
-      ),
+    const shape = JSON.stringify([runs, rows.map(({ label, unit }) => [label, unit])]);
+    if (shape !== this.peaksShape) {
+      this.peaksShape = shape;
+      this.peakCells = rows.map((row) => row.values.map(() => h("td", { class: "number" })));
+      const head = runs.length > 1 ? [h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "Friction"), ...runs.map((run) => h("th", { scope: "col", class: "number" }, run))))] : [];
+      const body = rows.map((row, i) => h("tr", {}, h("th", { scope: "row" }, row.label, row.unit && h("small", {}, ` ${row.unit}`)), ...this.peakCells[i]!));
+      fill(this.peaks, h("table", {}, ...head, h("tbody", {}, ...body)));
+    }
+    rows.forEach((row, i) =>
+      row.values.forEach((value, run) => {
+        const cell = this.peakCells[i]![run]!;
+        const text = value.replace("-", "−");
+        if (cell.textContent !== text) cell.textContent = text;
+        cell.classList.toggle("governs", row.governing === run);
+      }),
     );
-    fill(this.warnings, ...warningList(warnings));
+    const told = JSON.stringify(warnings);
+    if (told !== this.warned) {
+      this.warned = told;
+      fill(this.warnings, ...warningList(warnings));
+    }
   }
+
+  private warned = "";
 
   /** What is known of the answer that is shown. */
   private certify(): void {
@@ -708,8 +732,11 @@ export class App {
     else say("", "Stepwise: reported, not judged", h("span", {}, "The paper's method has an error of its own."), list);
   }
 
-  private judged(judgement: Judgement): void {
+  private judged(judgement: Judgement, wish: Wish): void {
     this.judgement = judgement;
+    // What was set stands in the text now; the page waits for it before it says that it rests.
+    this.pending = [];
+    this.settle(wish, judgement.text);
     this.certify();
     this.drawPeaks();
     if (this.tab === "motion") {
@@ -719,6 +746,13 @@ export class App {
     }
     this.drawBeside();
     this.drawEvents();
+  }
+
+  /** Takes the text over that says what was set. */
+  private settle(wish: Wish, text: string): void {
+    if (wish.text !== this.text) return;
+    this.text = text;
+    if (this.editor.value !== text) this.editor.value = text;
   }
 
   private drawBeside(): void {
@@ -788,7 +822,7 @@ export class App {
     }
     // A value that cannot be is not asked for again.
     if (wish && wish.set.length > 0) {
-      this.pending = [];
+      this.pending = wish.text === this.good.text ? [...this.good.set] : [];
       if (this.answer) this.controls.update(this.answer.state);
     }
     if (this.answer && !this.judgement) void this.rejudge();
@@ -798,7 +832,7 @@ export class App {
   private async rejudge(): Promise<void> {
     try {
       const judgement = await this.desk.helper.call("judge", this.stepwise.checked);
-      if (!this.judgement) this.judged(judgement);
+      if (!this.judgement) this.judged(judgement, this.good);
     } catch {
       // The next answer is judged by itself.
     }
@@ -916,9 +950,13 @@ export class App {
         fault = error.fault;
       }
       if (inspected) refuseLong(name, inspected);
-      const usable = inspected?.channels.filter((channel) => channel.usable) ?? [];
-      if (inspected && usable.length === 1) {
-        choice = { name, ...(inspected.channels.length > 1 ? { channel: usable[0]!.name } : {}) };
+      if (wanted) {
+        choice = { name };
+      } else if (inspected?.plain) {
+        choice = { name };
+      } else if (inspected && !inspected.channels.some((channel) => channel.usable || channel.counts)) {
+        const found = [...new Set(inspected.channels.map((channel) => channel.quantity))].join(", ");
+        throw new ModuleError({ message: `${name}: expected a channel of acceleration, found ${found}` });
       } else if (inspected || (fault && asks(fault.message))) {
         choice = known && !inspected ? { name, units: known.units, dt: known.dt } : await this.ask(name, inspected, fault);
       } else if (fault) throw new ModuleError(fault);
@@ -931,6 +969,12 @@ export class App {
     }
     if (!choice) return undefined;
     this.own.set(name, { sha256, choice });
+    if (wanted) {
+      // The model of the address says how it is read.
+      this.wanted = this.wanted.filter((record) => record !== wanted);
+      this.wish();
+      return undefined;
+    }
     return choice;
   }
 
@@ -946,10 +990,11 @@ export class App {
     const choices = (inspected: Inspected | undefined) => {
       channelField.hidden = !inspected || inspected.channels.length < 2;
       fill(channel, ...(inspected?.channels ?? []).map((c) => h("option", { value: c.name, disabled: !c.usable && !c.counts }, `${c.name} (${c.quantity})`)));
-      what.textContent = inspected ? `${inspected.layout}. Which channel is the table's motion?` : "";
+      const counts = inspected?.channels.every((c) => c.counts);
+      what.textContent = !inspected ? "" : counts ? `${inspected.layout}. Its values are counts of a recorder: give the value of one as their unit, such as 4.67e-6 m/s2.` : `${inspected.layout}. Which channel is the table's motion?`;
     };
     choices(inspected);
-    problem.textContent = fault?.message ?? "";
+    problem.textContent = fault?.message.replace(/: add (units|dt) = .*?(?=, found)/, "") ?? "";
     const needsUnits = !inspected || inspected.channels.every((c) => !c.usable);
     const form = h(
       "form",
@@ -1021,8 +1066,12 @@ export class App {
     if (!this.options.address || fragment === this.remembered || fragment === location.hash) return;
     const first = this.remembered === "" && location.hash === "";
     this.remembered = fragment;
-    if (first) history.replaceState(null, "", fragment);
-    else history.pushState(null, "", fragment);
+    try {
+      if (first) history.replaceState(null, "", fragment);
+      else history.pushState(null, "", fragment);
+    } catch {
+      // A browser takes only so many states in a minute.
+    }
   }
 
   private async fromAddress(): Promise<void> {

@@ -61,7 +61,13 @@ export class Helper {
       event.preventDefault();
       this.lose(event.message || "the worker ended");
     };
-    const module = await this.engine.module();
+    let module: WebAssembly.Module;
+    try {
+      module = await this.engine.module();
+    } catch (error) {
+      this.lose(`expected a browser with WebAssembly and its vector instructions, found ${String(error)}`);
+      return;
+    }
     if (this.worker !== worker) return;
     worker.postMessage({ module });
     for (const [name, bytes] of this.records) {
@@ -143,7 +149,7 @@ export class Helper {
 
   /** The module trapped: its worker is ended, and all that was asked of it fails. */
   private lose(message: string): void {
-    const fault = { message: `the analysis ended unexpectedly (${message}); it starts anew` };
+    const fault = { message: `the analysis ended unexpectedly: ${message}` };
     const left = [...(this.current ? [this.current] : []), ...this.queue];
     this.current = undefined;
     this.queue = [];
@@ -168,12 +174,12 @@ export class Desk {
   readonly helper: Helper;
   private wish: (Wish & { number: number }) | undefined;
   private asked = 0;
-  private shown = 0;
+  private shown: (Wish & { number: number }) | undefined;
   private number = 0;
   private rest: ReturnType<typeof setTimeout> | undefined;
   stepwise = false;
   onanswer: (answer: Answer, wish: Wish) => void = () => {};
-  onjudged: (judgement: Judgement) => void = () => {};
+  onjudged: (judgement: Judgement, wish: Wish) => void = () => {};
   onfault: (fault: Fault, wish: Wish) => void = () => {};
   onrest: () => void = () => {};
 
@@ -196,7 +202,7 @@ export class Desk {
     try {
       const answer = await this.helper.call("analyse", wish.text, wish.set, wish.display);
       this.asked = 0;
-      this.shown = wish.number;
+      this.shown = wish;
       this.onanswer(answer, wish);
       clearTimeout(this.rest);
       this.rest = setTimeout(() => this.judge(), REST_MS);
@@ -210,11 +216,11 @@ export class Desk {
   /** Judges what is shown, unless something newer is wanted by then. */
   async judge(): Promise<void> {
     const of = this.shown;
-    if (this.wish || this.asked || of !== this.number) return;
+    if (!of || this.wish || this.asked || of.number !== this.number) return;
     try {
       const judgement = await this.helper.call("judge", this.stepwise);
-      if (of === this.number) {
-        this.onjudged(judgement);
+      if (of.number === this.number) {
+        this.onjudged(judgement, of);
         this.onrest();
       }
     } catch (error) {
@@ -233,17 +239,13 @@ export class Desk {
 /** Does the slices of a sweep on several workers. */
 export class Pool {
   private helpers: Helper[] = [];
+  private known = "";
 
   constructor(
     private readonly engine: Engine,
     private readonly records: Map<string, Uint8Array>,
     readonly size = Math.max(1, Math.min(4, (navigator.hardwareConcurrency || 2) - 1)),
   ) {}
-
-  /** One of the workers, for work that cannot be cut. */
-  single(): Helper {
-    return this.many(1)[0]!;
-  }
 
   private many(count: number): Helper[] {
     while (this.helpers.length < count) {
@@ -258,6 +260,10 @@ export class Pool {
     size: number,
     work: (helper: Helper, from: number, to: number) => Promise<void>,
   ): Promise<void> {
+    // Workers that do not know all records give way to others.
+    const known = [...this.records].map(([name, bytes]) => `${name} ${bytes.length}`).join();
+    if (known !== this.known) this.stop();
+    this.known = known;
     let next = 0;
     const run = async (helper: Helper) => {
       while (next < count) {

@@ -35,14 +35,14 @@ function withMotion(text: string, motion: string[]): string {
   return `${parts.join("\n\n")}\n`;
 }
 
-/** The same model on a record; how it is scaled stays. */
-export function onRecord(text: string, record: RecordChoice): string {
-  const scale = /^\s*(scale_to|scale)\s*=.*$/m.exec(without(text).body)?.[0]?.trim();
+/** The same model on a record; how it is scaled stays, unless that is said. */
+export function onRecord(text: string, record: RecordChoice, scaled?: string): string {
+  const scale = scaled ?? /^\s*(scale_to|scale)\s*=.*$/m.exec(without(text).body)?.[0]?.trim();
   const lines = [`record = ${quoted(record.name)}`];
   if (record.units) lines.push(`units = ${quoted(record.units)}`);
   if (record.dt) lines.push(`dt = ${quoted(record.dt)}`);
   if (record.channel) lines.push(`channel = ${quoted(record.channel)}`);
-  lines.push(scale ?? `scale_to = "0.3 g"`);
+  if (scale !== "") lines.push(scale ?? 'scale_to = "0.3 g"');
   return withMotion(text, lines);
 }
 

@@ -3,7 +3,8 @@
 import uPlot from "uplot";
 import { type Desk, Ended, Helper, ModuleError, Pool } from "./desk";
 import { download, drawing, fill, h } from "./dom";
-import { type Palette } from "./scene";
+import type { RecordChoice } from "./motion";
+import type { Palette } from "./scene";
 import type { Display, Fault, Setting, Sheet, State, Warning } from "./types";
 
 /** What the tabs need of the page. */
@@ -14,6 +15,10 @@ export interface Page {
   colours: () => Palette;
   /** Names of all records, with their words. */
   records: () => { name: string; label: string }[];
+  /** What a record's file does not say. */
+  choice: (name: string) => RecordChoice;
+  /** The model's text. */
+  text: () => string;
   set: (settings: Setting[]) => void;
   say: (text: string) => void;
   fault: (fault: Fault) => void;
@@ -194,12 +199,13 @@ class SuiteTab implements Tab {
     this.go.disabled = true;
     const options: Setting[] = [
       ...this.wanted.map((field): Setting => [field.name, this.option(field.name)]),
-      ...this.records().map((name): Setting => ["records", name]),
-      ["units", "g"],
-      ["dt", "0.01 s"],
+      ...this.records().map((name): Setting => {
+        const { units = "", dt = "", channel = "" } = this.page.choice(name);
+        return ["records", [name, units, dt, channel].join("\n")];
+      }),
     ];
     try {
-      const sheet = await helper.call("assess", this.id, state.text, options, this.page.display());
+      const sheet = await helper.call("assess", this.id, this.page.text(), options, this.page.display());
       this.show(sheet);
       this.page.say(`${this.label} is done. ${sheet.verdict[0] ?? sheet.line}`);
     } catch (error) {
@@ -322,11 +328,11 @@ class SweepTab implements Tab {
     const before = this.path.value || "slider.kinetic_friction";
     fill(this.path, ...numbers.map((input) => h("option", { value: input.path, selected: input.path === before }, input.path)));
     if (!this.from.value) this.ends();
-    if (this.of !== this.key(state)) void this.run();
+    if (this.of !== this.key()) void this.run();
   }
 
-  private key(state: State): string {
-    return `${state.text}|${this.page.display()}|${this.path.value}|${this.from.value}|${this.to.value}|${this.count.value}`;
+  private key(): string {
+    return `${this.page.text()}|${this.page.display()}|${this.path.value}|${this.from.value}|${this.to.value}|${this.count.value}`;
   }
 
   private input() {
@@ -351,7 +357,8 @@ class SweepTab implements Tab {
       fill(this.charts, h("p", { class: "card pad fault", role: "alert" }, `Number of runs: expected 2 to 100000, found "${this.count.value}"`));
       return;
     }
-    this.of = this.key(state);
+    this.of = this.key();
+    const text = this.page.text();
     const unit = /[^\d.eE+\s−-].*$/.exec(this.to.value)?.[0] ?? "";
     const bare = (text: string) => text.replace("−", "-").replace(unit, "").trim();
     const over = `${input.path}=${bare(this.from.value)}..${bare(this.to.value)} ${unit}:${count}`;
@@ -362,7 +369,7 @@ class SweepTab implements Tab {
     let done = 0;
     try {
       await this.pool.slices(count, 25, async (helper, from, to) => {
-        const slice = await helper.call("sweep", state.text, over, from, to);
+        const slice = await helper.call("sweep", text, over, from, to);
         rows.set(slice, 6 * from);
         done += to - from;
         this.progress.show(done, count);
@@ -509,7 +516,7 @@ export class StudyTab implements Tab {
     this.text.removeAttribute("aria-invalid");
     try {
       const names = this.page.records().map((record) => record.name);
-      const sheet = await helper.call("study", this.text.value, state.text, names, this.page.display());
+      const sheet = await helper.call("study", this.text.value, this.page.text(), names, this.page.display());
       fill(this.result, sheetElement(sheet), h("div", { class: "actions" }, h("button", { type: "button", onclick: () => download("study-report.html", sheet.html, "text/html") }, "report.html")));
       this.page.say(`The study is done. ${sheet.verdict[0] ?? sheet.line}`);
     } catch (error) {

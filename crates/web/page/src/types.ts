@@ -33,7 +33,6 @@ export interface Warning {
 }
 
 export interface State {
-  text: string;
   name: string;
   line: string;
   inputs: InputValue[];
@@ -104,6 +103,8 @@ export interface Beside {
 }
 
 export interface Judgement {
+  /** The model's text with the keys set. */
+  text: string;
   rows: Row[];
   runs: string[];
   warnings: Warning[];
@@ -149,6 +150,8 @@ export interface Sheet {
 /** What is in a dropped record. */
 export interface Inspected {
   layout: string;
+  /** It needs no more to be a motion. */
+  plain: boolean;
   channels: {
     name: string;
     quantity: string;

@@ -60,6 +60,7 @@ for (let i = 0; i < 15; i++) {
       slider.value = String(120 + 5 * i);
       const start = performance.now();
       slider.dispatchEvent(new Event("input", { bubbles: true }));
+      while (card.classList.contains("holds")) await new Promise((done) => setTimeout(done, 0));
       while (!card.classList.contains("holds")) await new Promise((done) => setTimeout(done, 1));
       return performance.now() - start;
     }, i),
