@@ -73,6 +73,7 @@ export class Chart {
   private plot: uPlot | undefined;
   private content: Content | undefined;
   private shape = "";
+  private named = "";
   private time = 0;
 
   constructor(
@@ -111,6 +112,9 @@ export class Chart {
       this.plot.setScale("x", this.range());
     }
     const keys = [...content.lines, ...(content.overlays ?? [])];
+    const named = JSON.stringify(keys.map(({ label, colour, dash }) => [label, colour, dash]));
+    if (named === this.named) return;
+    this.named = named;
     fill(
       this.key,
       ...keys.map((line) => {
@@ -120,7 +124,6 @@ export class Chart {
       }),
       h("li", { class: "band" }, "sliding"),
     );
-    this.read(this.time);
   }
 
   zoom(range: [number, number] | null): void {
@@ -134,10 +137,9 @@ export class Chart {
     const plot = this.plot;
     if (!plot) return;
     const x = plot.valToPos(time, "x");
-    const width = plot.over.clientWidth;
+    const width = plot.bbox.width / (globalThis.devicePixelRatio || 1);
     this.marker.hidden = !(x >= 0 && x <= width);
     this.marker.style.transform = `translateX(${x}px)`;
-    this.read(time);
   }
 
   private range(): { min: number; max: number } {
@@ -147,7 +149,8 @@ export class Chart {
     return { min: times[0] ?? 0, max: times[times.length - 1] ?? 1 };
   }
 
-  private read(time: number): void {
+  /** The values at a time, in words. */
+  tell(time: number): void {
     const content = this.content;
     if (!content || content.time.length === 0) return;
     let [low, high] = [0, content.time.length - 1];

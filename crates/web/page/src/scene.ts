@@ -34,10 +34,23 @@ export function at(times: Float64Array, values: Float64Array, time: number, widt
   return step > 0 ? a + ((b - a) * Math.min(1, (time - times[knot]!) / step)) : a;
 }
 
+/** Sizes of the boxes of canvases: to ask for one at every frame would lay the page out at every frame. */
+const boxes = new WeakMap<Element, [number, number]>();
+const watcher = new ResizeObserver((entries) => {
+  for (const { target } of entries) boxes.set(target, [target.clientWidth, target.clientHeight]);
+});
+
+function box(canvas: HTMLCanvasElement): [number, number] {
+  const known = boxes.get(canvas);
+  if (known) return known;
+  watcher.observe(canvas);
+  return [canvas.clientWidth, canvas.clientHeight];
+}
+
 /** Sets the size of a canvas to that of its box; the context in units of the box. */
 export function context(canvas: HTMLCanvasElement): [CanvasRenderingContext2D, number, number] | null {
   const ratio = Math.min(3, globalThis.devicePixelRatio || 1);
-  const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+  const [width, height] = box(canvas);
   const drawing = canvas.getContext("2d");
   if (!drawing || width === 0 || height === 0) return null;
   const [w, hgt] = [Math.round(width * ratio), Math.round(height * ratio)];
@@ -279,11 +292,13 @@ export class Scene {
 
 /** Force over sliding displacement, and where it is now. */
 export class Loop {
-  private still: HTMLCanvasElement = document.createElement("canvas");
   private colours: Palette;
   private map: { x: (v: number) => number; y: (v: number) => number } | undefined;
 
-  constructor(readonly canvas: HTMLCanvasElement) {
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    private readonly dot: HTMLElement,
+  ) {
     this.colours = palette(canvas);
   }
 
@@ -350,7 +365,7 @@ export class Loop {
     c.fillText(`Force on the slider (${units.force.symbol})`, 0, 0);
     c.restore();
     c.strokeStyle = colour.stick!;
-    c.lineWidth = 1.1;
+    c.lineWidth = 1;
     c.beginPath();
     for (let i = 0; i < values.length; i++) {
       const [px, py] = [x(answer.s[i]!), y(values[i]!)];
@@ -358,28 +373,13 @@ export class Loop {
       else c.lineTo(px, py);
     }
     c.stroke();
-    this.still.width = this.canvas.width;
-    this.still.height = this.canvas.height;
-    this.still.getContext("2d")?.drawImage(this.canvas, 0, 0);
   }
 
   /** Marks one instant. */
   mark(answer: Answer, time: number): void {
-    const made = context(this.canvas);
-    if (!made || !this.map || this.still.width === 0) return;
-    const [c] = made;
+    if (!this.map) return;
     const values = answer.state.structure.springs ? answer.force : answer.friction;
-    c.save();
-    c.setTransform(1, 0, 0, 1, 0, 0);
-    c.clearRect(0, 0, this.canvas.width, this.canvas.height);
-    c.drawImage(this.still, 0, 0);
-    c.restore();
-    c.fillStyle = this.colours.slide!;
-    c.strokeStyle = this.colours.panel!;
-    c.lineWidth = 2;
-    c.beginPath();
-    c.arc(this.map.x(at(answer.time, answer.s, time)), this.map.y(at(answer.time, values, time)), 5.5, 0, 2 * Math.PI);
-    c.fill();
-    c.stroke();
+    const [x, y] = [this.map.x(at(answer.time, answer.s, time)), this.map.y(at(answer.time, values, time))];
+    this.dot.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
   }
 }

@@ -424,7 +424,7 @@ class SweepTab implements Tab {
             { ...axis, label: `${path}${symbol ? ` (${symbol})` : ""}`, labelSize: 18, size: 30 },
             { ...axis, label: unit, labelSize: 16, size: 58 },
           ],
-          series: [{}, ...lines.map(([label, stroke]) => ({ label, stroke, width: 1.7, points: { show: false } }))],
+          series: [{}, ...lines.map(([label, stroke]) => ({ label, stroke, width: 1.7, pxAlign: 0, points: { show: false } }))],
           hooks: {
             draw: [
               (plot) => {
