@@ -258,6 +258,29 @@ test("an address holds the state, and Back undoes", () =>
     await page.waitForFunction((text) => document.querySelector(".headline dd").innerText === text, changed[0]);
   }));
 
+test("an address asks for a record of one's own, by name and hash", () =>
+  on(async (page, { context }) => {
+    const own = readFileSync(join(root, "data/records/nga-west2.AT2"), "utf8");
+    await drop(page, ["own.AT2", own]);
+    await page.evaluate(() => globalThis.dropped);
+    await settled(page);
+    const shown = await headline(page);
+    await page.waitForTimeout(300);
+    const other = await context.newPage();
+    await other.goto(page.url());
+    await other.locator(".note-bar:not(.busy)").waitFor();
+    assert.match(await message(other), /motion\.record: expected the file of this record.*none named own\.AT2/);
+    await drop(other, ["own.AT2", own.replace(/1/, "2")]);
+    await other.evaluate(() => globalThis.dropped);
+    assert.match(await message(other), /own\.AT2: expected the file of the address, with the SHA-256/);
+    await drop(other, ["own.AT2", own]);
+    await other.evaluate(() => globalThis.dropped);
+    await settled(other);
+    assert.deepEqual(await headline(other), shown);
+    assert.equal(await other.locator("#model-text").inputValue(), await page.locator("#model-text").inputValue());
+    await other.close();
+  }));
+
 test("a silent worker is shown as busy and can be replaced", () =>
   on(async (page) => {
     const before = await headline(page);
