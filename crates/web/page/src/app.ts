@@ -1,16 +1,18 @@
 /** The page: state in, pictures out. It draws; the workers compute. */
 
 import { Controls } from "./controls";
-import { Desk, type Engine, Ended, ModuleError, type Wish } from "./desk";
+import { Desk, type Engine, ModuleError, type Wish } from "./desk";
 import { digits, download, drawing, fill, h } from "./dom";
 import { MODELS, RECORDS, START } from "./examples";
-import { isPlan, onMade, onRecord, type RecordChoice } from "./motion";
+import { Intake } from "./intake";
+import { onMade, onRecord, type RecordChoice } from "./motion";
 import { Chart, Clock, intervals } from "./plots";
+import * as results from "./results";
 import { Loop, type Palette, palette, Scene, type Shown } from "./scene";
-import { decode, encode, type Shared } from "./share";
+import { decode, encode } from "./share";
 import { type StudyTab, type Tab, tabs, warningList } from "./studies";
 import uplotStyle from "uplot/dist/uPlot.min.css";
-import type { Answer, Display, Drawing, Fault, Inspected, Judgement, Setting } from "./types";
+import type { Answer, Display, Drawing, Fault, Judgement, Setting } from "./types";
 
 void uplotStyle;
 
@@ -24,10 +26,6 @@ export interface Options {
   /** Told of every state at rest. */
   onstate?: (state: { model: string; summary: string }) => void;
 }
-
-/** The largest file that is read, and the most samples that are drawn. */
-const MOST_BYTES = 128 * 2 ** 20;
-const MOST_SAMPLES = 1_000_000;
 
 const SYSTEMS: [Display, string][] = [
   ["si", "SI"],
@@ -61,8 +59,8 @@ export class App {
   private judgement: Judgement | undefined;
   private shown: Shown | undefined;
   private readonly own = new Map<string, { sha256: string; choice: RecordChoice }>();
-  private wanted: Shared["records"] = [];
 
+  private readonly intake: Intake;
   private readonly clock = new Clock();
   private scene!: Scene;
   private loop!: Loop;
@@ -121,9 +119,24 @@ export class App {
     private readonly options: Options,
   ) {
     this.desk = new Desk(engine);
-    this.controls = new Controls((settings, rest) => this.set(settings, rest), this.motionBox);
+    this.controls = new Controls((settings) => this.set(settings), this.motionBox);
     this.root = h("div", { class: "slipstick" });
     host.append(this.root);
+    this.intake = new Intake({
+      desk: this.desk,
+      root: this.root,
+      own: this.own,
+      text: () => this.text,
+      setText: (text) => this.setText(text),
+      wish: () => this.wish(),
+      study: (plan) => {
+        this.study.load(plan);
+        this.select("study", true);
+        void this.study.run();
+      },
+      listRecords: () => this.listRecords(),
+      fault: (fault) => this.fault(fault),
+    });
     this.theme();
     this.layout();
     this.wire();
@@ -191,11 +204,11 @@ export class App {
       "details",
       { class: "menu" },
       h("summary", {}, "Examples"),
-      h("div", {}, ...MODELS.map(({ label, text }) => button(label, () => this.setText(text, true)))),
+      h("div", {}, ...MODELS.map(({ label, text }) => button(label, () => this.setText(text)))),
     );
     const open = h("input", { type: "file", multiple: true, class: "hidden", tabindex: -1, "aria-label": "Files" });
     open.addEventListener("change", () => {
-      void this.files([...(open.files ?? [])]);
+      void this.intake.files([...(open.files ?? [])]);
       open.value = "";
     });
     const header = h(
@@ -310,7 +323,7 @@ export class App {
       records: () => this.allRecords(),
       choice: (name) => RECORDS.find((record) => record.name === name) ?? this.own.get(name)?.choice ?? { name },
       text: () => this.text,
-      set: (settings) => this.set(settings, true),
+      set: (settings) => this.set(settings),
       say: (text) => (this.live.textContent = text),
       fault: (fault) => this.fault(fault),
     });
@@ -441,7 +454,7 @@ export class App {
       event.preventDefault();
       depth = 0;
       this.dropping.hidden = true;
-      void this.files([...(event.dataTransfer?.files ?? [])]);
+      void this.intake.files([...(event.dataTransfer?.files ?? [])]);
     });
     if (this.options.address) {
       addEventListener("popstate", () => {
@@ -470,14 +483,14 @@ export class App {
   }
 
   /** Sets values of the model; the newest value of a key counts. */
-  private set(settings: Setting[], _rest: boolean): void {
+  private set(settings: Setting[]): void {
     const keys = new Set(settings.map(([path]) => path));
     this.pending = [...this.pending.filter(([path]) => !keys.has(path)), ...settings];
     this.wish();
   }
 
   /** Takes a whole text. */
-  private setText(text: string, _rest: boolean): void {
+  private setText(text: string): void {
     this.pending = [];
     this.text = text;
     this.editor.value = text;
@@ -719,24 +732,7 @@ export class App {
 
   /** What is known of the answer that is shown. */
   private certify(): void {
-    const judged = this.judgement;
-    const say = (kind: string, lead: string, ...more: (Node | string)[]) => {
-      this.certificate.className = `certificate ${kind}`;
-      fill(this.certificate, h("strong", {}, lead), ...more);
-    };
-    if (!judged) {
-      if (this.certificate.dataset.state !== "waiting") say("", "Not yet checked", h("span", {}, "It is checked as soon as the values rest."));
-      this.certificate.dataset.state = "waiting";
-      return;
-    }
-    this.certificate.dataset.state = "judged";
-    const { holds, bound, figures, closestCall, iterations } = judged.certificate;
-    const list = h("dl", {}, ...figures.flatMap(({ name, value }) => [h("dt", {}, name), h("dd", {}, value)]));
-    if (closestCall) list.append(h("dt", {}, `Closest call (${closestCall.kind}, ${closestCall.time_s.toFixed(2)} s)`), h("dd", {}, closestCall.margin));
-    if (iterations) list.append(h("dt", {}, "Iterations a step, mean and most"), h("dd", {}, `${iterations.mean}, ${iterations.max}`));
-    if (holds === true) say("holds", "Checked: it holds", h("span", {}, `An independent integration agrees within ${bound}.`), list);
-    else if (holds === false) say("fails", "The check FAILED: do not use this response", h("span", {}, `Not every figure is within ${bound}.`), list);
-    else say("", "Stepwise: reported, not judged", h("span", {}, "The paper's method has an error of its own."), list);
+    results.certificate(this.certificate, this.judgement);
   }
 
   private judged(judgement: Judgement, wish: Wish): void {
@@ -751,8 +747,11 @@ export class App {
       if (this.third.value === "energy") this.drawThird();
       this.stale = true;
     }
-    this.drawBeside();
-    this.drawEvents();
+    results.beside(this.beside, judgement);
+    results.events(this.events, this.answer!, (time) => {
+      this.play(false);
+      this.seek(time);
+    });
   }
 
   /** Takes the text over that says what was set. */
@@ -760,44 +759,6 @@ export class App {
     if (wish.text !== this.text) return;
     this.text = text;
     if (this.editor.value !== text) this.editor.value = text;
-  }
-
-  private drawBeside(): void {
-    const { fixedBase, stepwise } = this.judgement!;
-    const table = (caption: string, heads: string[], rows: string[][]) =>
-      h(
-        "table",
-        {},
-        h("caption", { class: "hidden" }, caption),
-        h("thead", {}, h("tr", {}, ...heads.map((text, i) => h("th", { scope: "col", class: i > 0 ? "number" : "" }, text)))),
-        h("tbody", {}, ...rows.map((row) => h("tr", {}, ...row.map((text, i) => (i === 0 ? h("th", { scope: "row" }, text) : h("td", { class: "number" }, text.replace("-", "−"))))))),
-      );
-    fill(
-      this.beside,
-      stepwise?.error ? h("p", { class: "fault" }, stepwise.error) : "",
-      stepwise?.rows ? table("Stepwise beside exact", ["Displacements", "exact", "stepwise", ""], stepwise.rows.map((row) => [row.label, row.exact, row.stepwise, row.unit])) : "",
-      stepwise?.iterations ? h("p", { class: "drop-hint" }, stepwise.iterations) : "",
-      fixedBase ? table("On a fixed base", ["Structure", "fixed", "sliding", "", "ratio"], fixedBase.map((row) => [row.label, row.fixed, row.sliding, row.unit, row.ratio])) : h("p", { class: "drop-hint" }, "A block without storeys has no fixed base to compare with."),
-    );
-  }
-
-  private drawEvents(): void {
-    const { eventTimes, eventKinds } = this.answer!;
-    const names = ["slip", "stick", "reversal", "contact", "separation", "press", "leave", "impact", "rest", "surface"];
-    const most = 400;
-    const rows = [...eventTimes.subarray(0, most)].map((time, i) => {
-      const go = h("button", { type: "button" }, `${time.toFixed(4)} s`);
-      go.addEventListener("click", () => {
-        this.play(false);
-        this.seek(time);
-      });
-      return h("tr", {}, h("td", {}, go), h("td", {}, names[eventKinds[i]!] ?? ""));
-    });
-    fill(
-      this.events,
-      h("table", {}, h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "Time"), h("th", { scope: "col" }, "Event"))), h("tbody", {}, ...rows)),
-      eventTimes.length > most ? h("p", { class: "drop-hint" }, `The first ${most} of ${eventTimes.length}; the others are in events.csv.`) : "",
-    );
   }
 
   private announce(): void {
@@ -892,170 +853,12 @@ export class App {
   private chooseMotion(value: string): void {
     const name = value.startsWith("record:") ? value.slice(7) : undefined;
     if (name === undefined) {
-      this.setText(onMade(this.text, value), true);
+      this.setText(onMade(this.text, value));
       return;
     }
     const carried = RECORDS.find((record) => record.name === name);
     const choice = carried ? { name, units: carried.units, dt: carried.dt } : (this.own.get(name)?.choice ?? { name });
-    this.setText(onRecord(this.text, choice), true);
-  }
-
-  /** Files that were dropped or opened: models, plans and records. */
-  async files(files: File[]): Promise<void> {
-    let last: RecordChoice | undefined;
-    let plan: string | undefined;
-    for (const file of files) {
-      try {
-        if (file.size > MOST_BYTES) {
-          throw new ModuleError({ message: `${file.name}: expected a file of at most ${MOST_BYTES / 2 ** 20} MiB, found ${(file.size / 2 ** 20).toFixed(0)} MiB; the command slipstick reads larger ones` });
-        }
-        const bytes = new Uint8Array(await file.arrayBuffer());
-        if (/\.toml$/i.test(file.name)) {
-          let text: string;
-          try {
-            text = new TextDecoder("utf-8", { fatal: true }).decode(bytes);
-          } catch {
-            throw new ModuleError({ message: `${file.name}: expected text in UTF-8, found other bytes` });
-          }
-          if (isPlan(text)) plan = text;
-          else this.setText(text, true);
-          continue;
-        }
-        last = (await this.record(file.name, bytes)) ?? last;
-      } catch (error) {
-        if (error instanceof ModuleError) this.fault(error.fault);
-        else if (!(error instanceof Ended)) this.fault({ message: `${file.name}: ${String(error)}` });
-      }
-    }
-    this.listRecords();
-    if (plan !== undefined) {
-      this.study.load(plan);
-      this.select("study", true);
-      void this.study.run();
-    } else if (last) this.setText(onRecord(this.text, last), true);
-  }
-
-  /** Takes a record in; asks for what its file does not say. */
-  private async record(name: string, bytes: Uint8Array): Promise<RecordChoice | undefined> {
-    const { helper, records } = this.desk;
-    const before = records.get(name);
-    await this.desk.add(name, bytes);
-    const sha256 = await helper.call("hash", bytes);
-    const known = RECORDS.find((record) => record.name.endsWith(`/${name}`));
-    let choice: RecordChoice | null = null;
-    const wanted = this.wanted.find((record) => record.name === name);
-    try {
-      if (wanted && wanted.sha256 && wanted.sha256 !== sha256) {
-        throw new ModuleError({ message: `${name}: expected the file of the address, with the SHA-256 ${wanted.sha256.slice(0, 12)}…, found another of this name, ${sha256.slice(0, 12)}…` });
-      }
-      let inspected: Inspected | undefined;
-      let fault: Fault | undefined;
-      try {
-        inspected = await helper.call("inspect", name, "", "");
-      } catch (error) {
-        if (!(error instanceof ModuleError)) throw error;
-        fault = error.fault;
-      }
-      if (inspected) refuseLong(name, inspected);
-      if (wanted) {
-        choice = { name };
-      } else if (inspected?.plain) {
-        choice = { name };
-      } else if (inspected && !inspected.channels.some((channel) => channel.usable || channel.counts)) {
-        const found = [...new Set(inspected.channels.map((channel) => channel.quantity))].join(", ");
-        throw new ModuleError({ message: `${name}: expected a channel of acceleration, found ${found}` });
-      } else if (inspected || (fault && asks(fault.message))) {
-        choice = known && !inspected ? { name, units: known.units, dt: known.dt } : await this.ask(name, inspected, fault);
-      } else if (fault) throw new ModuleError(fault);
-    } finally {
-      if (!choice) {
-        if (before) records.set(name, before);
-        else records.delete(name);
-        void helper.call(before ? "add" : "remove", name, before as Uint8Array).catch(() => {});
-      }
-    }
-    if (!choice) return undefined;
-    this.own.set(name, { sha256, choice });
-    if (wanted) {
-      // The model of the address says how it is read.
-      this.wanted = this.wanted.filter((record) => record !== wanted);
-      this.wish();
-      return undefined;
-    }
-    return choice;
-  }
-
-  /** Asks for channel, units and step where the file is silent. */
-  private ask(name: string, inspected: Inspected | undefined, fault: Fault | undefined): Promise<RecordChoice | null> {
-    const units = h("input", { type: "text", name: "units", placeholder: "g", autocomplete: "off" });
-    const dt = h("input", { type: "text", name: "dt", placeholder: "0.01 s", autocomplete: "off" });
-    const channel = h("select", { name: "channel" });
-    const channelField = h("label", { class: "field" }, h("span", {}, "Channel"), channel);
-    const problem = h("p", { class: "fault", role: "alert" });
-    const what = h("p", { class: "drop-hint" });
-    const dialog = h("dialog", { "aria-labelledby": "ask-title" });
-    const choices = (inspected: Inspected | undefined) => {
-      channelField.hidden = !inspected || inspected.channels.length < 2;
-      fill(channel, ...(inspected?.channels ?? []).map((c) => h("option", { value: c.name, disabled: !c.usable && !c.counts }, `${c.name} (${c.quantity})`)));
-      const counts = inspected?.channels.every((c) => c.counts);
-      what.textContent = !inspected ? "" : counts ? `${inspected.layout}. Its values are counts of a recorder: give the value of one as their unit, such as 4.67e-6 m/s2.` : `${inspected.layout}. Which channel is the table's motion?`;
-    };
-    choices(inspected);
-    problem.textContent = fault?.message.replace(/: add (units|dt) = .*?(?=, found)/, "") ?? "";
-    const needsUnits = !inspected || inspected.channels.every((c) => !c.usable);
-    const form = h(
-      "form",
-      { method: "dialog" },
-      h("h2", { id: "ask-title" }, name),
-      what,
-      problem,
-      h("label", { class: "field" }, h("span", {}, "Units of the values"), units),
-      h("label", { class: "field" }, h("span", {}, "Time step"), dt),
-      channelField,
-      h("div", { class: "actions" }, h("button", { type: "submit", class: "main" }, "Use it"), h("button", { type: "button", onclick: () => dialog.close() }, "Leave it")),
-    );
-    (units.parentElement as HTMLElement).hidden = !needsUnits;
-    (dt.parentElement as HTMLElement).hidden = !needsUnits;
-    dialog.append(form);
-    this.root.append(dialog);
-    return new Promise((resolve) => {
-      let chosen: RecordChoice | null = null;
-      dialog.addEventListener("close", () => {
-        dialog.remove();
-        resolve(chosen);
-      });
-      form.addEventListener("submit", (event) => {
-        event.preventDefault();
-        this.desk.helper.call("inspect", name, units.value, dt.value).then(
-          (read) => {
-            try {
-              refuseLong(name, read);
-            } catch (error) {
-              problem.textContent = (error as Error).message;
-              return;
-            }
-            const usable = read.channels.filter((c) => c.usable);
-            if (usable.length === 0 || (read.channels.length > 1 && channelField.hidden)) {
-              choices(read);
-              problem.textContent = usable.length === 0 ? `${name}: expected a channel of acceleration, found ${read.channels.map((c) => c.quantity).join(", ")}` : "";
-              return;
-            }
-            chosen = {
-              name,
-              ...(units.value.trim() ? { units: units.value.trim() } : {}),
-              ...(dt.value.trim() ? { dt: dt.value.trim() } : {}),
-              ...(read.channels.length > 1 ? { channel: channel.value || usable[0]!.name } : {}),
-            };
-            dialog.close();
-          },
-          (error: unknown) => {
-            problem.textContent = error instanceof ModuleError ? error.fault.message : String(error);
-            for (const field of [units, dt]) (field.parentElement as HTMLElement).hidden = false;
-          },
-        );
-      });
-      dialog.showModal();
-    });
+    this.setText(onRecord(this.text, choice));
   }
 
   // ---- address
@@ -1094,7 +897,7 @@ export class App {
       this.system.value = shared.display;
       this.stepwise.checked = shared.stepwise;
       this.desk.stepwise = shared.stepwise;
-      this.wanted = shared.records.filter(({ name }) => !this.desk.records.has(name));
+      this.intake.wanted = shared.records.filter(({ name }) => !this.desk.records.has(name));
       this.select(shared.tab, false);
     } catch (error) {
       this.fault({ message: error instanceof Error ? error.message : String(error) });
@@ -1205,17 +1008,4 @@ export class App {
     this.desk.helper.end();
     this.root.remove();
   }
-}
-
-/** Refuses what is too long to be drawn. */
-function refuseLong(name: string, inspected: Inspected): void {
-  const most = Math.max(0, ...inspected.channels.map((channel) => channel.values));
-  if (most > MOST_SAMPLES) {
-    throw new ModuleError({ message: `${name}: expected at most ${MOST_SAMPLES} samples on the page, found ${most}; the command slipstick takes more` });
-  }
-}
-
-/** Whether a message of the reader asks for what the file does not say. */
-function asks(message: string): boolean {
-  return /\badd (units|dt) = /.test(message);
 }

@@ -78,7 +78,7 @@ class Control {
     input: InputValue,
     private readonly spec: Spec,
     label: string,
-    private readonly onset: (path: string, value: string, rest: boolean) => void,
+    private readonly onset: (path: string, value: string) => void,
   ) {
     this.input = input;
     const id = `value-${input.path.replace(/\W/g, "-")}-${++made}`;
@@ -90,14 +90,13 @@ class Control {
       const value = this.valueAt(Number(this.range.value) / 1000);
       this.paint();
       this.field.value = digits(value / (this.input.in_si ?? 1), 3).replace("−", "-");
-      this.onset(this.input.path, this.written(value), false);
+      this.onset(this.input.path, this.written(value));
     });
-    this.range.addEventListener("change", () => this.onset(this.input.path, this.written(this.valueAt(Number(this.range.value) / 1000)), true));
     this.field.addEventListener("change", () => {
       const text = this.field.value.trim().replace("−", "-").replace(/^(\d+),(\d+)$/, "$1.$2");
       const symbol = this.input.symbol ?? "";
       const bare = /^[-+]?[\d.]+(e[-+]?\d+)?$/i.test(text);
-      this.onset(this.input.path, bare && symbol ? `${text} ${symbol}` : text, true);
+      this.onset(this.input.path, bare && symbol ? `${text} ${symbol}` : text);
     });
     this.update(input);
   }
@@ -172,7 +171,7 @@ export class Controls {
   private shape = "";
 
   constructor(
-    private readonly onset: (settings: Setting[], rest: boolean) => void,
+    private readonly onset: (settings: Setting[]) => void,
     /** What is put at the head of the ground motion's group. */
     private readonly motion: HTMLElement,
   ) {}
@@ -209,7 +208,7 @@ export class Controls {
       const storey = /^storey\.(\d+)/.exec(input.path)?.[1];
       const label = storey && storeys > 1 ? `${state.structure.storeyNames[Number(storey) - 1]}: ${spec.label.toLowerCase()}` : storey && spec.label === "Mass" ? "Mass of the storey" : spec.label;
       const kept = old.get(input.path);
-      const control = kept ?? new Control(input, spec, label, (path, value, rest) => this.set(path, value, rest));
+      const control = kept ?? new Control(input, spec, label, (path, value) => this.set(path, value));
       this.controls.set(input.path, control);
       into(group, control.element);
     }
@@ -219,7 +218,7 @@ export class Controls {
       select.addEventListener("change", () => {
         const chosen = RESTORING.find(([key]) => key === select.value)!;
         const setting: Setting = select.value === "none" ? ["slider.spring", "0 N/m"] : [`slider.${chosen[0]}`, chosen[2](state)];
-        this.onset([setting], true);
+        this.onset([setting]);
       });
       const place = h("div", { class: "choice" }, h("label", { for: select.id }, "Restoring force"), select);
       const slider = groups.get("Slider") ?? [];
@@ -238,7 +237,7 @@ export class Controls {
   }
 
   /** Kinetic friction is at most the static one: the one that is moved takes the other along. */
-  private set(path: string, value: string, rest: boolean): void {
+  private set(path: string, value: string): void {
     const settings: Setting[] = [[path, value]];
     const number = Number(value);
     const other = path === "slider.kinetic_friction" ? "slider.static_friction" : path === "slider.static_friction" ? "slider.kinetic_friction" : undefined;
@@ -247,6 +246,6 @@ export class Controls {
       const passed = path === "slider.kinetic_friction" ? number > beside : number < beside;
       if (passed) settings.unshift([other, value]);
     }
-    this.onset(settings, rest);
+    this.onset(settings);
   }
 }

@@ -56,7 +56,7 @@ for (let i = 0; i < 15; i++) {
   certified.push(
     await page.evaluate(async (i) => {
       const slider = document.querySelector('input[type=range][aria-label="Kinetic friction"]');
-      const card = document.querySelector(".certificate");
+      const card = document.querySelector(".results .certificate");
       slider.value = String(120 + 5 * i);
       const start = performance.now();
       slider.dispatchEvent(new Event("input", { bubbles: true }));

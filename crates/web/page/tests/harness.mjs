@@ -80,7 +80,7 @@ export async function drop(page, ...files) {
   const plain = files.map(([name, data]) => [name, Buffer.from(data).toString("base64")]);
   await page.evaluate((plain) => {
     const made = plain.map(([name, data]) => new File([Uint8Array.from(atob(data), (c) => c.charCodeAt(0))], name));
-    globalThis.dropped = globalThis.slipstick.files(made);
+    globalThis.dropped = globalThis.slipstick.intake.files(made);
   }, plain);
 }
 

@@ -45,7 +45,7 @@ test("the first picture shows the Taft example, moving and checked", () =>
   on(async (page) => {
     const [peak] = await headline(page);
     assert.match(peak, /^6\d\.\d+\s*mm$/);
-    assert.match(await page.locator(".certificate").innerText(), /Checked: it holds/);
+    assert.match(await page.locator(".results .certificate").innerText(), /Checked: it holds/);
     const time = () => page.evaluate(() => globalThis.slipstick.time);
     const before = await time();
     await page.waitForTimeout(300);
@@ -68,7 +68,7 @@ test("a slider that is dragged is followed, and checked when it rests", () =>
     await page.mouse.down();
     for (let i = 0; i <= 30; i++) {
       await page.mouse.move(box.x + box.width * (0.17 + 0.01 * i), box.y + box.height / 2);
-      const [judged, said] = await page.evaluate(() => [!!globalThis.slipstick.judgement, document.querySelector(".certificate").textContent]);
+      const [judged, said] = await page.evaluate(() => [!!globalThis.slipstick.judgement, document.querySelector(".results .certificate").textContent]);
       assert.match(said, judged ? /^Checked/ : /^Not yet checked/);
     }
     await page.mouse.up();
@@ -81,7 +81,7 @@ test("a slider that is dragged is followed, and checked when it rests", () =>
     const [, k] = /kinetic_friction\s*=\s*([\d.]+)/.exec(text);
     assert.ok(Number(k) > 0.12 && s === k, text);
     assert.match(text, /# A building of one storey/, "comments stay");
-    assert.match(await page.locator(".certificate").innerText(), /Checked: it holds/);
+    assert.match(await page.locator(".results .certificate").innerText(), /Checked: it holds/);
   }));
 
 test("what is shown is what the text says, in every field", () =>
@@ -185,10 +185,10 @@ test("bad input is one message, and the last good state stays", () =>
     await stays("binary garbage", /noise\.bin.*expected/);
     await dropped("empty.txt", "");
     await stays("an empty file", /empty\.txt.*expected.*found/);
-    await page.evaluate(() => void (globalThis.dropped = globalThis.slipstick.files([new File([new Uint8Array(2e8)], "large.txt")])));
+    await page.evaluate(() => void (globalThis.dropped = globalThis.slipstick.intake.files([new File([new Uint8Array(2e8)], "large.txt")])));
     await page.evaluate(() => globalThis.dropped);
     await stays("200 MB", /large\.txt: expected a file of at most 128 MiB, found 191 MiB/);
-    await page.evaluate(() => void (globalThis.dropped = globalThis.slipstick.files([new File(["0.1\n".repeat(1e7)], "long.txt")])));
+    await page.evaluate(() => void (globalThis.dropped = globalThis.slipstick.intake.files([new File(["0.1\n".repeat(1e7)], "long.txt")])));
     const dialog = page.locator("dialog");
     await dialog.waitFor({ timeout: 30000 });
     await dialog.locator("input[name=units]").fill("g");

@@ -1,0 +1,201 @@
+/** Files that come in: models, plans, records, and what has to be asked of them. */
+
+import { type Desk, Ended, ModuleError } from "./desk";
+import { fill, h } from "./dom";
+import { RECORDS } from "./examples";
+import { isPlan, onRecord, type RecordChoice } from "./motion";
+import type { Shared } from "./share";
+import type { Fault, Inspected } from "./types";
+
+/** The largest file that is read, and the most samples that are drawn. */
+const MOST_BYTES = 128 * 2 ** 20;
+const MOST_SAMPLES = 1_000_000;
+
+/** What the intake needs of the page. */
+export interface Taking {
+  desk: Desk;
+  root: HTMLElement;
+  /** Records of the person's own, with what was said of them. */
+  own: Map<string, { sha256: string; choice: RecordChoice }>;
+  text: () => string;
+  setText: (text: string) => void;
+  wish: () => void;
+  study: (plan: string) => void;
+  listRecords: () => void;
+  fault: (fault: Fault) => void;
+}
+
+export class Intake {
+  /** Records that the address names and that are not here. */
+  wanted: Shared["records"] = [];
+
+  constructor(private readonly page: Taking) {}
+
+  /** Files that were dropped or opened: models, plans and records. */
+  async files(files: File[]): Promise<void> {
+    let last: RecordChoice | undefined;
+    let plan: string | undefined;
+    for (const file of files) {
+      try {
+        if (file.size > MOST_BYTES) {
+          throw new ModuleError({ message: `${file.name}: expected a file of at most ${MOST_BYTES / 2 ** 20} MiB, found ${(file.size / 2 ** 20).toFixed(0)} MiB; the command slipstick reads larger ones` });
+        }
+        const bytes = new Uint8Array(await file.arrayBuffer());
+        if (/\.toml$/i.test(file.name)) {
+          let text: string;
+          try {
+            text = new TextDecoder("utf-8", { fatal: true }).decode(bytes);
+          } catch {
+            throw new ModuleError({ message: `${file.name}: expected text in UTF-8, found other bytes` });
+          }
+          if (isPlan(text)) plan = text;
+          else this.page.setText(text);
+          continue;
+        }
+        last = (await this.record(file.name, bytes)) ?? last;
+      } catch (error) {
+        if (error instanceof ModuleError) this.page.fault(error.fault);
+        else if (!(error instanceof Ended)) this.page.fault({ message: `${file.name}: ${String(error)}` });
+      }
+    }
+    this.page.listRecords();
+    if (plan !== undefined) this.page.study(plan);
+    else if (last) this.page.setText(onRecord(this.page.text(), last));
+  }
+
+  /** Takes a record in; asks for what its file does not say. */
+  private async record(name: string, bytes: Uint8Array): Promise<RecordChoice | undefined> {
+    const { helper, records } = this.page.desk;
+    const before = records.get(name);
+    await this.page.desk.add(name, bytes);
+    const sha256 = await helper.call("hash", bytes);
+    const known = RECORDS.find((record) => record.name.endsWith(`/${name}`));
+    let choice: RecordChoice | null = null;
+    const wanted = this.wanted.find((record) => record.name === name);
+    try {
+      if (wanted && wanted.sha256 && wanted.sha256 !== sha256) {
+        throw new ModuleError({ message: `${name}: expected the file of the address, with the SHA-256 ${wanted.sha256.slice(0, 12)}…, found another of this name, ${sha256.slice(0, 12)}…` });
+      }
+      let inspected: Inspected | undefined;
+      let fault: Fault | undefined;
+      try {
+        inspected = await helper.call("inspect", name, "", "");
+      } catch (error) {
+        if (!(error instanceof ModuleError)) throw error;
+        fault = error.fault;
+      }
+      if (inspected) refuseLong(name, inspected);
+      if (wanted) {
+        choice = { name };
+      } else if (inspected?.plain) {
+        choice = { name };
+      } else if (inspected && !inspected.channels.some((channel) => channel.usable || channel.counts)) {
+        const found = [...new Set(inspected.channels.map((channel) => channel.quantity))].join(", ");
+        throw new ModuleError({ message: `${name}: expected a channel of acceleration, found ${found}` });
+      } else if (inspected || (fault && asks(fault.message))) {
+        choice = known && !inspected ? { name, units: known.units, dt: known.dt } : await this.ask(name, inspected, fault);
+      } else if (fault) throw new ModuleError(fault);
+    } finally {
+      if (!choice) {
+        if (before) records.set(name, before);
+        else records.delete(name);
+        void helper.call(before ? "add" : "remove", name, before as Uint8Array).catch(() => {});
+      }
+    }
+    if (!choice) return undefined;
+    this.page.own.set(name, { sha256, choice });
+    if (wanted) {
+      // The model of the address says how it is read.
+      this.wanted = this.wanted.filter((record) => record !== wanted);
+      this.page.wish();
+      return undefined;
+    }
+    return choice;
+  }
+
+  /** Asks for channel, units and step where the file is silent. */
+  private ask(name: string, inspected: Inspected | undefined, fault: Fault | undefined): Promise<RecordChoice | null> {
+    const units = h("input", { type: "text", name: "units", placeholder: "g", autocomplete: "off" });
+    const dt = h("input", { type: "text", name: "dt", placeholder: "0.01 s", autocomplete: "off" });
+    const channel = h("select", { name: "channel" });
+    const channelField = h("label", { class: "field" }, h("span", {}, "Channel"), channel);
+    const problem = h("p", { class: "fault", role: "alert" });
+    const what = h("p", { class: "drop-hint" });
+    const dialog = h("dialog", { "aria-labelledby": "ask-title" });
+    const choices = (inspected: Inspected | undefined) => {
+      channelField.hidden = !inspected || inspected.channels.length < 2;
+      fill(channel, ...(inspected?.channels ?? []).map((c) => h("option", { value: c.name, disabled: !c.usable && !c.counts }, `${c.name} (${c.quantity})`)));
+      const counts = inspected?.channels.every((c) => c.counts);
+      what.textContent = !inspected ? "" : counts ? `${inspected.layout}. Its values are counts of a recorder: give the value of one as their unit, such as 4.67e-6 m/s2.` : `${inspected.layout}. Which channel is the table's motion?`;
+    };
+    choices(inspected);
+    problem.textContent = fault?.message.replace(/: add (units|dt) = .*?(?=, found)/, "") ?? "";
+    const needsUnits = !inspected || inspected.channels.every((c) => !c.usable);
+    const form = h(
+      "form",
+      { method: "dialog" },
+      h("h2", { id: "ask-title" }, name),
+      what,
+      problem,
+      h("label", { class: "field" }, h("span", {}, "Units of the values"), units),
+      h("label", { class: "field" }, h("span", {}, "Time step"), dt),
+      channelField,
+      h("div", { class: "actions" }, h("button", { type: "submit", class: "main" }, "Use it"), h("button", { type: "button", onclick: () => dialog.close() }, "Leave it")),
+    );
+    (units.parentElement as HTMLElement).hidden = !needsUnits;
+    (dt.parentElement as HTMLElement).hidden = !needsUnits;
+    dialog.append(form);
+    this.page.root.append(dialog);
+    return new Promise((resolve) => {
+      let chosen: RecordChoice | null = null;
+      dialog.addEventListener("close", () => {
+        dialog.remove();
+        resolve(chosen);
+      });
+      form.addEventListener("submit", (event) => {
+        event.preventDefault();
+        this.page.desk.helper.call("inspect", name, units.value, dt.value).then(
+          (read) => {
+            try {
+              refuseLong(name, read);
+            } catch (error) {
+              problem.textContent = (error as Error).message;
+              return;
+            }
+            const usable = read.channels.filter((c) => c.usable);
+            if (usable.length === 0 || (read.channels.length > 1 && channelField.hidden)) {
+              choices(read);
+              problem.textContent = usable.length === 0 ? `${name}: expected a channel of acceleration, found ${read.channels.map((c) => c.quantity).join(", ")}` : "";
+              return;
+            }
+            chosen = {
+              name,
+              ...(units.value.trim() ? { units: units.value.trim() } : {}),
+              ...(dt.value.trim() ? { dt: dt.value.trim() } : {}),
+              ...(read.channels.length > 1 ? { channel: channel.value || usable[0]!.name } : {}),
+            };
+            dialog.close();
+          },
+          (error: unknown) => {
+            problem.textContent = error instanceof ModuleError ? error.fault.message : String(error);
+            for (const field of [units, dt]) (field.parentElement as HTMLElement).hidden = false;
+          },
+        );
+      });
+      dialog.showModal();
+    });
+  }
+}
+
+/** Refuses what is too long to be drawn. */
+function refuseLong(name: string, inspected: Inspected): void {
+  const most = Math.max(0, ...inspected.channels.map((channel) => channel.values));
+  if (most > MOST_SAMPLES) {
+    throw new ModuleError({ message: `${name}: expected at most ${MOST_SAMPLES} samples on the page, found ${most}; the command slipstick takes more` });
+  }
+}
+
+/** Whether a message of the reader asks for what the file does not say. */
+function asks(message: string): boolean {
+  return /\badd (units|dt) = /.test(message);
+}
