@@ -8,13 +8,13 @@ impl History {
     /// rises with the sliding displacement, as a data sheet draws it.
     #[must_use]
     pub fn slider_force_n(&self, model: &Model, knot: usize) -> f64 {
-        // −(M₁ (Ẍ₁ + g sinθ) + Σ mᵢ (Ẍᵢ + g sinθ))
+        // −(M₁ (Ẍ₁ + g sinθ) + Σ mᵢ (Ẍᵢ + g sinθ)) over block, floors and contents
         let floors = model.frame().masses_kg.iter().zip(self.storey_accelerations(knot));
+        let contents = model.devices().contents.iter().enumerate();
         let inertia = model.block().mass_kg * self.block_acceleration_m_per_s2[knot]
-            + floors.map(|(m, a)| m * a).sum::<f64>();
-        let tilt_n =
-            model.total_mass_kg() * model.gravity_m_per_s2() * libm::sin(model.slider().tilt_rad);
-        -(inertia + tilt_n)
+            + floors.map(|(m, a)| m * a).sum::<f64>()
+            + contents.map(|(i, c)| c.mass_kg * self.contents_state(knot, i)[2]).sum::<f64>();
+        -(inertia + model.total_mass_kg() * model.slope_m_per_s2())
     }
 
     /// Names and values of all columns at some knots: time, table acceleration, sliding displacement
