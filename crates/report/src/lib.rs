@@ -45,6 +45,7 @@ pub mod json;
 pub mod laboratory;
 pub mod markup;
 pub mod number;
+pub mod opensees;
 pub mod peaks;
 pub mod plot;
 pub mod records;
