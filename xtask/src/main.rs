@@ -41,6 +41,11 @@ Usage: cargo xtask TASK
   bench-records [--quick] [--write]
                                  times reading and response spectra beside NumPy, ObsPy, eqsig
                                  and pyrotd (--write: into book/src/generated/records.md)
+  bench-python [--quick] [--write]
+                                 times the Python package beside the command, its import, its tables
+                                 and a cluster of Dask (--write: into book/src/generated/python.md)
+  python-docs [--write]          compares the book's reference of the Python package with its
+                                 docstrings (--write: writes it; needs python3)
   readers                        reads the parts of a study in pandas, Polars and DuckDB
                                  (needs python3; makes .venv)
   web [--serve]                  the page, into target/web: a folder for any static host, and
@@ -71,6 +76,8 @@ fn main() -> ExitCode {
         ["bench-peers", options @ ..] => peers::bench_peers(options),
         ["bench-storeys", options @ ..] => peers::bench_storeys(options),
         ["bench-study", options @ ..] => peers::bench_study(options),
+        ["bench-python", options @ ..] => peers::bench_python(options),
+        ["python-docs", options @ ..] => python::docs(options),
         ["readers"] => peers::readers(),
         ["bench-records", options @ ..] => peers::bench_records(options),
         ["web", options @ ..] => web::web(options),

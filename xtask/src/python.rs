@@ -1,8 +1,75 @@
-//! Python environments of the tasks that need one.
+//! Python environments of the tasks that need one, and the package in its own.
 
-use crate::shell;
+use crate::shell::{self, Outcome};
 use std::path::{Path, PathBuf};
-use std::process::Stdio;
+use std::process::{Command, Stdio};
+
+/// Where the package is.
+pub const PACKAGE: &str = "crates/python";
+/// The page of the book that comes from its docstrings.
+const REFERENCE: &str = "book/src/python-reference.md";
+
+/// The environment in which the package is built and tested.
+pub struct Package {
+    folder: PathBuf,
+    python: PathBuf,
+}
+
+impl Package {
+    /// The environment with all that tests need, without the package.
+    ///
+    /// # Errors
+    /// What this machine lacks.
+    pub fn environment() -> Result<Self, String> {
+        let folder = shell::target_folder()?.join("python");
+        let requirements = format!("{PACKAGE}/tests/requirements.txt");
+        let python = environment(&folder.to_string_lossy(), &requirements)?;
+        Ok(Self { folder, python })
+    }
+
+    /// Python of the environment.
+    pub fn python(&self) -> &Path {
+        &self.python
+    }
+
+    /// Python of the environment with these arguments (words, separated by spaces).
+    pub fn command(&self, arguments: &str) -> Command {
+        let mut command = shell::command(&self.python);
+        command.args(arguments.split_whitespace()).env("VIRTUAL_ENV", &self.folder);
+        command
+    }
+
+    /// Builds the package with a profile of cargo into the environment.
+    pub fn build(&self, profile: &str) -> Outcome {
+        let mut maturin = self.command("-m maturin develop --quiet --profile");
+        let manifest = format!("{PACKAGE}/Cargo.toml");
+        shell::run(maturin.arg(profile).arg("--manifest-path").arg(manifest))
+    }
+
+    /// Compares the book's reference with the docstrings, or writes it.
+    pub fn reference(&self, write: bool) -> Outcome {
+        let page = shell::output(self.command("").arg(format!("{PACKAGE}/docs.py")))?;
+        let path = shell::root().join(REFERENCE);
+        if write {
+            return shell::write(&path, &page);
+        }
+        let current = std::fs::read_to_string(&path).is_ok_and(|text| text == page);
+        let stale = || format!("{REFERENCE} is not what the docstrings say: python-docs --write");
+        current.then_some(()).ok_or_else(stale)
+    }
+}
+
+/// `cargo xtask python-docs`: the page of the book from the docstrings of the package.
+pub fn docs(options: &[&str]) -> Outcome {
+    let write = match options {
+        [] => false,
+        ["--write"] => true,
+        _ => return Err(format!("python-docs: expected --write, found {}", options.join(" "))),
+    };
+    let package = Package::environment()?;
+    package.build("dev")?;
+    package.reference(write)
+}
 
 /// A Python that is new enough and can make environments.
 fn program() -> Option<&'static str> {

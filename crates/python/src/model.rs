@@ -5,13 +5,39 @@ use std::path::{Path, PathBuf};
 
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString};
+use slipstick::assessment::single::Job;
 use slipstick::error::InputError;
 use slipstick::input::{self, Analysis, InputValue, Override};
+use slipstick::units::Dimension;
 use slipstick_files::read_at_most;
+use slipstick_report::opensees::script;
 
-use crate::errors::{of_argument, of_file, of_input};
+use crate::errors::{of_argument, of_choice, of_file, of_input};
+use crate::motion::{Motion, quantity};
 
 /// A checked model: block, slider, storeys, perhaps its own motion and the method.
+///
+/// Models do not change; they compare by their keys, hash and pickle.
+///
+/// Parameters
+/// ----------
+/// values
+///     Keys of the model file with their values, nested or as paths: ``{"block": {"mass": "325 kg"}}``,
+///     ``{"block.mass": "325 kg"}``. A value with a dimension is text with its unit, or a quantity of pint.
+///
+/// Raises
+/// ------
+/// InputError
+///     For a key that no model has, a value of another kind or unit, a key that is missing or excludes
+///     another.
+///
+/// Examples
+/// --------
+/// >>> import slipstick as ss
+/// >>> model = ss.Model({"block.mass": "325 kg", "slider.static_friction": 0.06,
+/// ...                   "slider.kinetic_friction": 0.05, "slider.radius": "2 m"})
+/// >>> model.value("slider.radius")
+/// 2.0
 #[pyclass(module = "slipstick._core", frozen, from_py_object)]
 #[derive(Clone, Debug)]
 pub struct Model {
@@ -118,7 +144,6 @@ fn flattened(
 
 #[pymethods]
 impl Model {
-    /// A model from the values of its keys.
     #[new]
     fn new(values: &Bound<'_, PyDict>) -> PyResult<Self> {
         let mut given = Vec::new();
@@ -130,7 +155,19 @@ impl Model {
         Ok(Self { analysis, source: String::new(), text })
     }
 
-    /// Reads a model file.
+    /// Read a model file.
+    ///
+    /// Parameters
+    /// ----------
+    /// path
+    ///     The file, TOML. Records in it are looked for beside it.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     With line and column of the fault.
+    /// OSError
+    ///     For a file that cannot be read: ``FileNotFoundError`` and its kin.
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let limit = input::MAX_TEXT_BYTES as u64;
@@ -141,7 +178,19 @@ impl Model {
         Ok(Self { analysis, source, text: String::from_utf8_lossy(&bytes).into_owned() })
     }
 
-    /// A model from the text of a model file.
+    /// Make a model from the text of a model file.
+    ///
+    /// Parameters
+    /// ----------
+    /// text
+    ///     TOML.
+    /// source
+    ///     What errors call it; its folder is where records are looked for.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     With line and column of the fault.
     #[staticmethod]
     #[pyo3(signature = (text, source = "model.toml"))]
     fn from_toml(py: Python<'_>, text: &str, source: &str) -> PyResult<Self> {
@@ -149,7 +198,27 @@ impl Model {
         Ok(Self { analysis, source: source.to_owned(), text: text.to_owned() })
     }
 
-    /// The same model with other values of some keys.
+    /// Give the same model with other values of some keys.
+    ///
+    /// Setting one of two keys that exclude each other removes the other.
+    ///
+    /// Parameters
+    /// ----------
+    /// values
+    ///     Keys with their values, as for a new model; storeys count from 1.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For what makes no model.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import slipstick as ss
+    /// >>> model = ss.Model({"block.mass": "1 t", "slider.static_friction": 0.1,
+    /// ...                   "slider.kinetic_friction": 0.08})
+    /// >>> model.with_({"slider.kinetic_friction": 0.05}).value("slider.kinetic_friction")
+    /// 0.05
     fn with_(&self, values: &Bound<'_, PyDict>) -> PyResult<Self> {
         let mut given = Vec::new();
         flattened("", values, &mut given)?;
@@ -189,9 +258,59 @@ impl Model {
         Ok(values)
     }
 
-    /// The value at a path in SI, where one is written.
+    /// Give the value at a path in SI; None where none is written.
+    ///
+    /// Parameters
+    /// ----------
+    /// path
+    ///     Such as ``"slider.radius"`` or ``"storey.1.mass"``.
     fn value(&self, path: &str) -> Option<f64> {
         self.analysis.value(path)
+    }
+
+    /// Write the model on a motion as a script for OpenSeesPy.
+    ///
+    /// Stick becomes an elastic spring, as programs in use today have it. Run as a program the script prints
+    /// peak and residual sliding displacement; its function ``analyse`` returns times and displacements.
+    ///
+    /// Parameters
+    /// ----------
+    /// motion
+    ///     The motion; the model's tail is added.
+    /// k_init
+    ///     Stiffness of that spring with its unit, ``"10 kN/mm"``: a number that physics does not have.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    ///     The script, for 0, 1 or more storeys, spring or pendulum, and damper.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For what such a script cannot express: static above kinetic friction, friction by speed, surfaces in
+    ///     series, stops, contents, a tilt, an initial state, vertical motion.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import slipstick as ss
+    /// >>> model = ss.Model({"block.mass": "1 t", "slider.static_friction": 0.1,
+    /// ...                   "slider.kinetic_friction": 0.1})
+    /// >>> script = model.to_opensees(ss.Motion([0.0, 0.3, 0.0], dt=0.5, units="g"), "10 kN/mm")
+    /// >>> "ElasticPP" in script
+    /// True
+    fn to_opensees(
+        &self,
+        py: Python<'_>,
+        motion: &Motion,
+        k_init: &Bound<'_, PyAny>,
+    ) -> PyResult<String> {
+        let k_init = quantity("k_init", k_init, Dimension::Stiffness, false)?;
+        let loaded = &motion.0;
+        let job = Job::new(self.analysis.clone(), loaded.motion.clone(), Vec::new());
+        let job = job.map_err(|error| of_input(py, &error))?;
+        script(&self.title(), &self.analysis.model, &job.motion, k_init)
+            .map_err(|e| of_choice(py, &e.what, &e.expected, &e.found, None))
     }
 
     fn __eq__(&self, other: &Self) -> bool {

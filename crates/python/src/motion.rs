@@ -1,6 +1,8 @@
 //! `Motion`.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
 
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -9,18 +11,51 @@ use slipstick::error::MotionError;
 use slipstick::input::loaded::Loaded;
 use slipstick::motion::GroundMotion;
 use slipstick::record::Units;
+use slipstick::response::Warning;
 use slipstick::units::{Dimension, parse_quantity, parse_unit};
 use slipstick_files::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
 
 use crate::errors::{of_argument, of_file, of_motion, of_unit};
 
 /// A ground motion, linear between its samples.
+///
+/// Motions do not change; they compare by their samples and pickle.
+///
+/// Parameters
+/// ----------
+/// acceleration
+///     Accelerations of the table, positive towards +x; real numbers in one dimension.
+/// dt
+///     Time step, in s or with its unit.
+/// times_s
+///     In place of it the times in s, as many as there are values, not necessarily evenly spaced; a repeated
+///     time is a jump.
+/// units
+///     Units of the values, such as ``"g"`` or ``"m/s2"``.
+/// vertical
+///     Vertical accelerations at the same times, positive upwards.
+///
+/// Raises
+/// ------
+/// InputError
+///     For an array of another type or shape, units that are none, neither or both of ``dt`` and ``times_s``.
+/// RecordError
+///     For values that are not finite, or times that do not increase.
+///
+/// Examples
+/// --------
+/// >>> import slipstick as ss
+/// >>> motion = ss.Motion([0.0, 0.2, -0.1, 0.0], dt=0.5, units="g")
+/// >>> motion.duration_s, len(motion)
+/// (1.5, 4)
+/// >>> round(motion.scaled(pga="0.3 g").pga_m_per_s2, 3)
+/// 2.942
 #[pyclass(module = "slipstick._core", frozen, from_py_object)]
 #[derive(Clone, Debug)]
 pub struct Motion(pub(crate) LoadedMotion);
 
 /// A quantity with its unit; a plain number where the unit is known.
-fn quantity(
+pub(crate) fn quantity(
     name: &str,
     value: &Bound<'_, PyAny>,
     dimension: Dimension,
@@ -82,7 +117,6 @@ impl Motion {
 
 #[pymethods]
 impl Motion {
-    /// A motion from samples of acceleration.
     #[new]
     #[pyo3(signature = (acceleration, *, dt = None, times_s = None, units, vertical = None))]
     fn new(
@@ -127,7 +161,7 @@ impl Motion {
         Ok(Self(made(motion.map_err(|error| of_motion(py, &error))?)))
     }
 
-    /// Reads a record.
+    /// Read a record; ``slipstick.read_record`` has the same arguments.
     #[staticmethod]
     #[pyo3(signature = (path, *, channel = None, units = None, dt = None, vertical = None))]
     fn read(
@@ -152,7 +186,14 @@ impl Motion {
         loaded.map(Self).map_err(|error| of_file(py, &error))
     }
 
-    /// The motion of a trace of ObsPy.
+    /// Take the motion of a trace of ObsPy.
+    ///
+    /// Parameters
+    /// ----------
+    /// trace
+    ///     An object with ``data`` and ``stats.delta``.
+    /// units
+    ///     Units of its values.
     #[staticmethod]
     #[pyo3(signature = (trace, *, units))]
     fn from_obspy(trace: &Bound<'_, PyAny>, units: &str) -> PyResult<Self> {
@@ -160,7 +201,14 @@ impl Motion {
         Self::new(trace.py(), &trace.getattr("data")?, Some(&dt), None, units, None)
     }
 
-    /// The motion of an acceleration signal of eqsig, whose values are in m/s² unless told otherwise.
+    /// Take the motion of an acceleration signal of eqsig.
+    ///
+    /// Parameters
+    /// ----------
+    /// signal
+    ///     An object with ``values`` and ``dt``.
+    /// units
+    ///     Units of its values.
     #[staticmethod]
     #[pyo3(signature = (signal, *, units = "m/s2"))]
     fn from_eqsig(signal: &Bound<'_, PyAny>, units: &str) -> PyResult<Self> {
@@ -168,7 +216,21 @@ impl Motion {
         Self::new(signal.py(), &signal.getattr("values")?, Some(&dt), None, units, None)
     }
 
-    /// The motion times a factor, or scaled to a peak.
+    /// Scale the motion, its vertical component with it.
+    ///
+    /// Parameters
+    /// ----------
+    /// factor
+    ///     What it is multiplied with; may be negative.
+    /// pga
+    ///     In place of it the peak that the horizontal component is to have, with its unit: ``"0.3 g"``.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For a peak without its unit, and for neither or both.
+    /// RecordError
+    ///     For a motion of zeros that is to have a peak.
     #[pyo3(signature = (factor = None, *, pga = None))]
     fn scaled(
         &self,
@@ -258,6 +320,11 @@ impl Motion {
             array(samples.horizontal_m_per_s2()),
             samples.vertical_m_per_s2().map(array),
             motion.description.clone(),
+            motion
+                .warnings
+                .iter()
+                .map(|w| (w.kind.to_owned(), w.time_s, w.message.clone()))
+                .collect(),
         );
         Ok((make, parts))
     }
@@ -269,13 +336,20 @@ impl Motion {
         horizontal: &Bound<'_, PyAny>,
         vertical: Option<&Bound<'_, PyAny>>,
         description: Vec<String>,
+        warnings: Vec<(String, Option<f64>, String)>,
     ) -> PyResult<Self> {
         let vertical = vertical.map(|values| samples("vertical", values)).transpose()?;
         let (times_s, horizontal) =
             (samples("times_s", times_s)?, samples("acceleration", horizontal)?);
         let motion = GroundMotion::new(times_s, horizontal, vertical);
         let motion = made(motion.map_err(|error| of_motion(py, &error))?);
-        let loaded = Loaded { description, ..motion.loaded };
+        let warning = |(kind, time_s, message): (String, Option<f64>, String)| Warning {
+            kind: kept(&kind),
+            time_s,
+            message,
+        };
+        let warnings = warnings.into_iter().map(warning).collect();
+        let loaded = Loaded { description, warnings, ..motion.loaded };
         Ok(Self(LoadedMotion { loaded, ..motion }))
     }
 }
@@ -286,4 +360,17 @@ type Pickled<'py> = (
     Bound<'py, PyArray1<f64>>,
     Option<Bound<'py, PyArray1<f64>>>,
     Vec<String>,
+    Vec<(String, Option<f64>, String)>,
 );
+
+/// The name of a kind of warning for as long as the program runs, as those of the core are.
+fn kept(kind: &str) -> &'static str {
+    static KINDS: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
+    let mut kinds = KINDS.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = kinds.get(kind) {
+        return known;
+    }
+    let new: &'static str = Box::leak(kind.to_owned().into_boxed_str());
+    kinds.insert(new);
+    new
+}

@@ -34,8 +34,7 @@ pub(crate) fn run(
             }
         };
         let (outcome, summary) = job.run(floor_spectra)?;
-        let toml = model.analysis.to_toml_with_motion();
-        Ok(Response { job, outcome, summary, toml })
+        Ok(Response { job, outcome, summary })
     };
     py.detach(work).map_err(|error| of_job(py, &error))
 }
@@ -60,7 +59,6 @@ pub struct Response {
     job: OpenJob,
     outcome: Outcome,
     summary: Summary,
-    toml: String,
 }
 
 impl Response {
@@ -101,6 +99,22 @@ impl Response {
         modes.iter().step_by(width).map(|mode| mode.sign()).collect::<Vec<_>>().into_pyarray(py)
     }
 
+    /// Force of the whole slider at the knots in N, rising with the displacement.
+    fn _slider_force<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        let model = &self.job.job.analysis.model;
+        let history = self.response_history();
+        let force = |history: &History| {
+            (0..history.len()).map(|knot| history.slider_force_n(model, knot)).collect()
+        };
+        history.map_or_else(Vec::new, force).into_pyarray(py)
+    }
+
+    /// The motion as it was read, without a tail.
+    #[getter]
+    fn motion(&self) -> Motion {
+        Motion(self.job.loaded.clone())
+    }
+
     /// Energies at the knots in J.
     fn _energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let energy = &self.outcome.nominal.certificate.energy;
@@ -139,7 +153,8 @@ impl Response {
         let display = display_units(py, units)?;
         let (outcome, loaded) = (&self.outcome, &self.job.loaded);
         let record = loaded.description.join("; ");
-        let inputs = [InputText { path: &self.job.name, text: &self.toml }];
+        let toml = self.job.job.analysis.to_toml_with_motion();
+        let inputs = [InputText { path: &self.job.name, text: &toml }];
         let paths: Vec<String> =
             loaded.sources.iter().map(|file| Path::display(&file.path).to_string()).collect();
         let files: Vec<FileNote<'_>> = loaded

@@ -14,7 +14,20 @@ use pyo3::types::{PyCapsule, PyDict, PyList};
 use slipstick::table::{self, Cells, Column};
 use slipstick_files::to_csv;
 
-/// Named columns of equal length.
+/// Named columns of equal length; pandas, Polars, DuckDB and PyArrow take it as it is.
+///
+/// It is a stream of Arrow's C interface, with units in the metadata of its fields. ``table["name"]`` is an
+/// array of doubles where a column holds numbers, NaN where there is none, else a list; ``len(table)`` the
+/// number of rows. Tables compare and pickle.
+///
+/// Examples
+/// --------
+/// >>> import slipstick as ss
+/// >>> model = ss.Model({"block.mass": "1 t", "slider.static_friction": 0.1, "slider.kinetic_friction": 0.1})
+/// >>> motion = ss.Motion([0.0, 0.3, 0.0], dt=0.5, units="g")
+/// >>> table = ss.study(ss.Plan(model, {"pulse": motion}, scale=[1.0, 2.0])).table
+/// >>> len(table), table.units["peak_sliding_displacement_m"]
+/// (2, 'm')
 #[pyclass(module = "slipstick._core", frozen)]
 pub struct Table(pub(crate) table::Table);
 
@@ -84,7 +97,7 @@ impl Table {
         })
     }
 
-    /// The table as CSV.
+    /// Write the table as the text of a CSV file.
     fn to_csv(&self) -> String {
         to_csv(&self.0)
     }

@@ -431,3 +431,37 @@ def test_pint_passes() -> None:
     unit = pint.UnitRegistry()
     model = block().with_({"slider.radius": 2.0 * unit.m, "block.mass": 300 * unit.kg})
     assert model.value("slider.radius") == 2.0 and model.value("block.mass") == 300.0
+
+
+def test_examples_of_the_extension_run() -> None:
+    import doctest
+
+    import slipstick._core as core
+
+    objects = [core.Model, core.Motion, core.Table]
+    methods = [getattr(core.Model, name) for name in ["with_", "to_opensees"]]
+    finder, runner = doctest.DocTestFinder(recurse=False), doctest.DocTestRunner()
+    for at in [*objects, *methods]:
+        for test in finder.find(at, at.__name__, module=False, globs={}):
+            runner.run(test)
+    assert runner.summarize().failed == 0 and runner.tries >= 10
+
+
+def test_responses_and_studies_pickle(tmp_path: Path) -> None:
+    response = ss.run(ss.Model.read(EXAMPLES / "taft.toml"))
+    back = pickle.loads(pickle.dumps(response))
+    assert back == response and hash(back) == hash(response)
+    assert back._core._summary_json() == response._core._summary_json()
+    assert back != ss.run(response.model, response.motion.scaled(0.5))
+    study = ss.study(plan(tmp_path))
+    assert pickle.loads(pickle.dumps(study)) == study
+
+
+def test_the_loop_is_that_of_the_whole_slider() -> None:
+    response = ss.run(ss.Model.read(EXAMPLES / "taft.toml"))
+    force, knots = response.slider_force_n, response.knots
+    spring = 526 * 9.80665 / 2.0 * knots["sliding_displacement_m"]
+    assert np.allclose(force, spring - knots["friction_force_n"], atol=1e-9 * np.abs(force).max())
+    assert np.abs(force).max() == pytest.approx(response.summary["peak_slider_force_n"], rel=1e-6)
+    with pytest.raises(ValueError, match="read-only"):
+        force[0] = 1.0

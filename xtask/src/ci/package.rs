@@ -1,27 +1,17 @@
 //! The step of the Python package: built, tested, its types checked.
 
 use super::{Problem, Tally};
-use crate::python::environment;
+use crate::python::{PACKAGE, Package};
 use crate::shell;
 use std::path::Path;
 
-const PACKAGE: &str = "crates/python";
-
-/// Builds the package into an environment of its own and runs pytest, the examples of its docstrings,
-/// mypy and stubtest.
+/// Builds the package into an environment of its own and runs pytest, the examples of its docstrings, the
+/// notebooks, mypy and stubtest; compares the book's reference with the docstrings.
 pub fn python(tally: &mut Tally) -> Result<(), Problem> {
-    let folder = shell::target_folder()?.join("python");
-    let requirements = format!("{PACKAGE}/tests/requirements.txt");
-    let python = environment(&folder.to_string_lossy(), &requirements).map_err(Problem::NotRun)?;
-    let at = |program: &str| {
-        let mut command = shell::command(&python);
-        command.args(program.split_whitespace()).env("VIRTUAL_ENV", &folder);
-        command
-    };
-    let manifest = format!("{PACKAGE}/Cargo.toml");
-    shell::run(at("-m maturin develop --quiet --profile dev --manifest-path").arg(manifest))?;
+    let package = Package::environment().map_err(Problem::NotRun)?;
+    package.build("dev")?;
     let command = super::steps::tested("slipstick")?;
-    let mut pytest = at("-m pytest -q --no-header --tb=short --doctest-modules");
+    let mut pytest = package.command("-m pytest -q --no-header --tb=short --doctest-modules");
     pytest.args([format!("{PACKAGE}/tests"), format!("{PACKAGE}/python")]);
     pytest.env("SLIPSTICK_COMMAND", command).env("SLIPSTICK_ROOT", shell::root());
     let ended = pytest.output().map_err(|error| Problem::Failed(format!("pytest: {error}")))?;
@@ -37,8 +27,10 @@ pub fn python(tally: &mut Tally) -> Result<(), Problem> {
     println!("  {}", text.lines().last().unwrap_or_default());
     let types = Path::new(PACKAGE).join("python/slipstick");
     let config = format!("{PACKAGE}/pyproject.toml");
-    shell::run(at("-m mypy --no-error-summary --config-file").arg(&config).arg(types))?;
-    Ok(shell::run(&mut at("-m mypy.stubtest --concise slipstick._core"))?)
+    let mut mypy = package.command("-m mypy --no-error-summary --config-file");
+    shell::run(mypy.arg(&config).arg(types))?;
+    shell::run(&mut package.command("-m mypy.stubtest --concise slipstick._core"))?;
+    Ok(package.reference(false)?)
 }
 
 /// What the last line says: `36 passed, 1 skipped in 20.1s`.

@@ -35,6 +35,8 @@ from ._widget import widget
 if TYPE_CHECKING:
     from os import PathLike
 
+    from . import audit
+
 __all__ = [
     "Assessment",
     "Comparison",
@@ -52,6 +54,7 @@ __all__ = [
     "StudyError",
     "Table",
     "__version__",
+    "audit",
     "compare",
     "design",
     "fragility",
@@ -64,6 +67,15 @@ __all__ = [
     "study",
     "widget",
 ]
+
+
+def __getattr__(name: str) -> object:
+    """What is seldom wanted is imported when it is."""
+    if name == "audit":
+        import importlib
+
+        return importlib.import_module("slipstick.audit")
+    raise AttributeError(f"module 'slipstick' has no attribute {name!r}")
 
 
 def read_record(

@@ -41,7 +41,7 @@ class Plotter:
 
     def history(self, ax: Axes | None = None) -> Axes:
         """Sliding displacement over time, sliding shaded, the peak marked."""
-        knots, ax = self._response.knots, _axes(ax)
+        knots, ax = self._response.knots, axes_or_new(ax)
         time, s = knots["time_s"], 1e3 * knots["sliding_displacement_m"]
         slides = knots["direction"] != 0
         ax.fill_between(
@@ -57,7 +57,7 @@ class Plotter:
 
     def acceleration(self, ax: Axes | None = None) -> Axes:
         """Accelerations of table, block and top floor over time."""
-        knots, ax = self._response.knots, _axes(ax)
+        knots, ax = self._response.knots, axes_or_new(ax)
         time = knots["time_s"]
         ax.plot(time, knots["table_acceleration_m_per_s2"] / G, color="0.7", lw=0.8, label="table")
         ax.plot(time, knots["block_acceleration_m_per_s2"] / G, lw=0.8, label="block")
@@ -70,15 +70,26 @@ class Plotter:
         return ax
 
     def loop(self, ax: Axes | None = None) -> Axes:
-        """Friction force on the table over sliding displacement: the loop as data sheets draw it."""
-        knots, ax = self._response.knots, _axes(ax)
-        ax.plot(1e3 * knots["sliding_displacement_m"], -1e-3 * knots["friction_force_n"], lw=0.8)
-        ax.set(xlabel="sliding displacement [mm]", ylabel="friction force [kN]")
+        """Force of the whole slider over sliding displacement: the loop as data sheets draw it.
+
+        With a spring, damper or stop its friction alone is drawn beside it, thin.
+        """
+        response, ax = self._response, axes_or_new(ax)
+        sliding = 1e3 * response.knots["sliding_displacement_m"]
+        force, friction = response.slider_force_n, -response.knots["friction_force_n"]
+        # Without them the two are one, but for rounding.
+        if np.abs(force - friction).max(initial=0.0) > 1e-9 * np.abs(force).max(initial=0.0):
+            ax.plot(sliding, 1e-3 * friction, lw=0.6, color="0.6", label="friction alone")
+            ax.plot(sliding, 1e-3 * force, lw=0.9, color="C0", label="slider")
+            ax.legend(loc="best", frameon=False)
+        else:
+            ax.plot(sliding, 1e-3 * force, lw=0.9, color="C0")
+        ax.set(xlabel="sliding displacement [mm]", ylabel="slider force [kN]")
         return ax
 
     def energy(self, ax: Axes | None = None) -> Axes:
         """What became of the energy put in, over time."""
-        energy, ax = self._response.energy, _axes(ax)
+        energy, ax = self._response.energy, axes_or_new(ax)
         time = self._response.knots["time_s"]
         parts = ["friction_j", "damping_j", "strain_j", "kinetic_j"]
         labels = ["friction", "damping", "strain", "kinetic"]
@@ -149,7 +160,7 @@ _SHOWN = {"m": ("mm", 1e-3), "m/s2": ("g", G), "N": ("kN", 1e3)}
 
 def draw_curve(name: str, curve: Table, ax: Axes | None = None) -> Axes:
     """One measured quantity beside what was computed; a cyclic test as its loop."""
-    ax = _axes(ax)
+    ax = axes_or_new(ax)
     columns = curve.columns
     loop = "force_n" in columns
     x, first, second = columns[1:4] if loop else columns[:3]
@@ -177,7 +188,8 @@ def draw_curves(curves: Mapping[str, Table]) -> NDArray[np.object_]:
     return np.array(axes, dtype=object)
 
 
-def _axes(ax: Axes | None) -> Axes:
+def axes_or_new(ax: Axes | None) -> Axes:
+    """The axes, or those of a new figure."""
     if ax is not None:
         return ax
     import matplotlib.pyplot as plt

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
@@ -65,7 +64,7 @@ def run(
     SolveError
         Where there is no answer, with the time.
     """
-    return Response(_core.run(model, motion, floor_spectra=floor_spectra))
+    return Response(_core.run(model, motion, floor_spectra=floor_spectra), model, floor_spectra)
 
 
 def _frozen(columns: dict[str, NDArray[np.float64]]) -> Columns:
@@ -75,14 +74,43 @@ def _frozen(columns: dict[str, NDArray[np.float64]]) -> Columns:
 
 
 class Response:
-    """What came of one analysis; everything in SI."""
+    """What came of one analysis; everything in SI.
 
-    def __init__(self, core: _core.Response) -> None:
+    Two are equal where model and motion are. A response pickles as those, and is computed again.
+    """
+
+    def __init__(self, core: _core.Response, model: _core.Model, floor_spectra: bool) -> None:
         self._core = core
+        self._model = model
+        self._floor_spectra = floor_spectra
+
+    @property
+    def model(self) -> _core.Model:
+        """The model."""
+        return self._model
+
+    @cached_property
+    def motion(self) -> _core.Motion:
+        """The motion of the table, without a tail."""
+        return self._core.motion
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _again, (self._model, self.motion, self._floor_spectra)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Response):
+            return NotImplemented
+        same = self._model == other._model and self._floor_spectra == other._floor_spectra
+        return same and self.motion == other.motion
+
+    def __hash__(self) -> int:
+        return hash(self._model)
 
     @cached_property
     def summary(self) -> dict[str, Any]:
         """Peaks, residuals, counts and all other figures, as ``slipstick run --json`` prints them."""
+        import json
+
         figures: dict[str, Any] = json.loads(self._core._summary_json())
         return figures
 
@@ -125,6 +153,16 @@ class Response:
     def energy(self) -> Columns:
         """Energies in J at ``knots``: input, kinetic, strain, and spent in dampers and friction."""
         return _frozen(self._core._energy())
+
+    @cached_property
+    def slider_force_n(self) -> NDArray[np.float64]:
+        """Force of the whole slider at ``knots`` in N, friction, spring, damper and stop together.
+
+        It rises with the sliding displacement, as a data sheet draws it.
+        """
+        force = self._core._slider_force()
+        force.flags.writeable = False
+        return force
 
     @cached_property
     def events(self) -> list[Event]:
@@ -173,6 +211,10 @@ class Response:
 
     def __repr__(self) -> str:
         return f"<slipstick.Response {self._core.name!r}, {len(self.events)} events>"
+
+
+def _again(model: _core.Model, motion: _core.Motion, floor_spectra: bool) -> Response:
+    return run(model, motion, floor_spectra=floor_spectra)
 
 
 _UNITS = {"_m": "m", "_m_per_s": "m/s", "_m_per_s2": "m/s²", "_n": "N", "_s": "s"}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
@@ -49,6 +48,8 @@ class Result:
     @property
     def summary(self) -> dict[str, Any]:
         """All figures, as the command prints them with ``--json``."""
+        import json
+
         figures: dict[str, Any] = json.loads(self._tell("_summary_json"))
         return figures
 

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _core
@@ -79,6 +76,9 @@ class Plan:
     @property
     def digest(self) -> str:
         """A hash of all that goes in: equal plans have the same."""
+        import hashlib
+        import json
+
         return hashlib.sha256(json.dumps([_core.__version__, self.files]).encode()).hexdigest()
 
     def write(self, folder: str | PathLike[str]) -> Path:
@@ -92,7 +92,7 @@ class Plan:
     def _toml(self) -> str:
         def rows(values: Mapping[str, Any]) -> list[str]:
             given = ((key, value) for key, value in values.items() if value is not None)
-            return [f"{json.dumps(key)} = {_toml(value)}" for key, value in given]
+            return [f"{_toml(str(key))} = {_toml(value)}" for key, value in given]
 
         text = rows({"name": self.name, "model": "model.toml", "bounds": self.bounds})
         if self.records is not None:
@@ -144,6 +144,8 @@ def study(
     KeyboardInterrupt
         At Ctrl-C, which leaves whole parts.
     """
+    from tempfile import TemporaryDirectory
+
     with ExitStack() as folders:
 
         def new_folder() -> Path:
@@ -171,6 +173,8 @@ def run_shard(
     jobs
         Number of threads.
     """
+    from tempfile import TemporaryDirectory
+
     with TemporaryDirectory(prefix="slipstick-") as folder:
         path = plan.write(folder)
         return _core.study(path, Path(out), shard=shard, jobs=jobs).runs
@@ -201,4 +205,6 @@ def _toml(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, (int, float)):
         return repr(value)
+    import json
+
     return json.dumps(str(value), ensure_ascii=False)
