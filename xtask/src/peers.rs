@@ -1,6 +1,6 @@
 //! `cargo xtask bench-…`: the same work here and in other programs, timed in one run.
 
-use crate::python::environment;
+use crate::python::{Package, environment};
 use crate::shell::{self, Outcome};
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
@@ -55,6 +55,21 @@ pub fn bench_records(options: &[&str]) -> Outcome {
     shell::run(&mut shell::cargo("build --release -p slipstick --example record_bench"))?;
     let helper = built(&bench.target, "release", "examples/record_bench");
     bench.run("record_bench.py", &[("--helper", helper)])
+}
+
+/// The Python package timed beside the command and the Rust call.
+pub fn bench_python(options: &[&str]) -> Outcome {
+    let bench = Bench::new("python", options, &["--json", "--quick", "--write"])?;
+    let package = Package::environment()?;
+    package.build("wheel")?;
+    shell::run(&mut shell::cargo("build --release -p slipstick-cli"))?;
+    shell::run(&mut shell::cargo("build --release -p slipstick-files --example run_bench"))?;
+    let helper = built(&bench.target, "release", "examples/run_bench");
+    let slipstick = built(&bench.target, "release", "slipstick");
+    let bench = Bench { python: package.python().to_owned(), ..bench };
+    let examples = shell::root().join("examples");
+    let programs = [("--helper", helper), ("--slipstick", slipstick), ("--examples", examples)];
+    bench.run("python_bench.py", &programs)
 }
 
 /// A program in a target folder.

@@ -1,0 +1,36 @@
+//! Times one analysis as the Python package calls it: `cargo xtask bench-python`.
+//!
+//! `run_bench MODEL`; every line of standard input is a number of runs, answered by the nanoseconds of each.
+
+#![allow(clippy::print_stdout, reason = "its answers")]
+
+use std::io::{self, BufRead};
+use std::path::PathBuf;
+use std::time::Instant;
+
+use slipstick::assessment::single::Job;
+use slipstick::input;
+use slipstick_files::{OpenJob, read_at_most};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let path = PathBuf::from(std::env::args_os().nth(1).ok_or("expected a model")?);
+    let bytes = read_at_most(&path, input::MAX_TEXT_BYTES as u64)?;
+    let analysis = input::from_bytes(&path.display().to_string(), &bytes, &[])?;
+    let open = OpenJob::new(&path, analysis, None)?;
+    for line in io::stdin().lock().lines() {
+        let count: usize = line?.trim().parse()?;
+        let mut told = Vec::with_capacity(count);
+        for _ in 0..count {
+            let start = Instant::now();
+            let loaded = &open.loaded;
+            let analysis = open.job.analysis.clone();
+            let job = Job::new(analysis, loaded.motion.clone(), loaded.warnings.clone())?;
+            let again = OpenJob { name: open.name.clone(), job, loaded: loaded.clone() };
+            let outcome = again.run(false)?;
+            told.push(start.elapsed().as_nanos().to_string());
+            drop(outcome);
+        }
+        println!("{}", told.join(" "));
+    }
+    Ok(())
+}
