@@ -18,6 +18,7 @@ import numpy as np
 import cases
 import numba_loop
 import opensees
+import pyslammer_rigid
 import reference
 import scipy_events
 from machine import Process, machine, note
@@ -31,6 +32,7 @@ LABELS = {
     "opensees-1e-5": "OpenSeesPy, yield 1e-5 m",
     "opensees-1e-6": "OpenSeesPy, yield 1e-6 m",
     "opensees-1e-6-fine": "OpenSeesPy, yield 1e-6 m, dt/5",
+    "pyslammer": "pySLAMMER, one run for each way",
     "scipy": "SciPy solve_ivp with events",
 }
 
@@ -102,6 +104,10 @@ def programs(case, helpers, ops, quick, only_fast=False):
             continue
         run = by_call(lambda y=yield_m, p=parts: opensees.run(ops, case, y, p), 1)
         yield key, run, 2 if quick else 5, (history, np.abs(history).max(), None)
+    if not only_fast and pyslammer_rigid.fits(case):
+        history = pyslammer_rigid.run(case)
+        run = by_call(lambda: pyslammer_rigid.run(case), 1)
+        yield "pyslammer", run, 2 if quick else 5, (history, np.abs(history).max(), None)
     if not only_fast:
         history, peak = scipy_events.run(case)
         run = by_call(lambda: scipy_events.run(case), 1)
@@ -272,7 +278,7 @@ def main():
     rows += suite(helpers, ops, options.folder, min(rounds, 3), options.quick)
     parts = [pieces(case, helpers["slipstick"], rounds)
              for case in cases.named_cases() if case.name in ("A", "B", "F")]
-    where = machine("openseespy", "numba", "scipy")
+    where = machine("openseespy", "pyslammer", "numba", "scipy")
     result = {"machine": where, "rows": rows, "pieces": parts}
     (options.folder / "peers.json").write_text(json.dumps(result, indent=1, default=float) + "\n")
     (options.folder / "peers.md").write_text(table(rows, parts, where))
