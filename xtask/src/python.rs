@@ -46,6 +46,21 @@ impl Package {
         shell::run(maturin.arg(profile).arg("--manifest-path").arg(manifest))
     }
 
+    /// Builds the wheel with a profile of cargo into a folder, which is made anew.
+    pub fn wheel(&self, profile: &str, folder: &Path) -> Result<PathBuf, String> {
+        let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
+        if folder.exists() {
+            std::fs::remove_dir_all(folder).map_err(failed)?;
+        }
+        let mut maturin = self.command("-m maturin build --quiet --profile");
+        let manifest = format!("{PACKAGE}/Cargo.toml");
+        maturin.args([profile, "--manifest-path", &manifest, "--out"]).arg(folder);
+        shell::run(&mut maturin)?;
+        let mut files = std::fs::read_dir(folder).map_err(failed)?.filter_map(Result::ok);
+        let wheel = files.find(|file| file.path().extension().is_some_and(|e| e == "whl"));
+        wheel.map(|file| file.path()).ok_or(format!("{}: no wheel", folder.display()))
+    }
+
     /// Compares the book's reference with the docstrings, or writes it.
     pub fn reference(&self, write: bool) -> Outcome {
         let page = shell::output(self.command("").arg(format!("{PACKAGE}/docs.py")))?;
@@ -81,10 +96,19 @@ fn program() -> Option<&'static str> {
     })
 }
 
+/// Python of a new environment.
+pub fn new_environment(program: &str, folder: &Path) -> Result<PathBuf, String> {
+    shell::run(shell::command(program).args(["-m", "venv"]).arg(folder))?;
+    Ok(folder.join(PYTHON))
+}
+
+/// Where the environment has its Python.
+const PYTHON: &str = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
+
 /// Python of an environment with what a list of requirements names in it.
 pub fn environment(folder: &str, requirements: &str) -> Result<PathBuf, String> {
     let folder = shell::root().join(folder);
-    let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    let python = folder.join(PYTHON);
     let wanted = shell::root().join(requirements);
     let installed = folder.join("requirements.txt");
     let read = |path: &Path| std::fs::read_to_string(path).ok();
@@ -92,7 +116,7 @@ pub fn environment(folder: &str, requirements: &str) -> Result<PathBuf, String> 
         return Ok(python);
     }
     let program = program().ok_or("expected python3 (3.11 or later) with venv, found none")?;
-    shell::run(shell::command(program).args(["-m", "venv"]).arg(&folder))?;
+    new_environment(program, &folder)?;
     let mut pip = shell::command(&python);
     pip.args(["-m", "pip", "install", "--quiet", "--requirement"]).arg(&wanted);
     shell::run(&mut pip)?;

@@ -1,12 +1,13 @@
 //! The step of the Python package: built, tested, its types checked.
 
 use super::{Problem, Tally};
-use crate::python::{PACKAGE, Package};
+use crate::python::{PACKAGE, Package, new_environment};
 use crate::shell;
 use std::path::Path;
 
 /// Builds the package into an environment of its own and runs pytest, the examples of its docstrings, the
-/// notebooks, mypy and stubtest; compares the book's reference with the docstrings.
+/// notebooks, mypy and stubtest; compares the book's reference with the docstrings; tries the wheel on other
+/// Pythons.
 pub fn python(tally: &mut Tally) -> Result<(), Problem> {
     let package = Package::environment().map_err(Problem::NotRun)?;
     package.build("dev")?;
@@ -30,7 +31,34 @@ pub fn python(tally: &mut Tally) -> Result<(), Problem> {
     let mut mypy = package.command("-m mypy --no-error-summary --config-file");
     shell::run(mypy.arg(&config).arg(types))?;
     shell::run(&mut package.command("-m mypy.stubtest --concise slipstick._core"))?;
-    Ok(package.reference(false)?)
+    package.reference(false)?;
+    wheels(&package, tally)
+}
+
+/// Pythons on which the one wheel must work, which is built for the oldest.
+const PYTHONS: [&str; 3] = ["3.11", "3.12", "3.13"];
+
+/// What is run on each of them, in the root of the workspace.
+const FIRST_RUN: &str = "import slipstick as ss; r = ss.run(ss.Model.read('examples/taft.toml')); \
+                         assert r.holds and len(r.history['time_s']) == r.summary['samples']";
+
+/// Installs the wheel on every Python that is found and runs an analysis there.
+fn wheels(package: &Package, tally: &mut Tally) -> Result<(), Problem> {
+    let folder = shell::target_folder()?.join("python-wheel");
+    let wheel = package.wheel("dev", &folder)?;
+    for version in PYTHONS {
+        let program = format!("python{version}");
+        if !shell::answers(&program, "-c pass") {
+            tally.skipped += 1;
+            println!("  not run: wheel on Python {version} (not found)");
+            continue;
+        }
+        let python = new_environment(&program, &folder.join(version))?;
+        shell::run(shell::command(&python).args(["-m", "pip", "install", "--quiet"]).arg(&wheel))?;
+        shell::run(shell::command(&python).args(["-c", FIRST_RUN]))?;
+        tally.passed += 1;
+    }
+    Ok(())
 }
 
 /// What the last line says: `36 passed, 1 skipped in 20.1s`.
