@@ -63,6 +63,7 @@ PARTS: list[tuple[str, list[tuple[str, Any]]]] = [
             ("slipstick.audit.Attempt", ss.audit.Attempt),
         ],
     ),
+    ("The page in a notebook", [("slipstick.widget", ss.widget)]),
     ("Tables", [("slipstick.Table", ss.Table)]),
     (
         "Errors",

@@ -109,6 +109,13 @@ impl Response {
         history.map_or_else(Vec::new, force).into_pyarray(py)
     }
 
+    /// Static and kinetic friction in N under the weight, each towards +x and −x.
+    fn _friction_limits(&self) -> [[f64; 2]; 2] {
+        let model = &self.job.job.analysis.model;
+        let normal_n = model.total_mass_kg() * model.normal_gravity_m_per_s2();
+        [model.static_friction(), model.kinetic_friction()].map(|way| way.map(|mu| mu * normal_n))
+    }
+
     /// The motion as it was read, without a tail.
     #[getter]
     fn motion(&self) -> Motion {

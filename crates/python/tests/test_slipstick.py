@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 import slipstick as ss
-from support import EXAMPLES, block, pulse, suite
+from support import EXAMPLES, block, command, pulse, suite
 
 MODELS = ["taft.toml", "el-centro.toml", "frame-pendulum.toml"]
 
@@ -247,6 +247,34 @@ def test_dask_gives_the_bytes_of_one_process(tmp_path: Path) -> None:
         assert part.read_bytes() == (tmp_path / "together" / "parts" / part.name).read_bytes()
 
 
+@pytest.mark.skipif(os.name != "posix", reason="processes are killed as POSIX does")
+def test_a_killed_worker_changes_no_byte_of_the_command(tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    from slipstick.dask import submit_study
+
+    plan, out = values(4096), tmp_path / "together"
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        workers = client.run(os.getpid)
+        futures = submit_study(plan, client, out, shards=16)
+        deadline = time.monotonic() + 60
+        while not any(out.glob("parts/part-*.parquet")):
+            assert time.monotonic() < deadline
+            time.sleep(0.005)
+        os.kill(next(iter(workers.values())), signal.SIGKILL)
+        unfinished = sum(future.status != "finished" for future in futures)
+        client.gather(futures)
+    assert unfinished > 0, "the worker was killed too late to matter"
+    ss.study(plan, out)
+    command("study", plan.write(tmp_path), "--out", tmp_path / "alone", "-q")
+    parts = sorted((tmp_path / "alone" / "parts").iterdir())
+    assert [part.name for part in parts] == sorted(part.name for part in (out / "parts").iterdir())
+    for part in parts:
+        assert part.read_bytes() == (out / "parts" / part.name).read_bytes()
+
+
 def test_a_plan_that_cannot_be_is_told(tmp_path: Path) -> None:
     path = tmp_path / "plan.toml"
     path.write_text('model = "nowhere.toml"\n')
@@ -330,8 +358,23 @@ def test_figures_return_axes(tmp_path: Path) -> None:
     axes[0].figure.savefig(tmp_path / "figure.png")
     _, ax = matplotlib.pyplot.subplots()
     assert response.plot.loop(ax=ax) is ax
-    for draw in [response.plot.history, response.plot.acceleration, response.plot.energy]:
+    plot = response.plot
+    for draw in [plot.history, plot.acceleration, plot.energy, plot.drift, plot.demand]:
         assert draw().get_xlabel() == "time [s]"
+    with pytest.raises(ValueError, match="floor_spectra=True"):
+        plot.floor_spectra()
+    spectra = ss.run(response.model, floor_spectra=True).plot.floor_spectra()
+    assert len(spectra.lines) == 3
+    with pytest.raises(ValueError, match="contents"):
+        plot.contents()
+    devices = ss.Model(
+        {
+            "block": {"mass": "325 kg"},
+            "slider": {"static_friction": 0.1, "kinetic_friction": 0.08},
+            "contents": [{"floor": 0, "mass": "1 kg", "static_friction": 0.05, "kinetic_friction": 0.04}],
+        }
+    )
+    assert ss.run(devices, pulse()).plot.contents().get_legend_handles_labels()[1] == ["contents 1"]
     matplotlib.pyplot.close("all")
 
 

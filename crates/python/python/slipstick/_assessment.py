@@ -66,6 +66,13 @@ def read_suite(
     -------
     dict
         The motions by the stems of their files, or by their paths where stems repeat.
+
+    Raises
+    ------
+    RecordError
+        For a file that is no record, with line and column.
+    OSError
+        For a file that cannot be read, and a pattern that matches none.
     """
     return dict(
         _core.read_suite(
@@ -108,6 +115,29 @@ def spectrum(
         Which of the model's ``slider.bounds`` are run: ``"all"``, ``"lower"``, ``"nominal"``, ``"upper"``.
     jobs, progress
         As in ``study``.
+
+    Returns
+    -------
+    Assessment
+        Tables ``spectrum``, the fractiles, and ``runs``.
+
+    Raises
+    ------
+    InputError
+        For a path, a list of values, a measure or a level that cannot be.
+    KeyboardInterrupt
+        At Ctrl-C.
+
+    Examples
+    --------
+    >>> import slipstick as ss
+    >>> model = ss.Model({"block.mass": "325 kg", "slider.static_friction": 0.06,
+    ...                   "slider.kinetic_friction": 0.05, "slider.radius": "2 m"})
+    >>> records = {name: ss.Motion([0.0, 0.3, -0.3, 0.0], dt=dt, units="g")
+    ...            for name, dt in [("short", 0.2), ("middle", 0.25), ("long", 0.3)]}
+    >>> found = ss.spectrum(model, records, {"slider.radius": "1..3 m:3"})
+    >>> len(found.tables["runs"])
+    9
     """
     return Assessment(
         _core.spectrum(
@@ -167,6 +197,24 @@ def ida(
     -------
     Assessment
         Tables ``ida``, one row a run, and where there is a limit ``capacities``.
+
+    Raises
+    ------
+    InputError
+        For neither or both of ``levels`` and ``between``, and for a choice that cannot be.
+    KeyboardInterrupt
+        At Ctrl-C.
+
+    Examples
+    --------
+    >>> import slipstick as ss
+    >>> model = ss.Model({"block.mass": "325 kg", "slider.static_friction": 0.06,
+    ...                   "slider.kinetic_friction": 0.05, "slider.radius": "2 m"})
+    >>> records = {name: ss.Motion([0.0, 0.3, -0.3, 0.0], dt=dt, units="g")
+    ...            for name, dt in [("short", 0.2), ("middle", 0.25), ("long", 0.3)]}
+    >>> found = ss.ida(model, records, levels="0.1..0.4 g:4", limit="50 mm")
+    >>> len(found.table), len(found.tables["capacities"])
+    (12, 3)
     """
     return Assessment(
         _core.ida(
@@ -224,6 +272,25 @@ def fragility(
     -------
     Assessment
         The table ``fragility`` is the curve with its band; ``summary`` has median and dispersion.
+
+    Raises
+    ------
+    InputError
+        For a limit, a measure or a kind of fit that cannot be.
+    StudyError
+        For data that tell no curve.
+
+    Examples
+    --------
+    >>> import slipstick as ss
+    >>> model = ss.Model({"block.mass": "325 kg", "slider.static_friction": 0.06,
+    ...                   "slider.kinetic_friction": 0.05, "slider.radius": "2 m"})
+    >>> records = {name: ss.Motion([0.0, 0.3, -0.3, 0.0], dt=dt, units="g")
+    ...            for name, dt in [("short", 0.2), ("middle", 0.25), ("long", 0.3)]}
+    >>> ida = ss.ida(model, records, levels="0.1..0.6 g:11", limit="50 mm")
+    >>> curve = ss.fragility(ida)
+    >>> curve.table.columns
+    ['level', 'probability', 'band_low', 'band_high']
     """
     if isinstance(source, Assessment):
         table = source.tables.get("capacities", source.table) if limit is None else source.table
@@ -298,6 +365,25 @@ def design(
     -------
     Assessment
         Tables ``front``, one row a design, and ``runs``.
+
+    Raises
+    ------
+    InputError
+        For nothing to vary, no gap, and a choice that cannot be.
+    KeyboardInterrupt
+        At Ctrl-C.
+
+    Examples
+    --------
+    >>> import slipstick as ss
+    >>> model = ss.Model({"block.mass": "325 kg", "slider.static_friction": 0.06,
+    ...                   "slider.kinetic_friction": 0.05, "slider.radius": "2 m"})
+    >>> records = {name: ss.Motion([0.0, 0.3, -0.3, 0.0], dt=dt, units="g")
+    ...            for name, dt in [("short", 0.2), ("middle", 0.25), ("long", 0.3)]}
+    >>> found = ss.design(model, records, {"slider.radius": "1..3 m:3"}, friction="0.04..0.1:4",
+    ...                   gap="60 mm", sensitivity=0)
+    >>> list(found.tables)
+    ['front', 'runs']
     """
     return Assessment(
         _core.design(

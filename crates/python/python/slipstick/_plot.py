@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ._core import Table
-    from ._response import Response
+    from ._response import Columns, Response
 
 G = 9.80665
 
@@ -43,10 +43,7 @@ class Plotter:
         """Sliding displacement over time, sliding shaded, the peak marked."""
         knots, ax = self._response.knots, axes_or_new(ax)
         time, s = knots["time_s"], 1e3 * knots["sliding_displacement_m"]
-        slides = knots["direction"] != 0
-        ax.fill_between(
-            time, 0, 1, where=slides, transform=ax.get_xaxis_transform(), color="0.92", lw=0
-        )
+        _shade(ax, knots)
         ax.plot(time, s)
         at = int(np.argmax(np.abs(s)))
         ax.plot(time[at], s[at], "o", ms=4, color="C3", label=f"peak {s[at]:.4g} mm")
@@ -100,6 +97,68 @@ class Plotter:
         ax.margins(x=0)
         return ax
 
+    def drift(self, ax: Axes | None = None) -> Axes:
+        """Drift of every storey over time."""
+        knots, ax = self._response.knots, axes_or_new(ax)
+        below = 0.0 * knots["time_s"]
+        for number, floor in enumerate(_numbered(knots, "storey"), 1):
+            ax.plot(knots["time_s"], 1e3 * (floor - below), lw=0.8, label=f"storey {number}")
+            below = floor
+        return _over_time(ax, "drift [mm]")
+
+    def surfaces(self, ax: Axes | None = None) -> Axes:
+        """Displacement of every surface in series over time, and of all together."""
+        knots, ax = self._response.knots, axes_or_new(ax)
+        ax.plot(
+            knots["time_s"], 1e3 * knots["sliding_displacement_m"], color="0.7", lw=2, label="together"
+        )
+        for number, surface in enumerate(_numbered(knots, "surface"), 1):
+            ax.plot(knots["time_s"], 1e3 * surface, lw=0.8, label=f"surface {number}")
+        return _over_time(ax, "displacement [mm]")
+
+    def contents(self, ax: Axes | None = None) -> Axes:
+        """Displacement of what slides on the floors over time, each over its floor."""
+        knots, ax = self._response.knots, axes_or_new(ax)
+        for number, contents in enumerate(_numbered(knots, "contents"), 1):
+            ax.plot(knots["time_s"], 1e3 * contents, lw=0.8, label=f"contents {number}")
+        return _over_time(ax, "displacement over the floor [mm]")
+
+    def demand(self, ax: Axes | None = None) -> Axes:
+        """Friction force over time between its bounds: static dashed, kinetic dotted, sliding shaded.
+
+        The bounds are those of a level normal force; they are left out under vertical motion.
+        """
+        response, ax = self._response, axes_or_new(ax)
+        knots = response.knots
+        _shade(ax, knots)
+        ax.plot(knots["time_s"], 1e-3 * knots["friction_force_n"], lw=0.8)
+        if response.motion.vertical_m_per_s2 is None:
+            fixed, kinetic = response._core._friction_limits()
+            for (positive, negative), style in [(fixed, "--"), (kinetic, ":")]:
+                for value in [-positive, negative]:
+                    ax.axhline(1e-3 * value, color="0.4", ls=style, lw=0.8)
+        return _over_time(ax, "friction force [kN]")
+
+    def floor_spectra(self, ax: Axes | None = None) -> Axes:
+        """Response spectra of table, block and floors, of ``run(..., floor_spectra=True)``.
+
+        Raises
+        ------
+        ValueError
+            For a response without them.
+        """
+        spectra, ax = self._response.summary.get("floor_spectrum"), axes_or_new(ax)
+        if spectra is None:
+            raise ValueError("expected a response of run(..., floor_spectra=True), found one without")
+        lines = [("table", spectra["table_acceleration_m_per_s2"]), ("block", spectra["block_acceleration_m_per_s2"])]
+        lines += [(f"floor {i}", values) for i, values in enumerate(spectra["storeys_acceleration_m_per_s2"], 1)]
+        for label, values in lines:
+            if values:
+                ax.plot(spectra["period_s"], np.asarray(values) / G, label=label)
+        ax.set_xscale("log")
+        ax.set(xlabel="period [s]", ylabel="spectral acceleration [g]")
+        ax.legend(loc="best", frameon=False)
+        return ax
 
     def animation(
         self, *, frames_per_s: float = 25.0, speed: float = 1.0, magnify: float | None = None
@@ -127,7 +186,7 @@ class Plotter:
         knots = self._response.knots
         time = knots["time_s"]
         sliding = knots["sliding_displacement_m"]
-        floors = [v for k, v in knots.items() if k.startswith("storey") and "displacement" in k]
+        floors = _numbered(knots, "storey")
         # Of a frame every storey counts as one unit of height.
         largest = max(float(np.abs(sliding + floor).max()) for floor in [0.0 * sliding, *floors])
         factor = magnify if magnify is not None else (0.6 / largest if largest > 0.0 else 1.0)
@@ -152,6 +211,28 @@ class Plotter:
             return [block, frame, clock]
 
         return FuncAnimation(figure, draw, frames=len(frame_s), interval=1e3 / frames_per_s, blit=True)
+
+
+def _numbered(knots: Columns, part: str) -> list[NDArray[np.float64]]:
+    """Displacements of storeys, surfaces or contents in their order."""
+    found = [v for k, v in knots.items() if k.startswith(part) and k.endswith("_displacement_m")]
+    if not found and part != "storey":
+        raise ValueError(f"expected a model with {part}, found one without")
+    return found
+
+
+def _shade(ax: Axes, knots: Columns) -> None:
+    """Grey where the slider slides."""
+    slides, across = knots["direction"] != 0, ax.get_xaxis_transform()
+    ax.fill_between(knots["time_s"], 0, 1, where=slides, transform=across, color="0.92", lw=0)
+
+
+def _over_time(ax: Axes, label: str) -> Axes:
+    ax.set(xlabel="time [s]", ylabel=label)
+    if ax.get_legend_handles_labels()[0]:
+        ax.legend(loc="best", frameon=False)
+    ax.margins(x=0)
+    return ax
 
 
 #: Units of measured quantities as figures show them, with what one of them is in SI

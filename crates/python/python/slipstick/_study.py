@@ -44,7 +44,7 @@ class Plan:
         What is varied, as in a plan: ``{"slider.kinetic_friction": {"uniform": [0.02, 0.06]}}``; a list
         is one of its values.
     samples, seed, method
-        Number of samples, their seed, and ``"sobol"``, ``"lhs"``, ``"random"`` or ``"grid"``.
+        Number of samples, their seed, and ``"sobol"``, ``"latin-hypercube"`` or ``"grid"``.
     measure, levels, scale
         Each record is scaled so that the measure takes each of the levels, ``["0.1 g", "0.2 g"]``; or by
         each of the factors of ``scale``.
@@ -52,6 +52,20 @@ class Plan:
         Which of the model's ``slider.bounds`` are run: ``"all"``, ``"lower"``, ``"nominal"``, ``"upper"``.
     name
         Name of the study.
+
+    Examples
+    --------
+    >>> import slipstick as ss
+    >>> model = ss.Model({"block.mass": "1 t", "slider.static_friction": 0.06,
+    ...                   "slider.kinetic_friction": 0.05})
+    >>> records = {"pulse": ss.Motion([0.0, 0.3, -0.3, 0.0], dt=0.5, units="g")}
+    >>> plan = ss.Plan(model, records, {"slider.kinetic_friction": {"uniform": [0.03, 0.06]}},
+    ...                samples=64, seed=1, scale=[1.0, 2.0])
+    >>> study = ss.study(plan)
+    >>> study.runs, study.failures
+    (128, 0)
+    >>> study.table.columns[:5]
+    ['run', 'record', 'channel', 'level', 'scale']
     """
 
     model: _core.Model

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -38,6 +36,8 @@ def widget(model: Model | str | PathLike[str], motion: Motion | None = None) -> 
     ValueError
         Where the model's motion is a record whose file is not known.
     """
+    import base64
+
     try:
         import anywidget
         import traitlets
@@ -81,6 +81,8 @@ def _csv(motion: Motion) -> str:
 
 def _own_records(text: str, folder: Path | None) -> dict[str, bytes]:
     """The files of the model's own motion, by the names that it gives them."""
+    import tomllib
+
     own = tomllib.loads(text).get("motion", {})
     names = [own[key] for key in ("record", "vertical") if key in own]
     if names and folder is None:
