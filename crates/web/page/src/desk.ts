@@ -166,7 +166,7 @@ export interface Wish {
 }
 
 /** How long a wish must stand before it is judged, in ms. */
-const REST_MS = 40;
+const REST_MS = 25;
 
 /** The one worker that answers what the page shows. */
 export class Desk {
