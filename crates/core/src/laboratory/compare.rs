@@ -352,8 +352,13 @@ fn pair(series: &Series, start_s: f64, history: &History) -> Option<Pair> {
             continue;
         }
         time_s = time_s.clamp(0.0, end_s);
-        // The last knot at or before the time.
-        while knot + 1 < history.len() && history.time_s[knot + 1] <= time_s + slack_s {
+        // The last knot at or before the time; of those within the slack the nearest, so that an event
+        // just after a sample is not yet seen at it.
+        let away_s = |knot: usize| (history.time_s[knot] - time_s).abs();
+        while knot + 1 < history.len()
+            && history.time_s[knot + 1] <= time_s + slack_s
+            && (history.time_s[knot + 1] <= time_s || away_s(knot + 1) <= away_s(knot))
+        {
             knot += 1;
         }
         if (history.time_s[knot] - time_s).abs() <= slack_s {

@@ -9,8 +9,7 @@
 //!
 //! A sensor of displacement or force whose zero is not stated may be off by any constant: that is
 //! fitted with the rest. The table acceleration drives the model, so its noise, and what happens
-//! between its samples, move the estimates: both are carried to them by derivatives and widen the
-//! intervals (`drive`).
+//! between its samples, move the estimates and widen the intervals (`drive`).
 
 mod drive;
 mod parameter;
@@ -322,22 +321,13 @@ struct Data<'a> {
 
 /// Runs that the search, the intervals and the draws of the table's noise are thought to take for each
 /// parameter, for those who wait.
-const RUNS: [u64; 3] = [200, 600, 30];
+const RUNS: [u64; 3] = [200, 600, 2000];
 
 impl Data<'_> {
     /// Predicted less measured values, a list a quantity, in SI; less their mean where the zero of the
     /// sensor is fitted, which is its best value.
     fn of_model(&self, model: &Model) -> Option<Vec<Vec<f64>>> {
-        self.of_model_under(model, self.motion)
-    }
-
-    fn of_model_under(&self, model: &Model, motion: &GroundMotion) -> Option<Vec<Vec<f64>>> {
-        let mut lists = self.of_motion(model, motion)?;
-        for (list, _) in lists.iter_mut().zip(&self.free).filter(|(_, free)| **free) {
-            let mean = mean(list);
-            list.iter_mut().for_each(|r| *r -= mean);
-        }
-        Some(lists)
+        Some(centred(self.of_motion(model, self.motion)?, &self.free))
     }
 
     /// Predicted less measured values under a motion.
@@ -361,6 +351,15 @@ impl Data<'_> {
         let lists = self.by_quantity(parameters)?;
         Some(weighed(&lists, scales))
     }
+}
+
+/// Residuals less their mean where the zero of the sensor is fitted.
+fn centred(mut lists: Vec<Vec<f64>>, free: &[bool]) -> Vec<Vec<f64>> {
+    for (list, _) in lists.iter_mut().zip(free).filter(|(_, free)| **free) {
+        let mean = mean(list);
+        list.iter_mut().for_each(|r| *r -= mean);
+    }
+    lists
 }
 
 fn weighed(lists: &[Vec<f64>], scales: &[f64]) -> Vec<f64> {

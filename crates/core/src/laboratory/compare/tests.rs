@@ -56,6 +56,26 @@ fn kinds(text: &str) -> Vec<String> {
     compared(text, &[]).1.warnings.iter().map(|w| format!("{} {}", w.kind, w.message)).collect()
 }
 
+/// The block comes to rest 2e-9 s after a sample: at the sample it still slides.
+#[test]
+fn exact_an_event_just_after_a_sample_is_not_seen_at_it() {
+    let a = table(600);
+    let motion = GroundMotion::evenly_spaced(0.01, a.clone(), None).unwrap();
+    let events = solver::exact(&model(), &motion).unwrap().events;
+    let stick = events.iter().find(|event| event.kind == crate::response::EventKind::Stick);
+    let time_s = stick.unwrap().time_s - 2e-9;
+    let before = (time_s / 0.01) as usize;
+    let part = time_s / 0.01 - before as f64;
+    let mut rows: Vec<(f64, f64)> =
+        a.iter().enumerate().map(|(i, a)| (0.01 * i as f64, *a)).collect();
+    rows.insert(before + 1, (time_s, a[before] + part * (a[before + 1] - a[before])));
+    let text: String = rows.iter().map(|(t, a)| format!("{t:e},{a:e},0\n")).collect();
+    let header = "time_s,table_acceleration_m_per_s2,block_acceleration_m_per_s2\n";
+    let (_, comparison) = compared(&format!("{header}{text}"), &[]);
+    let predicted = comparison.compared[0].pair.predicted[before + 1];
+    assert!((predicted.abs() - 0.08 * G).abs() < 1e-9, "{predicted}");
+}
+
 #[test]
 fn exact_our_own_history_is_met_exactly() {
     let (_, comparison) = compared(&file(|a| a, 0), &[]);

@@ -8,6 +8,10 @@ use crate::numerics::algebra::inverse;
 /// larger, in what derivatives at the minimum make of it.
 const BEYOND: [f64; 6] = [0.1, 0.25, 0.5, 1.0, 1.5, 2.0];
 
+/// A fit that is better than the minimum by less than this part of the threshold moves an end by
+/// half as much of its distance, and is no other minimum.
+const BETTER: f64 = 0.01;
+
 /// The interval of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
@@ -43,21 +47,20 @@ pub fn profile(
     let mut open = [true, true];
     for side in 0..2 {
         let mut walk = Walk::new(problem, minimum, index, variance, side == 1);
-        match walk.end(threshold) {
-            End::At(unit) => (ends[side], open[side]) = (unit, false),
-            End::Bound => {}
-            End::Better(found) => return Profile::Better(found),
+        if let Some(unit) = walk.end(threshold) {
+            (ends[side], open[side]) = (unit, false);
+        }
+        // Not before the end: a function that jumps often falls by a little in the first small steps,
+        // and whoever turns back at each of them does not arrive.
+        if let Some(better) = walk.better
+            && minimum.sse - better.sse > BETTER * threshold * variance
+        {
+            return Profile::Better(better);
         }
     }
     let [low, high] = problem.bounds[index];
     let ends = ends.map(|unit| low + unit * (high - low));
     Profile::Interval(Interval { ends, open })
-}
-
-enum End {
-    At(f64),
-    Bound,
-    Better(Minimum),
 }
 
 struct Walk<'a> {
@@ -69,6 +72,8 @@ struct Walk<'a> {
     sign: f64,
     /// Points of the profile so far: distance from the minimum and where the others are.
     path: Vec<(f64, Vec<f64>)>,
+    /// The best fit on the way that is better than the minimum.
+    better: Option<Minimum>,
 }
 
 impl<'a> Walk<'a> {
@@ -82,7 +87,7 @@ impl<'a> Walk<'a> {
         let others = (0..problem.bounds.len()).filter(|k| *k != index).collect();
         let sign = if upwards { 1.0 } else { -1.0 };
         let path = vec![(0.0, minimum.unit.clone())];
-        Self { problem, minimum, index, others, variance, sign, path }
+        Self { problem, minimum, index, others, variance, sign, path, better: None }
     }
 
     /// Distance to the bound.
@@ -106,11 +111,12 @@ impl<'a> Walk<'a> {
     }
 
     /// How much the fit is worse at a distance, in variances.
-    fn rise(&mut self, distance: f64) -> Result<f64, Minimum> {
+    fn rise(&mut self, distance: f64) -> f64 {
         let mut start = self.extrapolated(distance);
         start[self.index] = (self.minimum.unit[self.index] + self.sign * distance).clamp(0.0, 1.0);
-        let nearest = self.path.last().map_or_else(|| start.clone(), |(_, unit)| unit.clone());
-        let mut fallback = nearest;
+        // The nearest known point on the side of the minimum, which has the distance 0.
+        let inside = self.path.partition_point(|(at, _)| *at < distance).max(1) - 1;
+        let mut fallback = self.path[inside].1.clone();
         fallback[self.index] = start[self.index];
         let mut best: Option<Minimum> = None;
         for start in [start, fallback] {
@@ -129,7 +135,7 @@ impl<'a> Walk<'a> {
                 break;
             }
         }
-        let Some(mut found) = best else { return Ok(f64::INFINITY) };
+        let Some(mut found) = best else { return f64::INFINITY };
         let mut rise = (found.sse - self.minimum.sse) / self.variance;
         // Where the derivatives may have stopped at a jump, the simplex looks once more.
         if rise > 1.0 && !self.others.is_empty() {
@@ -140,12 +146,13 @@ impl<'a> Walk<'a> {
                 rise = (found.sse - self.minimum.sse) / self.variance;
             }
         }
-        if rise < -0.01 {
-            return Err(found);
-        }
         let place = self.path.partition_point(|(at, _)| *at < distance);
-        self.path.insert(place, (distance, found.unit));
-        Ok(rise.max(0.0))
+        self.path.insert(place, (distance, found.unit.clone()));
+        let least = self.better.as_ref().map_or(self.minimum.sse, |better| better.sse);
+        if found.sse < least {
+            self.better = Some(found);
+        }
+        rise.max(0.0)
     }
 
     /// Where the others are likely to be: on the line through the two nearest known points.
@@ -161,14 +168,8 @@ impl<'a> Walk<'a> {
         first.iter().zip(second).map(|(f, s)| (f + part * (s - f)).clamp(0.0, 1.0)).collect()
     }
 
-    fn end(&mut self, threshold: f64) -> End {
-        match self.search(threshold) {
-            Ok(end) => end,
-            Err(better) => End::Better(better),
-        }
-    }
-
-    fn search(&mut self, threshold: f64) -> Result<End, Minimum> {
+    /// Where in the unit interval the fit becomes too bad; `None` if it does not up to the bound.
+    fn end(&mut self, threshold: f64) -> Option<f64> {
         let room = self.room();
         let guess = self.guess(threshold);
         let mut step = guess.min(room);
@@ -177,51 +178,41 @@ impl<'a> Walk<'a> {
             // Outwards until the fit is too bad.
             let outside = loop {
                 if room <= 0.0 || inside.0 >= room {
-                    return Ok(End::Bound);
+                    return None;
                 }
                 let distance = (inside.0 + step).min(room);
-                let rise = self.rise(distance)?;
+                let rise = self.rise(distance);
                 if rise > threshold {
                     break (distance, rise);
                 }
                 inside = (distance, rise);
                 step *= 1.6;
             };
-            let end = self.crossing(threshold, inside, outside)?;
-            match self.valley_beyond(threshold, end, guess.max(end))? {
+            let end = self.crossing(threshold, inside, outside);
+            match self.valley_beyond(threshold, end, guess.max(end)) {
                 Some(valley) => inside = valley,
-                None => return Ok(End::At(self.minimum.unit[self.index] + self.sign * end)),
+                None => return Some(self.minimum.unit[self.index] + self.sign * end),
             }
         }
     }
 
     /// A place beyond an end where the fit is good enough again, the furthest that is found.
-    fn valley_beyond(
-        &mut self,
-        threshold: f64,
-        end: f64,
-        scale: f64,
-    ) -> Result<Option<(f64, f64)>, Minimum> {
+    fn valley_beyond(&mut self, threshold: f64, end: f64, scale: f64) -> Option<(f64, f64)> {
         let room = self.room();
         for part in BEYOND.into_iter().rev() {
             let distance = end + part * scale;
             if distance <= room {
-                let rise = self.rise(distance)?;
+                let rise = self.rise(distance);
                 if rise <= threshold {
-                    return Ok(Some((distance, rise)));
+                    return Some((distance, rise));
                 }
             }
         }
-        Ok(None)
+        None
     }
 
     /// The distance between two at which the root of the rise passes that of the threshold.
-    fn crossing(
-        &mut self,
-        threshold: f64,
-        mut inside: (f64, f64),
-        mut outside: (f64, f64),
-    ) -> Result<f64, Minimum> {
+    fn crossing(&mut self, threshold: f64, mut inside: (f64, f64), mut outside: (f64, f64)) -> f64 {
         let goal = threshold.sqrt();
         for turn in 0..14 {
             let (a, fa) = (inside.0, inside.1.sqrt() - goal);
@@ -229,9 +220,9 @@ impl<'a> Walk<'a> {
             let secant = a + (b - a) * (-fa / (fb - fa)).clamp(0.05, 0.95);
             // Every third turn halves, whatever the curve looks like.
             let middle = if turn % 3 == 2 || !fb.is_finite() { 0.5 * (a + b) } else { secant };
-            let rise = self.rise(middle)?;
+            let rise = self.rise(middle);
             if (rise.sqrt() - goal).abs() < 0.005 * goal {
-                return Ok(middle);
+                return middle;
             }
             if rise > threshold {
                 outside = (middle, rise)
@@ -242,6 +233,6 @@ impl<'a> Walk<'a> {
                 break;
             }
         }
-        Ok(0.5 * (inside.0 + outside.0))
+        0.5 * (inside.0 + outside.0)
     }
 }

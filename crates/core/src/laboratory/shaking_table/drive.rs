@@ -9,17 +9,28 @@
 //!
 //! `δr` is computed for draws of the noise on top of the measured motion, and for the motion that passes
 //! midway between samples on the cubic through four of them instead of the straight line.
+//!
+//! The sum of squares jumps where a stick or a slip appears, so that the best values move further than
+//! derivatives tell. Where the noise counts at all, the response of the best values is therefore fitted
+//! anew under each draw.
 
-use super::{Data, Found, weighed};
-use crate::laboratory::fit::{Interval, Problem};
+use super::{Data, Found, centred, weighed};
+use crate::laboratory::fit::{Interval, Problem, refine};
+use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::numerics::algebra::linear_fit;
-use crate::numerics::distribution::normal_quantile;
+use crate::numerics::distribution::student_quantile;
 use crate::numerics::fractile::upper_median;
 use crate::numerics::random::Random;
 
 /// Draws of the noise: its standard deviation is known to a seventh.
 const DRAWS: usize = 24;
+/// What moves no estimate by more than this part of the standard deviation of its profile does not count:
+/// even three times as much would widen the interval by a twentieth.
+const NOTHING: f64 = 0.1;
+/// Least step of a derivative, over the range of the parameter: where a sum of squares has a cliff at
+/// either side of its minimum, the interval of the profile is next to nothing.
+const LEAST_STEP: f64 = 1e-4;
 /// Samples of the quietest stretch that is looked at.
 const QUIET: usize = 50;
 
@@ -48,13 +59,13 @@ pub(super) fn widen(
     noise_m_per_s2: f64,
     seed: u64,
 ) {
-    let Some(moves) = moves(found, problem, data, scales, noise_m_per_s2, seed) else { return };
-    let z = normal_quantile(0.975);
     let values = problem.parameters(&found.minimum.unit);
+    let Some(moves) = moves(found, problem, data, scales, noise_m_per_s2, seed) else { return };
+    let t = student_quantile(0.95, DRAWS as f64);
     for ((interval, deviation), value) in found.intervals.iter_mut().zip(moves).zip(values) {
         let Some(Interval { ends, .. }) = interval else { continue };
         let wider = |end: f64| {
-            let (half, more) = (end - value, z * deviation);
+            let (half, more) = (end - value, t * deviation);
             value + half.signum() * (half * half + more * more).sqrt()
         };
         *ends = ends.map(wider);
@@ -71,54 +82,114 @@ fn moves(
     noise_m_per_s2: f64,
     seed: u64,
 ) -> Option<Vec<f64>> {
-    let values = problem.parameters(&found.minimum.unit);
-    let count = values.len();
-    let model = (data.build)(&values)?;
-    // Derivatives over half of each interval: closer by, single events would count for too much.
-    let mut columns = Vec::with_capacity(count);
-    for index in 0..count {
-        let [low, high] = found.intervals[index]?.ends;
-        let [least, most] = problem.bounds[index];
-        let step = 0.25 * (high - low);
-        let [from, to] =
-            [values[index] - step, values[index] + step].map(|value| value.clamp(least, most));
-        if !(to > from) {
-            return None;
-        }
-        let at = |value: f64| {
-            let mut moved = values.clone();
-            moved[index] = value;
-            data.residuals(&moved, scales)
-        };
-        let (from_r, to_r) = (at(from)?, at(to)?);
-        let slope = from_r.iter().zip(&to_r).map(|(a, b)| (b - a) / (to - from));
-        columns.push(slope.collect::<Vec<f64>>());
-    }
-    let plain = data.residuals(&values, scales)?;
-    let moved_by = |motion: &GroundMotion| -> Option<Vec<f64>> {
-        let other = weighed(&data.of_model_under(&model, motion)?, scales);
-        let row = |i: usize| columns.iter().map(|column| column[i]).collect::<Vec<f64>>();
-        let rows: Vec<(Vec<f64>, f64)> =
-            (0..plain.len()).map(|i| (row(i), plain[i] - other[i])).collect();
-        Some(linear_fit(&rows)?.coefficients)
-    };
+    let derivatives = Derivatives::new(found, problem, data, scales)?;
     let mut random = Random::new(seed);
-    let mut square = vec![0.0; count];
-    let a = data.motion.horizontal_m_per_s2();
-    let times_s = data.motion.times_s();
-    for _ in 0..DRAWS {
+    let (a, times_s) = (data.motion.horizontal_m_per_s2(), data.motion.times_s());
+    let noisy = |_| {
         let noisy = a.iter().map(|a| a + noise_m_per_s2 * random.normal()).collect();
-        let motion = GroundMotion::new(times_s.to_vec(), noisy, None).ok()?;
-        for (square, moved) in square.iter_mut().zip(moved_by(&motion)?) {
-            *square += moved * moved / DRAWS as f64;
+        GroundMotion::new(times_s.to_vec(), noisy, None).ok()
+    };
+    let draws: Vec<GroundMotion> = (0..DRAWS).map(noisy).collect::<Option<_>>()?;
+    let mean_squares = |moved: &dyn Fn(&GroundMotion) -> Option<Vec<f64>>| {
+        let mut mean = vec![0.0; problem.bounds.len()];
+        for motion in &draws {
+            for (mean, moved) in mean.iter_mut().zip(moved(motion)?) {
+                *mean += moved * moved / DRAWS as f64;
+            }
         }
+        Some(mean)
+    };
+    let mut squares = mean_squares(&|motion| derivatives.moved_by(motion))?;
+    let counts = |(square, interval): (&f64, &Option<Interval>)| {
+        interval.is_some_and(|Interval { ends: [low, high], .. }| {
+            square.sqrt() > NOTHING * 0.25 * (high - low)
+        })
+    };
+    if squares.iter().zip(&found.intervals).any(counts) {
+        squares = mean_squares(&|motion| fitted_anew(found, problem, data, scales, motion))?;
     }
     if let Some(curved) = curved(data.motion) {
-        for (square, moved) in square.iter_mut().zip(moved_by(&curved)?) {
+        for (square, moved) in squares.iter_mut().zip(derivatives.moved_by(&curved)?) {
             *square += moved * moved;
         }
     }
-    Some(square.into_iter().map(f64::sqrt).collect())
+    Some(squares.into_iter().map(f64::sqrt).collect())
+}
+
+/// How far the best values move when their own response is fitted under another table motion.
+fn fitted_anew(
+    found: &Found,
+    problem: &Problem,
+    data: &Data,
+    scales: &[f64],
+    motion: &GroundMotion,
+) -> Option<Vec<f64>> {
+    let values = problem.parameters(&found.minimum.unit);
+    // Predicted less measured: the measured values fall out of the difference.
+    let best = data.of_motion(&(data.build)(&values)?, data.motion)?;
+    let residuals = |p: &[f64]| {
+        let mut lists = data.of_motion(&(data.build)(p)?, motion)?;
+        for (r, best) in lists.iter_mut().flatten().zip(best.iter().flatten()) {
+            *r -= best;
+        }
+        Some(weighed(&centred(lists, &data.free), scales))
+    };
+    let again = Problem { bounds: problem.bounds.clone(), residuals: &residuals };
+    let moved = problem.parameters(&refine(&again, &found.minimum.unit)?.unit);
+    Some(moved.iter().zip(&values).map(|(moved, value)| moved - value).collect())
+}
+
+/// The residuals at the best values and their derivatives.
+struct Derivatives<'a> {
+    data: &'a Data<'a>,
+    scales: &'a [f64],
+    model: Model,
+    plain: Vec<f64>,
+    /// A column a parameter.
+    columns: Vec<Vec<f64>>,
+}
+
+impl<'a> Derivatives<'a> {
+    /// Over half of each interval: closer by, single events would count for too much.
+    fn new(
+        found: &Found,
+        problem: &Problem,
+        data: &'a Data<'a>,
+        scales: &'a [f64],
+    ) -> Option<Self> {
+        let values = problem.parameters(&found.minimum.unit);
+        let mut columns = Vec::with_capacity(values.len());
+        for (index, value) in values.iter().enumerate() {
+            let [least, most] = problem.bounds[index];
+            let width = found.intervals[index].map_or(0.0, |i| i.ends[1] - i.ends[0]);
+            let step = (0.25 * width).max(LEAST_STEP * (most - least));
+            let [from, to] = [value - step, value + step].map(|v| v.clamp(least, most));
+            if !(to > from) {
+                return None;
+            }
+            let at = |value: f64| {
+                let mut moved = values.clone();
+                moved[index] = value;
+                data.residuals(&moved, scales)
+            };
+            let (from_r, to_r) = (at(from)?, at(to)?);
+            let slope = from_r.iter().zip(&to_r).map(|(a, b)| (b - a) / (to - from));
+            columns.push(slope.collect::<Vec<f64>>());
+        }
+        let model = (data.build)(&values)?;
+        let plain = data.residuals(&values, scales)?;
+        Some(Self { data, scales, model, plain, columns })
+    }
+
+    /// How far the estimates move under another table motion.
+    fn moved_by(&self, motion: &GroundMotion) -> Option<Vec<f64>> {
+        let lists = self.data.of_motion(&self.model, motion)?;
+        let other = weighed(&centred(lists, &self.data.free), self.scales);
+        let row = |i: usize| self.columns.iter().map(|column| column[i]).collect::<Vec<f64>>();
+        let rows: Vec<(Vec<f64>, f64)> =
+            (0..self.plain.len()).map(|i| (row(i), self.plain[i] - other[i])).collect();
+        Some(linear_fit(&rows)?.coefficients)
+    }
 }
 
 /// The motion with a sample midway between all others, on the cubic through four of them; `None`
