@@ -283,6 +283,31 @@ def clustered_stripes():
     return cases
 
 
+def clustered_pairs():
+    """Single runs of two components a pair, a term of each pair in common: Probit clustered by pair."""
+    rng = np.random.default_rng(15)
+    pairs, x = 12, np.round(np.linspace(0.15, 0.9, 6), 4)
+    rows = []
+    for pair in range(pairs):
+        of_pair = 0.35 * rng.standard_normal()
+        for component in range(2):
+            for level in x:
+                own = of_pair + 0.2 * rng.standard_normal()
+                rows.append([pair, component, level, int(np.log(level / 0.4) + own > 0)])
+    ln_x = sm.add_constant(np.log([row[2] for row in rows]))
+    beyond = np.array([row[3] for row in rows])
+    case = {"rows": rows}
+    for by, group in [("pair", [row[0] for row in rows]), ("component", [2 * row[0] + row[1] for row in rows])]:
+        model = sm.Probit(beyond, ln_x)
+        start = model.fit(disp=0, tol=1e-15, maxiter=200, method="newton").params
+        fit = model.fit(start_params=start, disp=0, tol=1e-15, maxiter=200, method="newton",
+                        cov_type="cluster", cov_kwds={"groups": np.array(group)}, use_t=True)
+        a, b = fit.params
+        errors = delta(lambda p: [-p[0] / p[1], 1 / p[1]], fit.params, fit.cov_params())
+        case[by] = with_t({}, float(np.exp(-a / b)), 1 / b, errors, len(set(group)))
+    return case
+
+
 def sandwich(scores, hessian, group, k):
     """Cluster-robust covariance with the correction of statsmodels' cov_cluster."""
     groups = np.unique(group)
@@ -360,6 +385,7 @@ json.dump({
     "stripes": stripes(),
     "capacities": capacities(),
     "clouds": clouds(),
-    "clustered": {"stripes": clustered_stripes(), "capacities": clustered_capacities(), "cloud": clustered_cloud()},
+    "clustered": {"stripes": clustered_stripes(), "capacities": clustered_capacities(), "cloud": clustered_cloud(),
+                  "pairs": clustered_pairs()},
 }, sys.stdout, indent=1, default=float)
 print()

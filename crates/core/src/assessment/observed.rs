@@ -51,7 +51,7 @@ pub struct FragilityRequest<'a> {
     pub cap: Option<f64>,
     /// Rows that are kept: `PATH=VALUE` or `PATH=FROM..TO`, all of them.
     pub keep: &'a [String],
-    /// Intervals from draws of the records, so many with this seed, in place of the sandwich.
+    /// Intervals from draws of the records or pairs, so many with this seed, in place of the sandwich.
     pub bootstrap: Option<(u32, u64)>,
 }
 
@@ -68,6 +68,8 @@ pub struct FragilityRun {
     pub averaged: Averaged,
     /// The fit.
     pub fragility: Fragility,
+    /// What its certainty is clustered by where it is: `record`, or `pair` of the components of one.
+    pub clustered_by: &'static str,
     /// Name of the measure.
     pub measure: String,
     /// Its SI unit.
@@ -209,20 +211,20 @@ fn fit(
 ) -> Result<FragilityRun, AssessmentError> {
     let intensity = Intensity::of(request, columns)?;
     let mut warnings = Vec::new();
-    let records = columns.records();
+    let (clustered_by, clusters) = columns.clusters().unzip();
     let (data, of_data, kind, why) = if columns.has("runs") && columns.has("exceeded") {
         let stripes = stripes(columns, &intensity)?;
         let why = "the table holds counts".to_owned();
-        (Data::Stripes(stripes), records.clone(), "stripes", why)
+        (Data::Stripes(stripes), clusters.clone(), "stripes", why)
     } else if columns.has("reached") && columns.intensity("capacity").is_some() {
         let capacities = capacities(columns, &intensity)?;
         let why = "the table holds capacities".to_owned();
-        (Data::Capacities(capacities), records.clone(), "capacities", why)
+        (Data::Capacities(capacities), clusters.clone(), "capacities", why)
     } else {
         let of_runs = runs::of_runs(request, columns, &intensity, &mut warnings)?;
-        (of_runs.data, of_runs.records, "runs", of_runs.why)
+        (of_runs.data, of_runs.clusters, "runs", of_runs.why)
     };
-    let of_data = of_data.map_or_else(Vec::new, |records| records.of_row);
+    let of_data = of_data.map_or_else(Vec::new, |clusters| clusters.of_row);
     let fragility = match &data {
         Data::Stripes(stripes) => Fragility::of_stripes_by_record(stripes, &of_data),
         Data::Capacities(capacities) => Fragility::of_capacities_by_record(capacities, &of_data),
@@ -235,7 +237,7 @@ fn fit(
     let mut fragility = fragility.map_err(|error| AssessmentError::Fragility { error, unit })?;
     let counts = matches!(data, Data::Stripes(_));
     let mut warn = |kind, message| warnings.push(Warning { kind, time_s: None, message });
-    if records.is_none() && counts {
+    if clusters.is_none() && counts {
         warn(
             "independent_runs",
             "the table does not say which runs share a record: they are taken as independent, so \
@@ -245,18 +247,21 @@ fn fit(
         );
     }
     if let Some((draws, seed)) = request.bootstrap {
-        if records.is_none() && counts {
+        if clusters.is_none() && counts {
             let expected = "a column record, whose records are drawn";
             return Err(refuse("bootstrap", expected, "none"));
         }
         fragility = fragility.bootstrapped(draws, seed, engine)?;
     }
     use super::fragility::Certainty as C;
+    let clustered_by = clustered_by.unwrap_or("record");
     match fragility.certainty() {
         C::Clustered { records } | C::Bootstrap { records, .. } if *records < ENOUGH_RECORDS => {
             warn(
                 "few_records",
-                format!("{records} records: intervals over so few records are rough"),
+                format!(
+                    "{records} {clustered_by}s: intervals over so few {clustered_by}s are rough"
+                ),
             );
         }
         _ => {}
@@ -264,7 +269,7 @@ fn fit(
     if let C::Bootstrap { curves, failed: failed @ 1.., .. } = fragility.certainty() {
         let all = failed + curves.len();
         let message = format!(
-            "{failed} of {all} draws of records tell no curve and are left out of the intervals"
+            "{failed} of {all} draws of {clustered_by}s tell no curve and are left out of the intervals"
         );
         warn("failed_draws", message);
     }
@@ -275,7 +280,17 @@ fn fit(
     };
     let averaged = rows::averaged(columns)?;
     let Intensity { measure, unit, .. } = intensity;
-    Ok(FragilityRun { data, kind, why, averaged, fragility, measure, measure_unit: unit, warnings })
+    Ok(FragilityRun {
+        data,
+        kind,
+        why,
+        averaged,
+        fragility,
+        clustered_by,
+        measure,
+        measure_unit: unit,
+        warnings,
+    })
 }
 
 fn stripes(columns: Columns<'_>, level: &Intensity) -> Result<Vec<Stripe>, AssessmentError> {

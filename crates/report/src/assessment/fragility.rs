@@ -166,6 +166,7 @@ impl FragilityReport<'_> {
 
     /// Of what the standard errors and intervals are.
     fn certainty(&self) -> String {
+        let by = self.run.clustered_by;
         match self.run.fragility.certainty() {
             Certainty::Independent => {
                 "Intervals of θ and β are by profile likelihood; the band is pointwise, Φ(η ± z se(η)) of \
@@ -174,14 +175,14 @@ impl FragilityReport<'_> {
                     .to_owned()
             }
             Certainty::Clustered { records } => format!(
-                "Runs of one record are not independent: standard errors are clustered by record (the \
-                 sandwich of the scores of {records} records), intervals are θ exp(± t se(ln θ)) and \
+                "Runs of one {by} are not independent: standard errors are clustered by {by} (the \
+                 sandwich of the scores of {records} {by}s), intervals are θ exp(± t se(ln θ)) and \
                  β exp(± t se(β)/β) with Student's t on {} degrees of freedom, and so is the band.",
                 records - 1
             ),
             Certainty::Bootstrap { records, curves, .. } => format!(
                 "Standard errors, intervals and band are those of {} curves, each fitted to {records} \
-                 records drawn with replacement (bootstrap).",
+                 {by}s drawn with replacement (bootstrap).",
                 curves.len()
             ),
         }
@@ -421,6 +422,7 @@ impl FragilityReport<'_> {
             ("se_ln_median", of_median.into()),
             ("se_dispersion", of_dispersion.into()),
             ("certainty", certainty.into()),
+            ("clustered_by", records.map_or(Json::Null, |_| self.run.clustered_by.into())),
             ("records", records.map_or(Json::Null, |records| Json::Count(records as u64))),
             ("confidence", self.confidence.into()),
             ("median_interval", pair(self.run.fragility.median_interval(self.confidence))),

@@ -79,6 +79,24 @@ impl<'a> Columns<'a> {
         Some(Records::numbered(self.table.texts_of("record")?.iter()))
     }
 
+    /// What the runs of one cluster share: the pair of components, one earthquake's, or else the record; its
+    /// name and that of each row.
+    pub(super) fn clusters(self) -> Option<(&'static str, Records)> {
+        let records = self.table.texts_of("record");
+        let Some(pairs) = self.table.texts_of("pair") else {
+            return records.map(|records| ("record", Records::numbered(records.iter())));
+        };
+        // A row without a pair is a record of its own.
+        let key = |row: usize| match &pairs[row][..] {
+            "" => ("record", records.map_or("", |records| &records[row][..])),
+            pair => ("pair", pair),
+        };
+        let of_pairs = pairs.iter().any(|pair| !pair.is_empty());
+        let name = if of_pairs { "pair" } else { "record" };
+        (of_pairs || records.is_some())
+            .then(|| (name, Records::numbered((0..pairs.len()).map(key))))
+    }
+
     /// The first cell of a column of texts.
     pub(super) fn first_text(self, name: &str) -> Option<String> {
         self.table.texts_of(name)?.first().filter(|text| !text.is_empty()).cloned()

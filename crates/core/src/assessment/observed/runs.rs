@@ -14,8 +14,8 @@ use crate::response::Warning;
 /// What single runs were made into, and why.
 pub(super) struct OfRuns {
     pub(super) data: Data,
-    /// The record of each of the data.
-    pub(super) records: Option<Records>,
+    /// The cluster of each of the data.
+    pub(super) clusters: Option<Records>,
     pub(super) why: String,
 }
 
@@ -38,6 +38,7 @@ pub(super) fn of_runs(
     let demands: Vec<f64> =
         columns.numbers_or_nan(request.demand)?.into_iter().map(f64::abs).collect();
     let records = columns.records();
+    let clusters = columns.clusters().map(|(_, clusters)| clusters);
     let hunted = columns.first_text(LEVEL_CHOICE).is_some_and(|choice| choice == "hunted");
     let (fit_to, why) = match (request.fit_to, hunted) {
         (Some(FitTo::Counts), true) => {
@@ -52,9 +53,10 @@ pub(super) fn of_runs(
     let mut warn = |kind, message| warnings.push(Warning { kind, time_s: None, message });
     if fit_to == FitTo::Capacities {
         let Some(records) = records else { return Err(columns.lacking("fit-to", "record")) };
-        let (capacities, of_capacity) = crossings(columns, &records, &levels, &demands, limit)?;
-        let records = Records { of_row: of_capacity, count: records.count };
-        return Ok(OfRuns { data: Data::Capacities(capacities), records: Some(records), why });
+        let (capacities, row_of) = crossings(columns, &records, &levels, &demands, limit)?;
+        let clusters = clusters.unwrap_or(records);
+        let clusters = Records::numbered(row_of.iter().map(|&row| clusters.of_row[row]));
+        return Ok(OfRuns { data: Data::Capacities(capacities), clusters: Some(clusters), why });
     }
     let failed = demands.iter().filter(|demand| demand.is_nan()).count();
     if failed > 0 {
@@ -64,16 +66,16 @@ pub(super) fn of_runs(
         );
     }
     let kept: Vec<usize> = (0..demands.len()).filter(|&row| !demands[row].is_nan()).collect();
-    // Records of which all runs failed are no records.
+    // A cluster of which all runs failed is none.
     let of_kept =
-        records.map(|records| Records::numbered(kept.iter().map(|&row| records.of_row[row])));
+        clusters.map(|clusters| Records::numbered(kept.iter().map(|&row| clusters.of_row[row])));
     if fit_to == FitTo::Counts {
-        let record = |i: usize| of_kept.as_ref().map_or(0, |records| records.of_row[i]);
+        let cluster = |i: usize| of_kept.as_ref().map_or(0, |clusters| clusters.of_row[i]);
         let mut counts: BTreeMap<(u64, usize), Stripe> = BTreeMap::new();
         for (i, &row) in kept.iter().enumerate() {
             let level = levels[row];
             // Bits of numbers > 0 are in the order of the numbers.
-            let stripe = counts.entry((level.to_bits(), record(i))).or_insert(Stripe {
+            let stripe = counts.entry((level.to_bits(), cluster(i))).or_insert(Stripe {
                 level,
                 runs: 0,
                 exceeded: 0,
@@ -81,10 +83,10 @@ pub(super) fn of_runs(
             stripe.runs += 1;
             stripe.exceeded += u64::from(demands[row] > limit);
         }
-        let of_row = counts.keys().map(|(_, record)| *record).collect();
-        let records = of_kept.map(|records| Records { of_row, count: records.count });
+        let of_row = counts.keys().map(|(_, cluster)| *cluster).collect();
+        let clusters = of_kept.map(|clusters| Records { of_row, count: clusters.count });
         let stripes = counts.into_values().collect();
-        return Ok(OfRuns { data: Data::Stripes(stripes), records, why });
+        return Ok(OfRuns { data: Data::Stripes(stripes), clusters, why });
     }
     let floor = request.floor.unwrap_or(0.0);
     let mut points = Vec::with_capacity(kept.len());
@@ -101,7 +103,7 @@ pub(super) fn of_runs(
         };
         points.push(CloudPoint { level, demand, known });
     }
-    Ok(OfRuns { data: Data::Cloud(points), records: of_kept, why })
+    Ok(OfRuns { data: Data::Cloud(points), clusters: of_kept, why })
 }
 
 /// What runs are best fitted to, and why: counts where every record was run at every level, first
@@ -133,7 +135,7 @@ fn natural(levels: &[f64], records: Option<&Records>) -> (FitTo, String) {
     }
 }
 
-/// The first crossing of each record's curve, for each design a curve, and their records.
+/// The first crossing of each record's curve, for each design a curve, and a row of each.
 fn crossings(
     columns: Columns<'_>,
     records: &Records,
@@ -148,16 +150,16 @@ fn crossings(
     let key = |row: usize| (records.of_row[row], channel(row), design(row));
     let of_curve = Records::numbered((0..levels.len()).map(key));
     let mut curves = vec![Curve::default(); of_curve.count];
-    let mut of_capacity = vec![0; of_curve.count];
+    let mut row_of = vec![0; of_curve.count];
     for (row, &curve) in of_curve.of_row.iter().enumerate() {
         curves[curve].insert(levels[row], demands[row]);
-        of_capacity[curve] = records.of_row[row];
+        row_of[curve] = row;
     }
     let capacity = |curve: &Curve| {
         let crossing = curve.first_crossing(limit);
         Capacity { level: crossing.level, reached: crossing.reached }
     };
-    Ok((curves.iter().map(capacity).collect(), of_capacity))
+    Ok((curves.iter().map(capacity).collect(), row_of))
 }
 
 /// Counts of equal levels added up, by rising level.

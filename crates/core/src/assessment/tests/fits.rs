@@ -6,6 +6,7 @@ use crate::assessment::censored::{Fit, Known, Observation};
 use crate::assessment::fragility::{
     Capacity, Certainty, CloudPoint, Fragility, Lognormal, Stripe, test_counts, test_normality,
 };
+use crate::assessment::observed::{FitTo, FragilityRequest, run_fragility};
 use crate::assessment::proportion::Proportion;
 use crate::error::FitError;
 use crate::numerics::distribution::{
@@ -13,6 +14,7 @@ use crate::numerics::distribution::{
 };
 use crate::numerics::fractile::{fractile, fractiles, held_by, needed, sorted};
 use crate::study::engine::Engine;
+use crate::table::Table;
 
 fn reference() -> Value {
     let text = include_str!("../../../../../data/reference/fragility.json");
@@ -290,6 +292,44 @@ fn peer_clustered_capacities_and_cloud_agree_with_scipy() {
     let fragility =
         Fragility::of_cloud_by_record(&points, number(&case["limit"]), &records).unwrap();
     check_clustered(&fragility, case, "cloud", 1e-6);
+}
+
+/// The two components of a pair are one earthquake's: runs are clustered by pair where a table tells it.
+#[test]
+fn peer_runs_of_pairs_agree_with_statsmodels_clustered_by_pair() {
+    let reference = reference();
+    let case = &reference["clustered"]["pairs"];
+    let rows: Vec<Vec<f64>> = case["rows"].as_array().unwrap().iter().map(numbers).collect();
+    let mut table = Table::default();
+    let name = |row: &Vec<f64>| format!("r{}-{}", row[0], row[1]);
+    table.texts("record", rows.iter().map(name).collect());
+    table.numbers("level", "m/s2", rows.iter().map(|row| row[2]).collect());
+    table.numbers("peak", "m", rows.iter().map(|row| 0.1 + 0.1 * row[3]).collect());
+    let fitted = |table: &Table| {
+        let request = FragilityRequest {
+            table,
+            source_name: "runs",
+            demand: "peak",
+            limit: Some(0.15),
+            measure: None,
+            units: None,
+            fit_to: Some(FitTo::Counts),
+            floor: None,
+            cap: None,
+            keep: &[],
+            bootstrap: None,
+        };
+        run_fragility(&request, &Engine::unwatched()).unwrap()
+    };
+    let by_record = fitted(&table);
+    check_clustered(&by_record.fragility, &case["component"], "by record", 1e-8);
+    assert_eq!(by_record.clustered_by, "record");
+    table.texts("pair", rows.iter().map(|row| format!("r{}", row[0])).collect());
+    let by_pair = fitted(&table);
+    check_clustered(&by_pair.fragility, &case["pair"], "by pair", 1e-8);
+    assert_eq!(by_pair.clustered_by, "pair");
+    assert_eq!(by_pair.fragility.certainty(), &Certainty::Clustered { records: 12 });
+    assert_eq!(by_pair.fragility.curve(), by_record.fragility.curve());
 }
 
 /// One observation a record is independence; one record tells nothing of the scatter between records.
