@@ -200,6 +200,11 @@ pub struct RunArgs {
     pub result: ResultArgs,
 }
 
+/// The value of an option, in SI.
+pub fn quantity(option: &str, text: &str, dimension: Dimension) -> Result<f64, Failure> {
+    parse_quantity(text, dimension).map_err(|error| Failure::Message(format!("{option}: {error}")))
+}
+
 /// What files of records do not say themselves: wherever one is read.
 #[derive(Clone, Debug, Args)]
 pub struct RecordArgs {
@@ -234,8 +239,7 @@ impl RecordArgs {
             })
         });
         let dt_s = self.dt.as_deref().map(|text| {
-            let dt_s = parse_quantity(text, Dimension::Time)
-                .map_err(|error| Failure::Message(format!("--dt: {error}")))?;
+            let dt_s = quantity("--dt", text, Dimension::Time)?;
             if dt_s > 0.0 { Ok(dt_s) } else { Err(refuse("--dt", "a time step > 0", text)) }
         });
         Ok(RecordOptions {

@@ -10,7 +10,6 @@ use std::process::ExitCode;
 use slipstick::input;
 use slipstick::laboratory::identify::{Identified, IdentifyError};
 use slipstick::laboratory::measured::Measured;
-use slipstick::units::{Dimension, parse_quantity};
 use slipstick_files::{OutputFolder, SourceFile, TextFile};
 use slipstick_report::IdentifyReport;
 
@@ -27,11 +26,6 @@ pub fn identify(command: &IdentifyCommand) -> Result<ExitCode, Failure> {
         IdentifyCommand::FreeVibration(args) => free_vibration::free_vibration(args),
         IdentifyCommand::ShakingTable(args) => shaking_table::shaking_table(args),
     }
-}
-
-/// The value of an option, in SI.
-fn quantity(option: &str, text: &str, dimension: Dimension) -> Result<f64, Failure> {
-    parse_quantity(text, dimension).map_err(|error| Failure::Message(format!("{option}: {error}")))
 }
 
 /// The text of a model file.

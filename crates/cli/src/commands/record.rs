@@ -10,7 +10,6 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use slipstick::record::Format;
-use slipstick::units::{Dimension, parse_quantity};
 use slipstick_files::{RecordOptions, expand};
 
 use crate::failure::{Failure, say};
@@ -40,10 +39,6 @@ fn read_options(args: &ReadArgs) -> Result<RecordOptions, Failure> {
 
 fn refuse(option: &str, reason: &str) -> Failure {
     Failure::Message(format!("{option}: {reason}"))
-}
-
-fn quantity(option: &str, text: &str, dimension: Dimension) -> Result<f64, Failure> {
-    parse_quantity(text, dimension).map_err(|error| refuse(option, &error.to_string()))
 }
 
 /// Damping ratios as typed: percent or ratio; 5 % where there are none.

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use slipstick::assessment::single::Outcome;
 use slipstick::input::{self, Override, Scale};
 use slipstick::response::History;
-use slipstick::units::{Dimension, parse_quantity};
+use slipstick::units::Dimension;
 use slipstick_files::{
     FileError, OpenJob, OutputFolder, RecordRequest, events_csv, history_csv, read_at_most,
     sha256_hex,
@@ -15,7 +15,7 @@ use slipstick_files::{
 use slipstick_report::{FileNote, InputText, Report, Summary, table};
 
 use super::histories::histories;
-use crate::args::{MethodName, RunArgs};
+use crate::args::{MethodName, RunArgs, quantity};
 use crate::failure::{Failure, print, say};
 use crate::progress::{TRIAL, estimated, watched};
 
@@ -147,9 +147,6 @@ pub(super) fn scale_factor(text: &str) -> Result<f64, Failure> {
 /// The record of `--motion`, completed by the options beside it.
 fn record_request(args: &RunArgs, path: &Path) -> Result<RecordRequest, Failure> {
     let refuse = |option: &str, reason: String| Failure::Message(format!("{option}: {reason}"));
-    let quantity = |option: &str, text: &str, dimension| {
-        parse_quantity(text, dimension).map_err(|error| refuse(option, error.to_string()))
-    };
     let scale = match (&args.scale, &args.scale_to) {
         (Some(factor), _) => Some(Scale::Factor(scale_factor(factor)?)),
         (None, Some(peak)) => {

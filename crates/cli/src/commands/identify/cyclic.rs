@@ -10,8 +10,8 @@ use slipstick::laboratory::measured::Measured;
 use slipstick::units::Dimension;
 use slipstick_files::{SourceFile, expand_all, read_mapping, read_measured, time_left};
 
-use super::{Inputs, failure, finish, output, quantity, text};
-use crate::args::{CyclicArgs, Part};
+use super::{Inputs, failure, finish, output, text};
+use crate::args::{CyclicArgs, Part, quantity};
 use crate::commands::run::read_model;
 use crate::failure::Failure;
 use crate::progress::{TRIAL, estimated, watched};

@@ -8,8 +8,8 @@ use slipstick::laboratory::identify::{
 use slipstick::units::Dimension;
 use slipstick_files::{read_mapping, read_measured, time_left};
 
-use super::{Inputs, failure, finish, output, quantity, text};
-use crate::args::FreeVibrationArgs;
+use super::{Inputs, failure, finish, output, text};
+use crate::args::{FreeVibrationArgs, quantity};
 use crate::commands::run::read_model;
 use crate::failure::Failure;
 use crate::progress::{TRIAL, estimated, watched};

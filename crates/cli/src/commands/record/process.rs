@@ -13,7 +13,8 @@ use slipstick_files::{
 };
 
 use super::output::Output;
-use super::{Many, quantity, read_options, refuse};
+use super::{Many, read_options, refuse};
+use crate::args::quantity;
 use crate::failure::{Failure, print, say};
 use crate::record_args::ProcessArgs;
 

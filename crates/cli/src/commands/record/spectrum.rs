@@ -13,7 +13,8 @@ use slipstick_report::records::{
     ChannelFourier, ChannelSpectrum, fourier_csv, spectra_csv, spectra_json, spectrum_figures,
 };
 
-use super::{Many, damping_ratios, quantity, read_options, refuse};
+use super::{Many, damping_ratios, read_options, refuse};
+use crate::args::quantity;
 use crate::failure::{Failure, print, say};
 use crate::record_args::SpectrumArgs;
 
