@@ -20,6 +20,7 @@ mod structure;
 
 use self::judge::Judge;
 use self::structure::{Phase, Structure};
+use crate::friction::Direction;
 use crate::model::{Model, Stop, StopKind};
 use crate::motion::GroundMotion;
 use crate::response::{History, Response};
@@ -113,10 +114,21 @@ pub fn check(model: &Model, motion: &GroundMotion, response: &Response) -> Certi
     let bound = (100.0 * f64::EPSILON * radians).max(1e-10);
     let judged = history.filter(|h| radians <= MAX_RADIANS && well_formed(model, motion, h));
     let run = |history| {
-        if model.has_devices(motion.vertical_m_per_s2().is_some()) {
+        let vertical = motion.vertical_m_per_s2().is_some();
+        let reached = reaches_rigid_stop(model, history);
+        if reached == Some(true) || !model.is_plain_between_stops(vertical) {
             return devices::certificate(model, motion, (response, history), &structure, bound);
         }
-        Judge::new(model, motion, (response, history), &structure).run(bound)
+        let judge = Judge::new(model, motion, (response, history), &structure);
+        let mut certificate = judge.run(bound)?;
+        if reached.is_some() {
+            let calls = devices::near_misses(model, history);
+            certificate.closest_call =
+                certificate.closest_call.into_iter().chain(calls).reduce(|nearest, call| {
+                    if call.margin < nearest.margin { call } else { nearest }
+                });
+        }
+        Some(certificate)
     };
     judged.and_then(run).unwrap_or_else(|| Certificate {
         equilibrium_residual: f64::INFINITY,
@@ -127,6 +139,17 @@ pub fn check(model: &Model, motion: &GroundMotion, response: &Response) -> Certi
         bound,
         energy: EnergyHistory::default(),
     })
+}
+
+/// Whether a history comes to a rigid stop, of a model that has one: `s` is monotone between knots.
+fn reaches_rigid_stop(model: &Model, history: &History) -> Option<bool> {
+    let stop = model.stop().filter(|stop| matches!(stop.kind, StopKind::Rigid { .. }))?;
+    let reached = |side: Direction| {
+        let to_stop = |s: &f64, gap_m: f64| side.sign() * s >= gap_m;
+        let all = &history.sliding_displacement_m;
+        stop.gap_towards(side).is_some_and(|gap_m| all.iter().any(|s| to_stop(s, gap_m)))
+    };
+    Some(reached(Direction::Positive) || reached(Direction::Negative))
 }
 
 /// Whether a history has the shape that its documentation promises.

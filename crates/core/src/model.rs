@@ -258,14 +258,6 @@ impl Model {
         &self.devices
     }
 
-    /// Whether sliding under a motion, with or without a vertical component, is more than friction of
-    /// constant coefficients, a spring, a damper and elastic stops.
-    #[must_use]
-    pub fn has_devices(&self, vertical: bool) -> bool {
-        let rigid = matches!(self.stop(), Some(Stop { kind: StopKind::Rigid { .. }, .. }));
-        rigid || !self.is_plain_between_stops(vertical)
-    }
-
     /// Whether it has no devices but stops.
     #[must_use]
     pub fn is_plain_between_stops(&self, vertical: bool) -> bool {

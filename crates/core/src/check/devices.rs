@@ -114,6 +114,27 @@ pub(super) fn certificate(
     judge.run(bound)
 }
 
+/// Turns of the block short of a stop: how far, over the gap.
+pub(super) fn near_misses(model: &Model, h: &History) -> Vec<ClosestCall> {
+    let Some(stop) = model.stop() else { return Vec::new() };
+    let mut calls = Vec::new();
+    for side in [Direction::Positive, Direction::Negative] {
+        let Some(gap_m) = stop.gap_towards(side) else { continue };
+        // Where the block came to a halt on its way there.
+        let halts = (0..h.len().saturating_sub(1)).filter(|&k| {
+            h.modes(k)[0] == Mode::Slip(side)
+                && h.modes(k + 1)[0] != Mode::Slip(side)
+                && h.sliding_velocity_m_per_s[k] == 0.0
+        });
+        let turns = halts.map(|k| (side.sign() * h.sliding_displacement_m[k], k));
+        let turns = turns.filter(|(s, _)| *s < gap_m);
+        if let Some((s, k)) = turns.reduce(|a, b| if b.0 > a.0 { b } else { a }) {
+            calls.push(ClosestCall { margin: 1.0 - s / gap_m, time_s: h.time_s[k], kind: "miss" });
+        }
+    }
+    calls
+}
+
 fn relative(pair: [f64; 2]) -> f64 {
     if pair[0] == 0.0 { 0.0 } else { pair[0] / pair[1] }
 }
@@ -276,7 +297,7 @@ impl<'a> Judge<'a> {
             force_n: near(self.force[1]),
         };
         let demands_error = self.own.error(self.model, self.response, self.h, &rounding);
-        for call in self.own.near_misses(self.model, self.h) {
+        for call in near_misses(self.model, self.h) {
             self.nearest(call);
         }
         Certificate {
@@ -686,6 +707,8 @@ impl<'a> Judge<'a> {
         let mut nodes = vec![Now::default(); NODES];
         let mut last = f64::INFINITY;
         for _ in 0..MOST_PASSES {
+            let mut change: f64 = 0.0;
+            // Each node takes what those before it have found in this pass.
             for i in 0..NODES {
                 for c in 0..d {
                     let (mut along, mut twice) = (0.0, 0.0);
@@ -696,9 +719,6 @@ impl<'a> Judge<'a> {
                     speeds[i][c] = v[c] + step_s * along;
                     places[i][c] = x[c] + step_s * (rule.c[i] * v[c] + step_s * twice);
                 }
-            }
-            let mut change: f64 = 0.0;
-            for i in 0..NODES {
                 let load = between(loads, rule.c[i]);
                 nodes[i] = self.at(b, &load, &places[i], &speeds[i]);
                 for c in 0..d {

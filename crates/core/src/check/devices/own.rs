@@ -1,13 +1,11 @@
 //! What the response asks of the structure, recomputed from the path of the judge of devices.
 
-use super::super::ClosestCall;
 use super::super::collocation::{POINTS, Rule};
 pub(super) use super::super::demands::Rounding;
 use super::super::demands::{Comparison, first_time, raise};
 use super::super::law::contact_event;
 use super::Now;
 use super::law::Asked;
-use crate::friction::Direction;
 use crate::model::{Model, StopKind};
 use crate::response::{
     Contact, Demands, Event, EventKind, History, Method, Mode, Response, SurfaceDemands,
@@ -276,31 +274,6 @@ impl Own {
             self.push(h, k, 0, EventKind::Surface, 0.0);
         }
         self.active = Some(active);
-    }
-
-    /// Turns of the block short of a stop: how far, over the gap.
-    pub(super) fn near_misses(&self, model: &Model, h: &History) -> Vec<ClosestCall> {
-        let Some(stop) = model.stop() else { return Vec::new() };
-        let mut calls = Vec::new();
-        for side in [Direction::Positive, Direction::Negative] {
-            let Some(gap_m) = stop.gap_towards(side) else { continue };
-            // Where the block came to a halt on its way there.
-            let halts = (0..h.len().saturating_sub(1)).filter(|&k| {
-                h.modes(k)[0] == Mode::Slip(side)
-                    && h.modes(k + 1)[0] != Mode::Slip(side)
-                    && h.sliding_velocity_m_per_s[k] == 0.0
-            });
-            let turns = halts.map(|k| (side.sign() * h.sliding_displacement_m[k], k));
-            let turns = turns.filter(|(s, _)| *s < gap_m);
-            if let Some((s, k)) = turns.reduce(|a, b| if b.0 > a.0 { b } else { a }) {
-                calls.push(ClosestCall {
-                    margin: 1.0 - s / gap_m,
-                    time_s: h.time_s[k],
-                    kind: "miss",
-                });
-            }
-        }
-        calls
     }
 
     // ---- comparison -----------------------------------------------------------------------------
