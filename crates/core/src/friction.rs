@@ -11,7 +11,8 @@ mod surfaces;
 
 pub use coulomb::{Coulomb, Friction};
 pub use law::{
-    Affine, Contact, EXITS, Exit, Hold, Law, Memory, Reached, Restraint, Restraints, SlipForce,
+    Affine, Contact, EXITS, Exit, Fading, Hold, Law, Memory, Reached, Restraint, Restraints,
+    SlipForce,
 };
 pub use rate::{Coefficient, RateCurve, RateLaw};
 pub use stop::{ElasticStop, RigidStop};

@@ -13,7 +13,7 @@ use super::{Direction, ElasticStop, Friction, RigidStop};
 const AT_WALL: f64 = 1e-12;
 
 /// Most surfaces in series of which every set that can slide together has its own tables.
-const AFFINE_SURFACES: usize = 4;
+const TABLED_SURFACES: usize = 4;
 
 /// Where the block stands to the elastic stops.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -99,7 +99,8 @@ pub struct Restraints {
     pub is_pressed: bool,
 }
 
-/// The same where it is affine: `F = force + k s + c ṡ + coefficient N`.
+/// The same under a constant normal force, affine but perhaps for what fades:
+/// `F = force + k s + c ṡ + coefficient N − fading`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Affine {
     /// `k` and `c`.
@@ -108,6 +109,26 @@ pub struct Affine {
     pub force_n: f64,
     /// Constant part over the normal force, which is friction.
     pub coefficient: f64,
+    /// What exponential friction lacks of that at high speed.
+    pub fading: Option<Fading>,
+}
+
+/// A force that fades with the speed: `force e^(−rate σ ṡ)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fading {
+    /// At rest in N, positive towards +x.
+    pub force_n: f64,
+    /// Rate in s/m, with the sign `σ` of the velocity.
+    pub rate_s_per_m: f64,
+}
+
+impl Fading {
+    /// The force at a velocity, in N.
+    #[inline(always)]
+    #[must_use]
+    pub fn at(&self, w: f64) -> f64 {
+        self.force_n * libm::exp(-self.rate_s_per_m * w)
+    }
 }
 
 /// The end of a branch other than `ṡ = 0`: where `of_s s + of_w ṡ + constant`, positive within the
@@ -223,11 +244,18 @@ impl Hold {
 }
 
 impl SlipForce {
-    /// The force under a constant normal force; none where the coefficient is curved.
+    /// The force under a constant normal force.
     #[inline(always)]
     #[must_use]
-    pub fn affine(&self, normal_n: f64) -> Option<Affine> {
-        let Coefficient::Linear { at_rest, slope_s_per_m } = self.coefficient else { return None };
+    pub fn under(&self, normal_n: f64) -> Affine {
+        let (at_rest, slope_s_per_m, fading) = match self.coefficient {
+            Coefficient::Linear { at_rest, slope_s_per_m } => (at_rest, slope_s_per_m, None),
+            Coefficient::Exponential { fast, drop, rate_s_per_m } => {
+                let force_n = self.sign * drop * normal_n;
+                let rate_s_per_m = self.sign * rate_s_per_m;
+                (fast, 0.0, Some(Fading { force_n, rate_s_per_m }))
+            }
+        };
         let (mut all, mut of_friction) = (self.restraint, Restraint::default());
         let mut coefficient = self.sign * at_rest;
         if self.is_friction {
@@ -240,22 +268,27 @@ impl SlipForce {
             all.damper_n_s_per_m += of_friction.damper_n_s_per_m;
         }
         let restraints = Restraints { all, of_friction, is_pressed: self.is_pressed };
-        Some(Affine { restraints, force_n: self.force_n, coefficient })
+        Affine { restraints, force_n: self.force_n, coefficient, fading }
     }
 }
 
 impl Law {
-    /// Whether every branch between rigid stops is affine, under a normal force that is constant or
-    /// varies.
+    /// Whether every branch between rigid stops goes by tables, under a normal force that is constant
+    /// or varies: affine but for what fades.
     #[must_use]
-    pub fn is_affine(&self, varying: bool) -> bool {
+    pub fn is_tabled(&self, varying: bool) -> bool {
         let Self { rate, radius_m, series, .. } = self;
         if varying {
             return rate.is_none() && radius_m.is_none() && series.is_none();
         }
-        let in_pieces = |rate: &RateLaw| matches!(rate.curve(), RateCurve::Pieces { .. });
-        rate.as_ref().is_none_or(in_pieces)
-            && series.as_ref().is_none_or(|all| all.surfaces().len() <= AFFINE_SURFACES)
+        series.as_ref().is_none_or(|all| all.surfaces().len() <= TABLED_SURFACES)
+    }
+
+    /// Whether friction fades with the speed.
+    #[must_use]
+    pub fn fades(&self) -> bool {
+        let curve = self.rate.as_ref().map(RateLaw::curve);
+        matches!(curve, Some(RateCurve::Exponential { .. }))
     }
 
     /// The law under a constant normal force, by which a pendulum has a spring like any other.
@@ -285,11 +318,9 @@ impl Law {
                     }
                     let memory = Memory { contact, piece, series };
                     for direction in [Direction::Positive, Direction::Negative] {
-                        let force = self.force(&memory, direction).affine(normal_n);
-                        if let Some(Affine { restraints, .. }) = force
-                            && !all.contains(&restraints)
-                        {
-                            all.push(restraints);
+                        let force = self.force(&memory, direction).under(normal_n);
+                        if !all.contains(&force.restraints) {
+                            all.push(force.restraints);
                         }
                     }
                 }

@@ -3,8 +3,8 @@
 use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
 
-use super::lanes::{Four, Width, combine4, dot, four};
-use super::polynomial::{DEGREE, Polynomial};
+use super::lanes::{Four, Width, combine4, dot, four, greatest};
+use super::polynomial::{DEGREE, Polynomial, curvature_bound};
 use super::system::System;
 
 /// Longest interval for one series, times the rate: 0.8^17 / 17! = 6.3e-17.
@@ -12,6 +12,9 @@ pub const MAX_RATE_STEP: f64 = 0.8;
 
 /// Most storeys for which series go by a table: beyond, its sums are longer than the recursion.
 const TABLE_STOREYS: usize = 4;
+
+/// Terms of a series below this part of the largest are left out.
+const NEGLIGIBLE: f64 = 1e-18;
 
 /// Components of a padded state of so many.
 const MAX_INPUTS: usize = 12;
@@ -45,6 +48,10 @@ pub struct Series {
     orders: usize,
     c: Vec<f64>,
     f: Vec<f64>,
+    /// Energy norms of the orders, where a force fades.
+    sizes: Polynomial,
+    /// Series of that force in N.
+    pub fade: Polynomial,
 }
 
 /// 1 / (k + 1).
@@ -64,7 +71,8 @@ impl Series {
     pub fn new(system: &System, orders: usize) -> Self {
         let n = system.modes();
         let stride = (2 + 2 * n).div_ceil(4) * 4;
-        Self { stride, orders, c: vec![0.0; stride * (DEGREE + 1)], f: vec![0.0; n] }
+        let (c, f) = (vec![0.0; stride * (DEGREE + 1)], vec![0.0; n]);
+        Self { stride, orders, c, f, sizes: [0.0; DEGREE + 1], fade: [0.0; DEGREE + 1] }
     }
 
     /// Motion from a padded state over `length_s`, order by order from the equations of motion.
@@ -101,6 +109,77 @@ impl Series {
                 next_rate[j] = -step * (f[j] + l[j] * u);
             }
         }
+    }
+
+    /// The same in slip under one more force, which fades with the speed: `force e^(−rate ṡ)`.
+    ///
+    /// With the coefficients `E_k` of the power, `(k+1) E_{k+1} = −rate Σ_{j≤k} (j+1) w_{j+1} E_{k−j}`.
+    /// Returns the part of the length over which the last terms are below rounding, 4 at most.
+    #[inline(always)]
+    pub fn expand_fading<W: Width>(
+        &mut self,
+        width: W,
+        system: &System,
+        x: &[f64],
+        load: &Load,
+        length_s: f64,
+        [force_n, rate_s_per_m]: [f64; 2],
+    ) -> f64 {
+        let (n, stride) = (width.modes(), 4 * width.fours());
+        let (l, f, fade) = (&system.participation[..n], &mut self.f[..n], &mut self.fade);
+        let mut w = [0.0; DEGREE + 1];
+        self.c[..stride].copy_from_slice(x);
+        fade[0] = force_n * libm::exp(-rate_s_per_m * x[1]);
+        for k in 0..DEGREE {
+            let (before, after) = self.c.split_at_mut((k + 1) * stride);
+            let (now, next) = (&before[k * stride..], &mut after[..stride]);
+            let (a, force) = match k {
+                0 => (load.acceleration, load.force),
+                1 => (load.acceleration_change, load.force_change),
+                _ => (0.0, 0.0),
+            };
+            let step = length_s * RECIPROCAL[k];
+            let (now, next) = (&now[..2 + 2 * n], &mut next[..2 + 2 * n]);
+            let (eta, rate) = (&now[2..2 + n], &now[2 + n..2 + 2 * n]);
+            system.restoring(eta, rate, f);
+            let u = system.block_acceleration(now[0], now[1], dot(l, f), force + fade[k]);
+            (next[0], next[1]) = (step * now[1], step * (u - a));
+            for j in 0..n {
+                next[2 + j] = step * rate[j];
+                next[2 + n + j] = -step * (f[j] + l[j] * u);
+            }
+            // (j + 1) w_{j+1}
+            w[k] = (k + 1) as f64 * next[1];
+            let mut sum = 0.0;
+            for j in 0..=k {
+                sum += w[j] * fade[k - j];
+            }
+            fade[k + 1] = -rate_s_per_m * sum * RECIPROCAL[k];
+        }
+        let mut largest = 0.0;
+        for (size, c) in self.sizes.iter_mut().zip(self.c.chunks_exact(stride)) {
+            *size = system.energy_norm(&c[..2 + 2 * n]);
+            largest = greatest(largest, *size);
+        }
+        if !largest.is_finite() {
+            return 0.5;
+        }
+        let mut part: f64 = 4.0;
+        for k in [DEGREE - 1, DEGREE] {
+            for (largest, last) in [(largest, self.sizes[k]), (10.0 * force_n.abs(), fade[k].abs())]
+            {
+                if last > NEGLIGIBLE * largest {
+                    part = part.min(libm::pow(NEGLIGIBLE * largest / last, 1.0 / k as f64));
+                }
+            }
+        }
+        part
+    }
+
+    /// Bound on the norm of `ẍ` over that length, times its square: `Σ k (k − 1) ‖c_k‖`.
+    #[must_use]
+    pub fn second_bound(&self) -> f64 {
+        curvature_bound(&self.sizes)
     }
 
     /// The same by a table for this length.

@@ -7,10 +7,10 @@ use fearless_simd::prelude::*;
 
 use super::ground::Stretch;
 use super::outputs::output;
-use super::run::{Run, Start};
+use super::run::{InForce, Run, Start};
 use super::tables::Phase;
 use crate::error::SolveError;
-use crate::friction::{Contact, Direction, Exit, Memory, Reached};
+use crate::friction::{Contact, Direction, Exit, Fading, Memory, Reached};
 use crate::linear::lanes::{Width, least};
 use crate::linear::polynomial::{DEGREE, Polynomial, curvature_bound, deflated, first_root, value};
 use crate::linear::{Load, Series};
@@ -24,15 +24,17 @@ pub const EVENTS_PER_INTERVAL_LIMIT: u32 = 1_000_000;
 pub(super) struct Segment {
     pub(super) from_s: f64,
     pub(super) to_s: f64,
-    /// Its length over the unit of the phase.
+    /// Length of its series in s.
+    pub(super) unit_s: f64,
+    /// Its length over that.
     pub(super) part: f64,
 }
 
 impl Segment {
-    /// Its first part, in units of a length.
+    /// Its first part.
     #[inline(always)]
-    fn up_to(self, part: f64, unit_s: f64) -> Self {
-        Self { to_s: least(self.from_s + part * unit_s, self.to_s), part, ..self }
+    fn up_to(self, part: f64) -> Self {
+        Self { to_s: least(self.from_s + part * self.unit_s, self.to_s), part, ..self }
     }
 }
 
@@ -102,13 +104,14 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
     /// The segment of a phase that begins at a time.
     #[inline(always)]
     fn segment(phase: &Phase, stretch: &Stretch, from_s: f64) -> Segment {
-        let part = (stretch.to_s - from_s) / phase.unit_s;
+        let unit_s = phase.unit_s;
+        let part = (stretch.to_s - from_s) / unit_s;
         // A hair beyond is the rounding of the times.
         if part <= 1.0 + 1e-9 {
             let part = if part < 1.0 { part } else { 1.0 };
-            Segment { from_s, to_s: stretch.to_s, part }
+            Segment { from_s, to_s: stretch.to_s, unit_s, part }
         } else {
-            Segment { from_s, to_s: from_s + phase.unit_s, part: 1.0 }
+            Segment { from_s, to_s: from_s + unit_s, unit_s, part: 1.0 }
         }
     }
 
@@ -174,7 +177,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
             }
         }
         let segment = match release {
-            Some((part, _)) => segment.up_to(part, phase.unit_s),
+            Some((part, _)) => segment.up_to(part),
             None => segment,
         };
         self.move_to(segment.part);
@@ -193,15 +196,20 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
     #[inline(always)]
     fn slip_segment(&mut self, stretch: &Stretch, direction: Direction, from_s: f64) -> f64 {
         let phase = self.now.phase;
-        let segment = Self::segment(phase, stretch, from_s);
-        let mut load = self.load(phase, stretch, from_s, self.now.friction);
-        load.force -= self.now.stop;
-        Self::expand(self.simd, self.width, phase, &self.x, &load, &mut self.series);
+        let segment = match self.now.fading {
+            None => {
+                let mut load = self.load(phase, stretch, from_s, self.now.friction);
+                load.force -= self.now.stop;
+                Self::expand(self.simd, self.width, phase, &self.x, &load, &mut self.series);
+                Self::segment(phase, stretch, from_s)
+            }
+            Some(fading) => self.expand_fading(&fading, stretch, from_s),
+        };
         let sign = direction.sign();
         let mut speed = self.series.component(self.width, 1, sign);
         if let Some(start) = self.start.take() {
             if start.order == 1 {
-                speed[1] = start.acceleration * phase.unit_s;
+                speed[1] = start.acceleration * segment.unit_s;
             }
             speed = deflated(&speed, start.order);
         }
@@ -214,7 +222,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
             }
         }
         let segment = match first {
-            Some((part, _)) => segment.up_to(part, phase.unit_s),
+            Some((part, _)) => segment.up_to(part),
             None => segment,
         };
         self.move_to(segment.part);
@@ -238,6 +246,45 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
             self.record(stretch, at_s, false);
         }
         at_s
+    }
+
+    /// Expands the motion under friction that fades with the speed, over as much of a stretch as one
+    /// series takes.
+    #[inline(never)]
+    fn expand_fading(&mut self, fading: &Fading, stretch: &Stretch, from_s: f64) -> Segment {
+        let InForce { phase, friction, stop, .. } = self.now;
+        let left_s = stretch.to_s - from_s;
+        let mut unit_s = if self.fading_s.is_finite() { self.fading_s } else { phase.unit_s };
+        let stride = 4 * self.width.fours();
+        loop {
+            // A hair beyond is the rounding of the times.
+            if unit_s * (1.0 + 1e-9) >= left_s {
+                unit_s = left_s;
+            }
+            let load = Load {
+                acceleration: stretch.acceleration_at(from_s),
+                acceleration_change: stretch.acceleration_rate * unit_s,
+                force: friction * stretch.normal_at(from_s) - stop,
+                force_change: 0.0,
+            };
+            let (x, fading) = (&self.x[..stride], [fading.force_n, fading.rate_s_per_m]);
+            let part =
+                self.series.expand_fading(self.width, &phase.system, x, &load, unit_s, fading);
+            let longer_s = unit_s * part;
+            self.fading_s = if unit_s == left_s { longer_s.max(self.fading_s) } else { longer_s };
+            if !self.fading_s.is_finite() {
+                self.fading_s = unit_s;
+            }
+            if part >= 1.0 {
+                let to_s = if unit_s == left_s { stretch.to_s } else { from_s + unit_s };
+                return Segment { from_s, to_s, unit_s, part: 1.0 };
+            }
+            if part >= 0.25 {
+                let to_s = least(from_s + part * unit_s, stretch.to_s);
+                return Segment { from_s, to_s, unit_s, part };
+            }
+            unit_s *= part.max(1e-3);
+        }
     }
 
     /// What follows an exit other than a stop.

@@ -13,8 +13,8 @@ use super::ground::Stretch;
 use super::run::{Curvature, InForce, Run};
 use super::tables::{Batch, Phase};
 use crate::linear::lanes::{Eight, Width, eight, greatest, larger};
-use crate::linear::polynomial::largest;
-use crate::linear::{BATCH, Force};
+use crate::linear::polynomial::{curvature_bound, largest};
+use crate::linear::{BATCH, Force, Load};
 use crate::response::Mode;
 
 /// Candidates that are kept before they are settled, besides one an output.
@@ -124,13 +124,19 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let second = &self.series.order(2)[..d];
         // Twice the second coefficient is ẍ times the unit squared.
         let part = segment.part;
-        let norm = phase.growth * phase.system.energy_norm(second);
+        let (norm, bend) = if self.now.fading.is_some() {
+            (0.5 * self.series.second_bound(), curvature_bound(&self.series.fade))
+        } else {
+            (phase.growth * phase.system.energy_norm(second), 0.0)
+        };
         let reach = eight(simd, 0.25 * norm * (part * part));
-        let InForce { friction: coefficient, stop, .. } = self.now;
-        let (from_s, to_s) = (segment.from_s, segment.to_s);
-        let first =
-            [coefficient * stretch.normal_at(from_s), stretch.acceleration_at(from_s), stop];
-        let last = [coefficient * stretch.normal_at(to_s), stretch.acceleration_at(to_s), stop];
+        let bend = eight(simd, 0.125 * bend * (part * part));
+        let stop = self.now.stop;
+        let input = |at_s: f64, w: f64| {
+            let friction_n = self.now.friction_n(stretch.normal_at(at_s), w);
+            [friction_n, stretch.acceleration_at(at_s), stop]
+        };
+        let (first, last) = (input(segment.from_s, self.next[1]), input(segment.to_s, self.x[1]));
         if self.law.stop.is_some() {
             self.look_at_stop(part);
         }
@@ -139,11 +145,44 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         for g in 0..self.groups(phase) {
             let a = Self::group_at(simd, phase, g, &self.next[..stride], first);
             let b = Self::group_at(simd, phase, g, &self.x[..stride], last);
-            open |= self.weigh(g, [a, b], phase.outputs.groups[g].norm.load(simd) * reach);
+            let group = &phase.outputs.groups[g];
+            let slack = if self.now.fading.is_none() {
+                group.norm.load(simd) * reach
+            } else {
+                group.norm.load(simd) * reach + group.size_of_friction.load(simd) * bend
+            };
+            open |= self.weigh(g, [a, b], slack);
         }
-        if open {
+        if open && self.now.fading.is_some() {
+            self.settle_fading(phase, stretch, segment);
+        } else if open {
             self.keep(stretch.interval, Extent::Segment(*segment), true);
         }
+    }
+
+    /// Looks for peaks in the last series, of friction that fades, in those outputs whose bounds in
+    /// `above` leave one.
+    #[inline(never)]
+    fn settle_fading(&mut self, phase: &Phase, stretch: &Stretch, segment: &Segment) {
+        let load = Load {
+            acceleration: stretch.acceleration_at(segment.from_s),
+            acceleration_change: stretch.acceleration_rate * segment.unit_s,
+            force: self.now.friction * stretch.normal_at(segment.from_s),
+            force_change: 0.0,
+        };
+        for j in 0..self.peaks.outputs {
+            let (g, lane) = (j / 8, j % 8);
+            if self.peaks.above[g].0[lane] <= self.peaks.peak[g].0[lane] {
+                continue;
+            }
+            let mut p = output_series(self.width, phase, j, &self.series, &load, self.now.stop);
+            for (p, fade) in p.iter_mut().zip(&self.series.fade) {
+                *p += phase.outputs.rows[j].of_friction * fade;
+            }
+            let peak = &mut self.peaks.peak[g].0[lane];
+            *peak = largest(&p.map(|c| -c), segment.part, largest(&p, segment.part, *peak));
+        }
+        self.set_limits();
     }
 
     /// Weighs the outputs of a group against their limits, from two values and how far they may depart
@@ -337,7 +376,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let units = (batch.dt_s / phase.unit_s).round().max(1.0) as usize;
         for unit in 0..units {
             let from_s = unit as f64 * phase.unit_s;
-            let segment = Segment { from_s, to_s: from_s + phase.unit_s, part: 1.0 };
+            let unit_s = phase.unit_s;
+            let segment = Segment { from_s, to_s: from_s + unit_s, unit_s, part: 1.0 };
             self.settle_segment((i, 1 << k), phase, (&stretch, &segment), x);
             if unit + 1 < units {
                 let s = x[0];

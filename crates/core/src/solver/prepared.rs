@@ -202,7 +202,7 @@ fn solve(
         sampling,
     };
     let law = model.law(varying.is_some());
-    if !(model.devices().contents.is_empty() && law.is_affine(varying.is_some())) {
+    if !(model.devices().contents.is_empty() && law.is_tabled(varying.is_some())) {
         return stepped(model, &law, motion, ground, with_history);
     }
     // Away from rigid stops they change nothing.

@@ -14,7 +14,7 @@ use super::recorder::{Knot, Recorder};
 use super::tables::{Batch, Phase, Tables};
 use crate::error::SolveError;
 use crate::friction::{
-    Affine, Contact, Direction, EXITS, Exit, Hold, Law, Memory, Reached, Restraint,
+    Affine, Contact, Direction, EXITS, Exit, Fading, Hold, Law, Memory, Reached, Restraint,
 };
 use crate::linear::lanes::{Eight, Width, combine8, dot, eight};
 use crate::linear::{BATCH, Force, Load, Series};
@@ -163,6 +163,19 @@ pub(super) struct InForce<'a> {
     pub(super) friction: f64,
     /// What the stop does to the outputs: in slip the constant force of its branch, in stick its force.
     pub(super) stop: f64,
+    /// What fades with the speed.
+    pub(super) fading: Option<Fading>,
+}
+
+impl InForce<'_> {
+    /// The friction force but for what of it the state adds.
+    #[inline(always)]
+    pub(super) fn friction_n(&self, normal_n: f64, w: f64) -> f64 {
+        match self.fading {
+            None => self.friction * normal_n,
+            Some(fading) => self.friction * normal_n + fading.at(w),
+        }
+    }
 }
 
 /// Peaks of surfaces in series, which move one way between two events.
@@ -219,6 +232,8 @@ pub(super) struct Run<'a, S, W> {
     pub(super) start: Option<Start>,
     /// What has just been reached: an exit that waits for the same starts at its zero.
     pub(super) just: Option<Reached>,
+    /// Length that a series of fading friction had last, in s.
+    pub(super) fading_s: f64,
     pub(super) events: Vec<Event>,
     pub(super) sliding: Sliding,
     pub(super) stopping: Stopping,
@@ -254,7 +269,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let groups = tables.stick.outputs.groups.len();
         let memory = law.initial(s, w);
         let (contact, hold) = (memory.contact, law.hold(&memory, s));
-        let now = InForce { mode, contact, phase: &tables.stick, friction: 0.0, stop: 0.0 };
+        let now =
+            InForce { mode, contact, phase: &tables.stick, friction: 0.0, stop: 0.0, fading: None };
         Self {
             simd,
             width,
@@ -274,6 +290,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             hold,
             start: None,
             just: None,
+            fading_s: f64::INFINITY,
             events: Vec::new(),
             sliding: Sliding::new(s),
             stopping: Stopping::default(),
@@ -361,7 +378,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             Normal::Varying(_) => 0.0,
         };
         let stick = &self.tables.stick;
-        self.now = InForce { mode, contact, phase: stick, friction: 0.0, stop: 0.0 };
+        self.now = InForce { mode, contact, phase: stick, friction: 0.0, stop: 0.0, fading: None };
         match mode {
             Mode::Stick => {
                 self.hold = self.law.hold(&self.memory, s);
@@ -372,11 +389,10 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             Mode::Slip(direction) => {
                 self.exits = self.law.exits(&self.memory, direction);
                 let force = self.law.force(&self.memory, direction);
-                if let Some(Affine { restraints, force_n, coefficient }) = force.affine(normal_n) {
-                    let phase = self.tables.under(self.simd, restraints);
-                    self.now =
-                        InForce { mode, contact, phase, friction: -coefficient, stop: force_n };
-                }
+                let Affine { restraints, force_n, coefficient, fading } = force.under(normal_n);
+                let phase = self.tables.under(self.simd, restraints);
+                let (friction, stop) = (-coefficient, force_n);
+                self.now = InForce { mode, contact, phase, friction, stop, fading };
             }
         }
         self.set_limits();
@@ -543,8 +559,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         [table, acceleration, normal]: [f64; 3],
         row: bool,
     ) {
-        let InForce { mode, contact, phase, friction, stop } = self.now;
-        let mut friction_n = friction * normal;
+        let InForce { mode, contact, phase, stop, .. } = self.now;
+        let mut friction_n = self.now.friction_n(normal, x[1]);
         let force_n = match mode {
             Mode::Stick => self.hold.force_n,
             Mode::Slip(_) => friction_n - stop,

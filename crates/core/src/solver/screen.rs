@@ -35,7 +35,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     pub(super) fn screened(&mut self, sample: usize, end: usize) -> usize {
         let phase = self.now.phase;
         let Some(batch) = &phase.batch else { return sample };
-        if self.start.is_some() || sample + BATCH > end {
+        if self.start.is_some() || self.now.fading.is_some() || sample + BATCH > end {
             return sample;
         }
         match self.mode {

@@ -6,6 +6,7 @@ use fearless_simd::prelude::*;
 
 use super::outputs::{self, Outputs, Overturning};
 use crate::friction::{Restraint, Restraints};
+use crate::linear::polynomial::DEGREE;
 use crate::linear::{
     BATCH, MAX_RATE_STEP, Maps, Row, SeriesTable, StoreyDamping, System, Units, orders,
     series_table,
@@ -88,13 +89,13 @@ pub(super) fn system_of(model: &Model) -> System {
 }
 
 impl Tables {
-    /// Tables for a step, or for motions that have none. A law of which not every branch is affine
-    /// needs no more than the systems.
+    /// Tables for a step, or for motions that have none. A law that goes by none needs no more than the
+    /// systems.
     #[inline(always)]
     pub(super) fn new<S: Simd>(simd: S, model: &Model, dt_s: Option<f64>) -> Self {
         let normal_n = model.normal_n();
         let law = model.law(false);
-        let is_affine = model.devices().contents.is_empty() && law.is_affine(false);
+        let is_tabled = model.devices().contents.is_empty() && law.is_tabled(false);
         let law = law.under(normal_n);
         let free = system_of(model);
         let Restraint { stiffness_n_per_m, damper_n_s_per_m } = law.restraint;
@@ -115,15 +116,18 @@ impl Tables {
             .collect();
         let rates = slip.iter().map(|slip| slip.system.slip_rate_rad_per_s);
         let rate_step = |rate: f64| rate * unit_s(rate, dt_s);
-        let orders =
-            orders(rates.map(rate_step).fold(rate_step(free.stick_rate_rad_per_s), f64::max));
+        let orders = if law.fades() {
+            DEGREE
+        } else {
+            orders(rates.map(rate_step).fold(rate_step(free.stick_rate_rad_per_s), f64::max))
+        };
         let overturning = outputs::overturning(model, &free);
         let slope = model.slope_m_per_s2();
         let rows = outputs::rows(&free, None, overturning.as_ref(), slope);
-        let batch_s = dt_s.filter(|_| is_affine);
+        let batch_s = dt_s.filter(|_| is_tabled);
         let stick = Phase::new(simd, free, None, (dt_s, batch_s), orders, rows);
         let tables = Self { stick, slip, orders, overturning, slope, dt_s };
-        if is_affine {
+        if is_tabled {
             tables.slip(simd, 0);
         }
         tables
