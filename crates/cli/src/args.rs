@@ -172,6 +172,19 @@ pub struct RunArgs {
     /// Vertical components of the suite, as many and in the same order; may be repeated
     #[arg(long, value_name = "PATTERN", num_args = 1.., requires = "records", help_heading = "Ground motion")]
     pub vertical: Vec<String>,
+    /// Other horizontal components of the suite, as many and in the same order: both components of a pair
+    /// take one factor; may be repeated
+    #[arg(long, value_name = "PATTERN", num_args = 1.., requires = "records", help_heading = "Ground motion")]
+    pub second: Vec<String>,
+    /// Spectrum that pairs are scaled to: a CSV with the columns period_s and sa_g
+    #[arg(long, value_name = "FILE", requires = "second", requires = "periods", conflicts_with_all = ["scale", "scale_to"], help_heading = "Ground motion")]
+    pub target: Option<PathBuf>,
+    /// The same in the shape of ASCE/SEI 7: "sds = 1.2 g, sd1 = 0.8 g, tl = 8 s"
+    #[arg(long, value_name = "VALUES", requires = "second", requires = "periods", conflicts_with_all = ["target", "scale", "scale_to"], help_heading = "Ground motion")]
+    pub code_spectrum: Option<String>,
+    /// First and last period of the range in which pairs are scaled to the spectrum: "0.6 s..3.8 s"
+    #[arg(long, value_name = "FROM..TO", requires = "second", help_heading = "Ground motion")]
+    pub periods: Option<String>,
     /// What the file does not state
     #[command(flatten)]
     pub record: RecordArgs,
@@ -181,7 +194,8 @@ pub struct RunArgs {
     /// Peak acceleration to scale the record to: "0.3 g"; of a suite the value of --measure
     #[arg(long, value_name = "PEAK", conflicts_with = "scale", help_heading = "Ground motion")]
     pub scale_to: Option<String>,
-    /// Intensity measure by which a suite is scaled: PGA where none is given, Sa(1.2 s), …
+    /// Intensity measure by which a suite is scaled: PGA where none is given, Sa(1.2 s), of pairs
+    /// RotD50(1.2 s), …
     #[arg(long, value_name = "NAME", requires = "scale_to", help_heading = "Ground motion")]
     pub measure: Option<String>,
 

@@ -18,7 +18,7 @@ pub enum SuiteError {
     /// A file.
     #[error(transparent)]
     File(#[from] FileError),
-    /// Vertical components that are not as many as the horizontal ones.
+    /// Components that are not as many as the records.
     #[error(transparent)]
     Choice(#[from] ChoiceError),
     /// The callback that followed it stopped it.
@@ -31,6 +31,8 @@ pub enum SuiteError {
 pub struct SuiteRequest {
     /// Files, folders or patterns, relative to the working folder.
     pub patterns: Vec<String>,
+    /// The same for the other horizontal components: pairs, whose components stand beside each other.
+    pub second: Vec<String>,
     /// The same for the vertical components, as many and in the same order.
     pub vertical: Vec<String>,
     /// Units, where files do not state them.
@@ -56,18 +58,34 @@ impl OpenSuite {
     /// Opens all records, of each of which the engine is told; a record's name is its file's stem, or its path where stems repeat.
     ///
     /// # Errors
-    /// [`SuiteError`] where nothing matches a pattern, a file is no record, the vertical components
-    /// are not as many as the horizontal ones, or it is stopped.
+    /// [`SuiteError`] where nothing matches a pattern, a file is no record, the vertical or other
+    /// components are not as many as the records, or it is stopped.
     pub fn open(request: &SuiteRequest, engine: &Engine<'_>) -> Result<Self, SuiteError> {
-        let (files, again) = expand_once(Path::new(""), &request.patterns)?;
-        let vertical = expand_all(Path::new(""), &request.vertical)?;
-        if !vertical.is_empty() && vertical.len() != files.len() {
-            return Err(SuiteError::Choice(ChoiceError {
-                what: "vertical".to_owned(),
-                expected: format!("one vertical motion for each of {} records", files.len()),
-                found: vertical.len().to_string(),
+        let (mut files, mut again) = expand_once(Path::new(""), &request.patterns)?;
+        let second = expand_all(Path::new(""), &request.second)?;
+        let mut vertical = expand_all(Path::new(""), &request.vertical)?;
+        if !second.is_empty() {
+            // A component may be of two pairs.
+            (files, again) = (expand_all(Path::new(""), &request.patterns)?, Vec::new());
+        }
+        let as_many = |what: &str, component: &str, others: &[PathBuf]| {
+            if others.is_empty() || others.len() == files.len() {
+                return Ok(());
+            }
+            Err(SuiteError::Choice(ChoiceError {
+                what: what.to_owned(),
+                expected: format!("one {component} for each of {} records", files.len()),
+                found: others.len().to_string(),
                 nearest: None,
-            }));
+            }))
+        };
+        as_many("second", "other component", &second)?;
+        as_many("vertical", "vertical motion", &vertical)?;
+        let pairs = !second.is_empty();
+        if pairs {
+            let beside = |a: PathBuf, b: PathBuf| [a, b];
+            files = files.into_iter().zip(second).flat_map(|(a, b)| beside(a, b)).collect();
+            vertical = vertical.into_iter().flat_map(|up| [up.clone(), up]).collect();
         }
         let load = |i: usize| {
             load_record(&RecordRequest {
@@ -86,6 +104,9 @@ impl OpenSuite {
         let loaded = engine.runs(files.len(), load)?;
         let loaded = loaded.into_iter().collect::<Result<Vec<_>, FileError>>()?;
         let mut open = Self::of(&stems_or_paths(&files), loaded, false);
+        for (i, record) in open.suite.records.iter_mut().enumerate() {
+            record.pair = pairs.then_some(i / 2);
+        }
         let twice = named_twice(&again);
         open.warnings.extend(twice.map(|message| Warning {
             kind: "record_named_twice",
@@ -120,7 +141,8 @@ impl OpenSuite {
                 }
             }
             let name = name.clone();
-            open.suite.records.push(SuiteRecord { name, motion: loaded.loaded.motion });
+            let motion = loaded.loaded.motion;
+            open.suite.records.push(SuiteRecord { name, motion, pair: None });
         }
         let one = |(kind, messages): (&'static str, Vec<String>)| {
             let more = match messages.len() {

@@ -102,7 +102,8 @@ pub(crate) fn read_suite(
         Units::parse(text).ok_or_else(|| of_argument(py, "units", expected, text))
     });
     let units = units.transpose()?;
-    let request = SuiteRequest { patterns, vertical, units, dt_s, channel };
+    let request =
+        SuiteRequest { patterns, vertical, units, dt_s, channel, ..SuiteRequest::default() };
     let open = followed(py, None, None, |engine| OpenSuite::open(&request, engine))?;
     let open = open.map_err(|error| match error {
         SuiteError::File(error) => of_file(py, &error),
@@ -117,7 +118,7 @@ pub(crate) fn read_suite(
 fn suite(records: Vec<(String, Motion)>) -> Suite {
     let records = records.into_iter().map(|(name, motion)| {
         let motion = motion.0.loaded.motion;
-        SuiteRecord { name, motion }
+        SuiteRecord { name, motion, pair: None }
     });
     Suite { records: records.collect(), made: false }
 }

@@ -9,6 +9,7 @@ pub mod histories;
 pub mod ida;
 pub mod key;
 pub(crate) mod lines;
+pub(crate) mod pairs;
 pub(crate) mod sheet;
 pub mod spectrum;
 

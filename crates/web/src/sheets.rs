@@ -233,13 +233,17 @@ fn suite(
         let loaded = recorded(records, name, &options, channel)?;
         let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
         let stem = stem.rsplit('/').next().unwrap_or(stem);
-        suite.records.push(SuiteRecord { name: stem.to_owned(), motion: loaded.motion });
+        suite.records.push(SuiteRecord {
+            name: stem.to_owned(),
+            motion: loaded.motion,
+            pair: None,
+        });
     }
     if suite.records.is_empty() {
         suite.made = !matches!(analysis.motion, Some(MotionSource::Record(_)));
         let loaded = records.motion(analysis, text)?;
         let name = loaded.description.join("; ");
-        suite.records.push(SuiteRecord { name, motion: loaded.motion });
+        suite.records.push(SuiteRecord { name, motion: loaded.motion, pair: None });
     }
     Ok(suite)
 }

@@ -128,10 +128,15 @@ impl Opened {
 
 /// Reads the records that are asked for; `None` where none are.
 pub fn open_records(args: &SuiteArgs) -> Result<Option<OpenSuite>, Failure> {
+    open_pairs(args, &[])
+}
+
+/// The same with the other components of pairs.
+pub fn open_pairs(args: &SuiteArgs, second: &[String]) -> Result<Option<OpenSuite>, Failure> {
     if args.records.is_empty() {
         return Ok(None);
     }
-    let request = suite_request(args)?;
+    let request = SuiteRequest { second: second.to_vec(), ..suite_request(args)? };
     let read = |engine: &Engine<'_>| on_threads(jobs(args), || OpenSuite::open(&request, engine));
     let opened =
         counted("reading records", args.result.quiet, read).map_err(|error| match error {
@@ -174,6 +179,7 @@ fn suite_request(args: &SuiteArgs) -> Result<SuiteRequest, Failure> {
     let options = args.record.options(true)?;
     Ok(SuiteRequest {
         patterns: args.records.clone(),
+        second: Vec::new(),
         vertical: args.vertical.clone(),
         units: options.units,
         dt_s: options.dt_s,

@@ -4,12 +4,16 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use slipstick::assessment::histories::{ModelOn, run_histories};
-use slipstick_files::stems_or_paths;
+use slipstick::assessment::suite::{PairScaling, Scaling};
+use slipstick::motion::intensity::LevelMeasure;
+use slipstick::motion::target::TargetSpectrum;
+use slipstick::units::Dimension;
+use slipstick_files::{read_target, stems_or_paths};
 use slipstick_report::assessment::histories::HistoriesReport;
 
-use super::assessment::{Opened, conclude, folder, open_records, scaling_by};
+use super::assessment::{Opened, conclude, failure, folder, message, open_pairs, scaling_by};
 use super::run::scale_factor;
-use crate::args::{MethodName, RunArgs, SuiteArgs};
+use crate::args::{MethodName, RunArgs, SuiteArgs, quantity};
 use crate::failure::Failure;
 
 /// Runs, prints and writes; status 1 where a certificate does not hold.
@@ -24,7 +28,7 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
     }
     let factor = args.scale.as_deref().map(scale_factor).transpose()?;
     let measure = args.measure.as_deref().unwrap_or("PGA");
-    let (scaling, scaled) = scaling_by("scale-to", measure, args.scale_to.as_deref(), factor)?;
+    let (scaling, scaled, target) = scaling(args, measure, factor)?;
     let suites: Vec<SuiteArgs> = args.models.iter().map(|model| suite_of(args, model)).collect();
     // Every model has the same records: they are read once.
     let mut records = None;
@@ -32,11 +36,11 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
     for suite in &suites {
         let read = || match &records {
             Some(read) => Ok(Clone::clone(read)),
-            None => Ok(records.insert(open_records(suite)?).clone()),
+            None => Ok(records.insert(open_pairs(suite, &args.second)?).clone()),
         };
         opened.push(Opened::open_with(suite, read)?);
     }
-    let mut sources: Vec<(String, String, String)> = Vec::new();
+    let mut sources: Vec<(String, String, String)> = target.into_iter().collect();
     let mut warnings = Vec::new();
     for opened in &opened {
         for source in opened.sources() {
@@ -60,7 +64,7 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
         .collect();
     let first = opened.first().zip(suites.first());
     let (first, suite) = first.ok_or_else(|| Failure::Message("expected a model".to_owned()))?;
-    let histories = first.compute(suite, |engine| run_histories(&models, scaling, engine))?;
+    let histories = first.compute(suite, |engine| run_histories(&models, &scaling, engine))?;
     let report = HistoriesReport {
         version: env!("CARGO_PKG_VERSION"),
         histories: &histories,
@@ -75,6 +79,77 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
     let records = histories.models.iter().flat_map(|model| &model.records);
     let failed = records.flat_map(|on| &on.holds).any(|holds| !holds);
     Ok(ExitCode::from(u8::from(failed)))
+}
+
+/// A file that went in: path, hash, what it is.
+type Source = (String, String, String);
+
+/// How the suite is scaled, that in words, and the file of a target spectrum.
+fn scaling(
+    args: &RunArgs,
+    name: &str,
+    factor: Option<f64>,
+) -> Result<(PairScaling, String, Option<Source>), Failure> {
+    let range = args.periods.as_deref().map(|text| {
+        let wrong = || message("--periods", "two periods, the shorter first: 0.6 s..3.8 s", text);
+        let (from, to) = text.split_once("..").ok_or_else(wrong)?;
+        let [from_s, to_s] =
+            [from, to].map(|text| quantity("--periods", text.trim(), Dimension::Time));
+        let range = [from_s?, to_s?];
+        if 0.0 < range[0] && range[0] < range[1] { Ok(range) } else { Err(wrong()) }
+    });
+    let range = range.transpose()?;
+    let (spectrum, words, source) = match (&args.target, &args.code_spectrum) {
+        (Some(path), _) => {
+            let (spectrum, sha256) = read_target(path).map_err(|found| {
+                let expected = "a CSV with the columns period_s and sa_g";
+                Failure::Message(format!("--target: expected {expected}, found {found}"))
+            })?;
+            let path = path.display().to_string();
+            (spectrum, path.clone(), Some((path, sha256, "target spectrum".to_owned())))
+        }
+        (None, Some(text)) => (code_spectrum(text)?, format!("the spectrum {text}"), None),
+        (None, None) => {
+            if let Some(text) = &args.periods {
+                let expected = "--target or --code-spectrum beside them";
+                return Err(message("--periods", expected, text));
+            }
+            let Some(level) = &args.scale_to else {
+                let (scaling, words) = scaling_by("scale-to", name, None, factor)?;
+                let Scaling::Factor(factor) = scaling else {
+                    return Err(message("--scale", "a factor", &words));
+                };
+                return Ok((PairScaling::Factor(factor), words, None));
+            };
+            let measure = LevelMeasure::parse(name)
+                .map_err(|error| Failure::Message(format!("--measure: {error}")))?;
+            let scaling = PairScaling::to_level("scale-to", measure, level).map_err(failure)?;
+            return Ok((scaling, format!(" scaled to {measure} = {}", level.trim()), None));
+        }
+    };
+    let range = range.ok_or_else(|| message("--periods", "the range of periods", "nothing"))?;
+    let words = format!(" scaled to {words}");
+    Ok((PairScaling::Target(spectrum, range), words, source))
+}
+
+/// The shape of a code from its three parameters.
+fn code_spectrum(text: &str) -> Result<TargetSpectrum, Failure> {
+    let expected = "three parameters: sds = 1.2 g, sd1 = 0.8 g, tl = 8 s";
+    let wrong = || message("--code-spectrum", expected, text);
+    let mut values = [None; 3];
+    for part in text.split(',') {
+        let (key, value) = part.split_once('=').ok_or_else(wrong)?;
+        let place = ["sds", "sd1", "tl"].iter().position(|name| *name == key.trim());
+        let place = place.ok_or_else(wrong)?;
+        let dimension = if place == 2 { Dimension::Time } else { Dimension::Acceleration };
+        let value = quantity("--code-spectrum", value.trim(), dimension)?;
+        if !(value.is_finite() && value > 0.0) || values[place].is_some() {
+            return Err(wrong());
+        }
+        values[place] = Some(value);
+    }
+    let [Some(sds_m_per_s2), Some(sd1_m_per_s2), Some(tl_s)] = values else { return Err(wrong()) };
+    Ok(TargetSpectrum::Code { sds_m_per_s2, sd1_m_per_s2, tl_s })
 }
 
 /// The options of a model with the suite; one motion is a suite of one.

@@ -108,6 +108,78 @@ fn exact_models_side_by_side_in_one_report() {
     );
 }
 
+/// Seven pairs under RotD100 and under the shape of a code: the same factors and demands as a study of
+/// the same pairs, and the mean of the larger of both components governs.
+#[test]
+fn exact_pairs_take_one_factor_as_in_a_study() {
+    let folder = folder("histories-pairs", 14);
+    let (mut files, mut second) = (Vec::new(), Vec::new());
+    for i in 0..7 {
+        files.push(format!("records/r{}.csv", 2 * i));
+        second.push(format!("records/r{}.csv", 2 * i + 1));
+    }
+    let pairs: Vec<&str> = ["--records"]
+        .into_iter()
+        .chain(files.iter().map(String::as_str))
+        .chain(["--second"])
+        .chain(second.iter().map(String::as_str))
+        .collect();
+    let level = ["--measure", "RotD100(1 s)", "--scale-to", "0.4 g"].as_slice();
+    let code = ["--code-spectrum", "sds = 1 g, sd1 = 0.6 g, tl = 8 s", "--periods", "0.5 s..3 s"];
+    let of_code = "code_spectrum = { sds = \"1 g\", sd1 = \"0.6 g\", tl = \"8 s\" }\n\
+                   periods = [\"0.5 s\", \"3 s\"]\n";
+    for (options, in_plan) in
+        [(level, "measure = \"RotD100(1 s)\"\nlevels = [\"0.4 g\"]\n"), (code.as_slice(), of_code)]
+    {
+        let run = ["run", "plain.toml", "--out", "out"];
+        let text = folder.stdout(&[&run[..], &pairs, options].concat());
+        assert!(text.contains("7 pairs of components"), "{text}");
+        assert!(text.contains("mean of 7 pairs"), "{text}");
+        folder.write(
+            "plan.toml",
+            format!(
+                "name = \"Pairs\"\nmodel = \"plain.toml\"\n[records]\nfiles = {files:?}\n\
+                 second = {second:?}\n{in_plan}"
+            ),
+        );
+        folder.stdout(&["study", "plan.toml", "--out", "study", "--force", "-q"]);
+        let _ = std::fs::remove_file(folder.path().join("rows.parquet"));
+        folder.stdout(&["study", "merge", "study", "--out", "rows.parquet"]);
+        let rows = slipstick_files::read_columns(&folder.path().join("rows.parquet")).unwrap();
+        let runs = folder.read("out/runs.csv");
+        for name in ["scale", "peak_sliding_displacement_m"] {
+            let expected = rows.iter().find(|column| column.name == name).unwrap();
+            let found = column(&runs, name).into_iter().map(|cell| cell.parse::<f64>().unwrap());
+            assert_eq!(Some(found.collect()), expected.cells.to_numbers(), "{name}");
+        }
+        assert_eq!(column(&runs, "pair")[..4], ["r0", "r0", "r2", "r2"]);
+        let peaks = column(&runs, "peak_sliding_displacement_m");
+        let peaks: Vec<f64> = peaks.iter().map(|cell| cell.parse().unwrap()).collect();
+        let mean = peaks.chunks(2).map(|pair| pair[0].max(pair[1])).sum::<f64>() / 7.0;
+        let governing = folder.read("out/governing.csv");
+        let found: f64 = column(&governing, "peak_sliding_displacement_m")[0].parse().unwrap();
+        assert!((found / mean - 1.0).abs() < 1e-14, "{found} {mean}");
+    }
+    // The last of both drew the spectra.
+    let page = folder.read("out/report.html");
+    assert!(page.contains("90 % of it") && page.contains("Misfit σ of ln"));
+    for (options, expected) in [
+        (["--scale-to", "0.4 g", "--measure", "RotD50(1 s)"].as_slice(), "the other components"),
+        (&["--second", "records/r1.csv"], "--second: expected one other component for each of 7"),
+    ] {
+        let run = [&["run", "plain.toml", "--records"], &*strs(&files), options].concat();
+        let refused = folder.refused(&run);
+        assert!(refused.contains(expected), "{refused}");
+    }
+    let periods =
+        folder.refused(&[&["run", "plain.toml"], &*pairs, &["--periods", "1 s..2 s"]].concat());
+    assert!(periods.contains("--target or --code-spectrum"), "{periods}");
+}
+
+fn strs(all: &[String]) -> Vec<&str> {
+    all.iter().map(String::as_str).collect()
+}
+
 #[test]
 fn exact_what_a_suite_cannot_be_asked() {
     let folder = folder("histories-refused", 1);

@@ -2,10 +2,11 @@
 //! upper-bound friction, and what governs.
 
 use super::single::{Job, Judged};
-use super::suite::{Scaling, Suite};
+use super::suite::{PairScaling, Scaled, Suite};
 use super::{AssessmentError, FailedRun};
 use crate::error::RunError;
 use crate::input::{Analysis, Bound};
+use crate::motion::target::Matched;
 use crate::response::{DemandColumn, DemandShape, Demands, Method, Warning};
 use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
@@ -29,6 +30,8 @@ pub struct ModelOn<'a> {
 pub struct OnRecord {
     /// Name of the record.
     pub record: String,
+    /// Name of its pair, that of the first component; empty where it is in none.
+    pub pair: String,
     /// Factor on it.
     pub scale: f64,
     /// Peak of the horizontal acceleration as it was run, in m/s².
@@ -67,6 +70,8 @@ pub struct Histories {
     pub runs: Table,
     /// What governs: model, bound, statistic, demands.
     pub governing: Table,
+    /// How pairs were brought to a target spectrum, and their names.
+    pub matched: Option<(Matched, Vec<String>)>,
 }
 
 impl ModelHistories {
@@ -77,11 +82,28 @@ impl ModelHistories {
         first.map_or_else(DemandShape::default, Demands::shape)
     }
 
-    /// Name of the statistic that governs: `mean` from [`RECORDS_OF_A_MEAN`] records on, else
+    /// The records of each earthquake: both components of a pair, or a record alone.
+    fn earthquakes(&self) -> impl Iterator<Item = &[OnRecord]> {
+        self.records.chunk_by(|a, b| !a.pair.is_empty() && a.pair == b.pair)
+    }
+
+    /// Whether the records are pairs of components.
+    #[must_use]
+    pub fn has_pairs(&self) -> bool {
+        self.records.iter().any(|on| !on.pair.is_empty())
+    }
+
+    /// Number of pairs, or of records alone.
+    #[must_use]
+    pub fn counted(&self) -> usize {
+        self.earthquakes().count()
+    }
+
+    /// Name of the statistic that governs: `mean` from [`RECORDS_OF_A_MEAN`] records or pairs on, else
     /// `maximum`.
     #[must_use]
     pub fn statistic(&self) -> &'static str {
-        if self.records.len() >= RECORDS_OF_A_MEAN { "mean" } else { "maximum" }
+        if self.counted() >= RECORDS_OF_A_MEAN { "mean" } else { "maximum" }
     }
 
     /// The sizes of a demand with a bound of friction, record by record; NaN where there is none.
@@ -91,16 +113,25 @@ impl ModelHistories {
         self.records.iter().map(size).collect()
     }
 
-    /// The mean of these sizes, or their maximum; NaN where a record has none.
+    /// The mean of these sizes, or their maximum; of a pair the larger of both components counts. NaN where
+    /// a record has none.
     #[must_use]
     pub fn governing(&self, column: &DemandColumn, bound: usize) -> f64 {
         let sizes = self.sizes(column, bound);
         if sizes.iter().any(|size| size.is_nan()) {
             return f64::NAN;
         }
+        let largest = |sizes: &[f64]| sizes.iter().fold(0.0, |most: f64, size| most.max(*size));
+        let mut left = &sizes[..];
+        let of_each = self.earthquakes().map(|records| {
+            let (own, rest) = left.split_at(records.len());
+            left = rest;
+            largest(own)
+        });
+        let of_each: Vec<f64> = of_each.collect();
         match self.statistic() {
-            "mean" => sizes.iter().sum::<f64>() / sizes.len() as f64,
-            _ => sizes.iter().fold(0.0, |most: f64, size| most.max(*size)),
+            "mean" => of_each.iter().sum::<f64>() / of_each.len() as f64,
+            _ => largest(&of_each),
         }
     }
 
@@ -112,18 +143,21 @@ impl ModelHistories {
     }
 }
 
-/// Runs every model on every one of its records, and with the bounds of friction that it gives.
+/// Runs every model on every one of its records, each component of a pair by itself, and with the bounds of friction that it gives.
 ///
 /// # Errors
 /// [`AssessmentError`] for records that cannot be scaled so, and for the first run without an answer.
 pub fn run_histories(
     models: &[ModelOn<'_>],
-    scaling: Scaling,
+    scaling: &PairScaling,
     engine: &Engine<'_>,
 ) -> Result<Histories, AssessmentError> {
     let mut done = Vec::with_capacity(models.len());
+    let mut matched = None;
     for model in models {
-        let factors = model.suite.factors(&scaling, engine)?;
+        let Scaled { factors, matched: of_target } = model.suite.scaled(scaling, engine)?;
+        let pairs = (0..factors.len()).step_by(2).map(|i| model.suite.pair_name(i).to_owned());
+        matched = matched.or(of_target.map(|matched| (matched, pairs.collect())));
         let run = |i: usize| {
             let record = &model.suite.records[i].name;
             let failed = |error| Box::new(FailedRun { record: record.clone(), error });
@@ -146,7 +180,7 @@ pub fn run_histories(
         contents: all.contents.max(shape.contents),
     });
     let (runs, governing) = (table_of_runs(&done, shape), table_of_governing(&done, shape));
-    Ok(Histories { models: done, shape, runs, governing })
+    Ok(Histories { models: done, shape, runs, governing, matched })
 }
 
 /// The bounds of friction that an analysis asks for.
@@ -170,6 +204,7 @@ fn on_record(model: &ModelOn<'_>, record: usize, scale: f64) -> Result<OnRecord,
         |judged: &Judged| judged.response.method == Method::Stepwise || judged.certificate.holds();
     Ok(OnRecord {
         record: model.suite.records[record].name.clone(),
+        pair: model.suite.pair_name(record).to_owned(),
         scale,
         pga_m_per_s2,
         holds: judged.iter().map(holds).collect(),
@@ -191,9 +226,15 @@ fn table_of_runs(models: &[ModelHistories], shape: DemandShape) -> Table {
     table
         .texts("model", rows.iter().map(|(model, ..)| model.name.clone()).collect())
         .texts("record", rows.iter().map(|(_, on, _)| on.record.clone()).collect())
-        .texts("friction", rows.iter().map(|(m, _, i)| m.bounds[*i].name.to_owned()).collect())
-        .numbers("scale", "", rows.iter().map(|(_, on, _)| on.scale).collect())
-        .numbers("pga_m_per_s2", "m/s2", rows.iter().map(|(_, on, _)| on.pga_m_per_s2).collect());
+        .texts("friction", rows.iter().map(|(m, _, i)| m.bounds[*i].name.to_owned()).collect());
+    if models.iter().any(ModelHistories::has_pairs) {
+        table.texts("pair", rows.iter().map(|(_, on, _)| on.pair.clone()).collect());
+    }
+    table.numbers("scale", "", rows.iter().map(|(_, on, _)| on.scale).collect()).numbers(
+        "pga_m_per_s2",
+        "m/s2",
+        rows.iter().map(|(_, on, _)| on.pga_m_per_s2).collect(),
+    );
     let holds = rows.iter().map(|(_, on, i)| Some(on.holds[*i])).collect();
     table.columns.push(Column {
         name: "holds".to_owned(),

@@ -5,7 +5,8 @@ use super::{AssessmentError, refuse};
 use crate::error::{MotionError, RunError};
 use crate::input::Parts;
 use crate::motion::GroundMotion;
-use crate::motion::intensity::Measure;
+use crate::motion::intensity::{LevelMeasure, Measure};
+use crate::motion::target::{Matched, TargetSpectrum, matching_periods, maximum_direction};
 use crate::study::engine::{Engine, made_motion, scaled_with_tail};
 use crate::table::Table;
 
@@ -36,6 +37,43 @@ impl Scaling {
     }
 }
 
+/// How records are scaled where the two components of a pair take one factor.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PairScaling {
+    /// By a factor, 1 as recorded.
+    Factor(f64),
+    /// So that a measure takes a value, in its SI unit; that of a component is of a pair the geometric mean.
+    Level(LevelMeasure, f64),
+    /// Pairs brought to a spectrum between two periods in s.
+    Target(TargetSpectrum, [f64; 2]),
+}
+
+impl PairScaling {
+    /// That to one level of a measure as people write it; `what` is what errors call the level.
+    ///
+    /// # Errors
+    /// [`AssessmentError::Choice`] for text that is not one level of the measure.
+    pub fn to_level(
+        what: &str,
+        measure: LevelMeasure,
+        text: &str,
+    ) -> Result<Self, AssessmentError> {
+        match levels(what, text, &measure.measure)?[..] {
+            [value] => Ok(Self::Level(measure, value)),
+            _ => Err(refuse(what, "one level", format!("{text:?}"))),
+        }
+    }
+}
+
+/// The factor on each record, and how pairs were brought to a spectrum.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scaled {
+    /// A factor a record.
+    pub factors: Vec<f64>,
+    /// Of a target spectrum.
+    pub matched: Option<Matched>,
+}
+
 /// A record of a suite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SuiteRecord {
@@ -43,6 +81,8 @@ pub struct SuiteRecord {
     pub name: String,
     /// The motion as it was recorded.
     pub motion: GroundMotion,
+    /// The pair of horizontal components that it is one of; the two stand beside each other.
+    pub pair: Option<usize>,
 }
 
 /// The records that a model is run on.
@@ -102,6 +142,81 @@ impl Suite {
                 Ok(values.into_iter().map(|value| level / value).collect())
             }
         }
+    }
+
+    /// Records that are scaled by one factor: a pair, or a record alone.
+    fn scaled_together(&self) -> Vec<&[SuiteRecord]> {
+        self.records.chunk_by(|a, b| a.pair.is_some() && a.pair == b.pair).collect()
+    }
+
+    /// The factor on each record, the same on both components of a pair.
+    ///
+    /// # Errors
+    /// [`AssessmentError::Choice`] for a measure of pairs or a target spectrum where there are none, for a
+    /// record or pair of which the measure is 0, and for periods beyond the spectrum; stopped.
+    pub fn scaled(
+        &self,
+        scaling: &PairScaling,
+        engine: &Engine<'_>,
+    ) -> Result<Scaled, AssessmentError> {
+        let groups = self.scaled_together();
+        let paired = groups.iter().all(|group| group.len() == 2);
+        let pairs = "the other components of all records beside it, --second";
+        let mut matched = None;
+        let of_groups: Vec<f64> = match scaling {
+            PairScaling::Factor(factor) => vec![*factor; groups.len()],
+            PairScaling::Level(measure, level) => {
+                if measure.rotated.is_some() && !paired {
+                    return Err(refuse("measure", pairs, measure.to_string()));
+                }
+                let factor = |i: usize| -> Result<f64, AssessmentError> {
+                    let Some((first, rest)) = groups[i].split_first() else { return Ok(1.0) };
+                    let other = rest.first().map(|other| &other.motion);
+                    let unscaled = measure.of(&first.motion, other).unwrap_or(f64::NAN);
+                    if unscaled.is_finite() && unscaled > 0.0 {
+                        return Ok(level / unscaled);
+                    }
+                    let expected = format!("records that can be scaled to {measure}");
+                    let found = format!("{measure} = {unscaled} of {}", first.name);
+                    Err(refuse("measure", expected, found))
+                };
+                engine
+                    .map(groups.len(), |i| Ok(factor(i)))?
+                    .into_iter()
+                    .collect::<Result<_, _>>()?
+            }
+            PairScaling::Target(target, range_s) => {
+                if !paired {
+                    return Err(refuse("target", pairs, "records alone"));
+                }
+                let periods_s = matching_periods(*range_s);
+                let spectrum = |i: usize| match groups[i] {
+                    [x, y] => Ok(maximum_direction(&x.motion, &y.motion, &periods_s)),
+                    _ => Ok(Ok(Vec::new())),
+                };
+                let spectra: Result<Vec<Vec<f64>>, MotionError> =
+                    engine.map(groups.len(), spectrum)?.into_iter().collect();
+                let of_target = |spectra: Vec<_>| Matched::new(target, periods_s.clone(), &spectra);
+                let found = spectra.and_then(of_target).map_err(|error| {
+                    let expected = "pairs that can be brought to the spectrum over these periods";
+                    refuse("periods", expected, error.to_string())
+                })?;
+                let factors = found.factors.clone();
+                matched = Some(found);
+                factors
+            }
+        };
+        let each = groups.iter().zip(of_groups);
+        let factors = each.flat_map(|(group, factor)| vec![factor; group.len()]).collect();
+        Ok(Scaled { factors, matched })
+    }
+
+    /// The name of a record's pair, that of its first component; empty where it is in none.
+    #[must_use]
+    pub fn pair_name(&self, record: usize) -> &str {
+        let pair = self.records[record].pair;
+        let first = self.records.iter().find(|first| pair.is_some() && first.pair == pair);
+        first.map_or("", |first| &first.name)
     }
 
     /// Columns that say of what intensity each record is as it is run: `measure`, `measure_unit` and

@@ -194,8 +194,12 @@ fn load_all(
     Ok(all.into_iter().collect::<Result<Vec<_>, FileError>>()?)
 }
 
-/// A spectrum from a table, and the hash of its file; else what is wrong with it.
-fn read_target(path: &Path) -> Result<(TargetSpectrum, String), String> {
+/// A target spectrum from a table with the columns `period` and `sa`, each with its unit, and the hash of its
+/// file.
+///
+/// # Errors
+/// What is wrong with it, in words.
+pub fn read_target(path: &Path) -> Result<(TargetSpectrum, String), String> {
     let text = |error: &dyn std::fmt::Display| error.to_string();
     let sha256 = sha256_hex(&read_bytes(path).map_err(|error| text(&error))?);
     let read = read_table(&[path.to_owned()]).map_err(|error| text(&error))?;

@@ -6,6 +6,7 @@ use slipstick::response::{DemandColumn, Warning};
 use slipstick::table::{Cells, Column, Table};
 
 use super::lines::{GROUPS, RECORD, line, panel, stacked};
+use super::pairs;
 use super::sheet::{Sheet, cell};
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::figures::Drawn;
@@ -48,8 +49,14 @@ impl HistoriesReport<'_> {
         let models = &self.histories.models;
         let names: Vec<&str> = models.iter().map(|model| model.name.as_str()).collect();
         let runs: usize = models.iter().map(|model| model.records.len() * model.bounds.len()).sum();
-        let most = models.iter().map(|model| model.records.len()).max().unwrap_or(0);
-        let records = if most == 1 { "one record".to_owned() } else { format!("{most} records") };
+        let most = models.iter().max_by_key(|model| model.counted());
+        let records =
+            most.map_or_else(String::new, |model| match (model.counted(), model.has_pairs()) {
+                (1, false) => "one record".to_owned(),
+                (1, true) => "one pair of components".to_owned(),
+                (n, false) => format!("{n} records"),
+                (n, true) => format!("{n} pairs of components"),
+            });
         let failed = models.iter().flat_map(|m| &m.records).flat_map(|on| &on.holds);
         let certificate = match failed.filter(|holds| !**holds).count() {
             0 => "every certificate holds".to_owned(),
@@ -63,10 +70,10 @@ impl HistoriesReport<'_> {
             verdict: Vec::new(),
             display: self.display,
             warnings: self.warnings(),
-            tables: self.columns().iter().map(|columns| self.table(columns)).collect(),
+            tables: self.tables(),
             notes: self.notes(),
             figures: self.figures(),
-            method: method(),
+            method: self.method(),
             json: self.json(),
         }
     }
@@ -124,6 +131,9 @@ impl HistoriesReport<'_> {
             });
             let records = match model.records.as_slice() {
                 [one] => one.record.clone(),
+                _ if model.has_pairs() => {
+                    format!("{} of {} pairs", model.statistic(), model.counted())
+                }
                 all => format!("{} of {} records", model.statistic(), all.len()),
             };
             Some(format!(
@@ -182,14 +192,40 @@ impl HistoriesReport<'_> {
                 ["maximum"] => "Maximum",
                 _ => "Mean or maximum",
             };
+            let pairs = models.iter().any(ModelHistories::has_pairs);
+            let name = if pairs { format!("{name}, larger of each pair") } else { name.to_owned() };
             let value = |(_, model, column, bounds): &Shown<'_>| {
                 largest(&mut bounds.iter().map(|i| model.governing(column, *i)))
             };
-            rows.push(row(name, &mut columns.iter().map(value)));
+            rows.push(row(&name, &mut columns.iter().map(value)));
         }
         let alike = demand.iter().all(|column| *column == demand[0]);
         let title = if alike { demand[0].title() } else { "Roof peak acceleration".to_owned() };
         (unit.label(&title), rows)
+    }
+
+    /// A table a demand, and the factors of pairs that were brought to a spectrum.
+    fn tables(&self) -> Vec<(String, Vec<Vec<String>>)> {
+        let demands = self.columns();
+        let demands = demands.iter().map(|columns| self.table(columns));
+        let matched = self.histories.matched.iter();
+        let of_pairs = matched.map(|(m, names)| pairs::table(names.iter().map(String::as_str), m));
+        demands.chain(of_pairs).collect()
+    }
+
+    /// How it was computed.
+    fn method(&self) -> Vec<String> {
+        let mut method = method();
+        if self.histories.models.iter().any(ModelHistories::has_pairs) {
+            method.push(
+                "The model moves in one direction: each component of a pair is run by itself, under the \
+                 factor of the pair, and the larger of its two peaks counts as that of the pair. A measure \
+                 of a component is the geometric mean of both."
+                    .to_owned(),
+            );
+        }
+        method.extend(self.histories.matched.iter().map(|(matched, _)| pairs::method(matched)));
+        method
     }
 
     /// What the tables leave out.
@@ -257,6 +293,7 @@ impl HistoriesReport<'_> {
         if models.iter().any(|model| model.records.len() > 1) {
             figures.extend(peaks.first().map(|peak| self.shares(peak, &unit)));
         }
+        figures.extend(self.histories.matched.iter().map(|(matched, _)| pairs::figure(matched)));
         figures
     }
 

@@ -1,19 +1,18 @@
 //! A study as a page: the answer, how demands grow with the level, the tables.
 
-use slipstick::motion::target::{LEAST_SHARE, Matched};
 use slipstick::response::{DemandColumn, Warning};
-use slipstick::study::{LevelSummary, Record, Study, StudySummary};
-use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
+use slipstick::study::{LevelSummary, Study, StudySummary};
 
 use super::{level, level_number, level_unit, shown};
-use crate::assessment::lines::{BAND, FRACTILES, GROUPS, RECORD, band, line, panel, stacked};
+use crate::assessment::lines::{BAND, FRACTILES, GROUPS, band, line, panel, stacked};
+use crate::assessment::pairs;
 use crate::assessment::sheet::{Sheet, cell};
 use crate::display::{DisplayUnits, Unit};
 use crate::figures::Drawn;
 use crate::json::Json;
 use crate::markup::shortened;
 use crate::number::{compact, count};
-use crate::plot::{Axis, Limit, Panel, Series, Style};
+use crate::plot::{Axis, Panel, Series, Style};
 
 /// What the page of a study is told from.
 #[derive(Clone, Copy, Debug)]
@@ -199,7 +198,7 @@ impl StudyReport<'_> {
             (unit.label(&demand.title()), rows)
         };
         let demands = shown(self.summary).into_iter().filter(|d| !self.rows(*d).is_empty());
-        let matched = self.study.matched().map(|matched| self.matched_table(matched));
+        let matched = self.study.matched().map(|matched| pairs::table(self.pairs(), matched));
         demands.map(table).chain(matched).collect()
     }
 
@@ -207,7 +206,7 @@ impl StudyReport<'_> {
         let moves = |demand: &DemandColumn| self.rows(*demand).iter().any(|row| row.max != 0.0);
         let drawn: Vec<DemandColumn> = self.answers().into_iter().filter(moves).collect();
         let mut figures = self.demands_figure(&drawn);
-        figures.extend(self.study.matched().map(|matched| self.matched_figure(matched)));
+        figures.extend(self.study.matched().map(pairs::figure));
         figures
     }
 
@@ -232,64 +231,9 @@ impl StudyReport<'_> {
         vec![stacked("distributions", "Distributions of demands", caption, panels)]
     }
 
-    /// The spectra of pairs as they were scaled, beside the target.
-    fn matched_figure(&self, matched: &Matched) -> Drawn {
-        let g = STANDARD_GRAVITY_M_PER_S2;
-        let points = |values: &[f64], factor: f64| -> Vec<[f64; 2]> {
-            matched.periods_s.iter().zip(values).map(|(t, sa)| [*t, factor * sa / g]).collect()
-        };
-        let mut series: Vec<Series> = Vec::new();
-        for pair in &matched.pairs_m_per_s2 {
-            let label = if series.is_empty() { "pair" } else { "" };
-            series.push(line(label, RECORD, points(pair, 1.0)));
-        }
-        series.push(line("mean of the pairs", FRACTILES[1], points(&matched.mean_m_per_s2, 1.0)));
-        series.push(line("target", Style::LIMIT, points(&matched.target_m_per_s2, 1.0)));
-        let least = points(&matched.target_m_per_s2, LEAST_SHARE);
-        series.push(line("90 % of it", Style { width: 0.6, ..Style::LIMIT }, least));
-        let (from, to) = (matched.periods_s[0], matched.periods_s[matched.periods_s.len() - 1]);
-        let all = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect::<Vec<_>>();
-        let spectra = panel(
-            Axis::logarithmic("Period (s)", from, to),
-            Axis::from_zero("RotD100 of PSa, 5 % (g)", all),
-            220.0,
-            series,
-        );
-        let ratios = matched.mean_m_per_s2.iter().zip(&matched.target_m_per_s2);
-        let ratios: Vec<f64> = ratios.map(|(mean, target)| mean / target).collect();
-        let points = matched.periods_s.iter().zip(&ratios).map(|(t, ratio)| [*t, *ratio]);
-        let mut misfit = panel(
-            Axis::logarithmic("Period (s)", from, to),
-            Axis::covering("Mean over target", ratios.iter().copied().chain([LEAST_SHARE, 1.0])),
-            90.0,
-            vec![line("", FRACTILES[1], points.collect())],
-        );
-        misfit.limits =
-            vec![Limit { value: LEAST_SHARE, label: "90 %".to_owned(), style: Style::LIMIT }];
-        let caption = format!(
-            "Spectra of {} in the maximum direction, each scaled by one factor, over the periods that \
-             the plan gives; below, their mean over the target: least {} at {} s.",
-            match matched.factors.len() {
-                1 => "one pair".to_owned(),
-                pairs => format!("{pairs} pairs"),
-            },
-            cell(matched.least[0]),
-            cell(matched.least[1])
-        );
-        stacked("target", "Pairs and their target spectrum", caption, vec![spectra, misfit])
-    }
-
-    /// Factor and misfit of every pair.
-    fn matched_table(&self, matched: &Matched) -> (String, Vec<Vec<String>>) {
-        let heads = ["Pair", "Factor", "Misfit σ of ln"].map(str::to_owned).to_vec();
-        let first = self.study.records().iter().step_by(2);
-        let row = |((record, factor), misfit): ((&Record, &f64), &f64)| {
-            let name = super::file_name(&record.name);
-            vec![shortened(name, 40), cell(*factor), cell(*misfit)]
-        };
-        let rows = first.zip(&matched.factors).zip(&matched.misfits).map(row);
-        let rows = std::iter::once(heads).chain(rows).collect();
-        ("Factors on both components of each pair".to_owned(), rows)
+    /// Names of the pairs, those of their first components.
+    fn pairs(&self) -> impl Iterator<Item = &str> {
+        self.study.records().iter().step_by(2).map(|record| super::file_name(&record.name))
     }
 
     /// Names of the bounds of friction; one empty name without them.
@@ -380,13 +324,7 @@ impl StudyReport<'_> {
             method.push(format!("Both coefficients of friction: {}.", names.join(", ")));
         }
         if let Some(matched) = self.study.matched() {
-            method.push(format!(
-                "Each pair is scaled by one factor, so that the logarithms of its RotD100 spectrum and of \
-                 the target agree in the mean over the periods; all pairs are then raised by {}, so that \
-                 their mean is nowhere below 90 % of the target (ASCE/SEI 7-22, 16.2.3.2). The misfit is \
-                 the standard deviation of ln(RotD100/target).",
-                cell(matched.raised)
-            ));
+            method.push(pairs::method(matched));
         }
         if self.study.has_pairs() && self.study.level(0).is_some() {
             method.push(

@@ -31,7 +31,7 @@ fn suite() -> Suite {
             3.0 * libm::sin((5.0 + f64::from(i)) * t) * libm::sin(19.0 * t) * libm::exp(-0.3 * t)
         };
         let motion = GroundMotion::evenly_spaced(0.01, (0..500).map(wave).collect(), None);
-        SuiteRecord { name: format!("r{i}"), motion: motion.unwrap() }
+        SuiteRecord { name: format!("r{i}"), motion: motion.unwrap(), pair: None }
     };
     Suite { records: (0..5).map(record).collect(), made: false }
 }
