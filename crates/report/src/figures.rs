@@ -1,5 +1,6 @@
 //! The figures of a report, each a drawing with a caption that says what to see.
 
+mod devices;
 mod energy;
 mod force;
 mod histories;
@@ -39,8 +40,11 @@ pub fn all(report: &Report) -> Vec<Drawn> {
         Some(force::loops(&scene)),
         Some(histories::accelerations(&scene)),
         histories::drifts(&scene),
+        devices::surfaces(&scene),
+        devices::contents(&scene),
+        devices::friction_by_speed(&scene),
         report.floor_spectra.and_then(|spectra| spectra::floors(report, spectra)),
-        Some(force::demand(&scene)),
+        force::demand(&scene),
         energy::by_kind(&scene),
     ]
     .into_iter()

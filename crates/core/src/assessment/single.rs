@@ -128,6 +128,11 @@ impl Job {
     }
 }
 
+/// A number without the rounding of its unit: 0.12 g is 1.176798 m/s², not 1.1767979999999998.
+fn short(value: f64) -> f64 {
+    format!("{value:.12e}").parse().unwrap_or(value)
+}
+
 /// A motion that is made, and what it is in a line; `None` for a record.
 ///
 /// # Errors
@@ -137,17 +142,23 @@ pub fn described(source: &MotionSource) -> Result<Option<(GroundMotion, String)>
         MotionSource::Record(_) => return Ok(None),
         MotionSource::Sine(sine) => (
             sine.motion()?,
-            format!("sine, {} Hz, {} m/s²", sine.frequency_hz, sine.amplitude_m_per_s2),
+            format!(
+                "sine, {} Hz, {} m/s²",
+                short(sine.frequency_hz),
+                short(sine.amplitude_m_per_s2)
+            ),
         ),
         MotionSource::Sweep(sweep) => (
             sweep.motion()?,
             format!(
                 "sweep, {} to {} Hz, {} m/s²",
-                sweep.from_hz, sweep.to_hz, sweep.amplitude_m_per_s2
+                short(sweep.from_hz),
+                short(sweep.to_hz),
+                short(sweep.amplitude_m_per_s2)
             ),
         ),
         MotionSource::Pulse(pulse) => {
-            (pulse.motion()?, format!("pulse, {} m/s²", pulse.amplitude_m_per_s2))
+            (pulse.motion()?, format!("pulse, {} m/s²", short(pulse.amplitude_m_per_s2)))
         }
     }))
 }

@@ -1,6 +1,8 @@
 //! Friction force against sliding displacement, and the demand against its bound.
 
+use slipstick::friction::Contact;
 use slipstick::motion::GroundMotion;
+use slipstick::response::History;
 
 use super::{Drawn, Scene, drawn};
 use crate::display::Quantity;
@@ -18,7 +20,7 @@ pub fn loops(scene: &Scene) -> Drawn {
     let length = report.display.unit(Quantity::Length, demands.peak_sliding_displacement_m);
     let whole = |knot: usize| history.slider_force_n(model, knot);
     let friction = |knot: usize| -history.friction_force_n[knot];
-    let panel = |label: &str, peak_n: f64, force: &dyn Fn(usize) -> f64| {
+    let panel = |label: &str, peak_n: f64, force: &dyn Fn(usize) -> f64, with_stop: bool| {
         let unit = report.display.unit(Quantity::Force, peak_n);
         let points: Vec<[f64; 2]> = (0..history.len())
             .map(|knot| [length.of(history.sliding_displacement_m[knot]), unit.of(force(knot))])
@@ -30,12 +32,13 @@ pub fn loops(scene: &Scene) -> Drawn {
             ),
             y: Axis::symmetric(unit.label(label), points.iter().map(|p| p[1])),
             height: 150.0,
-            series: vec![Series {
-                label: String::new(),
-                style: Style::MAIN,
-                shape: Shape::Curve,
-                points,
-            }],
+            series: {
+                let stop = if with_stop { at_stop(history, &points) } else { Vec::new() };
+                let label = if stop.is_empty() { "" } else { "slider" };
+                let style = Style::MAIN;
+                let main = Series { label: label.to_owned(), style, shape: Shape::Curve, points };
+                std::iter::once(main).chain(stop).collect()
+            },
             limits: Vec::new(),
             peak: None,
             note: String::new(),
@@ -44,16 +47,19 @@ pub fn loops(scene: &Scene) -> Drawn {
     let mut panels = Vec::new();
     let mut caption = String::from("Force of the block on its slider");
     if restrained {
-        panels.push(panel("Slider force", demands.peak_slider_force_n, &whole));
-        panels.push(panel("Friction force alone", demands.peak_friction_force_n, &friction));
+        panels.push(panel("Slider force", demands.peak_slider_force_n, &whole, true));
+        panels.push(panel("Friction force alone", demands.peak_friction_force_n, &friction, false));
         caption.push_str(" (left; right: its friction alone)");
     } else {
-        panels.push(panel("Slider force", demands.peak_friction_force_n, &friction));
+        panels.push(panel("Slider force", demands.peak_friction_force_n, &friction, false));
     }
     caption.push_str(
         " over sliding displacement, with the sign of a data sheet: it rises with the displacement. \
          Upright lines are sticks; the area inside is the energy lost.",
     );
+    if slider.stop.is_some() {
+        caption.push_str(" Red: the block presses against the stop.");
+    }
     if report.motion.vertical_m_per_s2().is_some() {
         caption.push_str(" Slips bend where the vertical motion changes the normal force.");
     }
@@ -68,9 +74,31 @@ pub fn loops(scene: &Scene) -> Drawn {
     drawn(&figure, caption)
 }
 
-/// `T` over time between the static bounds −μ_s⁺N and μ_s⁻N, with the kinetic ones dotted.
-pub fn demand(scene: &Scene) -> Drawn {
+/// Pieces of the loop in which the block presses against a stop.
+fn at_stop(history: &History, points: &[[f64; 2]]) -> Vec<Series> {
+    let pressed = |knot: &usize| matches!(history.contact[*knot], Contact::Pressed(_));
+    let knots: Vec<usize> = (0..history.contact.len()).filter(pressed).collect();
+    let stretches = knots.chunk_by(|a, b| a + 1 == *b).filter(|stretch| stretch.len() > 1);
+    let piece = |stretch: &[usize]| Series {
+        label: String::new(),
+        style: Style { colour: Style::LIMIT.colour, width: 1.6, dashes: "" },
+        shape: Shape::Curve,
+        points: stretch.iter().map(|&knot| points[knot]).collect(),
+    };
+    let mut pieces: Vec<Series> = stretches.map(piece).collect();
+    if let Some(first) = pieces.first_mut() {
+        first.label = "against the stop".to_owned();
+    }
+    pieces
+}
+
+/// `T` over time between the static bounds −μ_s⁺N and μ_s⁻N, with the kinetic ones dotted; none for
+/// surfaces in series, whose bounds move with their displacements.
+pub fn demand(scene: &Scene) -> Option<Drawn> {
     let (report, history, model) = (scene.report, scene.history, scene.report.model);
+    if model.devices().series.is_some() {
+        return None;
+    }
     let [static_positive, static_negative] = model.static_friction();
     let [kinetic_positive, kinetic_negative] = model.kinetic_friction();
     let weight_n = model.total_mass_kg() * model.normal_gravity_m_per_s2();
@@ -78,12 +106,15 @@ pub fn demand(scene: &Scene) -> Drawn {
     let unit = report
         .display
         .unit(Quantity::Force, largest.max(report.summary.demands.peak_friction_force_n));
+    let by_speed = model.devices().rate.is_some();
     let bounds = [
         (static_negative, "static bound", Style::DASHED),
         (-static_positive, "", Style::DASHED),
         (kinetic_negative, "kinetic friction", Style::DOTTED),
         (-kinetic_positive, "", Style::DOTTED),
     ];
+    // Friction by speed has no level line.
+    let bounds = bounds.into_iter().take(if by_speed { 2 } else { 4 });
     let force = Series {
         label: "T".to_owned(),
         style: Style::MAIN,
@@ -130,10 +161,11 @@ pub fn demand(scene: &Scene) -> Drawn {
     } else {
         ""
     };
+    let kinetic = if by_speed { "of its speed, μₖ(v) N" } else { "±μₖN (dotted)" };
     let caption = format!(
         "Friction force T against its bounds. On white the block sticks and T is the demand: it may \
          reach the static bounds −μₛ⁺N and μₛ⁻N (dashed) but never pass them; there the block lets \
-         go. On grey it slides and T is the kinetic friction ±μₖN (dotted).{varies}"
+         go. On grey it slides and T is the kinetic friction {kinetic}.{varies}"
     );
     let figure = Figure {
         id: "demand",
@@ -143,12 +175,16 @@ pub fn demand(scene: &Scene) -> Drawn {
         panels: vec![panel],
         shaded: scene.sliding.clone(),
     };
-    drawn(&figure, caption)
+    Some(drawn(&figure, caption))
 }
 
 /// Vertical acceleration at the knots, linear between samples; of two knots at one time the first
 /// takes the left limit of a jump and the second the right one; 0 after the end.
-fn vertical_at_knots(motion: &GroundMotion, vertical: &[f64], knots_s: &[f64]) -> Vec<f64> {
+pub(super) fn vertical_at_knots(
+    motion: &GroundMotion,
+    vertical: &[f64],
+    knots_s: &[f64],
+) -> Vec<f64> {
     let times = motion.times_s();
     let mut upper = 0;
     let mut previous_s = f64::NAN;

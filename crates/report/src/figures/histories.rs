@@ -9,7 +9,7 @@ use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
 
 /// Five of them stand on a printed page together with the sliding displacement.
 const HISTORY_HEIGHT: f64 = 78.0;
-const SHADING: &str = "Grey: the block slides.";
+pub(super) const SHADING: &str = "Grey: the block slides.";
 
 /// `s(t)` with its gap and, where they were run, the answers with lower and upper friction.
 pub fn sliding_displacement(scene: &Scene) -> Drawn {
@@ -190,7 +190,7 @@ pub fn drifts(scene: &Scene) -> Option<Drawn> {
     Some(drawn(&figure, caption))
 }
 
-fn history_panel(scene: &Scene, quantity: &str, trace: Trace, unit: Unit) -> Panel {
+pub(super) fn history_panel(scene: &Scene, quantity: &str, trace: Trace, unit: Unit) -> Panel {
     let (peak, note) = marked(&trace, unit, "peak");
     Panel {
         x: scene.time_axis(),
@@ -221,7 +221,7 @@ fn marked(trace: &Trace, unit: Unit, word: &str) -> (Option<[f64; 2]>, String) {
 }
 
 /// The caption and every panel's note, for those who cannot see the figure.
-fn describe(caption: &str, panels: &[Panel]) -> String {
+pub(super) fn describe(caption: &str, panels: &[Panel]) -> String {
     let notes = panels.iter().map(|panel| format!(" {}: {}.", panel.y.label, panel.note));
     std::iter::once(caption.to_owned()).chain(notes).collect()
 }

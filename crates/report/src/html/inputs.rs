@@ -124,15 +124,27 @@ pub fn assumptions(out: &mut Markup, report: &Report) {
         "Displacements and angles are small: geometry does not change, and the structure is linear \
          (no yielding, no second-order effects)."
             .to_owned(),
-        "Friction is Coulomb's: it depends on whether and which way the block slides, not on \
-         velocity, pressure, temperature, wear or time at rest."
-            .to_owned(),
-        "The surface has one constant tilt; the spring is linear and unstressed at s = 0.".to_owned(),
+        if model.devices().rate.is_some() {
+            "Friction depends on whether, which way and how fast the block slides, not on pressure, \
+             temperature, wear or time at rest."
+                .to_owned()
+        } else {
+            "Friction is Coulomb's: it depends on whether and which way the block slides, not on \
+             velocity, pressure, temperature, wear or time at rest."
+                .to_owned()
+        },
+        if model.devices().series.is_some() {
+            "Each surface has its own radius and friction; displacements are small beside the radii."
+                .to_owned()
+        } else {
+            "The surface has one constant tilt; the spring is linear and unstressed at s = 0."
+                .to_owned()
+        },
         "The table acceleration is linear between samples and was not filtered or corrected; \
          accelerations are total (absolute)."
             .to_owned(),
     ];
-    if model.slider().gap_m.is_some() {
+    if model.slider().gap_m.is_some() && model.stop().is_none() {
         list.push("Nothing is struck: where the gap is passed, the block slides on.".to_owned());
     }
     let vertical = report.motion.vertical_m_per_s2().is_some();

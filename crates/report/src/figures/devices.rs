@@ -1,0 +1,171 @@
+//! What devices do: friction over the sliding speed, surfaces in series, contents.
+
+use slipstick::friction::{Direction, Surface};
+use slipstick::model::Contents;
+use slipstick::response::Mode;
+
+use super::force::vertical_at_knots;
+use super::histories::{SHADING, describe, history_panel};
+use super::{Drawn, Scene, Trace, drawn};
+use crate::display::Quantity;
+use crate::markup::shortened;
+use crate::number::compact;
+use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
+
+/// How many instants of the run are marked on its law.
+const MARKS: usize = 240;
+
+/// The kinetic coefficient over the sliding speed, and `|T|/N` of the run on it.
+pub fn friction_by_speed(scene: &Scene) -> Option<Drawn> {
+    let (report, history) = (scene.report, scene.history);
+    let rate = report.model.devices().rate.as_ref()?;
+    let peak_m_per_s = report.summary.demands.peak_sliding_velocity_m_per_s;
+    if !(peak_m_per_s > 0.0) {
+        return None;
+    }
+    let unit = report.display.unit(Quantity::Velocity, peak_m_per_s);
+    let end_m_per_s = 1.25 * peak_m_per_s;
+    let law = |direction: Direction| -> Vec<[f64; 2]> {
+        let at = |i: u32| end_m_per_s * f64::from(i) / 200.0;
+        (0..=200).map(|i| [unit.of(at(i)), rate.at(at(i), direction)]).collect()
+    };
+    let normal = {
+        let model = report.model;
+        let lift = report.motion.vertical_m_per_s2();
+        let lift = lift.map(|up| vertical_at_knots(report.motion, up, &history.time_s));
+        move |knot: usize| {
+            let up = lift.as_ref().map_or(0.0, |lift| lift[knot]);
+            model.total_mass_kg() * (model.normal_gravity_m_per_s2() + up).max(0.0)
+        }
+    };
+    let slips: Vec<usize> = (0..history.len())
+        .filter(|&knot| matches!(history.modes(knot)[0], Mode::Slip(_)) && normal(knot) > 0.0)
+        .collect();
+    let run = slips.iter().step_by(slips.len().div_ceil(MARKS).max(1)).map(|&knot| {
+        let speed = history.sliding_velocity_m_per_s[knot].abs();
+        [unit.of(speed), history.friction_force_n[knot].abs() / normal(knot)]
+    });
+    let line = |label: &str, style: Style, points: Vec<[f64; 2]>| Series {
+        label: label.to_owned(),
+        style,
+        shape: Shape::Curve,
+        points,
+    };
+    let [positive, negative] = [Direction::Positive, Direction::Negative].map(law);
+    let mut series = if positive == negative {
+        vec![line("kinetic friction", Style::MAIN, positive)]
+    } else {
+        vec![
+            line("kinetic friction towards +x", Style::MAIN, positive),
+            line("towards −x", Style::DASHED, negative),
+        ]
+    };
+    series.push(Series {
+        label: "|T|/N of the run".to_owned(),
+        style: Style::WIDE,
+        shape: Shape::Dots(Style::WIDE.colour),
+        points: run.collect(),
+    });
+    let values = series.iter().flat_map(|s| s.points.iter().map(|point| point[1]));
+    let panel = Panel {
+        x: Axis::linear(unit.label("Sliding speed"), 0.0, unit.of(end_m_per_s)),
+        y: Axis::from_zero("Coefficient of friction", values.collect::<Vec<_>>()),
+        height: 170.0,
+        series,
+        limits: vec![],
+        peak: None,
+        note: format!("fastest {} {}", compact(unit.of(peak_m_per_s)), unit.symbol),
+    };
+    let caption =
+        "Kinetic friction over the sliding speed: the law as it is given, and the friction \
+                   force over the normal force at instants of the run. Where dots crowd, the block \
+                   slides for longest."
+            .to_owned();
+    let figure = Figure {
+        id: "friction-by-speed",
+        title: "Coefficient of friction over sliding speed".to_owned(),
+        description: caption.clone(),
+        layout: Layout::Stacked,
+        panels: vec![panel],
+        shaded: Vec::new(),
+    };
+    Some(drawn(&figure, caption))
+}
+
+/// Displacement of each surface in series over time, with the end of its travel.
+pub fn surfaces(scene: &Scene) -> Option<Drawn> {
+    let (report, history) = (scene.report, scene.history);
+    let series = report.model.devices().series.as_ref()?;
+    let peaks = report.summary.demands.surfaces.iter();
+    let peak_m = peaks.map(|surface| surface.peak_displacement_m).fold(0.0, f64::max);
+    let unit = report.display.unit(Quantity::Length, peak_m);
+    let panel = |(i, surface): (usize, &Surface)| {
+        let points = scene.over_time(unit, |knot| history.surface_displacements(knot)[i]);
+        let name = format!("Surface {} displacement", i + 1);
+        let mut panel = history_panel(scene, &name, Trace::of(points), unit);
+        // An end far away would flatten the curve.
+        if let Some(travel_m) = surface.travel_m.filter(|travel_m| *travel_m <= 2.5 * peak_m) {
+            let travel = unit.of(travel_m);
+            let values = panel.series[0].points.iter().map(|point| point[1]);
+            panel.y =
+                Axis::symmetric(panel.y.label.clone(), values.chain([travel]).collect::<Vec<_>>());
+            let limit = |value: f64, label: &str| Limit {
+                value,
+                label: label.to_owned(),
+                style: Style::LIMIT,
+            };
+            panel.limits = vec![limit(travel, "end of travel"), limit(-travel, "")];
+        }
+        panel
+    };
+    let panels: Vec<Panel> = series.surfaces().iter().enumerate().map(panel).collect();
+    let caption = format!(
+        "Displacement of each surface of the slider; together they make the sliding displacement. \
+         {SHADING} A surface that moves no further carries on with the friction of the next."
+    );
+    let figure = Figure {
+        id: "surfaces",
+        title: "Displacements of the surfaces over time".to_owned(),
+        description: describe(&caption, &panels),
+        layout: Layout::Stacked,
+        panels,
+        shaded: scene.sliding.clone(),
+    };
+    Some(drawn(&figure, caption))
+}
+
+/// Displacement of the contents over their floors.
+pub fn contents(scene: &Scene) -> Option<Drawn> {
+    let (report, history) = (scene.report, scene.history);
+    let contents = &report.model.devices().contents;
+    if contents.is_empty() {
+        return None;
+    }
+    let names = &report.summary.names;
+    let largest = report.summary.demands.contents.iter();
+    let largest = largest.map(|of| of.peak_sliding_displacement_m).fold(0.0, f64::max);
+    let unit = report.display.unit(Quantity::Length, largest);
+    let panel = |(i, contents): (usize, &Contents)| {
+        let points = scene.over_time(unit, |knot| history.contents_state(knot, i)[0]);
+        let floor = match contents.floor {
+            0 => names.block().to_owned(),
+            storey => names.storey(storey),
+        };
+        let name = format!("Contents {} on {}", i + 1, shortened(&floor, 24).to_lowercase());
+        history_panel(scene, &name, Trace::of(points), unit)
+    };
+    let panels: Vec<Panel> = contents.iter().enumerate().map(panel).collect();
+    let caption =
+        "Displacement of the contents over the floor that they stand on, positive towards +x. \
+                   Level stretches: they move with their floor. Grey: the block slides."
+            .to_owned();
+    let figure = Figure {
+        id: "contents",
+        title: "Displacement of the contents over time".to_owned(),
+        description: describe(&caption, &panels),
+        layout: Layout::Stacked,
+        panels,
+        shaded: scene.sliding.clone(),
+    };
+    Some(drawn(&figure, caption))
+}
