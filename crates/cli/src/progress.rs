@@ -2,6 +2,7 @@
 
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
+use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError, mpsc};
 use std::thread;
@@ -9,6 +10,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use slipstick::study::engine::Engine;
+use slipstick_files::reading_time;
 
 /// How long a person waits before the sign appears.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -110,6 +112,54 @@ pub fn estimated<T: Send>(
     work: impl FnOnce() -> T + Send,
 ) -> T {
     with_sign(what, quiet, &|bar| bar.tick(), SPINNER, estimate, work)
+}
+
+/// The same for reading a file, of whose beginning `piece` is read to tell how long all of it takes.
+pub fn reading<T: Send>(
+    path: Option<&Path>,
+    quiet: bool,
+    piece: &(dyn Fn(&[u8]) + Sync),
+    work: impl FnOnce() -> T + Send,
+) -> T {
+    let estimate = || reading_time(path?, TRIAL, piece);
+    estimated("reading", quiet, &estimate, work)
+}
+
+/// The same for writing so many lines: the bar follows those written, which the work tells.
+pub fn writing<T: Send>(
+    lines: u64,
+    quiet: bool,
+    work: impl FnOnce(&(dyn Fn(u64) + Sync)) -> T + Send,
+) -> T {
+    let done = AtomicU64::new(0);
+    let written = |more: u64| {
+        done.fetch_add(more, Ordering::Relaxed);
+    };
+    let show = |bar: &ProgressBar| {
+        bar.set_length(lines.max(1));
+        bar.set_position(done.load(Ordering::Relaxed));
+    };
+    with_sign("writing", quiet, &show, "{msg} {wide_bar} {eta} left", &|| None, || work(&written))
+}
+
+/// Tells of the lines that go through it.
+pub struct Lines<'a, W: Write> {
+    /// Where they go.
+    pub to: W,
+    /// Who is told.
+    pub written: &'a dyn Fn(u64),
+}
+
+impl<W: Write> Write for Lines<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let count = self.to.write(bytes)?;
+        (self.written)(bytes[..count].iter().filter(|byte| **byte == b'\n').count() as u64);
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.to.flush()
+    }
 }
 
 fn with_sign<T: Send>(

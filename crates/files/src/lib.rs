@@ -29,13 +29,13 @@ pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve, sha256_hex};
 pub use records::{
     FileNames, RecordOptions, Wanted, WrittenFormat, channels, one_channel, open_record,
 };
-pub use run::{JobError, OpenJob, time_left};
+pub use run::{JobError, OpenJob, reading_time, record_path, time_left};
 pub use slipstick_report::tables::{events_csv, history_csv};
 pub use study::{
     Checks, Merged, OpenStudy, STUDY_REPORT, Shard, ShardOutcome, StudyError, clear, conclude,
-    estimate, has_parts, kept_runs, merge, part_rows, quoted, run_shard,
+    estimate, has_parts, kept_runs, merge, part_rows, quoted, read_target, run_shard,
 };
 pub use suite::{OpenSuite, SuiteError, SuiteRequest, stems_or_paths};
-pub use table::{ReadTable, read_table, to_csv, to_parquet};
+pub use table::{ReadTable, read_csv, read_table, to_csv, to_parquet};
 pub use threads::on_threads;
 pub use write::{OutputFolder, refuse_inputs, remove_temporaries, write_whole};

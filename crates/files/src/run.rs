@@ -1,6 +1,8 @@
 //! One analysis from model text to results: what the command and other front ends share.
 
-use std::path::Path;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use slipstick::assessment::single::{Job, Outcome, described};
@@ -114,6 +116,37 @@ pub fn time_left(
             return Some(taken.mul_f64(samples as f64 / first.max(1) as f64));
         }
         first = (4 * first).min(samples);
+    }
+}
+
+/// Time that reading a file of text may take, from its beginning, of which more and more lines are read
+/// until that takes `budget`; `None` for what is no file of text.
+#[must_use]
+pub fn reading_time(path: &Path, budget: Duration, read: impl Fn(&[u8])) -> Option<Duration> {
+    let file = path.metadata().ok().filter(|file| file.is_file())?;
+    let length = usize::try_from(file.len()).ok()?;
+    time_left([1 << 16, length], budget, |count| {
+        let mut bytes = Vec::new();
+        File::open(path).ok()?.take(count as u64).read_to_end(&mut bytes).ok()?;
+        let end = bytes.iter().rposition(|byte| *byte == b'\n')?;
+        (!bytes.starts_with(b"PAR1")).then(|| read(&bytes[..end]))
+    })
+}
+
+/// The file that [`OpenJob::new`] reads the motion from, if it does.
+#[must_use]
+pub fn record_path(
+    model_path: &Path,
+    analysis: &Analysis,
+    record: Option<&RecordRequest>,
+) -> Option<PathBuf> {
+    match (record, analysis.required_motion()) {
+        (Some(record), _) => Some(record.path.clone()),
+        (None, Ok(MotionSource::Record(source))) => {
+            let folder = model_path.parent().unwrap_or(Path::new(""));
+            Some(resolve(folder, &source.path))
+        }
+        _ => None,
     }
 }
 

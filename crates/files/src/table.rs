@@ -80,7 +80,7 @@ pub fn read_table(files: &[PathBuf]) -> Result<ReadTable, FileError> {
     if !first.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet")) {
         let bytes = read_bytes(first)?;
         let text = String::from_utf8_lossy(&bytes);
-        return of_csv(first, text.strip_prefix('\u{feff}').unwrap_or(&text));
+        return read_csv(first, text.strip_prefix('\u{feff}').unwrap_or(&text));
     }
     let mut columns: Vec<Column> = Vec::new();
     for path in files {
@@ -99,7 +99,11 @@ pub fn read_table(files: &[PathBuf]) -> Result<ReadTable, FileError> {
     Ok(ReadTable { table: Table { columns }, path: first.clone(), places: Vec::new() })
 }
 
-fn of_csv(path: &Path, text: &str) -> Result<ReadTable, FileError> {
+/// A table from the text of a CSV, all of whose cells are texts.
+///
+/// # Errors
+/// [`FileError::Cell`] for rows that do not fit the header, and for a table without rows.
+pub fn read_csv(path: &Path, text: &str) -> Result<ReadTable, FileError> {
     let mut lines = text.lines().enumerate().filter(|(_, line)| {
         let line = line.trim();
         !line.is_empty() && !line.starts_with('#')

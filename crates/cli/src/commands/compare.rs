@@ -15,7 +15,7 @@ use slipstick_report::{FileNote, InputText};
 use super::run::{ModelFile, command_line, overrides, read_model};
 use crate::args::{CompareArgs, ResultArgs};
 use crate::failure::{Failure, print, say};
-use crate::progress::{TRIAL, estimated, watched};
+use crate::progress::{TRIAL, estimated, reading};
 
 /// Compares, prints and writes; status 1 where a bound is missed.
 pub fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
@@ -28,8 +28,9 @@ pub fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let analysis = input::from_bytes(&model.name, &model.bytes, &overrides)
         .map_err(|error| Failure::input(error, &model.text()))?;
     let (mapping, mapping_file) = read_mapping(args.mapping.mapping.as_deref(), &args.mapping.map)?;
-    let (measured, source) =
-        watched("reading", args.result.quiet, || read_measured(&args.measured, &mapping))?;
+    let piece = |bytes: &[u8]| drop(Measured::read("", bytes, &mapping));
+    let read = || read_measured(&args.measured, &mapping);
+    let (measured, source) = reading(Some(&args.measured), args.result.quiet, &piece, read)?;
     let folder = output(&args.result, &model, &source, mapping_file.as_ref())?;
     let work = |measured: &Measured| compared(measured, &analysis.model, analysis.method);
     let first = |samples| work(&measured.first(samples)).ok().map(|_| ());

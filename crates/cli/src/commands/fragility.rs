@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Duration;
 
 use slipstick::assessment::AssessmentError;
 use slipstick::assessment::observed::{
@@ -9,14 +10,17 @@ use slipstick::assessment::observed::{
 };
 use slipstick::study::engine::Engine;
 use slipstick::table::Table;
-use slipstick_files::{OutputFolder, ReadTable, expand, read_bytes, read_table, sha256_hex};
+use slipstick_files::{
+    OutputFolder, ReadTable, expand, read_bytes, read_csv, read_table, reading_time, sha256_hex,
+    time_left,
+};
 use slipstick_report::assessment::Sheet;
 use slipstick_report::assessment::fragility::{FragilityFamily, FragilityReport};
 
 use super::assessment::{conclude, failure, folder, limit, share};
 use crate::args::{FitToName, FragilityArgs};
 use crate::failure::Failure;
-use crate::progress::{counted, watched};
+use crate::progress::{TRIAL, counted, estimated};
 
 /// Fits, prints and writes.
 pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
@@ -26,7 +30,8 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
     let bound = of("--limit", &args.limit)?;
     let confidence = share("--confidence", args.confidence)?;
     let read = || read(&args.source);
-    let (mut sources, read) = watched("reading", args.result.quiet, read)?;
+    let estimate = || reading_left(&args.source);
+    let (mut sources, read) = estimated("reading", args.result.quiet, &estimate, read)?;
     let name = args.source.display().to_string();
     let request = FragilityRequest {
         table: &read.table,
@@ -136,9 +141,9 @@ type Source = (String, String, String);
 /// What the commands write into their folders, the first that is there.
 const TABLES: [&str; 4] = ["parts/part-*.parquet", "part-*.parquet", "ida.parquet", "runs.parquet"];
 
-/// The table of a file, or of the folder of a command, and the files with their hashes.
-fn read(source: &Path) -> Result<(Vec<Source>, ReadTable), Failure> {
-    let files = if source.is_dir() {
+/// The files of a source: itself, or those of the folder of a command.
+fn files(source: &Path) -> Result<Vec<PathBuf>, Failure> {
+    Ok(if source.is_dir() {
         let found = TABLES.iter().find_map(|pattern| expand(source, pattern).ok());
         found.ok_or_else(|| {
             let expected = "a table, or a folder that ida, study, spectrum or design wrote";
@@ -149,7 +154,23 @@ fn read(source: &Path) -> Result<(Vec<Source>, ReadTable), Failure> {
         })?
     } else {
         vec![source.to_owned()]
-    };
+    })
+}
+
+/// Time that reading a source may take, from its first lines or its first parts.
+fn reading_left(source: &Path) -> Option<Duration> {
+    let piece = |bytes: &[u8]| drop(read_csv(source, &String::from_utf8_lossy(bytes)));
+    let files = files(source).ok()?;
+    let parts = |count: usize| read_table(&files[..count]).ok().map(|_| ());
+    match files.as_slice() {
+        [one] => reading_time(one, TRIAL, piece),
+        many => time_left([1, many.len()], TRIAL, parts),
+    }
+}
+
+/// The table of a source, and its files with their hashes.
+fn read(source: &Path) -> Result<(Vec<Source>, ReadTable), Failure> {
+    let files = files(source)?;
     let mut sources = Vec::with_capacity(files.len());
     for path in &files {
         let sha256 = sha256_hex(&read_bytes(path)?);

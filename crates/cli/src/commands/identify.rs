@@ -4,13 +4,13 @@ mod cyclic;
 mod free_vibration;
 mod shaking_table;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use slipstick::input;
+use slipstick::input::{self, Mapping};
 use slipstick::laboratory::identify::{Identified, IdentifyError};
 use slipstick::laboratory::measured::Measured;
-use slipstick_files::{OutputFolder, SourceFile, TextFile};
+use slipstick_files::{LaboratoryError, OutputFolder, SourceFile, TextFile, read_measured};
 use slipstick_report::IdentifyReport;
 
 use super::assessment::choice;
@@ -18,6 +18,7 @@ use super::compare::WentIn;
 use super::run::{ModelFile, command_line};
 use crate::args::{IdentifyCommand, ResultArgs};
 use crate::failure::{Failure, print, say};
+use crate::progress::reading;
 
 /// Runs one of the three jobs.
 pub fn identify(command: &IdentifyCommand) -> Result<ExitCode, Failure> {
@@ -26,6 +27,16 @@ pub fn identify(command: &IdentifyCommand) -> Result<ExitCode, Failure> {
         IdentifyCommand::FreeVibration(args) => free_vibration::free_vibration(args),
         IdentifyCommand::ShakingTable(args) => shaking_table::shaking_table(args),
     }
+}
+
+/// A measured file, with the time left where it takes long.
+fn read(
+    path: &Path,
+    mapping: &Mapping,
+    quiet: bool,
+) -> Result<(Measured, SourceFile), LaboratoryError> {
+    let piece = |bytes: &[u8]| drop(Measured::read("", bytes, mapping));
+    reading(Some(path), quiet, &piece, || read_measured(path, mapping))
 }
 
 /// The text of a model file.

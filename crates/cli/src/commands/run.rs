@@ -6,18 +6,19 @@ use std::process::ExitCode;
 
 use slipstick::assessment::single::Outcome;
 use slipstick::input::{self, Override, Scale};
+use slipstick::record;
 use slipstick::response::History;
 use slipstick::units::Dimension;
 use slipstick_files::{
     FileError, OpenJob, OutputFolder, RecordRequest, events_csv, history_csv, read_at_most,
-    sha256_hex,
+    record_path, sha256_hex,
 };
 use slipstick_report::{FileNote, InputText, Report, Summary, table};
 
 use super::histories::histories;
 use crate::args::{MethodName, RunArgs, quantity};
 use crate::failure::{Failure, print, say};
-use crate::progress::{TRIAL, estimated, watched};
+use crate::progress::{Lines, TRIAL, estimated, reading, writing};
 
 /// Runs one analysis, prints it and writes its files.
 pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
@@ -43,10 +44,10 @@ fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
     args.record.only_with("--motion <FILE>", args.motion.is_some())?;
     let record = args.motion.as_deref().map(|path| record_request(args, path)).transpose()?;
     let in_model = |error| Failure::job(error, &model.name, &model.text());
-    let job = watched("reading", args.result.quiet, || {
-        OpenJob::new(&model.path, analysis, record.as_ref())
-    })
-    .map_err(in_model)?;
+    let file = record_path(&model.path, &analysis, record.as_ref());
+    let piece = |bytes: &[u8]| drop(record::read("", bytes, &record::Options::default()));
+    let open = || OpenJob::new(&model.path, analysis, record.as_ref());
+    let job = reading(file.as_deref(), args.result.quiet, &piece, open).map_err(in_model)?;
     // An output folder that cannot be written is told before the work, not after it.
     let folder = args
         .result
@@ -64,8 +65,11 @@ fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
         })
         .map_err(in_model)?;
     if let Some(folder) = folder {
-        let write = || write_files(folder, args, &model, &job, &outcome, &summary);
-        watched("writing", args.result.quiet, write)?;
+        let rows = outcome.nominal.response.history.as_ref().map_or(0, |h| h.rows.len());
+        let lines = rows + outcome.nominal.response.events.len();
+        writing(lines as u64, args.result.quiet, |written| {
+            write_files(folder, args, &model, &job, &outcome, &summary, written)
+        })?;
     }
     show(args, &job, &summary)?;
     Ok(ExitCode::from(status(&summary)))
@@ -203,6 +207,7 @@ fn write_files(
     job: &OpenJob,
     outcome: &Outcome,
     summary: &Summary,
+    written: &dyn Fn(u64),
 ) -> Result<(), FileError> {
     let record = job.loaded.description.join("; ");
     let (text, sha256) = (model.text(), sha256_hex(&model.bytes));
@@ -238,8 +243,9 @@ fn write_files(
     folder.write("summary.json", summary.to_json().as_bytes())?;
     let empty = History::default();
     let history = outcome.nominal.response.history.as_ref().unwrap_or(&empty);
-    folder.write_with("history.csv", |to| history_csv(history, to))?;
-    folder.write_with("events.csv", |to| events_csv(&outcome.nominal.response.events, to))?;
+    folder.write_with("history.csv", |to| history_csv(history, &mut Lines { to, written }))?;
+    let events = &outcome.nominal.response.events;
+    folder.write_with("events.csv", |to| events_csv(events, &mut Lines { to, written }))?;
     folder.write("report.html", report.to_html().as_bytes())?;
     folder.commit()
 }

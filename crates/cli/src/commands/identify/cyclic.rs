@@ -8,13 +8,13 @@ use slipstick::laboratory::identify::{
 };
 use slipstick::laboratory::measured::Measured;
 use slipstick::units::Dimension;
-use slipstick_files::{SourceFile, expand_all, read_mapping, read_measured, time_left};
+use slipstick_files::{SourceFile, expand_all, read_mapping, time_left};
 
-use super::{Inputs, failure, finish, output, text};
+use super::{Inputs, failure, finish, output, read, text};
 use crate::args::{CyclicArgs, Part, quantity};
 use crate::commands::run::read_model;
 use crate::failure::Failure;
-use crate::progress::{TRIAL, estimated, watched};
+use crate::progress::{TRIAL, estimated};
 
 /// Identifies friction, spring and damper from one or several cyclic tests.
 pub fn cyclic(args: &CyclicArgs) -> Result<ExitCode, Failure> {
@@ -28,8 +28,7 @@ pub fn cyclic(args: &CyclicArgs) -> Result<ExitCode, Failure> {
     let (mapping, mapping_file) = read_mapping(args.mapping.mapping.as_deref(), &args.mapping.map)?;
     let (mut measured, mut sources) = (Vec::new(), Vec::new());
     for path in expand_all(Path::new(""), &args.files)? {
-        let read = watched("reading", args.result.quiet, || read_measured(&path, &mapping));
-        let (one, source) = read?;
+        let (one, source) = read(&path, &mapping, args.result.quiet)?;
         measured.push(one);
         sources.push(source);
     }

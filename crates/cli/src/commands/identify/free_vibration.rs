@@ -6,21 +6,20 @@ use slipstick::laboratory::identify::{
     FreeVibrationRequest, ModelText, free_vibration as identify_free_vibration,
 };
 use slipstick::units::Dimension;
-use slipstick_files::{read_mapping, read_measured, time_left};
+use slipstick_files::{read_mapping, time_left};
 
-use super::{Inputs, failure, finish, output, text};
+use super::{Inputs, failure, finish, output, read, text};
 use crate::args::{FreeVibrationArgs, quantity};
 use crate::commands::run::read_model;
 use crate::failure::Failure;
-use crate::progress::{TRIAL, estimated, watched};
+use crate::progress::{TRIAL, estimated};
 
 /// Identifies frequency and damping ratio of the storey.
 pub fn free_vibration(args: &FreeVibrationArgs) -> Result<ExitCode, Failure> {
     let model = args.model.as_deref().map(read_model).transpose()?;
     let text = model.as_ref().map(text).transpose()?.unwrap_or_default();
     let (mapping, mapping_file) = read_mapping(args.mapping.mapping.as_deref(), &args.mapping.map)?;
-    let (measured, source) =
-        watched("reading", args.result.quiet, || read_measured(&args.file, &mapping))?;
+    let (measured, source) = read(&args.file, &mapping, args.result.quiet)?;
     let inputs =
         Inputs { model: model.as_ref(), sources: &[&source], mapping: mapping_file.as_ref() };
     let folder = output(&args.result, &inputs.paths())?;

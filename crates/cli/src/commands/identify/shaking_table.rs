@@ -5,21 +5,20 @@ use std::process::ExitCode;
 use slipstick::laboratory::identify::{
     ModelText, ShakingTableRequest, shaking_table as identify_shaking_table,
 };
-use slipstick_files::{read_mapping, read_measured};
+use slipstick_files::read_mapping;
 
-use super::{Inputs, failure, finish, output, text};
+use super::{Inputs, failure, finish, output, read, text};
 use crate::args::ShakingTableArgs;
 use crate::commands::run::{overrides, read_model};
 use crate::failure::Failure;
-use crate::progress::{counted, watched};
+use crate::progress::counted;
 
 /// Fits chosen keys of a model to measured histories.
 pub fn shaking_table(args: &ShakingTableArgs) -> Result<ExitCode, Failure> {
     let model = read_model(&args.model)?;
     let (set, text) = (overrides(&args.set, None)?, text(&model)?);
     let (mapping, mapping_file) = read_mapping(args.mapping.mapping.as_deref(), &args.mapping.map)?;
-    let (measured, source) =
-        watched("reading", args.result.quiet, || read_measured(&args.file, &mapping))?;
+    let (measured, source) = read(&args.file, &mapping, args.result.quiet)?;
     let inputs =
         Inputs { model: Some(&model), sources: &[&source], mapping: mapping_file.as_ref() };
     let folder = output(&args.result, &inputs.paths())?;
