@@ -1,6 +1,7 @@
 //! Event stepping: a sample by its Taylor series, from event to event.
 //!
-//! This is the one place that decides what follows an event. The roots are those of
+//! This is the one place that decides what follows an event of a slider by itself; where contents slide
+//! too, [`stepping`](super::stepping) decides about all interfaces together. The roots are those of
 //! [`polynomial`](crate::linear::polynomial), which dismisses an interval only by a bound.
 
 use fearless_simd::prelude::*;

@@ -1,5 +1,5 @@
-//! Event stepping of sliders with devices: rigid stops, friction by speed, a pendulum under vertical
-//! motion, surfaces in series, contents that slide on the floors.
+//! Event stepping of what does not go by tables: rigid stops that are reached, contents that slide on
+//! the floors, and friction by speed, surfaces in series or a pendulum under vertical motion.
 //!
 //! The slider and the contents are interfaces, each of which sticks or slides. Between two events the
 //! motion is one Taylor series in physical coordinates, nonlinear where the force is; the slider's law
