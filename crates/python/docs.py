@@ -164,6 +164,9 @@ def members(cls: type) -> Iterator[str]:
             methods.append(name)
         elif doc := first(getattr(value, "__doc__", "")):
             values.append(f"- `{name}`: {doc}")
+    # The extension lists its attributes in any order.
+    if any(inspect.isgetsetdescriptor(inspect.getattr_static(cls, name)) for name in public):
+        values.sort()
     if hasattr(cls, "_fields") or hasattr(cls, "__dataclass_fields__"):
         values = [f"- `{name}`: {told}" for name, told in fields(cls)] + values
     if values:
