@@ -112,7 +112,7 @@ impl Response {
     /// Static and kinetic friction in N under the weight, each towards +x and −x.
     fn _friction_limits(&self) -> [[f64; 2]; 2] {
         let model = &self.job.job.analysis.model;
-        let normal_n = model.total_mass_kg() * model.normal_gravity_m_per_s2();
+        let normal_n = model.normal_n();
         [model.static_friction(), model.kinetic_friction()].map(|way| way.map(|mu| mu * normal_n))
     }
 

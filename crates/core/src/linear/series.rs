@@ -3,7 +3,7 @@
 use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
 
-use super::lanes::{Four, Width, combine4, dot, four, greatest};
+use super::lanes::{Four, Width, combine4, dot, four, greatest, least};
 use super::polynomial::{DEGREE, Polynomial, curvature_bound};
 use super::system::System;
 
@@ -30,6 +30,18 @@ pub struct Load {
     pub force: f64,
     /// Its change over the interval.
     pub force_change: f64,
+}
+
+impl Load {
+    /// Coefficients of acceleration and force of an order.
+    #[inline(always)]
+    fn order(&self, k: usize) -> [f64; 2] {
+        match k {
+            0 => [self.acceleration, self.force],
+            1 => [self.acceleration_change, self.force_change],
+            _ => [0.0; 2],
+        }
+    }
 }
 
 /// The orders from the first on of a series as sums: for each four of coefficients what a unit of
@@ -78,36 +90,15 @@ impl Series {
     /// Motion from a padded state over `length_s`, order by order from the equations of motion.
     #[inline(always)]
     pub fn expand(&mut self, system: &System, slip: bool, x: &[f64], load: &Load, length_s: f64) {
-        let (n, stride) = (self.f.len(), self.stride);
-        let (l, f) = (&system.participation[..n], &mut self.f[..n]);
+        let stride = self.stride;
         self.c[..stride].copy_from_slice(x);
         if !slip {
             self.c[1] = 0.0;
         }
         for k in 0..self.orders {
-            let (before, after) = self.c.split_at_mut((k + 1) * stride);
-            let (now, next) = (&before[k * stride..], &mut after[..stride]);
-            let (a, force) = match k {
-                0 => (load.acceleration, load.force),
-                1 => (load.acceleration_change, load.force_change),
-                _ => (0.0, 0.0),
-            };
+            let (before, next) = self.c.split_at_mut((k + 1) * stride);
             let step = length_s * RECIPROCAL[k];
-            let (eta, rate) = (&now[2..2 + n], &now[2 + n..2 + 2 * n]);
-            system.restoring(eta, rate, f);
-            let (block, rest) = next[..2 + 2 * n].split_at_mut(2);
-            let (next_eta, next_rate) = rest.split_at_mut(n);
-            let mut u = a;
-            if slip {
-                u = system.block_acceleration(now[0], now[1], dot(l, f), force);
-                (block[0], block[1]) = (step * now[1], step * (u - a));
-            } else {
-                (block[0], block[1]) = (0.0, 0.0);
-            }
-            for j in 0..n {
-                next_eta[j] = step * rate[j];
-                next_rate[j] = -step * (f[j] + l[j] * u);
-            }
+            next_order(system, slip, &before[k * stride..], next, &mut self.f, load.order(k), step);
         }
     }
 
@@ -126,28 +117,15 @@ impl Series {
         [force_n, rate_s_per_m]: [f64; 2],
     ) -> f64 {
         let (n, stride) = (width.modes(), 4 * width.fours());
-        let (l, f, fade) = (&system.participation[..n], &mut self.f[..n], &mut self.fade);
+        let (f, fade) = (&mut self.f[..n], &mut self.fade);
         let mut w = [0.0; DEGREE + 1];
         self.c[..stride].copy_from_slice(x);
         fade[0] = force_n * libm::exp(-rate_s_per_m * x[1]);
         for k in 0..DEGREE {
-            let (before, after) = self.c.split_at_mut((k + 1) * stride);
-            let (now, next) = (&before[k * stride..], &mut after[..stride]);
-            let (a, force) = match k {
-                0 => (load.acceleration, load.force),
-                1 => (load.acceleration_change, load.force_change),
-                _ => (0.0, 0.0),
-            };
+            let (before, next) = self.c.split_at_mut((k + 1) * stride);
+            let [a, force] = load.order(k);
             let step = length_s * RECIPROCAL[k];
-            let (now, next) = (&now[..2 + 2 * n], &mut next[..2 + 2 * n]);
-            let (eta, rate) = (&now[2..2 + n], &now[2 + n..2 + 2 * n]);
-            system.restoring(eta, rate, f);
-            let u = system.block_acceleration(now[0], now[1], dot(l, f), force + fade[k]);
-            (next[0], next[1]) = (step * now[1], step * (u - a));
-            for j in 0..n {
-                next[2 + j] = step * rate[j];
-                next[2 + n + j] = -step * (f[j] + l[j] * u);
-            }
+            next_order(system, true, &before[k * stride..], next, f, [a, force + fade[k]], step);
             // (j + 1) w_{j+1}
             w[k] = (k + 1) as f64 * next[1];
             let mut sum = 0.0;
@@ -166,11 +144,11 @@ impl Series {
         }
         let mut part: f64 = 4.0;
         for k in [DEGREE - 1, DEGREE] {
-            for (largest, last) in [(largest, self.sizes[k]), (10.0 * force_n.abs(), fade[k].abs())]
-            {
-                if last > NEGLIGIBLE * largest {
-                    part = part.min(libm::pow(NEGLIGIBLE * largest / last, 1.0 / k as f64));
-                }
+            let of_state = NEGLIGIBLE * largest / self.sizes[k];
+            let of_force = NEGLIGIBLE * (10.0 * force_n.abs()) / fade[k].abs();
+            let room = least(of_state, of_force);
+            if room < 1.0 {
+                part = part.min(libm::pow(room, 1.0 / k as f64));
             }
         }
         part
@@ -250,6 +228,18 @@ impl Series {
         p
     }
 
+    /// The coefficients of `of_s s + of_w ṡ + constant`.
+    #[inline(always)]
+    #[must_use]
+    pub fn of_sliding<W: Width>(&self, width: W, [of_s, of_w, constant]: [f64; 3]) -> Polynomial {
+        let mut p = [0.0; DEGREE + 1];
+        for (p, c) in p.iter_mut().zip(self.c.chunks_exact(4 * width.fours())) {
+            *p = of_s * c[0] + of_w * c[1];
+        }
+        p[0] += constant;
+        p
+    }
+
     /// The coefficients of a padded row times the state.
     #[inline(always)]
     #[must_use]
@@ -268,6 +258,37 @@ impl Series {
     #[must_use]
     pub fn order(&self, k: usize) -> &[f64] {
         &self.c[k * self.stride..][..self.stride]
+    }
+}
+
+/// The order that follows from one, under coefficients of acceleration and force; `step` is the length
+/// over the number of the order. Leaves `D η̇ + Ω η` in `f`.
+#[inline(always)]
+fn next_order(
+    system: &System,
+    slip: bool,
+    now: &[f64],
+    next: &mut [f64],
+    f: &mut [f64],
+    [a, force]: [f64; 2],
+    step: f64,
+) {
+    let n = f.len();
+    let (now, l) = (&now[..2 + 2 * n], &system.participation[..n]);
+    let (eta, rate) = (&now[2..2 + n], &now[2 + n..]);
+    system.restoring(eta, rate, f);
+    let (block, rest) = next[..2 + 2 * n].split_at_mut(2);
+    let (next_eta, next_rate) = rest.split_at_mut(n);
+    let mut u = a;
+    if slip {
+        u = system.block_acceleration(now[0], now[1], dot(l, f), force);
+        (block[0], block[1]) = (step * now[1], step * (u - a));
+    } else {
+        (block[0], block[1]) = (0.0, 0.0);
+    }
+    for j in 0..n {
+        next_eta[j] = step * rate[j];
+        next_rate[j] = -step * (f[j] + l[j] * u);
     }
 }
 

@@ -116,23 +116,6 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         }
     }
 
-    /// Loads over one unit of a phase from a time; the force is that of friction alone.
-    #[inline(always)]
-    pub(super) fn load(
-        &self,
-        phase: &Phase,
-        stretch: &Stretch,
-        at_s: f64,
-        coefficient: f64,
-    ) -> Load {
-        Load {
-            acceleration: stretch.acceleration_at(at_s),
-            acceleration_change: stretch.acceleration_rate * phase.unit_s,
-            force: coefficient * stretch.normal_at(at_s),
-            force_change: coefficient * (stretch.normal_rate * phase.unit_s),
-        }
-    }
-
     /// Moves the state to a part of the series; `next` holds the state before.
     #[inline(always)]
     fn move_to(&mut self, part: f64) {
@@ -149,7 +132,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
     fn stick_segment(&mut self, stretch: &Stretch, from_s: f64) -> f64 {
         let phase = &self.tables.stick;
         let segment = Self::segment(phase, stretch, from_s);
-        let load = self.load(phase, stretch, from_s, 0.0);
+        let load = stretch.load(from_s, phase.unit_s, 0.0);
         Self::expand(self.simd, self.width, phase, &self.x, &load, &mut self.series);
         let stop_n = self.now.stop;
         let demand =
@@ -199,7 +182,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         let phase = self.now.phase;
         let segment = match self.now.fading {
             None => {
-                let mut load = self.load(phase, stretch, from_s, self.now.friction);
+                let mut load = stretch.load(from_s, phase.unit_s, self.now.friction);
                 load.force -= self.now.stop;
                 Self::expand(self.simd, self.width, phase, &self.x, &load, &mut self.series);
                 Self::segment(phase, stretch, from_s)
@@ -254,38 +237,17 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
     #[inline(never)]
     fn expand_fading(&mut self, fading: &Fading, stretch: &Stretch, from_s: f64) -> Segment {
         let InForce { phase, friction, stop, .. } = self.now;
-        let left_s = stretch.to_s - from_s;
-        let mut unit_s = if self.fading_s.is_finite() { self.fading_s } else { phase.unit_s };
         let stride = 4 * self.width.fours();
-        loop {
-            // A hair beyond is the rounding of the times.
-            if unit_s * (1.0 + 1e-9) >= left_s {
-                unit_s = left_s;
-            }
-            let load = Load {
-                acceleration: stretch.acceleration_at(from_s),
-                acceleration_change: stretch.acceleration_rate * unit_s,
-                force: friction * stretch.normal_at(from_s) - stop,
-                force_change: 0.0,
-            };
+        let left_s = stretch.to_s - from_s;
+        let [unit_s, part] = fitting(&mut self.fading_s, phase.unit_s, left_s, |unit_s| {
+            let mut load = stretch.load(from_s, unit_s, friction);
+            load.force -= stop;
             let (x, fading) = (&self.x[..stride], [fading.force_n, fading.rate_s_per_m]);
-            let part =
-                self.series.expand_fading(self.width, &phase.system, x, &load, unit_s, fading);
-            let longer_s = unit_s * part;
-            self.fading_s = if unit_s == left_s { longer_s.max(self.fading_s) } else { longer_s };
-            if !self.fading_s.is_finite() {
-                self.fading_s = unit_s;
-            }
-            if part >= 1.0 {
-                let to_s = if unit_s == left_s { stretch.to_s } else { from_s + unit_s };
-                return Segment { from_s, to_s, unit_s, part: 1.0 };
-            }
-            if part >= 0.25 {
-                let to_s = least(from_s + part * unit_s, stretch.to_s);
-                return Segment { from_s, to_s, unit_s, part };
-            }
-            unit_s *= part.max(1e-3);
-        }
+            self.series.expand_fading(self.width, &phase.system, x, &load, unit_s, fading)
+        });
+        let whole = part == 1.0 && unit_s == left_s;
+        let to_s = if whole { stretch.to_s } else { least(from_s + part * unit_s, stretch.to_s) };
+        Segment { from_s, to_s, unit_s, part }
     }
 
     /// What follows an exit other than a stop.
@@ -313,14 +275,8 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
     /// Changes the contact, which is an event.
     fn change_contact(&mut self, stretch: &Stretch, at_s: f64, to: Contact) {
         let from = self.memory.contact;
-        let kind = match (from, to) {
-            (Contact::Free, Contact::Pressed(_)) => EventKind::Contact,
-            (_, Contact::Pressed(_)) => EventKind::Press,
-            (_, Contact::Separated(_)) => EventKind::Separation,
-            (_, Contact::Free) => EventKind::Leave,
-        };
         let time_s = self.ground.times_s[stretch.interval] + at_s;
-        self.stopping.change(time_s, self.x[1].abs(), from, to);
+        let kind = self.stopping.change(time_s, self.x[1].abs(), from, to);
         self.memory.contact = to;
         self.push_event(time_s, kind);
     }
@@ -403,7 +359,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         direction: Direction,
     ) -> Option<usize> {
         let phase = &self.tables.stick;
-        let load = self.load(phase, stretch, at_s, 0.0);
+        let load = stretch.load(at_s, phase.unit_s, 0.0);
         Self::expand(self.simd, self.width, phase, &self.x, &load, &mut self.series);
         let demand = output_series(self.width, phase, output::FRICTION, &self.series, &load, 0.0);
         let [low, high] = self.hold.bounds.map(|b| b * (stretch.normal_rate * phase.unit_s));
@@ -493,6 +449,36 @@ pub(super) fn output_series<W: Width>(
     p
 }
 
+/// The length over which a series is expanded, and the part of it that the series serves, at most 1.
+///
+/// `expand` expands over a length and returns the part over which that is exact, perhaps above 1; `last_s`
+/// is the length that the last series would have served.
+#[inline(always)]
+pub(super) fn fitting(
+    last_s: &mut f64,
+    first_s: f64,
+    left_s: f64,
+    mut expand: impl FnMut(f64) -> f64,
+) -> [f64; 2] {
+    let mut unit_s = if last_s.is_finite() { *last_s } else { first_s };
+    loop {
+        // A hair beyond is the rounding of the times.
+        if unit_s * (1.0 + 1e-9) >= left_s {
+            unit_s = left_s;
+        }
+        let part = expand(unit_s);
+        let longer_s = unit_s * part;
+        *last_s = if unit_s == left_s { longer_s.max(*last_s) } else { longer_s };
+        if !last_s.is_finite() {
+            *last_s = unit_s;
+        }
+        if part >= 0.25 {
+            return [unit_s, part.min(1.0)];
+        }
+        unit_s *= part.max(1e-3);
+    }
+}
+
 /// First part of a segment after which the distance from a bound is negative; a distance that is
 /// zero at the start has been found not to go that way.
 fn first_crossing(distance: &Polynomial, to: f64) -> Option<f64> {
@@ -512,9 +498,7 @@ fn first_exit<W: Width>(
     to: f64,
     just: Option<Reached>,
 ) -> Option<f64> {
-    let [s, w] = [(0, exit.of_s), (1, exit.of_w)].map(|(i, of)| series.component(width, i, of));
-    let mut p: Polynomial = core::array::from_fn(|k| s[k] + w[k]);
-    p[0] += exit.constant;
+    let p = series.of_sliding(width, [exit.of_s, exit.of_w, exit.constant]);
     first_root(&less_zero(p, exit.reached, just), to)
 }
 

@@ -4,7 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
 use crate::linear::lanes::{greatest, least};
-use crate::linear::{BATCH, Window};
+use crate::linear::{BATCH, Load, Window};
 use crate::model::Model;
 use crate::motion::GroundMotion;
 
@@ -175,6 +175,19 @@ pub(super) struct Stretch {
     pub(super) acceleration_rate: f64,
     normal: f64,
     pub(super) normal_rate: f64,
+}
+
+impl Stretch {
+    /// Loads over a length from a time, under a friction force of this part of the normal force.
+    #[inline(always)]
+    pub(super) fn load(&self, at_s: f64, length_s: f64, coefficient: f64) -> Load {
+        Load {
+            acceleration: self.acceleration_at(at_s),
+            acceleration_change: self.acceleration_rate * length_s,
+            force: coefficient * self.normal_at(at_s),
+            force_change: coefficient * (self.normal_rate * length_s),
+        }
+    }
 }
 
 impl Ground<'_> {

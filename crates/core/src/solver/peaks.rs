@@ -13,8 +13,8 @@ use super::ground::Stretch;
 use super::run::{Curvature, InForce, Run};
 use super::tables::{Batch, Phase};
 use crate::linear::lanes::{Eight, Width, eight, greatest, larger};
-use crate::linear::polynomial::{curvature_bound, largest};
-use crate::linear::{BATCH, Force, Load};
+use crate::linear::polynomial::{Polynomial, curvature_bound, largest};
+use crate::linear::{BATCH, Force};
 use crate::response::Mode;
 
 /// Candidates that are kept before they are settled, besides one an output.
@@ -74,6 +74,12 @@ impl Peaks<'_> {
     /// The peaks one by one.
     pub(super) fn attained(&self) -> Vec<f64> {
         self.peak.iter().flat_map(|peak| peak.0).take(self.outputs).collect()
+    }
+
+    /// Raises a peak to the largest size of an output over a part of its series.
+    fn raise(&mut self, j: usize, p: &Polynomial, part: f64) {
+        let peak = &mut self.peak[j / 8].0[j % 8];
+        *peak = largest(&p.map(|c| -c), part, largest(p, part, *peak));
     }
 
     /// Whether the bounds of a candidate are above the peaks attained since.
@@ -164,12 +170,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     /// `above` leave one.
     #[inline(never)]
     fn settle_fading(&mut self, phase: &Phase, stretch: &Stretch, segment: &Segment) {
-        let load = Load {
-            acceleration: stretch.acceleration_at(segment.from_s),
-            acceleration_change: stretch.acceleration_rate * segment.unit_s,
-            force: self.now.friction * stretch.normal_at(segment.from_s),
-            force_change: 0.0,
-        };
+        let load = stretch.load(segment.from_s, segment.unit_s, self.now.friction);
         for j in 0..self.peaks.outputs {
             let (g, lane) = (j / 8, j % 8);
             if self.peaks.above[g].0[lane] <= self.peaks.peak[g].0[lane] {
@@ -179,8 +180,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             for (p, fade) in p.iter_mut().zip(&self.series.fade) {
                 *p += phase.outputs.rows[j].of_friction * fade;
             }
-            let peak = &mut self.peaks.peak[g].0[lane];
-            *peak = largest(&p.map(|c| -c), segment.part, largest(&p, segment.part, *peak));
+            self.peaks.raise(j, &p, segment.part);
         }
         self.set_limits();
     }
@@ -219,11 +219,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     fn look_at_stop(&mut self, part: f64) {
         let contact = self.memory.contact;
         let mut force_n = self.law.stop_force_n(contact, self.x[0], self.x[1]);
-        if let Some([of_s, of_w, constant]) = self.law.stop_row(contact) {
-            let [s, w] =
-                [(0, of_s), (1, of_w)].map(|(i, of)| self.series.component(self.width, i, of));
-            let mut p = core::array::from_fn(|k| s[k] + w[k]);
-            p[0] += constant;
+        if let Some(row) = self.law.stop_row(contact) {
+            let p = self.series.of_sliding(self.width, row);
             force_n = largest(&p, part, force_n);
         }
         let peak = &mut self.stopping.demands.peak_force_n;
@@ -400,7 +397,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         x: &[f64],
     ) {
         let InForce { mode, friction: coefficient, stop, .. } = self.peaks.candidates[i].now;
-        let mut load = self.load(phase, stretch, segment.from_s, coefficient);
+        let mut load = stretch.load(segment.from_s, segment.unit_s, coefficient);
         let friction = load.force;
         if mode != Mode::Stick {
             load.force -= stop;
@@ -410,8 +407,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         for j in 0..self.peaks.outputs {
             if self.peaks.asks(i, j, bits) {
                 let p = output_series(self.width, phase, j, &self.series, &load, stop);
-                let peak = &mut self.peaks.peak[j / 8].0[j % 8];
-                *peak = largest(&p.map(|c| -c), segment.part, largest(&p, segment.part, *peak));
+                self.peaks.raise(j, &p, segment.part);
             }
         }
     }

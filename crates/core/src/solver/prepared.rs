@@ -8,7 +8,7 @@ use fearless_simd::prelude::*;
 use super::ground::{Ground, Normal, Sampling, contact_loss_s, varying_normal};
 use super::recorder::Recorder;
 use super::run::{Outcome, Run, Sliding};
-use super::tables::Tables;
+use super::tables::{self, Tables};
 use super::{stepping, summary};
 use crate::error::SolveError;
 use crate::friction::Law;
@@ -202,7 +202,7 @@ fn solve(
         sampling,
     };
     let law = model.law(varying.is_some());
-    if !(model.devices().contents.is_empty() && law.is_tabled(varying.is_some())) {
+    if !tables::serve(model, &law, varying.is_some()) {
         return stepped(model, &law, motion, ground, with_history);
     }
     // Away from rigid stops they change nothing.

@@ -78,8 +78,14 @@ pub(super) struct Stopping {
 }
 
 impl Stopping {
-    /// Contact changes.
-    pub(super) fn change(&mut self, time_s: f64, speed: f64, from: Contact, to: Contact) {
+    /// Contact changes, which is an event of this kind.
+    pub(super) fn change(
+        &mut self,
+        time_s: f64,
+        speed: f64,
+        from: Contact,
+        to: Contact,
+    ) -> EventKind {
         if matches!(from, Contact::Pressed(_)) {
             self.demands.contact_time_s += time_s - self.pressed_since_s;
         }
@@ -90,6 +96,12 @@ impl Stopping {
                 let peak = self.demands.peak_impact_speed_m_per_s.max(speed);
                 self.demands.peak_impact_speed_m_per_s = peak;
             }
+        }
+        match (from, to) {
+            (Contact::Free, Contact::Pressed(_)) => EventKind::Contact,
+            (_, Contact::Pressed(_)) => EventKind::Press,
+            (_, Contact::Separated(_)) => EventKind::Separation,
+            (_, Contact::Free) => EventKind::Leave,
         }
     }
 }
@@ -157,7 +169,6 @@ impl Curvature {
 #[derive(Clone, Copy)]
 pub(super) struct InForce<'a> {
     pub(super) mode: Mode,
-    pub(super) contact: Contact,
     pub(super) phase: &'a Phase,
     /// Constant part of the friction force over the normal force, `−σ μ_k`; 0 in stick.
     pub(super) friction: f64,
@@ -268,9 +279,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         };
         let groups = tables.stick.outputs.groups.len();
         let memory = law.initial(s, w);
-        let (contact, hold) = (memory.contact, law.hold(&memory, s));
-        let now =
-            InForce { mode, contact, phase: &tables.stick, friction: 0.0, stop: 0.0, fading: None };
+        let hold = law.hold(&memory, s);
+        let now = InForce { mode, phase: &tables.stick, friction: 0.0, stop: 0.0, fading: None };
         Self {
             simd,
             width,
@@ -371,14 +381,14 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
 
     /// Finds what follows from mode and memory.
     pub(super) fn set_in_force(&mut self) {
-        let (mode, contact, s) = (self.mode, self.memory.contact, self.x[0]);
+        let (mode, s) = (self.mode, self.x[0]);
         let normal_n = match self.ground.normal {
             Normal::Constant(normal_n) => normal_n,
             // The restraints of a law that is affine under any force do not ask for it.
             Normal::Varying(_) => 0.0,
         };
         let stick = &self.tables.stick;
-        self.now = InForce { mode, contact, phase: stick, friction: 0.0, stop: 0.0, fading: None };
+        self.now = InForce { mode, phase: stick, friction: 0.0, stop: 0.0, fading: None };
         match mode {
             Mode::Stick => {
                 self.hold = self.law.hold(&self.memory, s);
@@ -392,7 +402,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 let Affine { restraints, force_n, coefficient, fading } = force.under(normal_n);
                 let phase = self.tables.under(self.simd, restraints);
                 let (friction, stop) = (-coefficient, force_n);
-                self.now = InForce { mode, contact, phase, friction, stop, fading };
+                self.now = InForce { mode, phase, friction, stop, fading };
             }
         }
         self.set_limits();
@@ -559,7 +569,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         [table, acceleration, normal]: [f64; 3],
         row: bool,
     ) {
-        let InForce { mode, contact, phase, stop, .. } = self.now;
+        let (InForce { mode, phase, stop, .. }, contact) = (self.now, self.memory.contact);
         let mut friction_n = self.now.friction_n(normal, x[1]);
         let force_n = match mode {
             Mode::Stick => self.hold.force_n,

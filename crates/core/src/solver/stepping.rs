@@ -11,7 +11,7 @@ mod keep;
 
 use self::body::{Body, Expansion, Loads, Phase, State};
 use self::keep::Peaks;
-use super::event::{EVENTS_PER_INTERVAL_LIMIT, less_zero};
+use super::event::{EVENTS_PER_INTERVAL_LIMIT, fitting, less_zero};
 use super::ground::{Ground, Stretch};
 use super::run::{Outcome, Sliding, Start, Stopping, Surfaces};
 use super::tables::system_of;
@@ -356,25 +356,11 @@ impl<'a> Stepping<'a> {
         let force = self.force(self.modes[0]);
         let phase = Phase { modes: &self.modes, force };
         let fastest = 1.0 / self.body.rate_rad_per_s.max(1e-3);
-        let mut unit_s = if self.unit_s.is_finite() { self.unit_s } else { fastest };
-        loop {
-            // A hair beyond is the rounding of the times.
-            if unit_s * (1.0 + 1e-9) >= left_s {
-                unit_s = left_s;
-            }
+        let [_, part] = fitting(&mut self.unit_s, fastest, left_s, |unit_s| {
             self.body.expand(&self.x, &phase, &loads, (unit_s, DEGREE), &mut self.series);
-            let part = self.series.part;
-            let longer_s = unit_s * part;
-            self.unit_s = if unit_s == left_s { longer_s.max(self.unit_s) } else { longer_s };
-            if !self.unit_s.is_finite() {
-                self.unit_s = unit_s;
-            }
-            if part >= 0.25 {
-                self.series.part = part.min(1.0);
-                return;
-            }
-            unit_s *= part.max(1e-3);
-        }
+            self.series.part
+        });
+        self.series.part = part;
     }
 
     /// The polynomial of an exit, less what of it is known to vanish.
@@ -565,13 +551,7 @@ impl<'a> Stepping<'a> {
     /// Changes the contact with an elastic stop, which is an event.
     fn change_contact(&mut self, time_s: f64, to: Contact) {
         let from = self.memory.contact;
-        let kind = match (from, to) {
-            (Contact::Free, Contact::Pressed(_)) => EventKind::Contact,
-            (_, Contact::Pressed(_)) => EventKind::Press,
-            (_, Contact::Separated(_)) => EventKind::Separation,
-            (_, Contact::Free) => EventKind::Leave,
-        };
-        self.stopping.change(time_s, self.x.w.abs(), from, to);
+        let kind = self.stopping.change(time_s, self.x.w.abs(), from, to);
         self.memory.contact = to;
         self.push_event(time_s, 0, kind);
     }

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use fearless_simd::prelude::*;
 
 use super::outputs::{self, Outputs, Overturning};
-use crate::friction::{Restraint, Restraints};
+use crate::friction::{Law, Restraint, Restraints};
 use crate::linear::polynomial::DEGREE;
 use crate::linear::{
     BATCH, MAX_RATE_STEP, Maps, Row, SeriesTable, StoreyDamping, System, Units, orders,
@@ -88,6 +88,11 @@ pub(super) fn system_of(model: &Model) -> System {
     )
 }
 
+/// Whether tables serve a model with its law, under a normal force that is constant or varies.
+pub(super) fn serve(model: &Model, law: &Law, varying: bool) -> bool {
+    model.devices().contents.is_empty() && law.is_tabled(varying)
+}
+
 impl Tables {
     /// Tables for a step, or for motions that have none. A law that goes by none needs no more than the
     /// systems.
@@ -95,7 +100,7 @@ impl Tables {
     pub(super) fn new<S: Simd>(simd: S, model: &Model, dt_s: Option<f64>) -> Self {
         let normal_n = model.normal_n();
         let law = model.law(false);
-        let is_tabled = model.devices().contents.is_empty() && law.is_tabled(false);
+        let is_tabled = serve(model, &law, false);
         let law = law.under(normal_n);
         let free = system_of(model);
         let Restraint { stiffness_n_per_m, damper_n_s_per_m } = law.restraint;

@@ -5,7 +5,7 @@ use slipstick::model::Contents;
 use slipstick::response::Mode;
 
 use super::force::vertical_at_knots;
-use super::histories::{SHADING, describe, history_panel};
+use super::histories::{SHADING, history_panel, over_time};
 use super::{Drawn, Scene, Trace, drawn};
 use crate::display::Quantity;
 use crate::markup::shortened;
@@ -123,15 +123,8 @@ pub fn surfaces(scene: &Scene) -> Option<Drawn> {
         "Displacement of each surface of the slider; together they make the sliding displacement. \
          {SHADING} A surface that moves no further carries on with the friction of the next."
     );
-    let figure = Figure {
-        id: "surfaces",
-        title: "Displacements of the surfaces over time".to_owned(),
-        description: describe(&caption, &panels),
-        layout: Layout::Stacked,
-        panels,
-        shaded: scene.sliding.clone(),
-    };
-    Some(drawn(&figure, caption))
+    let title = "Displacements of the surfaces over time";
+    Some(over_time(scene, ("surfaces", title), panels, caption))
 }
 
 /// Displacement of the contents over their floors.
@@ -159,13 +152,6 @@ pub fn contents(scene: &Scene) -> Option<Drawn> {
         "Displacement of the contents over the floor that they stand on, positive towards +x. \
                    Level stretches: they move with their floor. Grey: the block slides."
             .to_owned();
-    let figure = Figure {
-        id: "contents",
-        title: "Displacement of the contents over time".to_owned(),
-        description: describe(&caption, &panels),
-        layout: Layout::Stacked,
-        panels,
-        shaded: scene.sliding.clone(),
-    };
-    Some(drawn(&figure, caption))
+    let title = "Displacement of the contents over time";
+    Some(over_time(scene, ("contents", title), panels, caption))
 }

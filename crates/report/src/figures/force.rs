@@ -57,7 +57,8 @@ pub fn loops(scene: &Scene) -> Drawn {
         " over sliding displacement, with the sign of a data sheet: it rises with the displacement. \
          Upright lines are sticks; the area inside is the energy lost.",
     );
-    if slider.stop.is_some() {
+    // Nothing is red of a stop that is rigid, or not reached.
+    if panels[0].series.len() > 1 {
         caption.push_str(" Red: the block presses against the stop.");
     }
     if report.motion.vertical_m_per_s2().is_some() {
@@ -101,8 +102,8 @@ pub fn demand(scene: &Scene) -> Option<Drawn> {
     }
     let [static_positive, static_negative] = model.static_friction();
     let [kinetic_positive, kinetic_negative] = model.kinetic_friction();
-    let weight_n = model.total_mass_kg() * model.normal_gravity_m_per_s2();
-    let largest = static_positive.max(static_negative) * weight_n;
+    let normal_n = model.normal_n();
+    let largest = static_positive.max(static_negative) * normal_n;
     let unit = report
         .display
         .unit(Quantity::Force, largest.max(report.summary.demands.peak_friction_force_n));
@@ -137,7 +138,7 @@ pub fn demand(scene: &Scene) -> Option<Drawn> {
         }
     } else {
         for (coefficient, label, style) in bounds {
-            let value = unit.of(coefficient * weight_n);
+            let value = unit.of(coefficient * normal_n);
             values.push(value);
             // A legend entry without points: the line itself is drawn from edge to edge.
             if !label.is_empty() {

@@ -136,15 +136,8 @@ pub fn accelerations(scene: &Scene) -> Drawn {
          acceleration.{}",
         shown_note(&shown, history.storeys)
     );
-    let figure = Figure {
-        id: "accelerations",
-        title: "Accelerations of ground, block and storeys over time".to_owned(),
-        description: describe(&caption, &panels),
-        layout: Layout::Stacked,
-        panels,
-        shaded: scene.sliding.clone(),
-    };
-    drawn(&figure, caption)
+    let title = "Accelerations of ground, block and storeys over time";
+    over_time(scene, ("accelerations", title), panels, caption)
 }
 
 /// Displacement of each floor relative to the one below; none without storeys.
@@ -179,15 +172,25 @@ pub fn drifts(scene: &Scene) -> Option<Drawn> {
          relative to the block). {SHADING}{}",
         shown_note(&shown, history.storeys)
     );
+    Some(over_time(scene, ("drifts", "Storey drifts over time"), panels, caption))
+}
+
+/// A figure of panels one above the other, shaded where the block slides.
+pub(super) fn over_time(
+    scene: &Scene,
+    (id, title): (&'static str, &str),
+    panels: Vec<Panel>,
+    caption: String,
+) -> Drawn {
     let figure = Figure {
-        id: "drifts",
-        title: "Storey drifts over time".to_owned(),
+        id,
+        title: title.to_owned(),
         description: describe(&caption, &panels),
         layout: Layout::Stacked,
         panels,
         shaded: scene.sliding.clone(),
     };
-    Some(drawn(&figure, caption))
+    drawn(&figure, caption)
 }
 
 pub(super) fn history_panel(scene: &Scene, quantity: &str, trace: Trace, unit: Unit) -> Panel {
@@ -221,7 +224,7 @@ fn marked(trace: &Trace, unit: Unit, word: &str) -> (Option<[f64; 2]>, String) {
 }
 
 /// The caption and every panel's note, for those who cannot see the figure.
-pub(super) fn describe(caption: &str, panels: &[Panel]) -> String {
+fn describe(caption: &str, panels: &[Panel]) -> String {
     let notes = panels.iter().map(|panel| format!(" {}: {}.", panel.y.label, panel.note));
     std::iter::once(caption.to_owned()).chain(notes).collect()
 }

@@ -2,6 +2,7 @@
 
 use crate::support::{Case, floor_spectra, frame_model, report, rough_motion, run};
 use slipstick::assessment::single::FloorSpectra;
+use slipstick::model::{InitialState, Model, Slider, Stop, StopKind};
 use slipstick::motion::GroundMotion;
 use slipstick_report::DisplayUnits;
 use slipstick_report::figures::{self, Drawn};
@@ -255,4 +256,30 @@ fn exact_bounds_of_friction_follow_the_vertical_motion() {
     assert_sound(drawn);
     let dashed = drawn.svg.as_str().split("<path").filter(|tag| tag.contains("\"6 3\""));
     assert!(dashed.filter(|tag| tag.len() > 1000).count() == 2, "two wavy bounds");
+}
+
+#[test]
+fn exact_the_loop_is_red_only_where_a_stop_is_pressed() {
+    let elastic = StopKind::Elastic { stiffness_n_per_m: 2e5, damper_n_s_per_m: 0.0 };
+    let rigid = StopKind::Rigid { restitution: 0.4 };
+    for (gap_m, kind, is_red) in
+        [(0.005, elastic, true), (10.0, elastic, false), (0.005, rigid, false)]
+    {
+        let plain = frame_model(0, 1.0);
+        let stop = Some(Stop { gap_m: [Some(gap_m); 2], kind });
+        let slider = Slider { gap_m: None, stop, ..*plain.slider() };
+        let model = Model::new(
+            *plain.block(),
+            slider,
+            plain.frame().clone(),
+            9.80665,
+            InitialState::rest(),
+        );
+        let case = run("stop", model.expect("a model"), rough_motion(8.0, 0.01));
+        let summary = case.summary.clone();
+        let all = figures::all(&report(&case, &summary));
+        let drawn = all.iter().find(|drawn| drawn.id == "hysteresis").expect("a loop");
+        assert_eq!(drawn.caption.contains("Red:"), is_red, "{gap_m} m, {kind:?}");
+        assert_eq!(drawn.svg.as_str().contains("against the stop"), is_red, "{gap_m} m, {kind:?}");
+    }
 }

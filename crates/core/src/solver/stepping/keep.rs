@@ -93,7 +93,6 @@ impl Stepping<'_> {
         }
         self.look_at_friction(part);
         self.look_at_stop(part);
-        self.surfaces.note(self.law, &self.memory, self.x.s);
     }
 
     /// Overturning moment of the inertia of block, floors and contents about the sliding surface.
