@@ -3,7 +3,8 @@
 //! Prints a line a system, fields by tabs: name, number of storeys, samples, events, peak sliding
 //! displacement in m, then nanoseconds a run of the demands alone, of the history and of the history
 //! with its certificate, each the least of several runs of a prepared model, and of the preparation.
-//! With a system's name and a count it runs the demands of that system so many times, for a profiler.
+//! With a system's name, `demands` or `certificate`, and a count it runs that so many times, for a
+//! profiler.
 
 #![allow(
     clippy::disallowed_macros,
@@ -31,8 +32,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let profiled = match arguments.as_slice() {
         [] => None,
-        [name, count] => Some((name.as_str(), count.parse::<u32>()?)),
-        _ => return Err("expected no argument or a name and a count".into()),
+        [name, what, count] => Some((name.as_str(), what.as_str(), count.parse::<u32>()?)),
+        _ => return Err("expected no argument or a name, what to run and a count".into()),
     };
     let [level, vertical] = taft()?;
     let [level, vertical] = [level, vertical].map(PreparedMotion::new);
@@ -50,7 +51,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         systems.push((name, model(n, 0.1 * n as f64, [0.06, 0.05])?, &level));
     }
     for (name, model, motion) in systems {
-        if profiled.is_some_and(|(wanted, _)| wanted != name) {
+        if profiled.is_some_and(|(wanted, ..)| wanted != name) {
             continue;
         }
         let clock = Instant::now();
@@ -58,7 +59,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         let set_up = clock.elapsed();
         match profiled {
             None => measure(name, &prepared, motion, set_up)?,
-            Some((_, count)) => {
+            Some((_, "certificate", count)) => {
+                for _ in 0..count {
+                    let response = prepared.response(motion)?;
+                    black_box(check(prepared.model(), motion.motion(), &response));
+                }
+            }
+            Some((.., count)) => {
                 for _ in 0..count {
                     black_box(prepared.demands(motion)?);
                 }

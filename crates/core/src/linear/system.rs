@@ -247,6 +247,51 @@ impl System {
         (of_block + ((sums[0] + sums[1]) + (sums[2] + sums[3]))).sqrt()
     }
 
+    /// Number of [amplitudes](System::amplitudes).
+    #[must_use]
+    pub fn amplitude_count(&self) -> usize {
+        if self.coupled { 1 } else { self.modes() }
+    }
+
+    /// Amplitudes of the structure in stick: `√(ω² η² + η̇²)` of each mode, or the energy norm of all
+    /// where damping couples them. Undriven they do not grow.
+    #[inline(always)]
+    pub fn amplitudes(&self, x: &[f64], out: &mut [f64]) {
+        let n = x.len() / 2 - 1;
+        let (eta, rate, k) = (&x[2..2 + n], &x[2 + n..2 + 2 * n], &self.omega2[..n]);
+        let out = &mut out[..n];
+        for j in 0..n {
+            out[j] = k[j] * (eta[j] * eta[j]) + rate[j] * rate[j];
+        }
+        if self.coupled {
+            out[0] = out.iter().sum::<f64>().sqrt();
+        } else {
+            for amplitude in out {
+                *amplitude = amplitude.sqrt();
+            }
+        }
+    }
+
+    /// What a unit of `∫|a| dt` adds to each amplitude at most: `|L_j|`, or `|L|`.
+    #[must_use]
+    pub fn amplitudes_of_impulse(&self) -> Vec<f64> {
+        if self.coupled {
+            return vec![self.root_storey_mass];
+        }
+        self.participation.iter().map(|l| l.abs()).collect()
+    }
+
+    /// What a unit of each amplitude does at most to the row `c` in stick: `√(c_η²/ω² + c_η̇²)`.
+    #[must_use]
+    pub fn dual_amplitudes(&self, c: &[f64]) -> Vec<f64> {
+        if self.coupled {
+            return vec![self.dual_norm(false, c)];
+        }
+        let n = self.modes();
+        let of = |j: usize| c[2 + j] * c[2 + j] / self.omega2[j] + c[2 + n + j] * c[2 + n + j];
+        (0..n).map(|j| of(j).sqrt()).collect()
+    }
+
     /// How much the energy norm can grow over a length of time: a damper `c < 0` feeds
     /// `d‖x‖²/dt = −2 c ṡ² ≤ 2 (|c| / M1) ‖x‖²`.
     #[must_use]

@@ -185,6 +185,10 @@ pub(super) struct Outputs {
     pub(super) groups: Vec<Group>,
     /// Group by group: one, friction force, acceleration and stop, then the state.
     pub(super) columns: Vec<Eight>,
+    /// Group by group what the amplitudes do at most: in stick those of [`System::amplitudes`], in slip
+    /// the energy norm of the state.
+    pub(super) amplitudes: Vec<Eight>,
+    pub(super) amplitude_count: usize,
 }
 
 /// What bounds eight outputs side by side.
@@ -203,6 +207,8 @@ pub(super) struct Group {
     pub(super) of_s: Eight,
     pub(super) size_of_a: Eight,
     pub(super) size_of_friction: Eight,
+    /// What `∫|a| dt` adds at most in stick.
+    pub(super) of_impulse: Eight,
 }
 
 impl Outputs {
@@ -225,7 +231,18 @@ impl Outputs {
         };
         let (of_jerk, of_force_rate) = (of_load(1.0, 0.0), of_load(0.0, 1.0));
         let rate = |j: usize| &rates[j * stride..][..stride];
+        let of_amplitudes: Vec<Vec<f64>> = rows
+            .iter()
+            .map(|row| match slip {
+                true => vec![system.dual_norm(true, &row.state)],
+                false => system.dual_amplitudes(&row.state),
+            })
+            .collect();
+        let amplitude_count = if slip { 1 } else { system.amplitude_count() };
+        let impulse = system.amplitudes_of_impulse();
+        let of_impulse = |j: usize| if slip { 0.0 } else { dot(&of_amplitudes[j], &impulse) };
         let count = rows.len().div_ceil(8);
+        let mut amplitudes = Vec::with_capacity(count * amplitude_count);
         let (mut groups, mut columns) = (Vec::with_capacity(count), Vec::new());
         columns.reserve_exact(count * (4 + stride));
         for g in 0..count {
@@ -240,7 +257,10 @@ impl Outputs {
                 of_s: lanes(&rows, first, |j| rows[j].state[0]),
                 size_of_a: lanes(&rows, first, |j| rows[j].of_a.abs()),
                 size_of_friction: lanes(&rows, first, |j| rows[j].of_friction.abs()),
+                of_impulse: lanes(&rows, first, of_impulse),
             };
+            amplitudes
+                .extend((0..amplitude_count).map(|i| lanes(&rows, first, |j| of_amplitudes[j][i])));
             columns.push(group.constant);
             columns.push(lanes(&rows, first, |j| rows[j].of_friction));
             columns.push(lanes(&rows, first, |j| rows[j].of_a));
@@ -248,7 +268,7 @@ impl Outputs {
             columns.extend((0..stride).map(|i| lanes(&rows, first, |j| rows[j].state[i])));
             groups.push(group);
         }
-        Self { rows, groups, columns }
+        Self { rows, groups, columns, amplitudes, amplitude_count }
     }
 }
 

@@ -18,7 +18,7 @@ use crate::linear::{BATCH, Force};
 use crate::response::Mode;
 
 /// Candidates that are kept before they are settled, besides one an output.
-const ROOM: usize = 64;
+const ROOM: usize = 512;
 
 /// Peaks attained, and the candidates for more.
 pub(super) struct Peaks<'a> {
@@ -157,7 +157,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             } else {
                 group.norm.load(simd) * reach + group.size_of_friction.load(simd) * bend
             };
-            open |= self.weigh(g, [a, b], slack);
+            open |= self.weigh(g, [a, b], slack, None);
         }
         if open && self.now.fading.is_some() {
             self.settle_fading(phase, stretch, segment);
@@ -185,10 +185,17 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         self.set_limits();
     }
 
-    /// Weighs the outputs of a group against their limits, from two values and how far they may depart
-    /// from the chord between. Leaves its bounds in `above`; whether one is above its limit.
+    /// Weighs the outputs of a group against their limits, from two values, how far they may depart
+    /// from the chord between, and perhaps another bound. Leaves its bounds in `above`; whether one is
+    /// above its limit.
     #[inline(always)]
-    pub(super) fn weigh(&mut self, g: usize, [a, b]: [f64x8<S>; 2], slack: f64x8<S>) -> bool {
+    pub(super) fn weigh(
+        &mut self,
+        g: usize,
+        [a, b]: [f64x8<S>; 2],
+        slack: f64x8<S>,
+        most: Option<f64x8<S>>,
+    ) -> bool {
         let simd = self.simd;
         let (zero, limit) = (eight(simd, 0.0), self.peaks.limit[g].load(simd));
         let attained = larger(a.abs(), b.abs());
@@ -208,6 +215,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let inside = slack - (b - a).abs() * eight(simd, 0.25);
         let bulge = inside.simd_gt(zero).select(inside * (inside / slack), zero);
         let bound = attained + bulge;
+        let bound = most.map_or(bound, |most| most.simd_lt(bound).select(most, bound));
         // A few ulp are no more than the rounding of the values.
         let open = bound.simd_gt(limit + limit * eight(simd, 1e-15));
         open.select(bound, zero).store_slice(&mut self.peaks.above[g].0);

@@ -228,6 +228,8 @@ pub(super) struct Run<'a, S, W> {
     /// Outputs in `x`, where they are known.
     pub(super) values: Vec<Eight>,
     pub(super) series: Series,
+    /// In stick the structure's, in slip the energy norm of the state at most.
+    pub(super) amplitudes: Vec<f64>,
     /// Room for two lists of storey coordinates.
     pub(super) spare: [Vec<f64>; 2],
     pub(super) peaks: Peaks<'a>,
@@ -291,6 +293,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             next: vec![0.0; stride],
             values: vec![Eight::ZERO; groups],
             series: Series::new(system, tables.orders),
+            amplitudes: vec![0.0; n],
             spare: [vec![0.0; n], vec![0.0; n]],
             peaks: Peaks::new(groups, tables.stick.outputs.rows.len(), stride),
             mode,

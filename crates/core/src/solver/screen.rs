@@ -21,10 +21,10 @@ use crate::response::Mode;
 /// A chord over a sample is off by this part of what one over a batch is.
 const PER_SAMPLE: f64 = 1.0 / (BATCH * BATCH) as f64;
 
-/// What bounds outputs over a batch without looking at it: the energy norm of the state, the size of
-/// the acceleration and of the friction force.
+/// What bounds outputs over a batch without looking at it, besides the amplitudes: the sizes of the
+/// acceleration and of the friction force, and in stick `∫|a| dt`.
 struct Coarse {
-    norm: f64,
+    impulse: f64,
     size: f64,
     friction: f64,
 }
@@ -123,7 +123,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 let friction = coefficient.abs() * most_normal;
                 let growth = system.root_total_mass * size + friction * system.per_root_block;
                 let norm = system.energy_norm(&x[..self.width.components()]) + batch_s * growth;
-                Coarse { norm: batch.growth * norm, size, friction }
+                self.amplitudes[0] = batch.growth * norm;
+                Coarse { impulse: 0.0, size, friction }
             });
             let inputs = [[force.at(0), a[0], 0.0], [force.at(steps), a[steps], 0.0]];
             let extent = Extent::Samples(steps, curvature);
@@ -148,14 +149,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         end: usize,
     ) -> usize {
         let (simd, stride) = (self.simd, 4 * self.width.fours());
-        let system = &phase.system;
         let hold = self.hold;
         let [low, high] = hold.bounds;
         let stop = self.now.stop;
-        // Of the demand without the springs' part.
-        let norm_of_demand = phase.outputs.groups[0].norm.0[output::FRICTION];
-        let size_of_a = phase.outputs.groups[0].size_of_a.0[output::FRICTION];
-        let growth = batch.dt_s * system.root_storey_mass;
         let near = 0.125 * batch.dt_s * batch.dt_s;
         let far = (BATCH * BATCH) as f64 * near;
         let force = Force::Constant(0.0);
@@ -165,25 +161,22 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         while sample + BATCH <= end {
             let a = self.window(sample);
             let [normal, _] = self.ground.normal.range(simd, sample);
-            let norm = self.norm_of_structure(phase);
+            phase.system.amplitudes(&self.x[..self.width.components()], &mut self.amplitudes);
             let holds = least(high, -low) * normal - hold.force_n.abs();
             let coarse = |size: f64, samples: usize| {
-                let coarse =
-                    Coarse { norm: norm + growth * samples as f64 * size, size, friction: 0.0 };
-                (norm_of_demand * coarse.norm + size_of_a * size <= holds).then_some(coarse)
+                let impulse = samples as f64 * batch.dt_s * size;
+                Coarse { impulse, size, friction: 0.0 }
             };
             let size = largest_size(simd, a);
-            if let Some(by_batch) = coarse(size, BATCH)
-                && self.below_limits(phase, &by_batch, stop)
-            {
+            let by_batch = coarse(size, BATCH);
+            if self.is_quiet(phase, &by_batch, stop, holds) {
                 known = 0;
                 let later = (1..QUIET / BATCH).map(|i| sample + i * BATCH);
                 if sample + QUIET <= end
                     && matches!(self.ground.normal, Normal::Constant(_))
                     && let size = later
                         .fold(size, |size, i| greatest(size, largest_size(simd, self.window(i))))
-                    && let Some(by_quiet) = coarse(size, QUIET)
-                    && self.below_limits(phase, &by_quiet, stop)
+                    && self.is_quiet(phase, &coarse(size, QUIET), stop, holds)
                 {
                     self.take_quiet(batch, sample);
                     sample += QUIET;
@@ -238,7 +231,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             }
             let extent = Extent::Samples(steps, curvature);
             let group = (slack, Some(next_y), far);
-            self.look_over((phase, None), (sample, extent), [before, after], group, &mut known);
+            let coarse = (self.width.modes() > 1).then_some(&by_batch);
+            self.look_over((phase, coarse), (sample, extent), [before, after], group, &mut known);
             self.record_batch(batch, sample, steps, a, force);
             sample += steps;
             self.swap_in_stick();
@@ -247,18 +241,6 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             }
         }
         sample
-    }
-
-    /// Energy norm of the structure's part of the state, which is all that moves in stick.
-    #[inline(always)]
-    fn norm_of_structure(&self, phase: &Phase) -> f64 {
-        let n = self.width.modes();
-        let (eta, rate) = (&self.x[2..2 + n], &self.x[2 + n..2 + 2 * n]);
-        let mut sums = [0.0; 4];
-        for (j, omega2) in phase.system.omega2[..n].iter().enumerate() {
-            sums[j % 4] += omega2 * (eta[j] * eta[j]) + rate[j] * rate[j];
-        }
-        ((sums[0] + sums[1]) + (sums[2] + sums[3])).sqrt()
     }
 
     /// Looks at the outputs of samples from `x` to `next`: where neither a bound on the state nor the
@@ -276,7 +258,11 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let (simd, stride) = (self.simd, 4 * self.width.fours());
         let (mut open, mut known_next) = (false, 0);
         for g in 0..self.groups(phase) {
-            if coarse.is_some_and(|coarse| !self.coarse_open(phase, g, coarse, first[2])) {
+            let most = coarse.map(|coarse| {
+                let reach = self.reach(phase, g, coarse);
+                self.most(phase, g, reach, first[2])
+            });
+            if most.is_some_and(|most| most.simd_le(self.peaks.limit[g].load(simd)).all_true()) {
                 self.peaks.above[g] = Eight::ZERO;
                 continue;
             }
@@ -293,7 +279,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 }
                 _ => slack,
             };
-            open |= self.weigh(g, [y, next], slack);
+            open |= self.weigh(g, [y, next], slack, most);
         }
         *known = known_next;
         if open {
@@ -320,24 +306,45 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         self.values[g].load(self.simd)
     }
 
-    /// Whether a bound on the state and the loads leaves outputs of a group above their limits.
+    /// Bound on what state and loads do to the outputs of a group over a batch.
     #[inline(always)]
-    fn coarse_open(&self, phase: &Phase, g: usize, coarse: &Coarse, stop: f64) -> bool {
+    fn reach(&self, phase: &Phase, g: usize, coarse: &Coarse) -> f64x8<S> {
+        let (simd, group) = (self.simd, &phase.outputs.groups[g]);
+        let count = if self.width.modes() == 1 { 1 } else { phase.outputs.amplitude_count };
+        let (columns, amplitudes) =
+            (&phase.outputs.amplitudes[g * count..][..count], &self.amplitudes[..count]);
+        let mut reach = group.size_of_a.load(simd) * eight(simd, coarse.size)
+            + group.of_impulse.load(simd) * eight(simd, coarse.impulse);
+        if phase.slip {
+            reach += group.size_of_friction.load(simd) * eight(simd, coarse.friction);
+        }
+        for j in 0..count {
+            reach += columns[j].load(simd) * eight(simd, amplitudes[j]);
+        }
+        reach
+    }
+
+    /// The same of the outputs themselves.
+    #[inline(always)]
+    fn most(&self, phase: &Phase, g: usize, reach: f64x8<S>, stop: f64) -> f64x8<S> {
         let (simd, group) = (self.simd, &phase.outputs.groups[g]);
         let mut constant = group.constant.load(simd) + group.of_stop.load(simd) * eight(simd, stop);
         if !phase.slip {
             constant += group.of_s.load(simd) * eight(simd, self.x[0]);
         }
-        let loads = group.size_of_a.load(simd) * eight(simd, coarse.size)
-            + group.size_of_friction.load(simd) * eight(simd, coarse.friction);
-        let most = (group.norm.load(simd) * eight(simd, coarse.norm) + loads) + constant.abs();
-        !most.simd_le(self.peaks.limit[g].load(simd)).all_true()
+        reach + constant.abs()
     }
 
+    /// Whether in stick the demand changes by no more than `holds`, and no output passes its limit.
     #[inline(always)]
-    fn below_limits(&self, phase: &Phase, coarse: &Coarse, stop: f64) -> bool {
+    fn is_quiet(&self, phase: &Phase, coarse: &Coarse, stop: f64, holds: f64) -> bool {
         for g in 0..self.groups(phase) {
-            if self.coarse_open(phase, g, coarse, stop) {
+            let reach = self.reach(phase, g, coarse);
+            if g == 0 && !(reach.as_array()[output::FRICTION] <= holds) {
+                return false;
+            }
+            let most = self.most(phase, g, reach, stop);
+            if !most.simd_le(self.peaks.limit[g].load(self.simd)).all_true() {
                 return false;
             }
         }

@@ -271,3 +271,42 @@ fn prop_several_samples_stay_within_reach_of_one_chord() {
     }
     assert!(nearest > 0.5, "at most {nearest} of the bound was used");
 }
+
+/// (k) In stick the amplitudes grow by what the acceleration adds, bound every row, and bound it no
+/// less closely than the energy norm.
+#[test]
+fn prop_amplitudes_of_modes_bound_every_row() {
+    for (mut random, damped) in streams() {
+        let made = system(&mut random, damped);
+        let system = &made.system;
+        let count = system.amplitude_count();
+        let of_impulse = system.amplitudes_of_impulse();
+        let mut x = state(&mut random, &made, false);
+        let mut most = vec![0.0; system.modes()];
+        system.amplitudes(&x.0, &mut most);
+        let mut c = vec![0.0; x.0.len()];
+        c[2..].fill_with(|| random.between(-1.0, 1.0));
+        let of_c = system.dual_amplitudes(&c);
+        let by_norm = system.dual_norm(false, &c) * norm(system, &x);
+        assert!(dot(&of_c, &most[..count]) <= by_norm * (1.0 + 1e-14));
+        let rates = Rates::random(&mut random);
+        let length_s = MAX_RATE_STEP / rate(system, false).max(1.0);
+        for piece in 0..40 {
+            let load = rates.load(f64::from(piece) * length_s, length_s);
+            let end = load.acceleration + load.acceleration_change;
+            let impulse = length_s * load.acceleration.abs().max(end.abs());
+            series(system, false, &x, &load, length_s).state_at(1.0, &mut x);
+            for (most, of_impulse) in most.iter_mut().zip(&of_impulse) {
+                *most += of_impulse * impulse;
+            }
+            let mut now = vec![0.0; system.modes()];
+            system.amplitudes(&x.0, &mut now);
+            for (now, most) in now[..count].iter().zip(&most) {
+                assert!(*now <= most * (1.0 + 1e-13), "{now:e} above {most:e}");
+            }
+            let bound = dot(&of_c, &most[..count]);
+            let value = dot(&c, &x.0);
+            assert!(value.abs() <= bound * (1.0 + 1e-13), "{value:e} above {bound:e}");
+        }
+    }
+}
