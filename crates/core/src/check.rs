@@ -20,6 +20,7 @@ mod structure;
 
 use self::judge::Judge;
 use self::structure::{Phase, Structure};
+use crate::error::{GoOn, Pulse, Stopped, UNWATCHED};
 use crate::friction::Direction;
 use crate::model::{Model, Stop, StopKind};
 use crate::motion::GroundMotion;
@@ -106,6 +107,20 @@ pub struct EnergyHistory {
 /// gets infinite figures.
 #[must_use]
 pub fn check(model: &Model, motion: &GroundMotion, response: &Response) -> Certificate {
+    // Nothing stops it.
+    check_while(model, motion, response, UNWATCHED).unwrap_or_else(|Stopped| unjudged(1e-10))
+}
+
+/// [`check()`] as long as `go_on` says so, which is asked every few milliseconds.
+///
+/// # Errors
+/// [`Stopped`] where it says no.
+pub fn check_while(
+    model: &Model,
+    motion: &GroundMotion,
+    response: &Response,
+    go_on: GoOn<'_>,
+) -> Result<Certificate, Stopped> {
     let structure = Structure::new(model);
     let history = response.history.as_ref();
     let end_s = history.and_then(|h| h.time_s.last().copied()).unwrap_or(0.0);
@@ -117,10 +132,12 @@ pub fn check(model: &Model, motion: &GroundMotion, response: &Response) -> Certi
         let vertical = motion.vertical_m_per_s2().is_some();
         let reached = reaches_rigid_stop(model, history);
         if reached == Some(true) || !model.is_plain_between_stops(vertical) {
-            return devices::certificate(model, motion, (response, history), &structure, bound);
+            let pulse = Pulse::new(go_on);
+            let given = (response, history);
+            return devices::certificate(model, motion, given, &structure, (bound, pulse));
         }
-        let judge = Judge::new(model, motion, (response, history), &structure);
-        let mut certificate = judge.run(bound)?;
+        let judge = Judge::new(model, motion, (response, history), &structure, Pulse::new(go_on));
+        let Some(mut certificate) = judge.run(bound)? else { return Ok(None) };
         if reached.is_some() {
             let calls = devices::near_misses(model, history);
             certificate.closest_call =
@@ -128,9 +145,15 @@ pub fn check(model: &Model, motion: &GroundMotion, response: &Response) -> Certi
                     if call.margin < nearest.margin { call } else { nearest }
                 });
         }
-        Some(certificate)
+        Ok(Some(certificate))
     };
-    judged.and_then(run).unwrap_or_else(|| Certificate {
+    let judged = judged.map_or(Ok(None), run)?;
+    Ok(judged.unwrap_or_else(|| unjudged(bound)))
+}
+
+/// Of what cannot be judged.
+fn unjudged(bound: f64) -> Certificate {
+    Certificate {
         equilibrium_residual: f64::INFINITY,
         friction_excess: f64::INFINITY,
         energy_balance_error: f64::INFINITY,
@@ -138,7 +161,7 @@ pub fn check(model: &Model, motion: &GroundMotion, response: &Response) -> Certi
         closest_call: None,
         bound,
         energy: EnergyHistory::default(),
-    })
+    }
 }
 
 /// Whether a history comes to a rigid stop, of a model that has one: `s` is monotone between knots.

@@ -1,5 +1,7 @@
 //! What can go wrong, one enum a kind of failure.
 
+use core::ops::ControlFlow;
+
 /// A number that a model cannot have.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ModelError {
@@ -180,6 +182,9 @@ pub enum SolveError {
         /// What of the model it does not take.
         what: &'static str,
     },
+    /// Ended by whoever follows it.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
     /// The iteration of the stepwise method did not converge.
     #[error(
         "stepwise method: {iterations} iterations did not converge at {time_s} s: it converges only \
@@ -217,6 +222,51 @@ pub enum RunError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("stopped before the end")]
 pub struct Stopped;
+
+/// Asked every few milliseconds of one long piece of work whether to go on; once it says no it is not
+/// asked again.
+pub type GoOn<'a> = &'a dyn Fn() -> ControlFlow<()>;
+
+/// Asks whether to go on after so much work.
+pub(crate) struct Pulse<'a> {
+    go_on: GoOn<'a>,
+    /// Units of work until it asks again.
+    left: u32,
+    stopped: bool,
+}
+
+/// Work that nothing stops.
+pub(crate) const UNWATCHED: GoOn<'static> = &|| ControlFlow::Continue(());
+
+impl<'a> Pulse<'a> {
+    /// Units of work between two questions; a unit is some ten nanoseconds.
+    const UNITS: u32 = 1 << 18;
+
+    pub(crate) fn new(go_on: GoOn<'a>) -> Self {
+        Self { go_on, left: Self::UNITS, stopped: false }
+    }
+
+    /// So many units are done.
+    #[inline(always)]
+    pub(crate) fn beat(&mut self, units: u32) -> Result<(), Stopped> {
+        if units < self.left {
+            self.left -= units;
+            return Ok(());
+        }
+        self.ask()
+    }
+
+    #[cold]
+    fn ask(&mut self) -> Result<(), Stopped> {
+        self.stopped = self.stopped || (self.go_on)().is_break();
+        if self.stopped {
+            self.left = 0;
+            return Err(Stopped);
+        }
+        self.left = Self::UNITS;
+        Ok(())
+    }
+}
 
 /// A choice that cannot be: which, what was expected, what was found.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -13,7 +13,7 @@ mod stepwise;
 mod summary;
 mod tables;
 
-use crate::error::SolveError;
+use crate::error::{GoOn, SolveError, UNWATCHED};
 use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::response::{Method, Response};
@@ -47,7 +47,7 @@ pub use prepared::{InstructionSet, Prepared, PreparedMotion};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn exact(model: &Model, motion: &GroundMotion) -> Result<Response, SolveError> {
-    prepared::solve_once(model, motion, true)
+    prepared::solve_once(model, motion, true, UNWATCHED)
 }
 
 /// Exact response without a history: peaks, counts and events only.
@@ -55,7 +55,7 @@ pub fn exact(model: &Model, motion: &GroundMotion) -> Result<Response, SolveErro
 /// # Errors
 /// [`SolveError`] with time and cause.
 pub fn exact_demands(model: &Model, motion: &GroundMotion) -> Result<Response, SolveError> {
-    prepared::solve_once(model, motion, false)
+    prepared::solve_once(model, motion, false, UNWATCHED)
 }
 
 /// Response by the paper's own program (eqs 5, 6, 15–18), with history and iteration counts.
@@ -67,7 +67,7 @@ pub fn exact_demands(model: &Model, motion: &GroundMotion) -> Result<Response, S
 /// # Errors
 /// [`SolveError::NoConvergence`] with the time where the iteration does not converge.
 pub fn stepwise(model: &Model, motion: &GroundMotion) -> Result<Response, SolveError> {
-    stepwise::solve(model, motion, stepwise::TOLERANCE_M_PER_S2)
+    stepwise_within(model, motion, stepwise::TOLERANCE_M_PER_S2)
 }
 
 /// As [`stepwise`], with another `δ` of eqs (17), (18): the largest change of an acceleration in the
@@ -81,7 +81,7 @@ pub fn stepwise_within(
     motion: &GroundMotion,
     tolerance_m_per_s2: f64,
 ) -> Result<Response, SolveError> {
-    stepwise::solve(model, motion, tolerance_m_per_s2)
+    stepwise::solve(model, motion, tolerance_m_per_s2, UNWATCHED)
 }
 
 /// Response by either method, with its history.
@@ -92,5 +92,37 @@ pub fn solve(model: &Model, motion: &GroundMotion, method: Method) -> Result<Res
     match method {
         Method::Exact => exact(model, motion),
         Method::Stepwise => stepwise(model, motion),
+    }
+}
+
+/// [`solve`] as long as `go_on` says so, which is asked every few milliseconds.
+///
+/// # Errors
+/// [`SolveError::Stopped`] where it says no, otherwise [`SolveError`] with time and cause.
+///
+/// # Examples
+/// ```
+/// use core::ops::ControlFlow;
+/// use slipstick::error::{SolveError, Stopped};
+/// use slipstick::friction::{Coulomb, Friction};
+/// use slipstick::response::Method;
+/// use slipstick::{model::Model, motion::GroundMotion, solver};
+///
+/// let friction = Friction::Coulomb(Coulomb::new([0.2; 2], [0.2; 2])?);
+/// let model = Model::rigid_block(124.0, friction)?;
+/// let motion = GroundMotion::evenly_spaced(0.01, vec![0.0; 1_000_000], None)?;
+/// let stopped = solver::solve_while(&model, &motion, Method::Exact, &|| ControlFlow::Break(()));
+/// assert_eq!(stopped.err(), Some(SolveError::Stopped(Stopped)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn solve_while(
+    model: &Model,
+    motion: &GroundMotion,
+    method: Method,
+    go_on: GoOn<'_>,
+) -> Result<Response, SolveError> {
+    match method {
+        Method::Exact => prepared::solve_once(model, motion, true, go_on),
+        Method::Stepwise => stepwise::solve(model, motion, stepwise::TOLERANCE_M_PER_S2, go_on),
     }
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use slipstick::assessment::single::{Job, Outcome, described};
-use slipstick::error::{InputError, MotionError, SolveError};
+use slipstick::error::{GoOn, InputError, MotionError, SolveError};
 use slipstick::input::loaded::Loaded;
 use slipstick::input::{Analysis, MotionSource, RecordSource};
 use slipstick_report::Summary;
@@ -94,8 +94,25 @@ impl OpenJob {
     /// [`JobError::Solve`] with time and cause.
     pub fn run(&self, floor_spectra: bool) -> Result<(Outcome, Summary), JobError> {
         let outcome = self.job.run(floor_spectra)?;
+        Ok(self.summed(outcome))
+    }
+
+    /// The same as long as `go_on` says so, which is asked every few milliseconds.
+    ///
+    /// # Errors
+    /// [`JobError::Solve`] with [`SolveError::Stopped`] where it says no, and as [`OpenJob::run`].
+    pub fn run_while(
+        &self,
+        floor_spectra: bool,
+        go_on: GoOn<'_>,
+    ) -> Result<(Outcome, Summary), JobError> {
+        let outcome = self.job.run_while(floor_spectra, go_on)?;
+        Ok(self.summed(outcome))
+    }
+
+    fn summed(&self, outcome: Outcome) -> (Outcome, Summary) {
         let summary = Summary::of(&self.name, &self.job, self.loaded.figures, &outcome);
-        Ok((outcome, summary))
+        (outcome, summary)
     }
 }
 

@@ -112,9 +112,13 @@ pub(crate) fn of_file(py: Python<'_>, error: &FileError) -> PyErr {
 }
 
 pub(crate) fn of_solve(py: Python<'_>, error: &SolveError) -> PyErr {
+    if matches!(error, SolveError::Stopped(_)) {
+        return PyKeyboardInterrupt::new_err(());
+    }
     let time_s = match error {
         SolveError::NotFinite { time_s }
         | SolveError::TooManyEvents { time_s, .. }
+        | SolveError::EndOfTravel { time_s }
         | SolveError::NoConvergence { time_s, .. } => Some(*time_s),
         _ => None,
     };

@@ -6,6 +6,7 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slipstick::assessment::single::{Job, Outcome};
+use slipstick::error::GoOn;
 use slipstick::response::History;
 use slipstick_files::{JobError, OpenJob};
 use slipstick_report::{DisplayUnits, FileNote, InputText, Report, Summary};
@@ -13,6 +14,7 @@ use slipstick_report::{DisplayUnits, FileNote, InputText, Report, Summary};
 use crate::errors::{of_argument, of_job};
 use crate::model::Model;
 use crate::motion::Motion;
+use crate::work::interruptible;
 
 /// Runs a model on a motion, on its own where none is given.
 #[pyfunction]
@@ -23,7 +25,7 @@ pub(crate) fn run(
     motion: Option<&Motion>,
     floor_spectra: bool,
 ) -> PyResult<Response> {
-    let work = || -> Result<Response, JobError> {
+    let work = |go_on: GoOn<'_>| -> Result<Response, JobError> {
         let analysis = model.analysis.clone();
         let job = match motion {
             None => OpenJob::new(model.path(), analysis, None)?,
@@ -33,10 +35,10 @@ pub(crate) fn run(
                 OpenJob { name, job, loaded: loaded.clone() }
             }
         };
-        let (outcome, summary) = job.run(floor_spectra)?;
+        let (outcome, summary) = job.run_while(floor_spectra, go_on)?;
         Ok(Response { job, outcome, summary })
     };
-    py.detach(work).map_err(|error| of_job(py, &error))
+    interruptible(py, work)?.map_err(|error| of_job(py, &error))
 }
 
 /// Units to show results in.

@@ -1,17 +1,45 @@
 //! Work that Ctrl-C ends.
 
+use std::cell::{Cell, RefCell};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use pyo3::prelude::*;
+use slipstick::error::GoOn;
 use slipstick::study::engine::Engine;
 use slipstick_files::on_threads;
 
 /// How often signals, and the callback that follows the work, get their turn.
 const TURN: Duration = Duration::from_millis(50);
+
+/// Does work on this thread while Python's others go on; its callback is asked now and then whether to
+/// go on. A signal stops the work and is raised.
+pub(crate) fn interruptible<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(GoOn<'_>) -> T + Send,
+) -> PyResult<T> {
+    py.detach(|| {
+        let (last, raised) = (Cell::new(Instant::now()), RefCell::new(None));
+        let go_on = || {
+            if last.get().elapsed() < TURN {
+                return ControlFlow::Continue(());
+            }
+            last.set(Instant::now());
+            match Python::attach(|py| py.check_signals()) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(error) => {
+                    raised.replace(Some(error));
+                    ControlFlow::Break(())
+                }
+            }
+        };
+        let result = work(&go_on);
+        raised.into_inner().map_or(Ok(result), Err)
+    })
+}
 
 /// Does work on threads of its own, which end with it, while Python's other threads go on. Every now
 /// and then `progress` is called with the runs done and planned. A signal, or an exception of

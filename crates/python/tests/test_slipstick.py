@@ -324,6 +324,34 @@ def test_ctrl_c_stops_a_study_and_leaves_whole_parts(tmp_path: Path) -> None:
     assert all(part.name.startswith("part-") for part in parts.iterdir())
 
 
+@pytest.mark.skipif(os.name != "posix", reason="signals are sent as POSIX does")
+@pytest.mark.parametrize("method", ["exact", "stepwise"])
+def test_ctrl_c_stops_one_long_analysis(method: str) -> None:
+    # Ten million samples, and twenty storeys: with its certificate many seconds either way.
+    count, storeys = {"exact": (10_000_000, 0), "stepwise": (1_000_000, 20)}[method]
+    code = (
+        "import sys, time, numpy as np, slipstick as ss\n"
+        f"storey = {{'mass': '1 t', 'stiffness': '4 kN/mm', 'damping_ratio': 0.05}}\n"
+        f"model = ss.Model({{'block.mass': '1 t', 'slider.static_friction': 0.1,\n"
+        f"    'slider.kinetic_friction': 0.08, 'analysis.method': '{method}',\n"
+        f"    **({{'storey': [storey] * {storeys}}} if {storeys} else {{}})}})\n"
+        f"motion = ss.Motion(np.sin(0.05 * np.arange({count})), dt=0.005, units='m/s2')\n"
+        "print('begun', flush=True)\n"
+        "try:\n"
+        "    ss.run(model, motion)\n"
+        "except KeyboardInterrupt:\n"
+        "    print(time.monotonic(), flush=True)\n"
+    )
+    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+    assert child.stdout is not None and child.stdout.readline() == "begun\n"
+    time.sleep(0.4)
+    sent = time.monotonic()
+    child.send_signal(signal.SIGINT)
+    told = child.stdout.readline()
+    child.wait(60)
+    assert told and float(told) - sent < 0.2, told
+
+
 def test_an_exception_of_progress_stops_the_work(tmp_path: Path) -> None:
     def stop(done: int, planned: int) -> None:
         raise RuntimeError("enough")

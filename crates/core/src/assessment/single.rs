@@ -2,7 +2,7 @@
 //! floor spectra, and what an engineer must be told.
 
 use crate::check::{self, Certificate};
-use crate::error::{InputError, MotionError, SolveError};
+use crate::error::{GoOn, InputError, MotionError, SolveError, Stopped, UNWATCHED};
 use crate::input::{Analysis, Bound, MotionSource};
 use crate::model::Model;
 use crate::motion::{GroundMotion, spectrum};
@@ -12,6 +12,9 @@ use crate::study::notices::{coarse_sampling, highest_hz, longest_step_s, suspici
 
 /// Damping ratio of floor spectra.
 const FLOOR_SPECTRUM_DAMPING: f64 = 0.05;
+
+/// Knots of a history from which on floor spectra are computed one period at a time, to be stopped.
+const LONG_HISTORY: usize = 100_000;
 
 /// An analysis with its motion, ready to be solved.
 #[derive(Clone, Debug)]
@@ -91,7 +94,16 @@ impl Job {
     /// # Errors
     /// [`SolveError`] with time and cause.
     pub fn run(&self, floor_spectra: bool) -> Result<Outcome, SolveError> {
-        self.run_on(self.solve(&self.analysis.model)?, floor_spectra)
+        self.run_while(floor_spectra, UNWATCHED)
+    }
+
+    /// The same as long as `go_on` says so, which is asked every few milliseconds.
+    ///
+    /// # Errors
+    /// [`SolveError::Stopped`] where it says no, otherwise [`SolveError`] with time and cause.
+    pub fn run_while(&self, floor_spectra: bool, go_on: GoOn<'_>) -> Result<Outcome, SolveError> {
+        let nominal = self.solve(&self.analysis.model, go_on)?;
+        self.judge(nominal, floor_spectra, go_on)
     }
 
     /// The same where the nominal response, with its history, is known.
@@ -99,32 +111,48 @@ impl Job {
     /// # Errors
     /// [`SolveError`] with time and cause.
     pub fn run_on(&self, nominal: Response, floor_spectra: bool) -> Result<Outcome, SolveError> {
+        self.judge(nominal, floor_spectra, UNWATCHED)
+    }
+
+    fn judge(
+        &self,
+        nominal: Response,
+        floor_spectra: bool,
+        go_on: GoOn<'_>,
+    ) -> Result<Outcome, SolveError> {
         let model = &self.analysis.model;
-        let nominal = self.judged(model.clone(), 1.0, nominal);
+        let nominal = self.judged(model.clone(), 1.0, nominal, go_on)?;
         let bounds = match self.analysis.friction_bounds {
             None => None,
             Some(factors) => {
                 let with = |bound: Bound| {
                     let model = bound.of(model);
-                    let response = self.solve(&model)?;
-                    Ok(self.judged(model, bound.friction_factor, response))
+                    let response = self.solve(&model, go_on)?;
+                    self.judged(model, bound.friction_factor, response, go_on)
                 };
                 let [lower, _, upper] = factors.all();
                 Some([with(lower)?, with(upper)?])
             }
         };
         let history = nominal.response.history.as_ref().filter(|_| floor_spectra);
-        let floor_spectra = history.map(|history| self::floor_spectra(&self.bare, history));
+        let of = |history| self::floor_spectra(&self.bare, history, go_on);
+        let floor_spectra = history.map(of).transpose()?;
         Ok(Outcome { nominal, bounds, floor_spectra })
     }
 
-    fn solve(&self, model: &Model) -> Result<Response, SolveError> {
-        solver::solve(model, &self.motion, self.analysis.method)
+    fn solve(&self, model: &Model, go_on: GoOn<'_>) -> Result<Response, SolveError> {
+        solver::solve_while(model, &self.motion, self.analysis.method, go_on)
     }
 
-    fn judged(&self, model: Model, friction_factor: f64, response: Response) -> Judged {
-        let certificate = check::check(&model, &self.motion, &response);
-        Judged { friction_factor, model, response, certificate }
+    fn judged(
+        &self,
+        model: Model,
+        friction_factor: f64,
+        response: Response,
+        go_on: GoOn<'_>,
+    ) -> Result<Judged, SolveError> {
+        let certificate = check::check_while(&model, &self.motion, &response, go_on)?;
+        Ok(Judged { friction_factor, model, response, certificate })
     }
 }
 
@@ -176,23 +204,37 @@ fn of_tail(analysis: &Analysis, error: &MotionError) -> InputError {
 
 /// Spectra of table, block and floors; what the knots keep is taken as linear between them, with
 /// both sides of every jump.
-fn floor_spectra(motion: &GroundMotion, history: &History) -> FloorSpectra {
+fn floor_spectra(
+    motion: &GroundMotion,
+    history: &History,
+    go_on: GoOn<'_>,
+) -> Result<FloorSpectra, Stopped> {
     let periods_s: Vec<f64> =
         (0..120).map(|i| 0.02 * libm::pow(200.0, f64::from(i) / 119.0)).collect();
-    let of = |times_s: &[f64], acceleration: &[f64]| -> Vec<f64> {
-        let spectrum = spectrum(times_s, acceleration, &periods_s, &[FLOOR_SPECTRUM_DAMPING]);
-        let Ok(spectrum) = spectrum else { return Vec::new() };
-        spectrum.of_damping(0).iter().map(|ordinates| ordinates.sa_m_per_s2).collect()
+    let of = |times_s: &[f64], acceleration: &[f64]| -> Result<Vec<f64>, Stopped> {
+        let together = if times_s.len() < LONG_HISTORY { periods_s.len() } else { 1 };
+        let mut all = Vec::new();
+        for periods_s in periods_s.chunks(together) {
+            if go_on().is_break() {
+                return Err(Stopped);
+            }
+            let spectrum = spectrum(times_s, acceleration, periods_s, &[FLOOR_SPECTRUM_DAMPING]);
+            let Ok(spectrum) = spectrum else { return Ok(Vec::new()) };
+            all.extend(spectrum.of_damping(0).iter().map(|ordinates| ordinates.sa_m_per_s2));
+        }
+        Ok(all)
     };
     let n = history.storeys;
     let storey = |i: usize| -> Vec<f64> {
         history.storey_acceleration_m_per_s2.iter().skip(i).step_by(n).copied().collect()
     };
-    FloorSpectra {
+    Ok(FloorSpectra {
         damping_ratio: FLOOR_SPECTRUM_DAMPING,
-        table_m_per_s2: of(motion.times_s(), motion.horizontal_m_per_s2()),
-        block_m_per_s2: of(&history.time_s, &history.block_acceleration_m_per_s2),
-        storeys_m_per_s2: (0..n).map(|i| of(&history.time_s, &storey(i))).collect(),
+        table_m_per_s2: of(motion.times_s(), motion.horizontal_m_per_s2())?,
+        block_m_per_s2: of(&history.time_s, &history.block_acceleration_m_per_s2)?,
+        storeys_m_per_s2: (0..n)
+            .map(|i| of(&history.time_s, &storey(i)))
+            .collect::<Result<_, _>>()?,
         periods_s,
-    }
+    })
 }

@@ -16,6 +16,7 @@ use super::judge::{STILL, between};
 use super::law::Dips;
 use super::structure::{Phase, Structure, excess, larger};
 use super::{Certificate, ClosestCall};
+use crate::error::{Pulse, Stopped};
 use crate::friction::Direction;
 use crate::model::{Contents, Model};
 use crate::motion::GroundMotion;
@@ -77,6 +78,9 @@ pub(super) struct Judge<'a> {
     /// How the slip went that has led to the present knot, and `s` where it began.
     arriving: Option<(Sliding, f64)>,
     own: Own,
+    /// Asks whether to go on, after so many units of work a step.
+    pulse: Pulse<'a>,
+    units: u32,
 }
 
 /// Judges everything; `None` where something stored is not finite.
@@ -85,8 +89,8 @@ pub(super) fn certificate(
     motion: &GroundMotion,
     (response, history): (&Response, &History),
     structure: &Structure,
-    bound: f64,
-) -> Option<Certificate> {
+    (bound, pulse): (f64, Pulse<'_>),
+) -> Result<Option<Certificate>, Stopped> {
     let end_s = history.time_s.last().copied().unwrap_or(0.0);
     let mut judge = Judge {
         model,
@@ -110,6 +114,8 @@ pub(super) fn certificate(
         dips: Dips::new(0.0),
         arriving: None,
         own: Own::new(model, history),
+        pulse,
+        units: 64 * (1 + model.storeys() + model.devices().contents.len()) as u32,
     };
     judge.run(bound)
 }
@@ -255,9 +261,11 @@ impl<'a> Judge<'a> {
         own + self.slider.rate(normal / self.structure.block_kg, speed)
     }
 
-    fn run(&mut self, bound: f64) -> Option<Certificate> {
+    fn run(&mut self, bound: f64) -> Result<Option<Certificate>, Stopped> {
         let knots = self.h.len();
-        self.scales()?;
+        if self.scales().is_none() {
+            return Ok(None);
+        }
         self.start();
         let (x, v) = self.stored(0);
         let initial_j = self.kinetic(&v) + self.strain(&x);
@@ -277,11 +285,11 @@ impl<'a> Judge<'a> {
             self.knot(k);
             arrives = k + 1 < knots && self.h.time_s[k + 1] > self.h.time_s[k];
             if arrives {
-                self.interval(k);
+                self.interval(k)?;
             }
         }
         self.close(self.modes(knots - 1)[0]);
-        Some(self.finish(bound))
+        Ok(Some(self.finish(bound)))
     }
 
     fn finish(&mut self, bound: f64) -> Certificate {
@@ -633,7 +641,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Integrates from the knot `k` to the next.
-    fn interval(&mut self, k: usize) {
+    fn interval(&mut self, k: usize) -> Result<(), Stopped> {
         let modes = self.modes(k).to_vec();
         let b = self.between_knots(k, &modes);
         let (mut x, mut v) = self.stored(k);
@@ -649,6 +657,7 @@ impl<'a> Judge<'a> {
             let steps = (rate * (piece.to_s - from_s) / MAX_TURN).ceil().clamp(1.0, MOST_STEPS);
             let step_s = (piece.to_s - from_s) / steps;
             for j in 0..steps as usize {
+                self.pulse.beat(self.units)?;
                 let loads = [j, j + 1].map(|j| between(piece.loads, j as f64 / steps));
                 let at_s = from_s + j as f64 * step_s;
                 self.step((k, &b), at_s, step_s, loads, (&mut x, &mut v), &mut fastest);
@@ -681,6 +690,7 @@ impl<'a> Judge<'a> {
                 self.displacement[0] = larger(self.displacement[0], own - stored);
             }
         }
+        Ok(())
     }
 
     /// Whether the block rests against a rigid stop.

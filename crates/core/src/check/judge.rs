@@ -11,6 +11,7 @@ use super::law::{Dips, Law};
 use super::step::{Look, Spread};
 use super::structure::{Phase, Structure, excess, larger};
 use super::{Certificate, ClosestCall};
+use crate::error::{Pulse, Stopped, UNWATCHED};
 use crate::friction::Direction;
 use crate::model::Model;
 use crate::motion::GroundMotion;
@@ -88,6 +89,9 @@ pub(super) struct Judge<'a> {
     pub(super) before: Vec<f64>,
     /// `(x, v)` of the knot last looked at.
     stored: Vec<f64>,
+    /// Asks whether to go on, after so many units of work a step.
+    pulse: Pulse<'a>,
+    units: u32,
 }
 
 impl<'a> Judge<'a> {
@@ -96,6 +100,7 @@ impl<'a> Judge<'a> {
         motion: &'a GroundMotion,
         (response, history): (&'a Response, &'a History),
         structure: &'a Structure,
+        pulse: Pulse<'a>,
     ) -> Self {
         let d = structure.degrees();
         let end_s = history.time_s.last().copied().unwrap_or(0.0);
@@ -127,12 +132,14 @@ impl<'a> Judge<'a> {
             state: vec![0.0; 2 * d],
             before: vec![0.0; 2 * d],
             stored: vec![0.0; 2 * d],
+            pulse,
+            units: 32 * d as u32,
         }
     }
 
     /// Looks at every knot by itself: the balance of forces, scales, energies and outputs. `None`
     /// where something stored is not finite.
-    fn knots(&mut self) -> Option<Knots> {
+    fn knots(&mut self) -> Result<Option<Knots>, Stopped> {
         let h = self.history;
         let mut stop = Vec::new();
         if self.model.stop().is_some() {
@@ -142,10 +149,13 @@ impl<'a> Judge<'a> {
         }
         let mut worst = Worst::NONE;
         let mut knots = Knots::new(h.len(), self.peaks.outputs.len());
+        let mut pulse = core::mem::replace(&mut self.pulse, Pulse::new(UNWATCHED));
         let (bench, outputs) = (self.bench(&stop), &self.peaks.outputs);
-        dispatch!(self.level, simd => bench.knots(simd, outputs, &mut worst, &mut knots));
+        let to = (&mut knots, &mut pulse);
+        dispatch!(self.level, simd => bench.knots(simd, outputs, &mut worst, to))?;
+        self.pulse = pulse;
         if worst.broken.0.iter().any(|x| x.is_nan()) {
-            return None;
+            return Ok(None);
         }
         self.peaks.attained.copy_from_slice(&knots.attained);
         let Sizes { place, storey, rate, table } = worst.sizes;
@@ -170,7 +180,7 @@ impl<'a> Judge<'a> {
                 self.figures.excess = larger(self.figures.excess, broken);
             }
         }
-        Some(knots)
+        Ok(Some(knots))
     }
 
     /// What the lanes need.
@@ -190,15 +200,15 @@ impl<'a> Judge<'a> {
     }
 
     /// Judges everything; `None` where something stored is not finite.
-    pub(super) fn run(mut self, bound: f64) -> Option<Certificate> {
-        let mut all = self.knots()?;
+    pub(super) fn run(mut self, bound: f64) -> Result<Option<Certificate>, Stopped> {
+        let Some(mut all) = self.knots()? else { return Ok(None) };
         let h = self.history;
         let (times, knots) = (&h.time_s, h.len());
         self.load_state(0);
         self.start();
         let initial_j = self.structure.kinetic(self.v()) + self.structure.strain(self.x());
         self.energy.start(initial_j, self.model.total_mass_kg() * self.jolt * self.jolt, knots);
-        let told = self.side_by_side(&all);
+        let told = self.side_by_side(&all)?;
         self.dips = self.fresh_dips(0);
         let mut arrives = false;
         for k in 0..knots {
@@ -209,8 +219,8 @@ impl<'a> Judge<'a> {
             let leaves = k + 1 < knots && times[k + 1] > times[k];
             if leaves {
                 match &told[k] {
-                    Some(told) => self.recall(k, told),
-                    None => self.interval(k, Look::All),
+                    Some(told) => self.recall(k, told)?,
+                    None => self.interval(k, Look::All)?,
                 }
             } else if !arrives {
                 self.alone(k);
@@ -222,12 +232,12 @@ impl<'a> Judge<'a> {
         all.strain_j.truncate(knots);
         self.energy.history.kinetic_j = all.kinetic_j;
         self.energy.history.strain_j = all.strain_j;
-        Some(self.certificate(bound))
+        Ok(Some(self.certificate(bound)))
     }
 
     /// Judges side by side all intervals of one step in which no stop acts and the loads are linear;
     /// looks for peaks where there may be some.
-    fn side_by_side(&mut self, knots: &Knots) -> Vec<Option<Told<f64>>> {
+    fn side_by_side(&mut self, knots: &Knots) -> Result<Vec<Option<Told<f64>>>, Stopped> {
         let h = self.history;
         let mut told = vec![None; h.len()];
         let mut worst = Worst::NONE;
@@ -251,15 +261,15 @@ impl<'a> Judge<'a> {
             let group = &mut groups[which][usize::from(even)];
             if group.push(&interval) {
                 let map = maps[which].as_ref().filter(|_| even);
-                self.flush(group, map, knots, (&mut work, &mut worst), &mut told);
+                self.flush(group, map, knots, (&mut work, &mut worst), &mut told)?;
             }
         }
         for group in groups.iter_mut().flatten().filter(|group| group.count > 0) {
-            self.flush(group, None, knots, (&mut work, &mut worst), &mut told);
+            self.flush(group, None, knots, (&mut work, &mut worst), &mut told)?;
         }
         self.figures.take(&worst);
         self.still = (STILL * worst.sliding.largest()).max(self.still);
-        told
+        Ok(told)
     }
 
     /// The interval from a knot if it is one step under a linear load, and no stop acts in it.
@@ -321,8 +331,9 @@ impl<'a> Judge<'a> {
         knots: &Knots,
         (work, worst): (&mut Work, &mut Worst),
         told: &mut [Option<Told<f64>>],
-    ) {
-        let Some(spread) = &self.spreads[group.phase as usize] else { return };
+    ) -> Result<(), Stopped> {
+        self.pulse.beat(self.units)?;
+        let Some(spread) = &self.spreads[group.phase as usize] else { return Ok(()) };
         group.fill();
         let (bounds, longest_s) = (&spread.leaving[..], spread.longest_s);
         let reach = Reach { bounds, longest_s, attained: &self.peaks.attained, knots };
@@ -334,14 +345,15 @@ impl<'a> Judge<'a> {
             let of_lane = work.told.lane(lane);
             told[k] = Some(of_lane);
             if of_lane.passes > 0.0 {
-                self.interval(k, Look::Peaks);
+                self.interval(k, Look::Peaks)?;
             }
         }
         group.count = 0;
+        Ok(())
     }
 
     /// Takes up what was told of an interval; looks again where a decision may have been close.
-    fn recall(&mut self, k: usize, told: &Told<f64>) {
+    fn recall(&mut self, k: usize, told: &Told<f64>) -> Result<(), Stopped> {
         let h = self.history;
         let (mode, from_s, to_s) = (h.mode[k], h.time_s[k], h.time_s[k + 1]);
         self.energy.spend(told.work, told.size, told.damping, told.friction);
@@ -359,8 +371,7 @@ impl<'a> Judge<'a> {
             }
         };
         if wrong || told.low < floor {
-            self.interval(k, Look::Law);
-            return;
+            return self.interval(k, Look::Law);
         }
         let [first, last] = told.ends;
         if first.min(last) < floor {
@@ -369,6 +380,7 @@ impl<'a> Judge<'a> {
             self.dips.feed(to_s, last);
         }
         self.dips.see(told.fastest);
+        Ok(())
     }
 
     /// Decisions are looked at from the knot `k` to the next, and perhaps were not before.
@@ -599,7 +611,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Integrates from the knot `k` to the next.
-    fn interval(&mut self, k: usize, look: Look) {
+    fn interval(&mut self, k: usize, look: Look) -> Result<(), Stopped> {
         let mode = self.history.mode[k];
         let contact = self.contact(k);
         let phase = match (mode, contact) {
@@ -631,6 +643,7 @@ impl<'a> Judge<'a> {
             let steps = self.scheme.begin(phase, piece.to_s - from_s);
             let step_s = (piece.to_s - from_s) / steps as f64;
             for j in 0..steps {
+                self.pulse.beat(self.units)?;
                 let loads = [j, j + 1].map(|j| between(piece.loads, j as f64 / steps as f64));
                 self.step((mode, contact), from_s + j as f64 * step_s, step_s, loads, look);
             }
@@ -640,7 +653,7 @@ impl<'a> Judge<'a> {
                 continue;
             }
             if look == Look::Peaks {
-                return;
+                return Ok(());
             }
             self.load_state(k + 1);
             let end = core::mem::take(&mut self.state);
@@ -657,7 +670,7 @@ impl<'a> Judge<'a> {
                 self.figures.excess = larger(self.figures.excess, self.astray[1]);
             }
             self.state = end;
-            return;
+            return Ok(());
         }
     }
 }
@@ -742,9 +755,10 @@ mod tests {
             let structure = Structure::new(&model);
             let of = |level| {
                 let history = response.history.as_ref().unwrap();
-                let mut judge = Judge::new(&model, &motion, (&response, history), &structure);
+                let (given, pulse) = ((&response, history), Pulse::new(UNWATCHED));
+                let mut judge = Judge::new(&model, &motion, given, &structure, pulse);
                 judge.level = level;
-                judge.run(1e-10).unwrap()
+                judge.run(1e-10).unwrap().unwrap()
             };
             let first = of(levels[0]);
             assert!(first.equilibrium_residual > 0.01 && first.equilibrium_residual.is_finite());

@@ -10,6 +10,7 @@ use fearless_simd::{Level, dispatch, f64x8};
 use super::collocation::{MOST_PASSES, NODES, Rule};
 use super::demands::Outputs;
 use super::structure::{Phase, StoreyDamping, Structure};
+use crate::error::{Pulse, Stopped};
 use crate::response::{History, Mode};
 
 /// Knots or intervals side by side.
@@ -284,13 +285,14 @@ impl Bench<'_> {
         simd: S,
         outputs: &Outputs,
         worst: &mut Worst,
-        knots: &mut Knots,
-    ) {
+        (knots, pulse): (&mut Knots, &mut Pulse<'_>),
+    ) -> Result<(), Stopped> {
         let count = self.structure.masses_kg.len();
         let mut storeys = Storeys::new(count);
         let mut attained = vec![Eight::ZERO; outputs.len()];
         let last = self.history.len() - 1;
         for from in (0..=last).step_by(LANES) {
+            pulse.beat(16 * (1 + count as u32))?;
             let places = Places::new(core::array::from_fn(|lane| (from + lane).min(last)));
             // One storey gets loops of its own.
             let (n, at) = (count, (from, &places));
@@ -303,6 +305,7 @@ impl Bench<'_> {
         for (attained, lanes) in knots.attained.iter_mut().zip(&attained) {
             *attained = lanes.largest();
         }
+        Ok(())
     }
 
     #[inline(always)]

@@ -92,6 +92,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
             if !(self.x[0].is_finite() && self.x[1].is_finite()) {
                 return Err(SolveError::NotFinite { time_s });
             }
+            self.pulse.beat(self.units[1])?;
             at_s = match self.mode {
                 Mode::Stick => self.stick_segment(stretch, at_s),
                 Mode::Slip(direction) => self.slip_segment(stretch, direction, at_s),

@@ -10,7 +10,7 @@ use super::recorder::Recorder;
 use super::run::{Outcome, Run, Sliding};
 use super::tables::{self, Tables};
 use super::{stepping, summary};
-use crate::error::SolveError;
+use crate::error::{GoOn, Pulse, SolveError, UNWATCHED};
 use crate::friction::Law;
 use crate::linear::lanes::{Many, One, Width};
 use crate::model::{Model, Stop, StopKind};
@@ -138,7 +138,7 @@ impl Prepared {
             &own
         };
         let ground = (motion.motion(), &*motion.sampling);
-        solve(instructions, &self.model, tables, ground, with_history)
+        solve(instructions, &self.model, tables, ground, (with_history, UNWATCHED))
     }
 }
 
@@ -147,10 +147,11 @@ pub(super) fn solve_once(
     model: &Model,
     motion: &GroundMotion,
     with_history: bool,
+    go_on: GoOn<'_>,
 ) -> Result<Response, SolveError> {
     let sampling = Sampling::new(motion);
     let tables = tables_of(model, sampling.dt_s);
-    solve(InstructionSet::best(), model, &tables, (motion, &sampling), with_history)
+    solve(InstructionSet::best(), model, &tables, (motion, &sampling), (with_history, go_on))
 }
 
 fn tables_of(model: &Model, dt_s: Option<f64>) -> Tables {
@@ -176,7 +177,7 @@ fn solve(
     model: &Model,
     tables: &Tables,
     (motion, sampling): (&GroundMotion, &Sampling),
-    with_history: bool,
+    (with_history, go_on): (bool, GoOn<'_>),
 ) -> Result<Response, SolveError> {
     let rate = tables.rate_rad_per_s();
     let masses = (1 + model.storeys()) as f64;
@@ -203,19 +204,25 @@ fn solve(
     };
     let law = model.law(varying.is_some());
     if !tables::serve(model, &law, varying.is_some()) {
-        return stepped(model, &law, motion, ground, with_history);
+        return stepped(model, &law, motion, ground, (with_history, go_on));
     }
     // Away from rigid stops they change nothing.
     let away = Law { rigid: None, ..law.clone().under(model.normal_n()) };
     let recorder =
         with_history.then(|| Recorder::new(&tables.stick.system, &away, motion.len(), slope));
-    let (mut outcome, recorder) =
-        instructions.run(Analysis { model, tables, law: &away, ground, recorder })?;
+    let (mut outcome, recorder) = instructions.run(Analysis {
+        model,
+        tables,
+        law: &away,
+        ground,
+        recorder,
+        pulse: Pulse::new(go_on),
+    })?;
     if let Some(Stop { gap_m: [positive, negative], kind: StopKind::Rigid { .. } }) = model.stop() {
         let within = |gap_m: &Option<f64>, s: f64| gap_m.is_none_or(|gap_m| s < gap_m);
         let Sliding { max_m, min_m, .. } = outcome.sliding;
         if !(within(positive, max_m) && within(negative, -min_m)) {
-            return stepped(model, &law, motion, ground, with_history);
+            return stepped(model, &law, motion, ground, (with_history, go_on));
         }
         outcome.stop = Some(StopDemands::default());
     }
@@ -238,10 +245,10 @@ fn stepped(
     law: &Law,
     motion: &GroundMotion,
     ground: Ground<'_>,
-    with_history: bool,
+    (with_history, go_on): (bool, GoOn<'_>),
 ) -> Result<Response, SolveError> {
     let contact_loss_s = contact_loss_s(motion.times_s(), ground.normal);
-    let stepped = stepping::solve(model, law, ground, with_history)?;
+    let stepped = stepping::solve(model, law, ground, (with_history, go_on))?;
     let mut warnings = summary::warnings(model, &stepped.outcome.events, &contact_loss_s);
     warnings.extend(stepped.warnings);
     let mut demands = summary::demands(model, &stepped.outcome);
@@ -293,6 +300,7 @@ struct Analysis<'a> {
     law: &'a Law,
     ground: Ground<'a>,
     recorder: Option<Recorder>,
+    pulse: Pulse<'a>,
 }
 
 impl Job for Analysis<'_> {
@@ -306,8 +314,9 @@ impl Job for Analysis<'_> {
             width: W,
             job: Analysis<'_>,
         ) -> Result<(Outcome, Option<Recorder>), SolveError> {
-            let Analysis { model, tables, law, ground, recorder } = job;
-            let mut run = Run::new((simd, width), model, (tables, law), ground, recorder);
+            let Analysis { model, tables, law, ground, recorder, pulse } = job;
+            let laws = (tables, law);
+            let mut run = Run::new((simd, width), model, laws, ground, (recorder, pulse));
             run.go()?;
             Ok(run.outcome())
         }

@@ -12,7 +12,7 @@ use super::outputs::{Group, output};
 use super::peaks::Peaks;
 use super::recorder::{Knot, Recorder};
 use super::tables::{Batch, Phase, Tables};
-use crate::error::SolveError;
+use crate::error::{Pulse, SolveError};
 use crate::friction::{
     Affine, Contact, Direction, EXITS, Exit, Fading, Hold, Law, Memory, Reached, Restraint,
 };
@@ -221,6 +221,10 @@ pub(super) struct Run<'a, S, W> {
     pub(super) ground: Ground<'a>,
     /// Where a history is wanted.
     pub(super) recorder: Option<Recorder>,
+    /// Asks whether to go on.
+    pub(super) pulse: Pulse<'a>,
+    /// Units of work for that: a batch of samples, and a segment between two events.
+    pub(super) units: [u32; 2],
     /// `s, ṡ, η, η̇`, padded.
     pub(super) x: Vec<f64>,
     /// A state ahead.
@@ -260,7 +264,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         model: &Model,
         (tables, law): (&'a Tables, &'a Law),
         ground: Ground<'a>,
-        recorder: Option<Recorder>,
+        (recorder, pulse): (Option<Recorder>, Pulse<'a>),
     ) -> Self {
         let system = &tables.stick.system;
         let initial = model.initial();
@@ -290,6 +294,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             law,
             ground,
             recorder,
+            pulse,
+            units: [4, 32].map(|units| units * (1 + n as u32)),
             next: vec![0.0; stride],
             values: vec![Eight::ZERO; groups],
             series: Series::new(system, tables.orders),
@@ -330,6 +336,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             }
             let end = self.ground.sampling.regular_end(sample, last);
             sample = self.screened(sample, end);
+            self.pulse.beat(self.units[0])?;
             if sample < last && times_s[sample + 1] > times_s[sample] {
                 self.step_events(sample)?;
                 sample += 1;

@@ -73,6 +73,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let batch_s = BATCH as f64 * batch.dt_s;
         let mut known = 0;
         while sample + BATCH <= end {
+            if self.pulse.beat(self.units[0]).is_err() {
+                break;
+            }
             let [least_normal, most_normal] = self.ground.normal.range(simd, sample);
             if varying && !(least_normal > 0.0) {
                 break;
@@ -159,6 +162,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let constant = row.of_stop * stop + row.constant;
         let mut known = 0;
         while sample + BATCH <= end {
+            if self.pulse.beat(self.units[0]).is_err() {
+                break;
+            }
             let a = self.window(sample);
             let [normal, _] = self.ground.normal.range(simd, sample);
             phase.system.amplitudes(&self.x[..self.width.components()], &mut self.amplitudes);

@@ -15,7 +15,7 @@ use super::event::{EVENTS_PER_INTERVAL_LIMIT, fitting, less_zero};
 use super::ground::{Ground, Stretch};
 use super::run::{Outcome, Sliding, Start, Stopping, Surfaces};
 use super::tables::system_of;
-use crate::error::SolveError;
+use crate::error::{GoOn, Pulse, SolveError};
 use crate::friction::{
     Coefficient, Direction, Exit, Hold, Law, Memory, Reached, Restraint, SlipForce,
 };
@@ -41,9 +41,9 @@ pub(super) fn solve(
     model: &Model,
     law: &Law,
     ground: Ground<'_>,
-    with_history: bool,
+    (with_history, go_on): (bool, GoOn<'_>),
 ) -> Result<Stepped, SolveError> {
-    let mut run = Stepping::new(model, law, ground, with_history);
+    let mut run = Stepping::new(model, law, ground, (with_history, Pulse::new(go_on)));
     run.go()?;
     Ok(run.stepped())
 }
@@ -101,10 +101,18 @@ struct Stepping<'a> {
     peaks: Peaks,
     surfaces: Surfaces,
     history: Option<History>,
+    /// Asks whether to go on, after so many units of work a segment.
+    pulse: Pulse<'a>,
+    units: u32,
 }
 
 impl<'a> Stepping<'a> {
-    fn new(model: &'a Model, law: &'a Law, ground: Ground<'a>, with_history: bool) -> Self {
+    fn new(
+        model: &'a Model,
+        law: &'a Law,
+        ground: Ground<'a>,
+        (with_history, pulse): (bool, Pulse<'a>),
+    ) -> Self {
         let body = Body::new(model, &system_of(model));
         let initial = model.initial();
         let count = body.contents.len();
@@ -158,6 +166,8 @@ impl<'a> Stepping<'a> {
             first_impact_s: None,
             surfaces: Surfaces::default(),
             history,
+            pulse,
+            units: 128 * (1 + model.storeys() + count) as u32,
         }
     }
 
@@ -342,6 +352,7 @@ impl<'a> Stepping<'a> {
             if at_s >= stretch.to_s {
                 return Ok(());
             }
+            self.pulse.beat(self.units)?;
             at_s = self.segment(stretch, at_s)?;
             if at_s >= stretch.to_s && self.pending.is_none() {
                 return Ok(());

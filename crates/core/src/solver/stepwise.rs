@@ -6,7 +6,7 @@ use super::recorder::{Recorder, Stored};
 use super::run::{Outcome, Sliding};
 use super::summary;
 use super::tables::system_of;
-use crate::error::SolveError;
+use crate::error::{GoOn, Pulse, SolveError};
 use crate::friction::{Contact, Direction, Law, Memory};
 use crate::linear::System;
 use crate::linear::lanes::{dot, greatest};
@@ -38,6 +38,7 @@ pub(super) fn solve(
     model: &Model,
     motion: &GroundMotion,
     tolerance_m_per_s2: f64,
+    go_on: GoOn<'_>,
 ) -> Result<Response, SolveError> {
     if model.stop().is_some() {
         return Err(SolveError::NotTaken { method: "stepwise method", what: "a stop" });
@@ -77,6 +78,7 @@ pub(super) fn solve(
     let mut recorder = Recorder::new(&system, &law, motion.len(), slope);
     let mut peaks = vec![0.0; output::drift(n, n.max(1)).max(output::STOREYS + 3 * n)];
     let mut step = program.start(model);
+    let mut pulse = Pulse::new(go_on);
     let mut sliding = Sliding::new(step.s);
     let mut events = Vec::new();
     let (mut total, mut most) = (0_u64, 0);
@@ -116,6 +118,7 @@ pub(super) fn solve(
     note(0, &step, step.mode, true);
     for sample in 1..motion.len() {
         let (next, iterations) = program.advance(&step, sample)?;
+        pulse.beat(8 * iterations * (1 + n as u32))?;
         total += u64::from(iterations);
         most = most.max(iterations);
         let time_s = program.times_s[sample];

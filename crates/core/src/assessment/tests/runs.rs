@@ -1,6 +1,7 @@
 //! Spectra, incremental dynamic analyses, fragilities and designs without a file: each run is that of
 //! its model and record alone, on any threads, and the follower stops them.
 
+use core::cell::Cell;
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicU64, Ordering};
 
@@ -9,10 +10,11 @@ use crate::assessment::design::{DesignRequest, Target, run_design};
 use crate::assessment::ida::{IdaLevels, IdaRequest, run_ida};
 use crate::assessment::models::Models;
 use crate::assessment::observed::{Data, FitTo, FragilityRequest, run_fragility};
+use crate::assessment::single::Job;
 use crate::assessment::spectrum::{SpectrumRequest, run_spectrum};
 use crate::assessment::suite::{Scaling, Suite, SuiteRecord};
-use crate::error::Stopped;
-use crate::input::Bound;
+use crate::error::{SolveError, Stopped};
+use crate::input::{self, Bound};
 use crate::motion::GroundMotion;
 use crate::motion::intensity::Measure;
 use crate::response::demand_values;
@@ -280,4 +282,60 @@ fn exact_bounds_of_a_spectrum_are_groups() {
     assert_eq!(both.curves[0].singles[1][4][2], alone.peak_sliding_displacement_m);
     let Cells::Texts(friction) = &both.rows.find("friction").unwrap().cells else { panic!() };
     assert_eq!((friction[0].as_str(), friction[29].as_str()), ("nominal", "upper"));
+}
+
+/// One long analysis on a sine of so many samples.
+fn long(slider: &str, more: &str, samples: usize) -> Job {
+    let text = format!("[block]\nmass = \"10 t\"\n[slider]\n{slider}\n{more}");
+    let analysis = input::parse("m.toml", &text, &[]).unwrap();
+    let wave = |k: usize| 3.0 * libm::sin(0.07 * k as f64);
+    let motion = GroundMotion::evenly_spaced(0.01, (0..samples).map(wave).collect(), None);
+    Job::new(analysis, motion.unwrap(), Vec::new()).unwrap()
+}
+
+#[test]
+fn exact_one_analysis_is_stopped_wherever_it_is() {
+    let storeys = "[[storey]]\nmass = \"5 t\"\nstiffness = \"9 kN/mm\"\ndamping_ratio = 0.05\n";
+    let contents =
+        "[[contents]]\nfloor = 0\nmass = \"1 kg\"\nstatic_friction = 0.2\nkinetic_friction = 0.2\n";
+    let rate = "kinetic_friction = { slow = 0.04, fast = 0.08, rate = \"25 s/m\" }";
+    for (what, job) in [
+        ("stick", long("static_friction = 0.9\nkinetic_friction = 0.9", storeys, 600_000)),
+        ("events", long("static_friction = 0.2\nkinetic_friction = 0.1", "", 500_000)),
+        (
+            "storeys",
+            long("static_friction = 0.2\nkinetic_friction = 0.1", &storeys.repeat(20), 4000),
+        ),
+        ("rate", long(&format!("static_friction = 0.05\n{rate}"), contents, 2000)),
+        (
+            "stepwise",
+            long(
+                "static_friction = 0.2\nkinetic_friction = 0.1\n[analysis]\nmethod = \"stepwise\"",
+                storeys,
+                20_000,
+            ),
+        ),
+        ("floor spectra", long("static_friction = 0.9\nkinetic_friction = 0.9", "", 110_000)),
+    ] {
+        let spectra = what == "floor spectra";
+        let asked = Cell::new(0);
+        let ask = |limit: u32| {
+            asked.set(asked.get() + 1);
+            if asked.get() < limit { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        };
+        let whole = job.run_while(spectra, &|| ask(u32::MAX)).expect(what);
+        let times = asked.get();
+        assert!(times > if spectra { 200 } else { 3 }, "{what}: asked {times} times");
+        // Being asked changes nothing.
+        let alone = job.run(spectra).expect(what);
+        assert_eq!(whole.nominal.response, alone.nominal.response, "{what}");
+        assert_eq!(whole.nominal.certificate, alone.nominal.certificate, "{what}");
+        assert_eq!(whole.floor_spectra, alone.floor_spectra, "{what}");
+        for limit in [1, times / 2, times] {
+            asked.set(0);
+            let stopped = job.run_while(spectra, &|| ask(limit)).err();
+            assert_eq!(stopped, Some(SolveError::Stopped(Stopped)), "{what}");
+            assert_eq!(asked.get(), limit, "{what}");
+        }
+    }
 }
