@@ -242,8 +242,9 @@ impl<'a> Pulse<'a> {
     /// Units of work between two questions; a unit is some ten nanoseconds.
     const UNITS: u32 = 1 << 18;
 
+    /// Asks for the first time with the first work.
     pub(crate) fn new(go_on: GoOn<'a>) -> Self {
-        Self { go_on, left: Self::UNITS, stopped: false }
+        Self { go_on, left: 0, stopped: false }
     }
 
     /// So many units are done.

@@ -6,7 +6,7 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slipstick::assessment::single::{Job, Outcome};
-use slipstick::error::GoOn;
+use slipstick::error::{GoOn, SolveError, Stopped};
 use slipstick::response::History;
 use slipstick_files::{JobError, OpenJob};
 use slipstick_report::{DisplayUnits, FileNote, InputText, Report, Summary};
@@ -35,6 +35,9 @@ pub(crate) fn run(
                 OpenJob { name, job, loaded: loaded.clone() }
             }
         };
+        if go_on().is_break() {
+            return Err(SolveError::Stopped(Stopped).into());
+        }
         let (outcome, summary) = job.run_while(floor_spectra, go_on)?;
         Ok(Response { job, outcome, summary })
     };

@@ -239,7 +239,7 @@ impl<'a> Judge<'a> {
     /// looks for peaks where there may be some.
     fn side_by_side(&mut self, knots: &Knots) -> Result<Vec<Option<Told<f64>>>, Stopped> {
         let h = self.history;
-        let mut told = vec![None; h.len()];
+        let mut told = Vec::with_capacity(h.len());
         let mut worst = Worst::NONE;
         let mut work = Work::new(self.structure.degrees());
         let mut groups =
@@ -247,6 +247,7 @@ impl<'a> Judge<'a> {
         let mut maps = [None, None];
         let even_s = self.even_s;
         for k in 0..h.len().saturating_sub(1) {
+            told.push(None);
             let length_s = h.time_s[k + 1] - h.time_s[k];
             if !(length_s > 0.0) {
                 continue;
@@ -267,6 +268,7 @@ impl<'a> Judge<'a> {
         for group in groups.iter_mut().flatten().filter(|group| group.count > 0) {
             self.flush(group, None, knots, (&mut work, &mut worst), &mut told)?;
         }
+        told.resize(h.len(), None);
         self.figures.take(&worst);
         self.still = (STILL * worst.sliding.largest()).max(self.still);
         Ok(told)
