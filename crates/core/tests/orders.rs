@@ -10,7 +10,8 @@ use common::compare::{by_reference, of_response};
 use common::random::Random;
 use common::sketch::Sketch;
 use common::values::values;
-use slipstick::model::Model;
+use slipstick::friction::{RateCurve, RateLaw};
+use slipstick::model::{Devices, Model, Slider, Stop, StopKind};
 use slipstick::motion::GroundMotion;
 use slipstick::solver::{exact, stepwise};
 
@@ -23,7 +24,14 @@ fn subdivided(motion: &GroundMotion, parts: usize) -> GroundMotion {
         let (i, x) = (k / parts, (k % parts) as f64 / parts as f64);
         if x == 0.0 { a[i] } else { a[i] + (a[i + 1] - a[i]) * x }
     };
-    GroundMotion::evenly_spaced(dt_s, (0..=count).map(value).collect(), None).expect("a motion")
+    let up = motion.vertical_m_per_s2().map(|up| {
+        let at = |k: usize| {
+            let (i, x) = (k / parts, (k % parts) as f64 / parts as f64);
+            if x == 0.0 { up[i] } else { up[i] + (up[i + 1] - up[i]) * x }
+        };
+        (0..=count).map(at).collect()
+    });
+    GroundMotion::evenly_spaced(dt_s, (0..=count).map(value).collect(), up).expect("a motion")
 }
 
 /// A block with one storey under straight lines 0.16 s long, sliding or held.
@@ -44,11 +52,19 @@ fn mock_up(random: &mut Random, slides: bool) -> Sketch {
 /// the peak, with every straight line in so many parts: of the sliding displacement, or of the
 /// storey's where nothing slides.
 fn stepwise_errors(parts: &[usize], slides: bool) -> Vec<f64> {
+    errors_of(parts, slides, |index| mock_up(&mut Random::new(index), slides).build())
+}
+
+fn errors_of(
+    parts: &[usize],
+    slides: bool,
+    system: impl Fn(u64) -> (Model, GroundMotion),
+) -> Vec<f64> {
     let (last, peak) = if slides { ("final_z", "peak_abs_z") } else { ("final_y", "peak_abs_y") };
     let mut sums = vec![0.0; parts.len()];
     let mut systems = 0;
     for index in 0..80 {
-        let (model, motion) = mock_up(&mut Random::new(index), slides).build();
+        let (model, motion) = system(index);
         let wanted = of_response(&model, &exact(&model, &motion).expect("a response")).numbers;
         // The iteration of the method need not settle where stick and slip take turns in it.
         let error = |&parts: &usize| {
@@ -85,6 +101,49 @@ fn order_stepwise_with_events_is_one() {
     let errors = stepwise_errors(&[8, 16, 32, 64, 128, 256], true);
     let order = order(&errors);
     assert!((order - 1.0).abs() < 0.2, "order {order:.2} from {errors:?}");
+}
+
+/// Friction by the speed, an elastic stop, and a pendulum under vertical motion are taken as forces at
+/// samples.
+#[test]
+fn order_stepwise_with_devices_is_one() {
+    let pieces = RateCurve::Pieces {
+        speeds_m_per_s: vec![0.0, 0.05, 0.2],
+        coefficients: vec![0.04, 0.06, 0.08],
+    };
+    let exponential = RateCurve::Exponential { slow: 0.04, fast: 0.09, rate_s_per_m: 20.0 };
+    let rate = |curve: &RateCurve| Devices {
+        rate: RateLaw::new(curve.clone(), [1.0; 2]).ok(),
+        ..Devices::default()
+    };
+    let pendulum = Devices { radius_m: Some(1.5), ..Devices::default() };
+    let kind = StopKind::Elastic { stiffness_n_per_m: 2e4, damper_n_s_per_m: 100.0 };
+    let stop = Stop { gap_m: [Some(0.01); 2], kind };
+    for (what, devices, stop) in [
+        ("friction in pieces", rate(&pieces), None),
+        ("exponential friction", rate(&exponential), None),
+        ("a pendulum", pendulum, None),
+        ("an elastic stop", Devices::default(), Some(stop)),
+    ] {
+        let parts = [16, 32, 64, 128, 256];
+        let errors = errors_of(&parts, true, |index| {
+            let random = &mut Random::new(index);
+            let mut x = mock_up(random, true);
+            if devices.radius_m.is_some() {
+                x.lift(random, 4.0);
+                x.set_spring((x.gravity / 1.5).sqrt());
+            }
+            let (model, motion) = x.build();
+            let slider = Slider { stop, ..*model.slider() };
+            let (block, frame) = (*model.block(), model.frame().clone());
+            let model = Model::new(block, slider, frame, x.gravity, model.initial().clone())
+                .and_then(|model| model.with_devices(devices.clone()))
+                .expect("a model");
+            (model, motion)
+        });
+        let order = order(&errors);
+        assert!((order - 1.0).abs() < 0.3, "{what}: order {order:.2} from {errors:?}");
+    }
 }
 
 fn assert_order_two(what: &str, errors: &[f64]) {

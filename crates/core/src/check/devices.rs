@@ -555,7 +555,22 @@ impl<'a> Judge<'a> {
         let sliding = match modes[0] {
             Mode::Stick => None,
             Mode::Slip(direction) => {
-                self.slider.sliding(self.h.surface_displacements(k), direction)
+                let mut ways =
+                    self.slider.slidings(self.h.surface_displacements(k), direction).into_iter();
+                // The force that is stored tells that a surface has left its end.
+                let (loads, found) =
+                    (self.ground.instant(self.h.time_s[k]), self.h.friction_force_n[k]);
+                let suits = |way: &Sliding| {
+                    let off = |load: &Load| (load.normal * way.force(0.0) + found).abs();
+                    let least = loads.iter().map(off).fold(f64::INFINITY, f64::min);
+                    least <= STILL * self.model.weight_n()
+                };
+                let at_ends = ways.next();
+                if at_ends.as_ref().is_some_and(suits) {
+                    at_ends
+                } else {
+                    ways.find(suits).or(at_ends)
+                }
             }
         };
         Between {

@@ -61,7 +61,7 @@ impl ElasticStop {
     }
 
     /// Force of the ground's pad against the block, positive against sliding towards +x, in N.
-    pub(super) fn force_n(&self, contact: Contact, s: f64, w: f64) -> f64 {
+    pub(crate) fn force_n(&self, contact: Contact, s: f64, w: f64) -> f64 {
         let Contact::Pressed(side) = contact else { return 0.0 };
         let depth = s - self.place(side).unwrap_or(s);
         self.stiffness_n_per_m * depth + self.damper_n_s_per_m * w

@@ -1,13 +1,16 @@
 //! The paper's own program, eqs (5), (6), (15)–(18): what it computed, errors included.
+//!
+//! Friction by the sliding speed, a pendulum's spring `N/R` and elastic stops are forces at samples like
+//! any other, and are taken.
 
 use super::ground::{Normal, contact_loss_s, varying_normal};
 use super::outputs::{self, output};
 use super::recorder::{Recorder, Stored};
-use super::run::{Outcome, Sliding};
+use super::run::{Outcome, Sliding, Stopping};
 use super::summary;
 use super::tables::system_of;
 use crate::error::{GoOn, Pulse, SolveError};
-use crate::friction::{Contact, Direction, Law, Memory};
+use crate::friction::{Contact, Direction, Law, Restraint};
 use crate::linear::System;
 use crate::linear::lanes::{dot, greatest};
 use crate::model::Model;
@@ -40,23 +43,21 @@ pub(super) fn solve(
     tolerance_m_per_s2: f64,
     go_on: GoOn<'_>,
 ) -> Result<Response, SolveError> {
-    if model.stop().is_some() {
-        return Err(SolveError::NotTaken { method: "stepwise method", what: "a stop" });
-    }
-    if !model.is_plain_between_stops(motion.vertical_m_per_s2().is_some()) {
-        let devices = model.devices();
-        let what = if devices.rate.is_some() {
-            "friction that follows the sliding speed"
-        } else if devices.series.is_some() {
-            "surfaces in series"
-        } else if !devices.contents.is_empty() {
-            "contents"
-        } else {
-            "a pendulum under vertical motion, whose spring follows the normal force"
-        };
+    let law = model.law(motion.vertical_m_per_s2().is_some());
+    // What jumps, what remembers, and what slides besides the block.
+    let what = if law.rigid.is_some() {
+        Some("a rigid stop")
+    } else if law.series.is_some() {
+        Some("surfaces in series")
+    } else if !model.devices().contents.is_empty() {
+        Some("contents")
+    } else {
+        None
+    };
+    if let Some(what) = what {
         return Err(SolveError::NotTaken { method: "stepwise method", what });
     }
-    let (system, law) = (system_of(model), model.law(false));
+    let system = system_of(model);
     let slope = model.slope_m_per_s2();
     let (mass_kg, gravity) = (model.total_mass_kg(), model.normal_gravity_m_per_s2());
     let table = motion.horizontal_m_per_s2();
@@ -67,7 +68,6 @@ pub(super) fn solve(
     let program = Program {
         system: &system,
         law: &law,
-        memory: &law.initial(0.0, 0.0),
         times_s: motion.times_s(),
         acceleration: table.iter().map(|a| a + slope).collect(),
         normal_n: (0..motion.len()).map(normal_n).collect(),
@@ -80,6 +80,8 @@ pub(super) fn solve(
     let mut step = program.start(model);
     let mut pulse = Pulse::new(go_on);
     let mut sliding = Sliding::new(step.s);
+    let mut stopping = Stopping::default();
+    let mut contact = Contact::Free;
     let mut events = Vec::new();
     let (mut total, mut most) = (0_u64, 0);
     let mut note = |sample: usize, step: &Step, mode: Mode, row: bool| {
@@ -88,8 +90,7 @@ pub(super) fn solve(
         let mut attain = |j: usize, value: f64| peaks[j] = greatest(peaks[j], f64::abs(value));
         attain(output::VELOCITY, step.w);
         attain(output::BLOCK, step.u - slope);
-        let spring_n = system.stiffness_n_per_m * step.s + system.damper_n_s_per_m * step.w;
-        attain(output::SLIDER, friction_n - spring_n);
+        attain(output::SLIDER, friction_n - program.restoring_n(step, sample));
         attain(output::FRICTION, friction_n);
         attain(output::BASE_SHEAR, shear_n);
         let moment = overturning.as_ref().map_or(0.0, |o| o.moment(&step.f, step.u));
@@ -103,7 +104,7 @@ pub(super) fn solve(
         let stored = Stored {
             time_s: program.times_s[sample],
             mode,
-            contact: Contact::Free,
+            contact: program.contact(step),
             table: table[sample],
             state: &state,
             block: step.u - slope,
@@ -115,6 +116,14 @@ pub(super) fn solve(
     if step.mode != Mode::Stick && model.initial().sliding_velocity_m_per_s == 0.0 {
         events.push(event(EventKind::Slip, &step, 0.0));
     }
+    let mut touch = |step: &Step, time_s: f64| {
+        let (from, to) = (contact, program.contact(step));
+        contact = to;
+        let peak_n = &mut stopping.demands.peak_force_n;
+        *peak_n = greatest(*peak_n, law.stop_force_n(to, step.s, step.w));
+        (from != to).then(|| stopping.change(time_s, step.w.abs(), from, to))
+    };
+    events.extend(touch(&step, 0.0).map(|kind| event(kind, &step, 0.0)));
     note(0, &step, step.mode, true);
     for sample in 1..motion.len() {
         let (next, iterations) = program.advance(&step, sample)?;
@@ -136,8 +145,12 @@ pub(super) fn solve(
             note(sample, &next, step.mode, false);
             events.push(event(kind, &next, time_s));
         }
+        events.extend(touch(&next, time_s).map(|kind| event(kind, &next, time_s)));
         note(sample, &next, next.mode, true);
         step = next;
+    }
+    if contact != Contact::Free {
+        stopping.change(motion.times_s()[motion.len() - 1], 0.0, contact, Contact::Free);
     }
     let varying = varying_normal(model, motion);
     let normal = Normal::new(model, varying.as_deref());
@@ -148,7 +161,7 @@ pub(super) fn solve(
         peaks,
         overturns: overturning.is_some(),
         sliding,
-        stop: None,
+        stop: law.stop.map(|_| stopping.demands),
         surfaces: Vec::new(),
         residual_m: step.s,
         sliding_at_end: step.mode != Mode::Stick,
@@ -180,8 +193,6 @@ impl Step {
 struct Program<'a> {
     system: &'a System,
     law: &'a Law,
-    /// Of a law without any.
-    memory: &'a Memory,
     times_s: &'a [f64],
     /// `a = Ü + g sin θ` at the samples.
     acceleration: Vec<f64>,
@@ -262,37 +273,47 @@ impl Program<'_> {
     }
 
     fn held_or_not(&self, step: &Step, sample: usize) -> Mode {
-        let hold = self.law.hold(self.memory, step.s);
-        hold.gives_way(self.demand_n(step, sample), self.normal_n[sample])
-            .map_or(Mode::Stick, Mode::Slip)
+        let hold = self.law.hold(&self.law.initial(step.s, 0.0), step.s);
+        let demand_n = self.demand_n(&Step { w: 0.0, ..step.clone() }, sample);
+        hold.gives_way(demand_n, self.normal_n[sample]).map_or(Mode::Stick, Mode::Slip)
+    }
+
+    /// Where the block stands to an elastic stop.
+    fn contact(&self, step: &Step) -> Contact {
+        self.law.initial(step.s, step.w).contact
+    }
+
+    /// Force of spring, damper, pendulum and elastic stop against the block.
+    fn restoring_n(&self, step: &Step, sample: usize) -> f64 {
+        let (s, w) = (step.s, step.w);
+        let Restraint { stiffness_n_per_m, damper_n_s_per_m } = self.law.restraint;
+        let pendulum = self.law.radius_m.map_or(0.0, |radius_m| self.normal_n[sample] / radius_m);
+        let stop_n = self.law.stop.map_or(0.0, |stop| stop.force_n(self.contact(step), s, w));
+        stiffness_n_per_m * s + damper_n_s_per_m * w + pendulum * s + stop_n
     }
 
     fn demand_n(&self, step: &Step, sample: usize) -> f64 {
-        self.system.block_mass_kg * self.acceleration[sample]
-            + self.system.stiffness_n_per_m * step.s
+        self.system.block_mass_kg * self.acceleration[sample] + self.restoring_n(step, sample)
             - dot(&self.system.participation, &step.f)
     }
 
     fn friction_n(&self, step: &Step, sample: usize) -> f64 {
-        match step.mode {
-            Mode::Stick => self.demand_n(step, sample),
-            Mode::Slip(direction) => {
-                -(direction.sign() * self.law.resistance(self.memory, direction))
-                    * self.normal_n[sample]
-            }
-        }
+        let Mode::Slip(direction) = step.mode else { return self.demand_n(step, sample) };
+        let kinetic = match &self.law.rate {
+            Some(rate) => rate.at(step.w.abs(), direction),
+            None => self.law.friction.kinetic_coefficient(direction),
+        };
+        -(direction.sign() * kinetic) * self.normal_n[sample]
     }
 
     /// Eq. (11), or the table's acceleration in stick.
     fn block_acceleration(&self, step: &Step, sample: usize) -> f64 {
-        let system = self.system;
         match step.mode {
             Mode::Stick => self.acceleration[sample],
             Mode::Slip(_) => {
-                (self.friction_n(step, sample) - system.damper_n_s_per_m * step.w
-                    + dot(&system.participation, &step.f)
-                    - system.stiffness_n_per_m * step.s)
-                    / system.block_mass_kg
+                (self.friction_n(step, sample) - self.restoring_n(step, sample)
+                    + dot(&self.system.participation, &step.f))
+                    / self.system.block_mass_kg
             }
         }
     }

@@ -6,7 +6,9 @@ use crate::model::{Model, StopKind};
 use crate::response::{Contact, Mode};
 
 /// Thresholds closer than this part of the largest are the same.
-const SAME: f64 = 1e-10;
+const SAME: f64 = 1e-13;
+/// A threshold is passed by less than this part of the friction within the rounding of the times.
+const PASSED: f64 = 1e-10;
 
 /// A surface is at its end from this part of its travel on: bounces at a stop leave it by little more.
 const AT_END: f64 = 1.0 - 4.0 * f64::EPSILON;
@@ -277,14 +279,26 @@ impl<'a> Slider<'a> {
         Asked { demand, low, high, friction }
     }
 
-    /// How a slip in a direction goes on from these displacements of surfaces in series.
-    pub(super) fn sliding(&self, surfaces: &[f64], direction: Direction) -> Option<Sliding> {
+    /// How a slip in a direction goes on from these displacements of surfaces in series, of which those
+    /// at their ends may have left them by less than their rounding: the ways that are then possible.
+    pub(super) fn slidings(&self, surfaces: &[f64], direction: Direction) -> Vec<Sliding> {
+        let at_ends = self.sliding(surfaces, direction, AT_END);
+        let off_ends = self.sliding(surfaces, direction, f64::INFINITY);
+        let same = |a: &Sliding, b: &Sliding| a.shares == b.shares;
+        match (at_ends, off_ends) {
+            (Some(a), Some(b)) if same(&a, &b) => vec![a],
+            (a, b) => a.into_iter().chain(b).collect(),
+        }
+    }
+
+    /// The same with those at their ends that have this part of their travels behind them.
+    fn sliding(&self, surfaces: &[f64], direction: Direction, ended: f64) -> Option<Sliding> {
         let series = self.series?;
         let sign = direction.sign();
         let all = || surfaces.iter().zip(series.surfaces());
         let thresholds: Vec<Option<f64>> = all()
             .map(|(u, surface)| {
-                let ended = surface.travel_m.is_some_and(|d| sign * u >= d * AT_END);
+                let ended = surface.travel_m.is_some_and(|d| sign * u >= d * ended);
                 let place = surface.radius_m.map_or(0.0, |radius_m| u / radius_m);
                 (!ended).then_some(sign * place + surface.friction)
             })
@@ -322,8 +336,7 @@ impl<'a> Slider<'a> {
                 worst = worst.max(sign * (phi - place) - surface.friction);
             }
         }
-        // A threshold is met to within the rounding of the times.
-        if worst <= SAME * self.fixed[0] { 0.0 } else { worst }
+        if worst <= PASSED * self.fixed[0] { 0.0 } else { worst }
     }
 
     /// By how much surfaces lie beyond their ends, in m.
@@ -337,7 +350,7 @@ impl<'a> Slider<'a> {
     /// that.
     pub(super) fn next_join(&self, surfaces: &[f64], mode: Mode) -> Option<f64> {
         let Mode::Slip(direction) = mode else { return None };
-        let sliding = self.sliding(surfaces, direction)?;
+        let sliding = self.sliding(surfaces, direction, AT_END)?;
         let series = self.series?;
         let sign = direction.sign();
         let held = sign * sliding.phi;
