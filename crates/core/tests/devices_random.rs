@@ -217,6 +217,46 @@ fn prop_many_random_devices_are_certified_and_have_no_side() {
     certified(0, 10_000);
 }
 
+/// The same straight lines with every interval in three: all that changes is where samples lie. Where a
+/// decision was closer than rounding, so that another one may follow, is left out.
+#[test]
+fn prop_random_devices_do_not_know_the_samples() {
+    let (mut compared, mut close) = (0, 0);
+    for seed in 0..200 {
+        let system = system(seed);
+        let motion_s = motion(&system, 1.0);
+        let Ok(response) = exact(&system.model, &motion_s) else { continue };
+        let call = check(&system.model, &motion_s, &response).closest_call;
+        if call.is_some_and(|call| call.margin < 1e-9) {
+            close += 1;
+            continue;
+        }
+        let finer = |list: &[f64]| -> Vec<f64> {
+            let between = |pair: &[f64]| {
+                [0.0, 1.0 / 3.0, 2.0 / 3.0].map(|part| pair[0] + (pair[1] - pair[0]) * part)
+            };
+            let all = list.windows(2).flat_map(between);
+            all.chain(list.last().copied()).collect()
+        };
+        let (t, a) = (finer(&system.times_s), finer(&system.horizontal));
+        let finer_s = GroundMotion::new(t, a, system.vertical.as_deref().map(finer));
+        let other = exact(&system.model, &finer_s.expect("a motion")).expect("a response");
+        let (d, e) = (&response.demands, &other.demands);
+        let near = |a: f64, b: f64| (a - b).abs() <= 1e-7 * a.abs().max(b.abs());
+        assert!(
+            near(d.peak_sliding_displacement_m, e.peak_sliding_displacement_m)
+                && near(d.peak_sliding_velocity_m_per_s, e.peak_sliding_velocity_m_per_s)
+                && near(d.sliding_path_m, e.sliding_path_m)
+                && response.events.len() == other.events.len(),
+            "{seed}: {d:?} with {} events became {e:?} with {}",
+            response.events.len(),
+            other.events.len()
+        );
+        compared += 1;
+    }
+    assert!(compared >= 150, "{compared} compared, {close} decided closely");
+}
+
 fn certified(first: u64, count: u64) {
     let (mut wrong, mut ends, mut events) = (Vec::new(), 0, 0);
     for seed in first..first + count {

@@ -230,7 +230,7 @@ fn suite(
     for Asks { name, units, dt, channel } in asked.records() {
         let options = crate::records::options(units, dt)?;
         let channel = Some(channel).filter(|channel| !channel.is_empty());
-        let loaded = recorded(records, name, &options, channel)?;
+        let loaded = recorded(records, name, &options, (channel, None))?;
         let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
         let stem = stem.rsplit('/').next().unwrap_or(stem);
         suite.records.push(SuiteRecord {
@@ -248,18 +248,24 @@ fn suite(
     Ok(suite)
 }
 
-/// A record as it is; what files state themselves needs no option.
+/// A record as it is, perhaps with a vertical motion and its factor; what files state themselves needs no
+/// option.
 fn recorded(
     records: &mut Records,
     name: &str,
     options: &Options,
-    channel: Option<&str>,
+    (channel, vertical): (Option<&str>, Option<(&str, f64)>),
 ) -> Result<Loaded, Failure> {
-    let stated = matches!(records.read(name, &Options::default()), Some(Ok(_)));
-    let options = if stated { Options::default() } else { options.clone() };
-    let missing = || Failure::of(format!("{name}: expected a record, dropped on the page"));
-    let record = records.read(name, &options).ok_or_else(missing)?.map_err(Failure::of)?;
-    let loaded = Loaded::recorded(Wanted { record, channel }, None, None);
+    let mut read = |name: &str| {
+        let stated = matches!(records.read(name, &Options::default()), Some(Ok(_)));
+        let options = if stated { Options::default() } else { options.clone() };
+        let missing = || Failure::of(format!("{name}: expected a record, dropped on the page"));
+        records.read(name, &options).ok_or_else(missing)?.cloned().map_err(Failure::of)
+    };
+    let record = read(name)?;
+    let up = vertical.map(|(name, factor)| Ok::<_, Failure>((read(name)?, factor))).transpose()?;
+    let up = up.as_ref().map(|(record, factor)| (Wanted { record, channel: None }, *factor));
+    let loaded = Loaded::recorded(Wanted { record: &record, channel }, up, None);
     loaded.map_err(|error| Failure::of(format!("{name}: {error}")))
 }
 
@@ -512,39 +518,53 @@ pub fn study(
     let plan = Plan::parse(PLAN, plan_text).map_err(in_plan)?;
     let mut suite = Vec::new();
     if let Some(wanted) = &plan.records {
-        let refused = [("second", &wanted.second), ("vertical", &wanted.vertical)];
-        if let Some((key, _)) = refused.into_iter().find(|(_, files)| !files.is_empty()) {
-            let expected = "single horizontal components: run this plan with slipstick study";
-            let found = format!("records.{key}");
-            return Err(in_plan(plan.error_at(&found.clone(), expected, found)));
-        }
-        let mut missing = Vec::new();
-        for pattern in &wanted.files {
-            let matching: Vec<&String> =
-                names.iter().filter(|name| matches(pattern, name)).collect();
-            if matching.is_empty() {
-                missing.push(format!("{pattern:?}"));
+        let named = |key: &str, patterns: &[String]| {
+            let of = |pattern: &String| {
+                let mut all: Vec<String> =
+                    names.iter().filter(|name| matches(pattern, name)).cloned().collect();
+                all.sort();
+                all
+            };
+            let found: Vec<Vec<String>> = patterns.iter().map(of).collect();
+            let missing = patterns.iter().zip(&found).filter(|(_, all)| all.is_empty());
+            let missing: Vec<String> = missing.map(|(pattern, _)| format!("{pattern:?}")).collect();
+            if missing.is_empty() {
+                return Ok(found.concat());
             }
-            for name in matching {
+            let expected = format!(
+                "the plan's records, dropped on the page; {} of {} are missing",
+                missing.len(),
+                patterns.len()
+            );
+            let found = format!("no file for {}", missing.join(", "));
+            Err(in_plan(plan.error_at(&format!("records.{key}"), expected, found)))
+        };
+        let files = named("files", &wanted.files)?;
+        let second = named("second", &wanted.second)?;
+        let vertical = named("vertical", &wanted.vertical)?;
+        for (key, component, others) in
+            [("second", "other component", &second), ("vertical", "vertical motion", &vertical)]
+        {
+            if !others.is_empty() && others.len() != files.len() {
+                let expected = format!("one {component} for each of {} records", files.len());
+                let found = others.len().to_string();
+                return Err(in_plan(plan.error_at(&format!("records.{key}"), expected, found)));
+            }
+        }
+        for (i, first) in files.iter().enumerate() {
+            let up = vertical.get(i).map(|up| (up.as_str(), wanted.vertical_scale.unwrap_or(1.0)));
+            for name in core::iter::once(first).chain(second.get(i)) {
                 let options = Options { format: None, units: wanted.units, dt_s: wanted.dt_s };
-                let loaded = recorded(records, name, &options, wanted.channel.as_deref())?;
+                let channel = wanted.channel.as_deref();
+                let loaded = recorded(records, name, &options, (channel, up))?;
                 suite.push(Record {
                     name: name.clone(),
                     channel: loaded.channel.clone(),
                     warnings: loaded.warnings.iter().map(|warning| warning.kind).collect(),
                     motion: loaded.motion,
-                    pair: None,
+                    pair: (!second.is_empty()).then_some(i),
                 });
             }
-        }
-        if !missing.is_empty() {
-            let expected = format!(
-                "the plan's records, dropped on the page; {} of {} are missing",
-                missing.len(),
-                wanted.files.len()
-            );
-            let found = format!("no file for {}", missing.join(", "));
-            return Err(in_plan(plan.error_at("records.files", expected, found)));
         }
     }
     let study = Study::new(&plan, MODEL, text, suite).map_err(|error| {

@@ -214,6 +214,22 @@ test("bad input is one message, and the last good state stays", () =>
     assert.match(await page.locator("#panel-study .fault").innerText(), /plan\.toml:3:\d+: records\.files: expected the plan's records.*found no file for "far-field/);
   }));
 
+test("a plan of pairs with vertical motions runs", () =>
+  on(async (page) => {
+    const csv = (of) => "time_s,acceleration_m_per_s2\n" + Array.from({ length: 400 }, (_, i) => `${(i * 0.01).toFixed(2)},${of(i * 0.01)}\n`).join("");
+    const dropped = async (...files) => {
+      await drop(page, ...files);
+      await page.evaluate(() => globalThis.dropped);
+    };
+    await dropped(["h1.csv", csv((t) => 2 * Math.sin(6 * t))], ["h2.csv", csv((t) => 3 * Math.sin(5 * t))], ["up.csv", csv((t) => Math.sin(9 * t))]);
+    const plan = (up) => `model = "m.toml"\n[records]\nfiles = ["h1.csv"]\nsecond = ["h2.csv"]\nvertical = [${up}]\nscale = [1.0, 2.0]\n`;
+    await dropped(["plan.toml", plan('"up.csv", "up.csv"')]);
+    await page.locator("#panel-study .fault").waitFor();
+    assert.match(await page.locator("#panel-study .fault").innerText(), /plan\.toml:5:\d+: records\.vertical: expected one vertical motion for each of 1 records, found 2/);
+    await dropped(["plan.toml", plan('"up.csv"')]);
+    await page.waitForFunction(() => /h2\.csv/.test(document.querySelector("#panel-study")?.textContent ?? ""), null, { timeout: 20000 });
+  }));
+
 test("half an address is one message, and the example is shown", () =>
   on(
     async (page) => {
