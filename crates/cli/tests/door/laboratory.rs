@@ -57,6 +57,10 @@ fn exact_a_missed_bound_is_named_and_status_1() {
     assert_eq!(folder.names("out"), ["comparison.json", "report.html"]);
     let page = folder.read("out/report.html");
     assert!(page.contains("<svg") && page.contains("expected 0.99 to 1.01: missed"));
+    assert!(page.contains("1 of 2 bounds is missed."), "{page}");
+    let bound = ["--within", "arrival_lag.block_acceleration=-1..1", "--out", "one"];
+    folder.stdout(&[&["compare", "test.csv", "model.toml"], &bound[..]].concat());
+    assert!(folder.read("one/report.html").contains("The bound is kept."));
 }
 
 #[test]

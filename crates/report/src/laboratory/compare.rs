@@ -324,9 +324,13 @@ impl CompareReport<'_> {
             let (missed, of) = (self.missed().len(), self.within.len());
             verdict.insert(
                 0,
-                match missed {
-                    0 => format!("All {of} bounds are kept."),
-                    n => format!("{n} of {of} bounds are missed."),
+                match (missed, of) {
+                    (0, 1) => "The bound is kept.".to_owned(),
+                    (0, 2) => "Both bounds are kept.".to_owned(),
+                    (0, _) => format!("All {of} bounds are kept."),
+                    (_, 1) => "The bound is missed.".to_owned(),
+                    (1, _) => format!("1 of {of} bounds is missed."),
+                    (n, _) => format!("{n} of {of} bounds are missed."),
                 },
             );
         }
