@@ -87,6 +87,11 @@ def test_models_change_and_compare() -> None:
     assert changed == ss.Model.from_toml(changed.toml)
     assert len({model, block(), changed}) == 2
     assert changed.values["slider.radius"] == "2 m"
+    keys = {"floor": 0, "mass": "200 kg", "static_friction": 0.3, "kinetic_friction": 0.25}
+    added = model.with_({f"contents.1.{key}": value for key, value in keys.items()})
+    assert added.values["contents.1.mass"] == "200 kg" and added == model.with_({"contents": [keys]})
+    with pytest.raises(ss.InputError, match="expected contents.1, for there is none yet"):
+        model.with_({"contents.2.mass": "200 kg"})
 
 
 @pytest.mark.parametrize("value", [block(), pulse(), ss.Model.read(EXAMPLES / "taft.toml")])

@@ -603,7 +603,7 @@ fn exact_refused_plans_say_why() {
     let storey = refuse(&PLAN.replace("slider.radius", "storey.2.height"));
     assert!(
         storey.contains(
-            "plan.toml:11:21: vary.storey.2.height: expected a number from 1 to 1, found \"2\""
+            "plan.toml:11:21: vary.storey.2.height: expected storey.1, for there is only one, found \"2\""
         ),
         "{storey}"
     );

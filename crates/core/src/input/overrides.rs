@@ -127,6 +127,15 @@ impl Override {
 
     /// Sets the key in a tree; what excludes it is removed.
     pub(super) fn apply(&self, sources: &mut Sources, root: &mut Table) -> Result<(), InputError> {
+        self.put(sources, root, Put::Set)
+    }
+
+    /// The same where all lists are as long as they shall be.
+    pub(super) fn replace(
+        &self,
+        sources: &mut Sources,
+        root: &mut Table,
+    ) -> Result<(), InputError> {
         self.put(sources, root, Put::Replace)
     }
 
@@ -172,11 +181,16 @@ fn si_unit(path: &str) -> &'static str {
     }
 }
 
+/// The source of a model's own text; keys that are set have sources of their own.
+const FILE: usize = 0;
+
 /// How a key is set.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Put {
     /// What excludes it is removed; lists keep their length.
     Replace,
+    /// The same, but lists that the file does not have are made item by item.
+    Set,
     /// Nothing is removed; the next item of a list is made.
     Add,
 }
@@ -217,7 +231,7 @@ fn set(
     let [name, rest @ ..] = path else { return Ok(()) };
     let Some(key) = section.key(name) else { return Ok(()) };
     let as_table = !rest.is_empty() || matches!(value.value, Value::Table(_));
-    if put == Put::Replace {
+    if put != Put::Add {
         remove_excluded(table, section, name, as_table);
     }
     let index = table.0.iter().position(|entry| entry.name == *name);
@@ -239,6 +253,7 @@ fn set(
         table.0.len() - 1
     });
     let Some(entry) = table.0.get_mut(index) else { return Ok(()) };
+    let grows = put == Put::Add || (put == Put::Set && entry.key.source != FILE);
     // A value for both directions becomes a table of two before one of them is set.
     if let (Kind::NumberOr(_, both), Value::Number(..) | Value::Text(_))
     | (Kind::QuantityOr(_, _, both), Value::Text(_) | Value::Si(..)) =
@@ -256,14 +271,22 @@ fn set(
         (Value::Table(inner), Some(section)) => set(inner, section, rest, spot, value, put),
         (Value::List(items), inner) => {
             let [number, rest @ ..] = rest else { return Ok(()) };
-            if put == Put::Add && *number == (items.len() + 1).to_string() {
+            if grows && *number == (items.len() + 1).to_string() {
                 let empty = Value::Table(Table(Vec::new()));
                 items.push(Node { spot: spot.clone(), value: empty });
             }
             let count = items.len();
             let item = number.parse::<usize>().ok().and_then(|n| items.get_mut(n.wrapping_sub(1)));
             match (item, inner) {
-                (None, _) => Err((format!("a number from 1 to {count}"), format!("\"{number}\""))),
+                (None, _) => {
+                    let expected = match count {
+                        0 => format!("{name}.1, for there is none yet"),
+                        _ if grows => format!("a number from 1 to {}", count + 1),
+                        1 => format!("{name}.1, for there is only one"),
+                        _ => format!("a number from 1 to {count}"),
+                    };
+                    Err((expected, format!("\"{number}\"")))
+                }
                 (Some(item), _) if rest.is_empty() => {
                     *item = value;
                     Ok(())

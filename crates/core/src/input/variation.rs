@@ -74,7 +74,7 @@ impl Variation {
         }
         for path in &paths {
             // One half lies within every range.
-            path.set(0.5)?.apply(&mut sources, &mut root)?;
+            path.set(0.5)?.replace(&mut sources, &mut root)?;
         }
         let values = Values::read(sources, &root, &MODEL)?;
         let (name, text) = (name.into(), text.into());

@@ -117,7 +117,7 @@ fn exact_messages_point_into_the_option() {
     );
     assert_eq!(
         refused("storey.2.mass=1 t"),
-        "--set storey.2.mass=…:1:1: storey.2.mass: expected a number from 1 to 1, found \"2\""
+        "--set storey.2.mass=…:1:1: storey.2.mass: expected storey.1, for there is only one, found \"2\""
     );
     assert_eq!(
         refused("slider.gap.x=1 m"),
@@ -196,7 +196,7 @@ fn exact_models_are_made_of_values() {
     }
     let refused = |values: &[(&str, InputValue<'_>)]| from_values(values).unwrap_err().to_string();
     let found = refused(&[("storey.2.mass", InputValue::Number(1.0))]);
-    assert_eq!(found, "storey.2.mass: expected a number from 1 to 0, found \"2\"");
+    assert_eq!(found, "storey.2.mass: expected storey.1, for there is none yet, found \"2\"");
     let both = [
         ("block.mass", InputValue::Number(1.0)),
         ("slider.static_friction", InputValue::Number(0.2)),
@@ -209,4 +209,29 @@ fn exact_models_are_made_of_values() {
         "slider.spring: expected only one of spring, radius, period, found \"spring\" besides \"radius\""
     );
     assert_eq!(refused(&both[..1]), "slider: expected a table [slider], found nothing");
+}
+
+/// What the file does not have is added key by key; what it has keeps its length.
+#[test]
+fn exact_the_first_of_a_list_is_added() {
+    let text = "[block]\nmass = \"1 t\"\n[slider]\nstatic_friction = 0.1\nkinetic_friction = 0.1\n";
+    let with = |set: &[&str]| {
+        let set: Vec<Override> = set.iter().map(|one| Override::parse(one).unwrap()).collect();
+        parse("m.toml", text, &set)
+    };
+    let first = ["contents.1.floor=0", "contents.1.mass=200 kg", "contents.1.static_friction=0.3"];
+    let refused = with(&first).unwrap_err().to_string();
+    assert!(refused.contains("contents.1.kinetic_friction: expected"), "{refused}");
+    let one = [&first[..], &["contents.1.kinetic_friction=0.25"]].concat();
+    let found = with(&one).unwrap().model;
+    assert_eq!(found.devices().contents.len(), 1);
+    let second = one.iter().map(|key| key.replace("contents.1", "contents.2"));
+    let both: Vec<String> = one.iter().map(|key| (*key).to_owned()).chain(second).collect();
+    let both: Vec<&str> = both.iter().map(String::as_str).collect();
+    assert_eq!(with(&both).unwrap().model.devices().contents.len(), 2);
+    let refused = with(&both[4..]).unwrap_err().to_string();
+    assert_eq!(
+        refused,
+        "contents.2.floor: expected contents.1, for there is none yet, found \"2\""
+    );
 }
