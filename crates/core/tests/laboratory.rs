@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use slipstick::input::{self, Channel, Mapping};
 use slipstick::laboratory::anderson::anderson;
-use slipstick::laboratory::cyclic::{CyclicTest, cyclic, estimates};
+use slipstick::laboratory::cyclic::{CyclicTest, KineticLaw, cyclic, estimates};
 use slipstick::laboratory::free_vibration::free_vibration;
 use slipstick::laboratory::measured::Measured;
 use slipstick::laboratory::metrics;
@@ -120,6 +120,7 @@ fn file_cyclic_tests_of_a_friction_damper() {
             slack_m: None,
             spring: false,
             damper: false,
+            law: KineticLaw::Coulomb,
             zero_known: true,
         };
         let fit = cyclic(&test).unwrap();

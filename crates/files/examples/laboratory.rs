@@ -39,6 +39,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     {
         write(name, &cyclic(frequency_hz, i as u64))?;
     }
+    for (i, (name, frequency_hz)) in
+        [("bearing-0.005hz.csv", 0.005), ("bearing-0.05hz.csv", 0.05), ("bearing-0.5hz.csv", 0.5)]
+            .into_iter()
+            .enumerate()
+    {
+        write(name, &bearing(frequency_hz, 30 + i as u64))?;
+    }
     write("shaking-table.csv", &shaking_table()?)?;
     write("pull-back.csv", &pull_back()?)
 }
@@ -78,6 +85,52 @@ fn cyclic(frequency_hz: f64, seed: u64) -> String {
             let shown_mm = 1e3 * (x + 1e-5 * random.normal());
             // Writing to a String cannot fail.
             let _ = writeln!(text, "{t:.4},{shown_mm:.3},{force_n:.2}");
+        }
+    }
+    text
+}
+
+/// A pendulum bearing under 800 kN between ± 80 mm: its friction follows the speed and differs by 1 % from
+/// stroke to stroke. The press gives way a little before the bearing breaks away.
+fn bearing(frequency_hz: f64, seed: u64) -> String {
+    const FINE: usize = 4;
+    let (normal_n, radius_m, press_n_per_m, amplitude_m) = (8e5, 2.5, 1e8, 0.08);
+    let (limit, slow, fast, rate_s_per_m) = (0.09, 0.04, 0.08, 25.0);
+    let pendulum_n_per_m = normal_n / radius_m;
+    let mut random = Random::new(seed);
+    let dt_s = 0.001 / frequency_hz;
+    let h = dt_s / FINE as f64;
+    let elastic = (press_n_per_m + pendulum_n_per_m) * h;
+    let wander = TAU * random.uniform();
+    let (mut x, mut v, mut sliding) = (0.0, 0.0_f64, false);
+    let (mut stroke, mut factor) = (-1.0, 1.0);
+    let mut text = String::from("time (s),displacement (mm),force (kN)\n");
+    for i in 0..4400 * FINE {
+        let t = i as f64 * h;
+        let turns = frequency_hz * t;
+        let turns = turns + 0.005 * libm::sin(0.3819 * TAU * turns + wander);
+        let target = amplitude_m * libm::sin(TAU * turns);
+        if libm::floor(2.0 * turns + 0.5) > stroke {
+            stroke = libm::floor(2.0 * turns + 0.5);
+            factor = normal_n * (1.0 + 0.01 * random.normal());
+        }
+        let demand = press_n_per_m * (target - x) - pendulum_n_per_m * x;
+        sliding |= demand.abs() > limit * factor;
+        if sliding {
+            // (press + pendulum) h v + N μ(v) = |demand|.
+            for _ in 0..8 {
+                let fade = (fast - slow) * libm::exp(-rate_s_per_m * v);
+                let excess = elastic * v + factor * (fast - fade) - demand.abs();
+                v = (v - excess / (elastic + factor * rate_s_per_m * fade)).max(0.0);
+            }
+            sliding = v > 0.0;
+            x += v * h * demand.signum();
+        }
+        if i % FINE == 0 {
+            let force_kn = 1e-3 * press_n_per_m * (target - x) + 0.2 * random.normal();
+            let shown_mm = 1e3 * x + 0.02 * random.normal();
+            // Writing to a String cannot fail.
+            let _ = writeln!(text, "{t:.4},{shown_mm:.2},{force_kn:.2}");
         }
     }
     text

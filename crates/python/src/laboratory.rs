@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slipstick::input::Mapping;
 use slipstick::laboratory::compare::{self, Comparison as Compared, Within};
+use slipstick::laboratory::cyclic::KineticLaw;
 use slipstick::laboratory::estimate::Outcome;
 use slipstick::laboratory::identify::{
     self, CyclicRequest, FreeVibrationRequest, Identified as Found, IdentifyError, ModelText,
@@ -349,7 +350,7 @@ fn text_of(model: &Model) -> ModelText<'_> {
 #[pyfunction]
 #[pyo3(signature = (
     tests, *, mass = None, normal_force = None, model = None, spring = true, damper = true,
-    slack = None, mapping_file = None, mapping = Vec::new()
+    slack = None, law = "coulomb", mapping_file = None, mapping = Vec::new()
 ))]
 #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
 pub(crate) fn identify_cyclic(
@@ -361,6 +362,7 @@ pub(crate) fn identify_cyclic(
     spring: bool,
     damper: bool,
     slack: Option<&str>,
+    law: &str,
     mapping_file: Option<PathBuf>,
     mapping: Vec<String>,
 ) -> PyResult<Identified> {
@@ -368,6 +370,10 @@ pub(crate) fn identify_cyclic(
     quantity(py, "mass", mass, Dimension::Mass)?;
     let normal_force_n = quantity(py, "normal_force", normal_force, Dimension::Force)?;
     let slack_m = quantity(py, "slack", slack, Dimension::Length)?;
+    let Some(law) = KineticLaw::ALL.into_iter().find(|known| known.name() == law) else {
+        let expected = KineticLaw::ALL.map(|known| format!("{:?}", known.name())).join(" or ");
+        return Err(of_argument(py, "law", &expected, &format!("{law:?}")));
+    };
     if mass.is_some() && model.is_some() {
         return Err(of_argument(py, "mass", "mass or model", "both"));
     }
@@ -396,7 +402,7 @@ pub(crate) fn identify_cyclic(
         (None, Some(text)) => Some(ModelText { name: "mass", text, set: &[] }),
         (None, None) => None,
     };
-    let request = CyclicRequest { model: base, normal_force_n, slack_m, spring, damper };
+    let request = CyclicRequest { model: base, normal_force_n, slack_m, spring, damper, law };
     let found = followed(py, Some(1), None, |_| identify::cyclic(&request, &measured))?;
     let went_in = WentIn::of(model.as_ref(), &sources, &columned);
     Identified::new(py, "slipstick.identify.cyclic(tests)", measured, found, went_in)

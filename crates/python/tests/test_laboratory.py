@@ -83,6 +83,20 @@ def test_cyclic_tests_are_identified_as_by_the_command(tmp_path: Path) -> None:
     assert "slider.kinetic_friction_force.positive" in forces.estimates and forces.model is None
 
 
+def test_friction_that_follows_the_speed_is_identified_as_by_the_command() -> None:
+    files = [LABORATORY / f"bearing-{hz}hz.csv" for hz in ["0.005", "0.05", "0.5"]]
+    found = ss.identify.cyclic(files, normal_force="800 kN", law="slow-fast-rate")
+    options = ["--normal-force", "800 kN", "--law", "slow-fast-rate", "--json", "-q"]
+    assert found._core._summary_json() == command("identify", "cyclic", *files, *options)
+    assert found.holds and found.model is None
+    rate = found.estimates["slider.kinetic_friction.rate"]
+    assert rate.low < 25.0 < rate.high and rate.unit == "s/m"
+    points, curve = found.tables["friction_by_speed"], found.tables["friction_curve"]
+    assert len(points) > len(found.tables["cycles"]) and len(curve) == 61
+    assert (curve["low"] < curve["kinetic_friction"]).all()
+    assert "friction-by-speed" in found.figures
+
+
 def test_free_vibration_is_identified_as_by_the_command() -> None:
     found = ss.identify.free_vibration(PULL_BACK, start="1 s")
     printed = command("identify", "free-vibration", PULL_BACK, "--from", "1 s", "--json", "-q")
@@ -141,6 +155,7 @@ def test_curves_are_drawn(tmp_path: Path) -> None:
         (lambda: ss.identify.cyclic(CYCLIC[0], mass="124 kgg"), ss.InputError, "mass"),
         (lambda: ss.identify.cyclic(CYCLIC[0], mass="1 kg", model=block()), ss.InputError, "both"),
         (lambda: ss.identify.cyclic(CYCLIC[0], normal_force="-1 N"), ss.InputError, "normal_force"),
+        (lambda: ss.identify.cyclic(CYCLIC[0], law="rate"), ss.InputError, "slow-fast-rate"),  # type: ignore[arg-type]
         (lambda: ss.identify.cyclic(PULL_BACK), ss.RecordError, "displacement"),
         (lambda: ss.identify.free_vibration(TABLE, mapping=SENSORS), ss.InputError, "channel"),
         (lambda: ss.identify.free_vibration(PULL_BACK, start="1 m"), ss.InputError, "start"),

@@ -2,6 +2,7 @@
 
 use super::{MethodName, UnitSystem};
 use clap::{Args, Subcommand, ValueEnum};
+use slipstick::laboratory::cyclic::KineticLaw;
 use std::path::PathBuf;
 
 pub(super) const COMPARE_EXAMPLES: &str = "\
@@ -27,6 +28,7 @@ SI, either end may be left out. A bound that is missed makes the exit status 1."
 pub(super) const IDENTIFY_EXAMPLES: &str = "\
 Examples:
   slipstick identify cyclic cyclic-*.csv --mass \"124 kg\" --out friction
+  slipstick identify cyclic bearing-*.csv --normal-force \"800 kN\" --law slow-fast-rate
   slipstick identify free-vibration pull-back.csv --channel storey1_acceleration --from \"2 s\"
   slipstick identify shaking-table test12.csv mock-up.toml \\
       --fit slider.static_friction,slider.kinetic_friction,slider.tilt --out fitted
@@ -102,7 +104,7 @@ pub enum IdentifyCommand {
 #[derive(Debug, Args)]
 pub struct CyclicArgs {
     /// Cyclic tests with the quantities displacement and force: files, folders or patterns; several
-    /// frequencies are compared
+    /// frequencies are compared, and a file may hold several
     #[arg(required = true)]
     pub files: Vec<String>,
     /// Mass of the block: friction becomes a coefficient, and with --out a model is written
@@ -114,6 +116,10 @@ pub struct CyclicArgs {
     /// Model that takes the friction found; its weight is the normal force
     #[arg(long, value_name = "FILE", conflicts_with = "mass")]
     pub model: Option<PathBuf>,
+    /// How kinetic friction follows the sliding speed: not at all, or by slow and fast coefficients and the
+    /// rate between them, which takes tests at several speeds and leaves out the damper
+    #[arg(long, value_enum, default_value = "coulomb")]
+    pub law: LawName,
     /// Do not fit these beside friction: spring, damper
     #[arg(long, value_name = "PART", value_enum, value_delimiter = ',')]
     pub without: Vec<Part>,
@@ -126,6 +132,24 @@ pub struct CyclicArgs {
     /// The result
     #[command(flatten)]
     pub result: ResultArgs,
+}
+
+/// How kinetic friction follows the sliding speed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum LawName {
+    /// One coefficient at all speeds
+    Coulomb,
+    /// fast - (fast - slow) e^(-rate |v|)
+    SlowFastRate,
+}
+
+impl From<LawName> for KineticLaw {
+    fn from(name: LawName) -> Self {
+        match name {
+            LawName::Coulomb => Self::Coulomb,
+            LawName::SlowFastRate => Self::SlowFastRate,
+        }
+    }
 }
 
 /// What a cyclic test need not have.

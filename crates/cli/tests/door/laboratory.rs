@@ -196,3 +196,51 @@ fn exact_zeros_of_sensors_are_stated() {
     let refused = folder.refused(&["identify", "cyclic", "off.csv", "--map", "zero=first 2"]);
     assert!(refused.contains("zero: expected \"first 2 s\""), "{refused}");
 }
+
+/// Sines at three frequencies; what was put in stands in the README of the examples.
+#[test]
+fn exact_friction_that_follows_the_speed_is_told() {
+    let folder = Folder::new("identify-rate");
+    for hz in ["0.005", "0.05", "0.5"] {
+        let name = format!("bearing-{hz}hz.csv");
+        let path = format!("{}/../../examples/laboratory/{name}", env!("CARGO_MANIFEST_DIR"));
+        folder.write(&name, std::fs::read_to_string(path).unwrap());
+    }
+    let model =
+        "[block]\nmass = \"81577 kg\"\n[slider]\nstatic_friction = 0.1\nkinetic_friction = 0.1\n";
+    folder.write("model.toml", model);
+    let fit = ["identify", "cyclic", "bearing-*.csv", "--law", "slow-fast-rate", "-q"];
+    let out = ["--model", "model.toml", "--json", "-o", "out"];
+    let found: Value = serde_json::from_str(&folder.stdout(&[&fit[..], &out].concat())).unwrap();
+    let truth = [
+        ("slider.kinetic_friction.slow", 0.04),
+        ("slider.kinetic_friction.fast", 0.08),
+        ("slider.kinetic_friction.rate", 25.0),
+        ("slider.static_friction", 0.09),
+        ("slider.spring", 320e3),
+    ];
+    for (estimate, (path, truth)) in found["estimates"].as_array().unwrap().iter().zip(truth) {
+        assert_eq!(estimate["parameter"], path);
+        let end = |key: &str| estimate[key].as_f64().unwrap();
+        assert!(end("low") <= truth && truth <= end("high"), "{estimate}");
+        assert!(end("high") - end("low") < 0.2 * truth, "{estimate}");
+    }
+    assert_eq!(found["law"], "slow-fast-rate");
+    assert_eq!(found["friction_curve"].as_array().unwrap().len(), 61);
+    assert!(folder.read("out/report.html").contains("id=\"friction-by-speed\""));
+    let keys = found["slider_keys"].as_str().unwrap();
+    assert!(keys.contains("\nkinetic_friction = { slow = 0.0"), "{keys}");
+    // The model that was written runs.
+    let motion = [
+        "--set",
+        "motion.sine={ frequency = \"1 Hz\", amplitude = \"3 m/s2\", \
+                   duration = \"2 s\", dt = \"0.01 s\" }",
+    ];
+    folder.stdout(&[&["run", "out/model.toml"], &motion[..]].concat());
+    // At one frequency, far below the knee, the data do not tell the fast end.
+    let slow =
+        folder.output(&["identify", "cyclic", "bearing-0.005hz.csv", "--law", "slow-fast-rate"]);
+    assert_eq!(slow.status.code(), Some(1), "{}", text(&slow.stderr));
+    let said = text(&slow.stdout);
+    assert!(said.contains("slider.kinetic_friction_force.rate: "), "{said}");
+}

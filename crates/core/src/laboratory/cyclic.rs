@@ -14,13 +14,18 @@
 //! friction is read where a stroke breaks away: the force rises while the block is stuck, then drops.
 //! Breakaway falls between two samples; the curve of the last samples before it is carried on to
 //! the middle between the two.
+//!
+//! Kinetic friction that follows the speed ([`KineticLaw::SlowFastRate`]) is read in classes of speed
+//! within each cycle, and a curve is laid through those of all cycles.
 
+mod rate;
 mod stroke;
 
 use super::estimate::{Estimate, mean_interval, mean_interval_with_common};
 use crate::numerics::algebra::linear_fit;
 use crate::numerics::fractile::upper_median;
 use crate::response::Warning;
+pub use rate::{CurvePoint, RateFit};
 use stroke::{Breakaway, Stroke, strokes};
 
 /// Fewest cycles that give an interval.
@@ -33,6 +38,35 @@ const CLEAR_DROP: f64 = 4.0;
 
 /// Friction counts where its mean is this many of its standard errors.
 const CLEAR_WIDTH: f64 = 6.0;
+
+/// Classes of speed in a cycle whose speed varies, at most.
+const CLASSES: usize = 6;
+/// The speed of a stroke varies where its standard deviation is this part of its mean.
+const VARIES: f64 = 0.1;
+
+/// How kinetic friction follows the sliding speed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum KineticLaw {
+    /// Not at all.
+    #[default]
+    Coulomb,
+    /// `μ = fast − (fast − slow) e^(−rate |v|)`.
+    SlowFastRate,
+}
+
+impl KineticLaw {
+    /// Every law, by its name.
+    pub const ALL: [Self; 2] = [Self::Coulomb, Self::SlowFastRate];
+
+    /// Its name in options.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Coulomb => "coulomb",
+            Self::SlowFastRate => "slow-fast-rate",
+        }
+    }
+}
 
 /// What a cyclic test measured.
 #[derive(Clone, Copy, Debug)]
@@ -48,8 +82,10 @@ pub struct CyclicTest<'a> {
     pub slack_m: Option<f64>,
     /// Whether a spring is fitted beside friction.
     pub spring: bool,
-    /// Whether a damper is.
+    /// Whether a damper is; never beside friction that follows the speed, from which it cannot be told.
     pub damper: bool,
+    /// How kinetic friction follows the speed.
+    pub law: KineticLaw,
     /// Whether the zeros of force and displacement are known: without them friction by direction
     /// cannot be told from an offset.
     pub zero_known: bool,
@@ -66,8 +102,11 @@ pub struct Cycle {
     pub stroke_m: f64,
     /// Largest speed in m/s.
     pub peak_velocity_m_per_s: f64,
-    /// Kinetic friction towards +x and −x in N.
+    /// Kinetic friction towards +x and −x in N, the mean over speeds.
     pub kinetic_n: [f64; 2],
+    /// The same by speed, from slow to fast; one entry where friction does not follow the speed, or where
+    /// the speed hardly varies.
+    pub by_speed: Vec<AtSpeed>,
     /// Static friction towards +x and −x in N, where a breakaway shows.
     pub static_n: [Option<f64>; 2],
     /// `K` in N/m, where it was fitted.
@@ -76,6 +115,17 @@ pub struct Cycle {
     pub damper_n_s_per_m: Option<f64>,
     /// Root mean square of what the fit leaves of the force, in N.
     pub residual_n: f64,
+}
+
+/// Kinetic friction of a cycle in one class of speeds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AtSpeed {
+    /// Mean speed in m/s.
+    pub speed_m_per_s: f64,
+    /// Standard deviation of the speeds in m/s.
+    pub spread_m_per_s: f64,
+    /// Friction towards +x and −x in N.
+    pub kinetic_n: [f64; 2],
 }
 
 /// What one test says.
@@ -91,16 +141,27 @@ pub struct CyclicFit {
     pub fitted_n: Vec<f64>,
     /// Whether a damper was to be fitted.
     pub damper_sought: bool,
-    /// How far a value of the static friction may be off for want of samples, in N (standard
-    /// deviation).
-    pub sampling_n: f64,
-    /// Whether samples fall on the same part of every cycle, so that the sampling of the breakaway
-    /// is one error for all of them; the second of every half cycle.
-    pub locked: [bool; 2],
+    /// How kinetic friction was taken to follow the speed.
+    pub law: KineticLaw,
+    /// Its cycles by frequency, one after the other.
+    pub runs: Vec<Run>,
     /// Whether the zeros of the sensors are known.
     pub zero_known: bool,
     /// How the middle of the force loop drifts, where it does.
     pub drift: Option<Drift>,
+}
+
+/// Consecutive cycles of one frequency.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// Which cycles.
+    pub cycles: core::ops::Range<usize>,
+    /// How far a value of the static friction may be off for want of samples, in N (standard
+    /// deviation).
+    pub sampling_n: f64,
+    /// How far its cycles share that error, from 0 to 1: all of it where samples fall on the same part of
+    /// every cycle; the second how far the mean of both ways does.
+    pub shared: [f64; 2],
 }
 
 /// A drift of the middle of the force loop, `(f⁺ − f⁻)/2`.
@@ -230,8 +291,8 @@ fn of_steady_zero(test: &CyclicTest) -> Result<CyclicFit, CyclicError> {
             }
         }
     }
-    let mut sampling: Vec<f64> = Vec::new();
-    let mut cycles = Vec::new();
+    let mut sampling: Vec<(usize, f64)> = Vec::new();
+    let mut cycles: Vec<Cycle> = Vec::new();
     for ((fit, sides), pair) in fits.into_iter().zip(&breakaways).zip(&pairs) {
         let Some(mut cycle) = fit else { continue };
         for side in 0..2 {
@@ -240,7 +301,7 @@ fn of_steady_zero(test: &CyclicTest) -> Result<CyclicFit, CyclicError> {
             let read = pair[side].breakaway(test, &cycle, slack_m);
             if let Some(b) = read.filter(|b| b.is_clear(cycle.residual_n)) {
                 cycle.static_n[usize::from(pair[side].sign < 0.0)] = Some(b.force_n);
-                sampling.push(b.sampling_n);
+                sampling.push((cycles.len(), b.sampling_n));
             }
         }
         cycles.push(cycle);
@@ -248,33 +309,85 @@ fn of_steady_zero(test: &CyclicTest) -> Result<CyclicFit, CyclicError> {
     if cycles.len() < LEAST_CYCLES {
         return Err(CyclicError::TooFewCycles { found: cycles.len() });
     }
-    let sampling_n = upper_median(sampling).unwrap_or(0.0);
-    let damper_sought = test.damper;
-    let (locked, drift) = (locked(test, &cycles), drift(&cycles));
-    let zero_known = test.zero_known;
+    let (runs, drift) = (runs(test, &cycles, &sampling), drift(&cycles));
     Ok(CyclicFit {
         cycles,
         slack_m,
         strokes_left_out,
         fitted_n,
-        damper_sought,
-        sampling_n,
-        locked,
-        zero_known,
+        damper_sought: test.damper && test.law == KineticLaw::Coulomb,
+        law: test.law,
+        runs,
+        zero_known: test.zero_known,
         drift,
     })
 }
 
-/// Whether the samples move by less than a step through the cycles of a test, and through its half
-/// cycles: then every breakaway falls on the same part of a step.
-fn locked(test: &CyclicTest, cycles: &[Cycle]) -> [bool; 2] {
+/// Consecutive cycles whose frequencies are within a tenth of the first of them.
+fn runs(test: &CyclicTest, cycles: &[Cycle], sampling: &[(usize, f64)]) -> Vec<Run> {
+    let mut starts: Vec<usize> = Vec::new();
+    for (i, cycle) in cycles.iter().enumerate() {
+        let same = starts
+            .last()
+            .and_then(|start| cycles.get(*start))
+            .is_some_and(|first| (cycle.frequency_hz / first.frequency_hz - 1.0).abs() < 0.1);
+        if !same {
+            starts.push(i);
+        }
+    }
+    let ends = starts.iter().skip(1).copied().chain([cycles.len()]);
+    let run = |(start, end): (&usize, usize)| {
+        let here = sampling.iter().filter(|(cycle, _)| (*start..end).contains(cycle));
+        let sampling_n = upper_median(here.map(|(_, n)| *n)).unwrap_or(0.0);
+        let shared = shared(test, &cycles[*start..end], sampling_n);
+        Run { cycles: *start..end, sampling_n, shared }
+    };
+    starts.iter().zip(ends).map(run).collect()
+}
+
+/// What a breakaway is read with, over the noise of the force: a parabola of 14 samples goes on for half
+/// a step to two steps.
+const READING: f64 = 2.0;
+
+/// The mean correlation of the sampling errors of any two cycles of a run, and of the means of both ways.
+///
+/// Where in a step a breakaway falls moves by the part `d` of a step from cycle to cycle. The error is
+/// uniform over the step, so that of cycles `k` apart correlates by `1 − 6x(1 − x)`, `x = kd mod 1`; where
+/// the static friction itself scatters by the part `j` of what the force rises in a step, by `e^(−4π²j²)`
+/// of that (its first harmonic). Where the samples move by more than a step through the run the error
+/// averages out. From `d` two standard errors are taken off, which the noise of the displacement at the
+/// turns makes.
+fn shared(test: &CyclicTest, cycles: &[Cycle], sampling_n: f64) -> [f64; 2] {
     let n = test.times_s.len();
     let dt_s = (test.times_s[n - 1] - test.times_s[0]) / (n - 1) as f64;
     let count = cycles.len() as f64;
     let steps = cycles.iter().map(|cycle| 1.0 / cycle.frequency_hz).sum::<f64>() / count / dt_s;
-    let off = |steps: f64| (steps - libm::round(steps)).abs();
-    let all = off(steps) * (count - 1.0) < 1.0;
-    [all, all && off(0.5 * steps) < 0.25]
+    let speed = cycles.iter().map(|cycle| cycle.peak_velocity_m_per_s).fold(0.0, f64::max);
+    // Turns are where 5 % of the stroke are passed: on a sine at 0.44 of the peak speed.
+    let turn_steps = stroke::noise(test.displacement_m) / (0.44 * speed * dt_s);
+    let off = ((steps - libm::round(steps)).abs() - 2.0 * turn_steps / count).max(0.0);
+    if cycles.len() < 2 || !(off * (count - 1.0) < 1.0) {
+        return [0.0; 2];
+    }
+    let correlation = |shift: f64| {
+        let x = shift - libm::floor(shift);
+        1.0 - 6.0 * x * (1.0 - x)
+    };
+    let pairs = (1..cycles.len()).map(|k| (count - k as f64) * correlation(k as f64 * off));
+    let one = (2.0 * pairs.sum::<f64>() / (count * (count - 1.0))).max(0.0);
+    let variance = |way: usize| {
+        let values: Vec<f64> = cycles.iter().filter_map(|cycle| cycle.static_n[way]).collect();
+        let (n, mean) = (values.len() as f64, values.iter().sum::<f64>() / values.len() as f64);
+        values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / (n - 1.0).max(1.0)
+    };
+    let reading_n = READING * stroke::noise(test.force_n);
+    let scatter = 0.5 * (variance(0) + variance(1)) - reading_n * reading_n;
+    let step_n = 12.0_f64.sqrt() * sampling_n;
+    let jitter = scatter.max(0.0) / (step_n * step_n);
+    // Without a rise, or without breakaways, nothing is shared.
+    let part = libm::exp(-4.0 * core::f64::consts::PI * core::f64::consts::PI * jitter);
+    let one = if part.is_finite() { one * part } else { 0.0 };
+    [one, one * 0.5 * (1.0 + correlation(0.5 * steps))]
 }
 
 /// Fewest standard errors of a drift, and least part of the friction that it makes over a test.
@@ -311,34 +424,72 @@ fn fit_cycle(
     starts: [usize; 2],
     fitted_n: &mut [f64],
 ) -> Option<Cycle> {
-    let mut rows: Vec<([f64; 4], f64)> = Vec::new();
-    let mut used = Vec::new();
-    for (stroke, start) in pair.into_iter().zip(starts) {
-        for i in stroke.sliding(start, SLOWEST) {
-            let up = f64::from(u8::from(stroke.sign > 0.0));
-            let velocity = stroke.velocity(i);
-            rows.push(([up, up - 1.0, test.displacement_m[i], velocity], test.force_n[i]));
-            used.push(i);
+    let used: Vec<(&Stroke, Vec<usize>)> = pair
+        .into_iter()
+        .zip(starts)
+        .map(|(stroke, start)| (stroke, stroke.sliding(start, SLOWEST).collect()))
+        .collect();
+    let speeds = || used.iter().flat_map(|(s, at)| at.iter().map(|i| s.velocity(*i).abs()));
+    let count = speeds().count();
+    let mean = speeds().sum::<f64>() / count.max(1) as f64;
+    let spread = speeds().map(|v| (v - mean) * (v - mean)).sum::<f64>() / count as f64;
+    // At one speed a viscous force is a friction force.
+    let varies = spread.sqrt() > VARIES * mean;
+    let by_speed = test.law == KineticLaw::SlowFastRate;
+    let damper = test.damper && varies && !by_speed;
+    let classes = if by_speed && varies { CLASSES.min(count / 32).max(1) } else { 1 };
+    let of_class = used.iter().map(|(stroke, at)| stroke.classes(at, classes));
+    let of_class: Vec<Vec<usize>> = of_class.collect();
+    let mut members = vec![Vec::new(); classes];
+    for ((stroke, at), of_class) in used.iter().zip(&of_class) {
+        for (i, class) in at.iter().zip(of_class) {
+            members[*class].push(stroke.velocity(*i).abs());
         }
     }
-    let speeds: Vec<f64> = rows.iter().map(|(x, _)| x[3].abs()).collect();
-    let mean = speeds.iter().sum::<f64>() / speeds.len().max(1) as f64;
-    let spread = speeds.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / speeds.len() as f64;
-    // At one speed a viscous force is a friction force.
-    let damper = test.damper && spread.sqrt() > 0.1 * mean;
-    let wanted = [true, true, test.spring, damper];
-    let chosen = |x: &[f64; 4]| -> Vec<f64> {
-        x.iter().zip(wanted).filter(|(_, wanted)| *wanted).map(|(x, _)| *x).collect()
+    let mean_and_spread = |speeds: &Vec<f64>| {
+        let n = speeds.len() as f64;
+        let mean = speeds.iter().sum::<f64>() / n;
+        (mean, (speeds.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / n).sqrt())
     };
-    let chosen: Vec<(Vec<f64>, f64)> = rows.iter().map(|(x, y)| (chosen(x), *y)).collect();
-    let fit = linear_fit(&chosen)?;
-    let mut found = fit.coefficients.iter().copied();
-    let coefficients = wanted.map(|wanted| if wanted { found.next() } else { None });
+    let members: Vec<(f64, f64)> = members.iter().map(mean_and_spread).collect();
+    // Both ways of each class; within it friction follows a line about its mean.
+    let lines = if classes > 1 { classes } else { 0 };
+    let mut rows: Vec<(Vec<f64>, f64)> = Vec::with_capacity(count);
+    for ((stroke, at), of_class) in used.iter().zip(&of_class) {
+        let up = f64::from(u8::from(stroke.sign > 0.0));
+        for (i, class) in at.iter().zip(of_class) {
+            let velocity = stroke.velocity(*i);
+            let mut x = vec![0.0; 2 * classes + lines];
+            [x[2 * class], x[2 * class + 1]] = [up, up - 1.0];
+            if lines > 0 {
+                x[2 * classes + class] = stroke.sign * (velocity.abs() - members[*class].0);
+            }
+            x.extend(test.spring.then_some(test.displacement_m[*i]));
+            x.extend(damper.then_some(velocity));
+            rows.push((x, test.force_n[*i]));
+        }
+    }
+    let fit = linear_fit(&rows)?;
     let unknowns = fit.coefficients.len();
     if rows.len() < 4 * unknowns {
         return None;
     }
-    for (i, (x, _)) in used.iter().zip(&chosen) {
+    let (friction, others) = fit.coefficients.split_at(2 * classes);
+    let by_speed: Vec<AtSpeed> = friction
+        .chunks_exact(2)
+        .zip(&members)
+        .map(|(both, (speed_m_per_s, spread_m_per_s))| AtSpeed {
+            speed_m_per_s: *speed_m_per_s,
+            spread_m_per_s: *spread_m_per_s,
+            kinetic_n: [both[0], both[1]],
+        })
+        .collect();
+    let kinetic_n =
+        [0, 1].map(|way| by_speed.iter().map(|at| at.kinetic_n[way]).sum::<f64>() / classes as f64);
+    let mut others = others[lines..].iter().copied();
+    let spring_n_per_m = if test.spring { others.next() } else { None };
+    let damper_n_s_per_m = if damper { others.next() } else { None };
+    for (i, (x, _)) in used.iter().flat_map(|(_, at)| at).zip(&rows) {
         fitted_n[*i] = fit.coefficients.iter().zip(x).map(|(c, x)| c * x).sum();
     }
     let [first, second] = pair;
@@ -350,10 +501,11 @@ fn fit_cycle(
         frequency_hz: 1.0 / (to_s - from_s),
         stroke_m: 0.5 * (first.length_m(test) + second.length_m(test)),
         peak_velocity_m_per_s: first.peak_velocity().max(second.peak_velocity()),
-        kinetic_n: [coefficients[0]?, coefficients[1]?],
+        kinetic_n,
+        by_speed,
         static_n: [None, None],
-        spring_n_per_m: coefficients[2],
-        damper_n_s_per_m: coefficients[3],
+        spring_n_per_m,
+        damper_n_s_per_m,
         residual_n: (fit.sse / (rows.len() - unknowns) as f64).sqrt(),
     })
 }
@@ -361,29 +513,54 @@ fn fit_cycle(
 /// What several tests say together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CyclicEstimates {
-    /// Kinetic and static friction (both ways together, towards +x, towards −x), then spring and
-    /// damper where they were fitted.
+    /// Kinetic friction (both ways together, towards +x, towards −x; or slow, fast and rate), static
+    /// friction, then spring and damper where they were fitted.
     /// Friction is a coefficient where the normal force is known, else a force in N.
     pub estimates: Vec<Estimate>,
     /// How the kinetic friction (mean of both ways) changes with frequency, per Hz; `None` for tests
-    /// at one frequency.
+    /// at one frequency, and where friction was taken to follow the speed.
     pub per_hz: Option<Estimate>,
+    /// Kinetic friction over speed, where it was taken to follow it.
+    pub rate: Option<RateFit>,
 }
 
-/// Means over all cycles of some tests.
+/// What some tests say together of the law that was fitted to them: means over all cycles, and a curve
+/// through all cycles where kinetic friction follows the speed.
 ///
 /// `normal_force_n` turns forces into coefficients. Refused are: friction that is not clear of 0
 /// (less than 2 % of the largest force or six standard errors), which means that nothing slid;
 /// static friction where fewer than three strokes show a breakaway. Friction by direction is left out
 /// where the zeros of the sensors are not known ([`zero_not_stated`]), and refused where one drifts.
+/// Slow and fast friction and the rate are those of both ways together; [`RateFit`] says when they are
+/// refused.
 #[must_use]
 pub fn estimates(
     fits: &[&CyclicFit],
     largest_force_n: f64,
     normal_force_n: Option<f64>,
 ) -> CyclicEstimates {
+    let by_speed = fits.iter().any(|fit| fit.law == KineticLaw::SlowFastRate);
+    let law = if by_speed { KineticLaw::SlowFastRate } else { KineticLaw::Coulomb };
+    estimates_of(law, fits, largest_force_n, normal_force_n)
+}
+
+/// The same as means over all cycles, whatever law was fitted.
+#[must_use]
+pub fn means(
+    fits: &[&CyclicFit],
+    largest_force_n: f64,
+    normal_force_n: Option<f64>,
+) -> CyclicEstimates {
+    estimates_of(KineticLaw::Coulomb, fits, largest_force_n, normal_force_n)
+}
+
+fn estimates_of(
+    law: KineticLaw,
+    fits: &[&CyclicFit],
+    largest_force_n: f64,
+    normal_force_n: Option<f64>,
+) -> CyclicEstimates {
     let cycles: Vec<&Cycle> = fits.iter().flat_map(|fit| &fit.cycles).collect();
-    let sampling_n = fits.iter().map(|fit| fit.sampling_n).fold(0.0, f64::max);
     let (over_n, unit) = normal_force_n.map_or((1.0, "N"), |n| (n, ""));
     let name = |what: &str, way: &str| {
         let force = if normal_force_n.is_some() { "" } else { "_force" };
@@ -391,13 +568,16 @@ pub fn estimates(
     };
     let mean = |cycle: &&Cycle| 0.5 * (cycle.kinetic_n[0] + cycle.kinetic_n[1]);
     let widths: Vec<f64> = cycles.iter().map(mean).collect();
-    let why_not = not_sliding(&widths, largest_force_n);
+    let why_not = not_sliding(&widths, largest_force_n, law);
     let slides = why_not.is_none();
     let by_way = by_way(fits);
     let told_ways = if fits.iter().all(|fit| fit.zero_known) { 3 } else { 1 };
     let mut estimates = Vec::new();
     let ways = ["", ".positive", ".negative"];
-    for way in 0..told_ways {
+    let rate = (law == KineticLaw::SlowFastRate)
+        .then(|| rate::slow_fast_rate(&cycles, why_not.as_deref(), normal_force_n));
+    estimates.extend(rate.iter().flat_map(|rate| rate.estimates.clone()));
+    for way in 0..if rate.is_some() { 0 } else { told_ways } {
         let values: Vec<f64> = cycles
             .iter()
             .map(|cycle| if way == 0 { mean(cycle) } else { cycle.kinetic_n[way - 1] } / over_n)
@@ -410,26 +590,9 @@ pub fn estimates(
         });
     }
     for way in 0..told_ways {
-        let values: Vec<f64> = cycles
-            .iter()
-            .filter_map(|cycle| match way {
-                0 => Some(0.5 * (cycle.static_n[0]? + cycle.static_n[1]?)),
-                _ => cycle.static_n[way - 1],
-            })
-            .map(|force_n| force_n / over_n)
-            .collect();
+        let (values, interval) = static_friction(fits, way, over_n);
         let path = name("static", ways[way]);
-        let enough = values.len() >= LEAST_CYCLES;
-        let floor = if way == 0 { sampling_n / 2.0_f64.sqrt() } else { sampling_n } / over_n;
-        // Half a step of the rise before breakaway, in which all cycles of a locked test agree; the two
-        // ways are half a cycle apart, and where that is no whole number of steps they share half of it.
-        let half_step = 3.0_f64.sqrt() * sampling_n / over_n;
-        let locked = |half: usize| fits.iter().any(|fit| fit.locked[half]);
-        let interval = match (locked(0), way == 0 && !locked(1)) {
-            (false, _) => mean_interval(&values, floor),
-            (true, true) => mean_interval_with_common(&values, 0.5 * half_step),
-            (true, false) => mean_interval_with_common(&values, half_step),
-        };
+        let enough = values >= LEAST_CYCLES;
         estimates.push(match (interval, &by_way) {
             (Some(_), Err(why)) if way > 0 && slides && enough => {
                 Estimate::refused(path, unit, *why)
@@ -437,8 +600,7 @@ pub fn estimates(
             (Some((value, ends)), _) if slides && enough => Estimate::told(path, unit, value, ends),
             _ => {
                 let why = format!(
-                    "only {} of {} cycles show a breakaway that is clear of noise and sampling",
-                    values.len(),
+                    "only {values} of {} cycles show a breakaway that is clear of noise and sampling",
                     cycles.len()
                 );
                 Estimate::refused(path, unit, why)
@@ -461,7 +623,50 @@ pub fn estimates(
         }
         _ => {}
     }
-    CyclicEstimates { estimates, per_hz: per_hz(&cycles, over_n, unit) }
+    let per_hz = if rate.is_some() { None } else { per_hz(&cycles, over_n, unit) };
+    CyclicEstimates { estimates, per_hz, rate }
+}
+
+/// How many cycles tell the static friction of both ways (`way` 0) or one, and their mean, over
+/// `over_n`, with its interval.
+fn static_friction(
+    fits: &[&CyclicFit],
+    way: usize,
+    over_n: f64,
+) -> (usize, Option<(f64, [f64; 2])>) {
+    let value = |cycle: &Cycle| match way {
+        0 => Some(0.5 * (cycle.static_n[0]? + cycle.static_n[1]?) / over_n),
+        _ => Some(cycle.static_n[way - 1]? / over_n),
+    };
+    let mut values: Vec<f64> = Vec::new();
+    let (mut floor, mut common, mut locked) = (0.0, 0.0, 0);
+    for (fit, run) in fits.iter().flat_map(|fit| fit.runs.iter().map(move |run| (fit, run))) {
+        let before = values.len();
+        values.extend(fit.cycles[run.cycles.clone()].iter().filter_map(value));
+        let count = (values.len() - before) as f64;
+        let sampling = run.sampling_n / over_n;
+        floor += count * sampling * sampling / if way == 0 { 2.0 } else { 1.0 };
+        // Half a step of the rise before breakaway, which two cycles of a run share.
+        let half_step = 3.0_f64.sqrt() * sampling;
+        let shared = run.shared[usize::from(way == 0)];
+        if shared > 0.0 && count > 0.0 {
+            common += count * (count - 1.0) * shared * half_step * half_step;
+            locked += 1;
+        }
+    }
+    let n = values.len() as f64;
+    let (floor, common) = ((floor / n).sqrt(), (common / (n * (n - 1.0))).sqrt());
+    let interval = match locked {
+        0 => mean_interval(&values, floor),
+        1 => mean_interval_with_common(&values, common),
+        // Runs do not agree in their part of a step: their errors add up to a normal one.
+        _ => mean_interval(&values, 0.0).map(|(mean, [_, high])| {
+            let normal = crate::numerics::distribution::normal_quantile(0.975);
+            let half = libm::hypot(high - mean, normal * common / 3.0_f64.sqrt());
+            (mean, [mean - half, mean + half])
+        }),
+    };
+    (values.len(), interval)
 }
 
 /// What a reader must know of tests whose sensors may be off by a constant.
@@ -488,10 +693,14 @@ fn by_way(fits: &[&CyclicFit]) -> Result<(), &'static str> {
 }
 
 /// Why friction (one value a cycle, in N) does not show, if it does not.
-fn not_sliding(widths: &[f64], largest_force_n: f64) -> Option<String> {
+fn not_sliding(widths: &[f64], largest_force_n: f64, law: KineticLaw) -> Option<String> {
     let (width, [low, _]) = mean_interval(widths, 0.0)?;
     if !(width > 0.02 * largest_force_n) {
         return Some("the loop of force over displacement has no width: nothing slid".to_owned());
+    }
+    // Friction that follows the speed differs from cycle to cycle.
+    if law == KineticLaw::SlowFastRate {
+        return None;
     }
     let t = crate::numerics::distribution::student_quantile(0.95, widths.len() as f64 - 1.0);
     let error = (width - low) / t;

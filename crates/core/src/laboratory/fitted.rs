@@ -10,8 +10,9 @@ const DIGITS: usize = 6;
 /// The keys of a model that estimates set, and what had to be decided.
 ///
 /// - Friction is one number where the intervals of both directions overlap, else one a direction.
+/// - Friction that follows the speed is set where slow, fast and rate are all told.
 /// - Static friction that the data do not tell, or that lies below the kinetic one, is taken as
-///   large as the kinetic one.
+///   large as the kinetic one, the slow one where it follows the speed.
 /// - A spring or damper whose interval reaches below 0 is left out.
 /// - What the data do not tell is left as the model has it.
 #[must_use]
@@ -44,11 +45,24 @@ pub fn overrides(estimates: &[Estimate]) -> (Vec<Override>, Vec<Warning>) {
             set.push(key);
         }
     };
+    let by_speed = ["slow", "fast", "rate"].map(|key| format!("{}.{key}", both[0]));
+    let followed: Vec<&String> = by_speed.iter().filter(|path| here(path)).collect();
+    let all_told = followed.iter().all(|path| told(path).is_some());
     for way in &ways {
-        let [kinetic, limit] = both.map(|path| format!("{path}{way}"));
-        let (kinetic_told, static_told) = (told(&kinetic), told(&limit));
+        let [kinetic, limit] = match followed.as_slice() {
+            [] => both.map(|path| format!("{path}{way}")),
+            _ => [by_speed[0].clone(), both[1].to_owned()],
+        };
+        let (kinetic_told, static_told) = (told(&kinetic).filter(|_| all_told), told(&limit));
         if let Some(kinetic_value) = kinetic_told {
             push(&kinetic, kinetic_value);
+        }
+        for (path, value) in followed.iter().filter_map(|path| Some((path, told(path)?))) {
+            if all_told && **path != kinetic {
+                push(path, value);
+            }
+        }
+        if let Some(kinetic_value) = kinetic_told {
             match static_told {
                 Some(value) if value >= kinetic_value => push(&limit, value),
                 _ if here(&limit) => {
@@ -75,7 +89,11 @@ pub fn overrides(estimates: &[Estimate]) -> (Vec<Override>, Vec<Warning>) {
     }
     for estimate in estimates {
         let Outcome::Told { value, low, .. } = estimate.outcome else { continue };
-        if both.iter().any(|path| estimate.path.starts_with(path)) {
+        let of_friction = |path: &&str| {
+            let way = estimate.path.strip_prefix(path);
+            way.is_some_and(|way| ["", ".positive", ".negative"].contains(&way))
+        };
+        if both.iter().any(of_friction) || by_speed.contains(&estimate.path) {
             continue;
         }
         let elastic = ["slider.spring", "slider.damper"].contains(&estimate.path.as_str());
@@ -88,6 +106,34 @@ pub fn overrides(estimates: &[Estimate]) -> (Vec<Override>, Vec<Warning>) {
         push(&estimate.path, value);
     }
     (set, warnings)
+}
+
+/// The table `[slider]` of a model with what estimates set in it; `None` where friction is not told.
+#[must_use]
+pub fn slider_keys(estimates: &[Estimate]) -> Option<String> {
+    let (set, _) = overrides(estimates);
+    let mut keys: Vec<(String, Vec<String>)> = Vec::new();
+    for (path, value) in set.iter().filter_map(|key| key.text().split_once('=')) {
+        let Some(path) = path.strip_prefix("slider.") else { continue };
+        let value = match value.split_once(' ') {
+            Some(_) => format!("\"{value}\""),
+            None => value.to_owned(),
+        };
+        let (key, inner) = path.split_once('.').unwrap_or((path, ""));
+        let entry = if inner.is_empty() { value } else { format!("{inner} = {value}") };
+        match keys.iter_mut().find(|(name, _)| name == key) {
+            Some((_, entries)) => entries.push(entry),
+            None => keys.push((key.to_owned(), vec![entry])),
+        }
+    }
+    // Static friction first, as people write it.
+    keys.sort_by_key(|(key, _)| (key != "static_friction", key != "kinetic_friction"));
+    let line = |(key, entries): &(String, Vec<String>)| match entries.as_slice() {
+        [value] if !value.contains(" = ") => format!("{key} = {value}\n"),
+        _ => format!("{key} = {{ {} }}\n", entries.join(", ")),
+    };
+    let friction = keys.iter().any(|(key, _)| key == "kinetic_friction");
+    friction.then(|| format!("[slider]\n{}", keys.iter().map(line).collect::<String>()))
 }
 
 #[cfg(test)]
@@ -126,6 +172,37 @@ mod tests {
             ]
         );
         assert_eq!(warnings, ["static_taken_as_kinetic", "not_clear_of_zero"]);
+        // Friction that follows the speed: all of it, or none.
+        let told = |path: &str, value: f64| Estimate::told(path, "", value, [0.0, 1.0]);
+        let slow_fast = |rate: Estimate| {
+            let slow = told("slider.kinetic_friction.slow", 0.05);
+            paths(&[slow, told("slider.kinetic_friction.fast", 0.1), rate, told(LIMIT, 0.06)])
+        };
+        const LIMIT: &str = "slider.static_friction";
+        const RATE: &str = "slider.kinetic_friction.rate";
+        let (set, warnings) = slow_fast(told(RATE, 20.0));
+        let keys = ["slow", "fast", "rate"].map(|key| format!("slider.kinetic_friction.{key}"));
+        assert_eq!(set, [&keys[..], &[LIMIT.to_owned()]].concat());
+        assert!(warnings.is_empty());
+        let (set, warnings) = slow_fast(refused(RATE));
+        assert_eq!((set.len(), warnings), (0, vec!["kinetic_not_told"]));
+        let all = [
+            told("slider.kinetic_friction.slow", 0.05),
+            told("slider.kinetic_friction.fast", 0.1),
+            Estimate::told(RATE, "s/m", 20.0, [19.0, 21.0]),
+            told(LIMIT, 0.06),
+            Estimate::told("slider.spring", "N/m", 1e4, [9e3, 1.1e4]),
+        ];
+        let expected = "[slider]\nstatic_friction = 0.06\nkinetic_friction = { slow = 0.05, fast = \
+                        0.1, rate = \"20.0 s/m\" }\nspring = \"10000.0 N/m\"\n";
+        assert_eq!(slider_keys(&all).unwrap(), expected);
+        let [_, fast, rate, limit, spring] = all;
+        let without = [refused("slider.kinetic_friction.slow"), fast, rate, limit, spring];
+        assert_eq!(slider_keys(&without), None);
+        // Fitted to a shaking-table record one by one.
+        for path in [RATE, "slider.kinetic_friction.coefficient.2"] {
+            assert_eq!(paths(&[told(path, 0.1)]).0, [path]);
+        }
         // Where the directions agree, one number is enough.
         let near = |way: &str| {
             Estimate::told(format!("slider.kinetic_friction{way}"), "", 0.1, [0.09, 0.11])
@@ -133,7 +210,7 @@ mod tests {
         let (set, _) = paths(&[near(""), near(".positive"), near(".negative")]);
         assert_eq!(set, ["slider.kinetic_friction"]);
         // Static friction that was not asked for stays as the model has it.
-        let (set, warnings) = paths(&[told("slider.kinetic_friction", 0.1, 0.0)]);
+        let (set, warnings) = paths(&[told("slider.kinetic_friction", 0.1)]);
         assert_eq!((set.len(), warnings.len()), (1, 0));
     }
 }

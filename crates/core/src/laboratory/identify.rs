@@ -3,7 +3,8 @@
 
 use super::compare::table_csv;
 use super::cyclic::{
-    self, Cycle, CyclicError, CyclicEstimates, CyclicFit, CyclicTest, estimates, zero_not_stated,
+    self, CurvePoint, Cycle, CyclicError, CyclicEstimates, CyclicFit, CyclicTest, KineticLaw,
+    estimates, zero_not_stated,
 };
 use super::estimate::Estimate;
 use super::fitted;
@@ -77,8 +78,9 @@ impl Identified {
 }
 
 impl Identified {
-    /// The estimates, one row a parameter; of cyclic tests also one row a cycle; of a shaking-table record
-    /// also the agreement with the best values.
+    /// The estimates, one row a parameter; of cyclic tests also one row a cycle, and where friction follows
+    /// the speed one row a cycle and class of speeds and the fitted curve; of a shaking-table record also
+    /// the agreement with the best values.
     #[must_use]
     pub fn tables(&self, measured: &[Measured]) -> Vec<(&'static str, Table)> {
         let all = &self.estimates;
@@ -98,7 +100,51 @@ impl Identified {
             Found::FreeVibration { .. } => None,
             Found::ShakingTable { fit, .. } => Some(("agreement", fit.comparison.table())),
         };
-        core::iter::once(("estimates", estimates)).chain(more).collect()
+        core::iter::once(("estimates", estimates))
+            .chain(more)
+            .chain(self.by_speed(measured))
+            .collect()
+    }
+
+    /// The table `[slider]` of a model with what cyclic tests told; `None` for the other jobs, and where
+    /// friction is not told as a coefficient.
+    #[must_use]
+    pub fn slider_keys(&self) -> Option<String> {
+        let cyclic = matches!(self.found, Found::Cyclic { .. });
+        cyclic.then(|| fitted::slider_keys(&self.estimates)).flatten()
+    }
+
+    /// Friction by speed, measured and fitted, where it was taken to follow the speed.
+    fn by_speed(&self, measured: &[Measured]) -> Vec<(&'static str, Table)> {
+        let Found::Cyclic { fits, together: CyclicEstimates { rate: Some(rate), .. }, .. } =
+            &self.found
+        else {
+            return Vec::new();
+        };
+        let all = || {
+            measured.iter().zip(fits).flat_map(|(measured, fit)| {
+                let cycles = fit.cycles.iter().enumerate();
+                cycles.flat_map(move |(i, cycle)| {
+                    cycle.by_speed.iter().map(move |at| (measured, i as f64 + 1.0, at))
+                })
+            })
+        };
+        let mut points = Table::default();
+        points
+            .texts("test", all().map(|(measured, ..)| measured.source_name.clone()).collect())
+            .numbers("cycle", "", all().map(|(_, cycle, _)| cycle).collect())
+            .numbers("speed_m_per_s", "m/s", all().map(|(.., at)| at.speed_m_per_s).collect())
+            .numbers("kinetic_positive_n", "N", all().map(|(.., at)| at.kinetic_n[0]).collect())
+            .numbers("kinetic_negative_n", "N", all().map(|(.., at)| at.kinetic_n[1]).collect());
+        let of = |figure: fn(&CurvePoint) -> f64| rate.curve.iter().map(figure).collect();
+        let unit = rate.estimates[0].unit;
+        let mut curve = Table::default();
+        curve
+            .numbers("speed_m_per_s", "m/s", of(|point| point.speed_m_per_s))
+            .numbers("kinetic_friction", unit, of(|point| point.friction))
+            .numbers("low", unit, of(|point| point.interval[0]))
+            .numbers("high", unit, of(|point| point.interval[1]));
+        vec![("friction_by_speed", points), ("friction_curve", curve)]
     }
 
     /// What was fitted, with the fit: displacement and force of every cyclic test, by the name of its file;
@@ -242,6 +288,8 @@ pub struct CyclicRequest<'a> {
     pub spring: bool,
     /// As in [`CyclicTest`].
     pub damper: bool,
+    /// As in [`CyclicTest`].
+    pub law: KineticLaw,
 }
 
 /// Displacement and force of a cyclic test.
@@ -284,6 +332,7 @@ pub fn cyclic(
             slack_m: request.slack_m,
             spring: request.spring,
             damper: request.damper,
+            law: request.law,
             // An offset of the displacement is one of the force where a spring is fitted.
             zero_known: force.zero_known && (displacement.zero_known || !request.spring),
         };
@@ -298,9 +347,12 @@ pub fn cyclic(
     let mut warnings: Vec<_> = measured.iter().flat_map(|m| m.warnings.clone()).collect();
     warnings.extend(fits.iter().filter_map(CyclicFit::warning));
     warnings.extend(zero_not_stated(&all));
-    let friction = together.estimates.first().and_then(Estimate::value);
+    let kinetic = match &together.rate {
+        Some(rate) => rate.estimates.iter().all(|estimate| estimate.value().is_some()),
+        None => together.estimates.first().is_some_and(|estimate| estimate.value().is_some()),
+    };
     let mut model = None;
-    if let Some(text) = request.model.filter(|_| friction.is_some()) {
+    if let Some(text) = request.model.filter(|_| kinetic) {
         let (analysis, decided) = text.fitted(&together.estimates)?;
         warnings.extend(decided);
         model = Some(analysis);

@@ -323,6 +323,7 @@ def identify_cyclic(
     spring: bool = True,
     damper: bool = True,
     slack: str | None = None,
+    law: str = "coulomb",
     mapping_file: Path | None = None,
     mapping: list[str] = ...,
 ) -> Identified: ...

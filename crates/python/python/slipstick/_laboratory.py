@@ -143,8 +143,10 @@ class Identified(_Test):
     """Parameters identified from tests.
 
     ``tables["estimates"]`` has one row a parameter. Of cyclic tests, ``tables["cycles"]`` has one row a
-    cycle and ``curves`` displacement, force and fitted force by test; of a shaking-table record
-    ``tables["agreement"]`` and ``curves`` are those of the comparison with the best values.
+    cycle and ``curves`` displacement, force and fitted force by test; where friction follows the speed,
+    ``tables["friction_by_speed"]`` has what every cycle tells and ``tables["friction_curve"]`` the fitted
+    curve with its interval. Of a shaking-table record ``tables["agreement"]`` and ``curves`` are those of
+    the comparison with the best values.
     """
 
     _KEYS = (*_Test._KEYS, ("_estimates",), ("model",))

@@ -6,7 +6,7 @@ Every parameter comes with its 95 % confidence interval, or with the reason why 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from . import _core
 from ._laboratory import Identified, given, mapped, several
@@ -28,6 +28,7 @@ def cyclic(
     spring: bool = True,
     damper: bool = True,
     slack: str | None = None,
+    law: Literal["coulomb", "slow-fast-rate"] = "coulomb",
     mapping: Columns | None = None,
 ) -> Identified:
     """Identify friction, spring and damper from cyclic tests: displacement and force over time.
@@ -36,7 +37,7 @@ def cyclic(
     ----------
     tests
         One test or several: files, patterns, or columns by name (``time_s``, ``displacement_m``,
-        ``force_n``). Several frequencies are compared.
+        ``force_n``). Several frequencies are compared; a test may hold several.
     mass
         Mass of the block, ``"124 kg"``: friction becomes a coefficient, and ``model`` of the result a block
         with it.
@@ -49,6 +50,10 @@ def cyclic(
     slack
         Travel after each reversal that is left out, ``"0.5 mm"`` (backlash); found from the force if left
         out.
+    law
+        How kinetic friction follows the sliding speed: ``"coulomb"``, not at all; ``"slow-fast-rate"``, by
+        slow and fast coefficients and the rate between them, which takes tests at several speeds and
+        leaves out the damper.
     mapping
         As in ``compare``.
 
@@ -84,6 +89,7 @@ def cyclic(
             spring=spring,
             damper=damper,
             slack=slack,
+            law=law,
             **mapped(mapping),
         )
     )

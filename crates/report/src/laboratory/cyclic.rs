@@ -1,13 +1,16 @@
 //! Cyclic tests: loops of force over displacement with the fitted strokes.
 
-use slipstick::laboratory::cyclic::{Cycle, CyclicEstimates, CyclicFit, estimates};
+use slipstick::laboratory::cyclic::{
+    AtSpeed, CurvePoint, Cycle, CyclicEstimates, CyclicFit, RateFit, means,
+};
 
 use super::identify::estimate_json;
+use crate::assessment::lines::{BAND, band, line};
 use crate::display::{DisplayUnits, Quantity};
 use crate::figures::Drawn;
 use crate::json::Json;
 use crate::number::significant;
-use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
 
 /// One test.
 #[derive(Clone, Copy, Debug)]
@@ -23,10 +26,22 @@ pub struct Test<'a> {
 }
 
 /// What the intervals assume.
-pub const ASSUMPTION: &str = "Means over cycles with Student's 95 % interval: cycles are taken as \
-     independent, nothing is assumed of the noise within one. The static friction of a test whose \
-     samples fall on the same part of every cycle is known to half a step of the force before \
-     breakaway, which its interval includes.";
+#[must_use]
+pub fn assumption(by_speed: bool) -> String {
+    let speed = if by_speed {
+        " Slow and fast friction and the rate are those of the curve μ = fast − (fast − slow) e^(−rate |v|) \
+         through all cycles, which count alike; their intervals are profiles of its sum of squares, scaled \
+         to the scatter of the cycles. A damper is not fitted beside it."
+    } else {
+        ""
+    };
+    format!(
+        "Means over cycles with Student's 95 % interval: cycles are taken as independent, nothing is \
+         assumed of the noise within one. The static friction of a test whose samples fall on the same \
+         part of every cycle is known to half a step of the force before breakaway, which its interval \
+         includes.{speed}"
+    )
+}
 
 /// Other figures of some tests.
 #[must_use]
@@ -62,7 +77,7 @@ pub fn by_test(tests: &[Test], normal_force_n: Option<f64>) -> Vec<Vec<String>> 
     ];
     for test in tests {
         let largest_n = test.force_n.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
-        let found = estimates(&[test.fit], largest_n, normal_force_n).estimates;
+        let found = means(&[test.fit], largest_n, normal_force_n).estimates;
         let cycles = &test.fit.cycles;
         let hz = cycles.iter().map(|c| c.frequency_hz).sum::<f64>() / cycles.len().max(1) as f64;
         let mut row = vec![test.name.to_owned(), significant(hz, 3), cycles.len().to_string()];
@@ -144,6 +159,7 @@ pub fn json(tests: &[Test], found: &CyclicEstimates) -> Vec<(&'static str, Json)
                 ("spring_n_per_m", cycle.spring_n_per_m.into()),
                 ("damper_n_s_per_m", cycle.damper_n_s_per_m.into()),
                 ("residual_n", cycle.residual_n.into()),
+                ("by_speed", Json::List(cycle.by_speed.iter().map(at_speed_json).collect())),
             ])
         });
         Json::Object(vec![
@@ -153,10 +169,110 @@ pub fn json(tests: &[Test], found: &CyclicEstimates) -> Vec<(&'static str, Json)
             ("cycles", Json::List(cycles.collect())),
         ])
     });
+    let curve = found.rate.as_ref().map_or(Json::Null, |rate| {
+        let point = |point: &CurvePoint| {
+            Json::Object(vec![
+                ("speed_m_per_s", point.speed_m_per_s.into()),
+                ("kinetic_friction", point.friction.into()),
+                ("low", point.interval[0].into()),
+                ("high", point.interval[1].into()),
+            ])
+        };
+        Json::List(rate.curve.iter().map(point).collect())
+    });
+    let law = tests.first().map_or(Json::Null, |test| test.fit.law.name().into());
     vec![
+        ("law", law),
+        ("friction_curve", curve),
         ("frequency_dependence", found.per_hz.as_ref().map_or(Json::Null, estimate_json)),
         ("tests", Json::List(tests_json.collect())),
     ]
+}
+
+fn at_speed_json(at: &AtSpeed) -> Json {
+    Json::Object(vec![
+        ("speed_m_per_s", at.speed_m_per_s.into()),
+        ("kinetic_positive_n", at.kinetic_n[0].into()),
+        ("kinetic_negative_n", at.kinetic_n[1].into()),
+    ])
+}
+
+/// Kinetic friction over sliding speed: what every cycle tells, and the fitted curve with its interval.
+#[must_use]
+pub fn by_speed(
+    tests: &[Test],
+    rate: &RateFit,
+    static_friction: Option<f64>,
+    normal_force_n: Option<f64>,
+    display: DisplayUnits,
+) -> Drawn {
+    let over_n = normal_force_n.unwrap_or(1.0);
+    let cycles = || tests.iter().flat_map(|test| &test.fit.cycles);
+    let measured: Vec<[f64; 2]> = cycles()
+        .flat_map(|cycle| &cycle.by_speed)
+        .map(|at| [at.speed_m_per_s, 0.5 * (at.kinetic_n[0] + at.kinetic_n[1]) / over_n])
+        .collect();
+    let largest = measured.iter().fold([0.0; 2], |[v, f]: [f64; 2], m| [v.max(m[0]), f.max(m[1])]);
+    let speed = display.unit(Quantity::Velocity, largest[0]);
+    let force = display.unit(Quantity::Force, largest[1]);
+    let (friction, label) = match normal_force_n {
+        Some(_) => (display.unit(Quantity::Ratio, 1.0), "Coefficient of friction".to_owned()),
+        None => (force, force.label("Friction")),
+    };
+    let shown = |[v, f]: [f64; 2]| [speed.of(v), friction.of(f)];
+    let curve = &rate.curve;
+    let x: Vec<f64> = curve.iter().map(|point| speed.of(point.speed_m_per_s)).collect();
+    let [low, high] =
+        [0, 1].map(|end| curve.iter().map(|p| friction.of(p.interval[end])).collect::<Vec<f64>>());
+    let fitted = curve.iter().map(|point| shown([point.speed_m_per_s, point.friction])).collect();
+    let mut series = vec![
+        band(&x, &low, &high, "95 % interval of the curve", BAND),
+        line("fitted", Style::MAIN, fitted),
+        Series {
+            label: "measured, a cycle or a class of its speeds".to_owned(),
+            style: Style { width: 0.4, ..Style::WIDE },
+            shape: Shape::Dots(Style::WIDE.colour),
+            points: measured.iter().copied().map(shown).collect(),
+        },
+    ];
+    series.retain(|series| !series.points.is_empty());
+    let limits: Vec<Limit> = static_friction
+        .map(|value| Limit {
+            value: friction.of(value),
+            label: "static friction".to_owned(),
+            style: Style::LIMIT,
+        })
+        .into_iter()
+        .collect();
+    let slowest = measured.iter().fold(f64::INFINITY, |least, m| least.min(m[0]));
+    let values = series.iter().flat_map(|s| s.points.iter().map(|point| point[1]));
+    let values: Vec<f64> = values.chain(limits.iter().map(|limit| limit.value)).collect();
+    let panel = Panel {
+        x: Axis::logarithmic(
+            speed.label("Sliding speed"),
+            speed.of(slowest / 1.2),
+            speed.of(1.2 * largest[0]),
+        ),
+        y: Axis::covering(label, values),
+        height: 210.0,
+        series,
+        limits,
+        peak: None,
+        note: String::new(),
+    };
+    let caption =
+        "Kinetic friction over the sliding speed: what every cycle tells (mean of both ways), \
+                   and the fitted curve with its 95 % interval."
+            .to_owned();
+    let figure = Figure {
+        id: "friction-by-speed",
+        title: "Kinetic friction over sliding speed".to_owned(),
+        description: caption.clone(),
+        layout: Layout::Stacked,
+        panels: vec![panel],
+        shaded: Vec::new(),
+    };
+    Drawn { id: figure.id, caption, svg: figure.to_svg() }
 }
 
 /// One figure a test, of eight at most: measured loops with the fitted strokes, and friction by

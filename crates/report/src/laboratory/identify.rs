@@ -17,6 +17,9 @@ use crate::number::{fixed, significant};
 use crate::report::{FileNote, InputText};
 use crate::summary::keys::listed;
 
+/// What stands over the keys of a model.
+const FOR_MODEL: &str = "For the model file";
+
 /// What was identified, and from what.
 #[derive(Clone, Debug)]
 pub struct IdentifyReport<'a> {
@@ -32,6 +35,8 @@ pub struct IdentifyReport<'a> {
     pub facts: Vec<(&'static str, String)>,
     /// Tables with their captions; the first row holds the heads.
     pub tables: Vec<(String, Vec<Vec<String>>)>,
+    /// The table `[slider]` of a model with what was told; only of cyclic tests.
+    pub slider_keys: Option<String>,
     /// What the intervals assume.
     pub assumption: String,
     /// Keys of the JSON object that only this job has.
@@ -103,6 +108,7 @@ impl IdentifyReport<'_> {
             estimates: identified.estimates.clone(),
             facts: Vec::new(),
             tables: Vec::new(),
+            slider_keys: identified.slider_keys(),
             assumption: String::new(),
             json: Vec::new(),
             figures: Vec::new(),
@@ -124,6 +130,19 @@ impl IdentifyReport<'_> {
                 let normal_n = *normal_force_n;
                 let mut tables =
                     vec![("Cycle by cycle".to_owned(), cyclic::table(&tests, normal_n))];
+                let friction = together.rate.as_ref().map(|rate| {
+                    let limit = identified.estimates.iter().find(|e| e.path.contains("static"));
+                    cyclic::by_speed(
+                        &tests,
+                        rate,
+                        limit.and_then(Estimate::value),
+                        normal_n,
+                        display,
+                    )
+                });
+                let mut json = cyclic::json(&tests, together);
+                let keys = identified.slider_keys();
+                json.push(("slider_keys", keys.as_deref().map_or(Json::Null, Json::from)));
                 if tests.len() > 1 {
                     let unit = if normal_n.is_some() { "" } else { " (N)" };
                     let rows = cyclic::by_test(&tests, normal_n);
@@ -131,11 +150,11 @@ impl IdentifyReport<'_> {
                 }
                 Self {
                     job: "cyclic",
-                    json: cyclic::json(&tests, together),
+                    json,
                     facts: cyclic::facts(&tests, normal_n),
                     tables,
-                    assumption: cyclic::ASSUMPTION.to_owned(),
-                    figures: cyclic::figures(&tests, display),
+                    assumption: cyclic::assumption(together.rate.is_some()),
+                    figures: friction.into_iter().chain(cyclic::figures(&tests, display)).collect(),
                     ..report
                 }
             }
@@ -249,6 +268,9 @@ impl IdentifyReport<'_> {
         for (caption, rows) in &self.tables {
             text.push_str(&format!("\n{caption}\n{}", aligned(rows)));
         }
+        if let Some(keys) = &self.slider_keys {
+            text.push_str(&format!("\n{FOR_MODEL}\n{keys}"));
+        }
         text.push('\n');
         text.push_str(&field("Interval", &self.assumption));
         for warning in &self.warnings {
@@ -299,7 +321,12 @@ impl IdentifyReport<'_> {
             }
             body.raw("</ul>\n");
         }
-        body.raw("<p>").text(&self.assumption).raw("</p>\n</section>\n");
+        body.raw("<p>").text(&self.assumption).raw("</p>\n");
+        if let Some(keys) = &self.slider_keys {
+            body.element("h3", FOR_MODEL).raw("\n");
+            body.element("pre", keys).raw("\n");
+        }
+        body.raw("</section>\n");
         html::figure_section(&mut body, "Figures", &self.figures, 1);
         body.raw("<section>\n<h2>Details</h2>\n");
         let facts: Vec<(&str, String)> =

@@ -45,6 +45,7 @@ pub fn cyclic(args: &CyclicArgs) -> Result<ExitCode, Failure> {
         slack_m,
         spring: !args.without.contains(&Part::Spring),
         damper: !args.without.contains(&Part::Damper),
+        law: args.law.into(),
     };
     let samples = measured.iter().map(Measured::samples).max().unwrap_or(0);
     let first = |samples: usize| {

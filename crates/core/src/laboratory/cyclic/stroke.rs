@@ -1,7 +1,10 @@
 //! Strokes of a cyclic test: from one reversal of the displacement to the next.
 
-use super::{Cycle, CyclicError, CyclicTest};
+use super::{Cycle, CyclicError, CyclicTest, KineticLaw};
 use crate::numerics::fractile::upper_median;
+
+/// Strokes of one speed take times within this ratio.
+const ONE_SPEED: f64 = 1.2;
 
 /// From one reversal to the next.
 #[derive(Clone, Debug)]
@@ -51,23 +54,28 @@ pub(super) fn strokes(test: &CyclicTest) -> Result<(Vec<Stroke>, usize), CyclicE
     let turns = reversals(x, 0.1 * range_m);
     let all: Vec<f64> = turns.windows(2).map(|t| (x[t[1]] - x[t[0]]).abs()).collect();
     let usual_m = upper_median(all.iter().copied()).unwrap_or(0.0);
-    let mut durations: Vec<usize> = turns.windows(2).map(|t| t[1] - t[0]).collect();
-    durations.sort_unstable();
-    let smoothing = (durations.get(durations.len() / 2).copied().unwrap_or(0) / 20).max(2);
     let mut strokes = Vec::new();
     for (ends, length_m) in turns.windows(2).zip(all) {
-        if length_m >= 0.5 * usual_m && ends[1] - ends[0] > 4 * smoothing {
+        let duration = ends[1] - ends[0];
+        let smoothing = (duration / 20).max(2);
+        if length_m >= 0.5 * usual_m && duration > 4 * smoothing {
             strokes.push(Stroke::new(test, ends[0], ends[1], smoothing));
         }
     }
     // What stands before the first and after the last reversal is incomplete.
     let whole = turns.len().saturating_sub(1) + 2;
     let left_out = whole - strokes.len();
-    // A cycle is two neighbours: after a stroke that was left out counting starts anew.
+    // A cycle is two neighbours: after a stroke that was left out counting starts anew, and where friction
+    // follows the speed also after one in which the speed of the test was changed.
+    let duration = |stroke: &Stroke| (stroke.last - stroke.first) as f64;
+    let of_one_speed = |pair: &[Stroke]| {
+        let ratio = duration(&pair[0]) / duration(&pair[1]);
+        test.law == KineticLaw::Coulomb || (ratio < ONE_SPEED && 1.0 / ratio < ONE_SPEED)
+    };
     let mut paired: Vec<Stroke> = Vec::new();
     let mut i = 0;
     while i + 1 < strokes.len() {
-        if strokes[i].last == strokes[i + 1].first {
+        if strokes[i].last == strokes[i + 1].first && of_one_speed(&strokes[i..i + 2]) {
             paired.extend([strokes[i].clone(), strokes[i + 1].clone()]);
             i += 2;
         } else {
@@ -151,6 +159,18 @@ impl Stroke {
         (start..end).filter(move |i| self.sign * self.velocity(*i) >= least)
     }
 
+    /// The class of each of its samples by speed, from slow to fast: all classes with as many samples.
+    pub fn classes(&self, samples: &[usize], classes: usize) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..samples.len()).collect();
+        let speed = |i: usize| self.velocity(samples[i]).abs();
+        order.sort_by(|a, b| speed(*a).total_cmp(&speed(*b)));
+        let mut of = vec![0; samples.len()];
+        for (rank, i) in order.into_iter().enumerate() {
+            of[i] = rank * classes / samples.len();
+        }
+        of
+    }
+
     /// The friction force at a sample, positive against the motion: what is left of the force
     /// without spring and damper.
     fn friction_n(&self, test: &CyclicTest, cycle: &Cycle, sample: usize) -> f64 {
@@ -165,13 +185,15 @@ impl Stroke {
         self.sign * (test.force_n[sample] - spring)
     }
 
-    fn kinetic_n(&self, cycle: &Cycle) -> f64 {
-        cycle.kinetic_n[usize::from(self.sign < 0.0)]
+    /// The least kinetic friction at any speed.
+    fn least_kinetic_n(&self, cycle: &Cycle) -> f64 {
+        let way = usize::from(self.sign < 0.0);
+        cycle.by_speed.iter().map(|at| at.kinetic_n[way]).fold(f64::INFINITY, f64::min)
     }
 
     /// Travel at which friction has built up to nine tenths, in m; `None` where it never does.
     pub fn build_up_m(&self, test: &CyclicTest, cycle: &Cycle) -> Option<f64> {
-        let level = 0.9 * self.kinetic_n(cycle);
+        let level = 0.9 * self.least_kinetic_n(cycle);
         let built = (self.first..self.last).find(|i| self.friction_n(test, cycle, *i) >= level)?;
         Some(self.travel_m(test, built).max(0.0))
     }
