@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 import cases
+import devices
 import numba_loop
 import opensees
 import pyslammer_rigid
@@ -222,7 +223,7 @@ def per_cent(fraction):
     return "" if fraction is None else f"{100.0 * abs(fraction):.1e}"
 
 
-def table(rows, parts, machine):
+def table(rows, parts, device_rows, machine):
     """Markdown: one table a case, and what an event and a set-up cost."""
     lines = [
         "<!-- Written by `cargo xtask bench-peers --write`. -->",
@@ -254,6 +255,7 @@ def table(rows, parts, machine):
     for part in parts:
         cells = part["case"], quantity(part["event_seconds"]), quantity(part["setup_seconds"])
         lines.append("| " + " | ".join(cells) + " |")
+    lines += devices.table(device_rows, quantity, per_cent)
     return "\n".join(lines) + "\n"
 
 
@@ -261,6 +263,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--helper", required=True)
     parser.add_argument("--native-helper")
+    parser.add_argument("--device-helper", required=True)
     parser.add_argument("--folder", required=True, type=Path)
     parser.add_argument("--quick", action="store_true")
     options = parser.parse_args()
@@ -278,10 +281,11 @@ def main():
     rows += suite(helpers, ops, options.folder, min(rounds, 3), options.quick)
     parts = [pieces(case, helpers["slipstick"], rounds)
              for case in cases.named_cases() if case.name in ("A", "B", "F")]
+    device_rows = devices.measured(options.device_helper, options.folder, options.quick)
     where = machine("openseespy", "pyslammer", "numba", "scipy")
-    result = {"machine": where, "rows": rows, "pieces": parts}
+    result = {"machine": where, "rows": rows, "pieces": parts, "devices": device_rows}
     (options.folder / "peers.json").write_text(json.dumps(result, indent=1, default=float) + "\n")
-    (options.folder / "peers.md").write_text(table(rows, parts, where))
+    (options.folder / "peers.md").write_text(table(rows, parts, device_rows, where))
 
 
 main()

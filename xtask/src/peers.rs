@@ -10,6 +10,7 @@ pub fn bench_peers(options: &[&str]) -> Outcome {
     let bench = Bench::new("peers", options, &["--json", "--quick", "--write"])?;
     let build = "build --release -p slipstick --example peer_bench";
     shell::run(&mut shell::cargo(build))?;
+    shell::run(&mut shell::cargo("build --release -p slipstick-files --example device_bench"))?;
     // A second build with all that this processor can do, in a folder of its own.
     let native = bench.target.join("native");
     let mut again = shell::cargo(build);
@@ -17,7 +18,10 @@ pub fn bench_peers(options: &[&str]) -> Outcome {
     shell::run(&mut again)?;
     let [helper, native] =
         [&bench.target, &native].map(|t| built(t, "release", "examples/peer_bench"));
-    bench.run("bench.py", &[("--helper", helper), ("--native-helper", native)])
+    let devices = built(&bench.target, "release", "examples/device_bench");
+    let programs =
+        [("--helper", helper), ("--native-helper", native), ("--device-helper", devices)];
+    bench.run("bench.py", &programs)
 }
 
 /// The far-field study timed, on one thread and two, beside numba and OpenSeesPy; its parts read by

@@ -283,13 +283,15 @@ impl Model {
     /// Returns
     /// -------
     /// str
-    ///     The script, for 0, 1 or more storeys, spring or pendulum, and damper.
+    ///     The script, for 0, 1 or more storeys, spring or pendulum, damper, friction by speed, vertical motion,
+    ///     two or three pendulums in series, stops and contents. Rigid stops, which OpenSees does not have, are
+    ///     springs as stiff as ``k_init`` with the damper of their restitution.
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     For what such a script cannot express: static above kinetic friction, friction by speed, surfaces in
-    ///     series, stops, contents, a tilt, an initial state, vertical motion.
+    ///     For what such a script cannot express: static above kinetic friction, a stop's damper, flat surfaces
+    ///     in series or more than three, a tilt, an initial state, vertical motion that lifts the block.
     ///
     /// Examples
     /// --------

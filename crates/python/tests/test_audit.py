@@ -34,6 +34,8 @@ def test_the_script_is_python_with_the_numbers_of_the_model() -> None:
     [
         ({}, "10 kN/mm", "slider.static_friction"),
         ({**ALIKE, "slider.tilt": "1 mrad"}, "10 kN/mm", "slider.tilt"),
+        ({**ALIKE, "slider.stop": {"gap": "0.1 m", "stiffness": "1 kN/mm", "damping_ratio": 0.1}},
+         "10 kN/mm", "slider.stop.damper"),
         (ALIKE, "10 kN", "k_init"),
         (ALIKE, "-1 kN/mm", "k_init"),
         (ALIKE, 1e7, "k_init"),
@@ -66,3 +68,52 @@ def test_opensees_comes_near_where_its_spring_is_stiff(storeys: int) -> None:
     matplotlib.use("Agg")
     assert found.plot().get_xscale() == "log"
     matplotlib.pyplot.close("all")
+
+
+STOP = {"gap": {"positive": "40 mm", "negative": "30 mm"}}
+SURFACES = [
+    {"radius": "0.4 m", "friction": 0.03, "travel": "60 mm"},
+    {"radius": "1.6 m", "friction": 0.055, "travel": "600 mm"},
+]
+TRIPLE = {
+    "effective_radius": ["1 m", "0.1 m", "0.1 m", "1.05 m"],
+    "friction": [0.045, 0.02, 0.02, 0.08],
+    "travel": ["150 mm", "50 mm", "50 mm", "200 mm"],
+}
+CONTENTS = {"floor": 1, "mass": "50 kg", "static_friction": 0.1, "kinetic_friction": 0.1}
+EXPONENTIAL = {"slow": 0.03, "fast": 0.055, "rate": "30 s/m"}
+PIECES = {"velocity": ["0 m/s", "0.1 m/s"], "coefficient": [0.03, 0.05]}
+
+
+@pytest.mark.skipif(find_spec("openseespy") is None, reason="openseespy is not installed")
+@pytest.mark.parametrize(
+    ("slider", "more", "vertical"),
+    [
+        ({"static_friction": 0.03, "kinetic_friction": EXPONENTIAL, "radius": "2 m"}, {}, False),
+        ({"static_friction": 0.03, "kinetic_friction": PIECES, "spring": "3 kN/m"}, {}, False),
+        ({**ALIKE, "radius": "2 m"}, {}, True),
+        ({**ALIKE, "radius": "2 m", "stop": {**STOP, "stiffness": "0.5 kN/mm"}}, {}, False),
+        ({**ALIKE, "radius": "2 m", "stop": {**STOP, "restitution": 0.5}}, {}, False),
+        ({"surface": SURFACES}, {}, False),
+        ({"triple": TRIPLE}, {}, False),
+        ({**ALIKE, "radius": "2 m"}, {"contents": [CONTENTS]}, False),
+        ({**ALIKE, "radius": "2 m"}, {"contents": [CONTENTS]}, True),
+    ],
+)
+def test_opensees_comes_near_with_every_device(
+    slider: dict[str, object], more: dict[str, object], vertical: bool
+) -> None:
+    slider = {key.removeprefix("slider."): value for key, value in slider.items()}
+    storey = {"mass": "201 kg", "frequency": "2.15 Hz", "damping_ratio": 0.01}
+    model = ss.Model({"block": {"mass": "325 kg"}, "slider": slider, "storey": [storey], **more})
+    _, motion = taft()
+    if vertical:
+        along = motion.acceleration_m_per_s2
+        motion = ss.Motion(along, dt=0.01, units="m/s2", vertical=0.5 * along[::-1])
+    # More than TripleFrictionPendulum converges with where its spring is as stiff as the others'.
+    stiff = "10 kN/mm" if "surface" in slider or "triple" in slider else "200 kN/mm"
+    found = ss.audit.regularisation(model, motion, ["500 N/mm", stiff], steps=5)
+    soft, near = found.errors()
+    assert near[1] is not None and abs(near[1]) < 0.03, found.errors()
+    assert near[2] is not None and abs(near[2]) < 0.02, found.errors()
+    assert soft[1] is not None and abs(soft[1]) > abs(near[1]), found.errors()

@@ -3,37 +3,72 @@
 use core::fmt::Write;
 
 use slipstick::error::ChoiceError;
+use slipstick::friction::{Direction, RateCurve, Series, Surface};
 use slipstick::linear::shear_frame_modes;
-use slipstick::model::{Damping, Frame, InitialState, Model};
+use slipstick::model::{Damping, Frame, InitialState, Model, StopKind};
 use slipstick::motion::GroundMotion;
 
-/// The functions of the script, below the model's numbers.
-const FUNCTIONS: &str = include_str!("opensees.py");
+// Functions of the script, below the model's numbers: those of the slider, of what presses it down, of
+// stops and contents, and of the analysis.
+const CONSTANT: &str = include_str!("opensees/constant.py");
+const BEARING: &str = include_str!("opensees/bearing.py");
+const TRIPLE: &str = include_str!("opensees/triple.py");
+const WEIGHT: &str = include_str!("opensees/weight.py");
+const ELASTIC_STOP: &str = include_str!("opensees/elastic_stop.py");
+const RIGID_STOP: &str = include_str!("opensees/rigid_stop.py");
+const CONTENTS: &str = include_str!("opensees/contents.py");
+const CONTENTS_BEARING: &str = include_str!("opensees/contents_bearing.py");
+const ANALYSIS: &str = include_str!("opensees/analysis.py");
+
+/// Coefficient of friction of a surface that never slides.
+const STUCK: f64 = 10.0;
+
+/// Travel without an end in m.
+const ENDLESS_M: f64 = 1e3;
+
+/// What stands for the slider.
+enum SliderElement {
+    /// Friction of constant force: a uniaxial material.
+    Constant,
+    /// Friction that follows speed or normal force: `singleFPBearing` or `flatSliderBearing`.
+    Bearing,
+    /// Pendulums in series: `TripleFrictionPendulum`.
+    Triple,
+}
 
 /// A script for OpenSeesPy, with stick as an elastic spring of stiffness `k_init_n_per_m` in series with
-/// the friction, which is what its uniaxial material knows.
+/// the friction, which is what its materials and elements know.
 ///
 /// Run as a program it prints peak and residual sliding displacement; its function `analyse` returns times
-/// and sliding displacements at the samples of the motion. Springs, pendulums and dampers are linear;
-/// damping by ratio is that of every fixed-base mode, as dashpots between all floors. A jump of the motion
-/// is its right side.
+/// and sliding displacements at the samples of the motion. A jump of the motion is its right side.
+///
+/// - Constant friction: `ElasticPP` beside a linear spring, pendulum and damper. Damping by ratio is that
+///   of every fixed-base mode, as dashpots between all floors.
+/// - Friction by speed: `VelDependent` or `VelDepMultiLinear` in a `singleFPBearing` with a radius, else in
+///   a `flatSliderBearing`; under vertical motion `Coulomb` in these, with the true `N(t)/R`.
+/// - Two or three pendulums in series: `TripleFrictionPendulum`, which yields at `k_init_n_per_m` too.
+/// - Elastic stops: `ElasticPPGap`. Rigid ones have no counterpart; `ViscoelasticGap` of the stiffness
+///   `k_init_n_per_m` with the damper of their restitution tends to them.
+/// - Contents: `ElasticPP`, under vertical motion `flatSliderBearing`.
 ///
 /// # Errors
-/// [`ChoiceError`] for what such a model cannot express: static friction above the kinetic one,
-/// friction of 0 or by sliding speed, surfaces in series, stops, contents, a slope, an initial state,
-/// vertical motion; and unless the stiffness is finite and > 0.
+/// [`ChoiceError`] for what such a model cannot express: static friction above the kinetic one at rest,
+/// friction of 0, friction by speed or under vertical motion that is not alike both ways, flat surfaces or
+/// more than three in series, stops with a damper that cannot pull, a slope, an initial state, vertical
+/// motion that lifts the block; and unless the stiffness is finite and > 0.
 pub fn script(
     name: &str,
     model: &Model,
     motion: &GroundMotion,
     k_init_n_per_m: f64,
 ) -> Result<String, ChoiceError> {
-    expressible(model, motion)?;
+    let element = expressible(model, motion)?;
     if !(k_init_n_per_m.is_finite() && k_init_n_per_m > 0.0) {
         return Err(refused("k_init", "a stiffness > 0 N/m", &format!("{k_init_n_per_m} N/m")));
     }
-    let (slider, frame) = (model.slider(), model.frame());
-    let [positive_n, negative_n] = model.kinetic_friction().map(|mu| mu * model.weight_n());
+    let (slider, devices, frame) = (model.slider(), model.devices(), model.frame());
+    let vertical = motion.vertical_m_per_s2();
+    let (times_s, values) = right_sides(motion, motion.horizontal_m_per_s2());
     let mut text = String::new();
     let title: String = name.chars().filter(|c| !c.is_control() && !"\"\\".contains(*c)).collect();
     let mut line = |args: core::fmt::Arguments<'_>| {
@@ -48,11 +83,55 @@ pub fn script(
     ));
     line(format_args!("import openseespy.opensees as ops\n"));
     line(format_args!("K_INIT = {k_init_n_per_m:?}  # N/m, stands for stick"));
-    line(format_args!("FRICTION = [{positive_n:?}, {negative_n:?}]  # N, towards +x and -x"));
+    match element {
+        SliderElement::Constant => constant(model, &mut line),
+        SliderElement::Bearing => bearing(model, vertical.is_some(), &mut line),
+        SliderElement::Triple => triple(devices.series.as_ref(), &mut line),
+    }
+    let pendulum = model.pendulum_radius_m(vertical.is_some()).is_some();
+    let stiffness_n_per_m = if pendulum { 0.0 } else { slider.stiffness_n_per_m };
     line(format_args!(
-        "SPRING, DAMPER = {:?}, {:?}  # of the slider, N/m and N s/m",
-        slider.stiffness_n_per_m, slider.damper_n_s_per_m
+        "SPRING, DAMPER = {stiffness_n_per_m:?}, {:?}  # of the slider, N/m and N s/m",
+        slider.damper_n_s_per_m
     ));
+    let mut functions = String::new();
+    functions.push_str(match element {
+        SliderElement::Constant => CONSTANT,
+        SliderElement::Bearing => BEARING,
+        SliderElement::Triple => TRIPLE,
+    });
+    let mut parts = Vec::new();
+    if let Some(stop) = model.stop() {
+        let [positive, negative] = stop.gap_m;
+        let gaps = [positive.map(|gap_m| (1, gap_m)), negative.map(|gap_m| (-1, gap_m))];
+        let gaps: Vec<(i32, f64)> = gaps.into_iter().flatten().collect();
+        line(format_args!("STOPS = {gaps:?}  # side, gap in m"));
+        functions.push_str(match stop.kind {
+            StopKind::Elastic { stiffness_n_per_m, .. } => {
+                line(format_args!("STOP = {stiffness_n_per_m:?}  # N/m"));
+                ELASTIC_STOP
+            }
+            StopKind::Rigid { restitution } => {
+                let ratio = rebound_damping(restitution);
+                line(format_args!(
+                    "STOP_DAMPING = {ratio:?}  # of critical: restitution {restitution:?}"
+                ));
+                RIGID_STOP
+            }
+        });
+        parts.push("stops");
+    }
+    if !devices.contents.is_empty() {
+        line(format_args!("CONTENTS = [  # floor, kg, friction"));
+        for contents in &devices.contents {
+            let (floor, mass_kg) = (contents.floor, contents.mass_kg);
+            line(format_args!("    ({floor}, {mass_kg:?}, {:?}),", contents.kinetic_friction));
+        }
+        line(format_args!("]"));
+        functions.push_str(if vertical.is_some() { CONTENTS_BEARING } else { CONTENTS });
+        parts.push("contents");
+    }
+    line(format_args!("GRAVITY = {:?}  # m/s2", model.gravity_m_per_s2()));
     line(format_args!("MASSES = {:?}  # kg: the block, then the floors", masses(model)));
     line(format_args!("STOREYS = {:?}  # N/m", frame.stiffnesses_n_per_m));
     line(format_args!("# Dashpots between two of the masses, N s/m\nDASHPOTS = ["));
@@ -60,7 +139,19 @@ pub fn script(
         line(format_args!("    ({i}, {j}, {c:?}),"));
     }
     line(format_args!("]"));
-    let (times_s, values) = right_sides(motion);
+    if !matches!(element, SliderElement::Constant) {
+        // The weight of contents without vertical motion is the block's to carry.
+        let own = devices.contents.iter().filter(|_| vertical.is_some());
+        let own: Vec<f64> = own.map(|contents| contents.mass_kg).collect();
+        let first = 2 + masses(model).len();
+        let mut pressed = vec![(2, model.total_mass_kg())];
+        pressed.extend(own.into_iter().enumerate().map(|(i, mass_kg)| (first + i, mass_kg)));
+        line(format_args!("PRESSED = {pressed:?}  # node, kg that press on what it stands on"));
+        line(format_args!("WEIGHT = GRAVITY * PRESSED[0][1]  # N"));
+        let values = vertical.map_or_else(String::new, |a| listed(&right_sides(motion, a).1));
+        line(format_args!("VERTICAL = [{values}]  # of the ground, m/s2"));
+        functions.push_str(WEIGHT);
+    }
     match motion.dt_s() {
         Some(dt_s) => {
             line(format_args!("TIMES = [i * {dt_s:?} for i in range({})]  # s", times_s.len()))
@@ -68,8 +159,82 @@ pub fn script(
         None => line(format_args!("TIMES = [{}]  # s", listed(&times_s))),
     }
     line(format_args!("ACCELERATION = [{}]  # of the ground, m/s2", listed(&values)));
-    text.push_str(FUNCTIONS);
+    text.push_str(&functions);
+    let _ = write!(text, "\n\nPARTS = [{}]\n", parts.join(", "));
+    text.push_str(ANALYSIS);
     Ok(text)
+}
+
+/// Numbers of a slider of constant friction force.
+fn constant(model: &Model, line: &mut impl FnMut(core::fmt::Arguments<'_>)) {
+    let [positive_n, negative_n] = model.kinetic_friction().map(|mu| mu * model.weight_n());
+    line(format_args!("NDM, NDF, TOLERANCE = 1, 1, 1e-11"));
+    line(format_args!("FRICTION = [{positive_n:?}, {negative_n:?}]  # N, towards +x and -x"));
+}
+
+/// Numbers of a bearing.
+fn bearing(model: &Model, vertical: bool, line: &mut impl FnMut(core::fmt::Arguments<'_>)) {
+    line(format_args!("NDM, NDF, TOLERANCE = 2, 3, 1e-11"));
+    match model.devices().rate.as_ref().map(|rate| (rate.curve(), rate.factor(Direction::Positive)))
+    {
+        None => line(format_args!("FRICTION = \"Coulomb\", 1, {:?}", model.kinetic_friction()[0])),
+        Some((RateCurve::Exponential { slow, fast, rate_s_per_m }, factor)) => {
+            let [slow, fast] = [slow, fast].map(|mu| factor * mu);
+            line(format_args!(
+                "FRICTION = \"VelDependent\", 1, {slow:?}, {fast:?}, {rate_s_per_m:?}  # slow, fast, s/m"
+            ));
+        }
+        Some((RateCurve::Pieces { speeds_m_per_s, coefficients }, factor)) => {
+            let coefficients: Vec<f64> = coefficients.iter().map(|mu| factor * mu).collect();
+            line(format_args!("SPEEDS = {speeds_m_per_s:?}  # m/s"));
+            line(format_args!("COEFFICIENTS = {coefficients:?}"));
+            line(format_args!(
+                "FRICTION = \"VelDepMultiLinear\", 1, \"-vel\", *SPEEDS, \"-frn\", *COEFFICIENTS"
+            ));
+        }
+    }
+    match model.pendulum_radius_m(vertical) {
+        Some(radius_m) => line(format_args!(
+            "BEARING = \"singleFPBearing\", 1, 1, 2, 1, {radius_m:?}  # radius in m"
+        )),
+        None => line(format_args!("BEARING = \"flatSliderBearing\", 1, 1, 2, 1")),
+    }
+}
+
+/// Numbers of pendulums in series, the one that slides first being the element's inner ones; a third that
+/// is not there never slides.
+///
+/// The element's effective lengths are `L1 = R/2` of the first and `R + L1` of the others, and its ends
+/// of travel `2 (d1 + d3 L1/L3)`, `d2 (1 − L1/L2)` and `d3 (1 − L1/L3)`.
+fn triple(series: Option<&Series>, line: &mut impl FnMut(core::fmt::Arguments<'_>)) {
+    let surfaces = series.map_or(&[][..], Series::surfaces);
+    let of = |s: &Surface| {
+        [s.friction, s.radius_m.unwrap_or(ENDLESS_M), s.travel_m.unwrap_or(ENDLESS_M)]
+    };
+    let mut all: Vec<[f64; 3]> = surfaces.iter().map(of).collect();
+    all.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    all.resize(3, [STUCK, 1.0, 1.0]);
+    let l1 = 0.5 * all[0][1];
+    let [l2, l3] = [all[1][1] + l1, all[2][1] + l1];
+    let [d2, d3] = [all[1][2] / (1.0 - l1 / l2), all[2][2] / (1.0 - l1 / l3)];
+    let d1 = 0.5 * all[0][2] - d3 * l1 / l3;
+    line(format_args!("NDM, NDF, TOLERANCE = 3, 6, 1e-9"));
+    line(format_args!(
+        "FRICTION = {:?}  # inner, then outer surfaces",
+        [0, 1, 2].map(|i| all[i][0])
+    ));
+    line(format_args!("LENGTHS = {:?}  # m", [l1, l2, l3]));
+    line(format_args!("TRAVELS = {:?}  # m", [d1, d2, d3]));
+}
+
+/// Damping ratio of a spring and a damper off which a mass rebounds with a restitution, where both push
+/// and pull until it is back: `e = exp(−π ξ/√(1 − ξ²))`.
+fn rebound_damping(restitution: f64) -> f64 {
+    if restitution == 0.0 {
+        return 1.0;
+    }
+    let decrement = restitution.ln().abs();
+    decrement / core::f64::consts::PI.hypot(decrement)
 }
 
 /// Masses of block and floors in kg.
@@ -108,9 +273,9 @@ fn dashpots(frame: &Frame) -> Vec<(usize, usize, f64)> {
     all.into_iter().filter(|(_, _, c)| *c != 0.0).collect()
 }
 
-/// Times and values with the right side of every jump alone.
-fn right_sides(motion: &GroundMotion) -> (Vec<f64>, Vec<f64>) {
-    let (times_s, values) = (motion.times_s(), motion.horizontal_m_per_s2());
+/// Times and values of a component with the right side of every jump alone.
+fn right_sides(motion: &GroundMotion, values: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let times_s = motion.times_s();
     let last = |i: &usize| times_s.get(i + 1).is_none_or(|next| *next > times_s[*i]);
     (0..times_s.len()).filter(last).map(|i| (times_s[i], values[i])).unzip()
 }
@@ -134,38 +299,59 @@ fn refused(what: &str, expected: &str, found: &str) -> ChoiceError {
     ChoiceError { what, expected, found, nearest: None }
 }
 
+/// What stands for the slider.
+///
 /// # Errors
 /// [`ChoiceError`] for the first thing that the script's model does not have.
-fn expressible(model: &Model, motion: &GroundMotion) -> Result<(), ChoiceError> {
+fn expressible(model: &Model, motion: &GroundMotion) -> Result<SliderElement, ChoiceError> {
     let (slider, devices) = (model.slider(), model.devices());
-    let (fixed, kinetic) = (model.static_friction(), model.kinetic_friction());
+    let vertical = motion.vertical_m_per_s2();
     let no = |what: &str, expected: &str, found: &str| Err(refused(what, expected, found));
-    if devices.series.is_some() {
+    let element = if let Some(series) = &devices.series {
+        in_series(series)?;
+        SliderElement::Triple
+    } else {
+        one_coefficient(model)?;
+        if devices.rate.is_some() || vertical.is_some() {
+            let [positive, negative] = model.kinetic_friction();
+            let rate = devices.rate.as_ref();
+            let sides = [Direction::Positive, Direction::Negative];
+            let [one, other] =
+                rate.map_or([positive, negative], |rate| sides.map(|d| rate.factor(d)));
+            if one != other {
+                let expected = "alike both ways: OpenSees' friction models have no direction";
+                return no("slider.kinetic_friction", expected, &format!("{one} and {other}"));
+            }
+            SliderElement::Bearing
+        } else {
+            SliderElement::Constant
+        }
+    };
+    if let Some(stop) = model.stop()
+        && let StopKind::Elastic { damper_n_s_per_m, .. } = stop.kind
+        && damper_n_s_per_m > 0.0
+    {
         return no(
-            "slider.surfaces",
-            "one surface, which is what OpenSees' material has",
-            "several",
+            "slider.stop.damper",
+            "none: a damper behind a gap pulls in OpenSees, where a pad lets go",
+            &format!("{damper_n_s_per_m} N s/m"),
         );
     }
-    if devices.rate.is_some() {
-        return no("slider.rate", "friction that does not follow the speed", "a rate law");
+    for (i, contents) in devices.contents.iter().enumerate() {
+        let (fixed, kinetic) = (contents.static_friction, contents.kinetic_friction);
+        if fixed != kinetic {
+            let expected = "as much as kinetic_friction: OpenSees' material has one coefficient";
+            let what = format!("contents.{}.static_friction", i + 1);
+            return no(&what, expected, &format!("{fixed} and {kinetic}"));
+        }
+        if !(kinetic > 0.0) {
+            let what = format!("contents.{}.kinetic_friction", i + 1);
+            return no(&what, "more than 0", &kinetic.to_string());
+        }
     }
-    if fixed != kinetic {
-        let expected = "as much as kinetic_friction: OpenSees' material has one coefficient";
-        return no("slider.static_friction", expected, &format!("{} and {}", fixed[0], kinetic[0]));
-    }
-    if !kinetic.iter().all(|mu| *mu > 0.0) {
-        return no("slider.kinetic_friction", "more than 0", &format!("{kinetic:?}"));
-    }
-    if slider.stop.is_some() {
-        return no(
-            "slider.stop",
-            "none: its damper cannot pull, which no material of OpenSees is",
-            "a stop",
-        );
-    }
-    if !devices.contents.is_empty() {
-        return no("contents", "none", "contents");
+    if !devices.contents.is_empty() && vertical.is_some() && devices.series.is_some() {
+        let expected = "none beside surfaces in series under vertical motion";
+        return no("contents", expected, "contents");
     }
     if slider.tilt_rad != 0.0 {
         return no("slider.tilt", "a level surface", &format!("{} rad", slider.tilt_rad));
@@ -173,9 +359,57 @@ fn expressible(model: &Model, motion: &GroundMotion) -> Result<(), ChoiceError> 
     if *model.initial() != InitialState::rest() {
         return no("initial", "a start at rest", "an initial state");
     }
-    if motion.vertical_m_per_s2().is_some() {
-        let expected = "no vertical component: the spring's yield force does not follow it";
-        return no("motion", expected, "one");
+    let least = vertical.map_or(0.0, |a| a.iter().copied().fold(0.0, f64::min));
+    if !(least > -model.gravity_m_per_s2()) {
+        let expected =
+            "a vertical component that does not lift the block, which leaves a bearing loose";
+        return no("motion", expected, &format!("{least} m/s2"));
+    }
+    Ok(element)
+}
+
+/// # Errors
+/// [`ChoiceError`] for surfaces that `TripleFrictionPendulum` does not have.
+fn in_series(series: &Series) -> Result<(), ChoiceError> {
+    let no = |what: &str, expected: &str, found: &str| Err(refused(what, expected, found));
+    if series.static_ratio() != 1.0 {
+        let expected = "1: OpenSees' friction models have no static friction";
+        return no("slider.static_ratio", expected, &series.static_ratio().to_string());
+    }
+    let surfaces = series.surfaces();
+    if surfaces.len() > 3 {
+        let expected = "at most three, as in TripleFrictionPendulum";
+        return no("slider.surface", expected, &surfaces.len().to_string());
+    }
+    match surfaces.iter().position(|surface| surface.radius_m.is_none()) {
+        None => Ok(()),
+        Some(i) => {
+            let expected = "a radius: TripleFrictionPendulum has no flat surface";
+            no(&format!("slider.surface.{}", i + 1), expected, "a flat surface")
+        }
+    }
+}
+
+/// # Errors
+/// [`ChoiceError`] for friction of which OpenSees needs a second coefficient.
+fn one_coefficient(model: &Model) -> Result<(), ChoiceError> {
+    let no = |what: &str, expected: &str, found: &str| Err(refused(what, expected, found));
+    let (fixed, kinetic) = (model.static_friction(), model.kinetic_friction());
+    let rate = model.devices().rate.as_ref();
+    let at_rest = rate.map_or(kinetic, |rate| {
+        [Direction::Positive, Direction::Negative].map(|direction| rate.at(0.0, direction))
+    });
+    if fixed != at_rest {
+        let expected = match rate {
+            None => "as much as kinetic_friction: OpenSees' material has one coefficient",
+            Some(_) => {
+                "as much as kinetic_friction at rest: OpenSees' friction models have no other"
+            }
+        };
+        return no("slider.static_friction", expected, &format!("{} and {}", fixed[0], at_rest[0]));
+    }
+    if !at_rest.iter().all(|mu| *mu > 0.0) {
+        return no("slider.kinetic_friction", "more than 0", &format!("{at_rest:?}"));
     }
     Ok(())
 }
@@ -224,32 +458,195 @@ mod tests {
             text.contains("0.0, 0.1, 0.3,\n]  # s") && text.contains("0.0, -2.0, 0.5,"),
             "{text}"
         );
+        assert!(text.contains("\"ElasticPP\", k_init, FRICTION[0] / k_init"), "{text}");
+        assert!(!text.contains("weight") || !text.contains("PRESSED"), "{text}");
+    }
+
+    const BLOCK: &str = "[block]\nmass = \"1 t\"\n[slider]\n";
+
+    /// The script of a slider with constant friction of 0.05, if nothing else is said.
+    fn of(keys: &str, vertical: bool) -> Result<String, ChoiceError> {
+        let friction = "static_friction = 0.05\nkinetic_friction = 0.05\n";
+        let own = keys.contains("friction = ") && !keys.contains("[[contents]]");
+        let text = format!("{BLOCK}{}{keys}", if own { "" } else { friction });
+        let model = input::parse("m", &text, &[]).expect(keys).model;
+        let vertical = vertical.then(|| vec![0.0, 1.0, 0.5]);
+        let motion = GroundMotion::evenly_spaced(0.1, vec![0.0, 2.0, 0.0], vertical);
+        script("m", &model, &motion.expect("a motion"), 1e7)
+    }
+
+    #[test]
+    fn exact_scripts_of_devices_have_their_numbers() {
+        let stop = "[slider.stop]\ngap = { positive = \"40 mm\", negative = \"30 mm\" }\n";
+        let exponential = "static_friction = 0.03\nkinetic_friction = { slow = 0.03, fast = 0.055, \
+                           rate = \"30 s/m\" }\n";
+        let pieces = "static_friction = 0.03\nkinetic_friction = { velocity = [\"0 m/s\", \"0.1 m/s\"], \
+                      coefficient = [0.03, 0.05] }\n";
+        let contents = "[[contents]]\nfloor = 0\nmass = \"50 kg\"\nstatic_friction = 0.1\n\
+                        kinetic_friction = 0.1\n";
+        let surface = |radius_m: f64, mu: f64, travel_m: f64| {
+            format!(
+                "[[slider.surface]]\nradius = \"{radius_m} m\"\nfriction = {mu}\ntravel = \"{travel_m} m\"\n"
+            )
+        };
+        let triple = "[slider.triple]\neffective_radius = [\"1 m\", \"0.2 m\", \"0.2 m\", \"2 m\"]\n\
+                      friction = [0.04, 0.02, 0.02, 0.08]\ntravel = [\"0.1 m\", \"0.05 m\", \"0.05 m\", \"0.3 m\"]\n";
+        let radius = "radius = \"2 m\"\n";
+        for (keys, vertical, parts) in [
+            (
+                format!("{stop}stiffness = \"2 kN/mm\"\n"),
+                false,
+                vec![
+                    "STOPS = [(1, 0.04), (-1, 0.03)]",
+                    "STOP = 2000000.0",
+                    "\"ElasticPPGap\", STOP, side * 1e9 * STOP, side * gap",
+                    "PARTS = [stops]",
+                ],
+            ),
+            // ξ = −ln e/√(π² + ln² e)
+            (
+                format!("{stop}restitution = 0.5\n"),
+                false,
+                vec!["STOP_DAMPING = 0.21545", "\"ViscoelasticGap\", k_init, damper, -gap"],
+            ),
+            (format!("{stop}restitution = 0\n"), false, vec!["STOP_DAMPING = 1.0 "]),
+            (format!("{stop}restitution = 1\n"), false, vec!["STOP_DAMPING = 0.0 "]),
+            (
+                format!("{exponential}{radius}"),
+                false,
+                vec![
+                    "FRICTION = \"VelDependent\", 1, 0.03, 0.055, 30.0",
+                    "BEARING = \"singleFPBearing\", 1, 1, 2, 1, 2.0",
+                    "SPRING, DAMPER = 0.0, 0.0",
+                    "PRESSED = [(2, 1000.0)]",
+                    "VERTICAL = []",
+                ],
+            ),
+            (
+                format!("{exponential}spring = \"3 kN/m\"\n"),
+                false,
+                vec![
+                    "BEARING = \"flatSliderBearing\", 1, 1, 2, 1\n",
+                    "SPRING, DAMPER = 3000.0, 0.0",
+                ],
+            ),
+            (
+                pieces.to_owned(),
+                false,
+                vec![
+                    "SPEEDS = [0.0, 0.1]",
+                    "COEFFICIENTS = [0.03, 0.05]",
+                    "\"VelDepMultiLinear\", 1",
+                ],
+            ),
+            (radius.to_owned(), false, vec!["\"ElasticPP\"", "SPRING, DAMPER = 4903.325, 0.0"]),
+            (
+                radius.to_owned(),
+                true,
+                vec![
+                    "FRICTION = \"Coulomb\", 1, 0.05",
+                    "\"singleFPBearing\", 1, 1, 2, 1, 2.0",
+                    "VERTICAL = [\n    0.0, 1.0, 0.5,\n]",
+                ],
+            ),
+            (
+                surface(0.4, 0.03, 0.06) + &surface(1.6, 0.055, 0.6),
+                false,
+                vec![
+                    "FRICTION = [0.03, 0.055, 10.0]",
+                    "LENGTHS = [0.2, 1.8, 1.2]",
+                    "\"TripleFrictionPendulum\", 1, 1, 2, 1, 2, 3",
+                ],
+            ),
+            // The four surfaces of the sheet come back, but for the inner travel, which takes the rest.
+            (
+                triple.to_owned(),
+                false,
+                vec![
+                    "FRICTION = [0.02, 0.04, 0.08]",
+                    "LENGTHS = [0.2, 1.0, 2.0]",
+                    "TRAVELS = [0.04499",
+                ],
+            ),
+            (
+                contents.to_owned(),
+                false,
+                vec![
+                    "CONTENTS = [  # floor, kg, friction\n    (0, 50.0, 0.1),\n]",
+                    "PARTS = [contents]",
+                ],
+            ),
+            (
+                contents.to_owned(),
+                true,
+                vec!["PRESSED = [(2, 1050.0), (3, 50.0)]", "bearing = \"flatSliderBearing\""],
+            ),
+        ] {
+            let text = of(&keys, vertical).expect(&keys);
+            for part in parts {
+                assert!(text.contains(part), "{part} is not in\n{text}");
+            }
+        }
+    }
+
+    /// A mass in free flight after half a period of spring and damper has the restitution.
+    #[test]
+    fn exact_the_damper_of_a_rigid_stop_gives_its_restitution() {
+        for e in [0.05, 0.5, 0.99] {
+            let ratio = rebound_damping(e);
+            let rebound = (-core::f64::consts::PI * ratio / (1.0 - ratio * ratio).sqrt()).exp();
+            assert!((rebound / e - 1.0).abs() < 1e-12, "{rebound} {e}");
+        }
     }
 
     #[test]
     fn exact_what_cannot_be_expressed_is_refused() {
-        let block =
-            "[block]\nmass = \"1 t\"\n[slider]\nkinetic_friction = 0.05\nstatic_friction = ";
-        for (more, part) in [
-            ("0.06", "slider.static_friction: expected as much as kinetic_friction"),
-            ("0.05\ntilt = \"1 mrad\"", "slider.tilt: expected a level surface"),
-            ("0.05\nstop = { gap = \"0.1 m\", stiffness = \"1 kN/mm\" }", "slider.stop"),
+        let flat = "[[slider.surface]]\nfriction = 0.05\n[[slider.surface]]\nradius = \"1 m\"\nfriction = 0.03\n";
+        let curved = "[[slider.surface]]\nradius = \"1 m\"\nfriction = 0.03\n";
+        let rate = "kinetic_friction = { slow = 0.03, fast = 0.055, rate = \"30 s/m\" }\n";
+        for (keys, vertical, part) in [
             (
-                "0.05\n[initial]\nsliding_displacement = \"1 mm\"",
+                "static_friction = 0.06\nkinetic_friction = 0.05",
+                false,
+                "slider.static_friction: expected as much as kinetic_friction",
+            ),
+            (
+                &format!("static_friction = 0.04\n{rate}"),
+                false,
+                "slider.static_friction: expected as much as kinetic_friction at rest",
+            ),
+            ("tilt = \"1 mrad\"", false, "slider.tilt: expected a level surface"),
+            (
+                "stop = { gap = \"0.1 m\", stiffness = \"1 kN/mm\", damping_ratio = 0.1 }",
+                false,
+                "slider.stop.damper: expected none: a damper behind a gap pulls",
+            ),
+            (
+                "[initial]\nsliding_displacement = \"1 mm\"",
+                false,
                 "initial: expected a start at rest",
             ),
             (
-                "0.05\n[[contents]]\nfloor = 0\nmass = \"1 kg\"\nstatic_friction = 1\nkinetic_friction = 1",
-                "contents: expected none",
+                "[[contents]]\nfloor = 0\nmass = \"1 kg\"\nstatic_friction = 1\nkinetic_friction = 0.9",
+                false,
+                "contents.1.static_friction: expected as much",
             ),
+            (
+                "static_friction = 0.05\nkinetic_friction = 0.05\nasymmetry = 0.1",
+                true,
+                "slider.kinetic_friction: expected alike both ways",
+            ),
+            (flat, false, "slider.surface.1: expected a radius"),
+            (&curved.repeat(4), false, "slider.surface: expected at most three"),
+            (&format!("static_ratio = 1.1\n{curved}"), false, "slider.static_ratio: expected 1"),
         ] {
-            let model = input::parse("m", &format!("{block}{more}"), &[]).expect(more).model;
-            let error = script("m", &model, &motion(), 1e7).expect_err(more).to_string();
+            let error = of(keys, vertical).expect_err(keys).to_string();
             assert!(error.contains(part), "{error}");
         }
-        let model = input::parse("m", &format!("{block}0.05"), &[]).expect("a model").model;
+        let model = input::parse("m", TOWER, &[]).expect("a model").model;
         assert!(script("m", &model, &motion(), 0.0).is_err());
-        let lifted = GroundMotion::evenly_spaced(0.1, vec![0.0; 3], Some(vec![0.0; 3]));
-        assert!(script("m", &model, &lifted.expect("a motion"), 1e7).is_err());
+        let lifted = GroundMotion::evenly_spaced(0.1, vec![0.0; 3], Some(vec![0.0, -11.0, 0.0]));
+        let error = script("m", &model, &lifted.expect("a motion"), 1e7).expect_err("loose");
+        assert!(error.to_string().contains("does not lift the block"), "{error}");
     }
 }

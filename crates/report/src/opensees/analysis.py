@@ -1,32 +1,43 @@
 
 
+def node(tag, mass, *free):
+    """A node that moves in the given directions, counted from 1."""
+    ops.node(tag, *[0.0] * NDM)
+    ops.fix(tag, *[0 if i in free else 1 for i in range(1, NDF + 1)])
+    if mass:
+        ops.mass(tag, mass, *[0.0] * (NDF - 1))
+
+
+def between(tag, below, above, *material):
+    """A uniaxial material along x between two nodes; both have the tag."""
+    ops.uniaxialMaterial(material[0], tag, *material[1:])
+    ops.element("zeroLength", tag, below, above, "-mat", tag, "-dir", 1)
+
+
 def build(k_init=K_INIT):
-    """The model: node 1 the ground, node 2 the block, then the floors."""
+    """The model: node 1 the ground, node 2 the block, then the floors, then the contents."""
     ops.wipe()
-    ops.model("basic", "-ndm", 1, "-ndf", 1)
-    ops.node(1, 0.0)
-    ops.fix(1, 1)
+    ops.model("basic", "-ndm", NDM, "-ndf", NDF)
+    node(1, 0.0)
     for i, mass in enumerate(MASSES):
-        ops.node(i + 2, 0.0)
-        ops.mass(i + 2, mass)
-    ops.uniaxialMaterial("ElasticPP", 1, k_init, FRICTION[0] / k_init, -FRICTION[1] / k_init)
-    ops.uniaxialMaterial("Elastic", 2, SPRING, DAMPER)
-    ops.element("zeroLength", 1, 1, 2, "-mat", 1, 2, "-dir", 1, 1)
+        node(i + 2, mass, *([1, NDM] if i == 0 else [1]))
+    slider(k_init)
+    tag = 10
+    between(tag, 1, 2, "Elastic", SPRING, DAMPER)
     for i, stiffness in enumerate(STOREYS):
-        ops.uniaxialMaterial("Elastic", 3 + i, stiffness)
-        ops.element("zeroLength", 2 + i, 2 + i, 3 + i, "-mat", 3 + i, "-dir", 1)
-    tag = 3 + len(STOREYS)
+        between(tag := tag + 1, 2 + i, 3 + i, "Elastic", stiffness)
     for i, j, damper in DASHPOTS:
-        ops.uniaxialMaterial("Elastic", tag, 0.0, damper)
-        ops.element("zeroLength", tag, 2 + i, 2 + j, "-mat", tag, "-dir", 1)
-        tag += 1
-    ops.timeSeries("Path", 1, "-time", *TIMES, "-values", *ACCELERATION, "-useLast")
-    ops.pattern("UniformExcitation", 1, 1, "-accel", 1)
+        between(tag := tag + 1, 2 + i, 2 + j, "Elastic", 0.0, damper)
+    for part, first in zip(PARTS, (1000, 2000)):
+        part(first, k_init)
     ops.constraints("Plain")
     ops.numberer("Plain")
     ops.system("FullGeneral")
-    ops.test("NormDispIncr", 1e-11, 50)
     ops.algorithm("Newton")
+    weigh()
+    ops.test("NormDispIncr", TOLERANCE, 50)
+    ops.timeSeries("Path", 1, "-time", *TIMES, "-values", *ACCELERATION, "-useLast")
+    ops.pattern("UniformExcitation", 1, 1, "-accel", 1)
     ops.integrator("Newmark", 0.5, 0.25)
     ops.analysis("Transient")
 

@@ -1,0 +1,9 @@
+
+
+def slider(k_init):
+    """A bearing whose friction, and pendulum if it is one, follow the force of the vertical spring 2."""
+    ops.frictionModel(*FRICTION)
+    ops.uniaxialMaterial("Elastic", 2, WEIGHT / 1e-3)
+    ops.uniaxialMaterial("Elastic", 3, 1.0)
+    upright = "-orient", 0, 1, 0, -1, 0, 0
+    ops.element(*BEARING, k_init, "-P", 2, "-Mz", 3, *upright)
