@@ -1,15 +1,21 @@
 //! Friction force against sliding displacement, and the demand against its bound.
 
 use slipstick::friction::Contact;
+use slipstick::model::{Model, StopKind};
 use slipstick::motion::GroundMotion;
 use slipstick::response::History;
 
 use super::{Drawn, Scene, drawn};
 use crate::display::Quantity;
+use crate::number::compact;
 use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
+
+/// An axis of forces ends at this many times the largest force without a stop's.
+const ABOVE_THE_LOOP: f64 = 3.0;
 
 /// The force with which the block pushes its slider over `s`: it rises, as a data sheet draws it.
 ///
+/// Where a stop's force would flatten the loop its branch leaves the frame, and a note says how far it goes.
 /// With a spring, damper or stop, that of the whole slider first and friction alone beside it.
 pub fn loops(scene: &Scene) -> Drawn {
     let (report, history) = (scene.report, scene.history);
@@ -25,13 +31,28 @@ pub fn loops(scene: &Scene) -> Drawn {
         let points: Vec<[f64; 2]> = (0..history.len())
             .map(|knot| [length.of(history.sliding_displacement_m[knot]), unit.of(force(knot))])
             .collect();
+        let forces = || points.iter().map(|point| point[1]);
+        let largest = |all: &mut dyn Iterator<Item = f64>| all.map(f64::abs).fold(0.0, f64::max);
+        let of_loop = |knot: usize| unit.of(force(knot) - stop_force_n(model, history, knot));
+        let of_loop = largest(&mut (0..history.len()).map(of_loop));
+        let most = largest(&mut forces());
+        let cut = with_stop && of_loop > 0.0 && most > ABOVE_THE_LOOP * of_loop;
         Panel {
             x: Axis::covering(
                 length.label("Sliding displacement s"),
                 points.iter().map(|p| p[0]).chain([0.0]),
             ),
-            y: Axis::symmetric(unit.label(label), points.iter().map(|p| p[1])),
+            y: if cut {
+                Axis::symmetric(unit.label(label), [ABOVE_THE_LOOP * of_loop])
+            } else {
+                Axis::symmetric(unit.label(label), forces())
+            },
             height: 150.0,
+            note: if cut {
+                format!("stop {} {}", compact(most), unit.symbol)
+            } else {
+                String::new()
+            },
             series: {
                 let stop = if with_stop { at_stop(history, &points) } else { Vec::new() };
                 let label = if stop.is_empty() { "" } else { "slider" };
@@ -41,7 +62,6 @@ pub fn loops(scene: &Scene) -> Drawn {
             },
             limits: Vec::new(),
             peak: None,
-            note: String::new(),
         }
     };
     let mut panels = Vec::new();
@@ -61,6 +81,9 @@ pub fn loops(scene: &Scene) -> Drawn {
     if panels[0].series.len() > 1 {
         caption.push_str(" Red: the block presses against the stop.");
     }
+    if !panels[0].note.is_empty() {
+        caption.push_str(" Where its force would flatten the loop, it leaves the frame.");
+    }
     if report.motion.vertical_m_per_s2().is_some() {
         caption.push_str(" Slips bend where the vertical motion changes the normal force.");
     }
@@ -73,6 +96,20 @@ pub fn loops(scene: &Scene) -> Drawn {
         shaded: Vec::new(),
     };
     drawn(&figure, caption)
+}
+
+/// Force of an elastic stop in N, rising with the displacement.
+fn stop_force_n(model: &Model, history: &History, knot: usize) -> f64 {
+    let (Some(stop), Some(Contact::Pressed(side))) = (model.stop(), history.contact.get(knot))
+    else {
+        return 0.0;
+    };
+    let StopKind::Elastic { stiffness_n_per_m: k, damper_n_s_per_m: c } = stop.kind else {
+        return 0.0;
+    };
+    let place_m = side.sign() * stop.gap_towards(*side).unwrap_or(0.0);
+    k * (history.sliding_displacement_m[knot] - place_m)
+        + c * history.sliding_velocity_m_per_s[knot]
 }
 
 /// Pieces of the loop in which the block presses against a stop.

@@ -113,8 +113,19 @@ fn draw_panel(out: &mut Markup, panel: &Panel, frame: Frame, shaded: &[[f64; 2]]
     header(out, panel, frame);
     shading(out, &panel.x, frame, shaded);
     grid(out, panel, frame, x_labels);
+    let clipped = leaves_frame(panel);
+    if clipped {
+        // An element of its own shows nothing outside of its place.
+        out.raw("<svg");
+        let Frame { left, top, width, height } = frame;
+        let view = [left, top, width, height].map(|value| trimmed(value, 1)).join(" ");
+        place(out, frame).attribute("viewBox", view).raw(">\n");
+    }
     for series in &panel.series {
         draw_series(out, panel, series, frame);
+    }
+    if clipped {
+        out.raw("</svg>\n");
     }
     for limit in &panel.limits {
         draw_limit(out, panel, limit, frame);
@@ -125,13 +136,22 @@ fn draw_panel(out: &mut Markup, panel: &Panel, frame: Frame, shaded: &[[f64; 2]]
             .attribute("cy", trimmed(frame.y(&panel.y, y), 2))
             .raw("/>\n");
     }
-    out.raw("<rect fill=\"none\" stroke-width=\"0.8\"")
-        .attribute("stroke", FRAME)
-        .attribute("x", trimmed(frame.left, 1))
+    out.raw("<rect fill=\"none\" stroke-width=\"0.8\"").attribute("stroke", FRAME);
+    place(out, frame).raw("/>\n");
+}
+
+/// Whether a line goes on above or below the frame.
+fn leaves_frame(panel: &Panel) -> bool {
+    let beyond = |value: f64| value < panel.y.min || value > panel.y.max;
+    panel.series.iter().any(|series| series.points.iter().any(|point| beyond(point[1])))
+}
+
+/// Place and size of a rectangle.
+fn place(out: &mut Markup, frame: Frame) -> &mut Markup {
+    out.attribute("x", trimmed(frame.left, 1))
         .attribute("y", trimmed(frame.top, 1))
         .attribute("width", trimmed(frame.width, 1))
         .attribute("height", trimmed(frame.height, 1))
-        .raw("/>\n");
 }
 
 // Text above the frame: the label of the y axis, the legend and the note.

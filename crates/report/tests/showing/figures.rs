@@ -283,3 +283,24 @@ fn exact_the_loop_is_red_only_where_a_stop_is_pressed() {
         assert_eq!(drawn.svg.as_str().contains("against the stop"), is_red, "{gap_m} m, {kind:?}");
     }
 }
+
+#[test]
+fn exact_a_stiff_stop_does_not_flatten_the_loop() {
+    for (stiffness_n_per_m, leaves) in [(2e8, true), (2e4, false)] {
+        let plain = frame_model(0, 1.0);
+        let kind = StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m: 0.0 };
+        let stop = Some(Stop { gap_m: [Some(0.005); 2], kind });
+        let slider = Slider { gap_m: None, stop, ..*plain.slider() };
+        let (block, frame) = (*plain.block(), plain.frame().clone());
+        let model = Model::new(block, slider, frame, 9.80665, InitialState::rest());
+        let case = run("stop", model.expect("a model"), rough_motion(8.0, 0.01));
+        let summary = case.summary.clone();
+        let all = figures::all(&report(&case, &summary));
+        let drawn = all.iter().find(|drawn| drawn.id == "hysteresis").expect("a loop");
+        let svg = drawn.svg.as_str();
+        assert_sound(drawn);
+        assert_eq!(drawn.caption.contains("it leaves the frame"), leaves);
+        assert_eq!(svg.matches("<svg").count(), if leaves { 2 } else { 1 }, "{svg}");
+        assert_eq!(svg.contains(">stop "), leaves, "{svg}");
+    }
+}
