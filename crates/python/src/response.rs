@@ -1,5 +1,6 @@
 //! `run` and its `Response`.
 
+use std::ops::ControlFlow;
 use std::path::Path;
 
 use numpy::{IntoPyArray, PyArray1};
@@ -26,18 +27,23 @@ pub(crate) fn run(
     floor_spectra: bool,
 ) -> PyResult<Response> {
     let work = |go_on: GoOn<'_>| -> Result<Response, JobError> {
+        // Copies of long motions take their time too.
+        let ask = || match go_on() {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(SolveError::Stopped(Stopped)),
+        };
         let analysis = model.analysis.clone();
         let job = match motion {
             None => OpenJob::new(model.path(), analysis, None)?,
             Some(Motion(loaded)) => {
-                let name = model.title();
-                let job = Job::new(analysis, loaded.motion.clone(), loaded.warnings.clone())?;
-                OpenJob { name, job, loaded: loaded.clone() }
+                let bare = loaded.motion.clone();
+                ask()?;
+                let job = Job::new(analysis, bare, loaded.warnings.clone())?;
+                ask()?;
+                OpenJob { name: model.title(), job, loaded: loaded.clone() }
             }
         };
-        if go_on().is_break() {
-            return Err(SolveError::Stopped(Stopped).into());
-        }
+        ask()?;
         let (outcome, summary) = job.run_while(floor_spectra, go_on)?;
         Ok(Response { job, outcome, summary })
     };

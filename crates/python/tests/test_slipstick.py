@@ -334,27 +334,32 @@ def test_ctrl_c_stops_a_study_and_leaves_whole_parts(tmp_path: Path) -> None:
 def test_ctrl_c_stops_one_long_analysis(method: str) -> None:
     # Ten million samples, and twenty storeys: with its certificate many seconds either way.
     count, storeys = {"exact": (10_000_000, 0), "stepwise": (1_000_000, 20)}[method]
-    code = (
-        "import sys, time, numpy as np, slipstick as ss\n"
-        f"storey = {{'mass': '1 t', 'stiffness': '4 kN/mm', 'damping_ratio': 0.05}}\n"
-        f"model = ss.Model({{'block.mass': '1 t', 'slider.static_friction': 0.1,\n"
-        f"    'slider.kinetic_friction': 0.08, 'analysis.method': '{method}',\n"
-        f"    **({{'storey': [storey] * {storeys}}} if {storeys} else {{}})}})\n"
-        f"motion = ss.Motion(np.sin(0.05 * np.arange({count})), dt=0.005, units='m/s2')\n"
-        "print('begun', flush=True)\n"
-        "try:\n"
-        "    ss.run(model, motion)\n"
-        "except KeyboardInterrupt:\n"
-        "    print(time.monotonic(), flush=True)\n"
-    )
-    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
-    assert child.stdout is not None and child.stdout.readline() == "begun\n"
+    code = f"""
+import os, signal, threading, time
+import numpy as np
+import slipstick as ss
+
+def interrupt():
+    global sent
     time.sleep(0.4)
-    sent = time.monotonic()
-    child.send_signal(signal.SIGINT)
-    told = child.stdout.readline()
-    child.wait(60)
-    assert told and float(told) - sent < 0.2, told
+    sent = time.monotonic(), time.process_time()
+    os.kill(os.getpid(), signal.SIGINT)
+
+storey = {{"mass": "1 t", "stiffness": "4 kN/mm", "damping_ratio": 0.05}}
+frame = {{"storey": [storey] * {storeys}}} if {storeys} else {{}}
+slider = {{"static_friction": 0.1, "kinetic_friction": 0.08}}
+model = ss.Model({{"block": {{"mass": "1 t"}}, "slider": slider, "analysis": {{"method": "{method}"}}, **frame}})
+motion = ss.Motion(np.sin(0.05 * np.arange({count})), dt=0.005, units="m/s2")
+threading.Thread(target=interrupt).start()
+try:
+    ss.run(model, motion)
+except KeyboardInterrupt:
+    print(time.monotonic() - sent[0], time.process_time() - sent[1])
+"""
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    assert ended.returncode == 0 and ended.stdout, ended.stderr
+    # Where others use the processor too, it is the time that this process had that counts.
+    assert min(map(float, ended.stdout.split())) < 0.2, ended.stdout
 
 
 def test_an_exception_of_progress_stops_the_work(tmp_path: Path) -> None:
