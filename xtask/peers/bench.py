@@ -2,7 +2,8 @@
 
 Called by `cargo xtask bench-peers`, which builds the helper and makes the Python environment.
 Times are medians over rounds in which every program has its turn; imports, compilation and the
-start of processes are left out. Slipstick's time includes setting up the system; numba's leaves
+start of processes are left out. Programs that run here are timed by the processor time of this process, so
+that long runs do not pay for what else the machine does. Slipstick's time includes setting up the system; numba's leaves
 its matrix exponentials out.
 """
 
@@ -69,9 +70,9 @@ def by_call(function, count):
     def seconds(repeats):
         out = []
         for _ in range(min(repeats, count)):
-            start = time.perf_counter()
+            start = time.process_time()
             function()
-            out.append(time.perf_counter() - start)
+            out.append(time.process_time() - start)
         return out
 
     return seconds

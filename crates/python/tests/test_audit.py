@@ -110,10 +110,15 @@ def test_opensees_comes_near_with_every_device(
     if vertical:
         along = motion.acceleration_m_per_s2
         motion = ss.Motion(along, dt=0.01, units="m/s2", vertical=0.5 * along[::-1])
-    # More than TripleFrictionPendulum converges with where its spring is as stiff as the others'.
-    stiff = "10 kN/mm" if "surface" in slider or "triple" in slider else "200 kN/mm"
-    found = ss.audit.regularisation(model, motion, ["500 N/mm", stiff], steps=5)
+    stiff, steps, bound = "200 kN/mm", 5, 0.03
+    if "surface" in slider or "triple" in slider:
+        stiff = "10 kN/mm"  # TripleFrictionPendulum does not converge with stiffer springs
+    if "restitution" in slider.get("stop", {}):  # type: ignore[operator]
+        # An impact on that spring takes some steps, and time that a rigid stop does not take.
+        stiff, steps, bound = "20 kN/mm", 20, 0.1
+    found = ss.audit.regularisation(model, motion, ["500 N/mm", stiff], steps=steps)
     soft, near = found.errors()
-    assert near[1] is not None and abs(near[1]) < 0.03, found.errors()
+    assert near[1] is not None and abs(near[1]) < bound, found.errors()
     assert near[2] is not None and abs(near[2]) < 0.02, found.errors()
-    assert soft[1] is not None and abs(soft[1]) > abs(near[1]), found.errors()
+    assert soft[1] is not None and soft[2] is not None
+    assert abs(soft[1]) + abs(soft[2]) > abs(near[1]) + abs(near[2]), found.errors()

@@ -23,8 +23,8 @@ const ANALYSIS: &str = include_str!("opensees/analysis.py");
 /// Coefficient of friction of a surface that never slides.
 const STUCK: f64 = 10.0;
 
-/// Travel without an end in m.
-const ENDLESS_M: f64 = 1e3;
+/// Travel without an end in m, and speed that is not reached in m/s.
+const ENDLESS: f64 = 1e3;
 
 /// What stands for the slider.
 enum SliderElement {
@@ -185,8 +185,12 @@ fn bearing(model: &Model, vertical: bool, line: &mut impl FnMut(core::fmt::Argum
             ));
         }
         Some((RateCurve::Pieces { speeds_m_per_s, coefficients }, factor)) => {
-            let coefficients: Vec<f64> = coefficients.iter().map(|mu| factor * mu).collect();
-            line(format_args!("SPEEDS = {speeds_m_per_s:?}  # m/s"));
+            let mut coefficients: Vec<f64> = coefficients.iter().map(|mu| factor * mu).collect();
+            let mut speeds = speeds_m_per_s.clone();
+            // Beyond the last point the line would go on.
+            speeds.push(ENDLESS + speeds.last().copied().unwrap_or(0.0));
+            coefficients.extend(coefficients.last().copied());
+            line(format_args!("SPEEDS = {speeds:?}  # m/s"));
             line(format_args!("COEFFICIENTS = {coefficients:?}"));
             line(format_args!(
                 "FRICTION = \"VelDepMultiLinear\", 1, \"-vel\", *SPEEDS, \"-frn\", *COEFFICIENTS"
@@ -208,9 +212,8 @@ fn bearing(model: &Model, vertical: bool, line: &mut impl FnMut(core::fmt::Argum
 /// of travel `2 (d1 + d3 L1/L3)`, `d2 (1 − L1/L2)` and `d3 (1 − L1/L3)`.
 fn triple(series: Option<&Series>, line: &mut impl FnMut(core::fmt::Arguments<'_>)) {
     let surfaces = series.map_or(&[][..], Series::surfaces);
-    let of = |s: &Surface| {
-        [s.friction, s.radius_m.unwrap_or(ENDLESS_M), s.travel_m.unwrap_or(ENDLESS_M)]
-    };
+    let of =
+        |s: &Surface| [s.friction, s.radius_m.unwrap_or(ENDLESS), s.travel_m.unwrap_or(ENDLESS)];
     let mut all: Vec<[f64; 3]> = surfaces.iter().map(of).collect();
     all.sort_by(|a, b| a[0].total_cmp(&b[0]));
     all.resize(3, [STUCK, 1.0, 1.0]);
@@ -534,8 +537,8 @@ mod tests {
                 pieces.to_owned(),
                 false,
                 vec![
-                    "SPEEDS = [0.0, 0.1]",
-                    "COEFFICIENTS = [0.03, 0.05]",
+                    "SPEEDS = [0.0, 0.1, 1000.1]",
+                    "COEFFICIENTS = [0.03, 0.05, 0.05]",
                     "\"VelDepMultiLinear\", 1",
                 ],
             ),
