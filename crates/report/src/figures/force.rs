@@ -7,7 +7,7 @@ use slipstick::response::History;
 
 use super::{Drawn, Scene, drawn};
 use crate::display::Quantity;
-use crate::number::compact;
+use crate::number::printed;
 use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
 
 /// An axis of forces ends at this many times the largest force without a stop's.
@@ -49,7 +49,7 @@ pub fn loops(scene: &Scene) -> Drawn {
             },
             height: 150.0,
             note: if cut {
-                format!("stop {} {}", compact(most), unit.symbol)
+                format!("stop {} {}", printed(most, 3), unit.symbol)
             } else {
                 String::new()
             },
