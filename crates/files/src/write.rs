@@ -203,6 +203,10 @@ impl OutputFolder {
             return Ok(());
         }
         if fs::symlink_metadata(folder).is_ok() {
+            // Unless another process has made it meanwhile.
+            if folder.is_dir() {
+                return Ok(());
+            }
             return Err(FileError::NotAFolder { path: folder.to_owned() });
         }
         if let Some(above) = folder.parent() {
@@ -213,7 +217,12 @@ impl OutputFolder {
         if live.ending {
             return Err(failed(io::ErrorKind::Interrupted.into()));
         }
-        fs::create_dir(folder).map_err(failed)?;
+        match fs::create_dir(folder) {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists && folder.is_dir() => {
+                return Ok(());
+            }
+            made => made.map_err(failed)?,
+        }
         live.folders.insert(folder.to_owned());
         self.made.push(folder.to_owned());
         Ok(())
@@ -342,6 +351,29 @@ mod tests {
         output.write("a.txt", b"a").unwrap();
         drop(output);
         assert!(names(&folder).is_empty());
+    }
+
+    /// Shards of one study start at the same time, in a folder that none of them finds.
+    #[test]
+    fn exact_folder_that_another_makes_meanwhile_is_taken() {
+        let folder = scratch("meanwhile");
+        for round in 0..50 {
+            let out = folder.join(format!("{round}/out"));
+            let barrier = std::sync::Barrier::new(8);
+            let create = || {
+                barrier.wait();
+                OutputFolder::create(&out, &[])
+            };
+            let made: Vec<_> = std::thread::scope(|scope| {
+                let threads: Vec<_> = (0..8).map(|_| scope.spawn(create)).collect();
+                threads.into_iter().map(|thread| thread.join().unwrap()).collect()
+            });
+            assert!(
+                made.iter().all(Result::is_ok),
+                "{:?}",
+                made.iter().find_map(|m| m.as_ref().err())
+            );
+        }
     }
 
     #[test]
