@@ -198,15 +198,13 @@ impl OutputFolder {
     }
 
     fn make(&mut self, folder: &Path) -> Result<(), FileError> {
+        // Looked up first: another process may make the folder meanwhile.
+        let there = fs::symlink_metadata(folder).is_ok();
         // The empty path is the current folder.
         if folder.as_os_str().is_empty() || folder.is_dir() {
             return Ok(());
         }
-        if fs::symlink_metadata(folder).is_ok() {
-            // Unless another process has made it meanwhile.
-            if folder.is_dir() {
-                return Ok(());
-            }
+        if there {
             return Err(FileError::NotAFolder { path: folder.to_owned() });
         }
         if let Some(above) = folder.parent() {
@@ -218,9 +216,7 @@ impl OutputFolder {
             return Err(failed(io::ErrorKind::Interrupted.into()));
         }
         match fs::create_dir(folder) {
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists && folder.is_dir() => {
-                return Ok(());
-            }
+            Err(_) if folder.is_dir() => return Ok(()),
             made => made.map_err(failed)?,
         }
         live.folders.insert(folder.to_owned());

@@ -256,17 +256,25 @@ fn recorded(
     options: &Options,
     (channel, vertical): (Option<&str>, Option<(&str, f64)>),
 ) -> Result<Loaded, Failure> {
-    let mut read = |name: &str| {
-        let stated = matches!(records.read(name, &Options::default()), Some(Ok(_)));
-        let options = if stated { Options::default() } else { options.clone() };
-        let missing = || Failure::of(format!("{name}: expected a record, dropped on the page"));
-        records.read(name, &options).ok_or_else(missing)?.cloned().map_err(Failure::of)
+    let up = match vertical {
+        Some((name, factor)) => Some((read(records, name, options)?.clone(), factor)),
+        None => None,
     };
-    let record = read(name)?;
-    let up = vertical.map(|(name, factor)| Ok::<_, Failure>((read(name)?, factor))).transpose()?;
     let up = up.as_ref().map(|(record, factor)| (Wanted { record, channel: None }, *factor));
-    let loaded = Loaded::recorded(Wanted { record: &record, channel }, up, None);
+    let record = read(records, name, options)?;
+    let loaded = Loaded::recorded(Wanted { record, channel }, up, None);
     loaded.map_err(|error| Failure::of(format!("{name}: {error}")))
+}
+
+fn read<'a>(
+    records: &'a mut Records,
+    name: &str,
+    options: &Options,
+) -> Result<&'a slipstick::record::Record, Failure> {
+    let stated = matches!(records.read(name, &Options::default()), Some(Ok(_)));
+    let options = if stated { Options::default() } else { options.clone() };
+    let missing = || Failure::of(format!("{name}: expected a record, dropped on the page"));
+    records.read(name, &options).ok_or_else(missing)?.map_err(Failure::of)
 }
 
 struct Work<'a> {
@@ -542,15 +550,9 @@ pub fn study(
         let files = named("files", &wanted.files)?;
         let second = named("second", &wanted.second)?;
         let vertical = named("vertical", &wanted.vertical)?;
-        for (key, component, others) in
-            [("second", "other component", &second), ("vertical", "vertical motion", &vertical)]
-        {
-            if !others.is_empty() && others.len() != files.len() {
-                let expected = format!("one {component} for each of {} records", files.len());
-                let found = others.len().to_string();
-                return Err(in_plan(plan.error_at(&format!("records.{key}"), expected, found)));
-            }
-        }
+        let count = (files.len(), "records");
+        plan.one_each(("second", "other component"), second.len(), count).map_err(in_plan)?;
+        plan.one_each(("vertical", "vertical motion"), vertical.len(), count).map_err(in_plan)?;
         for (i, first) in files.iter().enumerate() {
             let up = vertical.get(i).map(|up| (up.as_str(), wanted.vertical_scale.unwrap_or(1.0)));
             for name in core::iter::once(first).chain(second.get(i)) {

@@ -555,8 +555,7 @@ impl<'a> Judge<'a> {
         let sliding = match modes[0] {
             Mode::Stick => None,
             Mode::Slip(direction) => {
-                let mut ways =
-                    self.slider.slidings(self.h.surface_displacements(k), direction).into_iter();
+                let ways = self.slider.slidings(self.h.surface_displacements(k), direction);
                 // The force that is stored tells that a surface has left its end.
                 let (loads, found) =
                     (self.ground.instant(self.h.time_s[k]), self.h.friction_force_n[k]);
@@ -565,12 +564,8 @@ impl<'a> Judge<'a> {
                     let least = loads.iter().map(off).fold(f64::INFINITY, f64::min);
                     least <= STILL * self.model.weight_n()
                 };
-                let at_ends = ways.next();
-                if at_ends.as_ref().is_some_and(suits) {
-                    at_ends
-                } else {
-                    ways.find(suits).or(at_ends)
-                }
+                let place = ways.iter().position(suits).unwrap_or(0);
+                ways.into_iter().nth(place)
             }
         };
         Between {

@@ -308,6 +308,24 @@ impl Plan {
         self.values.error(path, expected, found)
     }
 
+    /// That there is one other component for each of some files, or none at all; `component` is what the
+    /// key lists, `of` what the files are called.
+    ///
+    /// # Errors
+    /// [`InputError`] at the key.
+    pub fn one_each(
+        &self,
+        (key, component): (&str, &str),
+        others: usize,
+        (files, of): (usize, &str),
+    ) -> Result<(), InputError> {
+        if others == 0 || others == files {
+            return Ok(());
+        }
+        let expected = format!("one {component} for each of {files} {of}");
+        Err(self.error_at(&format!("records.{key}"), expected, others.to_string()))
+    }
+
     /// Number of samples: 1 where nothing is varied.
     #[must_use]
     pub fn samples(&self) -> u64 {

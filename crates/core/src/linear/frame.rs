@@ -1,5 +1,7 @@
 //! Fixed-base modes of a shear frame.
 
+use crate::numerics::algebra::dot;
+
 /// Fixed-base modes, mass-normalised, in order of frequency.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameModes {
@@ -86,10 +88,6 @@ fn rotate(columns: &mut [Vec<f64>], i: usize, j: usize, c: f64, s: f64) {
     for (x, y) in left[i].iter_mut().zip(right[0].iter_mut()) {
         (*x, *y) = (c * *x - s * *y, s * *x + c * *y);
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).fold(0.0, |sum, (x, y)| sum + x * y)
 }
 
 #[cfg(test)]

@@ -46,10 +46,16 @@ pub fn inverse(matrix: &Matrix) -> Option<Matrix> {
     Some(inverse)
 }
 
+/// The sum of products, one after the other.
+#[must_use]
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a * b)
+}
+
 /// A matrix times a vector.
 #[must_use]
 pub fn times(matrix: &Matrix, vector: &[f64]) -> Vec<f64> {
-    matrix.iter().map(|row| row.iter().zip(vector).map(|(a, b)| a * b).sum()).collect()
+    matrix.iter().map(|row| dot(row, vector)).collect()
 }
 
 /// A linear fit by least squares.

@@ -90,7 +90,7 @@ pub(super) fn solve(
         let mut attain = |j: usize, value: f64| peaks[j] = greatest(peaks[j], f64::abs(value));
         attain(output::VELOCITY, step.w);
         attain(output::BLOCK, step.u - slope);
-        attain(output::SLIDER, friction_n - program.restoring_n(step, sample));
+        attain(output::SLIDER, friction_n - program.restoring_n(step.s, step.w, sample));
         attain(output::FRICTION, friction_n);
         attain(output::BASE_SHEAR, shear_n);
         let moment = overturning.as_ref().map_or(0.0, |o| o.moment(&step.f, step.u));
@@ -104,7 +104,7 @@ pub(super) fn solve(
         let stored = Stored {
             time_s: program.times_s[sample],
             mode,
-            contact: program.contact(step),
+            contact: program.contact(step.s, step.w),
             table: table[sample],
             state: &state,
             block: step.u - slope,
@@ -117,7 +117,7 @@ pub(super) fn solve(
         events.push(event(EventKind::Slip, &step, 0.0));
     }
     let mut touch = |step: &Step, time_s: f64| {
-        let (from, to) = (contact, program.contact(step));
+        let (from, to) = (contact, program.contact(step.s, step.w));
         contact = to;
         let peak_n = &mut stopping.demands.peak_force_n;
         *peak_n = greatest(*peak_n, law.stop_force_n(to, step.s, step.w));
@@ -274,26 +274,26 @@ impl Program<'_> {
 
     fn held_or_not(&self, step: &Step, sample: usize) -> Mode {
         let hold = self.law.hold(&self.law.initial(step.s, 0.0), step.s);
-        let demand_n = self.demand_n(&Step { w: 0.0, ..step.clone() }, sample);
-        hold.gives_way(demand_n, self.normal_n[sample]).map_or(Mode::Stick, Mode::Slip)
+        hold.gives_way(self.demand_n(step, sample), self.normal_n[sample])
+            .map_or(Mode::Stick, Mode::Slip)
     }
 
     /// Where the block stands to an elastic stop.
-    fn contact(&self, step: &Step) -> Contact {
-        self.law.initial(step.s, step.w).contact
+    fn contact(&self, s: f64, w: f64) -> Contact {
+        self.law.initial(s, w).contact
     }
 
     /// Force of spring, damper, pendulum and elastic stop against the block.
-    fn restoring_n(&self, step: &Step, sample: usize) -> f64 {
-        let (s, w) = (step.s, step.w);
+    fn restoring_n(&self, s: f64, w: f64, sample: usize) -> f64 {
         let Restraint { stiffness_n_per_m, damper_n_s_per_m } = self.law.restraint;
         let pendulum = self.law.radius_m.map_or(0.0, |radius_m| self.normal_n[sample] / radius_m);
-        let stop_n = self.law.stop.map_or(0.0, |stop| stop.force_n(self.contact(step), s, w));
+        let stop_n = self.law.stop.map_or(0.0, |stop| stop.force_n(self.contact(s, w), s, w));
         stiffness_n_per_m * s + damper_n_s_per_m * w + pendulum * s + stop_n
     }
 
     fn demand_n(&self, step: &Step, sample: usize) -> f64 {
-        self.system.block_mass_kg * self.acceleration[sample] + self.restoring_n(step, sample)
+        self.system.block_mass_kg * self.acceleration[sample]
+            + self.restoring_n(step.s, 0.0, sample)
             - dot(&self.system.participation, &step.f)
     }
 
@@ -311,7 +311,7 @@ impl Program<'_> {
         match step.mode {
             Mode::Stick => self.acceleration[sample],
             Mode::Slip(_) => {
-                (self.friction_n(step, sample) - self.restoring_n(step, sample)
+                (self.friction_n(step, sample) - self.restoring_n(step.s, step.w, sample)
                     + dot(&self.system.participation, &step.f))
                     / self.system.block_mass_kg
             }

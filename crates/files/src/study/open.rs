@@ -155,17 +155,10 @@ fn load_all(
     let second = find(plan, "records.second", &records.second, folder).map_err(in_plan)?;
     let alone = records.vertical.is_empty() && second.is_empty();
     let files = if alone { once(files, notices) } else { files };
-    if !second.is_empty() && second.len() != files.len() {
-        let expected = format!("one other component for each of {} files", files.len());
-        let found = second.len().to_string();
-        return Err(in_plan(plan.error_at("records.second", expected, found)));
-    }
+    let count = (files.len(), "files");
+    plan.one_each(("second", "other component"), second.len(), count).map_err(in_plan)?;
     let vertical = find(plan, "records.vertical", &records.vertical, folder).map_err(in_plan)?;
-    if !vertical.is_empty() && vertical.len() != files.len() {
-        let expected = format!("one vertical motion for each of {} files", files.len());
-        let found = vertical.len().to_string();
-        return Err(in_plan(plan.error_at("records.vertical", expected, found)));
-    }
+    plan.one_each(("vertical", "vertical motion"), vertical.len(), count).map_err(in_plan)?;
     let load = |index: usize| -> Result<Loaded, FileError> {
         // The components of a pair stand beside each other.
         let [pair, other] = if second.is_empty() { [index, 0] } else { [index / 2, index % 2] };

@@ -1,7 +1,6 @@
 //! Friction force against sliding displacement, and the demand against its bound.
 
 use slipstick::friction::Contact;
-use slipstick::model::{Model, StopKind};
 use slipstick::motion::GroundMotion;
 use slipstick::response::History;
 
@@ -26,6 +25,16 @@ pub fn loops(scene: &Scene) -> Drawn {
     let length = report.display.unit(Quantity::Length, demands.peak_sliding_displacement_m);
     let whole = |knot: usize| history.slider_force_n(model, knot);
     let friction = |knot: usize| -history.friction_force_n[knot];
+    let law = model.law(report.motion.vertical_m_per_s2().is_some());
+    // Of an elastic stop, rising with the displacement.
+    let stop_n = |knot: usize| match history.contact.get(knot) {
+        Some(&contact @ Contact::Pressed(side)) => {
+            let (s, w) =
+                (history.sliding_displacement_m[knot], history.sliding_velocity_m_per_s[knot]);
+            side.sign() * law.stop_force_n(contact, s, w)
+        }
+        _ => 0.0,
+    };
     let panel = |label: &str, peak_n: f64, force: &dyn Fn(usize) -> f64, with_stop: bool| {
         let unit = report.display.unit(Quantity::Force, peak_n);
         let points: Vec<[f64; 2]> = (0..history.len())
@@ -33,7 +42,7 @@ pub fn loops(scene: &Scene) -> Drawn {
             .collect();
         let forces = || points.iter().map(|point| point[1]);
         let largest = |all: &mut dyn Iterator<Item = f64>| all.map(f64::abs).fold(0.0, f64::max);
-        let of_loop = |knot: usize| unit.of(force(knot) - stop_force_n(model, history, knot));
+        let of_loop = |knot: usize| unit.of(force(knot) - stop_n(knot));
         let of_loop = largest(&mut (0..history.len()).map(of_loop));
         let most = largest(&mut forces());
         let cut = with_stop && of_loop > 0.0 && most > ABOVE_THE_LOOP * of_loop;
@@ -96,20 +105,6 @@ pub fn loops(scene: &Scene) -> Drawn {
         shaded: Vec::new(),
     };
     drawn(&figure, caption)
-}
-
-/// Force of an elastic stop in N, rising with the displacement.
-fn stop_force_n(model: &Model, history: &History, knot: usize) -> f64 {
-    let (Some(stop), Some(Contact::Pressed(side))) = (model.stop(), history.contact.get(knot))
-    else {
-        return 0.0;
-    };
-    let StopKind::Elastic { stiffness_n_per_m: k, damper_n_s_per_m: c } = stop.kind else {
-        return 0.0;
-    };
-    let place_m = side.sign() * stop.gap_towards(*side).unwrap_or(0.0);
-    k * (history.sliding_displacement_m[knot] - place_m)
-        + c * history.sliding_velocity_m_per_s[knot]
 }
 
 /// Pieces of the loop in which the block presses against a stop.

@@ -5,7 +5,7 @@ use slipstick::laboratory::cyclic::{
 };
 
 use super::identify::estimate_json;
-use crate::assessment::lines::{BAND, band, line};
+use crate::assessment::lines::{BAND, band, line, single};
 use crate::display::{DisplayUnits, Quantity};
 use crate::figures::Drawn;
 use crate::json::Json;
@@ -264,15 +264,7 @@ pub fn by_speed(
         "Kinetic friction over the sliding speed: what every cycle tells (mean of both ways), \
                    and the fitted curve with its 95 % interval."
             .to_owned();
-    let figure = Figure {
-        id: "friction-by-speed",
-        title: "Kinetic friction over sliding speed".to_owned(),
-        description: caption.clone(),
-        layout: Layout::Stacked,
-        panels: vec![panel],
-        shaded: Vec::new(),
-    };
-    Drawn { id: figure.id, caption, svg: figure.to_svg() }
+    single("friction-by-speed", "Kinetic friction over sliding speed", caption, panel)
 }
 
 /// One figure a test, of eight at most: measured loops with the fitted strokes, and friction by

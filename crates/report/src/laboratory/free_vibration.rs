@@ -4,11 +4,12 @@ use slipstick::input::Channel;
 use slipstick::laboratory::free_vibration::FreeVibration;
 
 use super::compare::{quantity, title};
+use crate::assessment::lines::single;
 use crate::display::DisplayUnits;
 use crate::figures::Drawn;
 use crate::json::Json;
 use crate::number::significant;
-use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Panel, Series, Shape, Style};
 
 /// What the intervals assume.
 pub const ASSUMPTION: &str = "95 % intervals by profile likelihood: one linear mode with viscous \
@@ -82,13 +83,5 @@ pub fn figures(
     let caption =
         "Free vibration, measured (wide) and the decaying oscillation that fits best (thin)."
             .to_owned();
-    let figure = Figure {
-        id: "free-vibration",
-        title: "Free vibration over time".to_owned(),
-        description: caption.clone(),
-        layout: Layout::Stacked,
-        panels: vec![panel],
-        shaded: Vec::new(),
-    };
-    vec![Drawn { id: figure.id, caption, svg: figure.to_svg() }]
+    vec![single("free-vibration", "Free vibration over time", caption, panel)]
 }

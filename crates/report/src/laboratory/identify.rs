@@ -141,8 +141,8 @@ impl IdentifyReport<'_> {
                     )
                 });
                 let mut json = cyclic::json(&tests, together);
-                let keys = identified.slider_keys();
-                json.push(("slider_keys", keys.as_deref().map_or(Json::Null, Json::from)));
+                let keys = report.slider_keys.as_deref();
+                json.push(("slider_keys", keys.map_or(Json::Null, Json::from)));
                 if tests.len() > 1 {
                     let unit = if normal_n.is_some() { "" } else { " (N)" };
                     let rows = cyclic::by_test(&tests, normal_n);

@@ -4,6 +4,7 @@
 use slipstick::motion::{GroundMotion, Quantity, Spectrum, processing::Step};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
+use crate::assessment::lines::single;
 use crate::display::{DisplayUnits, Quantity as Shown, Unit};
 use crate::figures::{Drawn, Trace};
 use crate::number::{compact, printed};
@@ -214,13 +215,5 @@ fn spectra(spectrum: &Spectrum, display: DisplayUnits, id: &'static str) -> Opti
         peak: None,
         note: String::new(),
     };
-    let figure = Figure {
-        id,
-        title: name.to_owned(),
-        description: caption.to_owned(),
-        layout: Layout::Stacked,
-        panels: vec![panel],
-        shaded: Vec::new(),
-    };
-    Some(Drawn { id, caption: caption.to_owned(), svg: figure.to_svg() })
+    Some(single(id, name, caption.to_owned(), panel))
 }

@@ -1,7 +1,7 @@
 //! The laws of the slider as the judge of devices reads them.
 
 use super::super::law::{Law, Push};
-use crate::friction::{Direction, RateCurve, RateLaw, Series};
+use crate::friction::{Direction, RateCurve, RateLaw, Series, Surface};
 use crate::model::{Model, StopKind};
 use crate::response::{Contact, Mode};
 
@@ -95,6 +95,11 @@ fn index(direction: Direction) -> usize {
         Direction::Positive => 0,
         Direction::Negative => 1,
     }
+}
+
+/// Whether a surface has no travel left one way, after a displacement that way.
+fn is_at_end(surface: &Surface, u: f64) -> bool {
+    surface.travel_m.is_some_and(|travel_m| u >= travel_m * AT_END)
 }
 
 impl<'a> Slider<'a> {
@@ -282,23 +287,21 @@ impl<'a> Slider<'a> {
     /// How a slip in a direction goes on from these displacements of surfaces in series, of which those
     /// at their ends may have left them by less than their rounding: the ways that are then possible.
     pub(super) fn slidings(&self, surfaces: &[f64], direction: Direction) -> Vec<Sliding> {
-        let at_ends = self.sliding(surfaces, direction, AT_END);
-        let off_ends = self.sliding(surfaces, direction, f64::INFINITY);
-        let same = |a: &Sliding, b: &Sliding| a.shares == b.shares;
-        match (at_ends, off_ends) {
-            (Some(a), Some(b)) if same(&a, &b) => vec![a],
-            (a, b) => a.into_iter().chain(b).collect(),
-        }
+        let Some(series) = self.series else { return Vec::new() };
+        let mut all = surfaces.iter().zip(series.surfaces());
+        let ended = all.any(|(u, surface)| is_at_end(surface, direction.sign() * u));
+        let ways = [false, true].into_iter().take(if ended { 2 } else { 1 });
+        ways.filter_map(|off_ends| self.sliding(surfaces, direction, off_ends)).collect()
     }
 
-    /// The same with those at their ends that have this part of their travels behind them.
-    fn sliding(&self, surfaces: &[f64], direction: Direction, ended: f64) -> Option<Sliding> {
+    /// The same with all at their ends still there, or all off them.
+    fn sliding(&self, surfaces: &[f64], direction: Direction, off_ends: bool) -> Option<Sliding> {
         let series = self.series?;
         let sign = direction.sign();
         let all = || surfaces.iter().zip(series.surfaces());
         let thresholds: Vec<Option<f64>> = all()
             .map(|(u, surface)| {
-                let ended = surface.travel_m.is_some_and(|d| sign * u >= d * ended);
+                let ended = !off_ends && is_at_end(surface, sign * u);
                 let place = surface.radius_m.map_or(0.0, |radius_m| u / radius_m);
                 (!ended).then_some(sign * place + surface.friction)
             })
@@ -330,7 +333,7 @@ impl<'a> Slider<'a> {
         let (phi, sign) = (sliding.force(moved), sliding.direction.sign());
         let mut worst: f64 = 0.0;
         for (u, surface) in surfaces.iter().zip(series.surfaces()) {
-            let ended = surface.travel_m.is_some_and(|d| sign * u >= d * AT_END);
+            let ended = is_at_end(surface, sign * u);
             let place = surface.radius_m.map_or(0.0, |radius_m| u / radius_m);
             if !ended {
                 worst = worst.max(sign * (phi - place) - surface.friction);
@@ -350,7 +353,7 @@ impl<'a> Slider<'a> {
     /// that.
     pub(super) fn next_join(&self, surfaces: &[f64], mode: Mode) -> Option<f64> {
         let Mode::Slip(direction) = mode else { return None };
-        let sliding = self.sliding(surfaces, direction, AT_END)?;
+        let sliding = self.sliding(surfaces, direction, false)?;
         let series = self.series?;
         let sign = direction.sign();
         let held = sign * sliding.phi;
@@ -358,9 +361,7 @@ impl<'a> Slider<'a> {
             .iter()
             .zip(series.surfaces())
             .zip(sliding.active())
-            .filter(|((u, surface), active)| {
-                !active && surface.travel_m.is_none_or(|d| sign * *u < d * AT_END)
-            })
+            .filter(|((u, surface), active)| !active && !is_at_end(surface, sign * *u))
             .map(|((u, surface), _)| {
                 let place = surface.radius_m.map_or(0.0, |radius_m| u / radius_m);
                 let threshold = sign * place + surface.friction;

@@ -22,7 +22,7 @@ use core::ops::Range;
 use super::Cycle;
 use crate::laboratory::estimate::Estimate;
 use crate::laboratory::fit::{Minimum, Problem, Profile, global, profile};
-use crate::numerics::algebra::{Matrix, inverse, times};
+use crate::numerics::algebra::{Matrix, dot, inverse, times};
 use crate::numerics::distribution::student_quantile;
 
 /// Speeds are different where they differ by this ratio.
@@ -248,10 +248,6 @@ struct Spread {
     inverse: Matrix,
     /// Of each cycle its rows of `J`, its residuals and `(I − H_cc)^(−1/2)`.
     cycles: Vec<(Vec<[f64; 3]>, Vec<f64>, Matrix)>,
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 impl Spread {
