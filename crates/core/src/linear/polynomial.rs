@@ -5,7 +5,7 @@
 //! `k (k − 1) |c_k|`. An interval is dismissed only by that bound, else halved.
 
 /// Degree of the Taylor polynomials.
-pub const DEGREE: usize = 16;
+pub const DEGREE: usize = 20;
 
 /// Coefficients, constant first.
 pub type Polynomial = [f64; DEGREE + 1];
@@ -23,7 +23,8 @@ pub fn value(c: &Polynomial, x: f64) -> f64 {
     let p1 = (c[4] + c[5] * x) + (c[6] + c[7] * x) * x2;
     let p2 = (c[8] + c[9] * x) + (c[10] + c[11] * x) * x2;
     let p3 = (c[12] + c[13] * x) + (c[14] + c[15] * x) * x2;
-    (p0 + p1 * x4) + (p2 + (p3 + c[16] * x4) * x4) * (x4 * x4)
+    let p4 = (c[16] + c[17] * x) + (c[18] + c[19] * x) * x2;
+    (p0 + p1 * x4) + (p2 + (p3 + (p4 + c[20] * x4) * x4) * x4) * (x4 * x4)
 }
 
 /// `k` and `k (k − 1)`, the factors of the derivatives of `x^k`.

@@ -7,8 +7,8 @@ use super::lanes::{Four, Width, combine4, dot, four, greatest, least};
 use super::polynomial::{DEGREE, Polynomial, curvature_bound};
 use super::system::System;
 
-/// Longest interval for one series, times the rate: 0.8^17 / 17! = 6.3e-17.
-pub const MAX_RATE_STEP: f64 = 0.8;
+/// Longest interval for one series, times the rate: 1.4^21 / 21! = 2.3e-17.
+pub const MAX_RATE_STEP: f64 = 1.4;
 
 /// Most storeys for which series go by a table: beyond, its sums are longer than the recursion.
 const TABLE_STOREYS: usize = 4;
@@ -301,7 +301,7 @@ pub fn orders(rate_step: f64) -> usize {
     let mut term = 1.0;
     for k in 1..DEGREE {
         term *= rate_step / k as f64;
-        if k % 4 == 1 && k > 4 && term <= 1e-24 {
+        if k % 4 == 1 && k > 4 && (term <= 1e-24 || k == 17 && term <= 1e-16) {
             return k - 1;
         }
     }
