@@ -12,6 +12,7 @@ mod stepping;
 mod stepwise;
 mod summary;
 mod tables;
+mod workspace;
 
 use crate::error::{GoOn, SolveError, UNWATCHED};
 use crate::model::Model;
@@ -20,6 +21,7 @@ use crate::response::{Method, Response};
 
 pub use event::EVENTS_PER_INTERVAL_LIMIT;
 pub use prepared::{InstructionSet, Prepared, PreparedMotion};
+pub use workspace::Workspace;
 
 /// Exact response with its history.
 ///

@@ -21,11 +21,11 @@ use super::suite::{Scaling, Suite};
 use super::{AssessmentError, FailedRun};
 use crate::error::{FitError, MotionError, RunError, Stopped};
 use crate::input::Parts;
-use crate::motion::GroundMotion;
 use crate::numerics::fractile::{held_by, needed, sorted};
 use crate::numerics::unit_points;
 use crate::response::demand_values;
-use crate::study::engine::{Engine, Running, Shaking};
+use crate::solver::{PreparedMotion, Workspace};
+use crate::study::engine::{Engine, Running};
 use crate::table::Table;
 
 /// What is asked of a design.
@@ -438,7 +438,7 @@ struct Runner<'a> {
     factors: Vec<f64>,
     tail_s: f64,
     /// Scaled records with that tail; none for a made motion.
-    motions: Vec<Result<GroundMotion, MotionError>>,
+    motions: Vec<Result<PreparedMotion, MotionError>>,
     displacement: usize,
     acceleration: usize,
 }
@@ -450,7 +450,8 @@ impl<'a> Runner<'a> {
         let first = models.parts(&models.grid().values(0));
         let tail_s = first.map_or(0.0, |parts| parts.tail_s);
         let shared = if suite.made { 0 } else { suite.records.len() };
-        let motions = engine.map(shared, |i| Ok(suite.motion(i, factors[i], tail_s)))?;
+        let motion = |i: usize| suite.motion(i, factors[i], tail_s).map(PreparedMotion::new);
+        let motions = engine.map(shared, |i| Ok(motion(i)))?;
         Ok(Self {
             displacement: models.column("peak_sliding_displacement_m")?,
             acceleration: models.column(request.acceleration)?,
@@ -467,18 +468,18 @@ impl<'a> Runner<'a> {
     fn run(
         &self,
         parts: &Parts,
-        running: &mut Running<'_>,
+        (running, room): (&mut Running<'_>, &mut Workspace),
         record: usize,
     ) -> Result<Demand, RunError> {
         let own;
         let motion = match self.motions.get(record) {
             Some(motion) if parts.tail_s == self.tail_s => motion.as_ref().map_err(Clone::clone)?,
             _ => {
-                own = self.suite.motion_of(record, self.factors[record], parts)?;
+                own = self.suite.motion_of(record, self.factors[record], parts)?.into();
                 &own
             }
         };
-        let values = demand_values(&running.on(&Shaking::new(motion))?.demands);
+        let values = demand_values(&running.on(motion, room)?.demands);
         Ok(Demand {
             displacement_m: values[self.displacement],
             acceleration_m_per_s2: values[self.acceleration],
@@ -497,8 +498,10 @@ impl<'a> Runner<'a> {
             let runs: Vec<Result<Demand, RunError>> = match &parts[groups[i][0].0] {
                 Err(error) => groups[i].iter().map(|_| Err(error.clone())).collect(),
                 Ok(parts) => {
-                    let mut running = Running::new(&parts.model);
-                    let of = |(_, record): &(usize, usize)| self.run(parts, &mut running, *record);
+                    let (mut running, mut room) = (Running::new(&parts.model), Workspace::default());
+                    let of = |(_, record): &(usize, usize)| {
+                        self.run(parts, (&mut running, &mut room), *record)
+                    };
                     groups[i].iter().map(of).collect()
                 }
             };
@@ -523,8 +526,10 @@ impl<'a> Runner<'a> {
             let failed = vec![FAILED; records];
             let Ok(parts) = &parts[design] else { return Ok(failed) };
             let Ok(model) = parts.model.with_friction_times(factor) else { return Ok(failed) };
-            let mut running = Running::new(&model);
-            let of = |record| self.run(parts, &mut running, record).unwrap_or(FAILED);
+            let (mut running, mut room) = (Running::new(&model), Workspace::default());
+            let of = |record| {
+                self.run(parts, (&mut running, &mut room), record).unwrap_or(FAILED)
+            };
             let demands: Vec<Demand> = (0..records).map(of).collect();
             self.engine.done(records as u64)?;
             Ok(demands)
@@ -580,8 +585,10 @@ impl<'a> Runner<'a> {
                 // What makes no model has no figures, and no line goes through it.
                 Err(_) => [f64::NAN; 2],
                 Ok(parts) => {
-                    let mut running = Running::new(&parts.model);
-                    let of = |record| self.run(&parts, &mut running, record).unwrap_or(FAILED);
+                    let (mut running, mut room) = (Running::new(&parts.model), Workspace::default());
+                    let of = |record| {
+                        self.run(&parts, (&mut running, &mut room), record).unwrap_or(FAILED)
+                    };
                     let demands: Vec<Demand> = (0..records).map(of).collect();
                     request.target.figures(&demands).map_or([f64::NAN; 2], |figures| {
                         [figures.displacement_m, figures.acceleration_m_per_s2]
@@ -623,8 +630,9 @@ impl<'a> Runner<'a> {
             let values: Vec<f64> = axes.iter().zip(&rows[i]).map(value).collect();
             let figures = || -> Result<[f64; 2], SensitivityError> {
                 let parts = self.models.parts(&values).map_err(RunError::from)?;
-                let mut running = Running::new(&parts.model);
-                let demands = (0..records).map(|record| self.run(&parts, &mut running, record));
+                let (mut running, mut room) = (Running::new(&parts.model), Workspace::default());
+                let demands = (0..records)
+                    .map(|record| self.run(&parts, (&mut running, &mut room), record));
                 let figures = request.target.figures(&demands.collect::<Result<Vec<_>, _>>()?)?;
                 Ok([figures.displacement_m, figures.acceleration_m_per_s2])
             };

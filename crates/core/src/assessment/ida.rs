@@ -16,8 +16,12 @@ use crate::input::{Bound, Parts};
 use crate::motion::intensity::Measure;
 use crate::numerics::fractile;
 use crate::response::demand_values;
-use crate::study::engine::{Engine, Running, Shaking};
+use crate::solver::{PreparedMotion, Workspace};
+use crate::study::engine::{Engine, Running};
 use crate::table::{Cells, Column, Table};
+
+/// Levels of a curve that one thread takes: the model is prepared once for them.
+const PIECE: usize = 4;
 
 /// Runs that a hunt on one record is thought to take, for those who wait.
 const RUNS_OF_A_HUNT: u64 = 30;
@@ -323,11 +327,15 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
     kept.sort_unstable();
     let unscaled = suite.measure(measure, engine)?;
     let parts = kept.iter().map(|&design| designs.parts(design)).collect::<Result<Vec<_>, _>>()?;
-    let one = |running: &mut Running<'_>, parts: &Parts, record: usize, level: f64| -> Run {
+    let one = |(running, room): (&mut Running<'_>, &mut Workspace),
+               parts: &Parts,
+               record: usize,
+               level: f64|
+     -> Run {
         let scale = level / unscaled[record];
         let motion = suite.motion_of(record, scale, parts);
         let demands = motion.and_then(|motion| {
-            let response = running.on(&Shaking::new(&motion))?;
+            let response = running.on(&PreparedMotion::new(motion), room)?;
             Ok(demand_values(&response.demands))
         });
         Run { level, scale, demands }
@@ -337,22 +345,29 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
     // Curve `i` is that of the record `i % records` under the design `i / records` of those kept.
     let all: Vec<Vec<Run>> = match (&request.levels, &hunt) {
         (IdaLevels::Fixed(levels), _) => {
-            let n = levels.len();
-            let run = |i: usize| {
-                let (curve, parts) = (i / n, &parts[i / n / records]);
-                one(&mut Running::new(&parts.model), parts, curve % records, levels[i % n])
-            };
-            let mut runs = engine.runs(curves_count * n, run)?.into_iter();
-            (0..curves_count).map(|_| runs.by_ref().take(n).collect()).collect()
+            engine.plan((curves_count * levels.len()) as u64);
+            let pieces = levels.len().div_ceil(PIECE);
+            let runs = engine.map(curves_count * pieces, |i| {
+                let (curve, piece) = (i / pieces, i % pieces);
+                let (record, parts) = (curve % records, &parts[curve / records]);
+                let (mut running, mut room) = (Running::new(&parts.model), Workspace::default());
+                let these = levels.iter().skip(piece * PIECE).take(PIECE);
+                let of = |level: &f64| one((&mut running, &mut room), parts, record, *level);
+                let runs: Vec<Run> = these.map(of).collect();
+                engine.done(runs.len() as u64)?;
+                Ok(runs)
+            })?;
+            let mut runs = runs.into_iter().flatten();
+            (0..curves_count).map(|_| runs.by_ref().take(levels.len()).collect()).collect()
         }
         (_, Some(hunt)) => {
             engine.plan(curves_count as u64 * RUNS_OF_A_HUNT);
             engine.map(curves_count, |curve| {
                 let (record, parts) = (curve % records, &parts[curve / records]);
                 let mut runs: Vec<Run> = Vec::new();
-                let mut running = Running::new(&parts.model);
+                let (mut running, mut room) = (Running::new(&parts.model), Workspace::default());
                 hunt.try_run(|level| {
-                    let run = one(&mut running, parts, record, level);
+                    let run = one((&mut running, &mut room), parts, record, level);
                     let demand = run.demands.as_ref().map_or(f64::NAN, |values| values[column]);
                     runs.push(run);
                     engine.done(1)?;

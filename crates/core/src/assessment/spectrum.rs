@@ -11,7 +11,8 @@ use crate::model::{InitialState, Model};
 use crate::motion::GroundMotion;
 use crate::numerics::fractile::fractiles;
 use crate::response::{DemandColumn, demand_values};
-use crate::study::engine::{Engine, Running, Shaking};
+use crate::solver::{PreparedMotion, Workspace};
+use crate::study::engine::{Engine, Running};
 use crate::table::Table;
 
 /// A friction that nothing overcomes: a million times what any motion on Earth asks.
@@ -356,36 +357,35 @@ fn run_all(
     let shared_motion = !suite.made;
     let held = |structure: &Model, motion: &GroundMotion| -> Result<f64, RunError> {
         let along = without_vertical(motion)?;
-        let demands = Running::new(structure).on(&Shaking::new(&along))?.demands;
+        let room = &mut Workspace::default();
+        let demands = Running::new(structure).on(&PreparedMotion::new(along), room)?.demands;
         Ok(demands.shape().roof_acceleration().value(&demands).unwrap_or(f64::NAN))
     };
     let tail_s =
         parts.iter().find_map(|parts| parts.as_ref().ok()).map_or(0.0, |parts| parts.tail_s);
     let shared = |count: usize| if shared_motion { count } else { 0 };
-    let motions: Vec<Result<GroundMotion, MotionError>> =
-        engine.map(shared(records), |i| Ok(suite.motion(i, factors[i], tail_s)))?;
+    let motion = |i: usize| suite.motion(i, factors[i], tail_s).map(PreparedMotion::new);
+    let motions: Vec<Result<PreparedMotion, MotionError>> =
+        engine.map(shared(records), |i| Ok(motion(i)))?;
     let fixed: Vec<f64> = engine.map(shared(structures.len() * records), |i| {
         let motion = motions[i % records].as_ref().ok();
-        let peak = motion.and_then(|motion| held(&structures[i / records], motion).ok());
+        let peak = motion.and_then(|motion| held(&structures[i / records], motion.motion()).ok());
         Ok(peak.unwrap_or(f64::NAN))
     })?;
-    let shaking: Vec<Option<Shaking<'_>>> =
-        engine.map(motions.len(), |i| Ok(motions[i].as_ref().ok().map(Shaking::new)))?;
-    let run = |parts: &Parts, running: &mut Running<'_>, design: usize, record: usize| {
-        let (own, own_shaking);
-        let shaking = match shaking.get(record) {
-            Some(Some(shaking)) if parts.tail_s == tail_s => shaking,
-            Some(None) if parts.tail_s == tail_s => {
-                return Err(motions[record].clone().err().map_or(RunError::NoMotion, Into::into));
-            }
+    let run = |parts: &Parts,
+               (running, room): (&mut Running<'_>, &mut Workspace),
+               design: usize,
+               record: usize| {
+        let own;
+        let prepared = match motions.get(record) {
+            Some(motion) if parts.tail_s == tail_s => motion.as_ref().map_err(Clone::clone)?,
             _ => {
-                own = suite.motion_of(record, factors[record], parts)?;
-                own_shaking = Shaking::new(&own);
-                &own_shaking
+                own = suite.motion_of(record, factors[record], parts)?.into();
+                &own
             }
         };
-        let motion = shaking.motion();
-        let demands = demand_values(&running.on(shaking)?.demands);
+        let motion = prepared.motion();
+        let demands = demand_values(&running.on(prepared, room)?.demands);
         let fixed = match of_design[design] {
             None => f64::NAN,
             Some(structure) if shared_motion => fixed[structure * records + record],
@@ -403,8 +403,9 @@ fn run_all(
         let runs: Vec<Result<Run, RunError>> = match &parts[design] {
             Err(error) => these.map(|_| Err(error.clone())).collect(),
             Ok(parts) => {
-                let mut running = Running::new(&parts.model);
-                these.map(|record| run(parts, &mut running, design, record)).collect()
+                let (mut running, mut room) = (Running::new(&parts.model), Workspace::default());
+                let of = |record| run(parts, (&mut running, &mut room), design, record);
+                these.map(of).collect()
             }
         };
         engine.done(runs.len() as u64)?;

@@ -6,7 +6,7 @@ use super::models::Models;
 use crate::error::RunError;
 use crate::motion::GroundMotion;
 use crate::response::Demands;
-use crate::solver::{Prepared, PreparedMotion};
+use crate::solver::{Prepared, PreparedMotion, Workspace};
 
 /// The models of a grid under one motion, a part of them at a time.
 #[derive(Debug)]
@@ -14,13 +14,15 @@ pub struct Sweep {
     models: Models,
     motion: PreparedMotion,
     prepared: Option<Prepared>,
+    room: Workspace,
 }
 
 impl Sweep {
     /// A sweep over the models' grid; the motion has its tail.
     #[must_use]
     pub fn new(models: Models, motion: GroundMotion) -> Self {
-        Self { models, motion: PreparedMotion::new(motion), prepared: None }
+        let motion = PreparedMotion::new(motion);
+        Self { models, motion, prepared: None, room: Workspace::default() }
     }
 
     /// The models and their grid.
@@ -42,7 +44,7 @@ impl Sweep {
             Some(prepared) => prepared.with_model(model),
             None => Prepared::new(model, self.motion.dt_s()),
         };
-        let response = prepared.demands(&self.motion);
+        let response = prepared.demands_in(&mut self.room, &self.motion);
         self.prepared = Some(prepared);
         Ok(response?.demands)
     }

@@ -54,7 +54,7 @@ pub struct SeriesTable(Vec<Four>);
 ///
 /// Order after order, each as many numbers as a padded state has. With `rate × length ≤ MAX_RATE_STEP`
 /// the first term left out is below 7e-17 of the largest.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Series {
     stride: usize,
     orders: usize,
@@ -81,10 +81,19 @@ impl Series {
     /// Room for series of so many orders, a multiple of four.
     #[must_use]
     pub fn new(system: &System, orders: usize) -> Self {
+        let mut series = Self::default();
+        series.serve(system, orders);
+        series
+    }
+
+    /// Makes the room serve another system or number of orders.
+    pub fn serve(&mut self, system: &System, orders: usize) {
         let n = system.modes();
-        let stride = (2 + 2 * n).div_ceil(4) * 4;
-        let (c, f) = (vec![0.0; stride * (DEGREE + 1)], vec![0.0; n]);
-        Self { stride, orders, c, f, sizes: [0.0; DEGREE + 1], fade: [0.0; DEGREE + 1] }
+        (self.stride, self.orders) = ((2 + 2 * n).div_ceil(4) * 4, orders);
+        for (list, count) in [(&mut self.c, self.stride * (DEGREE + 1)), (&mut self.f, n)] {
+            list.clear();
+            list.resize(count, 0.0);
+        }
     }
 
     /// Motion from a padded state over `length_s`, order by order from the equations of motion.

@@ -21,7 +21,7 @@ use crate::response::{EventKind, Mode};
 pub const EVENTS_PER_INTERVAL_LIMIT: u32 = 1_000_000;
 
 /// A segment of a stretch: one series long at most.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Segment {
     pub(super) from_s: f64,
     pub(super) to_s: f64,

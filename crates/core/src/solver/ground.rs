@@ -117,10 +117,13 @@ pub(super) enum Normal<'a> {
 }
 
 /// `M_tot (g cos θ + Üv)` at the samples, where there is vertical motion.
-pub(super) fn varying_normal(model: &Model, motion: &GroundMotion) -> Option<Vec<f64>> {
+pub(super) fn varying_normal<'a>(
+    model: &Model,
+    motion: &'a GroundMotion,
+) -> Option<impl Iterator<Item = f64> + 'a> {
     let (mass_kg, gravity) = (model.total_mass_kg(), model.normal_gravity_m_per_s2());
     let vertical = motion.vertical_m_per_s2()?;
-    Some(vertical.iter().map(|a| mass_kg * (gravity + a)).collect())
+    Some(vertical.iter().map(move |a| mass_kg * (gravity + a)))
 }
 
 impl<'a> Normal<'a> {

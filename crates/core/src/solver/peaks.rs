@@ -21,13 +21,14 @@ use crate::response::Mode;
 const ROOM: usize = 512;
 
 /// Peaks attained, and the candidates for more.
-pub(super) struct Peaks<'a> {
+#[derive(Debug, Default)]
+pub(super) struct Peaks {
     pub(super) peak: Vec<Eight>,
     /// Sizes that are no news: the peaks, or infinite where a size cannot grow.
     pub(super) limit: Vec<Eight>,
     /// Bounds on the outputs in the place just weighed; zero where it cannot hold a peak.
     pub(super) above: Vec<Eight>,
-    candidates: Vec<Candidate<'a>>,
+    candidates: Vec<Candidate>,
     /// State at the start of each candidate, and its bounds.
     states: Vec<f64>,
     bounds: Vec<Eight>,
@@ -39,15 +40,20 @@ pub(super) struct Peaks<'a> {
 }
 
 /// A place that may hold a peak.
-#[derive(Clone, Copy)]
-struct Candidate<'a> {
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
     sample: usize,
     extent: Extent,
-    now: InForce<'a>,
+    mode: Mode,
+    /// Number of the phase.
+    phase: usize,
+    /// As in [`InForce`](super::run::InForce).
+    friction: f64,
+    stop: f64,
 }
 
 /// How far a candidate reaches.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) enum Extent {
     /// A segment of one sample.
     Segment(Segment),
@@ -55,25 +61,22 @@ pub(super) enum Extent {
     Samples(usize, Curvature),
 }
 
-impl Peaks<'_> {
-    pub(super) fn new(groups: usize, outputs: usize, stride: usize) -> Self {
-        let zeros = || vec![Eight::ZERO; groups];
-        Self {
-            peak: zeros(),
-            limit: zeros(),
-            above: zeros(),
-            candidates: Vec::new(),
-            states: Vec::new(),
-            bounds: Vec::new(),
-            outputs,
-            samples: Vec::new(),
-            x: vec![0.0; stride],
+impl Peaks {
+    /// Makes the room serve so many outputs of states of so many numbers, none attained.
+    pub(super) fn serve(&mut self, groups: usize, outputs: usize, stride: usize) {
+        for list in [&mut self.peak, &mut self.limit, &mut self.above] {
+            list.clear();
+            list.resize(groups, Eight::ZERO);
         }
+        self.outputs = outputs;
+        self.x.clear();
+        self.x.resize(stride, 0.0);
+        self.forget_from(0);
     }
 
-    /// The peaks one by one.
-    pub(super) fn attained(&self) -> Vec<f64> {
-        self.peak.iter().flat_map(|peak| peak.0).take(self.outputs).collect()
+    /// What an output has attained.
+    pub(super) fn attained(&self, j: usize) -> f64 {
+        self.peak[j / 8].0[j % 8]
     }
 
     /// Raises a peak to the largest size of an output over a part of its series.
@@ -245,9 +248,10 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 self.settle_peaks();
             }
         }
-        let now = self.now;
+        let InForce { mode, phase, friction, stop, .. } = self.now;
+        let phase = phase.number;
         let peaks = &mut self.peaks;
-        peaks.candidates.push(Candidate { sample, extent, now });
+        peaks.candidates.push(Candidate { sample, extent, mode, phase, friction, stop });
         peaks.states.extend_from_slice(if moved { &self.next } else { &self.x });
         peaks.bounds.extend_from_slice(&peaks.above);
         peaks.samples.resize(8 * peaks.bounds.len(), u8::MAX);
@@ -280,8 +284,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     #[inline(always)]
     fn look_at_samples(&mut self, i: usize) {
         let simd = self.simd;
-        let Candidate { sample, extent, now: InForce { phase, stop, .. } } =
-            self.peaks.candidates[i];
+        let Candidate { sample, extent, phase, stop, .. } = self.peaks.candidates[i];
+        let phase = self.tables.phase(phase);
         let (Extent::Samples(steps, curvature), Some(batch)) = (extent, &phase.batch) else {
             return;
         };
@@ -320,18 +324,18 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     /// Friction force over a candidate of whole samples.
     #[inline(always)]
     fn candidate_force(&self, i: usize) -> Force<'a> {
-        let Candidate { sample, now, .. } = self.peaks.candidates[i];
-        match now.mode {
+        let Candidate { sample, mode, friction, .. } = self.peaks.candidates[i];
+        match mode {
             Mode::Stick => Force::Constant(0.0),
-            Mode::Slip(_) => self.batch_force(now.friction, sample),
+            Mode::Slip(_) => self.batch_force(friction, sample),
         }
     }
 
     /// Settles a candidate by the series of the segment, or of the samples, that may hold a peak.
     #[inline(always)]
     fn settle(&mut self, i: usize) {
-        let Candidate { sample, extent, now: InForce { mode, phase, .. } } =
-            self.peaks.candidates[i];
+        let Candidate { sample, extent, mode, phase, .. } = self.peaks.candidates[i];
+        let phase = self.tables.phase(phase);
         let mut x = core::mem::take(&mut self.peaks.x);
         let stride = x.len();
         x.copy_from_slice(&self.peaks.states[i * stride..][..stride]);
@@ -404,7 +408,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         (stretch, segment): (&Stretch, &Segment),
         x: &[f64],
     ) {
-        let InForce { mode, friction: coefficient, stop, .. } = self.peaks.candidates[i].now;
+        let Candidate { mode, friction: coefficient, stop, .. } = self.peaks.candidates[i];
         let mut load = stretch.load(segment.from_s, segment.unit_s, coefficient);
         let friction = load.force;
         if mode != Mode::Stick {

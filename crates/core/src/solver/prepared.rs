@@ -9,6 +9,7 @@ use super::ground::{Ground, Normal, Sampling, contact_loss_s, varying_normal};
 use super::recorder::Recorder;
 use super::run::{Outcome, Run, Sliding};
 use super::tables::{self, Tables};
+use super::workspace::Workspace;
 use super::{stepping, summary};
 use crate::error::{GoOn, Pulse, SolveError, UNWATCHED};
 use crate::friction::Law;
@@ -55,6 +56,12 @@ impl PreparedMotion {
     }
 }
 
+impl From<GroundMotion> for PreparedMotion {
+    fn from(motion: GroundMotion) -> Self {
+        Self::new(motion)
+    }
+}
+
 /// A model with its modes, series and maps for one time step. Copies share them.
 ///
 /// They depend neither on friction nor on the motion's values: one prepared model serves all levels
@@ -93,6 +100,12 @@ impl Prepared {
         &self.model
     }
 
+    /// The step in s that it was prepared for, if any.
+    #[must_use]
+    pub fn dt_s(&self) -> Option<f64> {
+        self.dt_s
+    }
+
     /// Exact response without a history: peaks, counts and events, bit for bit those of
     /// [`exact`](super::exact) and of [`exact_demands`](super::exact_demands).
     ///
@@ -101,7 +114,19 @@ impl Prepared {
     /// # Errors
     /// [`SolveError`] with time and cause.
     pub fn demands(&self, motion: &PreparedMotion) -> Result<Response, SolveError> {
-        self.demands_by(InstructionSet::best(), motion)
+        self.demands_in(&mut Workspace::default(), motion)
+    }
+
+    /// [`Prepared::demands`] in room that analyses before it have left.
+    ///
+    /// # Errors
+    /// [`SolveError`] with time and cause.
+    pub fn demands_in(
+        &self,
+        room: &mut Workspace,
+        motion: &PreparedMotion,
+    ) -> Result<Response, SolveError> {
+        self.solve(InstructionSet::best(), motion, false, room)
     }
 
     /// [`Prepared::demands`] by a given instruction set: the bits are the same by all.
@@ -113,7 +138,7 @@ impl Prepared {
         instructions: InstructionSet,
         motion: &PreparedMotion,
     ) -> Result<Response, SolveError> {
-        self.solve(instructions, motion, false)
+        self.solve(instructions, motion, false, &mut Workspace::default())
     }
 
     /// Exact response with its history.
@@ -121,7 +146,7 @@ impl Prepared {
     /// # Errors
     /// [`SolveError`] with time and cause.
     pub fn response(&self, motion: &PreparedMotion) -> Result<Response, SolveError> {
-        self.solve(InstructionSet::best(), motion, true)
+        self.solve(InstructionSet::best(), motion, true, &mut Workspace::default())
     }
 
     fn solve(
@@ -129,6 +154,7 @@ impl Prepared {
         instructions: InstructionSet,
         motion: &PreparedMotion,
         with_history: bool,
+        room: &mut Workspace,
     ) -> Result<Response, SolveError> {
         let own;
         let tables = if self.dt_s == motion.dt_s() {
@@ -138,7 +164,7 @@ impl Prepared {
             &own
         };
         let ground = (motion.motion(), &*motion.sampling);
-        solve(instructions, &self.model, tables, ground, (with_history, UNWATCHED))
+        solve(instructions, &self.model, tables, ground, (with_history, UNWATCHED), room)
     }
 }
 
@@ -151,7 +177,8 @@ pub(super) fn solve_once(
 ) -> Result<Response, SolveError> {
     let sampling = Sampling::new(motion);
     let tables = tables_of(model, sampling.dt_s);
-    solve(InstructionSet::best(), model, &tables, (motion, &sampling), (with_history, go_on))
+    let (ground, room) = ((motion, &sampling), &mut Workspace::default());
+    solve(InstructionSet::best(), model, &tables, ground, (with_history, go_on), room)
 }
 
 fn tables_of(model: &Model, dt_s: Option<f64>) -> Tables {
@@ -178,6 +205,7 @@ fn solve(
     tables: &Tables,
     (motion, sampling): (&GroundMotion, &Sampling),
     (with_history, go_on): (bool, GoOn<'_>),
+    room: &mut Workspace,
 ) -> Result<Response, SolveError> {
     let rate = tables.rate_rad_per_s();
     let masses = (1 + model.storeys()) as f64;
@@ -186,15 +214,18 @@ fn solve(
         return Err(SolveError::TooMuchWork { work, limit, advice: advice(model, motion, rate) });
     }
     let slope = tables.slope;
-    let sloped: Vec<f64>;
+    let [mut sloped, mut varying] = [&mut room.acceleration, &mut room.normal_n].map(core::mem::take);
     let acceleration = if slope == 0.0 {
         motion.horizontal_m_per_s2()
     } else {
-        sloped = motion.horizontal_m_per_s2().iter().map(|a| a + slope).collect();
+        sloped.clear();
+        sloped.extend(motion.horizontal_m_per_s2().iter().map(|a| a + slope));
         &sloped
     };
-    let varying = varying_normal(model, motion);
-    let normal = Normal::new(model, varying.as_deref());
+    varying.clear();
+    let varies = motion.vertical_m_per_s2().is_some();
+    varying.extend(varying_normal(model, motion).into_iter().flatten());
+    let normal = Normal::new(model, varies.then_some(&*varying));
     let ground = Ground {
         times_s: motion.times_s(),
         table: motion.horizontal_m_per_s2(),
@@ -202,8 +233,8 @@ fn solve(
         normal,
         sampling,
     };
-    let law = model.law(varying.is_some());
-    if !tables::serve(model, &law, varying.is_some()) {
+    let law = model.law(varies);
+    if !tables::serve(model, &law, varies) {
         return stepped(model, &law, motion, ground, (with_history, go_on));
     }
     // Away from rigid stops they change nothing.
@@ -217,6 +248,7 @@ fn solve(
         ground,
         recorder,
         pulse: Pulse::new(go_on),
+        room,
     })?;
     if let Some(Stop { gap_m: [positive, negative], kind: StopKind::Rigid { .. } }) = model.stop() {
         let within = |gap_m: &Option<f64>, s: f64| gap_m.is_none_or(|gap_m| s < gap_m);
@@ -228,9 +260,11 @@ fn solve(
     }
     let contact_loss_s = contact_loss_s(motion.times_s(), normal);
     let warnings = summary::warnings(model, &outcome.events, &contact_loss_s);
+    let demands = summary::demands(model, &outcome, |j| room.peaks.attained(j));
+    [room.acceleration, room.normal_n] = [sloped, varying];
     Ok(Response {
         method: Method::Exact,
-        demands: summary::demands(model, &outcome),
+        demands,
         events: outcome.events,
         history: recorder.map(|recorder| recorder.history),
         contact_loss_s,
@@ -251,7 +285,7 @@ fn stepped(
     let stepped = stepping::solve(model, law, ground, (with_history, go_on))?;
     let mut warnings = summary::warnings(model, &stepped.outcome.events, &contact_loss_s);
     warnings.extend(stepped.warnings);
-    let mut demands = summary::demands(model, &stepped.outcome);
+    let mut demands = summary::demands(model, &stepped.outcome, |j| stepped.peaks[j]);
     demands.contents = stepped.contents;
     Ok(Response {
         method: Method::Exact,
@@ -301,6 +335,7 @@ struct Analysis<'a> {
     ground: Ground<'a>,
     recorder: Option<Recorder>,
     pulse: Pulse<'a>,
+    room: &'a mut Workspace,
 }
 
 impl Job for Analysis<'_> {
@@ -314,11 +349,11 @@ impl Job for Analysis<'_> {
             width: W,
             job: Analysis<'_>,
         ) -> Result<(Outcome, Option<Recorder>), SolveError> {
-            let Analysis { model, tables, law, ground, recorder, pulse } = job;
+            let Analysis { tables, law, ground, recorder, pulse, room, .. } = job;
             let laws = (tables, law);
-            let mut run = Run::new((simd, width), model, laws, ground, (recorder, pulse));
+            let mut run = Run::new((simd, width), laws, ground, (recorder, pulse), room);
             run.go()?;
-            Ok(run.outcome())
+            Ok(run.outcome(room))
         }
         match self.model.storeys() {
             0 | 1 => of(simd, One, self),

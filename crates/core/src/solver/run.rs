@@ -4,6 +4,8 @@
 //! shows that nothing happens in them. Every other sample goes by event stepping (`event`), which
 //! knows the Taylor series of the motion and misses nothing. Peaks are looked for in `peaks`.
 
+use core::mem::take;
+
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
@@ -12,6 +14,7 @@ use super::outputs::{Group, output};
 use super::peaks::Peaks;
 use super::recorder::{Knot, Recorder};
 use super::tables::{Batch, Phase, Tables};
+use super::workspace::Workspace;
 use crate::error::{Pulse, SolveError};
 use crate::friction::{
     Affine, Contact, Direction, EXITS, Exit, Fading, Hold, Law, Memory, Reached, Restraint,
@@ -118,8 +121,6 @@ pub(super) struct Start {
 /// What an analysis leaves behind.
 pub(super) struct Outcome {
     pub(super) events: Vec<Event>,
-    /// Peaks in the order of [`super::outputs::rows`].
-    pub(super) peaks: Vec<f64>,
     pub(super) overturns: bool,
     pub(super) sliding: Sliding,
     pub(super) stop: Option<StopDemands>,
@@ -134,7 +135,7 @@ const BEND: f64 = 0.25 * BATCH as f64;
 
 /// Bounds over a batch: on `‖ẋ‖` and `‖ẍ‖`, on `|ȧ|` and `|Ṫ|`, and how far `a` and `T` themselves
 /// depart from their chords.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Curvature {
     first: f64,
     second: f64,
@@ -236,7 +237,7 @@ pub(super) struct Run<'a, S, W> {
     pub(super) amplitudes: Vec<f64>,
     /// Room for two lists of storey coordinates.
     pub(super) spare: [Vec<f64>; 2],
-    pub(super) peaks: Peaks<'a>,
+    pub(super) peaks: Peaks,
     pub(super) mode: Mode,
     pub(super) memory: Memory,
     /// What follows from mode and memory.
@@ -261,29 +262,31 @@ pub(super) struct Run<'a, S, W> {
 impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     pub(super) fn new(
         (simd, width): (S, W),
-        model: &Model,
         (tables, law): (&'a Tables, &'a Law),
         ground: Ground<'a>,
         (recorder, pulse): (Option<Recorder>, Pulse<'a>),
+        room: &mut Workspace,
     ) -> Self {
         let system = &tables.stick.system;
-        let initial = model.initial();
-        let masses_kg = &model.frame().masses_kg;
         let stride = 4 * width.fours();
         let n = width.modes();
-        let mut x = vec![0.0; stride];
-        let (s, w) = (initial.sliding_displacement_m, initial.sliding_velocity_m_per_s);
-        (x[0], x[1]) = (s, w);
-        let eta = system.coordinates(masses_kg, &model.initial_storey_displacement_m());
-        let rate = system.coordinates(masses_kg, &model.initial_storey_velocity_m_per_s());
-        x[2..2 + n].copy_from_slice(&eta);
-        x[2 + n..2 + 2 * n].copy_from_slice(&rate);
+        let [mut x, next] = room.states.each_mut().map(|x| Workspace::list(x, stride, 0.0));
+        x.copy_from_slice(&tables.start);
+        let [s, w] = [x[0], x[1]];
         let mode = match w {
             w if w > 0.0 => Mode::Slip(Direction::Positive),
             w if w < 0.0 => Mode::Slip(Direction::Negative),
             _ => Mode::Stick,
         };
-        let groups = tables.stick.outputs.groups.len();
+        let outputs = &tables.stick.outputs;
+        let (groups, outputs) = (outputs.groups.len(), outputs.rows.len());
+        let values = Workspace::list(&mut room.values, groups, Eight::ZERO);
+        let [amplitudes, f, g] = room.modes.each_mut().map(|list| Workspace::list(list, n, 0.0));
+        let (mut series, mut peaks) = (take(&mut room.series), take(&mut room.peaks));
+        series.serve(system, tables.orders);
+        peaks.serve(groups, outputs, stride);
+        let mut events = take(&mut room.events);
+        events.clear();
         let memory = law.initial(s, w);
         let hold = law.hold(&memory, s);
         let now = InForce { mode, phase: &tables.stick, friction: 0.0, stop: 0.0, fading: None };
@@ -296,12 +299,12 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             recorder,
             pulse,
             units: [4, 32].map(|units| units * (1 + n as u32)),
-            next: vec![0.0; stride],
-            values: vec![Eight::ZERO; groups],
-            series: Series::new(system, tables.orders),
-            amplitudes: vec![0.0; n],
-            spare: [vec![0.0; n], vec![0.0; n]],
-            peaks: Peaks::new(groups, tables.stick.outputs.rows.len(), stride),
+            next,
+            values,
+            series,
+            amplitudes,
+            spare: [f, g],
+            peaks,
             mode,
             memory,
             now,
@@ -310,7 +313,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             start: None,
             just: None,
             fading_s: f64::INFINITY,
-            events: Vec::new(),
+            events,
             sliding: Sliding::new(s),
             stopping: Stopping::default(),
             surfaces: Surfaces::default(),
@@ -372,11 +375,10 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         Ok(())
     }
 
-    /// What the analysis leaves behind, and its recorder.
-    pub(super) fn outcome(self) -> (Outcome, Option<Recorder>) {
+    /// What the analysis leaves behind, its recorder, and its room.
+    pub(super) fn outcome(self, room: &mut Workspace) -> (Outcome, Option<Recorder>) {
         let outcome = Outcome {
-            peaks: self.peaks.attained(),
-            events: self.events,
+            events: self.events.clone(),
             overturns: self.tables.overturns(),
             sliding: self.sliding,
             stop: self.law.stop.map(|_| self.stopping.demands),
@@ -384,6 +386,11 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             residual_m: self.x[0],
             sliding_at_end: matches!(self.mode, Mode::Slip(_)),
         };
+        let [f, g] = self.spare;
+        room.states = [self.x, self.next];
+        room.modes = [self.amplitudes, f, g];
+        (room.values, room.series) = (self.values, self.series);
+        (room.peaks, room.events) = (self.peaks, self.events);
         (outcome, self.recorder)
     }
 

@@ -31,6 +31,8 @@ pub(super) const SLOWEST_IMPACT_M_PER_S: f64 = 1e-3;
 /// What an analysis leaves behind.
 pub(super) struct Stepped {
     pub(super) outcome: Outcome,
+    /// Peaks in the order of [`rows`](super::outputs::rows).
+    pub(super) peaks: Vec<f64>,
     pub(super) contents: Vec<ContentsDemands>,
     pub(super) history: Option<History>,
     pub(super) warnings: Vec<Warning>,
@@ -259,7 +261,6 @@ impl<'a> Stepping<'a> {
         Stepped {
             outcome: Outcome {
                 events: self.events,
-                peaks: self.peaks.values,
                 overturns: self.peaks.overturns,
                 sliding: self.sliding[0],
                 stop: has_stop.then_some(demands),
@@ -267,6 +268,7 @@ impl<'a> Stepping<'a> {
                 residual_m: self.x.s,
                 sliding_at_end: matches!(self.modes[0], Mode::Slip(_)),
             },
+            peaks: self.peaks.values,
             contents,
             history: self.history,
             warnings: warnings.into_iter().collect(),

@@ -152,13 +152,12 @@ pub(super) fn solve(
     if contact != Contact::Free {
         stopping.change(motion.times_s()[motion.len() - 1], 0.0, contact, Contact::Free);
     }
-    let varying = varying_normal(model, motion);
+    let varying: Option<Vec<f64>> = varying_normal(model, motion).map(Iterator::collect);
     let normal = Normal::new(model, varying.as_deref());
     let contact_loss_s = contact_loss_s(motion.times_s(), normal);
     let warnings = summary::warnings(model, &events, &contact_loss_s);
     let outcome = Outcome {
         events,
-        peaks,
         overturns: overturning.is_some(),
         sliding,
         stop: law.stop.map(|_| stopping.demands),
@@ -168,7 +167,7 @@ pub(super) fn solve(
     };
     Ok(Response {
         method: Method::Stepwise,
-        demands: summary::demands(model, &outcome),
+        demands: summary::demands(model, &outcome, |j| peaks[j]),
         events: outcome.events,
         history: Some(recorder.history),
         contact_loss_s,

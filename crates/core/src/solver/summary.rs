@@ -6,11 +6,10 @@ use crate::friction::Direction;
 use crate::model::Model;
 use crate::response::{Demands, Event, EventKind, StoreyDemands, Warning};
 
-/// What the response asks of the structure.
-pub(super) fn demands(model: &Model, outcome: &Outcome) -> Demands {
+/// What the response asks of the structure, from the peaks of the [`outputs`](super::outputs::rows).
+pub(super) fn demands(model: &Model, outcome: &Outcome, peak: impl Fn(usize) -> f64) -> Demands {
     let n = model.storeys();
     let weight_n = model.weight_n();
-    let peak = |j: usize| outcome.peaks[j];
     let storeys: Vec<StoreyDemands> = (0..n)
         .map(|i| StoreyDemands {
             peak_acceleration_m_per_s2: peak(output::acceleration(n, i)),

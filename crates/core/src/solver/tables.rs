@@ -31,6 +31,8 @@ pub(super) struct Tables {
     overturning: Option<Overturning>,
     /// `g sin θ`.
     pub(super) slope: f64,
+    /// `s, ṡ, η, η̇` at the start, padded.
+    pub(super) start: Vec<f64>,
     dt_s: Option<f64>,
 }
 
@@ -45,6 +47,8 @@ struct Slip {
 /// Tables of stick, or of slip under one restraint.
 #[derive(Debug)]
 pub(super) struct Phase {
+    /// Its number: 0 is stick.
+    pub(super) number: usize,
     pub(super) system: System,
     pub(super) slip: bool,
     /// Length of one series in s: a whole part of the step.
@@ -130,8 +134,9 @@ impl Tables {
         let slope = model.slope_m_per_s2();
         let rows = outputs::rows(&free, None, overturning.as_ref(), slope);
         let batch_s = dt_s.filter(|_| is_tabled);
-        let stick = Phase::new(simd, free, None, (dt_s, batch_s), orders, rows);
-        let tables = Self { stick, slip, orders, overturning, slope, dt_s };
+        let stick = Phase::new(simd, (0, free), None, (dt_s, batch_s), orders, rows);
+        let start = start(model, &stick.system);
+        let tables = Self { stick, slip, orders, overturning, slope, start, dt_s };
         if is_tabled {
             tables.slip(simd, 0);
         }
@@ -146,6 +151,13 @@ impl Tables {
     /// Largest rate of slip under any restraint, in rad/s.
     pub(super) fn rate_rad_per_s(&self) -> f64 {
         self.slip.iter().fold(0.0, |rate, slip| slip.system.slip_rate_rad_per_s.max(rate))
+    }
+
+    /// A phase that has been in force, by its number.
+    #[inline(always)]
+    pub(super) fn phase(&self, number: usize) -> &Phase {
+        let slip = self.slip.get(number.wrapping_sub(1)).and_then(|slip| slip.phase.get());
+        slip.unwrap_or(&self.stick)
     }
 
     /// Tables of slip under the restraints of a branch.
@@ -177,11 +189,22 @@ impl Tables {
                     // Pressed against a stop, samples go one by one.
                     let batch_s = self.dt_s.filter(|_| !is_pressed);
                     let lengths = (self.dt_s, batch_s);
-                    Phase::new(simd, system.clone(), Some(*of_friction), lengths, self.orders, rows)
+                    let of_friction = Some(*of_friction);
+                    Phase::new(simd, (1 + i, system.clone()), of_friction, lengths, self.orders, rows)
                 },
             )
         })
     }
+}
+
+/// The state with which an analysis starts, padded.
+fn start(model: &Model, system: &System) -> Vec<f64> {
+    let (initial, masses_kg) = (model.initial(), &model.frame().masses_kg);
+    let mut x = vec![initial.sliding_displacement_m, initial.sliding_velocity_m_per_s];
+    x.extend(system.coordinates(masses_kg, &model.initial_storey_displacement_m()));
+    x.extend(system.coordinates(masses_kg, &model.initial_storey_velocity_m_per_s()));
+    x.resize(x.len().next_multiple_of(4), 0.0);
+    x
 }
 
 /// Length of one series: a whole part of the step.
@@ -199,7 +222,7 @@ impl Phase {
     #[inline(always)]
     fn new<S: Simd>(
         simd: S,
-        system: System,
+        (number, system): (usize, System),
         slip: Option<Restraint>,
         (dt_s, batch_s): (Option<f64>, Option<f64>),
         orders: usize,
@@ -233,6 +256,6 @@ impl Phase {
         };
         let growth = growth(unit_s);
         let outputs = Outputs::new(&system, slip, rows);
-        Self { system, slip, unit_s, series, outputs, of_friction, growth, batch }
+        Self { number, system, slip, unit_s, series, outputs, of_friction, growth, batch }
     }
 }

@@ -14,7 +14,7 @@ use crate::input::MotionSource;
 use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::response::Response;
-use crate::solver::{Prepared, PreparedMotion};
+use crate::solver::{Prepared, PreparedMotion, Workspace};
 
 /// Told how many more runs are done, from any thread; answers whether to go on.
 pub type Follow<'a> = &'a (dyn Fn(u64) -> ControlFlow<()> + Sync);
@@ -130,26 +130,10 @@ impl<'a> Engine<'a> {
     }
 }
 
-/// A motion that any number of models are run on.
-pub(crate) struct Shaking<'a> {
-    motion: &'a GroundMotion,
-    prepared: PreparedMotion,
-}
-
 /// A model with what its last run needed of it, for the next one.
 pub(crate) struct Running<'a> {
     model: &'a Model,
     prepared: Option<Prepared>,
-}
-
-impl<'a> Shaking<'a> {
-    pub(crate) fn new(motion: &'a GroundMotion) -> Self {
-        Self { motion, prepared: PreparedMotion::new(motion.clone()) }
-    }
-
-    pub(crate) fn motion(&self) -> &'a GroundMotion {
-        self.motion
-    }
 }
 
 impl<'a> Running<'a> {
@@ -158,9 +142,17 @@ impl<'a> Running<'a> {
     }
 
     /// The response without its history: the one place where many runs meet the solver.
-    pub(crate) fn on(&mut self, motion: &Shaking<'_>) -> Result<Response, SolveError> {
-        let prepare = || Prepared::new(self.model.clone(), motion.prepared.dt_s());
-        self.prepared.get_or_insert_with(prepare).demands(&motion.prepared)
+    pub(crate) fn on(
+        &mut self,
+        motion: &PreparedMotion,
+        room: &mut Workspace,
+    ) -> Result<Response, SolveError> {
+        let dt_s = motion.dt_s();
+        let prepared = match self.prepared.take().filter(|prepared| prepared.dt_s() == dt_s) {
+            Some(prepared) => prepared,
+            None => Prepared::new(self.model.clone(), dt_s),
+        };
+        self.prepared.insert(prepared).demands_in(room, motion)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::engine::{Engine, Running, Shaking, made_motion};
+use super::engine::{Engine, Running, made_motion};
 use super::notices::{coarse_sampling, longest_step_s};
 use super::{Case, Sample, Study, chunks};
 use crate::error::{RunError, Stopped};
@@ -12,6 +12,7 @@ use crate::motion::GroundMotion;
 use crate::motion::intensity::{IntensityMeasures, Measure};
 use crate::record::is_note;
 use crate::response::{Response, demand_values};
+use crate::solver::{PreparedMotion, Workspace};
 
 /// Most samples of scaled copies of a record that are held at a time.
 const SAMPLES_AT_ONCE: usize = 4_000_000;
@@ -41,24 +42,11 @@ pub struct Row {
 
 /// A motion as it is solved, and what rows say of it.
 #[derive(Clone, Debug)]
-struct Prepared {
-    motion: GroundMotion,
+struct Shaking {
+    motion: PreparedMotion,
     measures: Arc<[f64]>,
     /// Longest step of the motion without its tail.
     longest_step_s: f64,
-}
-
-/// The same with what the solver needs to know of it.
-struct Ready<'a> {
-    motion: Shaking<'a>,
-    measures: Arc<[f64]>,
-    longest_step_s: f64,
-}
-
-fn ready(prepared: &Result<Prepared, RunError>) -> Result<Ready<'_>, RunError> {
-    let Prepared { motion, measures, longest_step_s } = prepared.as_ref().map_err(Clone::clone)?;
-    let (measures, longest_step_s) = (measures.clone(), *longest_step_s);
-    Ok(Ready { motion: Shaking::new(motion), measures, longest_step_s })
 }
 
 /// What a prepared motion was made from: it serves for all samples that agree on it.
@@ -105,9 +93,8 @@ impl Study {
     /// Runs of one record at some levels, each a range: a model is prepared once for all of them.
     fn block(&self, levels: &[Range<u64>], engine: &Engine<'_>) -> Result<Vec<Row>, Stopped> {
         let cases: Vec<Case> = levels.iter().map(|runs| self.cases.case(runs.start)).collect();
-        let scaled: Vec<Option<Result<Prepared, RunError>>> =
+        let scaled: Vec<Option<Result<Shaking, RunError>>> =
             engine.map(cases.len(), |i| Ok(self.scaled(&cases[i])))?;
-        let ready: Vec<_> = scaled.iter().map(|scaled| scaled.as_ref().map(ready)).collect();
         let model = |run: u64| run % self.cases.models();
         let first = levels.iter().map(|runs| model(runs.start)).min().unwrap_or(0);
         let last = levels.iter().map(|runs| model(runs.end - 1)).max().unwrap_or(0);
@@ -121,7 +108,8 @@ impl Study {
             for sample in samples {
                 models.push(sample.parts.as_ref().ok().map(|parts| Running::new(&parts.model)));
             }
-            let of_level = |(runs, ready): (&Range<u64>, _)| {
+            let mut room = Workspace::default();
+            let of_level = |(runs, scaled): (&Range<u64>, &Option<_>)| {
                 let start = model(runs.start).max(chunk.start);
                 let end = (model(runs.end - 1) + 1).min(chunk.end);
                 if start >= end {
@@ -130,9 +118,9 @@ impl Study {
                 let run = runs.start - model(runs.start) + start;
                 let these = (start - chunk.start) as usize..(end - chunk.start) as usize;
                 let (samples, models) = (&samples[these.clone()], &mut models[these]);
-                self.chunk(run, samples, models, Option::as_ref(ready))
+                self.chunk(run, (samples, models), scaled.as_ref(), &mut room)
             };
-            let rows: Vec<Vec<Row>> = levels.iter().zip(&ready).map(of_level).collect();
+            let rows: Vec<Vec<Row>> = levels.iter().zip(&scaled).map(of_level).collect();
             engine.done(rows.iter().map(|rows| rows.len() as u64).sum())?;
             Ok(rows)
         };
@@ -146,14 +134,14 @@ impl Study {
     }
 
     /// The record of a case at its level; `None` where the model makes its own motion.
-    fn scaled(&self, case: &Case) -> Option<Result<Prepared, RunError>> {
+    fn scaled(&self, case: &Case) -> Option<Result<Shaking, RunError>> {
         let record = self.records.get(case.record as usize)?;
         let scale = self.factor(*case);
         let motion = record.motion.scaled(scale).map_err(RunError::from);
         Some(motion.map(|motion| {
             let measures = self.measures_of(case.record, scale, &motion);
             let longest_step_s = longest_step_s(&motion);
-            Prepared { motion, measures, longest_step_s }
+            Shaking { motion: PreparedMotion::new(motion), measures, longest_step_s }
         }))
     }
 
@@ -161,9 +149,9 @@ impl Study {
     fn chunk<'s>(
         &self,
         first: u64,
-        samples: &'s [Sample],
-        models: &mut [Option<Running<'s>>],
-        scaled: Option<&Result<Ready<'_>, RunError>>,
+        (samples, models): (&'s [Sample], &mut [Option<Running<'s>>]),
+        scaled: Option<&Result<Shaking, RunError>>,
+        room: &mut Workspace,
     ) -> Vec<Row> {
         let made = |parts: &'s Parts| {
             let source = if scaled.is_some() { None } else { parts.motion.as_ref() };
@@ -175,21 +163,19 @@ impl Study {
         while let Some(sample) = samples.get(rows.len()) {
             let alike = made(sample);
             let own;
-            let own_ready;
             let motion = match (scaled, &alike) {
                 (Some(scaled), None | Some(Made { tail_s: 0.0, .. })) => scaled,
                 (None, None) => &none,
                 (_, Some(made)) => {
                     own = self.with_tail(*made, scaled);
-                    own_ready = ready(&own);
-                    &own_ready
+                    &own
                 }
             };
             let start = rows.len();
             let rest = samples[start..].iter().zip(&mut models[start..]);
             for (sample, model) in rest.take_while(|(sample, _)| made(sample) == alike) {
                 let case = self.cases.case(first + rows.len() as u64);
-                rows.push(self.run(case, sample, model, motion));
+                rows.push(self.run(case, sample, model, motion, room));
             }
         }
         rows
@@ -200,7 +186,8 @@ impl Study {
         case: Case,
         sample: &Sample,
         model: &mut Option<Running<'_>>,
-        motion: &Result<Ready<'_>, RunError>,
+        motion: &Result<Shaking, RunError>,
+        room: &mut Workspace,
     ) -> Row {
         let measures = match motion {
             Ok(ready) => ready.measures.clone(),
@@ -210,9 +197,9 @@ impl Study {
         let scale = self.factor(case);
         let outcome = match (&sample.parts, model, motion) {
             (Err(error), ..) | (.., Err(error)) => Err(error.clone()),
-            (Ok(_), Some(model), Ok(ready)) => model.on(&ready.motion).map_err(RunError::from),
+            (Ok(_), Some(model), Ok(ready)) => model.on(&ready.motion, room).map_err(RunError::from),
             (Ok(parts), None, Ok(ready)) => {
-                Running::new(&parts.model).on(&ready.motion).map_err(RunError::from)
+                Running::new(&parts.model).on(&ready.motion, room).map_err(RunError::from)
             }
         };
         let (demands, warnings, error) = match outcome {
@@ -249,26 +236,22 @@ impl Study {
     fn with_tail(
         &self,
         made: Made<'_>,
-        scaled: Option<&Result<Ready<'_>, RunError>>,
-    ) -> Result<Prepared, RunError> {
+        scaled: Option<&Result<Shaking, RunError>>,
+    ) -> Result<Shaking, RunError> {
         let bare = match scaled {
-            Some(scaled) => {
-                let Ready { motion, measures, longest_step_s } =
-                    scaled.as_ref().map_err(Clone::clone)?;
-                let (measures, longest_step_s) = (measures.clone(), *longest_step_s);
-                Prepared { motion: motion.motion().clone(), measures, longest_step_s }
-            }
+            Some(scaled) => scaled.clone()?,
             None => {
                 let motion = made_motion(made.source)?;
                 let measures = self.measures.iter().map(|measure| measure.of(&motion)).collect();
                 let longest_step_s = longest_step_s(&motion);
-                Prepared { motion, measures, longest_step_s }
+                Shaking { motion: PreparedMotion::new(motion), measures, longest_step_s }
             }
         };
         if made.tail_s == 0.0 {
             return Ok(bare);
         }
-        Ok(Prepared { motion: bare.motion.with_tail(made.tail_s)?, ..bare })
+        let motion = bare.motion.motion().clone().with_tail(made.tail_s)?;
+        Ok(Shaking { motion: PreparedMotion::new(motion), ..bare })
     }
 
     /// The measures of a record at a level. Spectra are taken once a record: most measures of a
