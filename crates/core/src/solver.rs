@@ -8,6 +8,7 @@ mod prepared;
 mod recorder;
 mod run;
 mod screen;
+mod slider;
 mod stepping;
 mod stepwise;
 mod summary;

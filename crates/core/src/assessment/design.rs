@@ -498,7 +498,8 @@ impl<'a> Runner<'a> {
             let runs: Vec<Result<Demand, RunError>> = match &parts[groups[i][0].0] {
                 Err(error) => groups[i].iter().map(|_| Err(error.clone())).collect(),
                 Ok(parts) => {
-                    let (mut running, mut room) = (Running::new(&parts.model), Workspace::default());
+                    let (mut running, mut room) =
+                        (Running::new(&parts.model), Workspace::default());
                     let of = |(_, record): &(usize, usize)| {
                         self.run(parts, (&mut running, &mut room), *record)
                     };
@@ -527,9 +528,7 @@ impl<'a> Runner<'a> {
             let Ok(parts) = &parts[design] else { return Ok(failed) };
             let Ok(model) = parts.model.with_friction_times(factor) else { return Ok(failed) };
             let (mut running, mut room) = (Running::new(&model), Workspace::default());
-            let of = |record| {
-                self.run(parts, (&mut running, &mut room), record).unwrap_or(FAILED)
-            };
+            let of = |record| self.run(parts, (&mut running, &mut room), record).unwrap_or(FAILED);
             let demands: Vec<Demand> = (0..records).map(of).collect();
             self.engine.done(records as u64)?;
             Ok(demands)
@@ -585,7 +584,8 @@ impl<'a> Runner<'a> {
                 // What makes no model has no figures, and no line goes through it.
                 Err(_) => [f64::NAN; 2],
                 Ok(parts) => {
-                    let (mut running, mut room) = (Running::new(&parts.model), Workspace::default());
+                    let (mut running, mut room) =
+                        (Running::new(&parts.model), Workspace::default());
                     let of = |record| {
                         self.run(&parts, (&mut running, &mut room), record).unwrap_or(FAILED)
                     };
@@ -631,8 +631,8 @@ impl<'a> Runner<'a> {
             let figures = || -> Result<[f64; 2], SensitivityError> {
                 let parts = self.models.parts(&values).map_err(RunError::from)?;
                 let (mut running, mut room) = (Running::new(&parts.model), Workspace::default());
-                let demands = (0..records)
-                    .map(|record| self.run(&parts, (&mut running, &mut room), record));
+                let demands =
+                    (0..records).map(|record| self.run(&parts, (&mut running, &mut room), record));
                 let figures = request.target.figures(&demands.collect::<Result<Vec<_>, _>>()?)?;
                 Ok([figures.displacement_m, figures.acceleration_m_per_s2])
             };

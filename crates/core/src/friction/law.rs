@@ -8,6 +8,7 @@
 use super::rate::{Coefficient, RateCurve, RateLaw};
 use super::surfaces::{Series, SeriesState};
 use super::{Direction, ElasticStop, Friction, RigidStop};
+use crate::linear::polynomial::Polynomial;
 
 /// Levels nearer to a rigid stop than this part of its distance are at it.
 const AT_WALL: f64 = 1e-12;
@@ -176,23 +177,25 @@ pub struct Hold {
     pub leans: [bool; 2],
 }
 
+impl Reached {
+    /// `s` and `ṡ` where it is reached in a direction, of which one is known, from both as computed.
+    #[inline(always)]
+    #[must_use]
+    pub fn place(&self, direction: Direction, [s, w]: [f64; 2]) -> [f64; 2] {
+        match *self {
+            Self::Contact(_, level_m) => [level_m.unwrap_or(s), w],
+            Self::Wall(_, level_m) | Self::Surface(level_m) => [level_m, w],
+            Self::Knot(speed, _) => [s, direction.sign() * speed],
+        }
+    }
+}
+
 impl Exit {
     /// Its value in a state; the branch lasts while it is positive.
     #[inline(always)]
     #[must_use]
     pub fn value(&self, s: f64, w: f64) -> f64 {
         (self.of_s * s + self.of_w * w) + self.constant
-    }
-
-    /// Where `s` is a level, in m.
-    #[inline(always)]
-    #[must_use]
-    pub fn level_m(&self) -> Option<f64> {
-        match self.reached {
-            Reached::Contact(_, level_m) => level_m,
-            Reached::Wall(_, level_m) | Reached::Surface(level_m) => Some(level_m),
-            Reached::Knot(..) => None,
-        }
     }
 }
 
@@ -206,6 +209,33 @@ impl Hold {
             if self.leans[0] { f64::NEG_INFINITY } else { low },
             if self.leans[1] { f64::INFINITY } else { high },
         ]
+    }
+
+    /// What friction holds against sliding in a direction, over the normal force.
+    #[inline(always)]
+    #[must_use]
+    pub fn size(&self, direction: Direction) -> f64 {
+        match direction {
+            Direction::Positive => -self.bounds[0],
+            Direction::Negative => self.bounds[1],
+        }
+    }
+
+    /// How far a demand and a normal force, linear in time, leave the block from sliding in a direction:
+    /// positive where friction holds.
+    #[inline(always)]
+    #[must_use]
+    pub fn distance(
+        &self,
+        demand: &Polynomial,
+        [normal_n, rise_n]: [f64; 2],
+        direction: Direction,
+    ) -> Polynomial {
+        let (sign, size) = (direction.sign(), self.size(direction));
+        let mut distance = demand.map(|c| sign * c);
+        distance[0] += size * normal_n;
+        distance[1] += size * rise_n;
+        distance
     }
 
     /// Whether friction holds a force that it is asked for, eq. (4); at the bound it does. Else the
@@ -486,18 +516,6 @@ impl Law {
             (None, Some(rate)) => rate.at(0.0, direction),
             (None, None) => self.friction.kinetic_coefficient(direction),
         }
-    }
-
-    /// By how much friction over the normal force falls at the start of a branch in a direction, from
-    /// what holds at rest.
-    #[inline(always)]
-    #[must_use]
-    pub fn drop(&self, hold: &Hold, begun: &Memory, direction: Direction) -> f64 {
-        let held = match direction {
-            Direction::Positive => -hold.bounds[0],
-            Direction::Negative => hold.bounds[1],
-        };
-        held - self.resistance(begun, direction)
     }
 
     /// Follows the end of a branch other than a wall; what slides must be decided at the end of all

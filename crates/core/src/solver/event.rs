@@ -8,12 +8,13 @@ use fearless_simd::prelude::*;
 
 use super::ground::Stretch;
 use super::outputs::output;
-use super::run::{InForce, Run, Start};
+use super::run::{InForce, Run};
+use super::slider::{Start, first_crossing, leaving_order};
 use super::tables::Phase;
 use crate::error::SolveError;
-use crate::friction::{Contact, Direction, Exit, Fading, Memory, Reached};
+use crate::friction::{Direction, Exit, Fading};
 use crate::linear::lanes::{Width, least};
-use crate::linear::polynomial::{DEGREE, Polynomial, curvature_bound, deflated, first_root, value};
+use crate::linear::polynomial::{Polynomial, curvature_bound, deflated, first_root, value};
 use crate::linear::{Load, Series};
 use crate::response::{EventKind, Mode};
 
@@ -82,7 +83,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
             }
             first = false;
             let time_s = self.ground.times_s[stretch.interval] + at_s;
-            if self.mode != Mode::Stick && self.law.at_end(&self.memory) {
+            if self.mode != Mode::Stick && self.slider.at_end() {
                 return Err(SolveError::EndOfTravel { time_s });
             }
             if self.events_in_interval > EVENTS_PER_INTERVAL_LIMIT {
@@ -140,21 +141,18 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
             output_series(self.width, phase, output::FRICTION, &self.series, &load, stop_n);
         let curvature = curvature_bound(&demand) * (segment.part * segment.part);
         let demand_end = value(&demand, segment.part);
-        let [low, high] = self.hold.bounds;
         let (normal, rise) = (stretch.normal_at(from_s), stretch.normal_rate * phase.unit_s);
         let mut release: Option<(f64, Direction)> = None;
-        for (sign, bound, direction) in
-            [(1.0, high, Direction::Negative), (-1.0, low, Direction::Positive)]
-        {
+        for direction in [Direction::Negative, Direction::Positive] {
+            let sign = -direction.sign();
+            let bound = sign * self.hold.size(direction);
             // Distance from the bound, positive where friction holds.
             let start = sign * (bound * normal - demand[0]);
             let end = sign * (bound * (normal + rise * segment.part) - demand_end);
             if start.min(end) > 0.125 * curvature {
                 continue;
             }
-            let mut distance = demand.map(|c| -sign * c);
-            distance[0] += sign * (bound * normal);
-            distance[1] += sign * (bound * rise);
+            let distance = self.hold.distance(&demand, [normal, rise], direction);
             if let Some(part) = first_crossing(&distance, segment.part)
                 && release.is_none_or(|(first, _)| part < first)
             {
@@ -199,13 +197,15 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
             speed = deflated(&speed, start.order);
         }
         let mut first = first_root(&speed, segment.part).map(|part| (part, None));
-        let just = self.just.take();
         for exit in self.exits.iter().flatten() {
             let to = first.map_or(segment.part, |(part, _)| part);
-            if let Some(part) = first_exit(self.width, exit, &self.series, to, just) {
+            let row = [exit.of_s, exit.of_w, exit.constant];
+            let value = self.slider.of_exit(exit, self.series.of_sliding(self.width, row));
+            if let Some(part) = first_root(&value, to) {
                 first = Some((part, Some(*exit)));
             }
         }
+        self.slider.just = None;
         let segment = match first {
             Some((part, _)) => segment.up_to(part),
             None => segment,
@@ -215,10 +215,9 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
             None if sign * self.x[1] <= 0.0 => self.x[1] = 0.0,
             None => {}
             Some((_, None)) => self.x[1] = 0.0,
-            Some((_, Some(exit))) => match exit.reached {
-                Reached::Knot(speed, _) => self.x[1] = sign * speed,
-                _ => self.x[0] = exit.level_m().unwrap_or(self.x[0]),
-            },
+            Some((_, Some(exit))) => {
+                [self.x[0], self.x[1]] = exit.reached.place(direction, [self.x[0], self.x[1]]);
+            }
         }
         self.look(phase, stretch, &segment);
         let at_s = segment.to_s;
@@ -254,40 +253,21 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
     /// What follows an exit other than a stop.
     fn leave_branch(&mut self, stretch: &Stretch, at_s: f64, direction: Direction, exit: &Exit) {
         self.record(stretch, at_s, false);
-        match exit.reached {
-            Reached::Contact(to, _) => self.change_contact(stretch, at_s, to),
-            reached => {
-                self.surfaces.note(self.law, &self.memory, self.x[0]);
-                self.law.follow(&mut self.memory, reached, direction);
-                match reached {
-                    Reached::Surface(_) => {
-                        let time_s = self.ground.times_s[stretch.interval] + at_s;
-                        self.push_event(time_s, EventKind::Surface);
-                    }
-                    _ => self.events_in_interval += 1,
-                }
-            }
+        let time_s = self.ground.times_s[stretch.interval] + at_s;
+        let place = [self.x[0], self.x[1]];
+        match self.slider.follow(exit.reached, direction, time_s, place) {
+            Some(kind) => self.push_event(time_s, kind),
+            None => self.events_in_interval += 1,
         }
         self.set_in_force();
-        self.just = Some(exit.reached);
         self.record(stretch, at_s, false);
-    }
-
-    /// Changes the contact, which is an event.
-    fn change_contact(&mut self, stretch: &Stretch, at_s: f64, to: Contact) {
-        let from = self.memory.contact;
-        let time_s = self.ground.times_s[stretch.interval] + at_s;
-        let kind = self.stopping.change(time_s, self.x[1].abs(), from, to);
-        self.memory.contact = to;
-        self.push_event(time_s, kind);
     }
 
     /// The sliding velocity is zero: stick if friction holds, eq. (4), else slip on, eq. (3).
     pub(super) fn stop(&mut self, stretch: &Stretch, at_s: f64) {
         let normal = stretch.normal_at(at_s);
-        self.surfaces.note(self.law, &self.memory, self.x[0]);
-        self.law.settle(&mut self.memory, self.x[0]);
-        let hold = self.law.hold(&self.memory, self.x[0]);
+        self.slider.settle(self.x[0]);
+        let hold = self.slider.hold(self.x[0]);
         let demand = self.demand(&hold, stretch.acceleration_at(at_s));
         self.sliding.decide(hold.margin(demand, normal));
         let time_s = self.ground.times_s[stretch.interval] + at_s;
@@ -300,7 +280,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         };
         self.start = Some(self.start_beyond(demand, normal, direction));
         if self.mode == Mode::Slip(direction) {
-            self.law.resume(&mut self.memory, 0.0, direction);
+            self.slider.law.resume(&mut self.slider.memory, 0.0, direction);
             self.set_in_force();
         } else {
             self.sliding.end(time_s, self.x[0]);
@@ -308,16 +288,9 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         }
     }
 
-    /// What is in force once the block leaves rest in a direction.
-    fn begun(&self, direction: Direction) -> Memory {
-        let mut memory = self.memory.clone();
-        self.law.begin(&mut memory, self.x[0], direction);
-        memory
-    }
-
     /// How a slip starts under a force beyond what holds: `|s̈| = (|T| − μ_k N) / M1`.
     fn start_beyond(&self, demand: f64, normal: f64, direction: Direction) -> Start {
-        let kinetic_n = self.law.resistance(&self.begun(direction), direction) * normal;
+        let kinetic_n = self.slider.resistance(self.x[0], direction) * normal;
         let asked_n = -direction.sign() * demand;
         let mass_kg = self.tables.stick.system.block_mass_kg;
         Start { order: 1, acceleration: (asked_n - kinetic_n) / mass_kg }
@@ -363,13 +336,8 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         let load = stretch.load(at_s, phase.unit_s, 0.0);
         Self::expand(self.simd, self.width, phase, &self.x, &load, &mut self.series);
         let demand = output_series(self.width, phase, output::FRICTION, &self.series, &load, 0.0);
-        let [low, high] = self.hold.bounds.map(|b| b * (stretch.normal_rate * phase.unit_s));
-        let sign = -direction.sign();
-        let bound = if sign > 0.0 { high } else { low };
-        (1..=DEGREE)
-            .map(|k| (k, sign * (demand[k] - if k == 1 { bound } else { 0.0 })))
-            .find(|(_, rise)| *rise != 0.0)
-            .and_then(|(k, rise)| (rise > 0.0).then_some(k))
+        let normal = [0.0, stretch.normal_rate * phase.unit_s];
+        leaving_order(&self.hold.distance(&demand, normal, direction))
     }
 
     fn slip_from_stick(
@@ -385,7 +353,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
 
     /// `|s̈|` just after a release on the bound: `(μ_s − μ_k) N / M1`.
     fn drop_at_release(&self, stretch: &Stretch, at_s: f64, direction: Direction) -> f64 {
-        self.law.drop(&self.hold, &self.begun(direction), direction) * stretch.normal_at(at_s)
+        self.slider.drop(&self.hold, self.x[0], direction) * stretch.normal_at(at_s)
             / self.tables.stick.system.block_mass_kg
     }
 
@@ -394,12 +362,9 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         self.mode = Mode::Slip(direction);
         self.sliding.begin(time_s, self.x[0]);
         self.push_event(time_s, kind);
-        let contact = self.memory.contact;
-        self.law.begin(&mut self.memory, self.x[0], direction);
-        // The change of contact is an event of its own.
-        let begun = core::mem::replace(&mut self.memory.contact, contact);
-        if begun != contact {
-            self.change_contact(stretch, at_s, begun);
+        if let Some(contact) = self.slider.begin(self.x[0], direction) {
+            let kind = self.slider.change_contact(time_s, 0.0, contact);
+            self.push_event(time_s, kind);
         }
         self.set_in_force();
     }
@@ -477,43 +442,5 @@ pub(super) fn fitting(
             return [unit_s, part.min(1.0)];
         }
         unit_s *= part.max(1e-3);
-    }
-}
-
-/// First part of a segment after which the distance from a bound is negative; a distance that is
-/// zero at the start has been found not to go that way.
-fn first_crossing(distance: &Polynomial, to: f64) -> Option<f64> {
-    if distance[0] > 0.0 {
-        return first_root(distance, to);
-    }
-    let order = (1..=DEGREE).find(|&k| distance[k] != 0.0)?;
-    first_root(&deflated(distance, order), to)
-}
-
-/// First part of a segment at which an exit is reached; one that has just been passed the other way
-/// starts at its zero.
-fn first_exit<W: Width>(
-    width: W,
-    exit: &Exit,
-    series: &Series,
-    to: f64,
-    just: Option<Reached>,
-) -> Option<f64> {
-    let p = series.of_sliding(width, [exit.of_s, exit.of_w, exit.constant]);
-    first_root(&less_zero(p, exit.reached, just), to)
-}
-
-/// The polynomial of an exit without the zero at which it starts, where the same has just been reached.
-pub(super) fn less_zero(mut p: Polynomial, reached: Reached, just: Option<Reached>) -> Polynomial {
-    match (reached, just) {
-        (Reached::Contact(_, None), Some(Reached::Contact(_, None))) => deflated(&p, 1),
-        (Reached::Knot(speed, _), Some(Reached::Knot(crossed, _))) if speed == crossed => {
-            p[0] = 0.0;
-            match p.iter().position(|c| *c != 0.0) {
-                Some(order) => deflated(&p, order),
-                None => p,
-            }
-        }
-        _ => p,
     }
 }

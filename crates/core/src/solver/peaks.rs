@@ -146,7 +146,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             [friction_n, stretch.acceleration_at(at_s), stop]
         };
         let (first, last) = (input(segment.from_s, self.next[1]), input(segment.to_s, self.x[1]));
-        if self.law.stop.is_some() {
+        if self.slider.law.stop.is_some() {
             self.look_at_stop(part);
         }
         let stride = 4 * self.width.fours();
@@ -228,13 +228,13 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     /// Looks at the force of the stop in the last series.
     #[inline(never)]
     fn look_at_stop(&mut self, part: f64) {
-        let contact = self.memory.contact;
-        let mut force_n = self.law.stop_force_n(contact, self.x[0], self.x[1]);
-        if let Some(row) = self.law.stop_row(contact) {
+        let contact = self.slider.memory.contact;
+        let mut force_n = self.slider.law.stop_force_n(contact, self.x[0], self.x[1]);
+        if let Some(row) = self.slider.law.stop_row(contact) {
             let p = self.series.of_sliding(self.width, row);
             force_n = largest(&p, part, force_n);
         }
-        let peak = &mut self.stopping.demands.peak_force_n;
+        let peak = &mut self.slider.stopping.demands.peak_force_n;
         *peak = greatest(*peak, force_n);
     }
 

@@ -214,7 +214,8 @@ fn solve(
         return Err(SolveError::TooMuchWork { work, limit, advice: advice(model, motion, rate) });
     }
     let slope = tables.slope;
-    let [mut sloped, mut varying] = [&mut room.acceleration, &mut room.normal_n].map(core::mem::take);
+    let [mut sloped, mut varying] =
+        [&mut room.acceleration, &mut room.normal_n].map(core::mem::take);
     let acceleration = if slope == 0.0 {
         motion.horizontal_m_per_s2()
     } else {

@@ -13,15 +13,13 @@ use super::ground::{Ground, Normal, Roughness};
 use super::outputs::{Group, output};
 use super::peaks::Peaks;
 use super::recorder::{Knot, Recorder};
+use super::slider::{Slider, Start};
 use super::tables::{Batch, Phase, Tables};
 use super::workspace::Workspace;
 use crate::error::{Pulse, SolveError};
-use crate::friction::{
-    Affine, Contact, Direction, EXITS, Exit, Fading, Hold, Law, Memory, Reached, Restraint,
-};
+use crate::friction::{Affine, Contact, Direction, EXITS, Exit, Fading, Hold, Law, Restraint};
 use crate::linear::lanes::{Eight, Width, combine8, dot, eight};
 use crate::linear::{BATCH, Force, Load, Series};
-use crate::model::Model;
 use crate::response::{Event, EventKind, Mode, StopDemands, SurfaceDemands};
 
 /// Extremes, path and duration of sliding; `s` is monotone between two events.
@@ -71,51 +69,6 @@ impl Sliding {
         self.path_m += (s - start_m).abs();
         self.time_s += time_s - start_s;
     }
-}
-
-/// What the block does at the stops.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Stopping {
-    pub(super) demands: StopDemands,
-    pressed_since_s: f64,
-}
-
-impl Stopping {
-    /// Contact changes, which is an event of this kind.
-    pub(super) fn change(
-        &mut self,
-        time_s: f64,
-        speed: f64,
-        from: Contact,
-        to: Contact,
-    ) -> EventKind {
-        if matches!(from, Contact::Pressed(_)) {
-            self.demands.contact_time_s += time_s - self.pressed_since_s;
-        }
-        if matches!(to, Contact::Pressed(_)) {
-            self.pressed_since_s = time_s;
-            if from == Contact::Free {
-                self.demands.contact_count += 1;
-                let peak = self.demands.peak_impact_speed_m_per_s.max(speed);
-                self.demands.peak_impact_speed_m_per_s = peak;
-            }
-        }
-        match (from, to) {
-            (Contact::Free, Contact::Pressed(_)) => EventKind::Contact,
-            (_, Contact::Pressed(_)) => EventKind::Press,
-            (_, Contact::Separated(_)) => EventKind::Separation,
-            (_, Contact::Free) => EventKind::Leave,
-        }
-    }
-}
-
-/// How a slip starts: `ṡ = 0`, and the leading coefficients of `|ṡ|` that are known to vanish.
-#[derive(Clone, Copy)]
-pub(super) struct Start {
-    /// Number of vanishing coefficients, the constant one included.
-    pub(super) order: usize,
-    /// `|s̈|` at the start where `order` is 1.
-    pub(super) acceleration: f64,
 }
 
 /// What an analysis leaves behind.
@@ -190,35 +143,12 @@ impl InForce<'_> {
     }
 }
 
-/// Peaks of surfaces in series, which move one way between two events.
-#[derive(Clone, Default)]
-pub(super) struct Surfaces(Vec<SurfaceDemands>);
-
-impl Surfaces {
-    /// Notes where they are, and whether at their ends.
-    pub(super) fn note(&mut self, law: &Law, memory: &Memory, s: f64) {
-        let Some(series) = &law.series else { return };
-        self.0.resize(series.surfaces().len(), SurfaceDemands::default());
-        let now = law.surfaces(memory, s);
-        for ((demands, u), surface) in self.0.iter_mut().zip(now).zip(series.surfaces()) {
-            demands.peak_displacement_m = demands.peak_displacement_m.max(u.abs());
-            demands.residual_displacement_m = u;
-            demands.end_reached |= surface.travel_m.is_some_and(|travel_m| u.abs() >= travel_m);
-        }
-    }
-
-    /// What is left behind.
-    pub(super) fn demands(self) -> Vec<SurfaceDemands> {
-        self.0
-    }
-}
-
 /// An analysis under way.
 pub(super) struct Run<'a, S, W> {
     pub(super) simd: S,
     pub(super) width: W,
     pub(super) tables: &'a Tables,
-    pub(super) law: &'a Law,
+    pub(super) slider: Slider<'a>,
     pub(super) ground: Ground<'a>,
     /// Where a history is wanted.
     pub(super) recorder: Option<Recorder>,
@@ -239,7 +169,6 @@ pub(super) struct Run<'a, S, W> {
     pub(super) spare: [Vec<f64>; 2],
     pub(super) peaks: Peaks,
     pub(super) mode: Mode,
-    pub(super) memory: Memory,
     /// What follows from mode and memory.
     pub(super) now: InForce<'a>,
     /// In slip how the branch can end.
@@ -248,14 +177,10 @@ pub(super) struct Run<'a, S, W> {
     pub(super) hold: Hold,
     /// Set while a slip has just started.
     pub(super) start: Option<Start>,
-    /// What has just been reached: an exit that waits for the same starts at its zero.
-    pub(super) just: Option<Reached>,
     /// Length that a series of fading friction had last, in s.
     pub(super) fading_s: f64,
     pub(super) events: Vec<Event>,
     pub(super) sliding: Sliding,
-    pub(super) stopping: Stopping,
-    pub(super) surfaces: Surfaces,
     pub(super) events_in_interval: u32,
 }
 
@@ -287,14 +212,14 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         peaks.serve(groups, outputs, stride);
         let mut events = take(&mut room.events);
         events.clear();
-        let memory = law.initial(s, w);
-        let hold = law.hold(&memory, s);
+        let slider = Slider::new(law, s, w);
+        let hold = slider.hold(s);
         let now = InForce { mode, phase: &tables.stick, friction: 0.0, stop: 0.0, fading: None };
         Self {
             simd,
             width,
             tables,
-            law,
+            slider,
             ground,
             recorder,
             pulse,
@@ -306,17 +231,13 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             spare: [f, g],
             peaks,
             mode,
-            memory,
             now,
             exits: [None; EXITS],
             hold,
             start: None,
-            just: None,
             fading_s: f64::INFINITY,
             events,
             sliding: Sliding::new(s),
-            stopping: Stopping::default(),
-            surfaces: Surfaces::default(),
             events_in_interval: 0,
             x,
         }
@@ -329,7 +250,6 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let last = times_s.len() - 1;
         let mut sample = 0;
         self.set_in_force();
-        self.surfaces.note(self.law, &self.memory, self.x[0]);
         while sample < last {
             if times_s[sample + 1] == times_s[sample] {
                 // The left side of a jump; the right side decides, as the next sample does.
@@ -367,10 +287,10 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         if matches!(self.mode, Mode::Slip(_)) {
             self.sliding.end(end_s, self.x[0]);
         }
-        if self.law.stop.is_some() {
-            self.stopping.change(end_s, 0.0, self.memory.contact, Contact::Free);
+        if self.slider.law.stop.is_some() {
+            self.slider.stopping.change(end_s, 0.0, self.slider.memory.contact, Contact::Free);
         }
-        self.surfaces.note(self.law, &self.memory, self.x[0]);
+        self.slider.note_surfaces(self.x[0]);
         self.settle_peaks();
         Ok(())
     }
@@ -381,8 +301,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             events: self.events.clone(),
             overturns: self.tables.overturns(),
             sliding: self.sliding,
-            stop: self.law.stop.map(|_| self.stopping.demands),
-            surfaces: self.surfaces.demands(),
+            stop: self.slider.law.stop.map(|_| self.slider.stopping.demands),
+            surfaces: self.slider.surfaces.demands(),
             residual_m: self.x[0],
             sliding_at_end: matches!(self.mode, Mode::Slip(_)),
         };
@@ -408,14 +328,14 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         self.now = InForce { mode, phase: stick, friction: 0.0, stop: 0.0, fading: None };
         match mode {
             Mode::Stick => {
-                self.hold = self.law.hold(&self.memory, s);
-                if self.law.stop.is_some() {
+                self.hold = self.slider.law.hold(&self.slider.memory, s);
+                if self.slider.law.stop.is_some() {
                     self.now.stop = self.hold.force_n - stick.system.stiffness_n_per_m * s;
                 }
             }
             Mode::Slip(direction) => {
-                self.exits = self.law.exits(&self.memory, direction);
-                let force = self.law.force(&self.memory, direction);
+                self.exits = self.slider.law.exits(&self.slider.memory, direction);
+                let force = self.slider.law.force(&self.slider.memory, direction);
                 let Affine { restraints, force_n, coefficient, fading } = force.under(normal_n);
                 let phase = self.tables.under(self.simd, restraints);
                 let (friction, stop) = (-coefficient, force_n);
@@ -586,7 +506,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         [table, acceleration, normal]: [f64; 3],
         row: bool,
     ) {
-        let (InForce { mode, phase, stop, .. }, contact) = (self.now, self.memory.contact);
+        let (InForce { mode, phase, stop, .. }, contact) = (self.now, self.slider.memory.contact);
         let mut friction_n = self.now.friction_n(normal, x[1]);
         let force_n = match mode {
             Mode::Stick => self.hold.force_n,
@@ -600,7 +520,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             Knot { time_s, mode, contact, table, acceleration, state: x, friction_n, force_n };
         if let Some(recorder) = &mut self.recorder {
             recorder.knot(&phase.system, &knot, row);
-            let now = self.law.surfaces(&self.memory, x[0]);
+            let now = self.slider.law.surfaces(&self.slider.memory, x[0]);
             recorder.history.surface_displacement_m.extend(now);
         }
     }
@@ -611,12 +531,13 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     pub(super) fn set_limits(&mut self) {
         self.peaks.limit.copy_from_slice(&self.peaks.peak);
         if let (Mode::Stick, Normal::Constant(normal)) = (self.mode, self.ground.normal) {
-            let bound = self.law.largest_static() * normal * (1.0 - 1e-14);
+            let bound = self.slider.law.largest_static() * normal * (1.0 - 1e-14);
             let first = &mut self.peaks.limit[0].0;
             if first[output::FRICTION] >= bound {
                 first[output::FRICTION] = f64::INFINITY;
             }
-            let free = self.tables.stick.system.stiffness_n_per_m == 0.0 && self.law.stop.is_none();
+            let free =
+                self.tables.stick.system.stiffness_n_per_m == 0.0 && self.slider.law.stop.is_none();
             if free && first[output::SLIDER] >= bound {
                 first[output::SLIDER] = f64::INFINITY;
             }

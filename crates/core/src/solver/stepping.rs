@@ -11,14 +11,13 @@ mod keep;
 
 use self::body::{Body, Expansion, Loads, Phase, State};
 use self::keep::Peaks;
-use super::event::{EVENTS_PER_INTERVAL_LIMIT, fitting, less_zero};
+use super::event::{EVENTS_PER_INTERVAL_LIMIT, fitting};
 use super::ground::{Ground, Stretch};
-use super::run::{Outcome, Sliding, Start, Stopping, Surfaces};
+use super::run::{Outcome, Sliding};
+use super::slider::{Slider, Start};
 use super::tables::system_of;
 use crate::error::{GoOn, Pulse, SolveError};
-use crate::friction::{
-    Coefficient, Direction, Exit, Hold, Law, Memory, Reached, Restraint, SlipForce,
-};
+use crate::friction::{Coefficient, Direction, Exit, Hold, Law, Reached, Restraint, SlipForce};
 use crate::linear::polynomial::{DEGREE, Polynomial, deflated, first_root, value};
 use crate::model::Model;
 use crate::response::{
@@ -72,17 +71,14 @@ struct Near {
 
 struct Stepping<'a> {
     model: &'a Model,
-    law: &'a Law,
+    slider: Slider<'a>,
     ground: Ground<'a>,
     body: Body,
     x: State,
     modes: Vec<Mode>,
-    memory: Memory,
     start: Vec<Option<Start>>,
     /// An interface that has reached its bound.
     pending: Option<(usize, Direction)>,
-    /// What the slider has just reached: that bound starts at its zero.
-    just: Option<Reached>,
     near: Option<Near>,
     /// The contact with an elastic stop with which the slider sets out.
     begun: Option<Contact>,
@@ -97,11 +93,9 @@ struct Stepping<'a> {
     /// The last turn since the last impact.
     turn: Option<usize>,
     sliding: Vec<Sliding>,
-    stopping: Stopping,
     leans_since_s: Option<f64>,
     first_impact_s: Option<f64>,
     peaks: Peaks,
-    surfaces: Surfaces,
     history: Option<History>,
     /// Asks whether to go on, after so many units of work a segment.
     pulse: Pulse<'a>,
@@ -131,8 +125,8 @@ impl<'a> Stepping<'a> {
         if w != 0.0 {
             modes[0] = Mode::Slip(if w > 0.0 { Direction::Positive } else { Direction::Negative });
         }
-        let memory = law.initial(s, w);
-        let surfaces = law.surfaces(&memory, s).len();
+        let slider = Slider::new(law, s, w);
+        let surfaces = law.surfaces(&slider.memory, s).len();
         let history = with_history.then(|| History {
             storeys: body.storeys(),
             interfaces: 1 + count,
@@ -143,7 +137,7 @@ impl<'a> Stepping<'a> {
         sliding.resize(1 + count, Sliding::new(0.0));
         Self {
             model,
-            law,
+            slider,
             ground,
             series: body.room(),
             instant: body.room(),
@@ -151,10 +145,8 @@ impl<'a> Stepping<'a> {
             body,
             x,
             modes,
-            memory,
             start: vec![None; 1 + count],
             pending: None,
-            just: None,
             near: None,
             begun: None,
             leant: false,
@@ -163,10 +155,8 @@ impl<'a> Stepping<'a> {
             events_in_interval: 0,
             turn: None,
             sliding,
-            stopping: Stopping::default(),
             leans_since_s: None,
             first_impact_s: None,
-            surfaces: Surfaces::default(),
             history,
             pulse,
             units: 128 * (1 + model.storeys() + count) as u32,
@@ -219,11 +209,11 @@ impl<'a> Stepping<'a> {
                 self.sliding[i].end(end_s, place);
             }
         }
-        if self.law.stop.is_some() {
-            self.stopping.change(end_s, 0.0, self.memory.contact, Contact::Free);
+        if self.slider.law.stop.is_some() {
+            self.slider.stopping.change(end_s, 0.0, self.slider.memory.contact, Contact::Free);
         }
         self.end_leaning(end_s);
-        self.surfaces.note(self.law, &self.memory, self.x.s);
+        self.slider.note_surfaces(self.x.s);
         Ok(())
     }
 
@@ -255,16 +245,18 @@ impl<'a> Stepping<'a> {
                       motion between impacts, without the impulses"
                     .to_owned(),
         });
-        let has_stop = self.law.stop.is_some() || self.law.rigid.is_some();
-        let demands =
-            StopDemands { impact_count: count(0, EventKind::Impact), ..self.stopping.demands };
+        let has_stop = self.slider.law.stop.is_some() || self.slider.law.rigid.is_some();
+        let demands = StopDemands {
+            impact_count: count(0, EventKind::Impact),
+            ..self.slider.stopping.demands
+        };
         Stepped {
             outcome: Outcome {
                 events: self.events,
                 overturns: self.peaks.overturns,
                 sliding: self.sliding[0],
                 stop: has_stop.then_some(demands),
-                surfaces: self.surfaces.demands(),
+                surfaces: self.slider.surfaces.demands(),
                 residual_m: self.x.s,
                 sliding_at_end: matches!(self.modes[0], Mode::Slip(_)),
             },
@@ -289,7 +281,7 @@ impl<'a> Stepping<'a> {
 
     /// What holds the slider at rest; off a stop by less than the rounding of `s` it does not lean on it.
     fn held(&self) -> Hold {
-        let hold = self.law.hold(&self.memory, self.x.s);
+        let hold = self.slider.hold(self.x.s);
         match self.near {
             Some(near) if near.offset != 0.0 => Hold { leans: [false; 2], ..hold },
             _ => hold,
@@ -306,7 +298,7 @@ impl<'a> Stepping<'a> {
     /// The force of the slider in a mode; in stick what springs and stops do.
     fn force(&self, mode: Mode) -> SlipForce {
         match mode {
-            Mode::Slip(direction) => self.law.force(&self.memory, direction),
+            Mode::Slip(direction) => self.slider.law.force(&self.slider.memory, direction),
             Mode::Stick => {
                 let hold = self.held();
                 SlipForce {
@@ -386,7 +378,7 @@ impl<'a> Stepping<'a> {
         {
             p[0] = exit.of_s * near.offset;
         }
-        less_zero(p, exit.reached, self.just)
+        self.slider.of_exit(exit, p)
     }
 
     /// One segment, up to its end or the first event in it; the time reached.
@@ -413,7 +405,8 @@ impl<'a> Stepping<'a> {
             take(first_root(&speed, self.series.part), End::Still(i));
         }
         if let Mode::Slip(direction) = self.modes[0] {
-            for exit in self.law.exits(&self.memory, direction).into_iter().flatten() {
+            for exit in self.slider.law.exits(&self.slider.memory, direction).into_iter().flatten()
+            {
                 let p = self.of_exit(&exit);
                 take(first_root(&p, self.series.part), End::Exit(exit));
             }
@@ -448,7 +441,7 @@ impl<'a> Stepping<'a> {
         };
         self.move_to(part);
         self.start.fill(None);
-        self.just = None;
+        self.slider.just = None;
         self.look(part);
         match end {
             None => {
@@ -522,31 +515,14 @@ impl<'a> Stepping<'a> {
         let Mode::Slip(direction) = self.modes[0] else { return Ok(()) };
         let time_s = self.ground.times_s[stretch.interval] + at_s;
         self.near = None;
-        match reached {
-            Reached::Wall(_, place) => {
-                self.x.s = place;
-                self.record(stretch, at_s, false);
-                self.strike(stretch, at_s, direction);
-            }
-            Reached::Contact(to, level) => {
-                self.x.s = level.unwrap_or(self.x.s);
-                self.record(stretch, at_s, false);
-                self.change_contact(time_s, to);
-            }
-            Reached::Surface(level) => {
-                self.x.s = level;
-                self.record(stretch, at_s, false);
-                self.law.follow(&mut self.memory, reached, direction);
-                self.push_event(time_s, 0, EventKind::Surface);
-            }
-            Reached::Knot(speed, _) => {
-                self.x.w = direction.sign() * speed;
-                self.record(stretch, at_s, false);
-                self.law.follow(&mut self.memory, reached, direction);
-                self.events_in_interval += 1;
-            }
+        [self.x.s, self.x.w] = reached.place(direction, [self.x.s, self.x.w]);
+        self.record(stretch, at_s, false);
+        let place = [self.x.s, self.x.w];
+        match self.slider.follow(reached, direction, time_s, place) {
+            Some(kind) => self.push_event(time_s, 0, kind),
+            None if matches!(reached, Reached::Wall(..)) => self.strike(stretch, at_s, direction),
+            None => self.events_in_interval += 1,
         }
-        self.just = Some(reached);
         self.note_ends(time_s)?;
         self.record(stretch, at_s, false);
         Ok(())
@@ -554,19 +530,11 @@ impl<'a> Stepping<'a> {
 
     /// Notes surfaces at their ends; an error where none can slide on.
     fn note_ends(&mut self, time_s: f64) -> Result<(), SolveError> {
-        self.surfaces.note(self.law, &self.memory, self.x.s);
-        if self.modes[0] != Mode::Stick && self.law.at_end(&self.memory) {
+        self.slider.note_surfaces(self.x.s);
+        if self.modes[0] != Mode::Stick && self.slider.at_end() {
             return Err(SolveError::EndOfTravel { time_s });
         }
         Ok(())
-    }
-
-    /// Changes the contact with an elastic stop, which is an event.
-    fn change_contact(&mut self, time_s: f64, to: Contact) {
-        let from = self.memory.contact;
-        let kind = self.stopping.change(time_s, self.x.w.abs(), from, to);
-        self.memory.contact = to;
-        self.push_event(time_s, 0, kind);
     }
 
     fn push_event(&mut self, time_s: f64, interface: usize, kind: EventKind) {

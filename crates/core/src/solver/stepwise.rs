@@ -6,7 +6,8 @@
 use super::ground::{Normal, contact_loss_s, varying_normal};
 use super::outputs::{self, output};
 use super::recorder::{Recorder, Stored};
-use super::run::{Outcome, Sliding, Stopping};
+use super::run::{Outcome, Sliding};
+use super::slider::Stopping;
 use super::summary;
 use super::tables::system_of;
 use crate::error::{GoOn, Pulse, SolveError};

@@ -190,7 +190,14 @@ impl Tables {
                     let batch_s = self.dt_s.filter(|_| !is_pressed);
                     let lengths = (self.dt_s, batch_s);
                     let of_friction = Some(*of_friction);
-                    Phase::new(simd, (1 + i, system.clone()), of_friction, lengths, self.orders, rows)
+                    Phase::new(
+                        simd,
+                        (1 + i, system.clone()),
+                        of_friction,
+                        lengths,
+                        self.orders,
+                        rows,
+                    )
                 },
             )
         })

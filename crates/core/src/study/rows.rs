@@ -197,7 +197,9 @@ impl Study {
         let scale = self.factor(case);
         let outcome = match (&sample.parts, model, motion) {
             (Err(error), ..) | (.., Err(error)) => Err(error.clone()),
-            (Ok(_), Some(model), Ok(ready)) => model.on(&ready.motion, room).map_err(RunError::from),
+            (Ok(_), Some(model), Ok(ready)) => {
+                model.on(&ready.motion, room).map_err(RunError::from)
+            }
             (Ok(parts), None, Ok(ready)) => {
                 Running::new(&parts.model).on(&ready.motion, room).map_err(RunError::from)
             }

@@ -4,10 +4,10 @@
 //! are asked again, as its start changes what they are asked for: what static friction can hold stays.
 
 use super::super::ground::Stretch;
-use super::super::run::Start;
+use super::super::slider::{Start, first_crossing, leaving_order};
 use super::{Near, SLOWEST_IMPACT_M_PER_S, Stepping};
 use crate::friction::Direction;
-use crate::linear::polynomial::{DEGREE, Polynomial, deflated, first_root};
+use crate::linear::polynomial::Polynomial;
 use crate::response::{EventKind, Mode};
 
 /// Where a bounce is below the rounding of `s`: parts of the stop's distance.
@@ -90,10 +90,7 @@ impl Stepping<'_> {
             let contents = &self.body.contents[interface - 1];
             return contents.static_friction - contents.kinetic_friction;
         }
-        let mut memory = self.memory.clone();
-        let hold = self.held();
-        self.law.begin(&mut memory, self.x.s, direction);
-        self.law.drop(&hold, &memory, direction)
+        self.slider.drop(&self.held(), self.x.s, direction)
     }
 
     /// Decides all that is due at an instant; whether something was.
@@ -224,8 +221,7 @@ impl Stepping<'_> {
         for (i, direction) in level {
             self.expand(stretch, at_s);
             let distance = self.distance(i, direction);
-            let order = (1..=DEGREE).find(|&k| distance[k] != 0.0);
-            let Some(order) = order.filter(|&k| distance[k] < 0.0) else { continue };
+            let Some(order) = leaving_order(&distance) else { continue };
             if !noted {
                 self.note_before(stretch, at_s, at_sample);
             }
@@ -271,14 +267,7 @@ impl Stepping<'_> {
             if !distance[0].is_finite() {
                 return None;
             }
-            let at = if distance[0] > 0.0 {
-                first_root(&distance, self.series.part)?
-            } else {
-                // Zero at the start: found not to go that way.
-                let order = (1..=DEGREE).find(|&k| distance[k] != 0.0)?;
-                first_root(&deflated(&distance, order), self.series.part)?
-            };
-            Some((at, direction))
+            Some((first_crossing(&distance, self.series.part)?, direction))
         };
         let both = [Direction::Negative, Direction::Positive].map(of);
         both.into_iter().flatten().reduce(|a, b| if b.0 < a.0 { b } else { a })
@@ -290,7 +279,7 @@ impl Stepping<'_> {
         self.start[interface] = None;
         if interface == 0 {
             self.begun = None;
-            self.law.settle(&mut self.memory, self.x.s);
+            self.slider.settle(self.x.s);
         }
     }
 
@@ -298,11 +287,7 @@ impl Stepping<'_> {
     fn let_go(&mut self, interface: usize, direction: Direction) {
         self.modes[interface] = Mode::Slip(direction);
         if interface == 0 {
-            let contact = self.memory.contact;
-            self.law.begin(&mut self.memory, self.x.s, direction);
-            // The change of contact is an event of its own.
-            self.begun = (self.memory.contact != contact).then_some(self.memory.contact);
-            self.memory.contact = contact;
+            self.begun = self.slider.begin(self.x.s, direction);
         }
     }
 
@@ -333,7 +318,8 @@ impl Stepping<'_> {
         if let Some(contact) = self.begun.take()
             && self.modes[0] != Mode::Stick
         {
-            self.change_contact(time_s, contact);
+            let kind = self.slider.change_contact(time_s, self.x.w.abs(), contact);
+            self.push_event(time_s, 0, kind);
         }
     }
 
@@ -344,7 +330,7 @@ impl Stepping<'_> {
             && near.offset.abs() <= 8.0 * f64::EPSILON * near.place.abs()
         {
             (self.x.s, self.near) = (near.place, None);
-            self.law.settle(&mut self.memory, near.place);
+            self.slider.law.settle(&mut self.slider.memory, near.place);
         }
     }
 
@@ -359,7 +345,7 @@ impl Stepping<'_> {
 
     pub(super) fn end_leaning(&mut self, time_s: f64) {
         if let Some(since_s) = self.leans_since_s.take() {
-            self.stopping.demands.contact_time_s += time_s - since_s;
+            self.slider.stopping.demands.contact_time_s += time_s - since_s;
         }
     }
 
@@ -367,20 +353,20 @@ impl Stepping<'_> {
     /// stop keeps its absolute velocity.
     pub(super) fn strike(&mut self, stretch: &Stretch, at_s: f64, direction: Direction) {
         let time_s = self.ground.times_s[stretch.interval] + at_s;
-        let Some(rigid) = self.law.rigid else { return };
+        let Some(rigid) = self.slider.law.rigid else { return };
         let (place, before, e) = (self.x.s, self.x.w, rigid.restitution);
         let fast = before.abs() >= SLOWEST_IMPACT_M_PER_S;
         let turn = self.turn.take();
         if !fast && let Some(turn) = turn {
             self.events.remove(turn);
         }
-        let peak = &mut self.stopping.demands.peak_impact_speed_m_per_s;
+        let peak = &mut self.slider.stopping.demands.peak_impact_speed_m_per_s;
         *peak = peak.max(before.abs());
         if fast && self.first_impact_s.is_none() {
             self.first_impact_s = Some(time_s);
         }
         self.sliding[0].end(time_s, place);
-        self.law.settle(&mut self.memory, place);
+        self.slider.law.settle(&mut self.slider.memory, place);
         let after = -e * before;
         self.jump(time_s, before, after);
         if after == 0.0 {
@@ -390,7 +376,7 @@ impl Stepping<'_> {
         let away = opposite(direction);
         self.modes[0] = Mode::Slip(away);
         self.sliding[0].begin(time_s, place);
-        self.law.resume(&mut self.memory, after.abs(), away);
+        self.slider.law.resume(&mut self.slider.memory, after.abs(), away);
         self.near = Some(Near { place, offset: 0.0 });
         if fast {
             self.push_event(time_s, 0, EventKind::Impact);
@@ -453,14 +439,14 @@ impl Stepping<'_> {
     fn comes_to_rest(&mut self, stretch: &Stretch, at_s: f64, inward: Direction, e: f64) -> bool {
         let loads = Self::loads(stretch, at_s);
         let speed = self.x.w.abs();
-        let (away, memory) = (self.modes[0], self.memory.clone());
+        let (away, memory) = (self.modes[0], self.slider.memory.clone());
         self.look_at_instant(&loads);
         let q = inward.sign() * self.acceleration(0, loads.acceleration[0]);
         self.modes[0] = Mode::Slip(inward);
-        self.law.resume(&mut self.memory, 0.0, inward);
+        self.slider.law.resume(&mut self.slider.memory, 0.0, inward);
         self.look_at_instant(&loads);
         let p = inward.sign() * self.acceleration(0, loads.acceleration[0]);
-        (self.modes[0], self.memory) = (away, memory);
+        (self.modes[0], self.slider.memory) = (away, memory);
         if !(p > 0.0 && q > 0.0) {
             return false;
         }

@@ -121,15 +121,16 @@ impl Stepping<'_> {
             return;
         };
         raise(peak, &core::array::from_fn(|k| friction[k] - sign * beyond[k]), part);
-        raise(&mut self.stopping.demands.peak_force_n, &beyond, part);
+        raise(&mut self.slider.stopping.demands.peak_force_n, &beyond, part);
     }
 
     fn look_at_stop(&mut self, part: f64) {
-        if self.law.stop.is_none() {
+        if self.slider.law.stop.is_none() {
             return;
         }
-        let mut force_n = self.law.stop_force_n(self.memory.contact, self.x.s, self.x.w);
-        if let Some([of_s, of_w, constant]) = self.law.stop_row(self.memory.contact) {
+        let mut force_n =
+            self.slider.law.stop_force_n(self.slider.memory.contact, self.x.s, self.x.w);
+        if let Some([of_s, of_w, constant]) = self.slider.law.stop_row(self.slider.memory.contact) {
             let (s, w) = (&self.series.s, &self.series.w);
             let mut p: Polynomial = core::array::from_fn(|k| of_s * s[k] + of_w * w[k]);
             p[0] += constant;
@@ -138,7 +139,7 @@ impl Stepping<'_> {
             }
             force_n = largest(&p, part, force_n);
         }
-        let peak = &mut self.stopping.demands.peak_force_n;
+        let peak = &mut self.slider.stopping.demands.peak_force_n;
         *peak = peak.max(force_n);
     }
 
@@ -190,15 +191,15 @@ impl Stepping<'_> {
                 friction_n = friction_n.min(high);
             }
         }
-        let surfaces = self.law.surfaces(&self.memory, self.x.s);
+        let surfaces = self.slider.law.surfaces(&self.slider.memory, self.x.s);
         let Some(h) = &mut self.history else { return };
         if row {
             h.rows.push(h.time_s.len());
         }
         h.time_s.push(time_s);
         h.mode.extend_from_slice(&self.modes);
-        if self.law.stop.is_some() {
-            h.contact.push(self.memory.contact);
+        if self.slider.law.stop.is_some() {
+            h.contact.push(self.slider.memory.contact);
         }
         h.table_acceleration_m_per_s2.push(table);
         h.sliding_displacement_m.push(self.x.s);
