@@ -19,7 +19,7 @@ use slipstick::model::{
     Block, Contents, Damping, Devices, Frame, InitialState, Model, Slider, Stop, StopKind,
 };
 use slipstick::motion::GroundMotion;
-use slipstick::solver::{Prepared, PreparedMotion};
+use slipstick::solver::{Prepared, PreparedMotion, Workspace};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 use std::error::Error;
 use std::hint::black_box;
@@ -66,8 +66,9 @@ fn main() -> Result<(), Box<dyn Error>> {
                 }
             }
             Some((.., count)) => {
+                let mut room = Workspace::default();
                 for _ in 0..count {
-                    black_box(prepared.demands(motion)?);
+                    black_box(prepared.demands_in(&mut room, motion)?);
                 }
             }
         }
@@ -83,7 +84,9 @@ fn measure(
 ) -> Result<(), Box<dyn Error>> {
     let response = prepared.demands(motion)?;
     let samples = motion.motion().len();
-    let demands = least(|| prepared.demands(motion).map(|response| drop(black_box(response))))?;
+    let mut room = Workspace::default();
+    let demands =
+        least(|| prepared.demands_in(&mut room, motion).map(|response| drop(black_box(response))))?;
     let history = least(|| prepared.response(motion).map(|response| drop(black_box(response))))?;
     let checked = least(|| {
         let response = prepared.response(motion)?;

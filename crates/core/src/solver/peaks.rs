@@ -309,12 +309,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 let row = &phase.outputs.rows[j];
                 let values = batch.rows[j].values(simd, x, a, force)
                     + eight(simd, row.constant + row.of_stop * stop);
-                let mut all = [first[lane]; BATCH + 1];
-                all[1..].copy_from_slice(&values.to_array());
-                let all = &all[..=steps];
-                let peak = all.iter().fold(peak, |peak, y| greatest(peak, y.abs()));
+                let (samples, bound, peak) =
+                    samples_above(simd, (first[lane], values), steps, slack[lane], peak);
                 self.peaks.peak[g].0[lane] = peak;
-                let (samples, bound) = samples_above(all, slack[lane], peak);
                 self.peaks.samples[8 * i * groups + j] = samples;
                 self.peaks.bounds[i * groups + g].0[lane] = bound;
             }
@@ -425,19 +422,29 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     }
 }
 
-/// The samples between neighbouring values that may hold more than a peak, as bits, and the largest
-/// of their bounds.
-fn samples_above(values: &[f64], slack: f64, peak: f64) -> (u8, f64) {
-    let (mut mask, mut most) = (0, 0.0);
-    for (k, pair) in values.windows(2).enumerate() {
-        let inside = slack - 0.25 * (pair[1] - pair[0]).abs();
-        let bulge = if inside > 0.0 { inside * (inside / slack) } else { 0.0 };
-        let bound = greatest(pair[0].abs(), pair[1].abs()) + bulge;
-        // A few ulp are no more than the rounding of the values.
-        if bound > peak + 1e-15 * peak {
-            mask |= 1 << k;
-            most = greatest(most, bound);
-        }
-    }
-    (mask, most)
+/// Of a batch's first samples, so many steps, those that may hold more than a peak, as bits, the largest
+/// of their bounds, and the peak with the values themselves; from the first value and the eight after it.
+#[inline(always)]
+fn samples_above<S: Simd>(
+    simd: S,
+    (first, values): (f64, f64x8<S>),
+    steps: usize,
+    slack: f64,
+    peak: f64,
+) -> (u8, f64, f64) {
+    let mut before = [first; BATCH];
+    before[1..].copy_from_slice(&values.as_array()[..BATCH - 1]);
+    let before = f64x8::load_array_ref(simd, &before);
+    let ends = larger(before.abs(), values.abs());
+    let peak = ends.as_array()[..steps].iter().fold(peak, |peak, y| greatest(peak, *y));
+    let inside = eight(simd, slack) - (values - before).abs() * eight(simd, 0.25);
+    let bulge = inside * (inside / eight(simd, slack));
+    let bound = ends + inside.simd_gt(eight(simd, 0.0)).select(bulge, eight(simd, 0.0));
+    // A few ulp are no more than the rounding of the values.
+    let open = bound.simd_gt(eight(simd, peak + 1e-15 * peak)).to_bitmask();
+    let open = open & ((1 << steps) - 1);
+    let most = (0..BATCH)
+        .filter(|k| open & (1 << k) != 0)
+        .fold(0.0, |most, k| greatest(most, bound.as_array()[k]));
+    (open as u8, most, peak)
 }

@@ -5,7 +5,7 @@ use crate::systems::{
     streams, system,
 };
 use slipstick::linear::polynomial::DEGREE;
-use slipstick::linear::{MAX_RATE_STEP, StoreyDamping};
+use slipstick::linear::{MAX_RATE_STEP, StoreyDamping, orders};
 
 /// (g) `‖A x‖ ≤ rate · ‖x‖` in stick and slip.
 #[test]
@@ -53,9 +53,21 @@ fn exact_rates_are_reached() {
     );
 }
 
-/// 0.8^17 / 17!.
+/// 1.4^21 / 21!.
 fn first_term_left_out() -> f64 {
     (1..=DEGREE + 1).map(|k| MAX_RATE_STEP / k as f64).product()
+}
+
+/// (f) Fewer orders, where the rate is low, leave out no more than 0.8^17 / 17!.
+#[test]
+fn prop_fewer_orders_leave_out_no_more() {
+    for i in 1..=1400 {
+        let rate_step = 0.001 * f64::from(i);
+        let kept = orders(rate_step);
+        let next: f64 = (1..=kept + 1).map(|k| rate_step / k as f64).product();
+        assert!(kept % 4 == 0 && next < 6.4e-17, "{kept} orders leave out {next:e}");
+    }
+    assert_eq!([0.05, 0.8, 1.4].map(orders), [12, 16, 20]);
 }
 
 /// (f) The first term that a series leaves out, which doubles cannot show in a sum: from the last
@@ -63,7 +75,7 @@ fn first_term_left_out() -> f64 {
 #[test]
 fn prop_truncation_is_below_rounding() {
     let bound = first_term_left_out();
-    assert!(bound < 7e-17);
+    assert!(bound < 2.3e-17);
     for (mut random, damped) in streams() {
         let made = system(&mut random, damped);
         let system = &made.system;
