@@ -86,6 +86,30 @@ pub fn docs(options: &[&str]) -> Outcome {
     package.reference(write)
 }
 
+/// Free-threaded Pythons, for which an extension of its own is built; the newest first.
+const FREE_THREADED: [&str; 2] = ["python3.14t", "python3.13t"];
+
+/// `cargo xtask python-free-threaded`: builds the package for a free-threaded Python and runs its tests
+/// there, without the lock.
+pub fn free_threaded() -> Outcome {
+    let [newest, other] = FREE_THREADED;
+    let found = FREE_THREADED.into_iter().find(|program| shell::answers(program, "-m venv -h"));
+    let program = found.ok_or(format!("expected {newest} or {other} with venv, found neither"))?;
+    let folder = shell::target_folder()?.join("python-free-threaded");
+    let requirements = format!("{PACKAGE}/tests/requirements-free-threaded.txt");
+    let python = environment_by(program, &folder, &requirements)?;
+    let package = Package { folder, python };
+    package.build("dev")?;
+    const UNLOCKED: &str = "import slipstick, sys; sys.exit(sys._is_gil_enabled())";
+    shell::run(package.command("-W error -c").arg(UNLOCKED))?;
+    shell::run(&mut shell::cargo("build --quiet --package slipstick-cli"))?;
+    let slipstick = shell::target_folder()?.join("debug/slipstick");
+    let mut pytest = package.command("-m pytest -q --no-header --tb=short -rs");
+    pytest.arg(format!("{PACKAGE}/tests"));
+    pytest.env("SLIPSTICK_COMMAND", slipstick).env("SLIPSTICK_ROOT", shell::root());
+    shell::run(&mut pytest)
+}
+
 /// A Python that is new enough and can make environments.
 fn program() -> Option<&'static str> {
     const PROBE: &str = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))";
@@ -107,7 +131,12 @@ const PYTHON: &str = if cfg!(windows) { "Scripts/python.exe" } else { "bin/pytho
 
 /// Python of an environment with what a list of requirements names in it.
 pub fn environment(folder: &str, requirements: &str) -> Result<PathBuf, String> {
-    let folder = shell::root().join(folder);
+    let program = program().ok_or("expected python3 (3.11 or later) with venv, found none");
+    environment_by(program?, &shell::root().join(folder), requirements)
+}
+
+/// The same by a given Python.
+fn environment_by(program: &str, folder: &Path, requirements: &str) -> Result<PathBuf, String> {
     let python = folder.join(PYTHON);
     let wanted = shell::root().join(requirements);
     let installed = folder.join("requirements.txt");
@@ -115,8 +144,7 @@ pub fn environment(folder: &str, requirements: &str) -> Result<PathBuf, String> 
     if python.exists() && read(&wanted).is_some() && read(&wanted) == read(&installed) {
         return Ok(python);
     }
-    let program = program().ok_or("expected python3 (3.11 or later) with venv, found none")?;
-    new_environment(program, &folder)?;
+    new_environment(program, folder)?;
     let mut pip = shell::command(&python);
     pip.args(["-m", "pip", "install", "--quiet", "--requirement"]).arg(&wanted);
     shell::run(&mut pip)?;
