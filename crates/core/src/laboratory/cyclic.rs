@@ -23,6 +23,7 @@ mod stroke;
 
 use super::estimate::{Estimate, mean_interval, mean_interval_with_common};
 use crate::numerics::algebra::linear_fit;
+use crate::numerics::distribution::student_quantile;
 use crate::numerics::fractile::upper_median;
 use crate::response::Warning;
 pub use rate::{CurvePoint, RateFit};
@@ -390,8 +391,10 @@ fn shared(test: &CyclicTest, cycles: &[Cycle], sampling_n: f64) -> [f64; 2] {
     [one, one * 0.5 * (1.0 + correlation(0.5 * steps))]
 }
 
-/// Fewest standard errors of a drift, and least part of the friction that it makes over a test.
-const CLEAR_DRIFT: (f64, f64) = (4.0, 0.005);
+/// How sure a drift must be: one of a hundred tests whose cell holds its zero shows one nevertheless.
+const SURE_OF_DRIFT: f64 = 0.99;
+/// Least part of the friction that a drift makes over a test.
+const LEAST_DRIFT: f64 = 0.005;
 
 /// The slope of the middle of the force loop over time, where it is clear of the cycles' scatter.
 fn drift(cycles: &[Cycle]) -> Option<Drift> {
@@ -410,9 +413,10 @@ fn drift(cycles: &[Cycle]) -> Option<Drift> {
     let over_test_n = n_per_s * rows.last().map_or(0.0, |(x, _)| x[1]);
     let kinetic_n = |cycle: &Cycle| 0.5 * (cycle.kinetic_n[0] + cycle.kinetic_n[1]);
     let mean_n = cycles.iter().map(kinetic_n).sum::<f64>() / cycles.len() as f64;
+    let half = |confidence: f64| student_quantile(confidence, freedom) * error;
     let clear =
-        n_per_s.abs() > CLEAR_DRIFT.0 * error && over_test_n.abs() > CLEAR_DRIFT.1 * mean_n.abs();
-    let half = crate::numerics::distribution::student_quantile(0.95, freedom) * error;
+        n_per_s.abs() > half(SURE_OF_DRIFT) && over_test_n.abs() > LEAST_DRIFT * mean_n.abs();
+    let half = half(0.95);
     let interval_n_per_s = [n_per_s - half, n_per_s + half];
     clear.then_some(Drift { n_per_s, interval_n_per_s, over_test_n })
 }
@@ -702,7 +706,7 @@ fn not_sliding(widths: &[f64], largest_force_n: f64, law: KineticLaw) -> Option<
     if law == KineticLaw::SlowFastRate {
         return None;
     }
-    let t = crate::numerics::distribution::student_quantile(0.95, widths.len() as f64 - 1.0);
+    let t = student_quantile(0.95, widths.len() as f64 - 1.0);
     let error = (width - low) / t;
     (!(width > CLEAR_WIDTH * error)).then(|| {
         format!(
@@ -728,8 +732,7 @@ fn per_hz(cycles: &[&Cycle], over_n: f64, unit: &'static str) -> Option<Estimate
         .collect();
     let fit = linear_fit(&rows)?;
     let freedom = rows.len() as f64 - 2.0;
-    let half = crate::numerics::distribution::student_quantile(0.95, freedom)
-        * (fit.sse / freedom * fit.covariance[1][1]).sqrt();
+    let half = student_quantile(0.95, freedom) * (fit.sse / freedom * fit.covariance[1][1]).sqrt();
     let slope = fit.coefficients[1];
     let unit = if unit.is_empty() { "1/Hz" } else { "N/Hz" };
     Some(Estimate::told(

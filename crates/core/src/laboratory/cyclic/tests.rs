@@ -201,6 +201,38 @@ fn prop_a_drifting_force_cell_is_seen_and_intervals_cover() {
     assert_eq!(still.count(), 0);
 }
 
+/// Friction that scatters from cycle to cycle has a slope too: with four cycles, which leave two degrees of
+/// freedom, four standard errors were passed by 6 % of sound tests.
+#[test]
+fn prop_a_sound_test_seldom_drifts_however_few_its_cycles() {
+    let few = made(0.5, 5.3, [1e-5, 1.5], 1);
+    let fit = cyclic(&test(&few)).unwrap();
+    assert_eq!((fit.cycles.len(), fit.drift), (4, None));
+    let ten = cyclic(&test(&made(0.5, 11.3, [1e-5, 1.5], 1))).unwrap().cycles;
+    assert_eq!(ten.len(), 10);
+    let mut random = Random::new(1);
+    for count in 4..=10 {
+        let mut cycles = ten[..count].to_vec();
+        let alarms = (0..2000).filter(|_| {
+            for cycle in &mut cycles {
+                cycle.kinetic_n = KINETIC_N.map(|f| f * (1.0 + 0.02 * random.normal()));
+            }
+            drift(&cycles).is_some()
+        });
+        // 20 of 2000 at 1 %; more than 34 have a chance of 1e-3.
+        let alarms = alarms.count();
+        assert!(alarms <= 34, "{alarms} of 2000 with {count} cycles");
+    }
+    // A cell that drifts by 6 N within four cycles is seen.
+    let mut drifting = few;
+    let last_s = drifting.times_s[drifting.times_s.len() - 1];
+    for (force_n, t) in drifting.force_n.iter_mut().zip(&drifting.times_s) {
+        *force_n += 6.0 * t / last_s;
+    }
+    let rate = cyclic(&test(&drifting)).unwrap().drift.unwrap().n_per_s;
+    assert!((rate * last_s / 6.0 - 1.0).abs() < 0.2, "{rate}");
+}
+
 #[test]
 fn prop_intervals_of_a_locked_test_cover() {
     for (path, count) in covered_where_locked(24) {
