@@ -183,11 +183,32 @@ impl Table {
         notes.iter().find(|note| note.key == key)?.value.as_deref()
     }
 
+    /// Number of rows.
+    pub(crate) fn rows(&self) -> usize {
+        usize::try_from(self.metadata.file_metadata().num_rows()).unwrap_or(0)
+    }
+
+    /// Its columns, of no more rows than the first `most`.
+    ///
+    /// # Errors
+    /// As [`Table::cells`].
+    pub(crate) fn columns(&self, most: usize) -> Result<Vec<Column>, FileError> {
+        let column = |(index, field): (usize, &Field)| {
+            let (name, unit) = (field.name.clone(), field.unit.clone());
+            Ok(Column { name, unit, cells: self.first_cells(index, most)? })
+        };
+        self.fields.iter().enumerate().map(column).collect()
+    }
+
     /// All cells of one of [`Table::fields`].
     ///
     /// # Errors
     /// [`FileError::Read`], and [`FileError::Table`] for a column that is damaged.
     pub(crate) fn cells(&self, index: usize) -> Result<Cells, FileError> {
+        self.first_cells(index, usize::MAX)
+    }
+
+    fn first_cells(&self, index: usize, most: usize) -> Result<Cells, FileError> {
         let failed = |source| FileError::Read { path: self.path.clone(), source };
         let file = Arc::new(File::open(&self.path).map_err(failed)?);
         let (Some(field), Some(&place)) = (self.fields.get(index), self.places.get(index)) else {
@@ -200,15 +221,18 @@ impl Table {
             Kind::Flag => Cells::Flags(Vec::new()),
             Kind::Text => Cells::Texts(Vec::new()),
         };
+        let mut left = most;
         for group in self.metadata.row_groups() {
             let rows = usize::try_from(group.num_rows()).unwrap_or(0);
+            let wanted = rows.min(left);
             let mut read = || {
                 let chunk = group.column(place);
                 let pages = SerializedPageReader::new(file.clone(), chunk, rows, None)?;
                 let reader = get_column_reader(chunk.column_descr_ptr(), Box::new(pages));
-                read_into(&mut cells, reader, chunk.column_descr(), rows)
+                read_into(&mut cells, reader, chunk.column_descr(), wanted)
             };
             read().map_err(at(&self.path))?;
+            left -= wanted;
         }
         Ok(cells)
     }
@@ -245,7 +269,7 @@ fn kind_of(column: &ColumnDescriptor) -> Option<Kind> {
     }
 }
 
-/// Appends the cells of one row group.
+/// Appends the first cells of one row group.
 fn read_into(
     cells: &mut Cells,
     reader: ColumnReader,
@@ -344,12 +368,7 @@ pub fn write_columns(path: &Path, columns: &[Column]) -> Result<(), FileError> {
 /// # Errors
 /// [`FileError::Read`], and [`FileError::Table`] for what is no Parquet file.
 pub fn read_columns(path: &Path) -> Result<Vec<Column>, FileError> {
-    let table = Table::of(path)?;
-    let column = |(index, field): (usize, &Field)| {
-        let (name, unit) = (field.name.clone(), field.unit.clone());
-        Ok(Column { name, unit, cells: table.cells(index)? })
-    };
-    table.fields().iter().enumerate().map(column).collect()
+    Table::of(path)?.columns(usize::MAX)
 }
 
 #[cfg(test)]
@@ -385,6 +404,25 @@ mod tests {
         let error = read_columns(&path).unwrap_err().to_string();
         assert!(error.contains("columns.parquet: expected a Parquet file: "), "{error}");
         assert!(matches!(read_columns(&folder), Err(FileError::IsFolder { .. })));
+    }
+
+    #[test]
+    fn exact_the_first_rows_of_several_groups() {
+        let path =
+            std::env::temp_dir().join(format!("slipstick-first-{}.parquet", std::process::id()));
+        let x = |from: i32, to: i32| Column::numbers("x", "m", (from..to).map(f64::from).collect());
+        let file = File::create(&path).unwrap();
+        let mut table = TableWriter::new(file, &[x(0, 1).field()], &[]).unwrap();
+        table.row_group([&x(0, 7).cells]).unwrap();
+        table.row_group([&x(7, 10).cells]).unwrap();
+        table.finish().unwrap();
+        let table = Table::of(&path).unwrap();
+        assert_eq!(table.rows(), 10);
+        for most in [0, 3, 7, 9, 10] {
+            assert_eq!(table.columns(most).unwrap(), [x(0, most as i32)]);
+        }
+        assert_eq!(read_columns(&path).unwrap(), [x(0, 10)]);
+        std::fs::remove_file(&path).unwrap();
     }
 
     /// Missing numbers are empty cells, as other readers show them.

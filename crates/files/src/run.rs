@@ -13,6 +13,7 @@ use slipstick_report::Summary;
 
 use crate::error::{FileError, reason};
 use crate::load::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
+use crate::parquet::Table;
 use crate::read::resolve;
 
 /// A job with what is known of its files.
@@ -136,17 +137,22 @@ pub fn time_left(
     }
 }
 
-/// Time that reading a file of text may take, from its beginning, of which more and more lines are read
-/// until that takes `budget`; `None` for what is no file of text.
+/// Time that reading a file may take, from its beginning, of which more and more is read until that takes
+/// `budget`: lines of text by `read`, rows of Parquet; `None` for what is neither.
 #[must_use]
 pub fn reading_time(path: &Path, budget: Duration, read: impl Fn(&[u8])) -> Option<Duration> {
     let file = path.metadata().ok().filter(|file| file.is_file())?;
+    if let Ok(table) = Table::of(path) {
+        let rows = |most| table.columns(most).ok().map(|_| ());
+        return time_left([1 << 12, table.rows()], budget, rows);
+    }
     let length = usize::try_from(file.len()).ok()?;
     time_left([1 << 16, length], budget, |count| {
         let mut bytes = Vec::new();
         File::open(path).ok()?.take(count as u64).read_to_end(&mut bytes).ok()?;
         let end = bytes.iter().rposition(|byte| *byte == b'\n')?;
-        (!bytes.starts_with(b"PAR1")).then(|| read(&bytes[..end]))
+        read(&bytes[..end]);
+        Some(())
     })
 }
 
@@ -228,5 +234,26 @@ mod tests {
         assert!(time_left([500, 1000], Duration::ZERO, work).is_some());
         assert_eq!(*tried.borrow(), [500]);
         assert!(time_left([32, 10], Duration::ZERO, |_| None).is_none());
+    }
+
+    /// A single Parquet file has a time left, as text has.
+    #[test]
+    fn exact_reading_time_of_text_and_parquet() {
+        let folder = std::env::temp_dir().join(format!("slipstick-time-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let (text, table) = (folder.join("a.csv"), folder.join("a.parquet"));
+        std::fs::write(&text, "x\n1\n2\n").unwrap();
+        let x = slipstick::table::Column::numbers("x", "", vec![1.0; 10_000]);
+        crate::parquet::write_columns(&table, &[x]).unwrap();
+        let read = RefCell::new(Vec::<u8>::new());
+        let time = |path: &Path| {
+            reading_time(path, Duration::MAX / 8, |bytes| read.borrow_mut().extend(bytes))
+        };
+        assert!(time(&text).is_some());
+        assert_eq!(read.take(), b"x\n1\n2");
+        assert!(time(&table).is_some());
+        assert!(read.take().is_empty());
+        assert!(time(&folder).is_none());
+        std::fs::remove_dir_all(folder).unwrap();
     }
 }
