@@ -1,0 +1,174 @@
+//! Random systems with all devices: stops, friction by speed, surfaces in series, pendulums under
+//! vertical motion, contents.
+
+use slipstick::friction::{Coulomb, Friction, RateCurve, RateLaw, Series, Surface};
+use slipstick::model::{
+    Block, Contents, Damping, Devices, Frame, InitialState, Model, Slider, Stop, StopKind,
+};
+use slipstick::motion::GroundMotion;
+
+const G: f64 = 9.80665;
+
+/// A small generator: SplitMix64.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+
+    fn chance(&mut self, part: f64) -> bool {
+        self.next() < part
+    }
+}
+
+/// A model, its mirror image, and a motion.
+pub struct System {
+    pub model: Model,
+    pub mirrored: Model,
+    pub times_s: Vec<f64>,
+    pub horizontal: Vec<f64>,
+    pub vertical: Option<Vec<f64>>,
+}
+
+/// The system of a seed.
+pub fn system(seed: u64) -> System {
+    let r = &mut Random(seed);
+    let n = (r.next() * 3.5) as usize;
+    let mass_kg = r.between(200.0, 600.0);
+    let frame = Frame {
+        masses_kg: (0..n).map(|_| r.between(50.0, 400.0)).collect(),
+        stiffnesses_n_per_m: (0..n).map(|_| r.between(1e4, 3e5)).collect(),
+        damping: if r.chance(0.5) {
+            Damping::Ratio(r.between(0.0, 0.05))
+        } else {
+            Damping::Dampers((0..n).map(|_| r.between(0.0, 300.0)).collect())
+        },
+        heights_m: None,
+    };
+    let fixed = r.between(0.02, 0.12);
+    let at_rest = if r.chance(0.3) { fixed } else { fixed * r.between(0.5, 1.0) };
+    let in_series = r.chance(0.3);
+    let rate = (!in_series && r.chance(0.6)).then(|| {
+        let curve = if r.chance(0.5) {
+            let fast = r.between(0.02, 0.15);
+            let rate_s_per_m = r.between(5.0, 60.0);
+            RateCurve::Exponential { slow: at_rest, fast, rate_s_per_m }
+        } else {
+            let knots = 2 + (r.next() * 3.0) as usize;
+            let mut v = 0.0;
+            let mut speeds_m_per_s = vec![0.0];
+            let mut coefficients = vec![at_rest];
+            for _ in 1..knots {
+                v += r.between(0.02, 0.2);
+                speeds_m_per_s.push(v);
+                coefficients.push(r.between(0.02, 0.12));
+            }
+            RateCurve::Pieces { speeds_m_per_s, coefficients }
+        };
+        RateLaw::new(curve, [1.0; 2]).expect("a rate law")
+    });
+    let series = in_series.then(|| {
+        let count = 2 + (r.next() * 2.0) as usize;
+        let surface = |r: &mut Random| Surface {
+            radius_m: (!r.chance(0.1)).then(|| r.between(0.3, 2.5)),
+            friction: r.between(0.02, 0.1),
+            travel_m: r.chance(0.4).then(|| r.between(0.03, 0.2)),
+        };
+        let mut surfaces: Vec<Surface> = (0..count).map(|_| surface(r)).collect();
+        if r.chance(0.3) {
+            surfaces[1] = surfaces[0];
+        }
+        Series::new(surfaces, if r.chance(0.5) { 1.0 } else { r.between(1.0, 1.5) })
+            .expect("surfaces")
+    });
+    let vertical = r.chance(0.4);
+    let radius_m = (!in_series && r.chance(0.5)).then(|| r.between(0.5, 3.0));
+    let contents: Vec<Contents> = (0..(r.next() * 2.2) as usize)
+        .map(|_| {
+            let static_friction = r.between(0.03, 0.2);
+            Contents {
+                floor: (r.next() * (n as f64 + 1.0)) as usize,
+                mass_kg: r.between(5.0, 150.0),
+                static_friction,
+                kinetic_friction: static_friction
+                    * if r.chance(0.3) { 1.0 } else { r.between(0.5, 1.0) },
+            }
+        })
+        .collect();
+    let stop = r.chance(0.5).then(|| {
+        let gap = |r: &mut Random| r.chance(0.8).then(|| r.between(0.01, 0.08));
+        let gap_m = [Some(r.between(0.01, 0.08)), gap(r)];
+        let kind = if r.chance(0.6) {
+            StopKind::Rigid { restitution: if r.chance(0.2) { 0.0 } else { r.between(0.1, 0.9) } }
+        } else {
+            StopKind::Elastic {
+                stiffness_n_per_m: r.between(1e4, 2e6),
+                damper_n_s_per_m: if r.chance(0.3) { 0.0 } else { r.between(0.0, 3e3) },
+            }
+        };
+        Stop { gap_m, kind }
+    });
+    let total_kg = frame.masses_kg.iter().sum::<f64>()
+        + mass_kg
+        + contents.iter().map(|contents| contents.mass_kg).sum::<f64>();
+    let spring = match radius_m {
+        Some(radius_m) => total_kg * G / radius_m,
+        None if in_series || r.chance(0.4) => 0.0,
+        None => r.between(500.0, 2e4),
+    };
+    let friction = Coulomb::new([fixed; 2], [at_rest; 2]).expect("friction");
+    let tilt_rad = if r.chance(0.2) { r.between(-0.01, 0.01) } else { 0.0 };
+    let slider = Slider {
+        friction: Friction::Coulomb(friction),
+        stiffness_n_per_m: spring,
+        damper_n_s_per_m: if r.chance(0.2) { r.between(0.0, 500.0) } else { 0.0 },
+        tilt_rad,
+        gap_m: None,
+        stop,
+    };
+    let w = if r.chance(0.2) { r.between(-0.4, 0.4) } else { 0.0 };
+    let build = |slider: Slider, w: f64| {
+        let initial = InitialState { sliding_velocity_m_per_s: w, ..InitialState::rest() };
+        Model::new(
+            Block { mass_kg, width_m: None, height_m: None },
+            slider,
+            frame.clone(),
+            G,
+            initial,
+        )
+        .expect("a model")
+        .with_devices(Devices {
+            rate: rate.clone(),
+            radius_m,
+            series: series.clone(),
+            contents: contents.clone(),
+        })
+        .expect("devices")
+    };
+    let turned = stop.map(|stop| Stop { gap_m: [stop.gap_m[1], stop.gap_m[0]], ..stop });
+    let mirror = Slider { tilt_rad: -tilt_rad, stop: turned, ..slider };
+    let (model, mirrored) = (build(slider, w), build(mirror, -w));
+    let (f1, f2) = (r.between(0.4, 2.0), r.between(1.0, 5.0));
+    let (a1, a2) = (r.between(0.5, 3.0), r.between(0.0, 2.0));
+    let up = r.between(0.5, 5.0);
+    let wave = |t: f64| a1 * libm::sin(f1 * 6.3 * t) + a2 * libm::sin(f2 * 6.3 * t + 1.0);
+    let times_s: Vec<f64> = (0..=150).map(|k| 0.02 * f64::from(k)).collect();
+    let horizontal = times_s.iter().map(|t| wave(*t)).collect();
+    let vertical = vertical.then(|| times_s.iter().map(|t| up * libm::sin(f2 * 9.1 * t)).collect());
+    System { model, mirrored, times_s, horizontal, vertical }
+}
+
+/// Its motion, or with the other sign.
+pub fn motion(system: &System, sign: f64) -> GroundMotion {
+    let a = system.horizontal.iter().map(|a| sign * a).collect();
+    GroundMotion::new(system.times_s.clone(), a, system.vertical.clone()).expect("a motion")
+}
