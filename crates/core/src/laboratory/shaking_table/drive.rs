@@ -7,8 +7,18 @@
 //! δp = −(Jᵀ J)⁻¹ Jᵀ δr
 //! ```
 //!
-//! `δr` is computed for draws of the noise on top of the measured motion, and for the motion that passes
-//! midway between samples on the cubic through four of them instead of the straight line.
+//! `δr` is computed for draws of the noise on top of the measured motion, and for the motion on the cubic
+//! through four samples instead of the straight line. The noise scatters the estimates. Between its samples
+//! the table moves alike in every test: that `δp` is a shift `d`, of which no more is known than its limits,
+//! nothing and all of it. The interval of an estimate `p` with the half widths `h` then reaches from the
+//! lower end under the one to the upper end under the other:
+//!
+//! ```text
+//! p + min(0, d) − h₋  to  p + max(0, d) + h₊        held with Φ(1.96 + |d|/s) − Φ(−1.96)
+//! ```
+//!
+//! with the standard error `s`, where the truth is at either limit: 95 % where the shift is small, 97.5 % where it
+//! is large.
 //!
 //! The sum of squares jumps where a stick or a slip appears, so that the best values move further than
 //! derivatives tell. Where the noise counts at all, the response of the best values is therefore fitted
@@ -50,7 +60,16 @@ pub(super) fn noise(motion: &GroundMotion) -> f64 {
     stretches.fold(by_thirds, f64::min)
 }
 
-/// Widens intervals by what moves the estimates through the table motion.
+/// What is not known of the table motion, for one parameter.
+struct Moves {
+    /// Standard deviation of its estimate through the noise.
+    deviation: f64,
+    /// How far its estimate moves under the curved motion.
+    shift: f64,
+}
+
+/// Widens intervals by what moves the estimates through the table motion: the noise by its square, the
+/// motion between the samples as a shift of which only the two limits are known.
 pub(super) fn widen(
     found: &mut Found,
     problem: &Problem,
@@ -62,18 +81,14 @@ pub(super) fn widen(
     let values = problem.parameters(&found.minimum.unit);
     let Some(moves) = moves(found, problem, data, scales, noise_m_per_s2, seed) else { return };
     let t = student_quantile(0.95, DRAWS as f64);
-    for ((interval, deviation), value) in found.intervals.iter_mut().zip(moves).zip(values) {
+    for ((interval, moves), value) in found.intervals.iter_mut().zip(moves).zip(values) {
         let Some(Interval { ends, .. }) = interval else { continue };
-        let wider = |end: f64| {
-            let (half, more) = (end - value, t * deviation);
-            value + half.signum() * (half * half + more * more).sqrt()
-        };
-        *ends = ends.map(wider);
+        let [below, above] = ends.map(|end| libm::hypot(end - value, t * moves.deviation));
+        *ends = [value + moves.shift.min(0.0) - below, value + moves.shift.max(0.0) + above];
     }
 }
 
-/// Standard deviations of the estimates for what is not known of the table motion; `None` where the
-/// derivatives tell nothing.
+/// What is not known of the table motion; `None` where the derivatives tell nothing.
 fn moves(
     found: &Found,
     problem: &Problem,
@@ -81,7 +96,7 @@ fn moves(
     scales: &[f64],
     noise_m_per_s2: f64,
     seed: u64,
-) -> Option<Vec<f64>> {
+) -> Option<Vec<Moves>> {
     let derivatives = Derivatives::new(found, problem, data, scales)?;
     let mut random = Random::new(seed);
     let (a, times_s) = (data.motion.horizontal_m_per_s2(), data.motion.times_s());
@@ -90,30 +105,30 @@ fn moves(
         GroundMotion::new(times_s.to_vec(), noisy, None).ok()
     };
     let draws: Vec<GroundMotion> = (0..DRAWS).map(noisy).collect::<Option<_>>()?;
-    let mean_squares = |moved: &dyn Fn(&GroundMotion) -> Option<Vec<f64>>| {
-        let mut mean = vec![0.0; problem.bounds.len()];
+    let deviations = |moved: &dyn Fn(&GroundMotion) -> Option<Vec<f64>>| {
+        let mut squares = vec![0.0; problem.bounds.len()];
         for motion in &draws {
-            for (mean, moved) in mean.iter_mut().zip(moved(motion)?) {
-                *mean += moved * moved / DRAWS as f64;
+            for (square, moved) in squares.iter_mut().zip(moved(motion)?) {
+                *square += moved * moved / DRAWS as f64;
             }
         }
-        Some(mean)
+        Some(squares.into_iter().map(f64::sqrt).collect::<Vec<f64>>())
     };
-    let mut squares = mean_squares(&|motion| derivatives.moved_by(motion))?;
-    let counts = |(square, interval): (&f64, &Option<Interval>)| {
+    let mut noise = deviations(&|motion| derivatives.moved_by(motion))?;
+    let counts = |(deviation, interval): (&f64, &Option<Interval>)| {
         interval.is_some_and(|Interval { ends: [low, high], .. }| {
-            square.sqrt() > NOTHING * 0.25 * (high - low)
+            *deviation > NOTHING * 0.25 * (high - low)
         })
     };
-    if squares.iter().zip(&found.intervals).any(counts) {
-        squares = mean_squares(&|motion| fitted_anew(found, problem, data, scales, motion))?;
+    if noise.iter().zip(&found.intervals).any(counts) {
+        noise = deviations(&|motion| fitted_anew(found, problem, data, scales, motion))?;
     }
-    if let Some(curved) = curved(data.motion) {
-        for (square, moved) in squares.iter_mut().zip(derivatives.moved_by(&curved)?) {
-            *square += moved * moved;
-        }
-    }
-    Some(squares.into_iter().map(f64::sqrt).collect())
+    let shifts = match curved(data.motion) {
+        Some(curved) => derivatives.moved_by(&curved)?,
+        None => vec![0.0; noise.len()],
+    };
+    let both = noise.into_iter().zip(shifts);
+    Some(both.map(|(deviation, shift)| Moves { deviation, shift }).collect())
 }
 
 /// How far the best values move when their own response is fitted under another table motion.
@@ -192,17 +207,37 @@ impl<'a> Derivatives<'a> {
     }
 }
 
-/// The motion with a sample midway between all others, on the cubic through four of them; `None`
-/// for uneven samples.
+/// The motion on the cubic through four samples; `None` for uneven samples.
 fn curved(motion: &GroundMotion) -> Option<GroundMotion> {
+    /// A sample is divided into so many straight lines, which miss 1/64 of the area under a parabola.
+    const POINTS: usize = 8;
     let dt_s = motion.dt_s()?;
     let a = motion.horizontal_m_per_s2();
-    let mut fine = Vec::with_capacity(2 * a.len());
+    let mut fine = Vec::with_capacity(POINTS * a.len());
     for i in 0..a.len() - 1 {
-        let before = a[i.saturating_sub(1)];
-        let after = a[(i + 2).min(a.len() - 1)];
-        fine.extend([a[i], (9.0 * (a[i] + a[i + 1]) - before - after) / 16.0]);
+        let four = [a[i.saturating_sub(1)], a[i], a[i + 1], a[(i + 2).min(a.len() - 1)]];
+        fine.extend((0..POINTS).map(|part| cubic(four, part as f64 / POINTS as f64)));
     }
     fine.extend(a.last());
-    GroundMotion::evenly_spaced(0.5 * dt_s, fine, None).ok()
+    GroundMotion::evenly_spaced(dt_s / POINTS as f64, fine, None).ok()
+}
+
+/// Lagrange's cubic through values at −1, 0, 1 and 2.
+fn cubic([a, b, c, d]: [f64; 4], u: f64) -> f64 {
+    let [before, after, beyond] = [u + 1.0, u - 1.0, u - 2.0];
+    before * after * beyond * b / 2.0 - before * u * beyond * c / 2.0 - u * after * beyond * a / 6.0
+        + before * u * after * d / 6.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_cubic_through_four_values() {
+        let y = |x: f64| 2.0 - x + 0.5 * x * x - 0.25 * x * x * x;
+        for u in [0.0, 0.125, 0.5, 1.0] {
+            assert!((cubic([-1.0, 0.0, 1.0, 2.0].map(y), u) - y(u)).abs() < 1e-15);
+        }
+    }
 }

@@ -134,39 +134,29 @@ const GOES: [(&str, &[(&str, f64)]); 4] = [
     ),
 ];
 
-/// How many of some records have intervals that cover the truth, by parameter.
-fn covered(go: usize, seeds: u64) -> Vec<(&'static str, u64)> {
+/// How many of some records have intervals that cover the truth, by parameter; the table moves straight
+/// between its samples, or so many times finer.
+fn covered(go: usize, finer: usize, seeds: u64) -> Vec<(&'static str, u64)> {
     let (text, truth) = GOES[go];
-    let names: Vec<&str> = truth.iter().map(|(path, _)| *path).collect();
-    let mut counts = vec![0; truth.len()];
-    for seed in 0..seeds {
-        let measured = made(text, 3.0, [0.05, 3e-4], seed);
-        let found = fitted(&measured, text, &names, seed);
-        for (k, (_, truth)) in truth.iter().enumerate() {
-            let inside =
-                found.estimates[k].interval().is_some_and(|[l, h]| l <= *truth && *truth <= h);
-            counts[k] += u64::from(inside);
-        }
-    }
-    names.into_iter().zip(counts).collect()
+    covered_by(text, truth, [0.05, 3e-4], ([0.0; 2], finer), seeds)
 }
 
 /// A mock-up without a spring, whose surface is not level.
 const TILTED: &str = "[block]\nmass = \"124 kg\"\n[slider]\nstatic_friction = 0.12\n\
                       kinetic_friction = 0.1\ntilt = \"1 mrad\"\n";
 
-/// As [`covered`], with what is wrong with the sensors.
+/// The same with what is wrong with the sensors.
 fn covered_by(
     text: &str,
     truth: &[(&'static str, f64)],
     noise: [f64; 2],
-    wrong: [f64; 2],
+    (wrong, finer): ([f64; 2], usize),
     seeds: u64,
 ) -> Vec<(&'static str, u64)> {
     let names: Vec<&str> = truth.iter().map(|(path, _)| *path).collect();
     let mut counts = vec![0; truth.len()];
     for seed in 0..seeds {
-        let measured = made_by(text, 3.0, noise, seed, wrong, 5);
+        let measured = made_by(text, 3.0, noise, seed, wrong, finer);
         let found = fitted(&measured, text, &names, seed);
         for (k, (_, truth)) in truth.iter().enumerate() {
             let inside =
@@ -180,13 +170,13 @@ fn covered_by(
 /// A displacement that is off by 12.3 mm.
 fn covered_off_zero(seeds: u64) -> Vec<(&'static str, u64)> {
     let truth = [("slider.kinetic_friction", 0.1), ("slider.tilt", 1e-3)];
-    covered_by(TILTED, &truth, [0.05, 3e-4], [0.0123, 0.0], seeds)
+    covered_by(TILTED, &truth, [0.05, 3e-4], ([0.0123, 0.0], 5), seeds)
 }
 
 /// An accelerometer of the table whose noise is that of good sensors elsewhere.
 fn covered_by_noisy_table(seeds: u64) -> Vec<(&'static str, u64)> {
     let truth = [("slider.kinetic_friction", 0.1), ("slider.spring", 20e3)];
-    covered_by(BLOCK, &truth, [0.02, 1e-4], [0.0, 0.05], seeds)
+    covered_by(BLOCK, &truth, [0.02, 1e-4], ([0.0, 0.05], 5), seeds)
 }
 
 /// An LVDT that shows 12.3 mm at rest became 8.6 mrad of tilt where 1.0 was true.
@@ -251,6 +241,22 @@ fn prop_intervals_under_a_noisy_table_are_as_wide_as_estimates_scatter() {
     }
 }
 
+/// Of 200 such tests the estimates of the damper scatter by 0.228 N s/m, and are 0.52 N s/m lower where the
+/// table moves between its samples: 95 % and the shift are 0.52 + 2 · 1.96 · 0.228 wide. The shift as if it were
+/// a scatter made 1.87 of it, which held 200 of 200.
+#[test]
+fn prop_motion_between_samples_shifts_and_does_not_scatter() {
+    let (text, truth) = GOES[1];
+    let names: Vec<&str> = truth.iter().map(|(path, _)| *path).collect();
+    let mut width = 0.0;
+    for seed in 0..6 {
+        let found = fitted(&made(text, 3.0, [0.05, 3e-4], seed), text, &names, seed);
+        let [low, high] = found.estimates[1].interval().unwrap();
+        width += (high - low) / 6.0;
+    }
+    assert!((width / 1.414 - 1.0).abs() < 0.06, "{width}");
+}
+
 #[test]
 fn prop_intervals_cover_whatever_the_zero_of_a_sensor() {
     let counts = covered_off_zero(12);
@@ -280,7 +286,7 @@ fn silent_is_refused(seed: u64) -> bool {
 fn prop_intervals_cover() {
     for go in 0..4 {
         // At 95 % fewer than 9 of 12 have a chance of 3e-3.
-        let counts = covered(go, 12);
+        let counts = covered(go, 1, 12);
         assert!(counts.iter().all(|(_, count)| *count >= 9), "{counts:?}");
     }
 }
@@ -295,25 +301,31 @@ fn exact_a_record_without_sliding_is_refused() {
 #[test]
 #[ignore = "200 records: cargo xtask coverage"]
 fn coverage_shaking_table_friction() {
-    crate::laboratory::told(&covered(0, 200), 200);
+    crate::laboratory::told(&covered(0, 1, 200), 200);
 }
 
 #[test]
-#[ignore = "200 records: cargo xtask coverage"]
+#[ignore = "400 records: cargo xtask coverage"]
 fn coverage_shaking_table_slider() {
-    crate::laboratory::told(&covered(1, 200), 200);
+    // Straight between its samples or on a curve: the limits of what is not known of the table.
+    for finer in [1, 5] {
+        crate::laboratory::told(&covered(1, finer, 200), 200);
+    }
 }
 
 #[test]
 #[ignore = "200 records: cargo xtask coverage"]
 fn coverage_shaking_table_asymmetry() {
-    crate::laboratory::told(&covered(2, 200), 200);
+    crate::laboratory::told(&covered(2, 1, 200), 200);
 }
 
 #[test]
-#[ignore = "200 records: cargo xtask coverage"]
+#[ignore = "400 records: cargo xtask coverage"]
 fn coverage_shaking_table_storey() {
-    crate::laboratory::told(&covered(3, 200), 200);
+    // Straight between its samples or on a curve: the limits of what is not known of the table.
+    for finer in [1, 5] {
+        crate::laboratory::told(&covered(3, finer, 200), 200);
+    }
 }
 
 #[test]
