@@ -3,12 +3,15 @@
 use std::ops::Range;
 
 use super::keys::MODEL;
+use super::overrides::kind_of;
 use super::reader::{Given, Values};
-use super::tree::{self, Entry, Sources, Table, Value};
+use super::schema::Kind;
+use super::tree::{self, Node, Sources, Table, Value};
 use super::{Override, build, write};
 use crate::error::InputError;
 
 /// A model's text with keys set in it, in their order; keys that exclude a new one are taken out.
+/// The model is checked with all of them set, not in between.
 ///
 /// What is not set stays as it was written, comments included. Where the text has no room for a key (a
 /// table in braces over several lines, say), it is written anew from its values.
@@ -29,17 +32,13 @@ use crate::error::InputError;
 /// # Ok::<(), slipstick::error::InputError>(())
 /// ```
 pub fn with_keys(source_name: &str, text: &str, set: &[Override]) -> Result<String, InputError> {
-    let mut text = text.to_owned();
-    for one in set {
-        let wanted = read(source_name, &text, std::slice::from_ref(one))?;
-        let edited = edited(source_name, &text, one);
-        let same = |edited: &String| {
-            read(source_name, edited, &[]).is_ok_and(|found| alike(&found, &wanted))
-        };
-        text =
-            edited.filter(same).unwrap_or_else(|| write::toml(&wanted, write::Motion::AsWritten));
-    }
-    Ok(text)
+    let wanted = read(source_name, text, set)?;
+    let in_place = |text: String, one: &Override| edited(source_name, &text, one);
+    let edited = set
+        .iter()
+        .try_fold(text.to_owned(), in_place)
+        .filter(|edited| read(source_name, edited, &[]).is_ok_and(|found| alike(&found, &wanted)));
+    Ok(edited.unwrap_or_else(|| write::toml(&wanted, write::Motion::AsWritten)))
 }
 
 /// The checked values of a text with keys set.
@@ -72,17 +71,20 @@ fn alike(a: &Values, b: &Values) -> bool {
 fn edited(source_name: &str, text: &str, set: &Override) -> Option<String> {
     let (_, before) = tree_of(source_name, text).ok()?;
     let literal = literal(set)?;
-    if let Some(entry) = find(&before, set.path())
-        && matches!(entry.node.value, Value::Text(_) | Value::Number(..))
+    if let Some(node) = find(&before, set.path())
+        && matches!(node.value, Value::Text(_) | Value::Number(..))
     {
-        return Some(replaced(text, entry.node.spot.span.clone(), &literal));
+        return Some(replaced(text, node.spot.span.clone(), &literal));
+    }
+    let (head, name) = set.path().rsplit_once('.')?;
+    let line = format!("{name} = {literal}");
+    if let Some(list) = next_of(&before, head) {
+        return Some(at_the_end(text, &format!("[[{list}]]\n{line}")));
     }
     let (mut sources, mut after) = tree_of(source_name, text).ok()?;
     set.apply(&mut sources, &mut after).ok()?;
     let mut gone = Vec::new();
     taken_out(&before, &after, &mut gone);
-    let (head, name) = set.path().rsplit_once('.')?;
-    let line = format!("{name} = {literal}");
     // In the place of what it excludes, else below the last key of its table.
     let mut edits: Vec<(Range<usize>, String)> = Vec::new();
     for (i, span) in gone.iter().enumerate() {
@@ -91,7 +93,7 @@ fn edited(source_name: &str, text: &str, set: &Override) -> Option<String> {
         edits.push((lines, instead));
     }
     if edits.is_empty() {
-        edits.push(match find(&before, head).map(|entry| &entry.node) {
+        edits.push(match find(&before, head) {
             Some(node) => {
                 let Value::Table(table) = &node.value else { return None };
                 let last = table.0.iter().map(|entry| entry.node.spot.span.end).max();
@@ -99,10 +101,7 @@ fn edited(source_name: &str, text: &str, set: &Override) -> Option<String> {
                 (end..end, format!("\n{line}"))
             }
             None if head.contains('.') => return None,
-            None => {
-                let end = text.trim_end().len();
-                (end..text.len(), format!("\n\n[{head}]\n{line}\n"))
-            }
+            None => return Some(at_the_end(text, &format!("[{head}]\n{line}"))),
         });
     }
     edits.sort_by_key(|(span, _)| span.start);
@@ -111,6 +110,22 @@ fn edited(source_name: &str, text: &str, set: &Override) -> Option<String> {
         text = replaced(&text, span, &new);
     }
     Some(text)
+}
+
+/// The list that a path would make one item longer: `storey` of `storey.3` where there are two.
+fn next_of<'a>(root: &Table, path: &'a str) -> Option<&'a str> {
+    let (list, number) = path.split_once('.')?;
+    let Kind::Sections(_) = kind_of(list)? else { return None };
+    let count = match root.get(list).map(|entry| &entry.node.value) {
+        None => 0,
+        Some(Value::List(items)) => items.len(),
+        Some(_) => return None,
+    };
+    (number == (count + 1).to_string()).then_some(list)
+}
+
+fn at_the_end(text: &str, table: &str) -> String {
+    format!("{}\n\n{table}\n", text.trim_end())
 }
 
 fn replaced(text: &str, span: Range<usize>, new: &str) -> String {
@@ -129,22 +144,18 @@ fn literal(set: &Override) -> Option<String> {
     }
 }
 
-/// The entry at a path, storeys counted from 1.
-fn find<'a>(root: &'a Table, path: &str) -> Option<&'a Entry> {
+/// What stands at a path, storeys counted from 1.
+fn find<'a>(root: &'a Table, path: &str) -> Option<&'a Node> {
     let mut keys = path.split('.');
-    let mut entry = root.get(keys.next()?)?;
-    while let Some(key) = keys.next() {
-        entry = match &entry.node.value {
-            Value::Table(table) => table.get(key)?,
-            Value::List(items) => {
-                let item = items.get(key.parse::<usize>().ok()?.checked_sub(1)?)?;
-                let Value::Table(table) = &item.value else { return None };
-                table.get(keys.next()?)?
-            }
+    let mut node = &root.get(keys.next()?)?.node;
+    for key in keys {
+        node = match &node.value {
+            Value::Table(table) => &table.get(key)?.node,
+            Value::List(items) => items.get(key.parse::<usize>().ok()?.checked_sub(1)?)?,
             _ => return None,
         };
     }
-    Some(entry)
+    Some(node)
 }
 
 /// Where the keys stand that the first table has and the second has not.
@@ -224,6 +235,26 @@ mod tests {
         let edited = set(&["slider.tilt=1 mrad", "analysis.tail=5 s"]);
         let expected = MODEL.replace("gap = \"150 mm\"\n", "gap = \"150 mm\"\ntilt = \"1 mrad\"\n");
         assert_eq!(edited, format!("{expected}\n[analysis]\ntail = \"5 s\"\n"));
+    }
+
+    #[test]
+    fn exact_keys_that_hold_only_together_are_set_together() {
+        let edited = set(&["slider.kinetic_friction=0.08", "slider.static_friction=0.09"]);
+        assert_eq!(edited, MODEL.replace("0.05", "0.08").replace("0.06", "0.09"));
+    }
+
+    #[test]
+    fn exact_contents_are_added_key_by_key() {
+        let keys = ["floor=1", "mass=20 kg", "static_friction=0.3", "kinetic_friction=0.25"];
+        let of = |number: usize| keys.map(|key| format!("contents.{number}.{key}"));
+        let both = [of(1), of(2)].concat();
+        let edited = set(&both.iter().map(String::as_str).collect::<Vec<_>>());
+        let block = "\n[[contents]]\nfloor = 1\nmass = \"20 kg\"\nstatic_friction = 0.3\n\
+            kinetic_friction = 0.25\n";
+        assert_eq!(edited, format!("{MODEL}{block}{block}"));
+        let options = of(1).map(|key| Override::parse(&key).unwrap());
+        let wrong = with_keys("m", MODEL, &options[..2]).unwrap_err().to_string();
+        assert!(wrong.contains("contents.1"), "{wrong}");
     }
 
     #[test]

@@ -1,6 +1,8 @@
 //! Values back to text.
 
+use super::overrides::kind_of;
 use super::reader::{Given, Leaf, Values};
+use super::schema::Kind;
 
 /// What becomes of the motion in a text.
 #[derive(Clone, Copy)]
@@ -13,11 +15,29 @@ pub(super) enum Motion<'a> {
     Record(&'a str),
 }
 
+/// A list within a section: its key, and its items by their numbers.
+struct List {
+    key: String,
+    items: Vec<(String, Vec<String>)>,
+    of_tables: bool,
+}
+
+impl List {
+    fn line(&self) -> String {
+        let item = |(_, entries): &(String, Vec<String>)| match self.of_tables {
+            true => format!("{{ {} }}", entries.join(", ")),
+            false => entries.join(", "),
+        };
+        let items: Vec<String> = self.items.iter().map(item).collect();
+        format!("{} = [{}]\n", self.key, items.join(", "))
+    }
+}
+
 /// The text of some values, a table a section; see [`super::Analysis::to_toml`].
 pub(super) fn toml(values: &Values, motion: Motion<'_>) -> String {
     let mut text = String::new();
     let mut section = String::new();
-    let mut list: Option<(String, Vec<String>)> = None;
+    let mut open: Option<List> = None;
     let drop_motion = match motion {
         Motion::AsWritten => false,
         Motion::Made => values.has("motion.record"),
@@ -26,25 +46,33 @@ pub(super) fn toml(values: &Values, motion: Motion<'_>) -> String {
     let replaced = |leaf: &&Leaf| !(drop_motion && leaf.path.starts_with("motion."));
     for leaf in values.leaves.iter().filter(replaced) {
         let (head, key) = split(&leaf.path);
-        // An item of a list of numbers ends in its number.
-        let item = key.rsplit_once('.').filter(|(_, n)| n.bytes().all(|b| b.is_ascii_digit()));
-        let name = item.map_or(key.as_str(), |(name, _)| name);
-        if let Some((open, items)) = list.take_if(|(open, _)| *open != format!("{head}.{name}")) {
-            push_list(&mut text, &open, &items);
+        let item = item_of(&key);
+        let goes_on = |list: &List| head == section && item.is_some_and(|(k, ..)| k == list.key);
+        if let Some(list) = open.take_if(|list| !goes_on(list)) {
+            text.push_str(&list.line());
         }
         if head != section {
             text.push_str(&header(&head, text.is_empty()));
-            section = head.clone();
+            section = head;
         }
-        if item.is_some() {
-            let open = list.get_or_insert_with(|| (format!("{head}.{name}"), Vec::new()));
-            open.1.push(value(leaf));
-        } else {
+        let Some((name, number, inner)) = item else {
             text.push_str(&format!("{key} = {}\n", value(leaf)));
+            continue;
+        };
+        let list = open.get_or_insert_with(|| List {
+            key: name.to_owned(),
+            items: Vec::new(),
+            of_tables: !inner.is_empty(),
+        });
+        let entry =
+            if inner.is_empty() { value(leaf) } else { format!("{inner} = {}", value(leaf)) };
+        match list.items.last_mut() {
+            Some((last, entries)) if last == number => entries.push(entry),
+            _ => list.items.push((number.to_owned(), vec![entry])),
         }
     }
-    if let Some((open, items)) = list {
-        push_list(&mut text, &open, &items);
+    if let Some(list) = open {
+        text.push_str(&list.line());
     }
     if let Motion::Record(record) = motion {
         text.push_str(&format!("\n[motion]\nrecord = {}\n", quoted(record)));
@@ -52,9 +80,18 @@ pub(super) fn toml(values: &Values, motion: Motion<'_>) -> String {
     text
 }
 
-fn push_list(text: &mut String, path: &str, items: &[String]) {
-    let key = path.rsplit('.').next().unwrap_or(path);
-    text.push_str(&format!("{key} = [{}]\n", items.join(", ")));
+/// The list, the number of its item and the key inside that, if any: of `surface.2.friction`.
+fn item_of(key: &str) -> Option<(&str, &str, &str)> {
+    let mut from = 0;
+    for part in key.split('.') {
+        let end = from + part.len();
+        if from > 0 && part.bytes().all(|byte| byte.is_ascii_digit()) {
+            let inner = key.get(end..)?.trim_start_matches('.');
+            return Some((key.get(..from - 1)?, part, inner));
+        }
+        from = end + 1;
+    }
+    None
 }
 
 /// The section (`block`, `storey.2`) and the key inside it.
@@ -62,9 +99,10 @@ fn split(path: &str) -> (String, String) {
     let mut parts = path.split('.');
     let first = parts.next().unwrap_or("");
     let rest: Vec<&str> = parts.collect();
+    let listed = matches!(kind_of(first), Some(Kind::Sections(_)));
     match rest.as_slice() {
         [] => (String::new(), first.to_owned()),
-        [number, rest @ ..] if first == "storey" => (format!("storey.{number}"), rest.join(".")),
+        [number, rest @ ..] if listed => (format!("{first}.{number}"), rest.join(".")),
         rest => (first.to_owned(), rest.join(".")),
     }
 }
@@ -101,6 +139,29 @@ pub(super) fn quoted(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use crate::input::{Override, parse};
+
+    #[test]
+    fn exact_lists_of_sections_read_back_the_same() {
+        let rest = "[block]\nmass = \"325 kg\"\n[motion]\nsine = { frequency = \"1 Hz\", \
+            amplitude = \"1 m/s2\", duration = \"2 s\", dt = \"0.01 s\" }\n";
+        let contents = "[slider]\nstatic_friction = 0.06\nkinetic_friction = 0.05\n\
+            [[contents]]\nfloor = 0\nmass = \"10 kg\"\nstatic_friction = 0.3\n\
+            kinetic_friction = 0.25\n\
+            [[contents]]\nfloor = 0\nmass = \"20 kg\"\nstatic_friction = 0.2\n\
+            kinetic_friction = 0.15\n";
+        let surfaces = "[slider]\ngap = \"0.3 m\"\n\
+            [[slider.surface]]\nradius = \"2 m\"\nfriction = 0.05\ntravel = \"0.1 m\"\n\
+            [[slider.surface]]\nradius = \"3 m\"\nfriction = 0.1\n";
+        let triple = "[slider.triple]\neffective_radius = [\"2 m\", \"0.3 m\", \"0.3 m\", \
+            \"2 m\"]\nfriction = [0.05, 0.02, 0.02, 0.1]\n\
+            travel = [\"0.4 m\", \"0.04 m\", \"0.04 m\", \"0.4 m\"]\n";
+        for sections in [contents, surfaces, triple] {
+            let first = parse("a.toml", &format!("{rest}{sections}"), &[]).unwrap();
+            let written = first.to_toml_with_motion();
+            let second = parse("b.toml", &written, &[]).unwrap();
+            assert_eq!(first.model, second.model, "{written}");
+        }
+    }
 
     #[test]
     fn exact_written_text_reads_back_the_same() {
