@@ -19,7 +19,7 @@ use wasm_bindgen::prelude::*;
 use crate::answer::{self, Answer, Judgement};
 use crate::failure::Failure;
 use crate::records::Records;
-use crate::sheets::{self, Page};
+use crate::sheets::{self, Page, Planned};
 
 /// What errors call the model's text.
 pub(crate) const MODEL: &str = "model.toml";
@@ -60,6 +60,7 @@ pub struct Session {
     prepared: Option<Prepared>,
     last: Option<Last>,
     sweep: Option<(String, Sweep)>,
+    study: Option<Planned>,
     grounds: u32,
 }
 
@@ -76,14 +77,14 @@ impl Session {
     #[wasm_bindgen(js_name = addRecord)]
     pub fn add_record(&mut self, name: &str, bytes: Vec<u8>) {
         self.records.add(name, bytes);
-        self.ground = None;
+        self.forget();
     }
 
     /// Forgets a record.
     #[wasm_bindgen(js_name = removeRecord)]
     pub fn remove_record(&mut self, name: &str) {
         self.records.remove(name);
-        self.ground = None;
+        self.forget();
     }
 
     /// What is in a record, as JSON; `units` and `dt` say what the file does not, or are empty.
@@ -289,18 +290,64 @@ impl Session {
         Ok(sheets::assess(&mut self.records, what, text, &options, display_units(display))?)
     }
 
-    /// A study: a plan, the model that it names, and the records that its patterns match among the files.
+    /// Prepares a study: a plan, the model that it names, and the records that its patterns match among
+    /// the files. Returns the number of its runs, and of the numbers of a row.
     ///
     /// # Errors
     /// One message, with the place in plan or model where it has one.
+    #[wasm_bindgen(js_name = studySize)]
+    pub fn study_size(
+        &mut self,
+        plan: &str,
+        text: &str,
+        names: Vec<String>,
+    ) -> Result<Vec<f64>, JsValue> {
+        Ok(self.planned(plan, text, &names)?.size().to_vec())
+    }
+
+    /// Some runs of a study, a row each: 1, or 0 where it has no answer, and its demands in SI.
+    ///
+    /// # Errors
+    /// As [`Session::study_size`].
+    #[wasm_bindgen(js_name = studyRows)]
+    pub fn study_rows(
+        &mut self,
+        plan: &str,
+        text: &str,
+        names: Vec<String>,
+        from: u32,
+        to: u32,
+    ) -> Result<Vec<f64>, JsValue> {
+        Ok(self.planned(plan, text, &names)?.rows(u64::from(from), u64::from(to))?)
+    }
+
+    /// What all rows of a study tell, in their order.
+    ///
+    /// # Errors
+    /// As [`Session::study_size`]; where rows are missing.
     pub fn study(
         &mut self,
         plan: &str,
         text: &str,
         names: Vec<String>,
+        rows: &[f64],
         display: &str,
     ) -> Result<Page, JsValue> {
-        Ok(sheets::study(&mut self.records, plan, text, &names, display_units(display))?)
+        Ok(self.planned(plan, text, &names)?.page(rows, display_units(display))?)
+    }
+
+    fn planned(&mut self, plan: &str, text: &str, names: &[String]) -> Result<&Planned, Failure> {
+        let known = self.study.take().filter(|study| study.is_of(plan, text, names));
+        let study = match known {
+            Some(study) => study,
+            None => Planned::new(&mut self.records, plan, text, names)?,
+        };
+        Ok(self.study.insert(study))
+    }
+
+    /// Drops what was made of records.
+    fn forget(&mut self) {
+        (self.ground, self.sweep, self.study) = (None, None, None);
     }
 
     fn load(&mut self, analysis: &Analysis, text: &str) -> Result<(), Failure> {

@@ -8,7 +8,9 @@ use slipstick::assessment::design::{DesignRequest, Target, run_design};
 use slipstick::assessment::grid::levels;
 use slipstick::assessment::ida::{IdaLevels, IdaRequest, run_ida};
 use slipstick::assessment::models::Models;
-use slipstick::assessment::observed::{FragilityRequest, run_fragility};
+use slipstick::assessment::observed::{
+    FragilityRequest, run_fragility, run_fragility_by, usual_by,
+};
 use slipstick::assessment::spectrum::{SpectrumRequest, run_spectrum};
 use slipstick::assessment::suite::{Scaling, Suite, SuiteRecord};
 use slipstick::input::loaded::{Loaded, Wanted};
@@ -22,7 +24,7 @@ use slipstick::study::summary::{Rows, Take};
 use slipstick::study::{Record, Study};
 use slipstick_report::DisplayUnits;
 use slipstick_report::assessment::design::DesignReport;
-use slipstick_report::assessment::fragility::FragilityReport;
+use slipstick_report::assessment::fragility::{FragilityFamily, FragilityReport};
 use slipstick_report::assessment::ida::IdaFamily;
 use slipstick_report::assessment::spectrum::{SpectrumReport, group_names};
 use slipstick_report::assessment::{Sheet, Went, key};
@@ -428,9 +430,7 @@ impl Work<'_> {
             let expected = "a limit, such as 150 mm (or slider.gap in the model)";
             return Err(Failure::of(format!("--to: expected {expected}, found nothing")));
         };
-        let nominal = self.analysis.friction_bounds.map(|_| slipstick::input::Bound::NOMINAL);
-        let bounds: Vec<_> = nominal.into_iter().collect();
-        let run = self.ida_of(measure, &models, &bounds)?;
+        let run = self.ida_of(measure, &models, &self.bounds()?)?;
         let request = FragilityRequest {
             table: &run.rows,
             source_name: "the incremental dynamic analysis",
@@ -444,15 +444,36 @@ impl Work<'_> {
             keep: &[],
             bootstrap: None,
         };
-        let fit = run_fragility(&request, &Engine::unwatched()).map_err(self.failed())?;
+        let engine = Engine::unwatched();
+        let (name, display, confidence) = (self.name.as_str(), self.display, 0.9);
+        if let Some(by) = usual_by(&request).map_err(self.failed())? {
+            let (groups, by_unit) =
+                run_fragility_by(&request, by, &engine).map_err(self.failed())?;
+            let family = FragilityFamily {
+                version: VERSION,
+                name,
+                by,
+                by_unit: &by_unit,
+                groups: &groups,
+                demand,
+                limit: Some(limit),
+                confidence,
+                display,
+            };
+            return family.sheet().ok_or_else(|| {
+                let reason = groups.iter().find_map(|group| group.run.as_ref().err());
+                Failure::of(reason.map_or("no rows".to_owned(), ToString::to_string))
+            });
+        }
+        let fit = run_fragility(&request, &engine).map_err(self.failed())?;
         Ok(FragilityReport {
             version: VERSION,
-            name: &self.name,
+            name,
             demand,
             limit: Some(limit),
             run: &fit,
-            confidence: 0.9,
-            display: self.display,
+            confidence,
+            display,
         }
         .sheet())
     }
@@ -514,14 +535,93 @@ impl Work<'_> {
 /// What errors call the plan's text.
 const PLAN: &str = "plan.toml";
 
-/// A study of a dropped plan.
-pub fn study(
+/// A dropped plan with its records, to be run in parts.
+pub struct Planned {
+    plan: String,
+    text: String,
+    names: Vec<String>,
+    name: String,
+    study: Study,
+}
+
+impl Planned {
+    /// Finds the plan's records among the files.
+    pub fn new(
+        records: &mut Records,
+        plan: &str,
+        text: &str,
+        names: &[String],
+    ) -> Result<Self, Failure> {
+        let (name, study) = planned(records, plan, text, names)?;
+        let (plan, text, names) = (plan.to_owned(), text.to_owned(), names.to_vec());
+        Ok(Self { plan, text, names, name, study })
+    }
+
+    /// Whether it is of these.
+    pub fn is_of(&self, plan: &str, text: &str, names: &[String]) -> bool {
+        self.plan == plan && self.text == text && self.names == names
+    }
+
+    /// Number of its runs, and of the numbers of a row.
+    pub fn size(&self) -> [f64; 2] {
+        [self.study.runs() as f64, self.width() as f64]
+    }
+
+    fn width(&self) -> usize {
+        1 + self.study.shape().columns().len()
+    }
+
+    /// Some runs, a row each: 1, or 0 where it has no answer, and its demands.
+    pub fn rows(&self, from: u64, to: u64) -> Result<Vec<f64>, Failure> {
+        let runs = from..to.min(self.study.runs());
+        let rows = self.study.rows(runs, &Engine::unwatched()).map_err(Failure::of)?;
+        let mut numbers = Vec::with_capacity(rows.len() * self.width());
+        for row in &rows {
+            numbers.push(if row.error.is_none() { 1.0 } else { 0.0 });
+            numbers.extend(&row.demands);
+        }
+        Ok(numbers)
+    }
+
+    /// What all its rows tell.
+    pub fn page(&self, rows: &[f64], display: DisplayUnits) -> Result<Page, Failure> {
+        let (expected, found) = (self.study.runs() as usize * self.width(), rows.len());
+        if expected != found {
+            return Err(Failure::of(format!("expected {expected} numbers of rows, found {found}")));
+        }
+        let runs = || (0..).zip(rows.chunks_exact(self.width()));
+        let solved = |take: Take<'_, bool>| {
+            runs().for_each(|(run, row)| take(run, row[0] != 0.0));
+            Ok::<(), slipstick::error::Stopped>(())
+        };
+        let demand = |column: usize, take: Take<'_, f64>| {
+            runs().for_each(|(run, row)| take(run, row[1 + column]));
+            Ok(())
+        };
+        let passes = Rows { solved: &solved, demand: &demand };
+        let summary = self.study.summary(&self.name, &passes, &Engine::unwatched());
+        let report = StudyReport {
+            version: VERSION,
+            study: &self.study,
+            summary: &summary.map_err(Failure::of)?,
+            checked: 0,
+            notices: &[],
+            display,
+        };
+        let inputs = [
+            InputText { path: PLAN, text: &self.plan },
+            InputText { path: MODEL, text: &self.text },
+        ];
+        Ok(Page::new(&report.sheet(), &inputs, &[], "slipstick study plan.toml"))
+    }
+}
+
+fn planned(
     records: &mut Records,
     plan_text: &str,
     text: &str,
     names: &[String],
-    display: DisplayUnits,
-) -> Result<Page, Failure> {
+) -> Result<(String, Study), Failure> {
     let in_plan = |error| Failure::input(&error, plan_text);
     let plan = Plan::parse(PLAN, plan_text).map_err(in_plan)?;
     let mut suite = Vec::new();
@@ -579,33 +679,7 @@ pub fn study(
         let expected = format!("at most {MOST_RUNS} runs on the page: use slipstick study");
         return Err(in_plan(plan.error_at("sampling.count", expected, runs.to_string())));
     }
-    let stopped = |error| Failure::of(error);
-    let rows = followed(|engine| {
-        PLANNED.set(runs);
-        study.rows(0..runs, engine)
-    })
-    .map_err(stopped)?;
-    let solved = |take: Take<'_, bool>| {
-        rows.iter().for_each(|row| take(row.run, row.error.is_none()));
-        Ok::<(), slipstick::error::Stopped>(())
-    };
-    let demand = |column: usize, take: Take<'_, f64>| {
-        rows.iter().for_each(|row| take(row.run, row.demands[column]));
-        Ok(())
-    };
-    let passes = Rows { solved: &solved, demand: &demand };
-    let name = plan.name.clone().unwrap_or_else(|| "Study".to_owned());
-    let summary = study.summary(&name, &passes, &Engine::unwatched()).map_err(stopped)?;
-    let report = StudyReport {
-        version: VERSION,
-        study: &study,
-        summary: &summary,
-        checked: 0,
-        notices: &[],
-        display,
-    };
-    let inputs = [InputText { path: PLAN, text: plan_text }, InputText { path: MODEL, text }];
-    Ok(Page::new(&report.sheet(), &inputs, &[], "slipstick study plan.toml"))
+    Ok((plan.name.unwrap_or_else(|| "Study".to_owned()), study))
 }
 
 /// Whether a pattern of a plan names a file: `*` stands for any part of its name; folders are not looked
