@@ -39,8 +39,8 @@ export class Helper {
   onprogress: (done: number, planned: number) => void = () => {};
   /** Told where the worker is silent for long, and where it speaks again. */
   onbusy: (busy: boolean) => void = () => {};
-  /** Told where there is nothing to do. */
-  onidle: () => void = () => {};
+  /** Told of what was judged at rest. */
+  onjudged: (number: number, found: Judgement | Fault) => void = () => {};
 
   constructor(
     private readonly engine: Engine,
@@ -48,7 +48,7 @@ export class Helper {
   ) {}
 
   get idle(): boolean {
-    return !this.current && this.queue.length === 0;
+    return !this.current && !this.judging && this.queue.length === 0;
   }
 
   /** Makes the worker before it is needed. */
@@ -89,6 +89,7 @@ export class Helper {
     this.worker?.terminate();
     this.worker = undefined;
     this.ready = false;
+    this.judging = false;
     clearTimeout(this.timer);
     this.onbusy(false);
     const left = [...(this.current ? [this.current] : []), ...this.queue];
@@ -98,14 +99,12 @@ export class Helper {
   }
 
   private ready = false;
+  private judging = false;
 
   private send(): void {
     if (!this.ready || !this.worker || this.current) return;
     const waiting = this.queue.shift();
-    if (!waiting) {
-      this.onidle();
-      return;
-    }
+    if (!waiting) return;
     const id = this.next++;
     this.current = { ...waiting, id };
     this.watch();
@@ -126,6 +125,23 @@ export class Helper {
     if ("progress" in reply) {
       this.watch();
       this.onprogress(...reply.progress);
+      return;
+    }
+    if ("judging" in reply) {
+      this.judging = true;
+      this.watch();
+      return;
+    }
+    if ("judged" in reply) {
+      this.judging = false;
+      if (this.current) this.watch();
+      else clearTimeout(this.timer);
+      this.onbusy(false);
+      if ("judgement" in reply) this.onjudged(reply.judged, reply.judgement);
+      else {
+        if (reply.fault.fatal) this.lose(reply.fault.message);
+        this.onjudged(reply.judged, reply.fault);
+      }
       return;
     }
     const current = this.current;
@@ -165,7 +181,7 @@ export interface Wish {
   display: Display;
 }
 
-/** How long a wish must stand before it is judged, in ms. */
+/** How long an answer must stand before it is judged, in ms: longer than a frame. */
 const REST_MS = 25;
 
 /** The one worker that answers what the page shows. */
@@ -176,7 +192,6 @@ export class Desk {
   private asked = 0;
   private shown: (Wish & { number: number }) | undefined;
   private number = 0;
-  private rest: ReturnType<typeof setTimeout> | undefined;
   stepwise = false;
   onanswer: (answer: Answer, wish: Wish) => void = () => {};
   onjudged: (judgement: Judgement, wish: Wish) => void = () => {};
@@ -185,13 +200,15 @@ export class Desk {
 
   constructor(readonly engine: Engine) {
     this.helper = new Helper(engine, this.records);
+    this.helper.onjudged = (number, found) => {
+      if (this.shown?.number === number && number === this.number) this.settle(this.shown, found);
+    };
   }
 
   /** A wish replaces the one before it; there is at most one in work. */
   want(wish: Wish): void {
     this.wish = { ...wish, number: ++this.number };
-    clearTimeout(this.rest);
-    this.turn();
+    void this.turn();
   }
 
   private async turn(): Promise<void> {
@@ -200,12 +217,11 @@ export class Desk {
     this.wish = undefined;
     this.asked = wish.number;
     try {
-      const answer = await this.helper.call("analyse", wish.text, wish.set, wish.display);
+      const rest = { after_ms: REST_MS, number: wish.number, stepwise: this.stepwise };
+      const answer = await this.helper.call("analyse", wish.text, wish.set, wish.display, rest);
       this.asked = 0;
       this.shown = wish;
       this.onanswer(answer, wish);
-      clearTimeout(this.rest);
-      this.rest = setTimeout(() => this.judge(), REST_MS);
     } catch (error) {
       this.asked = 0;
       if (error instanceof ModuleError) this.onfault(error.fault, wish);
@@ -213,21 +229,23 @@ export class Desk {
     if (this.wish) void this.turn();
   }
 
-  /** Judges what is shown, unless something newer is wanted by then. */
+  /** Judges what is shown once more, unless something newer is wanted by then. */
   async judge(): Promise<void> {
     const of = this.shown;
     if (!of || this.wish || this.asked || of.number !== this.number) return;
     try {
       const judgement = await this.helper.call("judge", this.stepwise);
-      if (of.number === this.number) {
-        this.onjudged(judgement, of);
-        this.onrest();
-      }
+      if (of.number === this.number) this.settle(of, judgement);
     } catch (error) {
-      if (error instanceof ModuleError) {
-        this.onfault(error.fault, { text: "", set: [], display: "si" });
-      }
+      if (error instanceof ModuleError) this.settle(of, error.fault);
     }
+  }
+
+  private settle(of: Wish, found: Judgement | Fault): void {
+    if ("certificate" in found) {
+      this.onjudged(found, of);
+      this.onrest();
+    } else this.onfault(found, { text: "", set: [], display: "si" });
   }
 
   async add(name: string, bytes: Uint8Array): Promise<void> {
@@ -236,7 +254,7 @@ export class Desk {
   }
 }
 
-/** Does the slices of a sweep on several workers. */
+/** Several workers that share slices of work. */
 export class Pool {
   private helpers: Helper[] = [];
   private known = "";
@@ -247,11 +265,21 @@ export class Pool {
     readonly size = Math.max(1, Math.min(4, (navigator.hardwareConcurrency || 2) - 1)),
   ) {}
 
+  /** So many workers that know all records. */
   private many(count: number): Helper[] {
+    // Those that do not know them give way to others.
+    const known = [...this.records].map(([name, bytes]) => `${name} ${bytes.length}`).join();
+    if (known !== this.known) this.stop();
+    this.known = known;
     while (this.helpers.length < count) {
       this.helpers.push(new Helper(this.engine, this.records));
     }
     return this.helpers.slice(0, count);
+  }
+
+  /** What one of them answers. */
+  call<O extends Op>(op: O, ...args: Parameters<Calls[O]>): Promise<ReturnType<Calls[O]>> {
+    return this.many(1)[0]!.call(op, ...args);
   }
 
   /** All slices of `count`, in any order; `done` is told of each. */
@@ -260,10 +288,6 @@ export class Pool {
     size: number,
     work: (helper: Helper, from: number, to: number) => Promise<void>,
   ): Promise<void> {
-    // Workers that do not know all records give way to others.
-    const known = [...this.records].map(([name, bytes]) => `${name} ${bytes.length}`).join();
-    if (known !== this.known) this.stop();
-    this.known = known;
     let next = 0;
     const run = async (helper: Helper) => {
       while (next < count) {

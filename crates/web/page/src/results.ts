@@ -1,7 +1,79 @@
 /** Tables of results beside the pictures. */
 
-import { fill, h } from "./dom";
-import type { Answer, Judgement } from "./types";
+import { digits, fill, h } from "./dom";
+import type { Answer, Judgement, State, Warning } from "./types";
+
+/** The figures that are read first. */
+export function headline(into: HTMLElement, { headline, units, structure }: State): void {
+  const item = (label: string, value: string, unit: string, over = false) => h("div", { class: over ? "over" : "" }, h("dt", {}, label), h("dd", {}, value, unit && h("small", {}, unit)));
+  const length = (label: string, value: number) => item(label, digits(value / units.length.in_si), units.length.symbol);
+  const acceleration = (label: string, value: number) => item(label, digits(value / units.acceleration.in_si), units.acceleration.symbol);
+  const gap = structure.gap_m !== null && headline.gapRatio !== null;
+  fill(
+    into,
+    length("Peak sliding", headline.peak_m),
+    length("Residual", headline.residual_m),
+    gap ? item("Gap used", digits(100 * headline.gapRatio!, 3), "%", headline.gapRatio! > 1) : item("Slips", String(headline.slips), ""),
+    headline.roof_m_per_s2 === null ? acceleration("Block acceleration", headline.block_m_per_s2) : acceleration("Roof acceleration", headline.roof_m_per_s2),
+    headline.roof_m_per_s2 === null ? "" : item("Base shear / weight", digits(headline.baseShear, 3), ""),
+  );
+}
+
+export function warningList(warnings: Warning[]): HTMLElement[] {
+  return warnings.map((warning) =>
+    h(
+      "p",
+      { class: warning.label === "Note" ? "warning note" : "warning" },
+      h("strong", {}, `${warning.label}: ${warning.kind}`),
+      warning.run ? ` (${warning.run} friction)` : "",
+      warning.time_s !== null ? ` at ${warning.time_s.toFixed(2)} s` : "",
+      `. ${warning.message}`,
+    ),
+  );
+}
+
+/** The table of peaks and the warnings; made anew only where their shape changes. */
+export class Peaks {
+  readonly table = h("div", { class: "table-scroll", tabindex: 0, role: "region", "aria-label": "Peaks" });
+  readonly warnings = h("div", {});
+  private shape = "";
+  private cells: HTMLElement[][] = [];
+  private warned = "";
+
+  show({ rows, runs, warnings }: Pick<State, "rows" | "runs" | "warnings">): void {
+    const shape = JSON.stringify([runs, rows.map(({ label, unit }) => [label, unit])]);
+    if (shape !== this.shape) {
+      this.shape = shape;
+      this.cells = rows.map((row) => row.values.map(() => h("td", { class: "number" })));
+      const head = runs.length > 1 ? [h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "Friction"), ...runs.map((run) => h("th", { scope: "col", class: "number" }, run))))] : [];
+      const body = rows.map((row, i) => h("tr", {}, h("th", { scope: "row" }, row.label, row.unit && h("small", {}, ` ${row.unit}`)), ...this.cells[i]!));
+      fill(this.table, h("table", {}, ...head, h("tbody", {}, ...body)));
+    }
+    rows.forEach((row, i) =>
+      row.values.forEach((value, run) => {
+        const cell = this.cells[i]![run]!;
+        const text = value.replace("-", "−");
+        if (cell.textContent !== text) cell.textContent = text;
+        cell.classList.toggle("governs", row.governing === run);
+      }),
+    );
+    this.warn(warnings);
+  }
+
+  private warn(warnings: Warning[]): void {
+    const warned = JSON.stringify(warnings);
+    if (warned === this.warned) return;
+    this.warned = warned;
+    fill(this.warnings, ...warningList(warnings));
+  }
+}
+
+/** What a person hears once the page rests. */
+export function sentence({ headline, units }: State, holds: boolean | null | undefined): string {
+  const length = (value: number) => `${digits(value / units.length.in_si)} ${units.length.symbol}`;
+  const checked = holds === true ? "Checked." : holds === false ? "The check failed." : "Not judged.";
+  return `Peak sliding displacement ${length(headline.peak_m)}, residual ${length(headline.residual_m)}. ${checked}`;
+}
 
 /** The certificate of a judged answer; that there is none yet, without one. */
 export function certificate(into: HTMLElement, judgement: Judgement | undefined): void {

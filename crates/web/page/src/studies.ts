@@ -4,8 +4,9 @@ import uPlot from "uplot";
 import { type Desk, Ended, Helper, ModuleError, Pool } from "./desk";
 import { download, drawing, fill, h } from "./dom";
 import type { RecordChoice } from "./motion";
+import { warningList } from "./results";
 import type { Palette } from "./scene";
-import type { Display, Fault, Setting, Sheet, State, Warning } from "./types";
+import type { Display, Fault, Setting, Sheet, State } from "./types";
 
 /** What the tabs need of the page. */
 export interface Page {
@@ -36,19 +37,6 @@ export interface Tab {
   readonly label: string;
   readonly element: HTMLElement;
   open(): void;
-}
-
-export function warningList(warnings: Warning[]): HTMLElement[] {
-  return warnings.map((warning) =>
-    h(
-      "p",
-      { class: warning.label === "Note" ? "warning note" : "warning" },
-      h("strong", {}, `${warning.label}: ${warning.kind}`),
-      warning.run ? ` (${warning.run} friction)` : "",
-      warning.time_s !== null ? ` at ${warning.time_s.toFixed(2)} s` : "",
-      `. ${warning.message}`,
-    ),
-  );
 }
 
 /** Progress with a button that ends the work. */
@@ -484,11 +472,13 @@ export class StudyTab implements Tab {
   private readonly progress = new Progress();
   private readonly result = h("div", {});
   private readonly go = h("button", { type: "button", class: "main" }, "Run");
-  private helper: Helper | undefined;
+  private readonly pool: Pool;
+  private running = false;
 
   constructor(private readonly page: Page) {
+    this.pool = new Pool(page.desk.engine, page.desk.records);
     this.go.addEventListener("click", () => void this.run());
-    this.progress.stop.addEventListener("click", () => this.helper?.end());
+    this.progress.stop.addEventListener("click", () => this.pool.stop());
     this.text.value = '# Drop a plan of slipstick study here, and its records on the page.\nname  = "Friction over three records"\nmodel = "model.toml"\n\n[records]\nfiles   = ["*.txt"]\nunits   = "g"\ndt      = "0.01 s"\nmeasure = "PGA"\nlevels  = ["0.2 g", "0.4 g"]\n\n[vary]\n"slider.kinetic_friction" = { uniform = [0.03, 0.10] }\n"slider.static_friction"  = { factor_of = "slider.kinetic_friction", values = [1.2] }\n\n[sampling]\nmethod = "sobol"\ncount  = 64\nseed   = 1\n';
     this.element = h(
       "div",
@@ -507,16 +497,15 @@ export class StudyTab implements Tab {
 
   async run(): Promise<void> {
     const state = this.page.state();
-    if (!state || this.helper) return;
-    const helper = new Helper(this.page.desk.engine, this.page.desk.records);
-    this.helper = helper;
-    helper.onprogress = (done, planned) => this.progress.show(done, planned);
+    if (!state || this.running) return;
+    this.running = true;
     this.progress.begin();
     this.go.disabled = true;
     this.text.removeAttribute("aria-invalid");
     try {
       const names = this.page.records().map((record) => record.name);
-      const sheet = await helper.call("study", this.text.value, this.page.text(), names, this.page.display());
+      const of: [string, string, string[]] = [this.text.value, this.page.text(), names];
+      const sheet = await this.pool.call("study", ...of, await this.rows(...of), this.page.display());
       fill(this.result, sheetElement(sheet), h("div", { class: "actions" }, h("button", { type: "button", onclick: () => download("study-report.html", sheet.html, "text/html") }, "report.html")));
       this.page.say(`The study is done. ${sheet.verdict[0] ?? sheet.line}`);
     } catch (error) {
@@ -529,11 +518,25 @@ export class StudyTab implements Tab {
         }
       } else this.page.say("The study was cancelled.");
     } finally {
-      helper.end();
-      this.helper = undefined;
+      this.pool.stop();
+      this.running = false;
       this.progress.end();
       this.go.disabled = false;
     }
+  }
+
+  /** All rows of a study, in slices on several workers. */
+  private async rows(...of: [plan: string, text: string, names: string[]]): Promise<Float64Array> {
+    const [count, width] = await this.pool.call("studySize", ...of);
+    const rows = new Float64Array(count * width);
+    const size = Math.max(1, Math.min(250, Math.ceil(count / (8 * this.pool.size))));
+    let done = 0;
+    await this.pool.slices(count, size, async (helper, from, to) => {
+      rows.set(await helper.call("studyRows", ...of, from, to), from * width);
+      done += to - from;
+      this.progress.show(done, count);
+    });
+    return rows;
   }
 }
 
@@ -541,6 +544,7 @@ export class StudyTab implements Tab {
 export function tabs(page: Page): { all: Tab[]; study: StudyTab } {
   const measure: Field = { name: "measure", label: "Intensity measure", value: () => "PGA", hint: "PGA, PGV, Sa(1.2 s), Sa_avg(0.5 s, 3 s), …" };
   const gap = (state: State) => value(state, "slider.gap")?.text ?? "150 mm";
+  const bounds: Field = { name: "bounds", label: "Bounds of friction", value: () => "nominal", hint: "nominal, lower, upper or all" };
   const study = new StudyTab(page);
   const all: Tab[] = [
     new SweepTab(page),
@@ -549,14 +553,14 @@ export function tabs(page: Page): { all: Tab[]; study: StudyTab } {
       { name: "friction", label: "Kinetic friction of each group", value: (state) => [0.6, 1, 1.6].map((f) => Number((f * friction(state)).toPrecision(2))).join(", ") },
       measure,
       { name: "level", label: "Records scaled to", value: () => "0.4 g" },
-      { name: "bounds", label: "Bounds of friction", value: () => "nominal", hint: "nominal, lower, upper or all" },
+      bounds,
     ], planOf),
     new SuiteTab(page, "ida", "IDA", "Incremental dynamic analysis: demands over intensity, record by record.", [
       measure,
       { name: "levels", label: "Levels", value: () => "0.05..1.2 g:24" },
       { name: "demand", label: "Demand", value: () => "peak_sliding_displacement_m" },
       { name: "to", label: "Limit on the demand", value: gap },
-      { name: "bounds", label: "Bounds of friction", value: () => "nominal", hint: "nominal, lower, upper or all" },
+      bounds,
     ], planOf),
     new SuiteTab(page, "fragility", "Fragility", "The probability of passing a limit, fitted to an incremental dynamic analysis over friction.", [
       measure,
@@ -564,6 +568,7 @@ export function tabs(page: Page): { all: Tab[]; study: StudyTab } {
       { name: "friction", label: "Kinetic friction, a design each", value: (state) => `${span(state)}:9` },
       { name: "demand", label: "Demand", value: () => "peak_sliding_displacement_m" },
       { name: "to", label: "Limit on the demand", value: gap },
+      bounds,
     ], planOf),
     new SuiteTab(page, "design", "Design", "Friction and radius for a gap: the least floor acceleration that stays within it.", [
       { name: "friction", label: "Kinetic friction", value: (state) => `${span(state)}:20` },

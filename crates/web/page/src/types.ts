@@ -175,17 +175,27 @@ export interface Fault {
 
 export type Setting = [path: string, value: string];
 
+/** An answer that is judged where no newer one is asked for in time. */
+export interface Rest {
+  after_ms: number;
+  number: number;
+  stepwise: boolean;
+}
+
 export interface Calls {
   add: (name: string, bytes: Uint8Array) => void;
   remove: (name: string) => void;
   hash: (bytes: Uint8Array) => string;
   inspect: (name: string, units: string, dt: string) => Inspected;
-  analyse: (text: string, set: Setting[], display: Display) => Answer;
+  analyse: (text: string, set: Setting[], display: Display, rest?: Rest) => Answer;
   judge: (stepwise: boolean) => Judgement;
   file: (name: string, text: string, command: string) => string;
   sweep: (text: string, over: string, from: number, to: number) => Float64Array;
   assess: (what: string, text: string, options: Setting[], display: Display) => Sheet;
-  study: (plan: string, text: string, names: string[], display: Display) => Sheet;
+  /** Number of runs, and of the numbers of a row. */
+  studySize: (plan: string, text: string, names: string[]) => [number, number];
+  studyRows: (plan: string, text: string, names: string[], from: number, to: number) => Float64Array;
+  study: (plan: string, text: string, names: string[], rows: Float64Array, display: Display) => Sheet;
   histories: (count: number) => number;
   wait: (ms: number) => void;
   trap: () => void;
@@ -203,4 +213,7 @@ export type Reply =
   | { id: number; result: unknown }
   | { id: number; fault: Fault }
   | { progress: [done: number, planned: number] }
+  | { judging: number }
+  | { judged: number; judgement: Judgement }
+  | { judged: number; fault: Fault }
   | { ready: string };

@@ -1,8 +1,7 @@
 /** The worker: holds a session of the module and answers one request after the other. */
 
-import { initSync, Session, sha256, version } from "../pkg/slipstick_web.js";
-import type { Answer, Calls, Fault, Judgement, Op, Reply, Request, Sheet } from "./types";
-
+import { initSync, type Page, Session, sha256, version } from "../pkg/slipstick_web.js";
+import type { Answer, Calls, Fault, Judgement, Op, Reply, Request, Rest, Sheet } from "./types";
 
 const scope = globalThis as unknown as DedicatedWorkerGlobalScope & {
   slipstickProgress: (done: number, planned: number) => void;
@@ -24,12 +23,32 @@ let lastGround = 0;
 
 const flat = (pairs: [string, string][]) => pairs.flat();
 
+function sheet(page: Page): Sheet {
+  const made = { ...JSON.parse(page.state()), html: page.html(), json: page.json() };
+  page.free();
+  return made;
+}
+
+let resting: ReturnType<typeof setTimeout> | undefined;
+
+/** Judges the last answer, which nothing newer has followed. */
+function judgeAtRest({ number, stepwise }: Rest) {
+  say({ judging: number });
+  try {
+    const judgement = calls.judge(stepwise);
+    say({ judged: number, judgement }, buffers(judgement));
+  } catch (error) {
+    say({ judged: number, fault: fault(error) });
+  }
+}
+
 const calls: Calls = {
   add: (name, bytes) => session.addRecord(name, bytes),
   remove: (name) => session.removeRecord(name),
   hash: (bytes) => sha256(bytes),
   inspect: (name, units, dt) => JSON.parse(session.inspect(name, units, dt)),
-  analyse(text, set, display): Answer {
+  analyse(text, set, display, rest): Answer {
+    clearTimeout(resting);
     const answer = session.analyse(text, flat(set), display);
     const column = (number: number) => answer.column(number) as Float64Array;
     const ground = answer.ground();
@@ -56,6 +75,7 @@ const calls: Calls = {
       result.tableTimes = session.tableTimes() as Float64Array;
       result.tableDisplacement = session.tableDisplacement() as Float64Array;
     }
+    if (rest) resting = setTimeout(() => judgeAtRest(rest), rest.after_ms);
     return result;
   },
   judge(stepwise): Judgement {
@@ -76,18 +96,10 @@ const calls: Calls = {
   },
   file: (name, text, command) => session.file(name, text, command),
   sweep: (text, over, from, to) => session.sweep(text, over, from, to) as Float64Array,
-  assess(what, text, options, display): Sheet {
-    const page = session.assess(what, text, flat(options), display);
-    const sheet = { ...JSON.parse(page.state()), html: page.html(), json: page.json() };
-    page.free();
-    return sheet;
-  },
-  study(plan, text, names, display): Sheet {
-    const page = session.study(plan, text, names, display);
-    const sheet = { ...JSON.parse(page.state()), html: page.html(), json: page.json() };
-    page.free();
-    return sheet;
-  },
+  assess: (what, text, options, display) => sheet(session.assess(what, text, flat(options), display)),
+  studySize: (plan, text, names) => [...session.studySize(plan, text, names)] as [number, number],
+  studyRows: (plan, text, names, from, to) => session.studyRows(plan, text, names, from, to) as Float64Array,
+  study: (plan, text, names, rows, display) => sheet(session.study(plan, text, names, rows, display)),
   // For the measurements: ms for a history, so many of them in turn.
   histories(count) {
     const start = performance.now();

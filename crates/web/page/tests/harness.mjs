@@ -68,7 +68,7 @@ export function settled(page, timeout = 20000) {
     () => {
       const app = globalThis.slipstick;
       const helper = app?.desk.helper;
-      return app?.updates > 0 && helper.idle && app.pending.length === 0 && app.judgement && !app.dirty;
+      return app?.updates > 0 && helper.idle && app.pending.length === 0 && app.judgement && app.drawn;
     },
     null,
     { timeout },

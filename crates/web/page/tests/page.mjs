@@ -338,6 +338,63 @@ test("a sweep runs in slices, and can be cancelled", () =>
     await page.waitForFunction(() => !/kinetic_friction = 0.050/.test(document.querySelector("#model-text").value));
   }));
 
+test("a study runs in slices on further workers, and can be cancelled", () =>
+  on(async (page) => {
+    const same = await page.evaluate(async () => {
+      const app = globalThis.slipstick;
+      const { helper } = app.desk;
+      const of = [document.querySelector("#panel-study textarea").value, app.text, [...app.desk.records.keys()]];
+      const [count, width] = await helper.call("studySize", ...of);
+      const whole = await helper.call("studyRows", ...of, 0, count);
+      const parts = [];
+      for (let from = count; from > 0; from -= 37) {
+        const first = Math.max(0, from - 37);
+        parts.unshift(...(await helper.call("studyRows", ...of, first, from)));
+      }
+      return count > 300 && whole.length === count * width && whole.every((number, i) => Object.is(number, parts[i]));
+    });
+    assert.ok(same, "the slices of a study are its rows");
+    await page.locator("#tab-study").click();
+    const plan = page.locator("#panel-study textarea");
+    const text = await plan.inputValue();
+    await plan.fill(text.replace("count  = 64", "count  = 65536"));
+    await page.locator("#panel-study button.main").click();
+    await page.waitForFunction(() => /of 393216 runs/.test(document.querySelector("#panel-study .progress").textContent));
+    // The page is free meanwhile.
+    await page.locator("#tab-motion").click();
+    await setField(page, "Kinetic friction", "0.04");
+    await settled(page);
+    await page.locator("#tab-study").click();
+    assert.ok(await page.locator("#panel-study .progress").isVisible(), "it is still at work");
+    await page.locator("#panel-study").getByRole("button", { name: "Cancel" }).click();
+    await page.locator("#panel-study .progress").waitFor({ state: "hidden" });
+    assert.equal(await page.locator("#panel-study .sheet").count(), 0);
+    await plan.fill(text);
+    await page.locator("#panel-study button.main").click();
+    await page.locator("#panel-study .sheet").waitFor({ timeout: 60000 });
+  }));
+
+test("fragility takes the bounds of friction apart", () =>
+  on(async (page) => {
+    await page.locator("#tab-fragility").click();
+    const field = (name) => page.locator(`#panel-fragility input[name=${name}]`);
+    await field("friction").fill("");
+    await field("bounds").fill("all");
+    await page.locator("#panel-fragility button.main").click();
+    await page.locator("#panel-fragility .sheet").waitFor({ timeout: 60000 });
+    const said = await page.locator("#panel-fragility .sheet").innerText();
+    for (const bound of ["lower", "nominal", "upper"]) assert.match(said, new RegExp(bound));
+  }));
+
+test("contents are added key by key, and the text says them", () =>
+  on(async (page) => {
+    await page.evaluate(() => globalThis.slipstick.set([["contents.1.floor", "1"], ["contents.1.mass", "20 kg"], ["contents.1.static_friction", "0.3"], ["contents.1.kinetic_friction", "0.25"]]));
+    await settled(page);
+    const text = await page.locator("#model-text").inputValue();
+    assert.match(text, /\[\[contents\]\]\nfloor = 1\nmass = "20 kg"\nstatic_friction = 0.3\nkinetic_friction = 0.25\n/);
+    assert.match(text, /# A building of one storey/, "comments stay");
+  }));
+
 for (const [id, heading] of [["spectrum", /sliding spectra/i], ["ida", /incremental dynamic/i], ["fragility", /fragility/i], ["design", /design/i], ["study", /study/i]]) {
   test(`${id} runs over the records, as the command draws it`, () =>
     on(async (page) => {

@@ -1,0 +1,103 @@
+/** The records on the page, and by what the table moves. */
+
+import type { Desk } from "./desk";
+import { fill, h } from "./dom";
+import { RECORDS } from "./examples";
+import { onMade, onRecord, type RecordChoice } from "./motion";
+import type { State } from "./types";
+
+/** What the records need of the page. */
+export interface Holder {
+  desk: Desk;
+  state: () => State | undefined;
+  text: () => string;
+  setText: (text: string) => void;
+}
+
+export class Records {
+  /** Those of the person's own, with what was said of them. */
+  readonly own = new Map<string, { sha256: string; choice: RecordChoice }>();
+  readonly list = h("ul", { class: "records" });
+  /** The choice of the motion, and the words of the record. */
+  readonly motion: HTMLElement;
+  private readonly select = h("select", { id: "motion-source" });
+  private readonly words = h("p", { class: "drop-hint" });
+  private choices = "";
+
+  constructor(private readonly page: Holder) {
+    this.motion = h("div", {}, h("div", { class: "choice" }, h("label", { for: "motion-source" }, "Table moves by"), this.select), this.words);
+    this.select.addEventListener("change", () => this.choose(this.select.value));
+    for (const record of RECORDS) page.desk.records.set(record.name, new TextEncoder().encode(record.text));
+  }
+
+  /** A record of the person's own that nothing has to be said of. */
+  add(name: string, bytes: Uint8Array): void {
+    this.page.desk.records.set(name, bytes);
+    this.own.set(name, { sha256: "", choice: { name } });
+  }
+
+  all(): { name: string; label: string }[] {
+    const own = [...this.own.keys()].map((name) => ({ name, label: name }));
+    return [...RECORDS.map(({ name, label }) => ({ name, label })), ...own];
+  }
+
+  /** What a record's file does not say. */
+  choice(name: string): RecordChoice {
+    return RECORDS.find((record) => record.name === name) ?? this.own.get(name)?.choice ?? { name };
+  }
+
+  /** Those of the person's own that the model needs, as the address names them. */
+  needed(): { name: string; sha256: string }[] {
+    const record = this.used();
+    return [...this.own].filter(([name]) => name === record).map(([name, { sha256 }]) => ({ name, sha256 }));
+  }
+
+  show(): void {
+    const remove = (name: string) => {
+      this.own.delete(name);
+      this.page.desk.records.delete(name);
+      void this.page.desk.helper.call("remove", name);
+      this.show();
+    };
+    fill(
+      this.list,
+      ...RECORDS.map(({ label }) => h("li", {}, `${label} (U.S. Geological Survey)`)),
+      ...[...this.own.keys()].map((name) => h("li", {}, name, h("button", { type: "button", "aria-label": `Remove ${name}`, onclick: () => remove(name) }, "×"))),
+    );
+    this.update();
+  }
+
+  /** Takes over what the model says. */
+  update(): void {
+    const state = this.page.state();
+    this.words.textContent = state?.motion.words ?? "";
+    const record = this.used();
+    const known = this.all().find(({ name }) => name === record || name.endsWith(`/${record}`));
+    const now = record === undefined ? (state?.motion.kind ?? "") : `record:${known?.name ?? record}`;
+    const options = [
+      ...this.all().map(({ name, label }) => [`record:${name}`, label]),
+      ["sine", "A sine"],
+      ["sweep", "A sine sweep"],
+      ["pulse", "A pulse"],
+    ];
+    if (now && !options.some(([value]) => value === now)) options.unshift([now, record ?? now]);
+    const choices = JSON.stringify([options, now]);
+    if (choices === this.choices) return;
+    this.choices = choices;
+    fill(this.select, ...options.map(([value, label]) => h("option", { value, selected: value === now }, label!)));
+  }
+
+  private used(): string | undefined {
+    return this.page.state()?.inputs.find((input) => input.path === "motion.record")?.text;
+  }
+
+  private choose(value: string): void {
+    const { text, setText } = this.page;
+    const name = value.startsWith("record:") ? value.slice(7) : undefined;
+    if (name === undefined) setText(onMade(text(), value));
+    else {
+      const { units, dt, channel } = this.choice(name);
+      setText(onRecord(text(), { name, units, dt, channel }));
+    }
+  }
+}
