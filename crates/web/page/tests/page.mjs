@@ -357,9 +357,9 @@ test("a study runs in slices on further workers, and can be cancelled", () =>
     await page.locator("#tab-study").click();
     const plan = page.locator("#panel-study textarea");
     const text = await plan.inputValue();
-    await plan.fill(text.replace("count  = 64", "count  = 65536"));
+    await plan.fill(text.replace("count  = 64", "count  = 16384"));
     await page.locator("#panel-study button.main").click();
-    await page.waitForFunction(() => /of 393216 runs/.test(document.querySelector("#panel-study .progress").textContent));
+    await page.waitForFunction(() => /of 294912 runs/.test(document.querySelector("#panel-study .progress").textContent));
     // The page is free meanwhile.
     await page.locator("#tab-motion").click();
     await setField(page, "Kinetic friction", "0.04");
