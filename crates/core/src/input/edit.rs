@@ -32,6 +32,9 @@ use crate::error::InputError;
 /// # Ok::<(), slipstick::error::InputError>(())
 /// ```
 pub fn with_keys(source_name: &str, text: &str, set: &[Override]) -> Result<String, InputError> {
+    if set.is_empty() {
+        return Ok(text.to_owned());
+    }
     let wanted = read(source_name, text, set)?;
     let in_place = |text: String, one: &Override| edited(source_name, &text, one);
     let edited = set
