@@ -1,7 +1,7 @@
 /** The tabs and their panels, by pointer and by keyboard. */
 
 import { h } from "./dom";
-import type { Tab } from "./studies";
+import type { Tab } from "./tab";
 
 export class TabBar {
   readonly element = h("div", { class: "tabs", role: "tablist", "aria-label": "Analyses" });

@@ -1,0 +1,81 @@
+/** A dropped plan with its records: slices of it on several workers. */
+
+import { ModuleError, Pool } from "./desk";
+import { download, fill, h } from "./dom";
+import { type Page, Progress, sheetElement, type Tab } from "./tab";
+
+export class StudyTab implements Tab {
+  readonly id = "study";
+  readonly label = "Study";
+  readonly element: HTMLElement;
+  private readonly text = h("textarea", { "aria-label": "Plan", spellcheck: "false" });
+  private readonly progress = new Progress();
+  private readonly result = h("div", {});
+  private readonly go = h("button", { type: "button", class: "main" }, "Run");
+  private readonly pool: Pool;
+  private running = false;
+
+  constructor(private readonly page: Page) {
+    this.pool = new Pool(page.desk.engine, page.desk.records);
+    this.go.addEventListener("click", () => void this.run());
+    this.progress.stop.addEventListener("click", () => this.pool.stop());
+    this.text.value = '# Drop a plan of slipstick study here, and its records on the page.\nname  = "Friction over three records"\nmodel = "model.toml"\n\n[records]\nfiles   = ["*.txt"]\nunits   = "g"\ndt      = "0.01 s"\nmeasure = "PGA"\nlevels  = ["0.2 g", "0.4 g"]\n\n[vary]\n"slider.kinetic_friction" = { uniform = [0.03, 0.10] }\n"slider.static_friction"  = { factor_of = "slider.kinetic_friction", values = [1.2] }\n\n[sampling]\nmethod = "sobol"\ncount  = 64\nseed   = 1\n';
+    this.element = h(
+      "div",
+      { class: "study" },
+      h("div", { class: "card pad editor" }, h("h2", {}, "Plan"), this.text, h("div", { class: "actions" }, this.go, h("button", { type: "button", onclick: () => download("plan.toml", this.text.value, "application/toml") }, "Plan (TOML)")), this.progress.element),
+      this.result,
+    );
+    fill(this.result, h("p", { class: "card empty" }, "A study runs the model of this page, whatever its plan calls it, on the records on this page."));
+  }
+
+  load(text: string): void {
+    this.text.value = text;
+  }
+
+  open(): void {}
+
+  async run(): Promise<void> {
+    const state = this.page.state();
+    if (!state || this.running) return;
+    this.running = true;
+    this.progress.begin();
+    this.go.disabled = true;
+    this.text.removeAttribute("aria-invalid");
+    try {
+      const names = this.page.records().map((record) => record.name);
+      const of: [string, string, string[]] = [this.text.value, this.page.text(), names];
+      const sheet = await this.pool.call("study", ...of, await this.rows(...of), this.page.display());
+      fill(this.result, sheetElement(sheet), h("div", { class: "actions" }, h("button", { type: "button", onclick: () => download("study-report.html", sheet.html, "text/html") }, "report.html")));
+      this.page.say(`The study is done. ${sheet.verdict[0] ?? sheet.line}`);
+    } catch (error) {
+      if (error instanceof ModuleError) {
+        const { message, source, start, end } = error.fault;
+        fill(this.result, h("p", { class: "card pad fault", role: "alert" }, message));
+        if (source === "plan.toml" && start !== undefined) {
+          this.text.setAttribute("aria-invalid", "true");
+          this.text.setSelectionRange(start, end ?? start);
+        }
+      } else this.page.say("The study was cancelled.");
+    } finally {
+      this.pool.stop();
+      this.running = false;
+      this.progress.end();
+      this.go.disabled = false;
+    }
+  }
+
+  /** All rows of a study, in slices on several workers. */
+  private async rows(...of: [plan: string, text: string, names: string[]]): Promise<Float64Array> {
+    const [count, width] = await this.pool.call("studySize", ...of);
+    const rows = new Float64Array(count * width);
+    const size = Math.max(1, Math.min(250, Math.ceil(count / (8 * this.pool.size))));
+    let done = 0;
+    await this.pool.slices(count, size, async (helper, from, to) => {
+      rows.set(await helper.call("studyRows", ...of, from, to), from * width);
+      done += to - from;
+      this.progress.show(done, count);
+    });
+    return rows;
+  }
+}

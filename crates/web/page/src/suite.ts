@@ -1,0 +1,171 @@
+/** Spectrum, IDA, fragility and design: an analysis over a suite, by the options of its command. */
+
+import { Ended, Helper, ModuleError } from "./desk";
+import { download, fill, h } from "./dom";
+import { type Page, Progress, sheetElement, type Tab, value } from "./tab";
+import type { Setting, Sheet, State } from "./types";
+
+export interface Field {
+  name: string;
+  label: string;
+  value: (state: State) => string;
+  hint?: string;
+}
+
+export const friction = (state: State) => value(state, "slider.kinetic_friction")?.value ?? 0.05;
+
+/** An analysis over a suite, by the options of its command. */
+export class SuiteTab implements Tab {
+  readonly element: HTMLElement;
+  private readonly fields = new Map<string, HTMLInputElement>();
+  private readonly suite = h("ul", { class: "records" });
+  private readonly progress = new Progress();
+  private readonly result = h("div", {});
+  private readonly go = h("button", { type: "submit", class: "main" }, "Run");
+  private readonly chosen = new Map<string, boolean>();
+  private helper: Helper | undefined;
+  private opened = false;
+
+  constructor(
+    private readonly page: Page,
+    readonly id: string,
+    readonly label: string,
+    about: string,
+    private readonly wanted: Field[],
+    private readonly plan: ((tab: SuiteTab, state: State) => string) | null = null,
+  ) {
+    const form = h("form", {}, h("p", { class: "drop-hint" }, about));
+    for (const field of wanted) {
+      const input = h("input", { type: "text", name: field.name, autocomplete: "off", spellcheck: "false" });
+      this.fields.set(field.name, input);
+      form.append(h("label", { class: "field" }, h("span", {}, field.label), input, field.hint ? h("small", { class: "drop-hint" }, field.hint) : ""));
+    }
+    form.append(
+      h("fieldset", { class: "group" }, h("legend", {}, "Records"), this.suite),
+      h("div", { class: "actions" }, this.go, this.plan ? h("button", { type: "button", onclick: () => this.exportPlan() }, "Plan (TOML)") : ""),
+      this.progress.element,
+    );
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      void this.run();
+    });
+    this.progress.stop.addEventListener("click", () => this.helper?.end());
+    this.element = h("div", { class: "study" }, h("div", { class: "card pad" }, form), this.result);
+    fill(this.result, h("p", { class: "card empty" }, "Press Run: the records are analysed in a worker of their own, and the page stays free."));
+  }
+
+  option(name: string): string {
+    return this.fields.get(name)?.value.trim() ?? "";
+  }
+
+  records(): string[] {
+    return this.page.records().map((record) => record.name).filter((name) => this.chosen.get(name) ?? true);
+  }
+
+  open(): void {
+    const state = this.page.state();
+    if (!state) return;
+    if (!this.opened) {
+      this.opened = true;
+      for (const field of this.wanted) this.fields.get(field.name)!.value = field.value(state);
+    }
+    fill(
+      this.suite,
+      ...this.page.records().map(({ name, label }) => {
+        const box = h("input", { type: "checkbox", checked: this.chosen.get(name) ?? true });
+        box.addEventListener("change", () => this.chosen.set(name, box.checked));
+        return h("li", {}, h("label", { class: "switch" }, box, label));
+      }),
+    );
+  }
+
+  private async run(): Promise<void> {
+    const state = this.page.state();
+    if (!state || this.helper) return;
+    const helper = new Helper(this.page.desk.engine, this.page.desk.records);
+    this.helper = helper;
+    helper.onprogress = (done, planned) => this.progress.show(done, planned);
+    this.progress.begin();
+    this.go.disabled = true;
+    const options: Setting[] = [
+      ...this.wanted.map((field): Setting => [field.name, this.option(field.name)]),
+      ...this.records().map((name): Setting => {
+        const { units = "", dt = "", channel = "" } = this.page.choice(name);
+        return ["records", [name, units, dt, channel].join("\n")];
+      }),
+    ];
+    try {
+      const sheet = await helper.call("assess", this.id, this.page.text(), options, this.page.display());
+      this.show(sheet);
+      this.page.say(`${this.label} is done. ${sheet.verdict[0] ?? sheet.line}`);
+    } catch (error) {
+      if (error instanceof Ended) this.page.say(`${this.label} was cancelled.`);
+      else if (error instanceof ModuleError) {
+        fill(this.result, h("p", { class: "card pad fault", role: "alert" }, error.fault.message));
+      }
+    } finally {
+      helper.end();
+      this.helper = undefined;
+      this.progress.end();
+      this.go.disabled = false;
+    }
+  }
+
+  private show(sheet: Sheet): void {
+    fill(
+      this.result,
+      sheetElement(sheet),
+      h(
+        "div",
+        { class: "actions" },
+        h("button", { type: "button", onclick: () => download(`${this.id}-report.html`, sheet.html, "text/html") }, "report.html"),
+        h("button", { type: "button", onclick: () => download(`${this.id}-summary.json`, sheet.json, "application/json") }, "summary.json"),
+      ),
+    );
+  }
+
+  private exportPlan(): void {
+    const state = this.page.state();
+    if (state && this.plan) download("plan.toml", this.plan(this, state), "application/toml");
+  }
+}
+
+/** A plan for `slipstick study` of what a tab varies. */
+export function planOf(tab: SuiteTab, state: State): string {
+  const files = tab.records().map((name) => JSON.stringify(name)).join(", ");
+  const lines = [`name = ${JSON.stringify(state.name)}`, 'model = "model.toml"', "", "[records]", `files = [${files}]`, 'units = "g"', 'dt = "0.01 s"'];
+  const list = (text: string): string | null => {
+    const range = /^\s*([\d.eE+-]+)\s*\.\.\s*([\d.eE+-]+)\s*([^:]*?)\s*:\s*(\d+)\s*(log)?\s*$/.exec(text);
+    if (range) {
+      const [, from, to, unit, count, log] = range;
+      const end = (number: string) => (unit ? JSON.stringify(`${number} ${unit}`) : number);
+      return `${log ? "logspace" : "linspace"} = [${end(from!)}, ${end(to!)}, ${count}]`;
+    }
+    const parts = text.split(",").map((part) => part.trim()).filter(Boolean);
+    const unit = /[^\d.eE+\s-].*$/.exec(parts.at(-1) ?? "")?.[0] ?? "";
+    return parts.length > 0 ? `values = [${parts.map((part) => (unit ? JSON.stringify(/[^\d.eE+\s-]/.test(part) ? part : `${part} ${unit}`) : part)).join(", ")}]` : null;
+  };
+  const [measure, levels, level] = [tab.option("measure"), tab.option("levels"), tab.option("level")];
+  if (measure && level) lines.push(`measure = ${JSON.stringify(measure)}`, `levels = [${JSON.stringify(level)}]`);
+  else if (measure && levels) {
+    const range = /^\s*([\d.]+)\s*\.\.\s*([\d.]+)\s*([^:]*?)\s*:\s*(\d+)\s*$/.exec(levels);
+    const count = Number(range?.[4] ?? 0);
+    const values = range
+      ? Array.from({ length: count }, (_, i) => `${Number((Number(range[1]) + ((Number(range[2]) - Number(range[1])) * i) / Math.max(1, count - 1)).toPrecision(6))} ${range[3]}`)
+      : levels.split(",").map((part) => part.trim());
+    lines.push(`measure = ${JSON.stringify(measure)}`, `levels = [${values.map((text) => JSON.stringify(text.trim())).join(", ")}]`);
+  } else lines.push("scale = [1.0]");
+  const varied: string[] = [];
+  const frictionText = tab.option("friction");
+  const ratio = (value(state, "slider.static_friction")?.value ?? 1) / friction(state);
+  if (frictionText) {
+    varied.push(`"slider.kinetic_friction" = { ${list(frictionText)} }`);
+    varied.push(`"slider.static_friction" = { factor_of = "slider.kinetic_friction", values = [${Number(ratio.toPrecision(12))}] }`);
+  }
+  for (const text of [tab.option("vary"), tab.option("over")]) {
+    const [path, values] = [text.slice(0, text.indexOf("=")).trim(), text.slice(text.indexOf("=") + 1)];
+    if (text.includes("=") && path !== "isolator.period") varied.push(`${JSON.stringify(path)} = { ${list(values)} }`);
+  }
+  if (varied.length > 0) lines.push("", "[vary]", ...varied, "", "[sampling]", 'method = "grid"');
+  return `${lines.join("\n")}\n`;
+}

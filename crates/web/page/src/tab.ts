@@ -1,0 +1,104 @@
+/** What the tabs over many runs have in common: what they need of the page, progress, a sheet of results. */
+
+import type { Desk } from "./desk";
+import { download, drawing, h } from "./dom";
+import type { RecordChoice } from "./motion";
+import { warningList } from "./results";
+import type { Palette } from "./scene";
+import type { Display, Fault, InputValue, Setting, Sheet, State } from "./types";
+
+/** What the tabs need of the page. */
+export interface Page {
+  desk: Desk;
+  state: () => State | undefined;
+  display: () => Display;
+  colours: () => Palette;
+  /** Names of all records, with their words. */
+  records: () => { name: string; label: string }[];
+  /** What a record's file does not say. */
+  choice: (name: string) => RecordChoice;
+  /** The model's text. */
+  text: () => string;
+  set: (settings: Setting[]) => void;
+  say: (text: string) => void;
+  fault: (fault: Fault) => void;
+}
+
+export interface Tab {
+  readonly id: string;
+  readonly label: string;
+  readonly element: HTMLElement;
+  open(): void;
+}
+
+/** Progress with a button that ends the work. */
+export class Progress {
+  private readonly bar = h("progress", { max: 1, value: 0, "aria-label": "Progress" });
+  private readonly words = h("span", { role: "status" });
+  readonly stop = h("button", { type: "button" }, "Cancel");
+  readonly element = h("div", { class: "progress", hidden: true }, this.bar, h("div", { class: "actions" }, this.words, this.stop));
+  private started = 0;
+
+  begin(): void {
+    this.started = performance.now();
+    this.element.hidden = false;
+    this.bar.removeAttribute("value");
+    this.words.textContent = "Starting";
+  }
+
+  show(done: number, of: number): void {
+    if (of > 0) this.bar.value = Math.min(1, done / of);
+    const left = ((performance.now() - this.started) / Math.max(1, done)) * Math.max(0, of - done);
+    this.words.textContent = of > 0 ? `${done} of ${of} runs, ${(left / 1000).toFixed(0)} s left` : `${done} runs`;
+  }
+
+  end(): void {
+    this.element.hidden = true;
+  }
+}
+
+export function sheetElement(sheet: Sheet): HTMLElement {
+  const table = ({ heading, rows }: Sheet["tables"][number]) => {
+    const [head = [], ...body] = rows;
+    const cell = (text: string, i: number) => h("td", { class: i > 0 ? "number" : "" }, text);
+    return [
+      h("h3", {}, heading),
+      h(
+        "div",
+        { class: "table-scroll", tabindex: 0, role: "region", "aria-label": heading },
+        h(
+          "table",
+          {},
+          h("thead", {}, h("tr", {}, ...head.map((text, i) => h("th", { scope: "col", class: i > 0 ? "number" : "" }, text)))),
+          h("tbody", {}, ...body.map((row) => h("tr", {}, ...row.map((text, i) => (i === 0 ? h("th", { scope: "row" }, text) : cell(text, i)))))),
+        ),
+      ),
+    ];
+  };
+  const figure = (drawn: Sheet["figures"][number]) =>
+    h(
+      "figure",
+      {},
+      drawing(drawn.svg, drawn.caption),
+      h("figcaption", {}, drawn.caption, " ", h("button", { type: "button", onclick: () => download(`${drawn.id}.svg`, drawn.svg, "image/svg+xml") }, "SVG")),
+    );
+  const [first, ...others] = sheet.figures;
+  return h(
+    "article",
+    { class: "card pad sheet" },
+    h("h2", {}, `${sheet.kind}. ${sheet.line}`),
+    ...sheet.verdict.map((sentence, i) => h("p", { class: i === 0 ? "lead" : "" }, sentence)),
+    sheet.first ? h("p", {}, sheet.first) : "",
+    ...warningList(sheet.warnings),
+    first ? figure(first) : "",
+    ...sheet.tables.slice(0, 1).flatMap(table),
+    ...sheet.notes.map((note) => h("p", {}, note)),
+    ...others.map(figure),
+    ...sheet.tables.slice(1).flatMap(table),
+    h("h3", {}, "Method and limits"),
+    ...sheet.method.map((line) => h("p", {}, line)),
+  );
+}
+
+/** The value at a path of the model. */
+export const value = (state: State, path: string): InputValue | undefined => state.inputs.find((input) => input.path === path);
