@@ -10,9 +10,11 @@ mod hash;
 mod latin;
 pub mod random;
 mod sobol;
+mod sort;
 
 pub use cholesky::cholesky;
 pub(crate) use hash::Stream;
 pub(crate) use latin::coordinate as latin_coordinate;
 pub(crate) use sobol::Coordinate;
 pub use sobol::{MAX_DIMENSIONS, unit_points};
+pub use sort::sort;

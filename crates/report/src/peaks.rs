@@ -1,5 +1,6 @@
 //! The rows of the tables of demands, shared by the plain-text table and the report.
 
+use slipstick::numerics::sort;
 use slipstick::response::{DemandColumn, DemandKind, DemandOf, PrintedRow};
 
 use crate::display::{DisplayUnits, Unit};
@@ -50,7 +51,7 @@ fn demand_rows(
     };
     let mut rows: Vec<(PrintedRow, DemandColumn)> =
         shape.columns().into_iter().filter_map(shown).collect();
-    rows.sort_by_key(|(printed, _)| printed.place);
+    sort(&mut rows, |a, b| a.0.place.cmp(&b.0.place));
     rows.iter().map(|(printed, column)| row(summary, display, printed, column)).collect()
 }
 

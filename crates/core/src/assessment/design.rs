@@ -22,6 +22,7 @@ use super::{AssessmentError, FailedRun};
 use crate::error::{FitError, MotionError, RunError, Stopped};
 use crate::input::Parts;
 use crate::numerics::fractile::{held_by, needed, sorted};
+use crate::numerics::sort;
 use crate::numerics::unit_points;
 use crate::response::demand_values;
 use crate::solver::{PreparedMotion, Workspace};
@@ -206,7 +207,7 @@ pub fn search<E: From<FitError>>(
         }
     }
     // Equal figures stand together, the first design first; the last has the least acceleration.
-    found.front.sort_by(|a, b| {
+    sort(&mut found.front, |a, b| {
         let (of_a, of_b) = (&a.figures, &b.figures);
         of_a.displacement_m
             .total_cmp(&of_b.displacement_m)
@@ -396,7 +397,7 @@ pub fn run_design(
     let map = runner.map(request, &found, sensitivity.as_ref())?;
     let front = table(request, &variables, &found, bounded.as_deref());
     ran.retain(|((design, _), _)| found.front.iter().any(|point| point.design == *design));
-    ran.sort_by_key(|(pair, _)| *pair);
+    sort(&mut ran, |a, b| a.0.cmp(&b.0));
     let runs = rows(request, &runner, &ran)?;
     Ok(DesignRun { variables, found, bounded, sensitivity, failures, map, front, runs })
 }
@@ -556,7 +557,7 @@ impl<'a> Runner<'a> {
                     sensitivity.displacement[i].total.max(sensitivity.acceleration[i].total);
                 if largest.is_finite() { largest } else { 0.0 }
             };
-            main.sort_by(|a, b| total(*b).total_cmp(&total(*a)));
+            sort(&mut main, |a, b| total(*b).total_cmp(&total(*a)));
         }
         main.truncate(2);
         main.sort_unstable();
@@ -567,7 +568,7 @@ impl<'a> Runner<'a> {
         let places = |i: usize| {
             let values = &grid.axes()[i].values;
             let mut places: Vec<usize> = (0..values.len()).collect();
-            places.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+            sort(&mut places, |a, b| values[*a].total_cmp(&values[*b]));
             let (count, all) = (places.len().min(MAP_VALUES), places.len());
             (0..count).map(|k| places[k * (all - 1) / (count - 1).max(1)]).collect::<Vec<_>>()
         };

@@ -15,6 +15,7 @@ use crate::error::{FitError, RunError, Stopped};
 use crate::input::{Bound, Parts};
 use crate::motion::intensity::Measure;
 use crate::numerics::fractile;
+use crate::numerics::sort;
 use crate::response::demand_values;
 use crate::solver::{PreparedMotion, Workspace};
 use crate::study::engine::{Engine, Running};
@@ -374,7 +375,7 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
                     Ok::<_, Stopped>(demand.abs())
                 })?;
                 engine.replan(RUNS_OF_A_HUNT, runs.len() as u64);
-                runs.sort_by(|a, b| a.level.total_cmp(&b.level));
+                sort(&mut runs, |a, b| a.level.total_cmp(&b.level));
                 Ok(runs)
             })?
         }

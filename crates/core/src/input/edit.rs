@@ -9,6 +9,7 @@ use super::schema::Kind;
 use super::tree::{self, Node, Sources, Table, Value};
 use super::{Override, build, write};
 use crate::error::InputError;
+use crate::numerics::sort;
 
 /// A model's text with keys set in it, in their order; keys that exclude a new one are taken out.
 /// The model is checked with all of them set, not in between.
@@ -107,7 +108,7 @@ fn edited(source_name: &str, text: &str, set: &Override) -> Option<String> {
             None => return Some(at_the_end(text, &format!("[{head}]\n{line}"))),
         });
     }
-    edits.sort_by_key(|(span, _)| span.start);
+    sort(&mut edits, |a, b| a.0.start.cmp(&b.0.start));
     let mut text = text.to_owned();
     for (span, new) in edits.into_iter().rev() {
         text = replaced(&text, span, &new);

@@ -7,6 +7,7 @@ use super::paths::{NearestKey, join, matching, nearest_key};
 use super::schema::{Key, Kind, Range, Section};
 use super::tree::{Entry, Node, Sources, Spot, Table, Value};
 use crate::error::{InputError, UnitError, cut, similar};
+use crate::numerics::sort;
 use crate::units::{self, Unit};
 
 /// What a key was given.
@@ -453,7 +454,8 @@ impl Values {
             let mut given: Vec<_> =
                 exclusive.names.iter().filter_map(|name| matching(table, name)).collect();
             // The one that stands later is the one too many.
-            given.sort_by_key(|entry| (entry.key.source, entry.key.span.start));
+            let place = |entry: &Entry| (entry.key.source, entry.key.span.start);
+            sort(&mut given, |a, b| place(a).cmp(&place(b)));
             let plain: Vec<_> =
                 exclusive.names.iter().map(|name| name.trim_end_matches(".*")).collect();
             match given.as_slice() {

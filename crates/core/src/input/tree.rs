@@ -6,6 +6,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::error::{InputError, Place, cut};
+use crate::numerics::sort;
 
 /// A place in one of the texts.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -104,7 +105,7 @@ impl Table {
                 node: Node::from_toml(value, source),
             })
             .collect();
-        entries.sort_by_key(|entry| entry.key.span.start);
+        sort(&mut entries, |a: &Entry, b| a.key.span.start.cmp(&b.key.span.start));
         Self(entries)
     }
 }

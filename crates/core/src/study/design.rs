@@ -4,6 +4,7 @@ use crate::error::InputError;
 use crate::input::Variation;
 use crate::input::plan::{Distribution, Method, Plan, Varied};
 use crate::numerics::distribution::{normal_cdf, normal_quantile, normal_quantile_between};
+use crate::numerics::sort;
 use crate::numerics::{Coordinate, Stream, latin_coordinate};
 
 /// What random numbers are used for; each use has its own.
@@ -227,7 +228,7 @@ fn order(factor_of: &[Option<Base>]) -> Vec<usize> {
         depth
     };
     order.extend(0..factor_of.len());
-    order.sort_by_key(|&i| depth(i));
+    sort(&mut order, |&i, &j| depth(i).cmp(&depth(j)));
     order
 }
 
@@ -344,7 +345,7 @@ mod tests {
         let plain = self::design(vary, SOBOL).unwrap();
         let ranks = |values: &[f64]| -> Vec<f64> {
             let mut order: Vec<usize> = (0..values.len()).collect();
-            order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+            sort(&mut order, |&a, &b| values[a].total_cmp(&values[b]));
             let mut ranks = vec![0.0; values.len()];
             for (rank, index) in order.into_iter().enumerate() {
                 ranks[index] = (rank as f64 + 0.5) / values.len() as f64 - 0.5;

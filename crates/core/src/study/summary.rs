@@ -4,6 +4,7 @@ use super::Study;
 use super::engine::Engine;
 use crate::error::Stopped;
 use crate::input::plan::Levels;
+use crate::numerics::sort;
 use crate::response::{DemandColumn, DemandKind};
 use crate::table::{Cells, Column, Table};
 
@@ -182,7 +183,7 @@ impl Study {
         };
         let rows = engine.runs(demands.len(), of_demand)?;
         let mut rows = rows.into_iter().collect::<Result<Vec<_>, E>>()?.concat();
-        rows.sort_by_key(|row| row.level);
+        sort(&mut rows, |a, b| a.level.cmp(&b.level));
         let measure = match &self.levels {
             Levels::Measure { measure, .. } => Some((measure.to_string(), measure.unit())),
             Levels::Factors(_) => None,

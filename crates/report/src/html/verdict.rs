@@ -5,6 +5,7 @@ use crate::markup::Markup;
 use crate::number::{compact, count, printed, typeset};
 use crate::report::Report;
 use crate::summary::Summary;
+use slipstick::numerics::sort;
 
 /// Gap used, governing run and certificate.
 pub fn section(out: &mut Markup, report: &Report) {
@@ -24,7 +25,7 @@ fn governing(summary: &Summary) -> (&'static str, &Summary) {
     let slides = |run: &Summary| run.demands.peak_sliding_displacement_m;
     let mut runs = summary.runs();
     // Of equal ones the nominal run.
-    runs.sort_by_key(|(name, _)| *name != "nominal");
+    sort(&mut runs, |a, b| (a.0 != "nominal").cmp(&(b.0 != "nominal")));
     let mut governing = runs[0];
     for run in &runs[1..] {
         if slides(run.1) > slides(governing.1) {

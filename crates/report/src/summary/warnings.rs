@@ -1,6 +1,7 @@
 //! Warnings from all sources in one list, the gravest first.
 
 use slipstick::check::Certificate;
+use slipstick::numerics::sort;
 use slipstick::response::{Method, Response, Warning};
 
 use super::{SummaryInputs, exceeds};
@@ -29,7 +30,7 @@ pub fn assemble(inputs: &SummaryInputs) -> Vec<Warning> {
             all.push(warning.clone());
         }
     }
-    all.sort_by_key(Warning::is_note);
+    sort(&mut all, |a, b| a.is_note().cmp(&b.is_note()));
     all
 }
 

@@ -4,6 +4,7 @@ use super::columns::{Columns, Records};
 use super::intensity::dimension;
 use crate::assessment::{AssessmentError, refuse};
 use crate::input::dimension_of;
+use crate::numerics::sort;
 use crate::table::{Cells, Table};
 use crate::units::{Dimension, parse_quantity};
 
@@ -148,7 +149,7 @@ pub(super) fn groups(
             }
             few_enough(columns, by, &groups)?;
         }
-        groups.sort_by(|a, b| a.value.total_cmp(&b.value));
+        sort(&mut groups, |a, b| a.value.total_cmp(&b.value));
     }
     Ok((groups, unit_of(columns, by)))
 }

@@ -10,6 +10,7 @@ use fearless_simd::{Level, dispatch};
 
 use super::Oscillator;
 use crate::motion::oscillator::{Interval, Overshoot, Peaks, State, Step};
+use crate::numerics::sort;
 
 /// Oscillators side by side.
 const LANES: usize = 8;
@@ -39,7 +40,7 @@ pub(super) fn peaks(
     let parts: Vec<f64> =
         oscillators.iter().map(|o| Overshoot::parts(o.omega * dt_s, o.xi)).collect();
     let mut order: Vec<usize> = (0..oscillators.len()).collect();
-    order.sort_by(|&i, &j| parts[i].total_cmp(&parts[j]));
+    sort(&mut order, |&i, &j| parts[i].total_cmp(&parts[j]));
     let mut all = vec![None; oscillators.len()];
     let mut blocks = Vec::new();
     let level = Level::new();

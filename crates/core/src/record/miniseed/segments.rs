@@ -3,6 +3,7 @@
 use super::DataRecord;
 use super::decode::samples;
 use crate::error::RecordError;
+use crate::numerics::sort;
 use crate::record::RecordWarning;
 use crate::record::bytes::Bytes;
 
@@ -99,7 +100,7 @@ impl Streams {
 /// The segments of one stream.
 fn joined(id: &str, mut blocks: Vec<Block>) -> Vec<Segment> {
     let sorted = blocks.is_sorted_by_key(|block| block.record.start_ns);
-    blocks.sort_by_key(|block| block.record.start_ns);
+    sort(&mut blocks, |a, b| a.record.start_ns.cmp(&b.record.start_ns));
     let all = blocks.len();
     blocks.dedup_by(|later, kept| {
         let same_time = later.record.start_ns == kept.record.start_ns && later.dt_s == kept.dt_s;
