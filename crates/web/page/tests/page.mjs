@@ -24,9 +24,10 @@ const test = (name, run) => tests.push([name, run]);
 async function on(run, options, url = site.url) {
   const opened = await open(chromium, url, options);
   try {
-    await run(opened.page, opened);
+    const skipped = await run(opened.page, opened);
     assert.deepEqual(opened.said, [], "said on the console");
     assert.deepEqual(opened.outside, [], "asked of others");
+    return skipped;
   } finally {
     await opened.close();
   }
