@@ -10,7 +10,7 @@ use crate::response::{Contact, Demands, Event, EventKind, History, Method, Mode,
 
 /// Places of the tracked outputs; from [`STOREYS`] on displacements of all storeys, then drifts, then
 /// total accelerations.
-mod output {
+pub(super) mod output {
     pub(super) const VELOCITY: usize = 0;
     pub(super) const BLOCK: usize = 1;
     pub(super) const SLIDER: usize = 2;
@@ -18,7 +18,7 @@ mod output {
     pub(super) const BASE_SHEAR: usize = 4;
     pub(super) const OVERTURNING: usize = 5;
     pub(super) const STOP: usize = 6;
-    pub(super) const STOREYS: usize = 7;
+    pub(in crate::check) const STOREYS: usize = 7;
 }
 
 /// All that is known at an instant.

@@ -261,8 +261,8 @@ impl<'a> Judge<'a> {
             let even = even && maps[which].is_some();
             let group = &mut groups[which][usize::from(even)];
             if group.push(&interval) {
-                let map = maps[which].as_ref().filter(|_| even);
-                self.flush(group, map, knots, (&mut work, &mut worst), &mut told)?;
+                let maps = maps[which].as_ref().filter(|_| even);
+                self.flush(group, maps, knots, (&mut work, &mut worst), &mut told)?;
             }
         }
         for group in groups.iter_mut().flatten().filter(|group| group.count > 0) {
@@ -311,25 +311,28 @@ impl<'a> Judge<'a> {
         Some((phase, interval))
     }
 
-    /// Bounds the outputs of a phase; the map of the even step, if it is one of this phase.
-    fn prepare(&mut self, phase: Phase) -> Option<Map> {
+    /// Bounds the outputs of a phase; the maps of the even step to its path, and to its places and rates,
+    /// if it is one of this phase.
+    fn prepare(&mut self, phase: Phase) -> Option<[Map; 2]> {
         let rate = self.scheme.rate(phase);
         let longest_s = if rate > 0.0 { MAX_TURN / rate } else { f64::INFINITY };
         let longest_s = longest_s.min(self.longest_s);
         let columns = self.spread(phase, longest_s);
         let same = (longest_s - self.even_s).abs() <= 2.0 * self.instant_s;
-        let map = same.then(|| Map::new(phase, self.structure.degrees(), &columns));
-        if map.is_some() {
+        let map = |columns: &Vec<f64>| Map::new(phase, self.structure.degrees(), columns);
+        let maps = same.then(|| columns.each_ref().map(map));
+        if maps.is_some() {
+            let [columns, _] = columns;
             self.scheme.keep(phase, longest_s, columns);
         }
-        map
+        maps
     }
 
     /// Judges a group and empties it.
     fn flush(
         &mut self,
         group: &mut Group,
-        map: Option<&Map>,
+        maps: Option<&[Map; 2]>,
         knots: &Knots,
         (work, worst): (&mut Work, &mut Worst),
         told: &mut [Option<Told<f64>>],
@@ -341,14 +344,14 @@ impl<'a> Judge<'a> {
         let reach = Reach { bounds, longest_s, attained: &self.peaks.attained, knots };
         let bench = self.bench(&[]);
         let lanes: &Group = group;
-        dispatch!(self.level, simd => bench.group(simd, lanes, map, &reach, work, worst));
+        let [path, trace] = [0, 1].map(|i| maps.map(|maps| &maps[i]));
+        dispatch!(self.level, simd => bench.group(simd, lanes, path, &reach, work, worst));
+        if work.told.passes.largest() > 0.0 {
+            let peaks = &mut self.peaks;
+            dispatch!(self.level, simd => bench.seek(simd, lanes, trace, knots, peaks, work));
+        }
         for lane in 0..group.count {
-            let k = group.knot(lane);
-            let of_lane = work.told.lane(lane);
-            told[k] = Some(of_lane);
-            if of_lane.passes > 0.0 {
-                self.interval(k, Look::Peaks)?;
-            }
+            told[group.knot(lane)] = Some(work.told.lane(lane));
         }
         group.count = 0;
         Ok(())
@@ -633,9 +636,7 @@ impl<'a> Judge<'a> {
         if look == Look::All {
             self.totals.add(mode, contact, end_s - from_s);
         }
-        if look != Look::Peaks {
-            self.resume(k);
-        }
+        self.resume(k);
         if self.spreads[phase as usize].is_none() {
             self.prepare(phase);
         }
@@ -653,9 +654,6 @@ impl<'a> Judge<'a> {
             from_s = piece.to_s;
             if from_s < end_s {
                 continue;
-            }
-            if look == Look::Peaks {
-                return Ok(());
             }
             self.load_state(k + 1);
             let end = core::mem::take(&mut self.state);

@@ -7,9 +7,9 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f64x8};
 
-use super::collocation::{MOST_PASSES, NODES, Rule};
-use super::demands::Outputs;
-use super::structure::{Phase, StoreyDamping, Structure};
+use super::collocation::{MOST_PASSES, NODES, POINTS, Rule};
+use super::demands::{Outputs, Peaks, output, raise};
+use super::structure::{Phase, StoreyDamping, Structure, larger as greatest};
 use crate::error::{Pulse, Stopped};
 use crate::response::{History, Mode};
 
@@ -233,6 +233,29 @@ fn chain_form<S: Simd>(simd: S, chain: &[f64], x: impl Fn(usize) -> f64x8<S>) ->
     sum
 }
 
+/// Hands on all outputs in their order: those of the block, and of the storeys from displacement and
+/// acceleration.
+#[inline(always)]
+fn each_output<S: Simd>(
+    simd: S,
+    n: usize,
+    block: [f64x8<S>; output::STOREYS],
+    storey: impl Fn(usize) -> [f64x8<S>; 2],
+    mut out: impl FnMut(usize, f64x8<S>),
+) {
+    for g in 0..output::STOREYS {
+        out(g, block[g]);
+    }
+    let mut below = all(simd, 0.0);
+    for i in 0..n {
+        let [q, acceleration] = storey(i);
+        out(output::STOREYS + i, q);
+        out(output::STOREYS + n + i, q - below);
+        out(output::STOREYS + 2 * n + i, acceleration);
+        below = q;
+    }
+}
+
 impl Bench<'_> {
     /// `C1 ṡ² + q̇ᵀ C q̇`.
     #[inline(always)]
@@ -412,7 +435,7 @@ impl Bench<'_> {
             |i| storeys.q[i].load(simd),
         );
         let strain = half * (spring * s + form);
-        let mut out = inlined(
+        let out = inlined(
             #[inline(always)]
             |g: usize, value: f64x8<S>| {
                 let to = g * knots.stride + from;
@@ -433,17 +456,14 @@ impl Bench<'_> {
         );
         let slider = force - (spring + damper) - stop;
         let fixed = [w, block, slider, force, base, outputs.moment(simd, total, floor), stop];
-        for (g, value) in fixed.into_iter().enumerate() {
-            out(g, value);
-        }
-        let mut below = zero;
-        for i in 0..n {
-            let q = storeys.q[i].load(simd);
-            out(fixed.len() + i, q);
-            out(fixed.len() + n + i, q - below);
-            out(fixed.len() + 2 * n + i, storeys.a[i].load(simd));
-            below = q;
-        }
+        each_output(
+            simd,
+            n,
+            fixed,
+            #[inline(always)]
+            |i| [storeys.q[i].load(simd), storeys.a[i].load(simd)],
+            out,
+        );
         knots.kinetic_j[from..from + LANES].copy_from_slice(&(half * kinetic).to_array());
         knots.strain_j[from..from + LANES].copy_from_slice(&strain.to_array());
     }
@@ -610,10 +630,11 @@ pub(super) struct Work {
     active: Vec<Eight>,
     state: Vec<(Eight, Eight)>,
     path: Vec<Eight>,
-    /// `ẍ` and `x` at the nodes, where the equations were solved.
-    rates: Vec<Eight>,
-    places: Vec<Eight>,
+    /// `x` and `ẍ` at the nodes, where the equations were solved or peaks are sought.
+    trace: Vec<Eight>,
     fastest: Vec<Eight>,
+    /// Outputs at the nodes.
+    values: Vec<Eight>,
     pub(super) told: Told<Eight>,
 }
 
@@ -625,9 +646,9 @@ impl Work {
             active: zeros(2 * degrees + 4),
             state: vec![(Eight::ZERO, Eight::ZERO); degrees],
             path: zeros((NODES + 2) * degrees + NODES),
-            rates: zeros(NODES * degrees),
-            places: zeros(NODES * degrees),
+            trace: zeros(2 * NODES * degrees),
             fastest: zeros(degrees),
+            values: zeros(NODES * (output::STOREYS + 3 * (degrees - 1))),
             told: Told {
                 work: Eight::ZERO,
                 size: Eight::ZERO,
@@ -660,14 +681,9 @@ impl Work {
         self.path.iter().map(|all| all.0[lane]).collect()
     }
 
-    /// `x` at the nodes of a lane.
-    pub(super) fn places(&self, lane: usize) -> Vec<f64> {
-        self.places.iter().map(|all| all.0[lane]).collect()
-    }
-
-    /// `ẍ` at the nodes of a lane.
-    pub(super) fn rates(&self, lane: usize) -> Vec<f64> {
-        self.rates.iter().map(|all| all.0[lane]).collect()
+    /// `x` and `ẍ` at the nodes of a lane.
+    pub(super) fn trace(&self, lane: usize) -> Vec<f64> {
+        self.trace.iter().map(|all| all.0[lane]).collect()
     }
 }
 
@@ -705,7 +721,7 @@ impl Bench<'_> {
         let places = Places::new(group.knots);
         self.read(simd, n, group, &places, &mut work.input);
         match map {
-            Some(map) => apply(simd, map, work),
+            Some(map) => apply(simd, map, &work.input, &mut work.active, &mut work.path),
             None => self.solve(simd, n, group, work),
         }
         self.spend(simd, n, group, work);
@@ -716,6 +732,106 @@ impl Bench<'_> {
         }
         self.sides(simd, group, &places, worst);
         peaks(simd, group, &places, reach, work);
+    }
+
+    /// Raises the peaks by the paths of a group in which some output may pass them; `trace` is the map
+    /// to places and rates of a group whose paths came from a map.
+    #[inline(always)]
+    pub(super) fn seek<S: Simd>(
+        &self,
+        simd: S,
+        group: &Group,
+        trace: Option<&Map>,
+        knots: &Knots,
+        peaks: &mut Peaks<'_>,
+        work: &mut Work,
+    ) {
+        let n = self.structure.masses_kg.len();
+        let d = n + 1;
+        let [slope, spring, damper] =
+            [self.slope, self.structure.spring, self.structure.damper].map(|x| all(simd, x));
+        let Work { input, active, path, trace: traced, values, .. } = work;
+        if let Some(map) = trace {
+            apply(simd, map, input, active, traced);
+        }
+        for i in 0..NODES {
+            let c = all(simd, self.rule.c[i]);
+            let load = inlined(
+                #[inline(always)]
+                |first: usize| {
+                    let from = input[first].load(simd);
+                    from + (input[first + 1].load(simd) - from) * c
+                },
+            );
+            let x = inlined(
+                #[inline(always)]
+                |k: usize| traced[i * d + k].load(simd),
+            );
+            let v = inlined(
+                #[inline(always)]
+                |k: usize| path[i * d + k].load(simd),
+            );
+            let rate = inlined(
+                #[inline(always)]
+                |k: usize| traced[(NODES + i) * d + k].load(simd),
+            );
+            let total = rate(0) + load(2 * d);
+            let force = match group.phase {
+                Phase::Stick => path[(NODES + 2) * d + i].load(simd),
+                Phase::Slip | Phase::Pressed => load(2 * d + 2),
+            };
+            let base = self.base_force(
+                simd,
+                #[inline(always)]
+                |j| x(1 + j),
+                #[inline(always)]
+                |j| v(1 + j),
+            );
+            let floor = inlined(
+                #[inline(always)]
+                |j: usize| rate(1 + j) + total,
+            );
+            let slider = force - (spring * x(0) + damper * v(0));
+            let moment = peaks.outputs.moment(simd, total, floor);
+            let fixed = [v(0), total - slope, slider, force, base, moment, all(simd, 0.0)];
+            each_output(
+                simd,
+                n,
+                fixed,
+                #[inline(always)]
+                |j| [x(1 + j), floor(j) - slope],
+                #[inline(always)]
+                |g, value| values[g * NODES + i].store(value),
+            );
+        }
+        let places = Places::new(group.knots);
+        for (g, nodes) in values.chunks_exact(NODES).enumerate() {
+            let list = &knots.outputs[g * knots.stride..][..knots.stride];
+            let ends = both(
+                #[inline(always)]
+                |later| places.read(simd, list, later, [1, 0]),
+            );
+            let (mut least, mut most) = (smaller(ends[0], ends[1]), larger(ends[0], ends[1]));
+            for node in nodes {
+                let value = node.load(simd);
+                (least, most) = (smaller(least, value), larger(most, value));
+            }
+            let size = larger(most.abs(), least.abs());
+            let peak = &mut peaks.attained[g];
+            *peak = size.to_array().into_iter().fold(*peak, greatest);
+            // Between two points the polynomial rises above both by less than a tenth of its range.
+            let bound = size + (most - least) * all(simd, 0.1);
+            let open = bound.simd_gt(all(simd, *peak * (1.0 + 1e-12))).to_bitmask();
+            for lane in (0..group.count).filter(|lane| open & (1 << lane) != 0) {
+                let mut points = [0.0; POINTS];
+                (points[0], points[POINTS - 1]) =
+                    (ends[0].to_array()[lane], ends[1].to_array()[lane]);
+                for (point, node) in points[1..].iter_mut().zip(nodes) {
+                    *point = node.0[lane];
+                }
+                raise(self.rule, peak, &points);
+            }
+        }
     }
 
     /// `x, v, a, a, T, T`.
@@ -752,7 +868,8 @@ impl Bench<'_> {
         let d = n + 1;
         let stuck = group.phase == Phase::Stick;
         let [spring, damper] = s.slider(group.phase);
-        let Work { input, state, path, rates, places, .. } = work;
+        let Work { input, state, path, trace, .. } = work;
+        let (places, rates) = trace.split_at_mut(NODES * d);
         let h = group.length_s.load(simd);
         let load = inlined(
             #[inline(always)]
@@ -1140,11 +1257,10 @@ fn tell<S: Simd>(
     told.ends[1].store(last);
 }
 
-/// The path of every lane by the map.
+/// What a map makes of the inputs of every lane.
 #[inline(always)]
-fn apply<S: Simd>(simd: S, map: &Map, work: &mut Work) {
+fn apply<S: Simd>(simd: S, map: &Map, input: &[Eight], active: &mut [Eight], path: &mut [Eight]) {
     let count = map.inputs.len();
-    let Work { input, active, path, .. } = work;
     for (active, &j) in active.iter_mut().zip(&map.inputs) {
         *active = input[j];
     }

@@ -17,8 +17,6 @@ pub(super) enum Look {
     All,
     /// The law of friction only.
     Law,
-    /// Peaks only.
-    Peaks,
 }
 
 /// How far outputs may leave the chord of a step: at most in proportion to its length.
@@ -34,8 +32,7 @@ pub(super) struct Spread {
 /// The path of a unit input, and `x` and `ẍ` at its nodes.
 struct Unit {
     path: Vec<f64>,
-    places: Vec<f64>,
-    rates: Vec<f64>,
+    trace: Vec<f64>,
 }
 
 impl Judge<'_> {
@@ -83,6 +80,7 @@ impl Judge<'_> {
         }
         self.state.copy_from_slice(path.end());
         if look == Look::All {
+            let ends = if mode == Mode::Stick { [values[0], values[POINTS - 1]] } else { forces };
             self.spend(step_s, loads, forces);
             if contact != Contact::Free && mode != Mode::Stick {
                 self.against_stop((contact, push), step_s);
@@ -90,13 +88,7 @@ impl Judge<'_> {
             if mode != Mode::Stick {
                 self.totals.path_m += (self.state[0] - self.before[0]).abs();
             }
-        }
-        if look != Look::Law {
-            let ends = if mode == Mode::Stick { [values[0], values[POINTS - 1]] } else { forces };
             self.track((mode, push), step_s, loads, ends);
-        }
-        if look == Look::Peaks {
-            return;
         }
         match mode {
             Mode::Stick => self.held(from_s, step_s, loads, &values),
@@ -148,8 +140,8 @@ impl Judge<'_> {
     }
 
     /// Bounds the outputs between the ends of a step of a phase, for steps up to `longest_s`; returns
-    /// the paths of unit inputs over that step, one after another.
-    pub(super) fn spread(&mut self, phase: Phase, longest_s: f64) -> Vec<f64> {
+    /// the paths of unit inputs over that step, one after another, and their places and rates.
+    pub(super) fn spread(&mut self, phase: Phase, longest_s: f64) -> [Vec<f64>; 2] {
         let d = self.structure.degrees();
         let (inputs, outputs) = (2 * d + 4, self.peaks.outputs.len());
         let mut bounds = vec![0.0; outputs * inputs];
@@ -157,8 +149,11 @@ impl Judge<'_> {
         let mut rate = vec![0.0; d];
         let units = self.units(phase, longest_s);
         let mut columns = Vec::with_capacity(inputs * ((NODES + 2) * d + NODES));
-        for (j, Unit { path, places, rates }) in units.iter().enumerate() {
+        let mut traces = Vec::with_capacity(inputs * 2 * NODES * d);
+        for (j, Unit { path, trace }) in units.iter().enumerate() {
             columns.extend_from_slice(path);
+            traces.extend_from_slice(trace);
+            let (places, rates) = trace.split_at(NODES * d);
             let unit = |k: usize| if k == j { 1.0 } else { 0.0 };
             let linear = |k: usize, t: f64| unit(k) + (unit(k + 1) - unit(k)) * t;
             let start: Vec<f64> = (0..2 * d).map(unit).collect();
@@ -198,7 +193,7 @@ impl Judge<'_> {
         };
         let leaving = rows.map(of_row).filter(|(_, terms)| !terms.is_empty()).collect();
         self.spreads[phase as usize] = Some(Spread { longest_s, bounds, leaving });
-        columns
+        [columns, traces]
     }
 
     /// The steps of every unit input.
@@ -209,11 +204,8 @@ impl Judge<'_> {
         for from in (0..2 * d + 4).step_by(LANES) {
             let count = LANES.min(2 * d + 4 - from);
             work.solve_units(&self.bench(&[]), phase, step_s, from);
-            units.extend((0..count).map(|lane| Unit {
-                path: work.path(lane),
-                places: work.places(lane),
-                rates: work.rates(lane),
-            }));
+            let unit = |lane: usize| Unit { path: work.path(lane), trace: work.trace(lane) };
+            units.extend((0..count).map(unit));
         }
         units
     }
