@@ -304,9 +304,14 @@ impl<'a> Scheme<'a> {
         [&self.places, &self.path.values[..NODES * d], &self.forces]
     }
 
-    /// Keeps the columns of a step that is an interval.
-    pub(super) fn keep(&mut self, phase: Phase, duration_s: f64, columns: Vec<f64>) {
-        self.slot = self.find(phase, duration_s, 1);
+    /// Keeps the columns of a step of an interval of so many.
+    pub(super) fn keep(
+        &mut self,
+        phase: Phase,
+        (duration_s, steps): (f64, usize),
+        columns: Vec<f64>,
+    ) {
+        self.slot = self.find(phase, duration_s, steps);
         self.kept[self.slot].columns = columns;
         // Not the one to make room.
         self.kept[self.slot].solved = usize::MAX;

@@ -242,8 +242,10 @@ impl<'a> Judge<'a> {
         let mut told = Vec::with_capacity(h.len());
         let mut worst = Worst::NONE;
         let mut work = Work::new(self.structure.degrees());
-        let mut groups =
-            [Phase::Stick, Phase::Slip].map(|phase| [Group::new(phase), Group::new(phase)]);
+        let mut groups = [Phase::Stick, Phase::Slip].map(|phase| {
+            let steps = self.steps(phase);
+            [Group::new(phase, steps), Group::new(phase, steps)]
+        });
         let mut maps = [None, None];
         let even_s = self.even_s;
         for k in 0..h.len().saturating_sub(1) {
@@ -274,11 +276,18 @@ impl<'a> Judge<'a> {
         Ok(told)
     }
 
-    /// The interval from a knot if it is one step under a linear load, and no stop acts in it.
+    /// Steps that an even interval of a phase takes, and any that goes side by side with others.
+    fn steps(&self, phase: Phase) -> usize {
+        let turn = self.scheme.rate(phase) * self.even_s;
+        if turn > MAX_TURN { libm::ceil(turn / MAX_TURN) as usize } else { 1 }
+    }
+
+    /// The interval from a knot if it takes no more steps under a linear load, and no stop acts in it.
     fn single(&mut self, k: usize, length_s: f64) -> Option<(Phase, Interval)> {
         let h = self.history;
         let phase = if h.mode[k] == Mode::Stick { Phase::Stick } else { Phase::Slip };
-        if self.contact(k) != Contact::Free || self.scheme.rate(phase) * length_s > MAX_TURN {
+        let longest = MAX_TURN * self.steps(phase) as f64;
+        if self.contact(k) != Contact::Free || self.scheme.rate(phase) * length_s > longest {
             return None;
         }
         let piece = self.ground.piece(h.time_s[k], h.time_s[k + 1]);
@@ -314,16 +323,16 @@ impl<'a> Judge<'a> {
     /// Bounds the outputs of a phase; the maps of the even step to its path, and to its places and rates,
     /// if it is one of this phase.
     fn prepare(&mut self, phase: Phase) -> Option<[Map; 2]> {
-        let rate = self.scheme.rate(phase);
+        let (rate, steps) = (self.scheme.rate(phase), self.steps(phase));
         let longest_s = if rate > 0.0 { MAX_TURN / rate } else { f64::INFINITY };
-        let longest_s = longest_s.min(self.longest_s);
+        let longest_s = longest_s.min(self.longest_s / steps as f64);
         let columns = self.spread(phase, longest_s);
-        let same = (longest_s - self.even_s).abs() <= 2.0 * self.instant_s;
+        let same = (longest_s * steps as f64 - self.even_s).abs() <= 2.0 * self.instant_s;
         let map = |columns: &Vec<f64>| Map::new(phase, self.structure.degrees(), columns);
         let maps = same.then(|| columns.each_ref().map(map));
         if maps.is_some() {
             let [columns, _] = columns;
-            self.scheme.keep(phase, longest_s, columns);
+            self.scheme.keep(phase, (self.even_s, steps), columns);
         }
         maps
     }
@@ -337,19 +346,14 @@ impl<'a> Judge<'a> {
         (work, worst): (&mut Work, &mut Worst),
         told: &mut [Option<Told<f64>>],
     ) -> Result<(), Stopped> {
-        self.pulse.beat(self.units)?;
+        self.pulse.beat(self.units.saturating_mul(self.steps(group.phase) as u32))?;
         let Some(spread) = &self.spreads[group.phase as usize] else { return Ok(()) };
         group.fill();
         let (bounds, longest_s) = (&spread.leaving[..], spread.longest_s);
-        let reach = Reach { bounds, longest_s, attained: &self.peaks.attained, knots };
+        let reach = Reach { bounds, longest_s, knots };
         let bench = self.bench(&[]);
-        let lanes: &Group = group;
-        let [path, trace] = [0, 1].map(|i| maps.map(|maps| &maps[i]));
-        dispatch!(self.level, simd => bench.group(simd, lanes, path, &reach, work, worst));
-        if work.told.passes.largest() > 0.0 {
-            let peaks = &mut self.peaks;
-            dispatch!(self.level, simd => bench.seek(simd, lanes, trace, knots, peaks, work));
-        }
+        let (lanes, peaks) = ((&*group, maps), &mut self.peaks);
+        dispatch!(self.level, simd => bench.group(simd, lanes, &reach, peaks, work, worst));
         for lane in 0..group.count {
             told[group.knot(lane)] = Some(work.told.lane(lane));
         }

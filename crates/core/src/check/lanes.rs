@@ -17,7 +17,7 @@ use crate::response::{History, Mode};
 pub(super) const LANES: usize = 8;
 
 /// One number for each of them.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 #[repr(C, align(64))]
 pub(super) struct Eight(pub(super) [f64; LANES]);
 
@@ -474,7 +474,9 @@ pub(super) struct Group {
     pub(super) phase: Phase,
     pub(super) count: usize,
     knots: [usize; LANES],
-    length_s: Eight,
+    /// Equal steps that each interval takes, and their length.
+    steps: usize,
+    step_s: Eight,
     table: [Eight; 2],
     normal: [Eight; 2],
     drift: Eight,
@@ -483,7 +485,7 @@ pub(super) struct Group {
     force: [Eight; 2],
 }
 
-/// An interval of one piece and one step.
+/// An interval of one piece.
 pub(super) struct Interval {
     pub(super) knot: usize,
     pub(super) length_s: f64,
@@ -496,12 +498,13 @@ pub(super) struct Interval {
 }
 
 impl Group {
-    pub(super) fn new(phase: Phase) -> Self {
+    pub(super) fn new(phase: Phase, steps: usize) -> Self {
         Self {
             phase,
             count: 0,
             knots: [0; LANES],
-            length_s: Eight::ZERO,
+            steps,
+            step_s: Eight::ZERO,
             table: [Eight::ZERO; 2],
             normal: [Eight::ZERO; 2],
             drift: Eight::ZERO,
@@ -514,7 +517,7 @@ impl Group {
     pub(super) fn push(&mut self, one: &Interval) -> bool {
         let lane = self.count;
         self.knots[lane] = one.knot;
-        self.length_s.0[lane] = one.length_s;
+        self.step_s.0[lane] = one.length_s / self.steps as f64;
         for end in 0..2 {
             self.table[end].0[lane] = one.table[end];
             self.normal[end].0[lane] = one.normal[end];
@@ -529,7 +532,7 @@ impl Group {
     /// Repeats the last interval in the lanes that are left.
     pub(super) fn fill(&mut self) {
         let (from, last) = (self.count, self.count - 1);
-        let lists = [&mut self.length_s, &mut self.drift, &mut self.sign]
+        let lists = [&mut self.step_s, &mut self.drift, &mut self.sign]
             .into_iter()
             .chain(&mut self.table)
             .chain(&mut self.normal)
@@ -577,7 +580,6 @@ pub(super) struct Reach<'a> {
     /// Output by output, those only that leave it.
     pub(super) bounds: &'a [(usize, Vec<(usize, f64)>)],
     pub(super) longest_s: f64,
-    pub(super) attained: &'a [f64],
     pub(super) knots: &'a Knots,
 }
 
@@ -595,8 +597,6 @@ pub(super) struct Told<T> {
     pub(super) low: T,
     /// Largest |ṡ|.
     pub(super) fastest: T,
-    /// 1 where an output may pass what has been attained.
-    pub(super) passes: T,
 }
 
 impl<T: Copy> Told<T> {
@@ -611,7 +611,6 @@ impl<T: Copy> Told<T> {
             least: of(self.least),
             low: of(self.low),
             fastest: of(self.fastest),
-            passes: of(self.passes),
         }
     }
 }
@@ -633,14 +632,19 @@ pub(super) struct Work {
     /// `x` and `ẍ` at the nodes, where the equations were solved or peaks are sought.
     trace: Vec<Eight>,
     fastest: Vec<Eight>,
-    /// Outputs at the nodes.
+    /// Outputs at the nodes, and at the ends of a step within an interval.
     values: Vec<Eight>,
+    ends: [Vec<Eight>; 2],
+    /// Normal force at the ends of a step.
+    normal: [Eight; 2],
+    seen: Seen,
     pub(super) told: Told<Eight>,
 }
 
 impl Work {
     pub(super) fn new(degrees: usize) -> Self {
         let zeros = |count: usize| vec![Eight::ZERO; count];
+        let outputs = output::STOREYS + 3 * (degrees - 1);
         Self {
             input: zeros(2 * degrees + 4),
             active: zeros(2 * degrees + 4),
@@ -648,7 +652,10 @@ impl Work {
             path: zeros((NODES + 2) * degrees + NODES),
             trace: zeros(2 * NODES * degrees),
             fastest: zeros(degrees),
-            values: zeros(NODES * (output::STOREYS + 3 * (degrees - 1))),
+            values: zeros(NODES * outputs),
+            ends: [zeros(outputs), zeros(outputs)],
+            normal: [Eight::ZERO; 2],
+            seen: Seen::default(),
             told: Told {
                 work: Eight::ZERO,
                 size: Eight::ZERO,
@@ -658,7 +665,6 @@ impl Work {
                 least: Eight::ZERO,
                 low: Eight::ZERO,
                 fastest: Eight::ZERO,
-                passes: Eight::ZERO,
             },
         }
     }
@@ -671,8 +677,7 @@ impl Work {
         for (lane, input) in self.input.iter_mut().skip(from).take(LANES).enumerate() {
             input.0[lane] = 1.0;
         }
-        let length_s = Eight([step_s; LANES]);
-        let group = Group { length_s, ..Group::new(phase) };
+        let group = Group { step_s: Eight([step_s; LANES]), ..Group::new(phase, 1) };
         dispatch!(Level::new(), simd => bench.solve(simd, bench.structure.masses_kg.len(), &group, self));
     }
 
@@ -688,21 +693,22 @@ impl Work {
 }
 
 impl Bench<'_> {
-    /// Judges a group by the map of its step, or by solving the equations of each.
+    /// Judges a group by the maps of its step to the path, and to places and rates, or by solving the
+    /// equations of each.
     #[inline(always)]
     pub(super) fn group<S: Simd>(
         &self,
         simd: S,
-        group: &Group,
-        map: Option<&Map>,
+        (group, maps): (&Group, Option<&[Map; 2]>),
         reach: &Reach,
+        peaks: &mut Peaks<'_>,
         work: &mut Work,
         worst: &mut Worst,
     ) {
         // One storey gets loops of its own.
         match self.structure.masses_kg.len() {
-            1 => self.group_of(simd, 1, group, map, reach, work, worst),
-            n => self.group_of(simd, n, group, map, reach, work, worst),
+            1 => self.group_of(simd, 1, (group, maps), reach, peaks, work, worst),
+            n => self.group_of(simd, n, (group, maps), reach, peaks, work, worst),
         }
     }
 
@@ -712,129 +718,274 @@ impl Bench<'_> {
         &self,
         simd: S,
         n: usize,
-        group: &Group,
-        map: Option<&Map>,
+        (group, maps): (&Group, Option<&[Map; 2]>),
         reach: &Reach,
+        peaks: &mut Peaks<'_>,
         work: &mut Work,
         worst: &mut Worst,
     ) {
         let places = Places::new(group.knots);
         self.read(simd, n, group, &places, &mut work.input);
-        match map {
-            Some(map) => apply(simd, map, &work.input, &mut work.active, &mut work.path),
-            None => self.solve(simd, n, group, work),
+        for step in 0..group.steps {
+            self.load(simd, n, group, step, work);
+            match maps {
+                Some([map, _]) => {
+                    apply(simd, map, &work.input, &mut work.active, &mut work.path);
+                }
+                None => self.solve(simd, n, group, work),
+            }
+            self.spend(simd, n, group, step, work);
+            match group.phase {
+                Phase::Stick => self.held(simd, n, step, work),
+                Phase::Slip | Phase::Pressed => self.sliding(simd, n, group, step, work),
+            }
+            if step + 1 < group.steps {
+                self.end(simd, n, group, &peaks.outputs, work);
+            }
+            let trace = maps.map(|[_, trace]| trace);
+            self.peaks(simd, n, (group, step, trace), &places, reach, peaks, work);
         }
-        self.spend(simd, n, group, work);
+        work.seen.tell(simd, &mut work.told);
         self.arrive(simd, n, group, &places, work, worst);
-        match group.phase {
-            Phase::Stick => self.held(simd, n, group, work),
-            Phase::Slip | Phase::Pressed => self.sliding(simd, n, group, work),
-        }
         self.sides(simd, group, &places, worst);
-        peaks(simd, group, &places, reach, work);
     }
 
-    /// Raises the peaks by the paths of a group in which some output may pass them; `trace` is the map
-    /// to places and rates of a group whose paths came from a map.
+    /// The loads of a step, and the state with which it starts after another.
     #[inline(always)]
-    pub(super) fn seek<S: Simd>(
+    fn load<S: Simd>(&self, simd: S, n: usize, group: &Group, step: usize, work: &mut Work) {
+        let d = n + 1;
+        let between = inlined(
+            #[inline(always)]
+            |[from, to]: &[Eight; 2], at: usize| {
+                let (from, to) = (from.load(simd), to.load(simd));
+                match at {
+                    0 => from,
+                    at if at == group.steps => to,
+                    at => from + (to - from) * all(simd, at as f64 / group.steps as f64),
+                }
+            },
+        );
+        for end in 0..2 {
+            let a = between(&group.table, step + end) + all(simd, self.slope);
+            work.input[2 * d + end].store(a);
+            work.input[2 * d + 2 + end].store(between(&group.force, step + end));
+            work.normal[end].store(between(&group.normal, step + end));
+        }
+        if step > 0 {
+            work.input[..2 * d].copy_from_slice(&work.path[NODES * d..(NODES + 2) * d]);
+            if group.phase == Phase::Stick {
+                work.input[d] = Eight::ZERO;
+            }
+            work.ends.swap(0, 1);
+        }
+    }
+
+    /// The outputs at the end of a step.
+    #[inline(always)]
+    fn end<S: Simd>(
         &self,
         simd: S,
+        n: usize,
         group: &Group,
-        trace: Option<&Map>,
-        knots: &Knots,
+        outputs: &Outputs<'_>,
+        work: &mut Work,
+    ) {
+        let d = n + 1;
+        let Work { input, path, state, ends, .. } = work;
+        let [a, force] = [2 * d + 1, 2 * d + 3].map(|load| input[load].load(simd));
+        let x = inlined(
+            #[inline(always)]
+            |k: usize| path[NODES * d + k].load(simd),
+        );
+        let v = inlined(
+            #[inline(always)]
+            |k: usize| path[(NODES + 1) * d + k].load(simd),
+        );
+        let force = match group.phase {
+            Phase::Stick => self.demand(simd, x, v, a),
+            Phase::Slip | Phase::Pressed => force,
+        };
+        self.accelerate(
+            simd,
+            n,
+            group.phase,
+            (x, v),
+            (a, force),
+            #[inline(always)]
+            |k, rate| state[k].0.store(rate),
+        );
+        self.outputs(
+            simd,
+            n,
+            outputs,
+            (x, v),
+            #[inline(always)]
+            |k| state[k].0.load(simd),
+            (a, force),
+            #[inline(always)]
+            |g, value| ends[1][g].store(value),
+        );
+    }
+
+    /// Hands on the outputs of a state with its rates and loads.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)] // an instant
+    fn outputs<S: Simd>(
+        &self,
+        simd: S,
+        n: usize,
+        outputs: &Outputs<'_>,
+        (x, v): (impl Fn(usize) -> f64x8<S>, impl Fn(usize) -> f64x8<S>),
+        rate: impl Fn(usize) -> f64x8<S>,
+        (a, force): (f64x8<S>, f64x8<S>),
+        out: impl FnMut(usize, f64x8<S>),
+    ) {
+        let [slope, spring, damper] =
+            [self.slope, self.structure.spring, self.structure.damper].map(|x| all(simd, x));
+        let total = rate(0) + a;
+        let base = self.base_force(
+            simd,
+            #[inline(always)]
+            |j| x(1 + j),
+            #[inline(always)]
+            |j| v(1 + j),
+        );
+        let floor = inlined(
+            #[inline(always)]
+            |j: usize| rate(1 + j) + total,
+        );
+        let slider = force - (spring * x(0) + damper * v(0));
+        let moment = outputs.moment(simd, total, &floor);
+        let fixed = [v(0), total - slope, slider, force, base, moment, all(simd, 0.0)];
+        each_output(
+            simd,
+            n,
+            fixed,
+            #[inline(always)]
+            |j| [x(1 + j), floor(j) - slope],
+            out,
+        );
+    }
+
+    /// Raises the peaks by the paths of a step where some output may pass them.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)] // those of `group`
+    fn peaks<S: Simd>(
+        &self,
+        simd: S,
+        n: usize,
+        (group, step, trace): (&Group, usize, Option<&Map>),
+        places: &Places,
+        reach: &Reach,
         peaks: &mut Peaks<'_>,
         work: &mut Work,
     ) {
-        let n = self.structure.masses_kg.len();
+        let share = group.step_s.load(simd) * all(simd, 1.0 / reach.longest_s);
+        let ends = inlined(
+            #[inline(always)]
+            |work: &Work, g: usize| {
+                let list = &reach.knots.outputs[g * reach.knots.stride..][..reach.knots.stride];
+                both(
+                    #[inline(always)]
+                    |end| match step + end {
+                        0 => places.read(simd, list, 0, [1, 0]),
+                        at if at == group.steps => places.read(simd, list, 1, [1, 0]),
+                        _ => work.ends[end][g].load(simd),
+                    },
+                )
+            },
+        );
+        let passes = reach.bounds.iter().any(|(g, bounds)| {
+            let mut off = all(simd, 0.0);
+            for &(input, bound) in bounds {
+                off += all(simd, bound) * work.input[input].load(simd).abs();
+            }
+            let [first, last] = ends(work, *g).map(|end| end.abs());
+            let most = larger(first, last) + share * off;
+            most.simd_gt(all(simd, peaks.attained[*g] * (1.0 + 1e-12))).any_true()
+        });
+        if passes {
+            self.trace(simd, n, group, trace, &peaks.outputs, work);
+            for g in 0..peaks.attained.len() {
+                let peak = &mut peaks.attained[g];
+                self.seek(simd, ends(work, g), &work.values[g * NODES..][..NODES], peak);
+            }
+        }
+    }
+
+    /// Outputs at the nodes of a step; `trace` is the map to places and rates where the path came from a
+    /// map.
+    #[inline(always)]
+    fn trace<S: Simd>(
+        &self,
+        simd: S,
+        n: usize,
+        group: &Group,
+        trace: Option<&Map>,
+        outputs: &Outputs<'_>,
+        work: &mut Work,
+    ) {
         let d = n + 1;
-        let [slope, spring, damper] =
-            [self.slope, self.structure.spring, self.structure.damper].map(|x| all(simd, x));
         let Work { input, active, path, trace: traced, values, .. } = work;
         if let Some(map) = trace {
             apply(simd, map, input, active, traced);
         }
         for i in 0..NODES {
-            let c = all(simd, self.rule.c[i]);
             let load = inlined(
                 #[inline(always)]
                 |first: usize| {
                     let from = input[first].load(simd);
-                    from + (input[first + 1].load(simd) - from) * c
+                    from + (input[first + 1].load(simd) - from) * all(simd, self.rule.c[i])
                 },
             );
-            let x = inlined(
-                #[inline(always)]
-                |k: usize| traced[i * d + k].load(simd),
-            );
-            let v = inlined(
-                #[inline(always)]
-                |k: usize| path[i * d + k].load(simd),
-            );
-            let rate = inlined(
-                #[inline(always)]
-                |k: usize| traced[(NODES + i) * d + k].load(simd),
-            );
-            let total = rate(0) + load(2 * d);
             let force = match group.phase {
                 Phase::Stick => path[(NODES + 2) * d + i].load(simd),
                 Phase::Slip | Phase::Pressed => load(2 * d + 2),
             };
-            let base = self.base_force(
-                simd,
-                #[inline(always)]
-                |j| x(1 + j),
-                #[inline(always)]
-                |j| v(1 + j),
-            );
-            let floor = inlined(
-                #[inline(always)]
-                |j: usize| rate(1 + j) + total,
-            );
-            let slider = force - (spring * x(0) + damper * v(0));
-            let moment = peaks.outputs.moment(simd, total, floor);
-            let fixed = [v(0), total - slope, slider, force, base, moment, all(simd, 0.0)];
-            each_output(
+            self.outputs(
                 simd,
                 n,
-                fixed,
+                outputs,
+                (
+                    #[inline(always)]
+                    |k: usize| traced[i * d + k].load(simd),
+                    #[inline(always)]
+                    |k: usize| path[i * d + k].load(simd),
+                ),
                 #[inline(always)]
-                |j| [x(1 + j), floor(j) - slope],
+                |k| traced[(NODES + i) * d + k].load(simd),
+                (load(2 * d), force),
                 #[inline(always)]
                 |g, value| values[g * NODES + i].store(value),
             );
         }
-        let places = Places::new(group.knots);
-        for (g, nodes) in values.chunks_exact(NODES).enumerate() {
-            let list = &knots.outputs[g * knots.stride..][..knots.stride];
-            let ends = both(
-                #[inline(always)]
-                |later| places.read(simd, list, later, [1, 0]),
-            );
-            let (mut least, mut most) = (smaller(ends[0], ends[1]), larger(ends[0], ends[1]));
-            for node in nodes {
-                let value = node.load(simd);
-                (least, most) = (smaller(least, value), larger(most, value));
+    }
+
+    /// Raises a peak to the largest size of an output from its values at the ends and the nodes.
+    #[inline(always)]
+    fn seek<S: Simd>(&self, simd: S, ends: [f64x8<S>; 2], nodes: &[Eight], peak: &mut f64) {
+        let (mut least, mut most) = (smaller(ends[0], ends[1]), larger(ends[0], ends[1]));
+        for node in nodes {
+            let value = node.load(simd);
+            (least, most) = (smaller(least, value), larger(most, value));
+        }
+        let size = larger(most.abs(), least.abs());
+        *peak = size.to_array().into_iter().fold(*peak, greatest);
+        // Between two points the polynomial rises above both by less than a tenth of its range.
+        let bound = size + (most - least) * all(simd, 0.1);
+        let open = bound.simd_gt(all(simd, *peak * (1.0 + 1e-12))).to_bitmask();
+        for lane in (0..LANES).filter(|lane| open & (1 << lane) != 0) {
+            let mut points = [0.0; POINTS];
+            let [first, last] = ends.map(|end| end.to_array()[lane]);
+            (points[0], points[POINTS - 1]) = (first, last);
+            for (point, node) in points[1..].iter_mut().zip(nodes) {
+                *point = node.0[lane];
             }
-            let size = larger(most.abs(), least.abs());
-            let peak = &mut peaks.attained[g];
-            *peak = size.to_array().into_iter().fold(*peak, greatest);
-            // Between two points the polynomial rises above both by less than a tenth of its range.
-            let bound = size + (most - least) * all(simd, 0.1);
-            let open = bound.simd_gt(all(simd, *peak * (1.0 + 1e-12))).to_bitmask();
-            for lane in (0..group.count).filter(|lane| open & (1 << lane) != 0) {
-                let mut points = [0.0; POINTS];
-                (points[0], points[POINTS - 1]) =
-                    (ends[0].to_array()[lane], ends[1].to_array()[lane]);
-                for (point, node) in points[1..].iter_mut().zip(nodes) {
-                    *point = node.0[lane];
-                }
-                raise(self.rule, peak, &points);
-            }
+            raise(self.rule, peak, &points);
         }
     }
 
-    /// `x, v, a, a, T, T`.
+    /// `x, v`.
     #[inline(always)]
     fn read<S: Simd>(
         &self,
@@ -855,22 +1006,16 @@ impl Bench<'_> {
             input[1 + i].store(places.read(simd, &h.storey_displacement_m, 0, [n, i]));
             input[d + 1 + i].store(places.read(simd, &h.storey_velocity_m_per_s, 0, [n, i]));
         }
-        for end in 0..2 {
-            input[2 * d + end].store(group.table[end].load(simd) + all(simd, self.slope));
-            input[2 * d + 2 + end] = group.force[end];
-        }
     }
 
     /// Solves the collocation equations of every lane by iteration.
     #[inline(always)]
     fn solve<S: Simd>(&self, simd: S, n: usize, group: &Group, work: &mut Work) {
-        let (s, rule) = (self.structure, self.rule);
+        let rule = self.rule;
         let d = n + 1;
-        let stuck = group.phase == Phase::Stick;
-        let [spring, damper] = s.slider(group.phase);
         let Work { input, state, path, trace, .. } = work;
         let (places, rates) = trace.split_at_mut(NODES * d);
-        let h = group.length_s.load(simd);
+        let h = group.step_s.load(simd);
         let load = inlined(
             #[inline(always)]
             |first: usize, c: f64| {
@@ -909,23 +1054,7 @@ impl Bench<'_> {
                     #[inline(always)]
                     |k: usize| state[k].1.load(simd),
                 );
-                let a = load(2 * d, rule.c[i]);
-                let block = if stuck {
-                    a
-                } else {
-                    let slider = load(2 * d + 2, rule.c[i])
-                        - all(simd, damper) * v(0)
-                        - all(simd, spring) * x(0);
-                    let base = self.base_force(
-                        simd,
-                        #[inline(always)]
-                        |j| x(1 + j),
-                        #[inline(always)]
-                        |j| v(1 + j),
-                    );
-                    (slider + base) * all(simd, 1.0 / s.block_kg)
-                };
-                let mut take = inlined(
+                let take = inlined(
                     #[inline(always)]
                     |k: usize, rate: f64x8<S>| {
                         let old = &mut rates[i * d + k];
@@ -934,31 +1063,8 @@ impl Bench<'_> {
                         old.store(rate);
                     },
                 );
-                take(0, block - a);
-                for k in 0..n {
-                    let below = if k == 0 { all(simd, 0.0) } else { x(k) };
-                    let mut force = all(simd, s.stiffnesses[k]) * (x(k + 1) - below);
-                    if k + 1 < n {
-                        let above = x(k + 2) - x(k + 1);
-                        force -= all(simd, s.stiffnesses[k + 1]) * above;
-                    }
-                    match &s.damping {
-                        StoreyDamping::Chain(c) => {
-                            let below = if k == 0 { all(simd, 0.0) } else { v(k) };
-                            force += all(simd, c[k]) * (v(k + 1) - below);
-                            if k + 1 < n {
-                                let above = v(k + 2) - v(k + 1);
-                                force -= all(simd, c[k + 1]) * above;
-                            }
-                        }
-                        StoreyDamping::Full(c) => {
-                            for j in 0..n {
-                                force += all(simd, c[k * n + j]) * v(1 + j);
-                            }
-                        }
-                    }
-                    take(1 + k, -(force * all(simd, 1.0 / s.masses_kg[k])) - block);
-                }
+                let loads = (load(2 * d, rule.c[i]), load(2 * d + 2, rule.c[i]));
+                self.accelerate(simd, n, group.phase, (x, v), loads, take);
             }
             let small = change.simd_le(all(simd, 2.0 * f64::EPSILON) * size);
             let stalled = change.simd_ge(all(simd, 0.5) * last.load(simd));
@@ -986,7 +1092,7 @@ impl Bench<'_> {
                 places[i * d + k].store(place);
                 path[i * d + k].store(speed);
             }
-            if stuck {
+            if group.phase == Phase::Stick {
                 let demand = self.demand(
                     simd,
                     |k| state[k].0.load(simd),
@@ -995,6 +1101,59 @@ impl Bench<'_> {
                 );
                 path[(NODES + 2) * d + i].store(demand);
             }
+        }
+    }
+
+    /// Hands on `ẍ` of a state under loads `a` and `T`: eqs (9), (10).
+    #[inline(always)]
+    fn accelerate<S: Simd>(
+        &self,
+        simd: S,
+        n: usize,
+        phase: Phase,
+        (x, v): (impl Fn(usize) -> f64x8<S>, impl Fn(usize) -> f64x8<S>),
+        (a, force): (f64x8<S>, f64x8<S>),
+        mut take: impl FnMut(usize, f64x8<S>),
+    ) {
+        let s = self.structure;
+        let [spring, damper] = s.slider(phase);
+        let block = if phase == Phase::Stick {
+            a
+        } else {
+            let slider = force - all(simd, damper) * v(0) - all(simd, spring) * x(0);
+            let base = self.base_force(
+                simd,
+                #[inline(always)]
+                |j| x(1 + j),
+                #[inline(always)]
+                |j| v(1 + j),
+            );
+            (slider + base) * all(simd, 1.0 / s.block_kg)
+        };
+        take(0, block - a);
+        for k in 0..n {
+            let below = if k == 0 { all(simd, 0.0) } else { x(k) };
+            let mut force = all(simd, s.stiffnesses[k]) * (x(k + 1) - below);
+            if k + 1 < n {
+                let above = x(k + 2) - x(k + 1);
+                force -= all(simd, s.stiffnesses[k + 1]) * above;
+            }
+            match &s.damping {
+                StoreyDamping::Chain(c) => {
+                    let below = if k == 0 { all(simd, 0.0) } else { v(k) };
+                    force += all(simd, c[k]) * (v(k + 1) - below);
+                    if k + 1 < n {
+                        let above = v(k + 2) - v(k + 1);
+                        force -= all(simd, c[k + 1]) * above;
+                    }
+                }
+                StoreyDamping::Full(c) => {
+                    for j in 0..n {
+                        force += all(simd, c[k * n + j]) * v(1 + j);
+                    }
+                }
+            }
+            take(1 + k, -(force * all(simd, 1.0 / s.masses_kg[k])) - block);
         }
     }
 
@@ -1020,21 +1179,27 @@ impl Bench<'_> {
 
     /// Work and losses, and the largest velocities.
     #[inline(always)]
-    fn spend<S: Simd>(&self, simd: S, n: usize, group: &Group, work: &mut Work) {
+    fn spend<S: Simd>(&self, simd: S, n: usize, group: &Group, step: usize, work: &mut Work) {
         let s = self.structure;
         let d = n + 1;
         let zero = all(simd, 0.0);
         let (mut done, mut size, mut damping, mut friction) = (zero, zero, zero, zero);
-        let h = group.length_s.load(simd);
+        let h = group.step_s.load(simd);
         let [a, a1] = both(
             #[inline(always)]
             |end| work.input[2 * d + end].load(simd),
         );
         let [force, force1] = both(
             #[inline(always)]
-            |end| group.force[end].load(simd),
+            |end| work.input[2 * d + 2 + end].load(simd),
         );
-        work.fastest.fill(Eight::ZERO);
+        if step == 0 {
+            work.fastest.fill(Eight::ZERO);
+            let told = &mut work.told;
+            for sum in [&mut told.work, &mut told.size, &mut told.damping, &mut told.friction] {
+                *sum = Eight::ZERO;
+            }
+        }
         for node in 0..NODES {
             let v = inlined(
                 #[inline(always)]
@@ -1063,10 +1228,10 @@ impl Bench<'_> {
             friction -= weight * (force + (force1 - force) * c) * v(0);
         }
         let told = &mut work.told;
-        told.work.store(done);
-        told.size.store(size);
-        told.damping.store(damping);
-        told.friction.store(friction);
+        told.work.store(told.work.load(simd) + done);
+        told.size.store(told.size.load(simd) + size);
+        told.damping.store(told.damping.load(simd) + damping);
+        told.friction.store(told.friction.load(simd) + friction);
         told.fastest = work.fastest[0];
     }
 
@@ -1128,12 +1293,12 @@ impl Bench<'_> {
 
     /// Margins of the demand in stick.
     #[inline(always)]
-    fn held<S: Simd>(&self, simd: S, n: usize, group: &Group, work: &mut Work) {
+    fn held<S: Simd>(&self, simd: S, n: usize, step: usize, work: &mut Work) {
         let d = n + 1;
-        let Work { input, path, told, .. } = work;
+        let Work { input, path, normal, seen, .. } = work;
         let [normal, normal1] = both(
             #[inline(always)]
-            |end| group.normal[end].load(simd),
+            |end| normal[end].load(simd),
         );
         let one = all(simd, 1.0);
         let [positive, negative] = [all(simd, self.fixed[0]), all(simd, self.fixed[1])];
@@ -1159,33 +1324,28 @@ impl Bench<'_> {
                 )
             },
         );
-        let first = margin(of(0, 0), 0.0);
-        let last = margin(of(NODES * d + 1, 1), 1.0);
-        let demands = &path[(NODES + 2) * d..];
-        tell(
-            simd,
-            told,
-            [first, last],
-            #[inline(always)]
-            |i| margin(demands[i].load(simd), self.rule.c[i]),
-        );
+        if step == 0 {
+            seen.start(margin(of(0, 0), 0.0));
+        }
+        for (i, demand) in path[(NODES + 2) * d..].iter().enumerate() {
+            seen.take(simd, margin(demand.load(simd), self.rule.c[i]));
+        }
+        seen.take(simd, margin(of(NODES * d + 1, 1), 1.0));
     }
 
     /// Speeds in the direction of a slip.
     #[inline(always)]
-    fn sliding<S: Simd>(&self, simd: S, n: usize, group: &Group, work: &mut Work) {
+    fn sliding<S: Simd>(&self, simd: S, n: usize, group: &Group, step: usize, work: &mut Work) {
         let d = n + 1;
-        let Work { input, path, told, .. } = work;
+        let Work { input, path, seen, .. } = work;
         let sign = group.sign.load(simd);
-        let first = sign * input[d].load(simd);
-        let last = sign * path[(NODES + 1) * d].load(simd);
-        tell(
-            simd,
-            told,
-            [first, last],
-            #[inline(always)]
-            |i| sign * path[i * d].load(simd),
-        );
+        if step == 0 {
+            seen.start(sign * input[d].load(simd));
+        }
+        for i in 0..NODES {
+            seen.take(simd, sign * path[i * d].load(simd));
+        }
+        seen.take(simd, sign * path[(NODES + 1) * d].load(simd));
     }
 
     /// Compares the stored table accelerations and forces of sliding at both ends with the loads.
@@ -1219,42 +1379,50 @@ fn from_state<S: Simd>(
     }
 }
 
-/// The least of a quantity at the points of an interval, and what it cannot fall below.
-#[inline(always)]
-fn tell<S: Simd>(
-    simd: S,
-    told: &mut Told<Eight>,
-    [first, last]: [f64x8<S>; 2],
-    at: impl Fn(usize) -> f64x8<S>,
-) {
-    let (mut least, mut most, mut before) = (first, first, first);
-    let one = all(simd, 1.0);
-    let zero = all(simd, 0.0);
-    let (mut rises, mut falls) = (zero, zero);
-    let mut take = inlined(
-        #[inline(always)]
-        |value: f64x8<S>| {
-            least = smaller(least, value);
-            most = larger(most, value);
-            rises = value.simd_gt(before).select(one, rises);
-            falls = value.simd_lt(before).select(one, falls);
-            before = value;
-        },
-    );
-    for i in 0..NODES {
-        take(at(i));
+/// What the points of intervals say of a margin or a speed, one after another.
+#[derive(Default)]
+struct Seen {
+    first: Eight,
+    least: Eight,
+    most: Eight,
+    last: Eight,
+    /// 1 where it has risen, and fallen.
+    rises: Eight,
+    falls: Eight,
+}
+
+impl Seen {
+    #[inline(always)]
+    fn start<S: Simd>(&mut self, first: f64x8<S>) {
+        for place in [&mut self.first, &mut self.least, &mut self.most, &mut self.last] {
+            place.store(first);
+        }
+        (self.rises, self.falls) = (Eight::ZERO, Eight::ZERO);
     }
-    take(last);
-    let range = most - least;
-    let flat = range.simd_le(all(simd, 4e-12));
-    // Between two points the polynomial falls below both by less than a tenth of its range.
-    let low = (rises * falls)
-        .simd_gt(zero)
-        .select(least - range * all(simd, 0.1), all(simd, f64::INFINITY));
-    told.low.store(flat.select(least, low));
-    told.least.store(least);
-    told.ends[0].store(first);
-    told.ends[1].store(last);
+
+    #[inline(always)]
+    fn take<S: Simd>(&mut self, simd: S, value: f64x8<S>) {
+        let (one, last) = (all(simd, 1.0), self.last.load(simd));
+        self.least.store(smaller(self.least.load(simd), value));
+        self.most.store(larger(self.most.load(simd), value));
+        self.rises.store(value.simd_gt(last).select(one, self.rises.load(simd)));
+        self.falls.store(value.simd_lt(last).select(one, self.falls.load(simd)));
+        self.last.store(value);
+    }
+
+    /// The least, and what it cannot fall below in between.
+    #[inline(always)]
+    fn tell<S: Simd>(&self, simd: S, told: &mut Told<Eight>) {
+        let least = self.least.load(simd);
+        let range = self.most.load(simd) - least;
+        let flat = range.simd_le(all(simd, 4e-12));
+        // Between two points the polynomial falls below both by less than a tenth of its range.
+        let low = (self.rises.load(simd) * self.falls.load(simd))
+            .simd_gt(all(simd, 0.0))
+            .select(least - range * all(simd, 0.1), all(simd, f64::INFINITY));
+        told.low.store(flat.select(least, low));
+        (told.least, told.ends) = (self.least, [self.first, self.last]);
+    }
 }
 
 /// What a map makes of the inputs of every lane.
@@ -1274,28 +1442,4 @@ fn apply<S: Simd>(simd: S, map: &Map, input: &[Eight], active: &mut [Eight], pat
         }
         path[row].store(sum);
     }
-}
-
-/// Marks the lanes in which an output may pass what has been attained.
-#[inline(always)]
-fn peaks<S: Simd>(simd: S, group: &Group, places: &Places, reach: &Reach, work: &mut Work) {
-    let share = group.length_s.load(simd) * all(simd, 1.0 / reach.longest_s);
-    let mut passes = all(simd, 0.0);
-    for (g, bounds) in reach.bounds {
-        let mut off = all(simd, 0.0);
-        for &(input, bound) in bounds {
-            off += all(simd, bound) * work.input[input].load(simd).abs();
-        }
-        let g = *g;
-        let from = g * reach.knots.stride;
-        let list = &reach.knots.outputs[from..from + reach.knots.stride];
-        let ends = both(
-            #[inline(always)]
-            |later| places.read(simd, list, later, [1, 0]).abs(),
-        );
-        let most = larger(ends[0], ends[1]) + share * off;
-        let limit = all(simd, reach.attained[g] * (1.0 + 1e-12));
-        passes = most.simd_gt(limit).select(all(simd, 1.0), passes);
-    }
-    work.told.passes.store(passes);
 }
