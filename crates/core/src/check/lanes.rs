@@ -792,7 +792,7 @@ impl Bench<'_> {
     ) {
         let d = n + 1;
         let Work { input, path, state, ends, .. } = work;
-        let [a, force] = [2 * d + 1, 2 * d + 3].map(|load| input[load].load(simd));
+        let (a, force) = (input[2 * d + 1].load(simd), input[2 * d + 3].load(simd));
         let x = inlined(
             #[inline(always)]
             |k: usize| path[NODES * d + k].load(simd),
@@ -812,7 +812,7 @@ impl Bench<'_> {
             (x, v),
             (a, force),
             #[inline(always)]
-            |k, rate| state[k].0.store(rate),
+            |k: usize, rate: f64x8<S>| state[k].0.store(rate),
         );
         self.outputs(
             simd,
@@ -840,8 +840,8 @@ impl Bench<'_> {
         (a, force): (f64x8<S>, f64x8<S>),
         out: impl FnMut(usize, f64x8<S>),
     ) {
-        let [slope, spring, damper] =
-            [self.slope, self.structure.spring, self.structure.damper].map(|x| all(simd, x));
+        let slope = all(simd, self.slope);
+        let (spring, damper) = (all(simd, self.structure.spring), all(simd, self.structure.damper));
         let total = rate(0) + a;
         let base = self.base_force(
             simd,
@@ -895,15 +895,19 @@ impl Bench<'_> {
                 )
             },
         );
-        let passes = reach.bounds.iter().any(|(g, bounds)| {
+        let mut passes = false;
+        for (g, bounds) in reach.bounds {
             let mut off = all(simd, 0.0);
             for &(input, bound) in bounds {
                 off += all(simd, bound) * work.input[input].load(simd).abs();
             }
-            let [first, last] = ends(work, *g).map(|end| end.abs());
-            let most = larger(first, last) + share * off;
-            most.simd_gt(all(simd, peaks.attained[*g] * (1.0 + 1e-12))).any_true()
-        });
+            let [first, last] = ends(work, *g);
+            let most = larger(first.abs(), last.abs()) + share * off;
+            if most.simd_gt(all(simd, peaks.attained[*g] * (1.0 + 1e-12))).any_true() {
+                passes = true;
+                break;
+            }
+        }
         if passes {
             self.trace(simd, n, group, trace, &peaks.outputs, work);
             for g in 0..peaks.attained.len() {
