@@ -353,6 +353,24 @@ fn reference_nasty_devices() {
     judged(0..500);
 }
 
+fn agree(seeds: &[u64]) {
+    let failures: Vec<String> = seeds
+        .iter()
+        .filter_map(|&seed| match judge(&system(seed)) {
+            Verdict::Agrees(..) => None,
+            Verdict::Differs(what) => Some(format!("{seed}: {what}")),
+            Verdict::IllDetermined | Verdict::Lost => Some(format!("{seed}: not determined")),
+        })
+        .collect();
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// Systems that would run out of travel if their rigid stop were not there.
+#[test]
+fn reference_rigid_stops_before_the_end_of_travel() {
+    agree(&[1734, 2149, 6133, 6697, 7504, 9523, 9757, 15_854]);
+}
+
 /// The same of ten thousand; `SLIPSTICK_SEEDS=0..20000` takes others.
 #[test]
 #[ignore = "minutes: cargo test -p slipstick --test devices_nasty -- --ignored --nocapture"]

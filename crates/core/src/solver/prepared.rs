@@ -242,7 +242,7 @@ fn solve(
     let away = Law { rigid: None, ..law.clone().under(model.normal_n()) };
     let recorder =
         with_history.then(|| Recorder::new(&tables.stick.system, &away, motion.len(), slope));
-    let (mut outcome, recorder) = instructions.run(Analysis {
+    let solved = instructions.run(Analysis {
         model,
         tables,
         law: &away,
@@ -250,7 +250,14 @@ fn solve(
         recorder,
         pulse: Pulse::new(go_on),
         room,
-    })?;
+    });
+    let (mut outcome, recorder) = match solved {
+        // What would happen beyond a rigid stop says nothing.
+        Err(error) if law.rigid.is_some() && !matches!(error, SolveError::Stopped(_)) => {
+            return stepped(model, &law, motion, ground, (with_history, go_on));
+        }
+        solved => solved?,
+    };
     if let Some(Stop { gap_m: [positive, negative], kind: StopKind::Rigid { .. } }) = model.stop() {
         let within = |gap_m: &Option<f64>, s: f64| gap_m.is_none_or(|gap_m| s < gap_m);
         let Sliding { max_m, min_m, .. } = outcome.sliding;
