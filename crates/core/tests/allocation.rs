@@ -1,5 +1,8 @@
 //! A run in room that another has left allocates its answer and nothing else.
 
+// Helpers of tests may panic as tests do.
+#![allow(clippy::unwrap_used)]
+
 use allocation_counter::measure;
 use slipstick::friction::{Coulomb, Friction};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};

@@ -855,7 +855,7 @@ impl Bench<'_> {
             |j: usize| rate(1 + j) + total,
         );
         let slider = force - (spring * x(0) + damper * v(0));
-        let moment = outputs.moment(simd, total, &floor);
+        let moment = outputs.moment(simd, total, floor);
         let fixed = [v(0), total - slope, slider, force, base, moment, all(simd, 0.0)];
         each_output(
             simd,

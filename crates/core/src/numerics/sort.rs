@@ -16,13 +16,17 @@ use core::cmp::Ordering;
 pub fn sort<T>(all: &mut [T], compare: impl Fn(&T, &T) -> Ordering) {
     let mut from: Vec<usize> = (0..all.len()).collect();
     sort_numbers(&mut from, &|i, j| compare(&all[i], &all[j]));
+    let mut to = vec![0; all.len()];
+    for (i, &from) in from.iter().enumerate() {
+        to[from] = i;
+    }
+    // Each exchange puts one into its place.
     for i in 0..all.len() {
-        // What stood there has gone where an earlier exchange put it.
-        let mut place = from[i];
-        while place < i {
-            place = from[place];
+        while to[i] != i {
+            let place = to[i];
+            all.swap(i, place);
+            to.swap(i, place);
         }
-        all.swap(i, place);
     }
 }
 
@@ -39,7 +43,7 @@ mod tests {
         fn prop_it_sorts_as_the_standard_library(keys in prop::collection::vec(0..9_u8, 0..60)) {
             let mut all: Vec<(u8, usize)> = keys.into_iter().zip(0..).collect();
             let mut expected = all.clone();
-            expected.sort_by(|a, b| a.0.cmp(&b.0));
+            expected.sort_by_key(|a| a.0);
             super::sort(&mut all, |a, b| a.0.cmp(&b.0));
             prop_assert_eq!(all, expected);
         }

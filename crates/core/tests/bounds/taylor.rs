@@ -65,7 +65,7 @@ fn prop_fewer_orders_leave_out_no_more() {
         let rate_step = 0.001 * f64::from(i);
         let kept = orders(rate_step);
         let next: f64 = (1..=kept + 1).map(|k| rate_step / k as f64).product();
-        assert!(kept % 4 == 0 && next < 6.4e-17, "{kept} orders leave out {next:e}");
+        assert!(kept.is_multiple_of(4) && next < 6.4e-17, "{kept} orders leave out {next:e}");
     }
     assert_eq!([0.05, 0.8, 1.4].map(orders), [12, 16, 20]);
 }
