@@ -500,7 +500,7 @@ impl<'a> Runner<'a> {
                 Err(error) => groups[i].iter().map(|_| Err(error.clone())).collect(),
                 Ok(parts) => {
                     let (mut running, mut room) =
-                        (Running::new(&parts.model), Workspace::default());
+                        (Running::new(&parts.model, self.engine), Workspace::default());
                     let of = |(_, record): &(usize, usize)| {
                         self.run(parts, (&mut running, &mut room), *record)
                     };
@@ -528,7 +528,7 @@ impl<'a> Runner<'a> {
             let failed = vec![FAILED; records];
             let Ok(parts) = &parts[design] else { return Ok(failed) };
             let Ok(model) = parts.model.with_friction_times(factor) else { return Ok(failed) };
-            let (mut running, mut room) = (Running::new(&model), Workspace::default());
+            let (mut running, mut room) = (Running::new(&model, self.engine), Workspace::default());
             let of = |record| self.run(parts, (&mut running, &mut room), record).unwrap_or(FAILED);
             let demands: Vec<Demand> = (0..records).map(of).collect();
             self.engine.done(records as u64)?;
@@ -586,7 +586,7 @@ impl<'a> Runner<'a> {
                 Err(_) => [f64::NAN; 2],
                 Ok(parts) => {
                     let (mut running, mut room) =
-                        (Running::new(&parts.model), Workspace::default());
+                        (Running::new(&parts.model, self.engine), Workspace::default());
                     let of = |record| {
                         self.run(&parts, (&mut running, &mut room), record).unwrap_or(FAILED)
                     };
@@ -631,7 +631,8 @@ impl<'a> Runner<'a> {
             let values: Vec<f64> = axes.iter().zip(&rows[i]).map(value).collect();
             let figures = || -> Result<[f64; 2], SensitivityError> {
                 let parts = self.models.parts(&values).map_err(RunError::from)?;
-                let (mut running, mut room) = (Running::new(&parts.model), Workspace::default());
+                let (mut running, mut room) =
+                    (Running::new(&parts.model, self.engine), Workspace::default());
                 let demands =
                     (0..records).map(|record| self.run(&parts, (&mut running, &mut room), record));
                 let figures = request.target.figures(&demands.collect::<Result<Vec<_>, _>>()?)?;

@@ -351,7 +351,8 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
             let runs = engine.map(curves_count * pieces, |i| {
                 let (curve, piece) = (i / pieces, i % pieces);
                 let (record, parts) = (curve % records, &parts[curve / records]);
-                let (mut running, mut room) = (Running::new(&parts.model), Workspace::default());
+                let (mut running, mut room) =
+                    (Running::new(&parts.model, engine), Workspace::default());
                 let these = levels.iter().skip(piece * PIECE).take(PIECE);
                 let of = |level: &f64| one((&mut running, &mut room), parts, record, *level);
                 let runs: Vec<Run> = these.map(of).collect();
@@ -366,7 +367,8 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
             engine.map(curves_count, |curve| {
                 let (record, parts) = (curve % records, &parts[curve / records]);
                 let mut runs: Vec<Run> = Vec::new();
-                let (mut running, mut room) = (Running::new(&parts.model), Workspace::default());
+                let (mut running, mut room) =
+                    (Running::new(&parts.model, engine), Workspace::default());
                 hunt.try_run(|level| {
                     let run = one((&mut running, &mut room), parts, record, level);
                     let demand = run.demands.as_ref().map_or(f64::NAN, |values| values[column]);

@@ -358,7 +358,8 @@ fn run_all(
     let held = |structure: &Model, motion: &GroundMotion| -> Result<f64, RunError> {
         let along = without_vertical(motion)?;
         let room = &mut Workspace::default();
-        let demands = Running::new(structure).on(&PreparedMotion::new(along), room)?.demands;
+        let demands =
+            Running::new(structure, engine).on(&PreparedMotion::new(along), room)?.demands;
         Ok(demands.shape().roof_acceleration().value(&demands).unwrap_or(f64::NAN))
     };
     let tail_s =
@@ -403,7 +404,8 @@ fn run_all(
         let runs: Vec<Result<Run, RunError>> = match &parts[design] {
             Err(error) => these.map(|_| Err(error.clone())).collect(),
             Ok(parts) => {
-                let (mut running, mut room) = (Running::new(&parts.model), Workspace::default());
+                let (mut running, mut room) =
+                    (Running::new(&parts.model, engine), Workspace::default());
                 let of = |record| run(parts, (&mut running, &mut room), design, record);
                 these.map(of).collect()
             }

@@ -126,7 +126,20 @@ impl Prepared {
         room: &mut Workspace,
         motion: &PreparedMotion,
     ) -> Result<Response, SolveError> {
-        self.solve(InstructionSet::best(), motion, false, room)
+        self.demands_while(room, motion, UNWATCHED)
+    }
+
+    /// The same as long as `go_on` says so, which is asked every few milliseconds.
+    ///
+    /// # Errors
+    /// [`SolveError::Stopped`] where it says no, and as [`Prepared::demands`].
+    pub fn demands_while(
+        &self,
+        room: &mut Workspace,
+        motion: &PreparedMotion,
+        go_on: GoOn<'_>,
+    ) -> Result<Response, SolveError> {
+        self.solve(InstructionSet::best(), motion, (false, go_on), room)
     }
 
     /// [`Prepared::demands`] by a given instruction set: the bits are the same by all.
@@ -138,7 +151,7 @@ impl Prepared {
         instructions: InstructionSet,
         motion: &PreparedMotion,
     ) -> Result<Response, SolveError> {
-        self.solve(instructions, motion, false, &mut Workspace::default())
+        self.solve(instructions, motion, (false, UNWATCHED), &mut Workspace::default())
     }
 
     /// Exact response with its history.
@@ -146,14 +159,14 @@ impl Prepared {
     /// # Errors
     /// [`SolveError`] with time and cause.
     pub fn response(&self, motion: &PreparedMotion) -> Result<Response, SolveError> {
-        self.solve(InstructionSet::best(), motion, true, &mut Workspace::default())
+        self.solve(InstructionSet::best(), motion, (true, UNWATCHED), &mut Workspace::default())
     }
 
     fn solve(
         &self,
         instructions: InstructionSet,
         motion: &PreparedMotion,
-        with_history: bool,
+        how: (bool, GoOn<'_>),
         room: &mut Workspace,
     ) -> Result<Response, SolveError> {
         let own;
@@ -164,7 +177,7 @@ impl Prepared {
             &own
         };
         let ground = (motion.motion(), &*motion.sampling);
-        solve(instructions, &self.model, tables, ground, (with_history, UNWATCHED), room)
+        solve(instructions, &self.model, tables, ground, how, room)
     }
 }
 

@@ -6,6 +6,7 @@
 //! caller runs it in (rayon's `ThreadPool::install`); outside of a pool, and without the feature
 //! `parallel`, it is done on the caller's own thread. The results are the same.
 
+use core::cell::Cell;
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -133,15 +134,17 @@ impl<'a> Engine<'a> {
 /// A model with what its last run needed of it, for the next one.
 pub(crate) struct Running<'a> {
     model: &'a Model,
+    engine: &'a Engine<'a>,
     prepared: Option<Prepared>,
 }
 
 impl<'a> Running<'a> {
-    pub(crate) fn new(model: &'a Model) -> Self {
-        Self { model, prepared: None }
+    pub(crate) fn new(model: &'a Model, engine: &'a Engine<'_>) -> Self {
+        Self { model, engine, prepared: None }
     }
 
-    /// The response without its history: the one place where many runs meet the solver.
+    /// The response without its history: the one place where many runs meet the solver. A run that takes
+    /// long is stopped where the engine is.
     pub(crate) fn on(
         &mut self,
         motion: &PreparedMotion,
@@ -152,7 +155,13 @@ impl<'a> Running<'a> {
             Some(prepared) => prepared,
             None => Prepared::new(self.model.clone(), dt_s),
         };
-        self.prepared.insert(prepared).demands_in(room, motion)
+        // The first question comes at once: short runs do not bother the follower.
+        let long = Cell::new(false);
+        let go_on = || {
+            let asked = if long.replace(true) { self.engine.done(0) } else { self.engine.check() };
+            asked.map_or_else(|Stopped| ControlFlow::Break(()), ControlFlow::Continue)
+        };
+        self.prepared.insert(prepared).demands_while(room, motion, &go_on)
     }
 }
 

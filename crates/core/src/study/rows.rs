@@ -106,7 +106,9 @@ impl Study {
             let samples = &samples[own(chunk.start)..own(chunk.end)];
             let mut models: Vec<Option<Running<'_>>> = Vec::with_capacity(samples.len());
             for sample in samples {
-                models.push(sample.parts.as_ref().ok().map(|parts| Running::new(&parts.model)));
+                models.push(
+                    sample.parts.as_ref().ok().map(|parts| Running::new(&parts.model, engine)),
+                );
             }
             let mut room = Workspace::default();
             let of_level = |(runs, scaled): (&Range<u64>, &Option<_>)| {
@@ -118,7 +120,7 @@ impl Study {
                 let run = runs.start - model(runs.start) + start;
                 let these = (start - chunk.start) as usize..(end - chunk.start) as usize;
                 let (samples, models) = (&samples[these.clone()], &mut models[these]);
-                self.chunk(run, (samples, models), scaled.as_ref(), &mut room)
+                self.chunk(run, (samples, models), scaled.as_ref(), (&mut room, engine))
             };
             let rows: Vec<Vec<Row>> = levels.iter().zip(&scaled).map(of_level).collect();
             engine.done(rows.iter().map(|rows| rows.len() as u64).sum())?;
@@ -151,7 +153,7 @@ impl Study {
         first: u64,
         (samples, models): (&'s [Sample], &mut [Option<Running<'s>>]),
         scaled: Option<&Result<Shaking, RunError>>,
-        room: &mut Workspace,
+        (room, engine): (&mut Workspace, &Engine<'_>),
     ) -> Vec<Row> {
         let made = |parts: &'s Parts| {
             let source = if scaled.is_some() { None } else { parts.motion.as_ref() };
@@ -175,7 +177,7 @@ impl Study {
             let rest = samples[start..].iter().zip(&mut models[start..]);
             for (sample, model) in rest.take_while(|(sample, _)| made(sample) == alike) {
                 let case = self.cases.case(first + rows.len() as u64);
-                rows.push(self.run(case, sample, model, motion, room));
+                rows.push(self.run(case, sample, model, motion, (&mut *room, engine)));
             }
         }
         rows
@@ -187,7 +189,7 @@ impl Study {
         sample: &Sample,
         model: &mut Option<Running<'_>>,
         motion: &Result<Shaking, RunError>,
-        room: &mut Workspace,
+        (room, engine): (&mut Workspace, &Engine<'_>),
     ) -> Row {
         let measures = match motion {
             Ok(ready) => ready.measures.clone(),
@@ -201,7 +203,7 @@ impl Study {
                 model.on(&ready.motion, room).map_err(RunError::from)
             }
             (Ok(parts), None, Ok(ready)) => {
-                Running::new(&parts.model).on(&ready.motion, room).map_err(RunError::from)
+                Running::new(&parts.model, engine).on(&ready.motion, room).map_err(RunError::from)
             }
         };
         let (demands, warnings, error) = match outcome {
@@ -351,6 +353,36 @@ mod tests {
 
     fn rows(study: &Study, runs: Range<u64>) -> Vec<Row> {
         study.rows(runs, &Engine::unwatched()).unwrap()
+    }
+
+    /// A study of few long runs, all on one thread: it ends within the first of them.
+    #[test]
+    fn exact_a_study_is_stopped_within_a_run() {
+        use core::ops::ControlFlow;
+        use core::sync::atomic::{AtomicU64, Ordering};
+
+        let text = "model = \"m.toml\"\n[records]\nfiles = \"*.txt\"\n[vary]\n\
+                    slider.kinetic_friction = { values = [0.05, 0.1, 0.15] }\n[sampling]\n\
+                    method = \"grid\"\n";
+        let plan = Plan::parse("p.toml", text).unwrap();
+        let wave = |i: u32| 4.0 * libm::sin(0.07 * f64::from(i)) * libm::sin(0.23 * f64::from(i));
+        let motion = GroundMotion::evenly_spaced(0.01, (0..1_000_000).map(wave).collect(), None);
+        let record = Record {
+            name: "long".to_owned(),
+            channel: String::new(),
+            motion: motion.unwrap(),
+            warnings: vec![],
+            pair: None,
+        };
+        let study = Study::new(&plan, "m.toml", MODEL, vec![record]).unwrap();
+        let (asked, done) = (AtomicU64::new(0), AtomicU64::new(0));
+        let follow = |runs: u64| {
+            done.fetch_add(runs, Ordering::Relaxed);
+            asked.fetch_add(1, Ordering::Relaxed);
+            if runs == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        assert_eq!(study.rows(0..3, &Engine::new(&follow)), Err(Stopped));
+        assert_eq!((asked.into_inner(), done.into_inner()), (1, 0));
     }
 
     /// Any range of runs gives the rows that the whole study has there, and each row is that of the
