@@ -320,8 +320,8 @@ impl<'a> Judge<'a> {
         Some((phase, interval))
     }
 
-    /// Bounds the outputs of a phase; the maps of the even step to its path, and to its places and rates,
-    /// if it is one of this phase.
+    /// Bounds the outputs of a phase; the maps of the even step to its path, and to its places, if it is
+    /// one of this phase.
     fn prepare(&mut self, phase: Phase) -> Option<[Map; 2]> {
         let (rate, steps) = (self.scheme.rate(phase), self.steps(phase));
         let longest_s = if rate > 0.0 { MAX_TURN / rate } else { f64::INFINITY };

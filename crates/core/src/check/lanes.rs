@@ -629,7 +629,7 @@ pub(super) struct Work {
     active: Vec<Eight>,
     state: Vec<(Eight, Eight)>,
     path: Vec<Eight>,
-    /// `x` and `ẍ` at the nodes, where the equations were solved or peaks are sought.
+    /// `x` at the nodes, and `ẍ` where the equations were solved.
     trace: Vec<Eight>,
     fastest: Vec<Eight>,
     /// Outputs at the nodes, and at the ends of a step within an interval.
@@ -693,8 +693,8 @@ impl Work {
 }
 
 impl Bench<'_> {
-    /// Judges a group by the maps of its step to the path, and to places and rates, or by solving the
-    /// equations of each.
+    /// Judges a group by the maps of its step to the path, and to places, or by solving the equations of
+    /// each.
     #[inline(always)]
     pub(super) fn group<S: Simd>(
         &self,
@@ -917,8 +917,7 @@ impl Bench<'_> {
         }
     }
 
-    /// Outputs at the nodes of a step; `trace` is the map to places and rates where the path came from a
-    /// map.
+    /// Outputs at the nodes of a step; `trace` is the map to places where the path came from a map.
     #[inline(always)]
     fn trace<S: Simd>(
         &self,
@@ -930,7 +929,7 @@ impl Bench<'_> {
         work: &mut Work,
     ) {
         let d = n + 1;
-        let Work { input, active, path, trace: traced, values, .. } = work;
+        let Work { input, active, path, state, trace: traced, values, .. } = work;
         if let Some(map) = trace {
             apply(simd, map, input, active, traced);
         }
@@ -942,23 +941,37 @@ impl Bench<'_> {
                     from + (input[first + 1].load(simd) - from) * all(simd, self.rule.c[i])
                 },
             );
+            let a = load(2 * d);
             let force = match group.phase {
                 Phase::Stick => path[(NODES + 2) * d + i].load(simd),
                 Phase::Slip | Phase::Pressed => load(2 * d + 2),
             };
+            let x = inlined(
+                #[inline(always)]
+                |k: usize| traced[i * d + k].load(simd),
+            );
+            let v = inlined(
+                #[inline(always)]
+                |k: usize| path[i * d + k].load(simd),
+            );
+            // From the equations: what cancels in them is nothing.
+            self.accelerate(
+                simd,
+                n,
+                group.phase,
+                (x, v),
+                (a, force),
+                #[inline(always)]
+                |k: usize, rate: f64x8<S>| state[k].0.store(rate),
+            );
             self.outputs(
                 simd,
                 n,
                 outputs,
-                (
-                    #[inline(always)]
-                    |k: usize| traced[i * d + k].load(simd),
-                    #[inline(always)]
-                    |k: usize| path[i * d + k].load(simd),
-                ),
+                (x, v),
                 #[inline(always)]
-                |k| traced[(NODES + i) * d + k].load(simd),
-                (load(2 * d), force),
+                |k| state[k].0.load(simd),
+                (a, force),
                 #[inline(always)]
                 |g, value| values[g * NODES + i].store(value),
             );

@@ -140,7 +140,7 @@ impl Judge<'_> {
     }
 
     /// Bounds the outputs between the ends of a step of a phase, for steps up to `longest_s`; returns
-    /// the paths of unit inputs over that step, one after another, and their places and rates.
+    /// the paths of unit inputs over that step, one after another, and their places at the nodes.
     pub(super) fn spread(&mut self, phase: Phase, longest_s: f64) -> [Vec<f64>; 2] {
         let d = self.structure.degrees();
         let (inputs, outputs) = (2 * d + 4, self.peaks.outputs.len());
@@ -149,11 +149,11 @@ impl Judge<'_> {
         let mut rate = vec![0.0; d];
         let units = self.units(phase, longest_s);
         let mut columns = Vec::with_capacity(inputs * ((NODES + 2) * d + NODES));
-        let mut traces = Vec::with_capacity(inputs * 2 * NODES * d);
+        let mut all_places = Vec::with_capacity(inputs * NODES * d);
         for (j, Unit { path, trace }) in units.iter().enumerate() {
             columns.extend_from_slice(path);
-            traces.extend_from_slice(trace);
             let (places, rates) = trace.split_at(NODES * d);
+            all_places.extend_from_slice(places);
             let unit = |k: usize| if k == j { 1.0 } else { 0.0 };
             let linear = |k: usize, t: f64| unit(k) + (unit(k + 1) - unit(k)) * t;
             let start: Vec<f64> = (0..2 * d).map(unit).collect();
@@ -193,7 +193,7 @@ impl Judge<'_> {
         };
         let leaving = rows.map(of_row).filter(|(_, terms)| !terms.is_empty()).collect();
         self.spreads[phase as usize] = Some(Spread { longest_s, bounds, leaving });
-        [columns, traces]
+        [columns, all_places]
     }
 
     /// The steps of every unit input.

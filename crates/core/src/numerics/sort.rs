@@ -9,7 +9,7 @@ use core::cmp::Ordering;
 ///
 /// # Examples
 /// ```
-/// let mut runs = [("b", 2.0), ("c", 1.0), ("a", 2.0)];
+/// let mut runs = [("b", 2.0_f64), ("c", 1.0), ("a", 2.0)];
 /// slipstick::numerics::sort(&mut runs, |a, b| a.1.total_cmp(&b.1));
 /// assert_eq!(runs.map(|run| run.0), ["c", "b", "a"]);
 /// ```
