@@ -740,7 +740,7 @@ impl Bench<'_> {
                 Phase::Slip | Phase::Pressed => self.sliding(simd, n, group, step, work),
             }
             if step + 1 < group.steps {
-                self.end(simd, n, group, &peaks.outputs, work);
+                self.end(simd, n, (group.phase, 1), &peaks.outputs, work);
             }
             let trace = maps.map(|[_, trace]| trace);
             self.peaks(simd, n, (group, step, trace), &places, reach, peaks, work);
@@ -780,35 +780,36 @@ impl Bench<'_> {
         }
     }
 
-    /// The outputs at the end of a step.
+    /// The outputs at the start (0) or the end (1) of a step, from the equations.
     #[inline(always)]
     fn end<S: Simd>(
         &self,
         simd: S,
         n: usize,
-        group: &Group,
+        (phase, end): (Phase, usize),
         outputs: &Outputs<'_>,
         work: &mut Work,
     ) {
         let d = n + 1;
         let Work { input, path, state, ends, .. } = work;
-        let (a, force) = (input[2 * d + 1].load(simd), input[2 * d + 3].load(simd));
+        let from = if end == 0 { 0 } else { NODES * d + 1 };
         let x = inlined(
             #[inline(always)]
-            |k: usize| path[NODES * d + k].load(simd),
+            |k: usize| from_state(simd, input, path, from, k),
         );
         let v = inlined(
             #[inline(always)]
-            |k: usize| path[(NODES + 1) * d + k].load(simd),
+            |k: usize| from_state(simd, input, path, from, d + k),
         );
-        let force = match group.phase {
+        let a = input[2 * d + end].load(simd);
+        let force = match phase {
             Phase::Stick => self.demand(simd, x, v, a),
-            Phase::Slip | Phase::Pressed => force,
+            Phase::Slip | Phase::Pressed => input[2 * d + 2 + end].load(simd),
         };
         self.accelerate(
             simd,
             n,
-            group.phase,
+            phase,
             (x, v),
             (a, force),
             #[inline(always)]
@@ -823,7 +824,7 @@ impl Bench<'_> {
             |k| state[k].0.load(simd),
             (a, force),
             #[inline(always)]
-            |g, value| ends[1][g].store(value),
+            |g, value| ends[end][g].store(value),
         );
     }
 
@@ -881,38 +882,38 @@ impl Bench<'_> {
         work: &mut Work,
     ) {
         let share = group.step_s.load(simd) * all(simd, 1.0 / reach.longest_s);
-        let ends = inlined(
-            #[inline(always)]
-            |work: &Work, g: usize| {
-                let list = &reach.knots.outputs[g * reach.knots.stride..][..reach.knots.stride];
-                both(
-                    #[inline(always)]
-                    |end| match step + end {
-                        0 => places.read(simd, list, 0, [1, 0]),
-                        at if at == group.steps => places.read(simd, list, 1, [1, 0]),
-                        _ => work.ends[end][g].load(simd),
-                    },
-                )
-            },
-        );
-        let mut passes = false;
+        let mut passes = 0;
         for (g, bounds) in reach.bounds {
             let mut off = all(simd, 0.0);
             for &(input, bound) in bounds {
                 off += all(simd, bound) * work.input[input].load(simd).abs();
             }
-            let [first, last] = ends(work, *g);
+            let list = &reach.knots.outputs[g * reach.knots.stride..][..reach.knots.stride];
+            let [first, last] = both(
+                #[inline(always)]
+                |end| match step + end {
+                    0 => places.read(simd, list, 0, [1, 0]),
+                    at if at == group.steps => places.read(simd, list, 1, [1, 0]),
+                    _ => work.ends[end][*g].load(simd),
+                },
+            );
             let most = larger(first.abs(), last.abs()) + share * off;
-            if most.simd_gt(all(simd, peaks.attained[*g] * (1.0 + 1e-12))).any_true() {
-                passes = true;
-                break;
-            }
+            let limit = all(simd, peaks.attained[*g] * (1.0 + 1e-12));
+            passes |= most.simd_gt(limit).to_bitmask();
         }
-        if passes {
+        if passes != 0 {
+            for end in 0..2 {
+                if step + end == 0 || step + end == group.steps {
+                    self.end(simd, n, (group.phase, end), &peaks.outputs, work);
+                }
+            }
             self.trace(simd, n, group, trace, &peaks.outputs, work);
-            for g in 0..peaks.attained.len() {
-                let peak = &mut peaks.attained[g];
-                self.seek(simd, ends(work, g), &work.values[g * NODES..][..NODES], peak);
+            for (g, nodes) in work.values.chunks_exact(NODES).enumerate() {
+                let ends = both(
+                    #[inline(always)]
+                    |end| work.ends[end][g].load(simd),
+                );
+                self.seek(simd, passes, ends, nodes, &mut peaks.attained[g]);
             }
         }
     }
@@ -978,19 +979,30 @@ impl Bench<'_> {
         }
     }
 
-    /// Raises a peak to the largest size of an output from its values at the ends and the nodes.
+    /// Raises a peak to the largest size of an output in the lanes that may pass it, from its values at the
+    /// ends and the nodes.
     #[inline(always)]
-    fn seek<S: Simd>(&self, simd: S, ends: [f64x8<S>; 2], nodes: &[Eight], peak: &mut f64) {
+    fn seek<S: Simd>(
+        &self,
+        simd: S,
+        passes: u64,
+        ends: [f64x8<S>; 2],
+        nodes: &[Eight],
+        peak: &mut f64,
+    ) {
         let (mut least, mut most) = (smaller(ends[0], ends[1]), larger(ends[0], ends[1]));
         for node in nodes {
             let value = node.load(simd);
             (least, most) = (smaller(least, value), larger(most, value));
         }
         let size = larger(most.abs(), least.abs());
-        *peak = size.to_array().into_iter().fold(*peak, greatest);
+        let sizes = size.to_array();
+        for lane in (0..LANES).filter(|lane| passes & (1 << lane) != 0) {
+            *peak = greatest(*peak, sizes[lane]);
+        }
         // Between two points the polynomial rises above both by less than a tenth of its range.
         let bound = size + (most - least) * all(simd, 0.1);
-        let open = bound.simd_gt(all(simd, *peak * (1.0 + 1e-12))).to_bitmask();
+        let open = bound.simd_gt(all(simd, *peak * (1.0 + 1e-12))).to_bitmask() & passes;
         for lane in (0..LANES).filter(|lane| open & (1 << lane) != 0) {
             let mut points = [0.0; POINTS];
             let [first, last] = ends.map(|end| end.to_array()[lane]);
