@@ -47,7 +47,7 @@ Usage: cargo xtask TASK
   python-docs [--write]          compares the book's reference of the Python package with its
                                  docstrings (--write: writes it; needs python3)
   python-free-threaded           builds the Python package for a free-threaded Python and runs its
-                                 tests there (needs python3.14t or python3.13t)
+                                 tests there (needs python3.14t)
   readers                        reads the parts of a study in pandas, Polars and DuckDB
                                  (needs python3; makes .venv)
   web [--serve]                  the page, into target/web: a folder for any static host, and

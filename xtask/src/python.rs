@@ -86,15 +86,13 @@ pub fn docs(options: &[&str]) -> Outcome {
     package.reference(write)
 }
 
-/// Free-threaded Pythons, for which an extension of its own is built; the newest first.
-const FREE_THREADED: [&str; 2] = ["python3.14t", "python3.13t"];
-
-/// `cargo xtask python-free-threaded`: builds the package for a free-threaded Python and runs its tests
-/// there, without the lock.
+/// `cargo xtask python-free-threaded`: builds the package for a free-threaded Python, of which PyO3 serves
+/// 3.14 and later, and runs its tests there, without the lock.
 pub fn free_threaded() -> Outcome {
-    let [newest, other] = FREE_THREADED;
-    let found = FREE_THREADED.into_iter().find(|program| shell::answers(program, "-m venv -h"));
-    let program = found.ok_or(format!("expected {newest} or {other} with venv, found neither"))?;
+    let program = "python3.14t";
+    if !shell::answers(program, "-m venv -h") {
+        return Err(format!("expected {program} with venv, found none"));
+    }
     let folder = shell::target_folder()?.join("python-free-threaded");
     let requirements = format!("{PACKAGE}/tests/requirements-free-threaded.txt");
     let python = environment_by(program, &folder, &requirements)?;
