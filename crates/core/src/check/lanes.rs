@@ -806,6 +806,32 @@ impl Bench<'_> {
             Phase::Stick => self.demand(simd, x, v, a),
             Phase::Slip | Phase::Pressed => input[2 * d + 2 + end].load(simd),
         };
+        self.outputs(
+            simd,
+            n,
+            (phase, outputs),
+            (x, v),
+            (a, force),
+            state,
+            #[inline(always)]
+            |g, value| ends[end][g].store(value),
+        );
+    }
+
+    /// Hands on the outputs of a state under loads, its rates from the equations: what cancels in them is
+    /// nothing. `room` holds the rates.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)] // an instant
+    fn outputs<S: Simd>(
+        &self,
+        simd: S,
+        n: usize,
+        (phase, outputs): (Phase, &Outputs<'_>),
+        (x, v): (impl Fn(usize) -> f64x8<S> + Copy, impl Fn(usize) -> f64x8<S> + Copy),
+        (a, force): (f64x8<S>, f64x8<S>),
+        room: &mut [(Eight, Eight)],
+        out: impl FnMut(usize, f64x8<S>),
+    ) {
         self.accelerate(
             simd,
             n,
@@ -813,34 +839,12 @@ impl Bench<'_> {
             (x, v),
             (a, force),
             #[inline(always)]
-            |k: usize, rate: f64x8<S>| state[k].0.store(rate),
+            |k: usize, rate: f64x8<S>| room[k].0.store(rate),
         );
-        self.outputs(
-            simd,
-            n,
-            outputs,
-            (x, v),
+        let rate = inlined(
             #[inline(always)]
-            |k| state[k].0.load(simd),
-            (a, force),
-            #[inline(always)]
-            |g, value| ends[end][g].store(value),
+            |k: usize| room[k].0.load(simd),
         );
-    }
-
-    /// Hands on the outputs of a state with its rates and loads.
-    #[inline(always)]
-    #[allow(clippy::too_many_arguments)] // an instant
-    fn outputs<S: Simd>(
-        &self,
-        simd: S,
-        n: usize,
-        outputs: &Outputs<'_>,
-        (x, v): (impl Fn(usize) -> f64x8<S>, impl Fn(usize) -> f64x8<S>),
-        rate: impl Fn(usize) -> f64x8<S>,
-        (a, force): (f64x8<S>, f64x8<S>),
-        out: impl FnMut(usize, f64x8<S>),
-    ) {
         let slope = all(simd, self.slope);
         let (spring, damper) = (all(simd, self.structure.spring), all(simd, self.structure.damper));
         let total = rate(0) + a;
@@ -955,24 +959,13 @@ impl Bench<'_> {
                 #[inline(always)]
                 |k: usize| path[i * d + k].load(simd),
             );
-            // From the equations: what cancels in them is nothing.
-            self.accelerate(
-                simd,
-                n,
-                group.phase,
-                (x, v),
-                (a, force),
-                #[inline(always)]
-                |k: usize, rate: f64x8<S>| state[k].0.store(rate),
-            );
             self.outputs(
                 simd,
                 n,
-                outputs,
+                (group.phase, outputs),
                 (x, v),
-                #[inline(always)]
-                |k| state[k].0.load(simd),
                 (a, force),
+                state,
                 #[inline(always)]
                 |g, value| values[g * NODES + i].store(value),
             );

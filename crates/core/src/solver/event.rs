@@ -144,11 +144,10 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         let (normal, rise) = (stretch.normal_at(from_s), stretch.normal_rate * phase.unit_s);
         let mut release: Option<(f64, Direction)> = None;
         for direction in [Direction::Negative, Direction::Positive] {
-            let sign = -direction.sign();
-            let bound = sign * self.hold.size(direction);
+            let (sign, size) = (direction.sign(), self.hold.size(direction));
             // Distance from the bound, positive where friction holds.
-            let start = sign * (bound * normal - demand[0]);
-            let end = sign * (bound * (normal + rise * segment.part) - demand_end);
+            let start = size * normal + sign * demand[0];
+            let end = size * (normal + rise * segment.part) + sign * demand_end;
             if start.min(end) > 0.125 * curvature {
                 continue;
             }

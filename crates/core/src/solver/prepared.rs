@@ -237,8 +237,7 @@ fn solve(
         &sloped
     };
     varying.clear();
-    let varies = motion.vertical_m_per_s2().is_some();
-    varying.extend(varying_normal(model, motion).into_iter().flatten());
+    let varies = varying_normal(model, motion).map(|normal_n| varying.extend(normal_n)).is_some();
     let normal = Normal::new(model, varies.then_some(&*varying));
     let ground = Ground {
         times_s: motion.times_s(),

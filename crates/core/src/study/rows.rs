@@ -104,11 +104,10 @@ impl Study {
             let chunk = &chunks[i];
             let own = |index: u64| (index - first) as usize;
             let samples = &samples[own(chunk.start)..own(chunk.end)];
-            let mut models: Vec<Option<Running<'_>>> = Vec::with_capacity(samples.len());
+            let mut models: Vec<Result<Running<'_>, RunError>> = Vec::with_capacity(samples.len());
             for sample in samples {
-                models.push(
-                    sample.parts.as_ref().ok().map(|parts| Running::new(&parts.model, engine)),
-                );
+                let parts = sample.parts.as_ref().map_err(Clone::clone);
+                models.push(parts.map(|parts| Running::new(&parts.model, engine)));
             }
             let mut room = Workspace::default();
             let of_level = |(runs, scaled): (&Range<u64>, &Option<_>)| {
@@ -120,7 +119,7 @@ impl Study {
                 let run = runs.start - model(runs.start) + start;
                 let these = (start - chunk.start) as usize..(end - chunk.start) as usize;
                 let (samples, models) = (&samples[these.clone()], &mut models[these]);
-                self.chunk(run, (samples, models), scaled.as_ref(), (&mut room, engine))
+                self.chunk(run, (samples, models), scaled.as_ref(), &mut room)
             };
             let rows: Vec<Vec<Row>> = levels.iter().zip(&scaled).map(of_level).collect();
             engine.done(rows.iter().map(|rows| rows.len() as u64).sum())?;
@@ -151,9 +150,9 @@ impl Study {
     fn chunk<'s>(
         &self,
         first: u64,
-        (samples, models): (&'s [Sample], &mut [Option<Running<'s>>]),
+        (samples, models): (&'s [Sample], &mut [Result<Running<'s>, RunError>]),
         scaled: Option<&Result<Shaking, RunError>>,
-        (room, engine): (&mut Workspace, &Engine<'_>),
+        room: &mut Workspace,
     ) -> Vec<Row> {
         let made = |parts: &'s Parts| {
             let source = if scaled.is_some() { None } else { parts.motion.as_ref() };
@@ -177,7 +176,7 @@ impl Study {
             let rest = samples[start..].iter().zip(&mut models[start..]);
             for (sample, model) in rest.take_while(|(sample, _)| made(sample) == alike) {
                 let case = self.cases.case(first + rows.len() as u64);
-                rows.push(self.run(case, sample, model, motion, (&mut *room, engine)));
+                rows.push(self.run(case, sample, (model, motion), room));
             }
         }
         rows
@@ -187,9 +186,8 @@ impl Study {
         &self,
         case: Case,
         sample: &Sample,
-        model: &mut Option<Running<'_>>,
-        motion: &Result<Shaking, RunError>,
-        (room, engine): (&mut Workspace, &Engine<'_>),
+        (model, motion): (&mut Result<Running<'_>, RunError>, &Result<Shaking, RunError>),
+        room: &mut Workspace,
     ) -> Row {
         let measures = match motion {
             Ok(ready) => ready.measures.clone(),
@@ -197,14 +195,10 @@ impl Study {
         };
         let (run, values) = (self.cases.run(case), sample.values.clone());
         let scale = self.factor(case);
-        let outcome = match (&sample.parts, model, motion) {
-            (Err(error), ..) | (.., Err(error)) => Err(error.clone()),
-            (Ok(_), Some(model), Ok(ready)) => {
-                model.on(&ready.motion, room).map_err(RunError::from)
-            }
-            (Ok(parts), None, Ok(ready)) => {
-                Running::new(&parts.model, engine).on(&ready.motion, room).map_err(RunError::from)
-            }
+        let outcome = match (model, motion) {
+            (Err(error), _) => Err(error.clone()),
+            (_, Err(error)) => Err(error.clone()),
+            (Ok(model), Ok(ready)) => model.on(&ready.motion, room).map_err(RunError::from),
         };
         let (demands, warnings, error) = match outcome {
             Ok(response) => {
