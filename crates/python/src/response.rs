@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
@@ -27,6 +28,7 @@ pub(crate) fn run(
     floor_spectra: bool,
 ) -> PyResult<Response> {
     let work = |go_on: GoOn<'_>| -> Result<Response, JobError> {
+        let start = Instant::now();
         // Copies of long motions take their time too.
         let ask = || match go_on() {
             ControlFlow::Continue(()) => Ok(()),
@@ -45,7 +47,7 @@ pub(crate) fn run(
         };
         ask()?;
         let (outcome, summary) = job.run_while(floor_spectra, go_on)?;
-        Ok(Response { job, outcome, summary })
+        Ok(Response { job, outcome, summary, took: start.elapsed() })
     };
     interruptible(py, work)?.map_err(|error| of_job(py, &error))
 }
@@ -70,6 +72,7 @@ pub struct Response {
     job: OpenJob,
     outcome: Outcome,
     summary: Summary,
+    took: Duration,
 }
 
 impl Response {
@@ -83,6 +86,11 @@ impl Response {
     /// The figures as the text that `slipstick run --json` prints.
     fn _summary_json(&self) -> String {
         self.summary.to_json()
+    }
+
+    /// Seconds of the work in Rust: opening or copying the motion, solving, certificate and figures.
+    fn _took_s(&self) -> f64 {
+        self.took.as_secs_f64()
     }
 
     /// Columns of the history: one row a sample, or both sides of every event.

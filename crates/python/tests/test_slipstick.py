@@ -538,6 +538,15 @@ def test_responses_and_studies_pickle(tmp_path: Path) -> None:
     assert pickle.loads(pickle.dumps(study)) == study
 
 
+def test_the_analysis_takes_nearly_the_whole_call() -> None:
+    model = ss.Model.read(EXAMPLES / "taft.toml")
+    motion = ss.run(model).motion
+    start = time.perf_counter()
+    response = ss.run(model, motion)
+    seconds = time.perf_counter() - start
+    assert 0.0 < response._core._took_s() < seconds
+
+
 def test_the_loop_is_that_of_the_whole_slider() -> None:
     response = ss.run(ss.Model.read(EXAMPLES / "taft.toml"))
     force, knots = response.slider_force_n, response.knots
