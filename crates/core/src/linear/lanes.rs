@@ -20,6 +20,16 @@ impl Four {
     /// Zeros.
     pub const ZERO: Self = Self([0.0; 4]);
 
+    /// The first numbers of a list, zeros beyond its last.
+    #[must_use]
+    pub fn new(list: &[f64]) -> Self {
+        let mut all = Self::ZERO;
+        for (x, of_list) in all.0.iter_mut().zip(list) {
+            *x = *of_list;
+        }
+        all
+    }
+
     /// As a vector.
     #[inline(always)]
     pub fn load<S: Simd>(&self, simd: S) -> f64x4<S> {
@@ -54,6 +64,15 @@ pub fn eight<S: Simd>(simd: S, x: f64) -> f64x8<S> {
 #[inline(always)]
 pub fn larger<S: Simd>(a: f64x8<S>, b: f64x8<S>) -> f64x8<S> {
     b.simd_gt(a).select(b, a)
+}
+
+/// The largest lane.
+#[inline(always)]
+#[must_use]
+pub fn largest_lane<S: Simd>(simd: S, x: f64x8<S>) -> f64 {
+    let (a, b) = simd.split_f64x8(x);
+    let [a, b, c, d] = b.simd_gt(a).select(b, a).to_array();
+    greatest(greatest(a, b), greatest(c, d))
 }
 
 /// The larger; the first where they cannot be compared.

@@ -5,13 +5,14 @@ use fearless_simd::prelude::*;
 
 use super::lanes::{Four, Width, combine4, dot, four, greatest, least};
 use super::polynomial::{DEGREE, Polynomial, curvature_bound};
-use super::system::System;
+use super::system::{Modes, System};
 
 /// Longest interval for one series, times the rate: 1.4^21 / 21! = 2.3e-17.
 pub const MAX_RATE_STEP: f64 = 1.4;
 
-/// Most storeys for which series go by a table: beyond, its sums are longer than the recursion.
-const TABLE_STOREYS: usize = 4;
+/// Most storeys for which series go by a table, in stick and in slip: beyond, its sums are longer than
+/// the recursion.
+const TABLE_STOREYS: [usize; 2] = [1, 2];
 
 /// Terms of a series below this part of the largest are left out.
 const NEGLIGIBLE: f64 = 1e-18;
@@ -60,6 +61,8 @@ pub struct Series {
     orders: usize,
     c: Vec<f64>,
     f: Vec<f64>,
+    /// `η`, `η̇` and `D η̇ + Ω η` of four modes at a time.
+    lanes: Vec<[Four; 3]>,
     /// Energy norms of the orders, where a force fades.
     sizes: Polynomial,
     /// Series of that force in N.
@@ -90,7 +93,9 @@ impl Series {
     pub fn serve(&mut self, system: &System, orders: usize) {
         let n = system.modes();
         (self.stride, self.orders) = ((2 + 2 * n).div_ceil(4) * 4, orders);
-        for (list, count) in [(&mut self.c, self.stride * (DEGREE + 1)), (&mut self.f, n)] {
+        // The last four modes of the last order may reach beyond it.
+        let count = self.stride * (DEGREE + 1) + 4;
+        for (list, count) in [(&mut self.c, count), (&mut self.f, n)] {
             list.clear();
             list.resize(count, 0.0);
         }
@@ -98,16 +103,121 @@ impl Series {
 
     /// Motion from a padded state over `length_s`, order by order from the equations of motion.
     #[inline(always)]
-    pub fn expand(&mut self, system: &System, slip: bool, x: &[f64], load: &Load, length_s: f64) {
+    pub fn expand<S: Simd>(
+        &mut self,
+        simd: S,
+        system: &System,
+        slip: bool,
+        x: &[f64],
+        load: &Load,
+        length_s: f64,
+    ) {
         let stride = self.stride;
         self.c[..stride].copy_from_slice(x);
         if !slip {
             self.c[1] = 0.0;
         }
+        if let Some(modes) = system.uncoupled_modes() {
+            return if slip {
+                self.expand_slip(simd, system, modes, load, length_s)
+            } else {
+                self.expand_stick(simd, system.modes(), modes, load, length_s)
+            };
+        }
+        let f = &mut self.f[..system.modes()];
         for k in 0..self.orders {
             let (before, next) = self.c.split_at_mut((k + 1) * stride);
             let step = length_s * RECIPROCAL[k];
-            next_order(system, slip, &before[k * stride..], next, &mut self.f, load.order(k), step);
+            next_order(system, slip, &before[k * stride..], next, f, load.order(k), step);
+        }
+    }
+
+    /// Stick of modes that damping does not couple: four oscillators at a time.
+    ///
+    /// Of the last four some may be beyond the last mode. Their zeros fall on what is written after them:
+    /// on the first rates, which therefore come last, or on the next order.
+    #[inline(always)]
+    fn expand_stick<S: Simd>(
+        &mut self,
+        simd: S,
+        n: usize,
+        modes: &[Modes],
+        load: &Load,
+        length_s: f64,
+    ) {
+        let (stride, orders) = (self.stride, self.orders);
+        let c = &mut self.c[..stride * (orders + 1) + 4];
+        for k in 1..=orders {
+            (c[k * stride], c[k * stride + 1]) = (0.0, 0.0);
+        }
+        for m in (0..modes.len()).rev() {
+            let [omega2, damping, l] = modes[m].each_ref().map(|x| x.load(simd));
+            let (eta_at, rate_at) = (2 + 4 * m, 2 + n + 4 * m);
+            let [mut eta, mut rate] =
+                [eta_at, rate_at].map(|at| Four::new(&c[at..at - 4 * m + n]).load(simd));
+            for k in 0..orders {
+                let step = four(simd, length_s * RECIPROCAL[k]);
+                let mut f = omega2 * eta + damping * rate;
+                if k < 2 {
+                    f += l * four(simd, load.order(k)[0]);
+                }
+                (eta, rate) = (step * rate, -step * f);
+                let next = &mut c[(k + 1) * stride..][..rate_at + 4];
+                eta.store_slice(&mut next[eta_at..][..4]);
+                rate.store_slice(&mut next[rate_at..][..4]);
+            }
+        }
+    }
+
+    /// Slip of the same modes.
+    #[inline(always)]
+    fn expand_slip<S: Simd>(
+        &mut self,
+        simd: S,
+        system: &System,
+        modes: &[Modes],
+        load: &Load,
+        length_s: f64,
+    ) {
+        let (n, stride) = (system.modes(), self.stride);
+        let count = modes.len();
+        let (eta_at, rate_at) = (2, 2 + n);
+        self.lanes.resize(count, [Four::ZERO; 3]);
+        let lanes = &mut self.lanes[..count];
+        for m in 0..count {
+            let of = |at: usize| Four::new(&self.c[at + 4 * m..at + n]);
+            lanes[m] = [of(eta_at), of(rate_at), Four::ZERO];
+        }
+        let [mut s, mut w] = [self.c[0], self.c[1]];
+        for k in 0..self.orders {
+            let mut shear = four(simd, 0.0);
+            for m in 0..count {
+                let ([omega2, damping, l], [eta, rate, f]) = (&modes[m], &mut lanes[m]);
+                let x = omega2.load(simd) * eta.load(simd) + damping.load(simd) * rate.load(simd);
+                x.store_slice(&mut f.0);
+                shear += l.load(simd) * x;
+            }
+            let step = length_s * RECIPROCAL[k];
+            let [a, force] = load.order(k);
+            let [p, q, r, t] = shear.to_array();
+            let u = system.block_acceleration(s, w, (p + q) + (r + t), force);
+            [s, w] = [step * w, step * (u - a)];
+            let (u, step) = (four(simd, u), four(simd, step));
+            let next = &mut self.c[(k + 1) * stride..][..rate_at + 4 * count];
+            (next[0], next[1]) = (s, w);
+            let of_eta = &mut next[eta_at..].as_chunks_mut::<4>().0[..count];
+            for m in 0..count {
+                let ([.., l], [eta, rate, f]) = (&modes[m], &mut lanes[m]);
+                let next_eta = step * rate.load(simd);
+                let next_rate = -step * (f.load(simd) + l.load(simd) * u);
+                next_eta.store_slice(&mut eta.0);
+                next_eta.store_slice(&mut of_eta[m]);
+                next_rate.store_slice(&mut rate.0);
+            }
+            let of_rates = &mut next[rate_at..].as_chunks_mut::<4>().0[..count];
+            for m in 0..count {
+                of_rates[m] = lanes[m][1].0;
+            }
         }
     }
 
@@ -319,14 +429,16 @@ pub fn orders(rate_step: f64) -> usize {
 }
 
 /// The table of a system for intervals of `length_s`, unless the recursion is shorter.
+#[inline(always)]
 #[must_use]
-pub fn series_table(
+pub fn series_table<S: Simd>(
+    simd: S,
     system: &System,
     slip: bool,
     length_s: f64,
     orders: usize,
 ) -> Option<SeriesTable> {
-    if system.storeys > TABLE_STOREYS {
+    if system.storeys > TABLE_STOREYS[usize::from(slip)] {
         return None;
     }
     let mut series = Series::new(system, orders);
@@ -352,7 +464,7 @@ pub fn series_table(
             2..6 => continue,
             _ => input - 4,
         };
-        series.expand(system, slip, &x, &load, length_s);
+        series.expand(simd, system, slip, &x, &load, length_s);
         let orders = series.c[stride..][..stride * orders].as_chunks::<4>().0;
         for (columns, c) in columns.chunks_exact_mut(count).zip(orders) {
             columns[place] = Four(*c);
@@ -387,7 +499,7 @@ pub fn advance<S: Simd>(
             ..part
         };
         let s = x[0];
-        series.expand(system, slip, x, &load, length_s / pieces);
+        series.expand(simd, system, slip, x, &load, length_s / pieces);
         series.state_at(simd, 1.0, x);
         if !slip {
             x[0] = s;

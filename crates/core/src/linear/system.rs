@@ -1,7 +1,10 @@
 //! The equations of motion in modal coordinates.
 
+use fearless_simd::f64x4;
+use fearless_simd::prelude::*;
+
 use super::frame::shear_frame_modes;
-use super::lanes::dot;
+use super::lanes::{Four, dot, four};
 
 /// Block, spring, damper and structure in the structure's fixed-base modes `η`, `q = Φ η`.
 ///
@@ -40,6 +43,8 @@ pub struct System {
     /// `D` in s⁻¹, row by row where the modes are coupled, else its diagonal.
     damping: Vec<f64>,
     coupled: bool,
+    /// Where they are not, Ω, D and L of four modes at a time.
+    by_four: Vec<Modes>,
     /// `Φ` in kg^(−1/2), row by row: floor `i`, mode `j` at `i * n + j`.
     shapes: Vec<f64>,
     /// Drift of storey `i` in mode `j`, in the same way.
@@ -49,6 +54,9 @@ pub struct System {
     /// Bound on the rates of slip in rad/s, not below that of stick.
     pub slip_rate_rad_per_s: f64,
 }
+
+/// Ω, D and L of four modes that nothing couples, zeros beyond the last.
+pub type Modes = [Four; 3];
 
 /// Damping of the storeys, as [`System::new`] takes it.
 #[derive(Clone, Copy, Debug)]
@@ -86,6 +94,7 @@ impl System {
             omega2: vec![1.0],
             damping: vec![0.0],
             coupled: false,
+            by_four: Vec::new(),
             shapes: Vec::new(),
             drifts: Vec::new(),
             stick_rate_rad_per_s: 0.0,
@@ -94,6 +103,13 @@ impl System {
         if n > 0 {
             system.set_modes(masses_kg, stiffnesses_n_per_m);
             system.set_damping(damping);
+        }
+        if !system.coupled {
+            let lists = [&system.omega2, &system.damping, &system.participation];
+            system.by_four = (0..system.modes())
+                .step_by(4)
+                .map(|first| lists.map(|list| Four::new(&list[first..])))
+                .collect();
         }
         system.set_rates();
         system
@@ -184,6 +200,13 @@ impl System {
         self.participation.len()
     }
 
+    /// The modes by four, unless their damping couples them.
+    #[inline(always)]
+    #[must_use]
+    pub fn uncoupled_modes(&self) -> Option<&[Modes]> {
+        (!self.coupled).then_some(&self.by_four)
+    }
+
     /// Row of `Φ`: what the coordinates do to one floor.
     #[must_use]
     pub fn floor(&self, floor: usize) -> &[f64] {
@@ -256,10 +279,21 @@ impl System {
     /// Amplitudes of the structure in stick: `√(ω² η² + η̇²)` of each mode, or the energy norm of all
     /// where damping couples them. Undriven they do not grow.
     #[inline(always)]
-    pub fn amplitudes(&self, x: &[f64], out: &mut [f64]) {
-        let n = x.len() / 2 - 1;
+    pub fn amplitudes<S: Simd>(&self, simd: S, x: &[f64], out: &mut [f64]) {
+        let n = out.len();
+        if n > 1 && !self.coupled {
+            for m in 0..self.by_four.len() {
+                let omega2 = self.by_four[m][0].load(simd);
+                let [eta, rate] = self.four_modes(simd, x, m);
+                let square = omega2 * (eta * eta) + rate * rate;
+                let of_four = square.sqrt().to_array();
+                let out = &mut out[4 * m..];
+                let count = out.len().min(4);
+                out[..count].copy_from_slice(&of_four[..count]);
+            }
+            return;
+        }
         let (eta, rate, k) = (&x[2..2 + n], &x[2 + n..2 + 2 * n], &self.omega2[..n]);
-        let out = &mut out[..n];
         for j in 0..n {
             out[j] = k[j] * (eta[j] * eta[j]) + rate[j] * rate[j];
         }
@@ -325,8 +359,9 @@ impl System {
     /// every linear function of the state by that function's [dual norm](System::dual_norm).
     #[inline(always)]
     #[must_use]
-    pub fn derivative_norms(
+    pub fn derivative_norms<S: Simd>(
         &self,
+        simd: S,
         slip: bool,
         x: &[f64],
         [a, jerk]: [f64; 2],
@@ -334,6 +369,10 @@ impl System {
         [f, eta2]: [&mut [f64]; 2],
     ) -> [f64; 2] {
         let n = f.len();
+        if n > 1 && !self.coupled {
+            let (load, force) = ([a, jerk], [force_n, force_rate]);
+            return self.derivative_norms_by_four(simd, slip, x, load, force);
+        }
         let (eta, rate) = (&x[2..2 + n], &x[2 + n..2 + 2 * n]);
         let (l, k) = (&self.participation[..n], &self.omega2[..n]);
         let (mut first, mut second) = ([0.0; 4], [0.0; 4]);
@@ -360,6 +399,64 @@ impl System {
             second += self.stiffness_n_per_m * (s2 * s2) + self.block_mass_kg * (s3 * s3);
         }
         [first.sqrt(), second.sqrt()]
+    }
+
+    /// The same of modes that nothing couples.
+    #[inline(always)]
+    fn derivative_norms_by_four<S: Simd>(
+        &self,
+        simd: S,
+        slip: bool,
+        x: &[f64],
+        [a, jerk]: [f64; 2],
+        [force_n, force_rate]: [f64; 2],
+    ) -> [f64; 2] {
+        let sum = |x: f64x4<S>| {
+            let [p, q, r, t] = x.to_array();
+            (p + q) + (r + t)
+        };
+        let mut u = a;
+        if slip {
+            let mut shear = four(simd, 0.0);
+            for m in 0..self.by_four.len() {
+                let [omega2, damping, l] = self.by_four[m].each_ref().map(|x| x.load(simd));
+                let [eta, rate] = self.four_modes(simd, x, m);
+                shear += l * (omega2 * eta + damping * rate);
+            }
+            u = self.block_acceleration(x[0], x[1], sum(shear), force_n);
+        }
+        let [mut first, mut second, mut shear] = [four(simd, 0.0); 3];
+        let [of_a, of_u, of_jerk] = [a, u, jerk].map(|x| four(simd, x));
+        for m in 0..self.by_four.len() {
+            let [omega2, damping, l] = self.by_four[m].each_ref().map(|x| x.load(simd));
+            let [eta, rate] = self.four_modes(simd, x, m);
+            let f = omega2 * eta + damping * rate;
+            let eta2 = -(f + l * of_u);
+            let momentum = f + l * of_a;
+            first += omega2 * (rate * rate) + momentum * momentum;
+            let f = omega2 * rate + damping * eta2;
+            let momentum = f + l * of_jerk;
+            second += omega2 * (eta2 * eta2) + momentum * momentum;
+            shear += l * f;
+        }
+        let [mut first, mut second] = [sum(first), sum(second)];
+        if slip {
+            let (w, s2) = (x[1], u - a);
+            let s3 = self.block_acceleration(w, s2, sum(shear), force_rate) - jerk;
+            first += self.stiffness_n_per_m * (w * w) + self.block_mass_kg * (s2 * s2);
+            second += self.stiffness_n_per_m * (s2 * s2) + self.block_mass_kg * (s3 * s3);
+        }
+        [first.sqrt(), second.sqrt()]
+    }
+
+    /// Four modes of a padded state and their rates. Beyond the last mode stands what multiplies zeros.
+    #[inline(always)]
+    fn four_modes<S: Simd>(&self, simd: S, x: &[f64], m: usize) -> [f64x4<S>; 2] {
+        let n = self.participation.len();
+        [2 + 4 * m, 2 + n + 4 * m].map(|at| match x.get(at..at + 4) {
+            Some(x) => f64x4::from_slice(simd, x),
+            None => Four::new(&x[at..]).load(simd),
+        })
     }
 
     /// Floor values `Φ η` of coordinates `η`.

@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
-use crate::linear::lanes::{greatest, least};
+use crate::linear::lanes::{greatest, largest_lane, least};
 use crate::linear::{BATCH, Load, Window};
 use crate::model::Model;
 use crate::motion::GroundMotion;
@@ -43,7 +43,7 @@ impl Sampling {
 #[inline(always)]
 pub(super) fn largest_size<S: Simd>(simd: S, x: &Window) -> f64 {
     let [first, rest @ ..] = x;
-    greatest(first.abs(), largest_of(simd, f64x8::from_slice(simd, rest).abs()))
+    greatest(first.abs(), largest_lane(simd, f64x8::from_slice(simd, rest).abs()))
 }
 
 /// Least and largest value in a batch.
@@ -51,15 +51,7 @@ pub(super) fn largest_size<S: Simd>(simd: S, x: &Window) -> f64 {
 fn range<S: Simd>(simd: S, x: &Window) -> [f64; 2] {
     let [first, rest @ ..] = x;
     let x = f64x8::from_slice(simd, rest);
-    [least(*first, -largest_of(simd, -x)), greatest(*first, largest_of(simd, x))]
-}
-
-/// The largest lane.
-#[inline(always)]
-fn largest_of<S: Simd>(simd: S, x: f64x8<S>) -> f64 {
-    let (a, b) = simd.split_f64x8(x);
-    let [a, b, c, d] = b.simd_gt(a).select(b, a).to_array();
-    greatest(greatest(a, b), greatest(c, d))
+    [least(*first, -largest_lane(simd, -x)), greatest(*first, largest_lane(simd, x))]
 }
 
 /// How a signal varies within a batch.

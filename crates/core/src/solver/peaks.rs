@@ -12,13 +12,16 @@ use super::event::{Segment, output_series};
 use super::ground::Stretch;
 use super::run::{Curvature, InForce, Run};
 use super::tables::{Batch, Phase};
-use crate::linear::lanes::{Eight, Width, eight, greatest, larger};
+use crate::linear::lanes::{Eight, Width, eight, greatest, larger, largest_lane};
 use crate::linear::polynomial::{Polynomial, curvature_bound, largest};
 use crate::linear::{BATCH, Force};
 use crate::response::Mode;
 
 /// Candidates that are kept before they are settled, besides one an output.
 const ROOM: usize = 512;
+
+/// Numbers of the samples of a batch.
+const SAMPLES: Eight = Eight([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
 
 /// Peaks attained, and the candidates for more.
 #[derive(Debug, Default)]
@@ -86,10 +89,16 @@ impl Peaks {
     }
 
     /// Whether the bounds of a candidate are above the peaks attained since.
-    fn in_question(&self, i: usize) -> bool {
+    #[inline(always)]
+    fn in_question<S: Simd>(&self, simd: S, i: usize) -> bool {
         let groups = self.peak.len();
-        let all = self.bounds[i * groups..].iter().zip(&self.peak);
-        all.flat_map(|(above, peak)| above.0.into_iter().zip(peak.0)).any(|(a, p)| a > p)
+        let above = &self.bounds[i * groups..][..groups];
+        for g in 0..groups {
+            if above[g].load(simd).simd_gt(self.peak[g].load(simd)).any_true() {
+                return true;
+            }
+        }
+        false
     }
 
     /// Whether an output may have its peak in one of the samples of a candidate.
@@ -102,11 +111,11 @@ impl Peaks {
     }
 
     /// Forgets the candidates that are not; the samples of all are still alike.
-    fn drop_overtaken(&mut self) {
+    fn drop_overtaken<S: Simd>(&mut self, simd: S) {
         let (groups, stride) = (self.peak.len(), self.x.len());
         let mut used = 0;
         for i in 0..self.candidates.len() {
-            if self.in_question(i) {
+            if self.in_question(simd, i) {
                 self.candidates[used] = self.candidates[i];
                 self.states.copy_within(i * stride..(i + 1) * stride, used * stride);
                 self.bounds.copy_within(i * groups..(i + 1) * groups, used * groups);
@@ -243,7 +252,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     pub(super) fn keep(&mut self, sample: usize, extent: Extent, moved: bool) {
         let room = ROOM + self.peaks.outputs;
         if self.peaks.candidates.len() == room {
-            self.peaks.drop_overtaken();
+            self.peaks.drop_overtaken(self.simd);
             if self.peaks.candidates.len() > room / 2 {
                 self.settle_peaks();
             }
@@ -265,12 +274,12 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             #[inline(always)]
             || {
                 for i in 0..self.peaks.candidates.len() {
-                    if self.peaks.in_question(i) {
+                    if self.peaks.in_question(simd, i) {
                         self.look_at_samples(i);
                     }
                 }
                 for i in 0..self.peaks.candidates.len() {
-                    if self.peaks.in_question(i) {
+                    if self.peaks.in_question(simd, i) {
                         self.settle(i);
                     }
                 }
@@ -435,16 +444,15 @@ fn samples_above<S: Simd>(
     let mut before = [first; BATCH];
     before[1..].copy_from_slice(&values.as_array()[..BATCH - 1]);
     let before = f64x8::load_array_ref(simd, &before);
-    let ends = larger(before.abs(), values.abs());
-    let peak = ends.as_array()[..steps].iter().fold(peak, |peak, y| greatest(peak, *y));
+    let (zero, taken) = (eight(simd, 0.0), SAMPLES.load(simd).simd_lt(eight(simd, steps as f64)));
+    let ends = taken.select(larger(before.abs(), values.abs()), zero);
+    let peak = greatest(peak, largest_lane(simd, ends));
     let inside = eight(simd, slack) - (values - before).abs() * eight(simd, 0.25);
     let bulge = inside * (inside / eight(simd, slack));
-    let bound = ends + inside.simd_gt(eight(simd, 0.0)).select(bulge, eight(simd, 0.0));
+    let bound = ends + inside.simd_gt(zero).select(bulge, zero);
     // A few ulp are no more than the rounding of the values.
-    let open = bound.simd_gt(eight(simd, peak + 1e-15 * peak)).to_bitmask();
-    let open = open & ((1 << steps) - 1);
-    let most = (0..BATCH)
-        .filter(|k| open & (1 << k) != 0)
-        .fold(0.0, |most, k| greatest(most, bound.as_array()[k]));
+    let open = bound.simd_gt(eight(simd, peak + 1e-15 * peak)) & taken;
+    let most = largest_lane(simd, open.select(bound, zero));
+    let open = open.to_bitmask();
     (open as u8, most, peak)
 }

@@ -394,7 +394,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 let x = &x[..4 * width.fours()];
                 series.expand_by_table(simd, table, phase.slip, x, load);
             }
-            None => series.expand(&phase.system, phase.slip, x, load, phase.unit_s),
+            None => series.expand(simd, &phase.system, phase.slip, x, load, phase.unit_s),
         }
     }
 
@@ -425,21 +425,16 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let [first, second] = if self.width.modes() == 1 {
             let (mut f, mut eta2) = ([0.0], [0.0]);
             system.derivative_norms(
+                self.simd,
                 phase.slip,
-                &self.x[..self.width.components()],
+                &self.x,
                 load,
                 force,
                 [&mut f, &mut eta2],
             )
         } else {
             let [f, eta2] = &mut self.spare;
-            system.derivative_norms(
-                phase.slip,
-                &self.x[..self.width.components()],
-                load,
-                force,
-                [f, eta2],
-            )
+            system.derivative_norms(self.simd, phase.slip, &self.x, load, force, [f, eta2])
         };
         let horizontal = Roughness::new(self.simd, self.window(sample));
         let of_a = if phase.slip { system.root_total_mass } else { system.root_storey_mass };

@@ -167,7 +167,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             }
             let a = self.window(sample);
             let [normal, _] = self.ground.normal.range(simd, sample);
-            phase.system.amplitudes(&self.x[..self.width.components()], &mut self.amplitudes);
+            let amplitudes = &mut self.amplitudes[..self.width.modes()];
+            phase.system.amplitudes(simd, &self.x, amplitudes);
             let holds = least(high, -low) * normal - hold.force_n.abs();
             let coarse = |size: f64, samples: usize| {
                 let impulse = samples as f64 * batch.dt_s * size;

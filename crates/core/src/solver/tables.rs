@@ -238,7 +238,7 @@ impl Phase {
         let (of_friction, slip) = (slip.unwrap_or_default(), slip.is_some());
         let rate = if slip { system.slip_rate_rad_per_s } else { system.stick_rate_rad_per_s };
         let unit_s = unit_s(rate, dt_s);
-        let series = series_table(&system, slip, unit_s, orders);
+        let series = series_table(simd, &system, slip, unit_s, orders);
         let growth = |length_s| if slip { system.growth(length_s) } else { 1.0 };
         let batch = batch_s
             .filter(|dt_s| system.storeys <= BATCH_STOREYS && dt_s * rate <= BATCH_RATE_STEP);

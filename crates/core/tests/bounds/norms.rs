@@ -272,6 +272,10 @@ fn prop_several_samples_stay_within_reach_of_one_chord() {
     assert!(nearest > 0.5, "at most {nearest} of the bound was used");
 }
 
+fn amplitudes(system: &System, x: &State, out: &mut [f64]) {
+    fearless_simd::dispatch!(fearless_simd::Level::new(), simd => system.amplitudes(simd, &x.0, out));
+}
+
 /// (k) In stick the amplitudes grow by what the acceleration adds, bound every row, and bound it no
 /// less closely than the energy norm.
 #[test]
@@ -283,7 +287,7 @@ fn prop_amplitudes_of_modes_bound_every_row() {
         let of_impulse = system.amplitudes_of_impulse();
         let mut x = state(&mut random, &made, false);
         let mut most = vec![0.0; system.modes()];
-        system.amplitudes(&x.0, &mut most);
+        amplitudes(system, &x, &mut most);
         let mut c = vec![0.0; x.0.len()];
         c[2..].fill_with(|| random.between(-1.0, 1.0));
         let of_c = system.dual_amplitudes(&c);
@@ -300,7 +304,7 @@ fn prop_amplitudes_of_modes_bound_every_row() {
                 *most += of_impulse * impulse;
             }
             let mut now = vec![0.0; system.modes()];
-            system.amplitudes(&x.0, &mut now);
+            amplitudes(system, &x, &mut now);
             for (now, most) in now[..count].iter().zip(&most) {
                 assert!(*now <= most * (1.0 + 1e-13), "{now:e} above {most:e}");
             }

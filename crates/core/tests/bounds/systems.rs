@@ -139,7 +139,9 @@ pub fn series(system: &System, slip: bool, state: &State, load: &Load, length_s:
     let mut x = state.0.clone();
     let components = x.len();
     x.resize(components.div_ceil(4) * 4, 0.0);
-    series.expand(system, slip, &x, load, length_s);
+    fearless_simd::dispatch!(fearless_simd::Level::new(), simd => {
+        series.expand(simd, system, slip, &x, load, length_s);
+    });
     let width = Many(system.modes());
     Series((0..components).map(|i| series.component(width, i, 1.0)).collect())
 }
