@@ -54,11 +54,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         if profiled.is_some_and(|(wanted, ..)| wanted != name) {
             continue;
         }
-        let clock = Instant::now();
-        let prepared = Prepared::new(model, motion.dt_s());
-        let set_up = clock.elapsed();
+        let prepared = Prepared::new(model.clone(), motion.dt_s());
         match profiled {
-            None => measure(name, &prepared, motion, set_up)?,
+            None => measure(name, &model, &prepared, motion)?,
+            Some((_, "set-up", count)) => {
+                for _ in 0..count {
+                    black_box(Prepared::new(model.clone(), motion.dt_s()));
+                }
+            }
             Some((_, "certificate", count)) => {
                 for _ in 0..count {
                     let response = prepared.response(motion)?;
@@ -78,12 +81,16 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn measure(
     name: &str,
+    model: &Model,
     prepared: &Prepared,
     motion: &PreparedMotion,
-    set_up: Duration,
 ) -> Result<(), Box<dyn Error>> {
     let response = prepared.demands(motion)?;
     let samples = motion.motion().len();
+    let set_up = least(|| {
+        drop(black_box(Prepared::new(model.clone(), motion.dt_s())));
+        Ok(())
+    })?;
     let mut room = Workspace::default();
     let demands =
         least(|| prepared.demands_in(&mut room, motion).map(|response| drop(black_box(response))))?;
