@@ -27,6 +27,7 @@ from machine import Process, machine, note
 
 LABELS = {
     "slipstick": "Slipstick",
+    "slipstick-prepared": "Slipstick, system and motion prepared",
     "slipstick-native": "Slipstick, built for this processor",
     "slipstick-history": "Slipstick with history",
     "slipstick-checked": "Slipstick with history and certificate",
@@ -84,6 +85,8 @@ def programs(case, helpers, ops, quick, only_fast=False):
         helper.load(case)
         answer = helper.answer()
         kinds = {"slipstick": "demands"}
+        if key == "slipstick":
+            kinds |= {"slipstick-prepared": "prepared"}
         if key == "slipstick" and not only_fast:
             kinds |= {"slipstick-history": "history", "slipstick-checked": "checked"}
         if key != "slipstick":

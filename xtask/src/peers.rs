@@ -66,13 +66,19 @@ pub fn bench_python(options: &[&str]) -> Outcome {
     let bench = Bench::new("python", options, &["--json", "--quick", "--write"])?;
     let package = Package::environment()?;
     package.build("wheel")?;
+    let wheel = package.wheel("wheel", &bench.target.join("bench-python-wheel"))?;
     shell::run(&mut shell::cargo("build --release -p slipstick-cli"))?;
     shell::run(&mut shell::cargo("build --release -p slipstick-files --example run_bench"))?;
     let helper = built(&bench.target, "release", "examples/run_bench");
     let slipstick = built(&bench.target, "release", "slipstick");
     let bench = Bench { python: package.python().to_owned(), ..bench };
     let examples = shell::root().join("examples");
-    let programs = [("--helper", helper), ("--slipstick", slipstick), ("--examples", examples)];
+    let programs = [
+        ("--helper", helper),
+        ("--slipstick", slipstick),
+        ("--examples", examples),
+        ("--wheel", wheel),
+    ];
     bench.run("python_bench.py", &programs)
 }
 

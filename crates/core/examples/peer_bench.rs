@@ -18,7 +18,7 @@ use slipstick::check::check;
 use slipstick::friction::{Coulomb, Friction};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::GroundMotion;
-use slipstick::solver;
+use slipstick::solver::{self, Prepared, PreparedMotion, Workspace};
 use std::error::Error;
 use std::hint::black_box;
 use std::time::Instant;
@@ -102,6 +102,8 @@ fn load(bytes: &[u8]) -> Result<Case, Box<dyn Error>> {
 
 fn time(case: &Case, what: &str, count: usize) -> Result<String, Box<dyn Error>> {
     let mut nanoseconds = Vec::with_capacity(count);
+    let motion = PreparedMotion::new(case.motion.clone());
+    let (prepared, mut room) = (Prepared::new(case.model()?, motion.dt_s()), Workspace::default());
     for _ in 0..count {
         let clock = Instant::now();
         let model = case.model()?;
@@ -112,6 +114,9 @@ fn time(case: &Case, what: &str, count: usize) -> Result<String, Box<dyn Error>>
             "demands" => {
                 black_box(solver::exact_demands(&model, &case.motion)?);
             }
+            "prepared" => {
+                black_box(prepared.demands_in(&mut room, &motion)?);
+            }
             "history" => {
                 black_box(solver::exact(&model, &case.motion)?);
             }
@@ -120,9 +125,10 @@ fn time(case: &Case, what: &str, count: usize) -> Result<String, Box<dyn Error>>
                 black_box(check(&model, &case.motion, &response));
             }
             _ => {
-                return Err(
-                    format!("expected demands, history, checked or setup, found {what}").into()
-                );
+                return Err(format!(
+                    "expected demands, prepared, history, checked or setup, found {what}"
+                )
+                .into());
             }
         }
         nanoseconds.push(clock.elapsed().as_nanos().to_string());
