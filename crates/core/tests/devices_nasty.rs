@@ -371,6 +371,12 @@ fn reference_rigid_stops_before_the_end_of_travel() {
     agree(&[1734, 2149, 6133, 6697, 7504, 9523, 9757, 15_854]);
 }
 
+/// Bounces below the rounding of a surface that is at its end: it slides on the way out, and back.
+#[test]
+fn reference_bounces_off_a_rigid_stop_with_a_surface_at_its_end() {
+    agree(&[8425, 12_726, 12_980]);
+}
+
 /// The same of ten thousand; `SLIPSTICK_SEEDS=0..20000` takes others.
 #[test]
 #[ignore = "minutes: cargo test -p slipstick --test devices_nasty -- --ignored --nocapture"]

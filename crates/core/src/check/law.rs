@@ -133,7 +133,7 @@ impl Law {
     /// directions apart the static one stands for it: eq. (4) was not asked at ṡ = 0.
     pub(super) fn wrong_way(&self, claimed: Direction, normal: f64) -> f64 {
         let force = self.sliding_force(claimed, normal);
-        let excess = self.sliding_excess(force, opposite(claimed), normal);
+        let excess = self.sliding_excess(force, claimed.opposite(), normal);
         if excess > 0.0 { excess } else { self.fixed[0].max(self.fixed[1]) * normal }
     }
 
@@ -163,13 +163,6 @@ fn index(direction: Direction) -> usize {
     match direction {
         Direction::Positive => 0,
         Direction::Negative => 1,
-    }
-}
-
-fn opposite(direction: Direction) -> Direction {
-    match direction {
-        Direction::Positive => Direction::Negative,
-        Direction::Negative => Direction::Positive,
     }
 }
 

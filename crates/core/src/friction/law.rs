@@ -542,6 +542,22 @@ impl Law {
         }
     }
 
+    /// The same where the block strikes a rigid stop in a direction.
+    pub fn strike(&self, memory: &mut Memory, s: f64, direction: Direction) {
+        if let Some(series) = &self.series {
+            series.arrive(&mut memory.series, s, direction);
+            memory.series.active.fill(false);
+        }
+    }
+
+    /// The same where a bounce in a direction ends, however short it was.
+    pub fn turn(&self, memory: &mut Memory, s: f64, direction: Direction) {
+        if let Some(series) = &self.series {
+            series.turn(&mut memory.series, s, direction);
+            memory.series.active.fill(false);
+        }
+    }
+
     /// Displacements of surfaces in series at `s` in a branch.
     #[must_use]
     pub fn surfaces(&self, memory: &Memory, s: f64) -> Vec<f64> {

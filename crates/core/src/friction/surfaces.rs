@@ -211,6 +211,12 @@ impl Series {
 
     /// Reaches such a level, and decides what slides from there on.
     pub(super) fn reach(&self, state: &mut SeriesState, level: f64, direction: Direction) {
+        self.arrive(state, level, direction);
+        self.begin(state, direction);
+    }
+
+    /// Makes a level the beginning of a branch; surfaces that have slid to their ends there are at them.
+    pub(super) fn arrive(&self, state: &mut SeriesState, level: f64, direction: Direction) {
         self.settle(state, level);
         for (u, surface) in state.displacements_m.iter_mut().zip(&self.surfaces) {
             if let Some(travel_m) = surface.travel_m
@@ -219,7 +225,20 @@ impl Series {
                 *u = direction.sign() * travel_m;
             }
         }
-        self.begin(state, direction);
+    }
+
+    /// Makes `s` the beginning of a branch; surfaces that have slid in a direction, by less than their
+    /// rounding too, are off their ends on the other side.
+    pub(super) fn turn(&self, state: &mut SeriesState, s: f64, direction: Direction) {
+        self.settle(state, s);
+        for (i, surface) in self.surfaces.iter().enumerate() {
+            if state.active[i]
+                && self.at_end(state, i, direction.opposite())
+                && let Some(travel_m) = surface.travel_m
+            {
+                state.displacements_m[i] = -direction.sign() * travel_m.next_down();
+            }
+        }
     }
 
     /// The surfaces at `s` in a branch.

@@ -112,6 +112,12 @@ impl<'a> Slider<'a> {
         self.law.settle(&mut self.memory, s);
     }
 
+    /// The same at the end of a bounce in a direction, however short it was.
+    pub(super) fn turn(&mut self, s: f64, direction: Direction) {
+        self.note_surfaces(s);
+        self.law.turn(&mut self.memory, s, direction);
+    }
+
     /// Begins to slide from rest; the contact with an elastic stop that this makes or ends, which is an
     /// event of its own.
     pub(super) fn begin(&mut self, s: f64, direction: Direction) -> Option<Contact> {

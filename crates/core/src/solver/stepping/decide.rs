@@ -279,7 +279,12 @@ impl Stepping<'_> {
         self.start[interface] = None;
         if interface == 0 {
             self.begun = None;
-            self.slider.settle(self.x.s);
+            let s = self.x.s;
+            match self.near {
+                Some(near) if near.offset > 0.0 => self.slider.turn(s, Direction::Positive),
+                Some(near) if near.offset < 0.0 => self.slider.turn(s, Direction::Negative),
+                _ => self.slider.settle(s),
+            }
         }
     }
 
@@ -366,14 +371,14 @@ impl Stepping<'_> {
             self.first_impact_s = Some(time_s);
         }
         self.sliding[0].end(time_s, place);
-        self.slider.law.settle(&mut self.slider.memory, place);
+        self.slider.law.strike(&mut self.slider.memory, place, direction);
         let after = -e * before;
         self.jump(time_s, before, after);
         if after == 0.0 {
             self.rest_at_stop(time_s, place);
             return;
         }
-        let away = opposite(direction);
+        let away = direction.opposite();
         self.modes[0] = Mode::Slip(away);
         self.sliding[0].begin(time_s, place);
         self.slider.law.resume(&mut self.slider.memory, after.abs(), away);
@@ -454,12 +459,5 @@ impl Stepping<'_> {
         let rest_s = speed / q * (1.0 + (q / p).sqrt()) / (1.0 - r);
         let bounce = 0.5 * speed * speed / q;
         r < 1.0 && bounce < LEAST_BOUNCE * self.x.s.abs() && rest_s < LONGEST_REST_S
-    }
-}
-
-fn opposite(direction: Direction) -> Direction {
-    match direction {
-        Direction::Positive => Direction::Negative,
-        Direction::Negative => Direction::Positive,
     }
 }
