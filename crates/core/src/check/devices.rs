@@ -464,6 +464,10 @@ impl<'a> Judge<'a> {
         let loads: Vec<Load> =
             all.into_iter().filter(|load| (load.table - table).abs() <= nearest).collect();
         let (_, v) = self.stored(k);
+        let surfaces = match before[0] {
+            Mode::Slip(slid) => self.slider.off_ends(self.h.surface_displacements(k), slid),
+            Mode::Stick => self.h.surface_displacements(k).to_vec(),
+        };
         let held: Vec<Mode> = (0..after.len())
             .map(|i| {
                 let velocity = if i == 0 { v[0] } else { v[self.floors() + i] };
@@ -483,7 +487,7 @@ impl<'a> Judge<'a> {
                     modes[i] = Mode::Stick;
                     // A bounce below the rounding of s turns back to the stop: that does not hold it.
                     let leans = after[i] == Mode::Stick;
-                    let asked = self.asked(k, &modes, (i, leans), load);
+                    let asked = self.asked((k, &surfaces), &modes, (i, leans), load);
                     let beyond = match after[i] {
                         Mode::Stick => asked.beyond(),
                         Mode::Slip(Direction::Positive) => asked.demand - asked.low,
@@ -519,7 +523,7 @@ impl<'a> Judge<'a> {
     /// What a stuck interface is asked for and what holds it, in N.
     fn asked(
         &self,
-        k: usize,
+        (k, surfaces): (usize, &[f64]),
         modes: &[Mode],
         (i, leans): (usize, bool),
         load: &Load,
@@ -527,21 +531,20 @@ impl<'a> Judge<'a> {
         let (x, v) = self.stored(k);
         let b = self.between_knots(k, modes);
         let now = self.at(&b, load, &x, &v);
-        self.holds(&now, (k, x[0]), (i, leans), load)
+        self.holds(&now, (x[0], surfaces), (i, leans), load)
     }
 
     /// The same from forces known; `leans` where rigid stops hold too.
     fn holds(
         &self,
         now: &Now,
-        (k, s): (usize, f64),
+        (s, surfaces): (f64, &[f64]),
         (i, leans): (usize, bool),
         load: &Load,
     ) -> law::Asked {
         if i == 0 {
             let slack_m =
                 if leans { 8.0 * f64::EPSILON * self.displacement[1] } else { f64::NEG_INFINITY };
-            let surfaces = self.h.surface_displacements(k);
             return self.slider.asked(now.friction, (s, slack_m), surfaces, load.normal);
         }
         let contents = &self.contents[i - 1];
@@ -608,7 +611,7 @@ impl<'a> Judge<'a> {
                 let off = now.contents[e] - slope - h.contents_state(k, e)[2];
                 force = force.max(contents.mass_kg * off.abs());
             }
-            let asked = self.holds(&now, (k, x[0]), (0, true), load);
+            let asked = self.holds(&now, (x[0], h.surface_displacements(k)), (0, true), load);
             let friction = if modes[0] == Mode::Stick { asked.taken() } else { now.friction };
             force = force.max((friction - h.friction_force_n[k]).abs());
             let drift = load.slope.abs() * self.instant_s * self.structure.total_kg;
@@ -775,11 +778,14 @@ impl<'a> Judge<'a> {
             all.push((&nodes[i], &places[i], &speeds[i]));
         }
         all.push((&end, x, v));
+        let surfaces = self.h.surface_displacements(k);
         let asked: Vec<law::Asked> = match b.modes[0] {
             Mode::Stick => all
                 .iter()
                 .zip(rule.points)
-                .map(|((now, x, _), t)| self.holds(now, (k, x[0]), (0, true), &between(loads, t)))
+                .map(|((now, x, _), t)| {
+                    self.holds(now, (x[0], surfaces), (0, true), &between(loads, t))
+                })
                 .collect(),
             Mode::Slip(_) => Vec::new(),
         };
@@ -797,7 +803,7 @@ impl<'a> Judge<'a> {
         loads: [Load; 2],
         all: &[(&Now, &[f64], &[f64])],
     ) {
-        let n = self.floors();
+        let (n, surfaces) = (self.floors(), self.h.surface_displacements(k));
         for (i, mode) in b.modes.iter().enumerate() {
             let at = if i == 0 { 0 } else { n + i };
             let mut speeds = [0.0; POINTS];
@@ -806,7 +812,7 @@ impl<'a> Judge<'a> {
                 let load = between(loads, t);
                 match mode {
                     Mode::Stick => {
-                        let asked = self.holds(now, (k, x[0]), (i, true), &load);
+                        let asked = self.holds(now, (x[0], surfaces), (i, true), &load);
                         self.excess = larger(self.excess, excess(asked.beyond()));
                         if i == 0
                             && let Some(margin) = asked.margin()

@@ -284,6 +284,21 @@ impl<'a> Slider<'a> {
         Asked { demand, low, high, friction }
     }
 
+    /// Displacements of surfaces of which those that have slid in a direction are off their ends on the
+    /// other side, where they have moved by less than their rounding.
+    pub(super) fn off_ends(&self, surfaces: &[f64], slid: Direction) -> Vec<f64> {
+        let mut all = surfaces.to_vec();
+        if let (Some(series), Some(sliding)) = (self.series, self.sliding(surfaces, slid, false)) {
+            let active = sliding.active();
+            for ((u, surface), active) in all.iter_mut().zip(series.surfaces()).zip(active) {
+                if active && is_at_end(surface, -slid.sign() * *u) {
+                    *u *= 1.0 - 8.0 * f64::EPSILON;
+                }
+            }
+        }
+        all
+    }
+
     /// How a slip in a direction goes on from these displacements of surfaces in series, of which those
     /// at their ends may have left them by less than their rounding: the ways that are then possible.
     pub(super) fn slidings(&self, surfaces: &[f64], direction: Direction) -> Vec<Sliding> {
