@@ -356,10 +356,15 @@ try:
 except KeyboardInterrupt:
     print(time.monotonic() - sent[0], time.process_time() - sent[1])
 """
-    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
-    assert ended.returncode == 0 and ended.stdout, ended.stderr
-    # Where others use the processor too, it is the time that this process had that counts.
-    assert min(map(float, ended.stdout.split())) < 0.2, ended.stdout
+    told = []
+    # Others only ever add to the time: the least of three counts, of that on the clock and that on the processor.
+    for _ in range(3):
+        ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+        assert ended.returncode == 0 and ended.stdout, ended.stderr
+        told += map(float, ended.stdout.split())
+        if min(told) < 0.2:
+            return
+    raise AssertionError(f"interrupted after {told} s")
 
 
 def test_an_exception_of_progress_stops_the_work(tmp_path: Path) -> None:
