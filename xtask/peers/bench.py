@@ -84,13 +84,11 @@ def programs(case, helpers, ops, quick, only_fast=False):
     for key, helper in helpers.items():
         helper.load(case)
         answer = helper.answer()
-        kinds = {"slipstick": "demands"}
+        kinds = {key: "demands"}
         if key == "slipstick":
             kinds |= {"slipstick-prepared": "prepared"}
-        if key == "slipstick" and not only_fast:
-            kinds |= {"slipstick-history": "history", "slipstick-checked": "checked"}
-        if key != "slipstick":
-            kinds = {key: "demands"}
+            if not only_fast:
+                kinds |= {"slipstick-history": "history", "slipstick-checked": "checked"}
         for name, what in kinds.items():
             yield name, (lambda n, h=helper, w=what: h.seconds(w, n)), 1000, answer
     arguments = numba_loop.prepare(case)

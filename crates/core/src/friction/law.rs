@@ -546,16 +546,16 @@ impl Law {
     pub fn strike(&self, memory: &mut Memory, s: f64, direction: Direction) {
         if let Some(series) = &self.series {
             series.arrive(&mut memory.series, s, direction);
-            memory.series.active.fill(false);
         }
+        self.settle(memory, s);
     }
 
     /// The same where a bounce in a direction ends, however short it was.
     pub fn turn(&self, memory: &mut Memory, s: f64, direction: Direction) {
         if let Some(series) = &self.series {
             series.turn(&mut memory.series, s, direction);
-            memory.series.active.fill(false);
         }
+        self.settle(memory, s);
     }
 
     /// Displacements of surfaces in series at `s` in a branch.

@@ -66,6 +66,14 @@ pub fn larger<S: Simd>(a: f64x8<S>, b: f64x8<S>) -> f64x8<S> {
     b.simd_gt(a).select(b, a)
 }
 
+/// The sum of the lanes.
+#[inline(always)]
+#[must_use]
+pub fn sum_of_lanes<S: Simd>(x: f64x4<S>) -> f64 {
+    let [a, b, c, d] = x.to_array();
+    (a + b) + (c + d)
+}
+
 /// The largest lane.
 #[inline(always)]
 #[must_use]

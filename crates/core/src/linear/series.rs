@@ -3,7 +3,7 @@
 use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
 
-use super::lanes::{Four, Width, combine4, dot, four, greatest, least};
+use super::lanes::{Four, Width, combine4, dot, four, greatest, least, sum_of_lanes};
 use super::polynomial::{DEGREE, Polynomial, curvature_bound};
 use super::system::{Modes, System};
 
@@ -199,8 +199,7 @@ impl Series {
             }
             let step = length_s * RECIPROCAL[k];
             let [a, force] = load.order(k);
-            let [p, q, r, t] = shear.to_array();
-            let u = system.block_acceleration(s, w, (p + q) + (r + t), force);
+            let u = system.block_acceleration(s, w, sum_of_lanes(shear), force);
             [s, w] = [step * w, step * (u - a)];
             let (u, step) = (four(simd, u), four(simd, step));
             let next = &mut self.c[(k + 1) * stride..][..rate_at + 4 * count];

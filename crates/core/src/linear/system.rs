@@ -4,7 +4,7 @@ use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
 
 use super::frame::shear_frame_modes;
-use super::lanes::{Four, dot, four};
+use super::lanes::{Four, dot, four, sum_of_lanes};
 
 /// Block, spring, damper and structure in the structure's fixed-base modes `η`, `q = Φ η`.
 ///
@@ -390,11 +390,22 @@ impl System {
             let momentum = f[j] + l[j] * jerk;
             second[j % 4] += k[j] * (eta2[j] * eta2[j]) + momentum * momentum;
         }
-        let [mut first, mut second] =
-            [first, second].map(|sums| (sums[0] + sums[1]) + (sums[2] + sums[3]));
-        if slip {
-            let (w, s2) = (x[1], u - a);
-            let s3 = self.block_acceleration(w, s2, dot(l, f), force_rate) - jerk;
+        let squares = [first, second].map(|sums| (sums[0] + sums[1]) + (sums[2] + sums[3]));
+        let block = slip.then(|| [x[1], u - a, dot(l, f)]);
+        self.with_block(squares, block, [jerk, force_rate])
+    }
+
+    /// Norms of `ẋ` and `ẍ` from the squares of the structure's parts, in slip with those of the block at
+    /// `ṡ`, `s̈` and a rate of the base shear.
+    #[inline(always)]
+    fn with_block(
+        &self,
+        [mut first, mut second]: [f64; 2],
+        block: Option<[f64; 3]>,
+        [jerk, force_rate]: [f64; 2],
+    ) -> [f64; 2] {
+        if let Some([w, s2, shear_rate]) = block {
+            let s3 = self.block_acceleration(w, s2, shear_rate, force_rate) - jerk;
             first += self.stiffness_n_per_m * (w * w) + self.block_mass_kg * (s2 * s2);
             second += self.stiffness_n_per_m * (s2 * s2) + self.block_mass_kg * (s3 * s3);
         }
@@ -411,10 +422,6 @@ impl System {
         [a, jerk]: [f64; 2],
         [force_n, force_rate]: [f64; 2],
     ) -> [f64; 2] {
-        let sum = |x: f64x4<S>| {
-            let [p, q, r, t] = x.to_array();
-            (p + q) + (r + t)
-        };
         let mut u = a;
         if slip {
             let mut shear = four(simd, 0.0);
@@ -423,7 +430,7 @@ impl System {
                 let [eta, rate] = self.four_modes(simd, x, m);
                 shear += l * (omega2 * eta + damping * rate);
             }
-            u = self.block_acceleration(x[0], x[1], sum(shear), force_n);
+            u = self.block_acceleration(x[0], x[1], sum_of_lanes(shear), force_n);
         }
         let [mut first, mut second, mut shear] = [four(simd, 0.0); 3];
         let [of_a, of_u, of_jerk] = [a, u, jerk].map(|x| four(simd, x));
@@ -439,14 +446,9 @@ impl System {
             second += omega2 * (eta2 * eta2) + momentum * momentum;
             shear += l * f;
         }
-        let [mut first, mut second] = [sum(first), sum(second)];
-        if slip {
-            let (w, s2) = (x[1], u - a);
-            let s3 = self.block_acceleration(w, s2, sum(shear), force_rate) - jerk;
-            first += self.stiffness_n_per_m * (w * w) + self.block_mass_kg * (s2 * s2);
-            second += self.stiffness_n_per_m * (s2 * s2) + self.block_mass_kg * (s3 * s3);
-        }
-        [first.sqrt(), second.sqrt()]
+        let squares = [first, second].map(sum_of_lanes);
+        let block = slip.then(|| [x[1], u - a, sum_of_lanes(shear)]);
+        self.with_block(squares, block, [jerk, force_rate])
     }
 
     /// Four modes of a padded state and their rates. Beyond the last mode stands what multiplies zeros.

@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
-use crate::linear::lanes::{greatest, largest_lane, least};
+use crate::linear::lanes::{greatest, largest_lane, least, sum_of_lanes};
 use crate::linear::{BATCH, Load, Window};
 use crate::model::Model;
 use crate::motion::GroundMotion;
@@ -70,17 +70,13 @@ impl Roughness {
     #[inline(always)]
     pub(super) fn new<S: Simd>(simd: S, x: &Window) -> Self {
         let at = |i: usize| f64x4::from_slice(simd, &x[i..i + 4]);
-        let sum = |x: f64x4<S>| {
-            let [a, b, c, d] = x.to_array();
-            (a + b) + (c + d)
-        };
         let kink = |i: usize| ((at(i + 2) - at(i + 1)) - (at(i + 1) - at(i))).abs();
         let [early, late] = [(at(1) - at(0)).abs(), (at(5) - at(4)).abs()];
         // Both fours have the kink in the middle.
         let (before, after) = (kink(0), kink(3) * f64x4::from_slice(simd, &[0.0, 1.0, 1.0, 1.0]));
         Self {
-            variation: sum(early + late),
-            kinks: sum(before + after),
+            variation: sum_of_lanes(early + late),
+            kinks: sum_of_lanes(before + after),
             change: {
                 let [a, b, c, d] = late.simd_gt(early).select(late, early).to_array();
                 greatest(greatest(a, b), greatest(c, d))
