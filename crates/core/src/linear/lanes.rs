@@ -215,8 +215,9 @@ pub fn combine8<S: Simd>(
     sums[0] + sums[1]
 }
 
+/// Adds columns times numbers to four sums side by side.
 #[inline(always)]
-fn add4<S: Simd>(simd: S, sums: &mut [f64x4<S>; 4], columns: &[[Four; 4]], x: &[[f64; 4]]) {
+pub fn add4<S: Simd>(simd: S, sums: &mut [f64x4<S>; 4], columns: &[[Four; 4]], x: &[[f64; 4]]) {
     let columns = &columns[..x.len()];
     for k in 0..x.len() {
         for j in 0..4 {

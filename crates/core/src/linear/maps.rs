@@ -7,12 +7,13 @@
 //! x_{i+k} = E^k x_i + first_k a_i + Σ_{m=1..k} tap_{k−m} a_{i+m}  (+ the same of a force)
 //! ```
 //!
-//! The maps depend neither on friction nor on the motion.
+//! The maps depend neither on friction nor on the motion. Where in stick nothing couples the modes, `E^k`
+//! has two numbers in each row: what the component itself does, and the other of its mode.
 
-use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
+use fearless_simd::{f64x4, f64x8};
 
-use super::lanes::{Eight, Four, combine4, combine8, eight, four};
+use super::lanes::{Eight, Four, add4, combine4, combine8, eight, four};
 use super::polynomial::DEGREE;
 use super::series::{Load, Series, advance};
 use super::system::System;
@@ -25,6 +26,9 @@ const QUIET_BATCHES: usize = 4;
 
 /// Samples that quiet stick takes at once.
 pub const QUIET: usize = BATCH * QUIET_BATCHES;
+
+/// Most storeys of which stick moves by whole columns: beyond, each mode by itself takes less.
+const WHOLE_STOREYS: usize = 4;
 
 /// Loads at the samples of a batch, both ends included.
 pub type Window = [f64; BATCH + 1];
@@ -60,6 +64,9 @@ pub struct Maps {
     force_columns: [Vec<Four>; BATCH],
     /// Stick over [`QUIET`] samples: first sample, taps, state.
     quiet: Vec<Four>,
+    /// Number of modes where nothing couples them: then all columns are first sample, taps, the component
+    /// itself and the other of its mode.
+    apart: Option<usize>,
 }
 
 /// One number at the samples `1 … 8` of a batch: a constant force, the first sample, the taps, the
@@ -162,7 +169,11 @@ impl Units {
 
     /// The maps of whole states.
     #[must_use]
-    pub fn maps(&self, slip: bool) -> Maps {
+    pub fn maps(&self, system: &System, slip: bool) -> Maps {
+        let n = system.modes();
+        if !slip && n > WHOLE_STOREYS && system.uncoupled_modes().is_some() {
+            return self.maps_of_modes(n);
+        }
         let zero = vec![0.0; self.stride];
         let tap = |input: usize, k: usize, m: usize| {
             if m <= k { self.state(&self.taps[input], k - m) } else { &zero }
@@ -176,12 +187,27 @@ impl Units {
             let taps = (0..BATCH).map(|m| tap(1, k, m));
             by_fours(self.stride, core::iter::once(self.state(&self.first[1], k)).chain(taps))
         });
-        let quiet = if slip { Vec::new() } else { self.quiet() };
-        Maps { columns, force_columns, quiet }
+        let quiet = if slip { Vec::new() } else { self.quiet(None) };
+        Maps { columns, force_columns, quiet, apart: None }
+    }
+
+    /// The same of stick where nothing couples the modes.
+    fn maps_of_modes(&self, n: usize) -> Maps {
+        let zero = vec![0.0; self.stride];
+        let size = self.stride * self.stride;
+        let columns = core::array::from_fn(|k| {
+            let of_state = modes_apart(&self.powers[k * size..][..size], n, self.stride);
+            let first = core::iter::once(self.state(&self.first[0], k));
+            let taps =
+                (0..BATCH).map(|m| if m <= k { self.state(&self.taps[0], k - m) } else { &zero });
+            by_fours(self.stride, first.chain(taps).chain(of_state.iter().map(Vec::as_slice)))
+        });
+        let force_columns = [const { Vec::new() }; BATCH];
+        Maps { columns, force_columns, quiet: self.quiet(Some(n)), apart: Some(n) }
     }
 
     /// Stick over several batches: what a load has left moves on by itself.
-    fn quiet(&self) -> Vec<Four> {
+    fn quiet(&self, apart: Option<usize>) -> Vec<Four> {
         let stride = self.stride;
         let by_batch = &self.powers[(BATCH - 1) * stride * stride..];
         let mut taps = self.taps[0][..(BATCH + 1) * stride].to_vec();
@@ -193,10 +219,14 @@ impl Units {
         let first = self.state(&self.first[0], BATCH - 1).to_vec();
         let first = chain(by_batch, first, QUIET_BATCHES, stride);
         let powers = chain(by_batch, by_batch.to_vec(), QUIET_BATCHES, stride);
-        let by_quiet = powers[(QUIET_BATCHES - 1) * stride * stride..].chunks_exact(stride);
+        let by_quiet = &powers[(QUIET_BATCHES - 1) * stride * stride..];
         let taps = (1..=QUIET).map(|m| self.state(&taps, QUIET - m));
-        let first = self.state(&first, QUIET_BATCHES - 1);
-        by_fours(stride, core::iter::once(first).chain(taps).chain(by_quiet))
+        let first = core::iter::once(self.state(&first, QUIET_BATCHES - 1));
+        if let Some(n) = apart {
+            let of_state = modes_apart(by_quiet, n, stride);
+            return by_fours(stride, first.chain(taps).chain(of_state.iter().map(Vec::as_slice)));
+        }
+        by_fours(stride, first.chain(taps).chain(by_quiet.chunks_exact(stride)))
     }
 
     /// A row times one of the blocks of `samples`.
@@ -247,6 +277,11 @@ impl Maps {
         out: &mut [f64],
     ) {
         let [first, loads @ ..] = a;
+        if x.len() > 4
+            && let Some(n) = self.apart
+        {
+            return move_modes(simd, &self.columns[k - 1], (*first, loads), (n, x), out);
+        }
         match force {
             Force::Constant(force) => {
                 combine4(simd, &self.columns[k - 1], &[force, *first], loads, x, out);
@@ -259,8 +294,7 @@ impl Maps {
                     let mut sum = [0.0; 4];
                     combine4(simd, columns, &[*first_n], normal, &[], &mut sum);
                     let c = four(simd, coefficient);
-                    let all = fearless_simd::f64x4::from_slice(simd, out)
-                        + c * fearless_simd::f64x4::from_slice(simd, &sum);
+                    let all = f64x4::from_slice(simd, out) + c * f64x4::from_slice(simd, &sum);
                     all.store_slice(out);
                 }
             }
@@ -271,6 +305,11 @@ impl Maps {
     #[inline(always)]
     pub fn after_quiet<S: Simd>(&self, simd: S, x: &[f64], a: &[f64; QUIET + 1], out: &mut [f64]) {
         let [first, loads @ ..] = a;
+        if x.len() > 4
+            && let Some(n) = self.apart
+        {
+            return move_modes(simd, &self.quiet, (*first, loads), (n, x), out);
+        }
         combine4(simd, &self.quiet, &[*first], loads, x, out);
     }
 }
@@ -290,6 +329,47 @@ impl Row {
             }
         }
     }
+}
+
+/// Moves modes that nothing couples: the loads at the first sample and after it, and of the state each
+/// component and the other of its mode.
+#[inline(always)]
+fn move_modes<S: Simd>(
+    simd: S,
+    columns: &[Four],
+    (first, loads): (f64, &[f64]),
+    (n, x): (usize, &[f64]),
+    out: &mut [f64],
+) {
+    let loads = loads.as_chunks::<4>().0;
+    let count = 1 + 4 * loads.len() + 2;
+    (out[0], out[1]) = (x[0], x[1]);
+    out[2..2 + n].copy_from_slice(&x[2 + n..2 + 2 * n]);
+    out[2 + n..2 + 2 * n].copy_from_slice(&x[2..2 + n]);
+    let (x, out) = (x.as_chunks::<4>().0, out.as_chunks_mut::<4>().0);
+    for i in 0..x.len() {
+        let (of_first, rest) = columns[i * count..][..count].split_at(1);
+        let (of_loads, of_state) = rest.split_at(4 * loads.len());
+        let mut sums = [four(simd, 0.0); 4];
+        sums[0] = of_first[0].load(simd) * four(simd, first);
+        add4(simd, &mut sums, of_loads.as_chunks::<4>().0, loads);
+        let [own, other] = [f64x4::from_slice(simd, &x[i]), f64x4::from_slice(simd, &out[i])];
+        let of_state = of_state[0].load(simd) * own + of_state[1].load(simd) * other;
+        (((sums[0] + sums[1]) + (sums[2] + sums[3])) + of_state).store_slice(&mut out[i]);
+    }
+}
+
+/// Of a matrix of padded columns that couples no modes what each component does to itself, and what the
+/// other of its mode does to it.
+fn modes_apart(matrix: &[f64], n: usize, stride: usize) -> [Vec<f64>; 2] {
+    let at = |row: usize, column: usize| matrix[column * stride + row];
+    let [mut own, mut other] = [vec![0.0; stride], vec![0.0; stride]];
+    own[0] = 1.0;
+    for (eta, rate) in (2..2 + n).zip(2 + n..) {
+        (own[eta], other[eta]) = (at(eta, eta), at(eta, rate));
+        (own[rate], other[rate]) = (at(rate, rate), at(rate, eta));
+    }
+    [own, other]
 }
 
 /// A matrix of padded columns times as many padded columns as `x` holds, into zeros.

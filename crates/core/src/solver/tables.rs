@@ -253,7 +253,7 @@ impl Phase {
             Some(Batch {
                 dt_s,
                 per_dt: 1.0 / dt_s,
-                maps: units.maps(slip),
+                maps: units.maps(&system, slip),
                 rows: of_rows,
                 displacement: units.row(simd, &of_s, 0.0, 0.0),
                 growth: growth(BATCH as f64 * dt_s),
