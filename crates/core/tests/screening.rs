@@ -8,7 +8,7 @@ mod common;
 
 use common::random::Random;
 use common::sketch::Sketch;
-use slipstick::model::Model;
+use slipstick::model::{Damping, Model};
 use slipstick::motion::GroundMotion;
 use slipstick::response::Response;
 use slipstick::solver::{self, InstructionSet, Prepared, PreparedMotion};
@@ -30,7 +30,7 @@ fn shaken(random: &mut Random) -> Sketch {
     loop {
         let x = Sketch::system(random);
         if x.masses.len() <= 1 {
-            return under_record(random, x);
+            return under_record(random, x, [20, 600], [0.003, 0.15]);
         }
     }
 }
@@ -40,15 +40,33 @@ fn shaken_frame(random: &mut Random) -> Sketch {
     loop {
         let x = Sketch::system(random);
         if x.masses.len() > 1 {
-            return under_record(random, x);
+            return under_record(random, x, [20, 600], [0.003, 0.15]);
         }
     }
 }
 
-fn under_record(random: &mut Random, mut x: Sketch) -> Sketch {
-    let count = random.integer(20, 600) as usize;
+/// A frame of four to twenty storeys that are nearly alike, shaken so.
+fn shaken_tall_frame(random: &mut Random) -> Sketch {
+    let n = random.integer(4, 20) as usize;
+    let mut x = Sketch::frame(random, n);
+    let (mass, rate) = (x.masses[0], random.logarithmic(10.0, 100.0));
+    for (m, k) in x.masses.iter_mut().zip(&mut x.stiffnesses) {
+        *m = mass * random.between(0.7, 1.3);
+        *k = mass * rate * rate * random.between(0.7, 1.3);
+    }
+    if let Damping::Dampers(dampers) = &mut x.damping {
+        let time_s = random.logarithmic(1e-3, 1.0) / rate;
+        *dampers = x.stiffnesses.iter().map(|k| k * time_s).collect();
+    }
+    // Long enough for what shakes the block to reach the top.
+    under_record(random, x, [200, 600], [0.2, 0.8])
+}
+
+/// Shakes a system by a record of so many samples, whose step is so long beside the first storey.
+fn under_record(random: &mut Random, mut x: Sketch, samples: [i64; 2], steps: [f64; 2]) -> Sketch {
+    let count = random.integer(samples[0], samples[1]) as usize;
     let rate = x.stiffnesses.first().map_or(10.0, |k| (k / x.masses[0]).sqrt());
-    let dt = random.logarithmic(0.003, 0.15) / rate;
+    let dt = random.logarithmic(steps[0], steps[1]) / rate;
     let amplitude = x.level() * random.logarithmic(0.5, 6.0);
     x.times = (0..=count).map(|i| i as f64 * dt).collect();
     x.horizontal = record(random, count, dt, amplitude);
@@ -208,6 +226,11 @@ fn peer_event_stepping_on_random_frames() {
     agree(300_000, 500, TOLERANCE_OF_FRAMES, shaken_frame);
 }
 
+#[test]
+fn peer_event_stepping_on_random_tall_frames() {
+    agree(400_000, 150, TOLERANCE_OF_FRAMES, shaken_tall_frame);
+}
+
 /// The bits of all that a response says but its history.
 fn bits(r: &Response) -> (Vec<u64>, [u64; 3], Vec<[u64; 2]>) {
     let (list, counts, _) = figures(r);
@@ -220,8 +243,13 @@ fn bits(r: &Response) -> (Vec<u64>, [u64; 3], Vec<[u64; 2]>) {
 fn exact_bits_are_the_same_by_every_instruction_set() {
     let all = InstructionSet::all();
     assert!(!all.is_empty());
-    for seed in 0..400 {
-        let (model, motion) = shaken(&mut Random::new(seed)).build();
+    let draw = |seed: u64| match seed {
+        0..400 => shaken(&mut Random::new(seed)),
+        400..500 => shaken_frame(&mut Random::new(seed)),
+        _ => shaken_tall_frame(&mut Random::new(seed)),
+    };
+    for seed in 0..600 {
+        let (model, motion) = draw(seed).build();
         let motion = PreparedMotion::new(motion);
         let model = Prepared::new(model, motion.dt_s());
         let by = |set: InstructionSet| bits(&model.demands_by(set, &motion).expect("a response"));

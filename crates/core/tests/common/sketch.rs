@@ -57,6 +57,11 @@ impl Sketch {
     /// Anything an engineer might write, with up to three storeys, and no motion.
     pub fn system(random: &mut Random) -> Self {
         let n = [0, 0, 0, 0, 1, 1, 1, 1, 2, 3][random.integer(0, 9) as usize];
+        Self::frame(random, n)
+    }
+
+    /// The same of so many storeys.
+    pub fn frame(random: &mut Random, n: usize) -> Self {
         let kinetic = random.logarithmic(0.01, 0.3);
         let ratio = |r: &mut Random| if r.chance(0.4) { 1.0 } else { r.between(1.0, 1.6) };
         let friction = [kinetic * ratio(random), kinetic];
