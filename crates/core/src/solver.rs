@@ -8,6 +8,7 @@ mod prepared;
 mod recorder;
 mod run;
 mod screen;
+mod settle;
 mod slider;
 mod stepping;
 mod stepwise;

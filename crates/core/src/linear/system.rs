@@ -270,40 +270,32 @@ impl System {
         (of_block + ((sums[0] + sums[1]) + (sums[2] + sums[3]))).sqrt()
     }
 
-    /// Number of [amplitudes](System::amplitudes).
+    /// Number of [amplitudes](System::amplitudes): those of several modes come in whole fours.
     #[must_use]
     pub fn amplitude_count(&self) -> usize {
-        if self.coupled { 1 } else { self.modes() }
+        if self.has_modes(false) { self.padded_modes() } else { 1 }
     }
 
     /// Amplitudes of the structure in stick: `√(ω² η² + η̇²)` of each mode, or the energy norm of all
     /// where damping couples them. Undriven they do not grow.
     #[inline(always)]
     pub fn amplitudes<S: Simd>(&self, simd: S, x: &[f64], out: &mut [f64]) {
-        let n = out.len();
-        if n > 1 && !self.coupled {
+        if out.len() > 1 {
             for m in 0..self.by_four.len() {
                 let omega2 = self.by_four[m][0].load(simd);
                 let [eta, rate] = self.four_modes(simd, x, m);
                 let square = omega2 * (eta * eta) + rate * rate;
-                let of_four = square.sqrt().to_array();
-                let out = &mut out[4 * m..];
-                let count = out.len().min(4);
-                out[..count].copy_from_slice(&of_four[..count]);
+                square.sqrt().store_slice(&mut out[4 * m..][..4]);
             }
             return;
         }
+        let n = if x.len() > 4 { self.modes() } else { 1 };
         let (eta, rate, k) = (&x[2..2 + n], &x[2 + n..2 + 2 * n], &self.omega2[..n]);
+        let mut square = 0.0;
         for j in 0..n {
-            out[j] = k[j] * (eta[j] * eta[j]) + rate[j] * rate[j];
+            square += k[j] * (eta[j] * eta[j]) + rate[j] * rate[j];
         }
-        if self.coupled {
-            out[0] = out.iter().sum::<f64>().sqrt();
-        } else {
-            for amplitude in out {
-                *amplitude = amplitude.sqrt();
-            }
-        }
+        out[0] = square.sqrt();
     }
 
     /// What a unit of `∫|a| dt` adds to each amplitude at most: `|L_j|`, or `|L|`.
@@ -323,7 +315,9 @@ impl System {
         }
         let n = self.modes();
         let of = |j: usize| c[2 + j] * c[2 + j] / self.omega2[j] + c[2 + n + j] * c[2 + n + j];
-        (0..n).map(|j| of(j).sqrt()).collect()
+        let mut of_modes: Vec<f64> = (0..n).map(|j| of(j).sqrt()).collect();
+        of_modes.resize(self.amplitude_count(), 0.0);
+        of_modes
     }
 
     /// How much the energy norm can grow over a length of time: a damper `c < 0` feeds
@@ -349,6 +343,56 @@ impl System {
             square += momentum * momentum * self.per_block_mass;
         }
         square.sqrt()
+    }
+
+    /// Modes that nothing couples, in whole fours.
+    #[inline(always)]
+    #[must_use]
+    pub fn padded_modes(&self) -> usize {
+        4 * self.by_four.len()
+    }
+
+    /// Whether the modes of stick have amplitudes of their own.
+    #[inline(always)]
+    #[must_use]
+    pub fn has_modes(&self, slip: bool) -> bool {
+        !slip && !self.coupled && self.storeys > 1
+    }
+
+    /// How far each mode of stick departs at most from chords of several lengths `H`, given as `H²/8`, from
+    /// a state under an acceleration with its rate: with the sums `Σ|Δȧ|` of the kinks after it and `∫|a| dt`,
+    ///
+    /// ```text
+    /// min(H²/8 (‖ẍ_j‖ + |L_j| Σ|Δȧ|), 2 (‖x_j‖ + |L_j| ∫|a| dt))
+    /// ```
+    ///
+    /// in units of its amplitude. Chord after chord, those of each padded to fours.
+    #[inline(always)]
+    pub fn departures<S: Simd, const N: usize>(
+        &self,
+        simd: S,
+        x: &[f64],
+        [a, jerk]: [f64; 2],
+        [kinks, impulse]: [f64; 2],
+        reaches: [f64; N],
+        out: &mut [f64],
+    ) {
+        let stride = self.padded_modes();
+        let [a, jerk, kinks, impulse] = [a, jerk, kinks, impulse].map(|x| four(simd, x));
+        for m in 0..self.by_four.len() {
+            let [omega2, damping, l] = self.by_four[m].each_ref().map(|x| x.load(simd));
+            let [eta, rate] = self.four_modes(simd, x, m);
+            let eta2 = -(omega2 * eta + damping * rate + l * a);
+            let eta3 = omega2 * rate + damping * eta2 + l * jerk;
+            let second = (omega2 * (eta2 * eta2) + eta3 * eta3).sqrt() + l.abs() * kinks;
+            let most = (omega2 * (eta * eta) + rate * rate).sqrt() + l.abs() * impulse;
+            let twice = most + most;
+            for i in 0..N {
+                let departure = second * four(simd, reaches[i]);
+                let departure = twice.simd_lt(departure).select(twice, departure);
+                departure.store_slice(&mut out[i * stride + 4 * m..][..4]);
+            }
+        }
     }
 
     /// Energy norms of `ẋ` and `ẍ` in a state under an acceleration and a force on the block, each

@@ -5,9 +5,12 @@
 //! new peak is a row here and a field in [`Demands`](crate::response::Demands). They are looked at
 //! eight at a time.
 
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
 use crate::friction::Restraint;
 use crate::linear::System;
-use crate::linear::lanes::{Eight, dot};
+use crate::linear::lanes::{Eight, combine8, dot, eight};
 use crate::model::Model;
 
 /// Places of the outputs of the block; those of the storeys follow.
@@ -209,6 +212,8 @@ pub(super) struct Group {
     pub(super) size_of_friction: Eight,
     /// What `∫|a| dt` adds at most in stick.
     pub(super) of_impulse: Eight,
+    /// Components of a state up to the last four that one of them asks for.
+    pub(super) used: usize,
 }
 
 impl Outputs {
@@ -258,6 +263,7 @@ impl Outputs {
                 size_of_a: lanes(&rows, first, |j| rows[j].of_a.abs()),
                 size_of_friction: lanes(&rows, first, |j| rows[j].of_friction.abs()),
                 of_impulse: lanes(&rows, first, of_impulse),
+                used: used(&rows[first..rows.len().min(first + 8)]),
             };
             amplitudes
                 .extend((0..amplitude_count).map(|i| lanes(&rows, first, |j| of_amplitudes[j][i])));
@@ -270,6 +276,17 @@ impl Outputs {
         }
         Self { rows, groups, columns, amplitudes, amplitude_count }
     }
+
+    /// What amplitudes, one or whole fours of modes, do at most to the outputs of a group.
+    #[inline(always)]
+    pub(super) fn of_amplitudes<S: Simd>(&self, simd: S, g: usize, amplitudes: &[f64]) -> f64x8<S> {
+        let count = amplitudes.len();
+        let columns = &self.amplitudes[g * count..][..count];
+        match amplitudes {
+            [one] => columns[0].load(simd) * eight(simd, *one),
+            _ => combine8(simd, columns, &[], &[], amplitudes),
+        }
+    }
 }
 
 /// One number of each of eight rows from one on; zero beyond the last.
@@ -280,4 +297,10 @@ fn lanes(rows: &[OutputRow], first: usize, of: impl Fn(usize) -> f64) -> Eight {
         *lane = of(j);
     }
     all
+}
+
+/// Components of a state, in whole fours, up to the last that a row asks for.
+fn used(rows: &[OutputRow]) -> usize {
+    let last = |row: &OutputRow| row.state.iter().rposition(|c| *c != 0.0).map_or(0, |i| i + 1);
+    rows.iter().map(last).fold(0, usize::max).next_multiple_of(4)
 }

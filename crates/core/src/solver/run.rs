@@ -113,9 +113,14 @@ impl Curvature {
     /// The same from a chord over the batch, in which the loads have kinks.
     #[inline(always)]
     pub(super) fn slack_over_batch<S: Simd>(&self, simd: S, group: &Group, reach: f64) -> f64x8<S> {
-        self.slack(simd, group, reach)
-            + (group.size_of_a.load(simd) * eight(simd, self.bend_of_a)
-                + group.size_of_friction.load(simd) * eight(simd, self.bend_of_force))
+        self.slack(simd, group, reach) + self.bend(simd, group)
+    }
+
+    /// What the kinks of the loads alone add over a batch.
+    #[inline(always)]
+    pub(super) fn bend<S: Simd>(&self, simd: S, group: &Group) -> f64x8<S> {
+        group.size_of_a.load(simd) * eight(simd, self.bend_of_a)
+            + group.size_of_friction.load(simd) * eight(simd, self.bend_of_force)
     }
 }
 
@@ -206,7 +211,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let outputs = &tables.stick.outputs;
         let (groups, outputs) = (outputs.groups.len(), outputs.rows.len());
         let values = Workspace::list(&mut room.values, groups, Eight::ZERO);
-        let [amplitudes, f, g] = room.modes.each_mut().map(|list| Workspace::list(list, n, 0.0));
+        let [mut amplitudes, f, g] =
+            room.modes.each_mut().map(|list| Workspace::list(list, n, 0.0));
+        amplitudes.resize(n.next_multiple_of(4), 0.0);
         let (mut series, mut peaks) = (take(&mut room.series), take(&mut room.peaks));
         series.serve(system, tables.orders);
         peaks.serve(groups, outputs, stride);
@@ -374,9 +381,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         x: &[f64],
         [friction, a, stop]: [f64; 3],
     ) -> f64x8<S> {
-        let count = 4 + x.len();
-        let columns = &phase.outputs.columns[g * count..][..count];
-        combine8(simd, columns, &[1.0, friction, a, stop], &[], x)
+        let used = if x.len() <= 12 { x.len() } else { phase.outputs.groups[g].used };
+        let columns = &phase.outputs.columns[g * (4 + x.len())..][..4 + used];
+        combine8(simd, columns, &[1.0, friction, a, stop], &[], &x[..used])
     }
 
     /// Expands the motion from a state into the series, over one unit of the phase.

@@ -11,7 +11,7 @@ use fearless_simd::prelude::*;
 use super::ground::{Normal, largest_size};
 use super::outputs::output;
 use super::peaks::Extent;
-use super::run::Run;
+use super::run::{Curvature, Run};
 use super::tables::{Batch, Phase};
 use crate::friction::Direction;
 use crate::linear::lanes::{Eight, Width, eight, greatest, least};
@@ -130,9 +130,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 Coarse { impulse: 0.0, size, friction }
             });
             let inputs = [[force.at(0), a[0], 0.0], [force.at(steps), a[steps], 0.0]];
-            let extent = Extent::Samples(steps, curvature);
-            let (phase, group) = ((phase, coarse.as_ref()), (slack, None, far));
-            self.look_over(phase, (sample, extent), inputs, group, &mut known);
+            let reach = (steps * steps) as f64 * near;
+            let (phase, group) = ((phase, coarse.as_ref()), (slack, None, reach));
+            self.look_over(phase, (sample, steps, curvature), inputs, group, &mut known);
             self.record_batch(batch, sample, steps, a, force);
             sample += steps;
             core::mem::swap(&mut self.x, &mut self.next);
@@ -167,8 +167,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             }
             let a = self.window(sample);
             let [normal, _] = self.ground.normal.range(simd, sample);
-            let amplitudes = &mut self.amplitudes[..self.width.modes()];
-            phase.system.amplitudes(simd, &self.x, amplitudes);
+            let count = self.amplitude_count(phase);
+            let amplitudes = &mut self.amplitudes[..count];
+            phase.system.amplitudes(simd, &self.x[..stride], amplitudes);
             let holds = least(high, -low) * normal - hold.force_n.abs();
             let coarse = |size: f64, samples: usize| {
                 let impulse = samples as f64 * batch.dt_s * size;
@@ -236,10 +237,15 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 batch.maps.after(simd, steps, x, a, force, next);
                 next_y = Self::group_at(simd, phase, 0, next, after);
             }
-            let extent = Extent::Samples(steps, curvature);
-            let group = (slack, Some(next_y), far);
+            let group = (slack, Some(next_y), (steps * steps) as f64 * near);
             let coarse = (self.width.modes() > 1).then_some(&by_batch);
-            self.look_over((phase, coarse), (sample, extent), [before, after], group, &mut known);
+            self.look_over(
+                (phase, coarse),
+                (sample, steps, curvature),
+                [before, after],
+                group,
+                &mut known,
+            );
             self.record_batch(batch, sample, steps, a, force);
             sample += steps;
             self.swap_in_stick();
@@ -251,15 +257,15 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     }
 
     /// Looks at the outputs of samples from `x` to `next`: where neither a bound on the state nor the
-    /// chord keeps them below their limits the samples are kept. Of the first group the slack is known
-    /// and perhaps the outputs in `next`; `far` is `h²/8` of a batch.
+    /// chord keeps them below their limits the samples are kept. Of the first group the slack over a whole
+    /// batch is known and perhaps the outputs in `next`; `reach` is `h²/8` of all samples.
     #[inline(always)]
     fn look_over(
         &mut self,
         (phase, coarse): (&Phase, Option<&Coarse>),
-        (sample, extent): (usize, Extent),
+        (sample, steps, curvature): (usize, usize, Curvature),
         [first, last]: [[f64; 3]; 2],
-        (slack, first_group, far): (f64x8<S>, Option<f64x8<S>>, f64),
+        (slack, first_group, reach): (f64x8<S>, Option<f64x8<S>>, f64),
         known: &mut u64,
     ) {
         let (simd, stride) = (self.simd, 4 * self.width.fours());
@@ -280,17 +286,16 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             };
             next.store_slice(&mut self.values[g].0);
             known_next |= 1 << g;
-            let slack = match &extent {
-                Extent::Samples(_, curvature) if g > 0 => {
-                    curvature.slack_over_batch(simd, &phase.outputs.groups[g], far)
-                }
-                _ => slack,
+            let slack = if g == 0 && steps == BATCH {
+                slack
+            } else {
+                curvature.slack_over_batch(simd, &phase.outputs.groups[g], reach)
             };
             open |= self.weigh(g, [y, next], slack, most);
         }
         *known = known_next;
         if open {
-            self.keep(sample, extent, false);
+            self.keep(sample, Extent::Samples(steps, curvature), false);
         }
     }
 
@@ -317,18 +322,19 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     #[inline(always)]
     fn reach(&self, phase: &Phase, g: usize, coarse: &Coarse) -> f64x8<S> {
         let (simd, group) = (self.simd, &phase.outputs.groups[g]);
-        let count = if self.width.modes() == 1 { 1 } else { phase.outputs.amplitude_count };
-        let (columns, amplitudes) =
-            (&phase.outputs.amplitudes[g * count..][..count], &self.amplitudes[..count]);
+        let amplitudes = &self.amplitudes[..self.amplitude_count(phase)];
         let mut reach = group.size_of_a.load(simd) * eight(simd, coarse.size)
             + group.of_impulse.load(simd) * eight(simd, coarse.impulse);
         if phase.slip {
             reach += group.size_of_friction.load(simd) * eight(simd, coarse.friction);
         }
-        for j in 0..count {
-            reach += columns[j].load(simd) * eight(simd, amplitudes[j]);
-        }
-        reach
+        reach + phase.outputs.of_amplitudes(simd, g, amplitudes)
+    }
+
+    /// Number of amplitudes that the outputs of a phase have factors of; those of one storey one.
+    #[inline(always)]
+    fn amplitude_count(&self, phase: &Phase) -> usize {
+        if self.width.modes() == 1 { 1 } else { phase.outputs.amplitude_count }
     }
 
     /// The same of the outputs themselves.

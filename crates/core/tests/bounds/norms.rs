@@ -1,4 +1,5 @@
-//! (b) the norm of the second derivative, (c) kinks and (d) dual norms.
+//! (b) the norm of the second derivative, (c) kinks, (d) dual norms, (k) amplitudes of the modes and
+//! (l) their chords.
 
 use crate::systems::{
     Rates, SYSTEMS, State, System, assert_near, bend, dot, norm, rate, restoring, row, series,
@@ -286,7 +287,7 @@ fn prop_amplitudes_of_modes_bound_every_row() {
         let count = system.amplitude_count();
         let of_impulse = system.amplitudes_of_impulse();
         let mut x = state(&mut random, &made, false);
-        let mut most = vec![0.0; system.modes()];
+        let mut most = vec![0.0; count];
         amplitudes(system, &x, &mut most);
         let mut c = vec![0.0; x.0.len()];
         c[2..].fill_with(|| random.between(-1.0, 1.0));
@@ -303,7 +304,7 @@ fn prop_amplitudes_of_modes_bound_every_row() {
             for (most, of_impulse) in most.iter_mut().zip(&of_impulse) {
                 *most += of_impulse * impulse;
             }
-            let mut now = vec![0.0; system.modes()];
+            let mut now = vec![0.0; count];
             amplitudes(system, &x, &mut now);
             for (now, most) in now[..count].iter().zip(&most) {
                 assert!(*now <= most * (1.0 + 1e-13), "{now:e} above {most:e}");
@@ -311,6 +312,107 @@ fn prop_amplitudes_of_modes_bound_every_row() {
             let bound = dot(&of_c, &most[..count]);
             let value = dot(&c, &x.0);
             assert!(value.abs() <= bound * (1.0 + 1e-13), "{value:e} above {bound:e}");
+        }
+    }
+}
+
+/// Departures of the modes from chords of several lengths.
+fn departures<const N: usize>(
+    system: &System,
+    x: &State,
+    load: [f64; 2],
+    kinks_and_impulse: [f64; 2],
+    lengths_s: [f64; N],
+) -> [Vec<f64>; N] {
+    let count = system.padded_modes();
+    let mut all = vec![0.0; N * count];
+    let reaches = lengths_s.map(|length_s| 0.125 * length_s * length_s);
+    fearless_simd::dispatch!(fearless_simd::Level::new(), simd => {
+        system.departures(simd, &x.0, load, kinks_and_impulse, reaches, &mut all);
+    });
+    core::array::from_fn(|i| all[i * count..][..system.modes()].to_vec())
+}
+
+/// (l) In stick each mode departs from a chord over several samples by its bound at most, and so does
+/// every row.
+#[test]
+fn prop_modes_stay_within_reach_of_their_chords() {
+    const SAMPLES: usize = 4;
+    let (mut looked_at, mut nearest) = (0, 0.0_f64);
+    for (mut random, damped) in streams() {
+        let made = system(&mut random, damped);
+        let system = &made.system;
+        if !system.has_modes(false) {
+            continue;
+        }
+        looked_at += 1;
+        let start = state(&mut random, &made, false);
+        let mut c = vec![0.0; start.0.len()];
+        c[2..].fill_with(|| random.between(-1.0, 1.0));
+        let of_c = system.dual_amplitudes(&c);
+        // From chords much shorter than a period to some that are longer.
+        let length_s = random.logarithmic(0.01, 1.0) * MAX_RATE_STEP / rate(system, false);
+        let mut rates = Rates::random(&mut random);
+        let first = rates.acceleration;
+        let (mut x, mut last_jerk) = (start.clone(), first[1]);
+        let (mut kinks, mut largest) = (0.0, first[0].abs());
+        let mut points = vec![(0.0, dot(&c, &x.0))];
+        for sample in 0..SAMPLES {
+            kinks += (rates.acceleration[1] - last_jerk).abs();
+            last_jerk = rates.acceleration[1];
+            let run = series(system, false, &x, &rates.load(0.0, length_s), length_s);
+            for i in 1..=10 {
+                let part = f64::from(i) / 10.0;
+                points.push((sample as f64 + part, value(&run.row(&c), part)));
+            }
+            run.state_at(1.0, &mut x);
+            let a = rates.acceleration[0] + last_jerk * length_s;
+            largest = largest.max(a.abs());
+            rates.acceleration = [a, 100.0 * random.between(-1.0, 1.0)];
+        }
+        let whole_s = SAMPLES as f64 * length_s;
+        let loads = [kinks, largest * whole_s];
+        let [of_modes] = departures(system, &start, first, loads, [whole_s]);
+        let reach = dot(&of_c, &of_modes);
+        let (from, to) = (points[0].1, points[points.len() - 1].1);
+        let size = points.iter().fold(0.0_f64, |size, p| size.max(p.1.abs()));
+        for (at, y) in points {
+            let departs = (y - (from + (to - from) * at / SAMPLES as f64)).abs();
+            assert!(departs <= reach + 1e-13 * size, "{departs:e} of {reach:e}");
+            if reach > 1e-9 * size {
+                nearest = nearest.max(departs / reach);
+            }
+        }
+    }
+    assert!(looked_at > SYSTEMS / 10, "only {looked_at} systems had modes");
+    assert!(nearest > 0.5, "at most {nearest} of the bound was used");
+}
+
+/// (l) A mode that swings freely reaches the bound of its acceleration over a short chord, and that of its
+/// amplitude over a period.
+#[test]
+fn exact_departures_of_a_free_mode_are_reached() {
+    for (mut random, _) in streams() {
+        let made = system(&mut random, false);
+        let system = &made.system;
+        if !system.has_modes(false) {
+            continue;
+        }
+        for j in 0..system.modes() {
+            let omega = system.omega2[j].sqrt();
+            let mut x = State(vec![0.0; 2 + 2 * system.modes()]);
+            x.0[2 + j] = random.between(0.1, 1.0);
+            let amplitude = omega * x.0[2 + j];
+            let period_s = 2.0 * core::f64::consts::PI / omega;
+            let lengths_s = [1e-3 * period_s, period_s];
+            let [short, long] = departures(system, &x, [0.0; 2], [0.0; 2], lengths_s);
+            // From one extreme to the next, and about one extreme: A − A cos(ω H/2).
+            assert_near(2.0 * amplitude, long[j], 1e-14, "a period");
+            let quarter = libm::sin(0.25 * omega * lengths_s[0]);
+            assert_near(2.0 * amplitude * quarter * quarter, short[j], 1e-6, "a short chord");
+            for (i, departure) in short.iter().chain(&long).enumerate() {
+                assert!(i % system.modes() == j || *departure == 0.0);
+            }
         }
     }
 }
