@@ -188,8 +188,7 @@ pub(super) struct Outputs {
     pub(super) groups: Vec<Group>,
     /// Group by group: one, friction force, acceleration and stop, then the state.
     pub(super) columns: Vec<Eight>,
-    /// Group by group what the amplitudes do at most: in stick those of [`System::amplitudes`], in slip
-    /// the energy norm of the state.
+    /// Group by group what the amplitudes of [`System::amplitudes`] do at most, in stick.
     pub(super) amplitudes: Vec<Eight>,
     pub(super) amplitude_count: usize,
 }
@@ -236,14 +235,11 @@ impl Outputs {
         };
         let (of_jerk, of_force_rate) = (of_load(1.0, 0.0), of_load(0.0, 1.0));
         let rate = |j: usize| &rates[j * stride..][..stride];
-        let of_amplitudes: Vec<Vec<f64>> = rows
-            .iter()
-            .map(|row| match slip {
-                true => vec![system.dual_norm(true, &row.state)],
-                false => system.dual_amplitudes(&row.state),
-            })
-            .collect();
-        let amplitude_count = if slip { 1 } else { system.amplitude_count() };
+        let amplitude_count = if slip { 0 } else { system.amplitude_count() };
+        let of_amplitudes: Vec<Vec<f64>> = match slip {
+            true => Vec::new(),
+            false => rows.iter().map(|row| system.dual_amplitudes(&row.state)).collect(),
+        };
         let impulse = system.amplitudes_of_impulse();
         let of_impulse = |j: usize| if slip { 0.0 } else { dot(&of_amplitudes[j], &impulse) };
         let count = rows.len().div_ceil(8);

@@ -21,12 +21,11 @@ use crate::response::Mode;
 /// A chord over a sample is off by this part of what one over a batch is.
 const PER_SAMPLE: f64 = 1.0 / (BATCH * BATCH) as f64;
 
-/// What bounds outputs over a batch without looking at it, besides the amplitudes: the sizes of the
-/// acceleration and of the friction force, and in stick `∫|a| dt`.
+/// What bounds outputs over a batch of stick without looking at it, besides the amplitudes: the size of
+/// the acceleration, and `∫|a| dt`.
 struct Coarse {
     impulse: f64,
     size: f64,
-    friction: f64,
 }
 
 impl<'a, S: Simd, W: Width> Run<'a, S, W> {
@@ -69,15 +68,12 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         }
         let varying = matches!(self.ground.normal, Normal::Varying(_));
         let coefficient = self.now.friction;
-        let system = &phase.system;
-        let batch_s = BATCH as f64 * batch.dt_s;
         let mut known = 0;
         while sample + BATCH <= end {
             if self.pulse.beat(self.units[0]).is_err() {
                 break;
             }
-            let [least_normal, most_normal] = self.ground.normal.range(simd, sample);
-            if varying && !(least_normal > 0.0) {
+            if varying && !(self.ground.normal.least(simd, sample) > 0.0) {
                 break;
             }
             let (a, force) = (self.window(sample), self.batch_force(coefficient, sample));
@@ -120,19 +116,10 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             if steps < BATCH {
                 batch.maps.after(simd, steps, x, a, force, &mut self.next[..stride]);
             }
-            // Of one storey the group is looked at for less than the bound takes.
-            let coarse = (self.width.modes() > 1).then(|| {
-                let size = largest_size(simd, a);
-                let friction = coefficient.abs() * most_normal;
-                let growth = system.root_total_mass * size + friction * system.per_root_block;
-                let norm = system.energy_norm(&x[..self.width.components()]) + batch_s * growth;
-                self.amplitudes[0] = batch.growth * norm;
-                Coarse { impulse: 0.0, size, friction }
-            });
             let inputs = [[force.at(0), a[0], 0.0], [force.at(steps), a[steps], 0.0]];
             let reach = (steps * steps) as f64 * near;
-            let (phase, group) = ((phase, coarse.as_ref()), (slack, None, reach));
-            self.look_over(phase, (sample, steps, curvature), inputs, group, &mut known);
+            let group = (slack, None, reach);
+            self.look_over((phase, None), (sample, steps, curvature), inputs, group, &mut known);
             self.record_batch(batch, sample, steps, a, force);
             sample += steps;
             core::mem::swap(&mut self.x, &mut self.next);
@@ -166,14 +153,14 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 break;
             }
             let a = self.window(sample);
-            let [normal, _] = self.ground.normal.range(simd, sample);
+            let normal = self.ground.normal.least(simd, sample);
             let count = self.amplitude_count(phase);
             let amplitudes = &mut self.amplitudes[..count];
             phase.system.amplitudes(simd, &self.x[..stride], amplitudes);
             let holds = least(high, -low) * normal - hold.force_n.abs();
             let coarse = |size: f64, samples: usize| {
                 let impulse = samples as f64 * batch.dt_s * size;
-                Coarse { impulse, size, friction: 0.0 }
+                Coarse { impulse, size }
             };
             let size = largest_size(simd, a);
             let by_batch = coarse(size, BATCH);
@@ -323,11 +310,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     fn reach(&self, phase: &Phase, g: usize, coarse: &Coarse) -> f64x8<S> {
         let (simd, group) = (self.simd, &phase.outputs.groups[g]);
         let amplitudes = &self.amplitudes[..self.amplitude_count(phase)];
-        let mut reach = group.size_of_a.load(simd) * eight(simd, coarse.size)
+        let reach = group.size_of_a.load(simd) * eight(simd, coarse.size)
             + group.of_impulse.load(simd) * eight(simd, coarse.impulse);
-        if phase.slip {
-            reach += group.size_of_friction.load(simd) * eight(simd, coarse.friction);
-        }
         reach + phase.outputs.of_amplitudes(simd, g, amplitudes)
     }
 
@@ -341,10 +325,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     #[inline(always)]
     fn most(&self, phase: &Phase, g: usize, reach: f64x8<S>, stop: f64) -> f64x8<S> {
         let (simd, group) = (self.simd, &phase.outputs.groups[g]);
-        let mut constant = group.constant.load(simd) + group.of_stop.load(simd) * eight(simd, stop);
-        if !phase.slip {
-            constant += group.of_s.load(simd) * eight(simd, self.x[0]);
-        }
+        let constant = (group.constant.load(simd) + group.of_stop.load(simd) * eight(simd, stop))
+            + group.of_s.load(simd) * eight(simd, self.x[0]);
         reach + constant.abs()
     }
 
