@@ -21,11 +21,12 @@ use crate::response::Mode;
 /// A chord over a sample is off by this part of what one over a batch is.
 const PER_SAMPLE: f64 = 1.0 / (BATCH * BATCH) as f64;
 
-/// What bounds outputs over a batch of stick without looking at it, besides the amplitudes: the size of
-/// the acceleration, and `∫|a| dt`.
-struct Coarse {
+/// What bounds outputs over samples of stick without looking at them, besides the amplitudes: `∫|a| dt`
+/// and the size of the acceleration. Of the first group the bound is known.
+struct Coarse<S: Simd> {
     impulse: f64,
     size: f64,
+    first: f64x8<S>,
 }
 
 impl<'a, S: Simd, W: Width> Run<'a, S, W> {
@@ -158,12 +159,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             let amplitudes = &mut self.amplitudes[..count];
             phase.system.amplitudes(simd, &self.x[..stride], amplitudes);
             let holds = least(high, -low) * normal - hold.force_n.abs();
-            let coarse = |size: f64, samples: usize| {
-                let impulse = samples as f64 * batch.dt_s * size;
-                Coarse { impulse, size }
-            };
             let size = largest_size(simd, a);
-            let by_batch = coarse(size, BATCH);
+            let by_batch = self.coarse(phase, size, BATCH as f64 * batch.dt_s);
             if self.is_quiet(phase, &by_batch, stop, holds) {
                 known = 0;
                 let later = (1..QUIET / BATCH).map(|i| sample + i * BATCH);
@@ -171,7 +168,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                     && matches!(self.ground.normal, Normal::Constant(_))
                     && let size = later
                         .fold(size, |size, i| greatest(size, largest_size(simd, self.window(i))))
-                    && self.is_quiet(phase, &coarse(size, QUIET), stop, holds)
+                    && let coarse = self.coarse(phase, size, QUIET as f64 * batch.dt_s)
+                    && self.is_quiet(phase, &coarse, stop, holds)
                 {
                     self.take_quiet(batch, sample);
                     sample += QUIET;
@@ -249,7 +247,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     #[inline(always)]
     fn look_over(
         &mut self,
-        (phase, coarse): (&Phase, Option<&Coarse>),
+        (phase, coarse): (&Phase, Option<&Coarse<S>>),
         (sample, steps, curvature): (usize, usize, Curvature),
         [first, last]: [[f64; 3]; 2],
         (slack, first_group, reach): (f64x8<S>, Option<f64x8<S>>, f64),
@@ -259,7 +257,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let (mut open, mut known_next) = (false, 0);
         for g in 0..self.groups(phase) {
             let most = coarse.map(|coarse| {
-                let reach = self.reach(phase, g, coarse);
+                let reach = if g == 0 { coarse.first } else { self.reach(phase, g, coarse) };
                 self.most(phase, g, reach, first[2])
             });
             if most.is_some_and(|most| most.simd_le(self.peaks.limit[g].load(simd)).all_true()) {
@@ -305,9 +303,18 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         self.values[g].load(self.simd)
     }
 
-    /// Bound on what state and loads do to the outputs of a group over a batch.
+    /// Bounds under an acceleration of a size over a length of time.
     #[inline(always)]
-    fn reach(&self, phase: &Phase, g: usize, coarse: &Coarse) -> f64x8<S> {
+    fn coarse(&self, phase: &Phase, size: f64, length_s: f64) -> Coarse<S> {
+        let first = eight(self.simd, 0.0);
+        let mut coarse = Coarse { impulse: length_s * size, size, first };
+        coarse.first = self.reach(phase, 0, &coarse);
+        coarse
+    }
+
+    /// Bound on what state and loads do to the outputs of a group over that time.
+    #[inline(always)]
+    fn reach(&self, phase: &Phase, g: usize, coarse: &Coarse<S>) -> f64x8<S> {
         let (simd, group) = (self.simd, &phase.outputs.groups[g]);
         let amplitudes = &self.amplitudes[..self.amplitude_count(phase)];
         let reach = group.size_of_a.load(simd) * eight(simd, coarse.size)
@@ -332,9 +339,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
 
     /// Whether in stick the demand changes by no more than `holds`, and no output passes its limit.
     #[inline(always)]
-    fn is_quiet(&self, phase: &Phase, coarse: &Coarse, stop: f64, holds: f64) -> bool {
+    fn is_quiet(&self, phase: &Phase, coarse: &Coarse<S>, stop: f64, holds: f64) -> bool {
         for g in 0..self.groups(phase) {
-            let reach = self.reach(phase, g, coarse);
+            let reach = if g == 0 { coarse.first } else { self.reach(phase, g, coarse) };
             if g == 0 && !(reach.as_array()[output::FRICTION] <= holds) {
                 return false;
             }
