@@ -10,9 +10,11 @@ pub mod lanes;
 mod maps;
 pub mod polynomial;
 mod series;
+mod solution;
 mod system;
 
 pub use frame::{FrameModes, shear_frame_frequencies, shear_frame_modes};
 pub use maps::{BATCH, Force, Maps, QUIET, Row, Units, Window};
-pub use series::{Load, MAX_RATE_STEP, Series, SeriesTable, advance, orders, series_table};
+pub use series::{Load, MAX_RATE_STEP, Series, advance, orders};
+pub use solution::Solution;
 pub use system::{StoreyDamping, System};

@@ -4,35 +4,55 @@
 //! `g` departs from the chord through its ends by at most `D w² / 8`. `D` is the sum of
 //! `k (k − 1) |c_k|`. An interval is dismissed only by that bound, else halved.
 
+use super::lanes::least;
+
 /// Degree of the Taylor polynomials.
 pub const DEGREE: usize = 20;
 
-/// Coefficients, constant first.
-pub type Polynomial = [f64; DEGREE + 1];
+/// Coefficients, constant first, zeros beyond [`DEGREE`]: whole fours.
+pub type Polynomial = [f64; COEFFICIENTS];
+
+const COEFFICIENTS: usize = (DEGREE + 1).next_multiple_of(4);
+
+/// The polynomial that vanishes.
+pub const ZERO: Polynomial = [0.0; COEFFICIENTS];
 
 /// Narrowest interval that is searched: a dip that a chord over it can hide is below 3e-17 of `D`.
 const NARROWEST: f64 = 1.0 / (1_u64 << 26) as f64;
 
-/// Value at `x` in [0, 1], by Estrin's scheme in a fixed order.
+/// Value at `x` in [0, 1]: by Horner's scheme in `x⁴` four sums, of the powers that leave the same rest.
 #[inline(always)]
 #[must_use]
 pub fn value(c: &Polynomial, x: f64) -> f64 {
     let x2 = x * x;
     let x4 = x2 * x2;
-    let p0 = (c[0] + c[1] * x) + (c[2] + c[3] * x) * x2;
-    let p1 = (c[4] + c[5] * x) + (c[6] + c[7] * x) * x2;
-    let p2 = (c[8] + c[9] * x) + (c[10] + c[11] * x) * x2;
-    let p3 = (c[12] + c[13] * x) + (c[14] + c[15] * x) * x2;
-    let p4 = (c[16] + c[17] * x) + (c[18] + c[19] * x) * x2;
-    (p0 + p1 * x4) + (p2 + (p3 + (p4 + c[20] * x4) * x4) * x4) * (x4 * x4)
+    let fours = c.as_chunks::<4>().0;
+    let mut sums = fours[COEFFICIENTS / 4 - 1];
+    for four in fours[..COEFFICIENTS / 4 - 1].iter().rev() {
+        for i in 0..4 {
+            sums[i] = four[i] + sums[i] * x4;
+        }
+    }
+    (sums[0] + sums[1] * x) + (sums[2] + sums[3] * x) * x2
 }
 
 /// `k` and `k (k − 1)`, the factors of the derivatives of `x^k`.
 const FACTORS: [Polynomial; 2] = {
-    let mut factors = [[0.0; DEGREE + 1]; 2];
+    let mut factors = [ZERO; 2];
     let mut k = 1;
-    while k <= DEGREE {
+    while k < COEFFICIENTS {
         (factors[0][k], factors[1][k]) = (k as f64, (k * (k - 1)) as f64);
+        k += 1;
+    }
+    factors
+};
+
+/// `(k − 1)(k − 2)`, those of the second derivative of `x^(k−1)`.
+const OVER_X: Polynomial = {
+    let mut factors = ZERO;
+    let mut k = 2;
+    while k < COEFFICIENTS {
+        factors[k] = ((k - 1) * (k - 2)) as f64;
         k += 1;
     }
     factors
@@ -42,20 +62,35 @@ const FACTORS: [Polynomial; 2] = {
 #[inline(always)]
 #[must_use]
 pub fn derivative(c: &Polynomial) -> Polynomial {
-    let mut d = [0.0; DEGREE + 1];
-    for k in 0..DEGREE {
+    let mut d = ZERO;
+    for k in 0..COEFFICIENTS - 1 {
         d[k] = FACTORS[0][k + 1] * c[k + 1];
     }
     d
+}
+
+/// `x` times the derivative.
+#[inline(always)]
+fn rise(c: &Polynomial) -> Polynomial {
+    let mut rise = ZERO;
+    for k in 0..COEFFICIENTS {
+        rise[k] = FACTORS[0][k] * c[k];
+    }
+    rise
 }
 
 /// Bound on the second derivative over [0, 1].
 #[inline(always)]
 #[must_use]
 pub fn curvature_bound(c: &Polynomial) -> f64 {
-    let [fours, factors] = [c, &FACTORS[1]].map(|c| c.as_chunks::<4>().0);
-    // Four sums, that none has to wait for another.
-    let mut bound = [FACTORS[1][DEGREE] * c[DEGREE].abs(), 0.0, 0.0, 0.0];
+    weighted_sum(c, &FACTORS[1])
+}
+
+/// `Σ factors_k |c_k|`.
+#[inline(always)]
+fn weighted_sum(c: &Polynomial, factors: &Polynomial) -> f64 {
+    let [fours, factors] = [c, factors].map(|c| c.as_chunks::<4>().0);
+    let mut bound = [0.0; 4];
     for (c, factor) in fours.iter().zip(factors) {
         for i in 0..4 {
             bound[i] += factor[i] * c[i].abs();
@@ -78,16 +113,31 @@ fn curvature_up_to(c: &Polynomial, b: f64) -> f64 {
 #[inline(always)]
 #[must_use]
 pub fn deflated(c: &Polynomial, order: usize) -> Polynomial {
-    let mut d = [0.0; DEGREE + 1];
-    d[..=DEGREE - order].copy_from_slice(&c[order..]);
+    let mut d = ZERO;
+    d[..COEFFICIENTS - order].copy_from_slice(&c[order..]);
     d
+}
+
+/// [`first_root`] of a polynomial whose first `order` coefficients, 2 at most, stand for zero: of what is
+/// left of it over `x^order`.
+#[inline(always)]
+#[must_use]
+pub fn first_root_after_zero(c: &Polynomial, order: usize, end: f64) -> Option<f64> {
+    if order == 1 {
+        // Over x: c_1 at 0, c(end) / end, and the second derivative by (k − 1)(k − 2) |c_k|.
+        let last = (value(c, end) - c[0]) / end;
+        if least(c[1], last) > 0.125 * weighted_sum(c, &OVER_X) * (end * end) {
+            return None;
+        }
+    }
+    first_root(&deflated(c, order), end)
 }
 
 /// First point of [0, `end`] after which the polynomial is negative, `None` if there is none.
 ///
 /// `end` is at most 1. The polynomial is taken to be ≥ 0 at 0. A dip below zero is missed only if it is shallower than
 /// 3e-17 of the bound on the second derivative; a root is located to the last few bits.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn first_root(c: &Polynomial, end: f64) -> Option<f64> {
     let curvature = curvature_bound(c);
@@ -98,13 +148,16 @@ pub fn first_root(c: &Polynomial, end: f64) -> Option<f64> {
     if start < 0.0 {
         return Some(0.0);
     }
-    let slope = derivative(c);
-    Search { c, slope: &slope, curvature, end }.first([0.0, start], [end, last])
+    let search = Search { c, rise: rise(c), curvature, end };
+    if last < 0.0 && search.falls([0.0, end], curvature) {
+        return Some(search.bracketed([0.0, start], [end, last]));
+    }
+    search.first([0.0, start], [end, last])
 }
 
 struct Search<'a> {
     c: &'a Polynomial,
-    slope: &'a Polynomial,
+    rise: Polynomial,
     /// Over all of [0, 1].
     curvature: f64,
     /// Where the search ends.
@@ -112,6 +165,14 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// Whether the polynomial falls throughout an interval in which its second derivative is bounded.
+    #[inline(always)]
+    fn falls(&self, [a, b]: [f64; 2], curvature: f64) -> bool {
+        let (width, middle) = (b - a, 0.5 * (a + b));
+        value(&self.rise, middle) + 0.5 * curvature * width * middle < 0.0
+    }
+
+    #[inline(never)]
     fn first(&self, [a, ga]: [f64; 2], [b, gb]: [f64; 2]) -> Option<f64> {
         let width = b - a;
         let curvature = if b == self.end { self.curvature } else { curvature_up_to(self.c, b) };
@@ -120,8 +181,7 @@ impl Search<'_> {
         }
         let middle = a + 0.5 * width;
         if gb < 0.0 {
-            let steepest = value(self.slope, middle) + 0.5 * curvature * width;
-            if steepest < 0.0 || width <= NARROWEST {
+            if self.falls([a, b], curvature) || width <= NARROWEST {
                 return Some(self.bracketed([a, ga], [b, gb]));
             }
         } else if width <= NARROWEST {
@@ -133,6 +193,7 @@ impl Search<'_> {
 
     /// The root between `a`, where the value is ≥ 0, and `b`, where it is negative: Newton's
     /// method, which bisection keeps inside the shrinking bracket.
+    #[inline(always)]
     fn bracketed(&self, [mut a, ga]: [f64; 2], [mut b, gb]: [f64; 2]) -> f64 {
         if ga <= 0.0 {
             return a;
@@ -148,20 +209,20 @@ impl Search<'_> {
                     break;
                 }
             }
-            let (g, slope) = (value(self.c, x), value(self.slope, x));
+            let (g, rise) = (value(self.c, x), value(&self.rise, x));
             if g < 0.0 {
                 b = x;
             } else {
                 a = x;
             }
-            let step = g / slope;
+            let step = g * x / rise;
             let next = x - step;
             // What Newton's step leaves is at most its square times half the curvature over the
             // slope.
             let negligible = 2.0 * f64::EPSILON * x;
             if g == 0.0
                 || step.abs() <= negligible
-                || self.curvature * (step * step) <= negligible * slope.abs()
+                || self.curvature * (step * step) * x <= negligible * rise.abs()
             {
                 return next.clamp(a, b);
             }
@@ -223,8 +284,8 @@ impl Peak<'_> {
         }
         if value(&self.bend, middle) + 0.5 * third * width < 0.0 {
             if value(self.slope, a) > 0.0 && value(self.slope, b) < 0.0 {
-                let (c, slope, curvature) = (self.slope, &self.bend, self.third);
-                let search = Search { c, slope, curvature, end: b };
+                let (c, curvature) = (self.slope, self.third);
+                let search = Search { c, rise: rise(c), curvature, end: b };
                 let top = search.bracketed([a, value(self.slope, a)], [b, value(self.slope, b)]);
                 self.attained = self.attained.max(value(self.c, top));
             }
@@ -242,7 +303,7 @@ mod tests {
     use super::*;
 
     fn from_roots(roots: &[f64], factor: f64) -> Polynomial {
-        let mut c = [0.0; DEGREE + 1];
+        let mut c = ZERO;
         c[0] = factor;
         for (k, root) in roots.iter().enumerate() {
             for i in (0..=k).rev() {
@@ -293,7 +354,7 @@ mod tests {
     /// A frame at rest: its upper storeys follow the block by a high power of time.
     #[test]
     fn exact_high_power_alone_is_searched_in_few_steps() {
-        let mut c = [0.0; DEGREE + 1];
+        let mut c = ZERO;
         c[11] = -1.0;
         assert_eq!(largest(&c, 1.0, f64::MIN), 0.0);
         (c[0], c[12]) = (1e-30, 1.0);
@@ -305,7 +366,7 @@ mod tests {
     #[test]
     fn exact_chord_bound_is_reached_by_a_parabola() {
         let touching = |gap: f64| {
-            let mut c = [0.0; DEGREE + 1];
+            let mut c = ZERO;
             (c[0], c[1], c[2]) = (0.25 + gap, -1.0, 1.0);
             c
         };

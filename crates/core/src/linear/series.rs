@@ -3,22 +3,15 @@
 use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
 
-use super::lanes::{Four, Width, combine4, dot, four, greatest, least, sum_of_lanes};
-use super::polynomial::{DEGREE, Polynomial, curvature_bound};
+use super::lanes::{Four, Width, dot, four, greatest, least, sum_of_lanes};
+use super::polynomial::{DEGREE, Polynomial, ZERO, curvature_bound};
 use super::system::{Modes, System};
 
 /// Longest interval for one series, times the rate: 1.4^21 / 21! = 2.3e-17.
 pub const MAX_RATE_STEP: f64 = 1.4;
 
-/// Most storeys for which series go by a table, in stick and in slip: beyond, its sums are longer than
-/// the recursion.
-const TABLE_STOREYS: [usize; 2] = [1, 2];
-
 /// Terms of a series below this part of the largest are left out.
 const NEGLIGIBLE: f64 = 1e-18;
-
-/// Components of a padded state of so many.
-const MAX_INPUTS: usize = 12;
 
 /// Loads over an interval, linear in time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,7 +29,7 @@ pub struct Load {
 impl Load {
     /// Coefficients of acceleration and force of an order.
     #[inline(always)]
-    fn order(&self, k: usize) -> [f64; 2] {
+    pub(super) fn order(&self, k: usize) -> [f64; 2] {
         match k {
             0 => [self.acceleration, self.force],
             1 => [self.acceleration_change, self.force_change],
@@ -45,12 +38,6 @@ impl Load {
     }
 }
 
-/// The orders from the first on of a series as sums: for each four of coefficients what a unit of
-/// each number of a [`Load`], and of each component of the state, adds to them; in stick the
-/// acceleration and its change stand in the place of `s` and `ṡ`.
-#[derive(Clone, Debug)]
-pub struct SeriesTable(Vec<Four>);
-
 /// Taylor coefficients of a state over an interval, in time over the interval's length.
 ///
 /// Order after order, each as many numbers as a padded state has. With `rate × length ≤ MAX_RATE_STEP`
@@ -58,7 +45,9 @@ pub struct SeriesTable(Vec<Four>);
 #[derive(Clone, Debug, Default)]
 pub struct Series {
     stride: usize,
+    /// Orders of a whole series, and of the last.
     orders: usize,
+    used: usize,
     c: Vec<f64>,
     f: Vec<f64>,
     /// `η`, `η̇` and `D η̇ + Ω η` of four modes at a time.
@@ -112,7 +101,23 @@ impl Series {
         load: &Load,
         length_s: f64,
     ) {
+        self.expand_to(self.orders, simd, system, slip, x, load, length_s);
+    }
+
+    /// The same up to an order, a multiple of four.
+    #[inline(always)]
+    pub(super) fn expand_to<S: Simd>(
+        &mut self,
+        orders: usize,
+        simd: S,
+        system: &System,
+        slip: bool,
+        x: &[f64],
+        load: &Load,
+        length_s: f64,
+    ) {
         let stride = self.stride;
+        self.used = orders;
         self.c[..stride].copy_from_slice(x);
         if !slip {
             self.c[1] = 0.0;
@@ -125,7 +130,7 @@ impl Series {
             };
         }
         let f = &mut self.f[..system.modes()];
-        for k in 0..self.orders {
+        for k in 0..self.used {
             let (before, next) = self.c.split_at_mut((k + 1) * stride);
             let step = length_s * RECIPROCAL[k];
             next_order(system, slip, &before[k * stride..], next, f, load.order(k), step);
@@ -145,7 +150,7 @@ impl Series {
         load: &Load,
         length_s: f64,
     ) {
-        let (stride, orders) = (self.stride, self.orders);
+        let (stride, orders) = (self.stride, self.used);
         let c = &mut self.c[..stride * (orders + 1) + 4];
         for k in 1..=orders {
             (c[k * stride], c[k * stride + 1]) = (0.0, 0.0);
@@ -189,7 +194,7 @@ impl Series {
             lanes[m] = [of(eta_at), of(rate_at), Four::ZERO];
         }
         let [mut s, mut w] = [self.c[0], self.c[1]];
-        for k in 0..self.orders {
+        for k in 0..self.used {
             let mut shear = four(simd, 0.0);
             for m in 0..count {
                 let ([omega2, damping, l], [eta, rate, f]) = (&modes[m], &mut lanes[m]);
@@ -235,8 +240,9 @@ impl Series {
         [force_n, rate_s_per_m]: [f64; 2],
     ) -> f64 {
         let (n, stride) = (width.modes(), 4 * width.fours());
+        self.used = DEGREE;
         let (f, fade) = (&mut self.f[..n], &mut self.fade);
-        let mut w = [0.0; DEGREE + 1];
+        let mut w = ZERO;
         self.c[..stride].copy_from_slice(x);
         fade[0] = force_n * libm::exp(-rate_s_per_m * x[1]);
         for k in 0..DEGREE {
@@ -253,7 +259,7 @@ impl Series {
             fade[k + 1] = -rate_s_per_m * sum * RECIPROCAL[k];
         }
         let mut largest = 0.0;
-        for (size, c) in self.sizes.iter_mut().zip(self.c.chunks_exact(stride)) {
+        for (size, c) in self.sizes.iter_mut().zip(self.c.chunks_exact(stride)).take(DEGREE + 1) {
             *size = system.energy_norm(&c[..2 + 2 * n]);
             largest = greatest(largest, *size);
         }
@@ -278,32 +284,12 @@ impl Series {
         curvature_bound(&self.sizes)
     }
 
-    /// The same by a table for this length.
+    /// Room for the start and for so many orders after it, of states of so many numbers.
     #[inline(always)]
-    pub fn expand_by_table<S: Simd>(
-        &mut self,
-        simd: S,
-        table: &SeriesTable,
-        slip: bool,
-        x: &[f64],
-        load: &Load,
-    ) {
-        let (start, rest) = self.c.split_at_mut(x.len());
-        start.copy_from_slice(x);
-        let rest = &mut rest[..x.len() * self.orders];
-        let [a, change] = [load.acceleration, load.acceleration_change];
-        if slip {
-            let loads = [a, change, load.force, load.force_change];
-            combine4(simd, &table.0, &loads, &[], x, rest);
-        } else {
-            start[1] = 0.0;
-            // Neither the force nor the block's own motion does anything: s and ṡ make room for the loads.
-            let mut inputs = [0.0; MAX_INPUTS];
-            let inputs = &mut inputs[..x.len()];
-            inputs.copy_from_slice(x);
-            (inputs[0], inputs[1]) = (a, change);
-            combine4(simd, &table.0, &[], &[], inputs, rest);
-        }
+    pub(super) fn room(&mut self, orders: usize, stride: usize) -> (&mut [f64], &mut [f64]) {
+        self.used = orders;
+        let (start, rest) = self.c.split_at_mut(stride);
+        (start, &mut rest[..stride * orders])
     }
 
     /// Four components of an order.
@@ -321,8 +307,8 @@ impl Series {
         for (i, out) in out.chunks_exact_mut(4).enumerate() {
             // Four sums, of the orders that leave the same rest on division by four.
             let zero = four(simd, 0.0);
-            let mut sums = [Self::four(simd, c, stride, self.orders, i), zero, zero, zero];
-            let mut k = self.orders;
+            let mut sums = [Self::four(simd, c, stride, self.used, i), zero, zero, zero];
+            let mut k = self.used;
             while k >= 4 {
                 k -= 4;
                 for r in 0..4 {
@@ -335,26 +321,14 @@ impl Series {
         }
     }
 
-    /// The coefficients of one component of the state times a factor.
+    /// The coefficients of one component of the state.
     #[inline(always)]
     #[must_use]
-    pub fn component<W: Width>(&self, width: W, i: usize, factor: f64) -> Polynomial {
-        let mut p = [0.0; DEGREE + 1];
-        for (p, c) in p.iter_mut().zip(self.c.chunks_exact(4 * width.fours())) {
-            *p = factor * c[i];
+    pub fn component<W: Width>(&self, width: W, i: usize) -> Polynomial {
+        let mut p = ZERO;
+        for (p, c) in p.iter_mut().zip(self.c.chunks_exact(4 * width.fours())).take(self.used + 1) {
+            *p = c[i];
         }
-        p
-    }
-
-    /// The coefficients of `of_s s + of_w ṡ + constant`.
-    #[inline(always)]
-    #[must_use]
-    pub fn of_sliding<W: Width>(&self, width: W, [of_s, of_w, constant]: [f64; 3]) -> Polynomial {
-        let mut p = [0.0; DEGREE + 1];
-        for (p, c) in p.iter_mut().zip(self.c.chunks_exact(4 * width.fours())) {
-            *p = of_s * c[0] + of_w * c[1];
-        }
-        p[0] += constant;
         p
     }
 
@@ -364,8 +338,8 @@ impl Series {
     pub fn row<W: Width>(&self, width: W, row: &[f64]) -> Polynomial {
         let stride = 4 * width.fours();
         let row = &row[..stride];
-        let mut p = [0.0; DEGREE + 1];
-        for (p, c) in p.iter_mut().zip(self.c.chunks_exact(stride)).take(self.orders + 1) {
+        let mut p = ZERO;
+        for (p, c) in p.iter_mut().zip(self.c.chunks_exact(stride)).take(self.used + 1) {
             *p = dot(row, c);
         }
         p
@@ -425,51 +399,6 @@ pub fn orders(rate_step: f64) -> usize {
         }
     }
     DEGREE
-}
-
-/// The table of a system for intervals of `length_s`, unless the recursion is shorter.
-#[inline(always)]
-#[must_use]
-pub fn series_table<S: Simd>(
-    simd: S,
-    system: &System,
-    slip: bool,
-    length_s: f64,
-    orders: usize,
-) -> Option<SeriesTable> {
-    if system.storeys > TABLE_STOREYS[usize::from(slip)] {
-        return None;
-    }
-    let mut series = Series::new(system, orders);
-    let (stride, components) = (series.stride, 2 + 2 * system.modes());
-    let count = if slip { 4 + stride } else { stride };
-    let mut columns = vec![Four::ZERO; count * orders * stride / 4];
-    let mut x = vec![0.0; stride];
-    for input in 0..4 + components {
-        let of = |i: usize| f64::from(u8::from(input == i));
-        let load = Load {
-            acceleration: of(0),
-            acceleration_change: of(1),
-            force: of(2),
-            force_change: of(3),
-        };
-        x.fill(0.0);
-        if input >= 4 {
-            x[input - 4] = 1.0;
-        }
-        let place = match input {
-            _ if slip => input,
-            0 | 1 => input,
-            2..6 => continue,
-            _ => input - 4,
-        };
-        series.expand(simd, system, slip, &x, &load, length_s);
-        let orders = series.c[stride..][..stride * orders].as_chunks::<4>().0;
-        for (columns, c) in columns.chunks_exact_mut(count).zip(orders) {
-            columns[place] = Four(*c);
-        }
-    }
-    Some(SeriesTable(columns))
 }
 
 /// Moves a padded state over `length_s` under loads that are linear in it, by as many series as the

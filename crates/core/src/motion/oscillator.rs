@@ -343,7 +343,7 @@ impl Line {
 
 /// Taylor polynomial of `y` in `τ/θ`.
 fn taylor(theta: f64, xi: f64, y: f64, slope: f64, [f0, f1]: [f64; 2]) -> Polynomial {
-    let mut c = [0.0; DEGREE + 1];
+    let mut c = polynomial::ZERO;
     c[0] = y;
     c[1] = slope * theta;
     let (square, double) = (theta * theta, 2.0 * xi * theta);

@@ -14,7 +14,9 @@ use super::tables::Phase;
 use crate::error::SolveError;
 use crate::friction::{Direction, Exit, Fading};
 use crate::linear::lanes::{Width, least};
-use crate::linear::polynomial::{Polynomial, curvature_bound, deflated, first_root, value};
+use crate::linear::polynomial::{
+    DEGREE, Polynomial, ZERO, curvature_bound, first_root, first_root_after_zero, value,
+};
 use crate::linear::{Load, Series};
 use crate::response::{EventKind, Mode};
 
@@ -118,15 +120,24 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         }
     }
 
-    /// Moves the state to a part of the series; `next` holds the state before.
+    /// Moves the state to a part of a unit under a load; `next` holds the state before.
     #[inline(always)]
-    fn move_to(&mut self, part: f64) {
+    fn move_to(&mut self, phase: &Phase, load: &Load, part: f64) {
         core::mem::swap(&mut self.x, &mut self.next);
         let stride = 4 * self.width.fours();
-        self.series.state_at(self.simd, part, &mut self.x[..stride]);
-        if self.mode == Mode::Stick {
-            (self.x[0], self.x[1]) = (self.next[0], 0.0);
-        }
+        let (start, end) = ((&self.next[..stride], load), &mut self.x[..stride]);
+        phase.solution.state_at(self.simd, &phase.system, start, part, &mut self.series, end);
+    }
+
+    /// Coefficients of the demand in stick over a unit.
+    #[inline(always)]
+    fn demand_series(&self, load: &Load) -> Polynomial {
+        let phase = &self.tables.stick;
+        let x = &self.x[..4 * self.width.fours()];
+        let row = &phase.outputs.rows[output::FRICTION];
+        let mut demand = phase.solution.number(self.simd, x, load);
+        demand[0] += row.state[0] * x[0] + (row.of_stop * self.now.stop + row.constant);
+        demand
     }
 
     /// One segment of stick, up to its end or the release in it; the time reached.
@@ -135,10 +146,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         let phase = &self.tables.stick;
         let segment = Self::segment(phase, stretch, from_s);
         let load = stretch.load(from_s, phase.unit_s, 0.0);
-        Self::expand(self.simd, self.width, phase, &self.x, &load, &mut self.series);
-        let stop_n = self.now.stop;
-        let demand =
-            output_series(self.width, phase, output::FRICTION, &self.series, &load, stop_n);
+        let demand = self.demand_series(&load);
         let curvature = curvature_bound(&demand) * (segment.part * segment.part);
         let demand_end = value(&demand, segment.part);
         let (normal, rise) = (stretch.normal_at(from_s), stretch.normal_rate * phase.unit_s);
@@ -162,8 +170,11 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
             Some((part, _)) => segment.up_to(part),
             None => segment,
         };
-        self.move_to(segment.part);
-        self.look(phase, stretch, &segment);
+        self.move_to(phase, &load, segment.part);
+        if self.slider.law.stop.is_some() {
+            self.look_at_stop(None, segment.part);
+        }
+        self.look(phase, stretch, &segment, &load);
         let at_s = segment.to_s;
         let Some((_, direction)) = release else { return at_s };
         self.record(stretch, at_s, false);
@@ -178,30 +189,42 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
     #[inline(always)]
     fn slip_segment(&mut self, stretch: &Stretch, direction: Direction, from_s: f64) -> f64 {
         let phase = self.now.phase;
-        let segment = match self.now.fading {
+        let mut load = stretch.load(from_s, phase.unit_s, self.now.friction);
+        load.force -= self.now.stop;
+        let (segment, mut speed) = match self.now.fading {
             None => {
-                let mut load = stretch.load(from_s, phase.unit_s, self.now.friction);
-                load.force -= self.now.stop;
-                Self::expand(self.simd, self.width, phase, &self.x, &load, &mut self.series);
-                Self::segment(phase, stretch, from_s)
+                let x = &self.x[..4 * self.width.fours()];
+                (Self::segment(phase, stretch, from_s), phase.solution.number(self.simd, x, &load))
             }
-            Some(fading) => self.expand_fading(&fading, stretch, from_s),
+            Some(fading) => {
+                let segment = self.expand_fading(&fading, stretch, from_s);
+                (segment, self.series.component(self.width, 1))
+            }
         };
         let sign = direction.sign();
-        let mut speed = self.series.component(self.width, 1, sign);
-        if let Some(start) = self.start.take() {
-            if start.order == 1 {
-                speed[1] = start.acceleration * segment.unit_s;
-            }
-            speed = deflated(&speed, start.order);
+        for c in &mut speed {
+            *c *= sign;
         }
-        let mut first = first_root(&speed, segment.part).map(|part| (part, None));
-        for exit in self.exits.iter().flatten() {
-            let to = first.map_or(segment.part, |(part, _)| part);
-            let row = [exit.of_s, exit.of_w, exit.constant];
-            let value = self.slider.of_exit(exit, self.series.of_sliding(self.width, row));
-            if let Some(part) = first_root(&value, to) {
-                first = Some((part, Some(*exit)));
+        let mut first = match self.start.take() {
+            None => first_root(&speed, segment.part),
+            Some(start) => {
+                if start.order == 1 {
+                    speed[1] = start.acceleration * segment.unit_s;
+                }
+                first_root_after_zero(&speed, start.order, segment.part)
+            }
+        }
+        .map(|part| (part, None));
+        let asks = self.exits.iter().any(Option::is_some) || self.slider.law.stop.is_some();
+        let displacement = asks.then(|| integral(&speed, sign * segment.unit_s, self.x[0]));
+        if let Some(displacement) = &displacement {
+            for exit in self.exits.iter().flatten() {
+                let to = first.map_or(segment.part, |(part, _)| part);
+                let row = [exit.of_s, sign * exit.of_w, exit.constant];
+                let value = self.slider.of_exit(exit, of_sliding(row, displacement, &speed));
+                if let Some(part) = first_root(&value, to) {
+                    first = Some((part, Some(*exit)));
+                }
             }
         }
         self.slider.just = None;
@@ -209,7 +232,13 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
             Some((part, _)) => segment.up_to(part),
             None => segment,
         };
-        self.move_to(segment.part);
+        if self.now.fading.is_some() {
+            core::mem::swap(&mut self.x, &mut self.next);
+            let stride = 4 * self.width.fours();
+            self.series.state_at(self.simd, segment.part, &mut self.x[..stride]);
+        } else {
+            self.move_to(phase, &load, segment.part);
+        }
         match first {
             None if sign * self.x[1] <= 0.0 => self.x[1] = 0.0,
             None => {}
@@ -218,7 +247,11 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
                 [self.x[0], self.x[1]] = exit.reached.place(direction, [self.x[0], self.x[1]]);
             }
         }
-        self.look(phase, stretch, &segment);
+        if self.slider.law.stop.is_some() {
+            let sliding = displacement.as_ref().map(|s| (s, &speed, sign));
+            self.look_at_stop(sliding, segment.part);
+        }
+        self.look(phase, stretch, &segment, &load);
         let at_s = segment.to_s;
         let Some((_, exit)) = first else { return at_s };
         if let Some(exit) = exit {
@@ -333,8 +366,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
     ) -> Option<usize> {
         let phase = &self.tables.stick;
         let load = stretch.load(at_s, phase.unit_s, 0.0);
-        Self::expand(self.simd, self.width, phase, &self.x, &load, &mut self.series);
-        let demand = output_series(self.width, phase, output::FRICTION, &self.series, &load, 0.0);
+        let demand = self.demand_series(&load);
         let normal = [0.0, stretch.normal_rate * phase.unit_s];
         leaving_order(&self.hold.distance(&demand, normal, direction))
     }
@@ -393,6 +425,30 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         self.record_knot(time_s, &x, [table, a, normal], row);
         self.x = x;
     }
+}
+
+/// The polynomial `∫ p dt + start`, the interval `unit_s` long.
+fn integral(p: &Polynomial, unit_s: f64, start: f64) -> Polynomial {
+    let mut integral = ZERO;
+    integral[0] = start;
+    for k in 0..DEGREE {
+        integral[k + 1] = p[k] * (unit_s / (k + 1) as f64);
+    }
+    integral
+}
+
+/// The polynomial `of_s s + of_w w + constant`.
+pub(super) fn of_sliding(
+    [of_s, of_w, constant]: [f64; 3],
+    s: &Polynomial,
+    w: &Polynomial,
+) -> Polynomial {
+    let mut p = ZERO;
+    for k in 0..=DEGREE {
+        p[k] = of_s * s[k] + of_w * w[k];
+    }
+    p[0] += constant;
+    p
 }
 
 /// The series of an output from that of the state; the load's force contains no constant force of a

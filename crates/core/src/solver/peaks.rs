@@ -8,11 +8,12 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::event::{Segment, output_series};
+use super::event::{Segment, of_sliding, output_series};
 use super::ground::Stretch;
 use super::run::{Curvature, InForce, Run};
 use super::settle::Room;
 use super::tables::Phase;
+use crate::linear::Load;
 use crate::linear::lanes::{Eight, Width, eight, greatest, larger};
 use crate::linear::polynomial::{Polynomial, curvature_bound, largest};
 use crate::response::Mode;
@@ -133,20 +134,34 @@ impl Peaks {
 }
 
 impl<'a, S: Simd, W: Width> Run<'a, S, W> {
-    /// Looks at the segment that the last series has covered: `next` is its start, `x` its end.
+    /// Looks at a segment from `next` to `x` under the load of its unit.
     #[inline(always)]
-    pub(super) fn look(&mut self, phase: &Phase, stretch: &Stretch, segment: &Segment) {
+    pub(super) fn look(
+        &mut self,
+        phase: &Phase,
+        stretch: &Stretch,
+        segment: &Segment,
+        load: &Load,
+    ) {
         let simd = self.simd;
-        let d = self.width.components();
-        let second = &self.series.order(2)[..d];
-        // Twice the second coefficient is ẍ times the unit squared.
+        // ‖ẍ‖ and the rate of what fades, times the unit squared.
         let part = segment.part;
         let (norm, bend) = if self.now.fading.is_some() {
-            (0.5 * self.series.second_bound(), curvature_bound(&self.series.fade))
+            (self.series.second_bound(), curvature_bound(&self.series.fade))
         } else {
-            (phase.growth * phase.system.energy_norm(second), 0.0)
+            let per_unit = 1.0 / segment.unit_s;
+            let of_a = [load.acceleration, load.acceleration_change * per_unit];
+            let of_force = [load.force, load.force_change * per_unit];
+            let [_, second] = Self::derivative_norms(
+                (simd, self.width),
+                phase,
+                &self.next,
+                [of_a, of_force],
+                &mut self.spare,
+            );
+            (phase.growth * second * (segment.unit_s * segment.unit_s), 0.0)
         };
-        let reach = eight(simd, 0.25 * norm * (part * part));
+        let reach = eight(simd, 0.125 * norm * (part * part));
         let bend = eight(simd, 0.125 * bend * (part * part));
         let stop = self.now.stop;
         let input = |at_s: f64, w: f64| {
@@ -154,9 +169,6 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             [friction_n, stretch.acceleration_at(at_s), stop]
         };
         let (first, last) = (input(segment.from_s, self.next[1]), input(segment.to_s, self.x[1]));
-        if self.slider.law.stop.is_some() {
-            self.look_at_stop(part);
-        }
         let stride = 4 * self.width.fours();
         let mut open = false;
         for g in 0..self.groups(phase) {
@@ -232,13 +244,20 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         open.any_true()
     }
 
-    /// Looks at the force of the stop in the last series.
+    /// Looks at the force of the stop in `x` and, in slip, over a part of the series of `s` and of `ṡ`
+    /// times a sign.
     #[inline(never)]
-    fn look_at_stop(&mut self, part: f64) {
+    pub(super) fn look_at_stop(
+        &mut self,
+        sliding: Option<(&Polynomial, &Polynomial, f64)>,
+        part: f64,
+    ) {
         let contact = self.slider.memory.contact;
         let mut force_n = self.slider.law.stop_force_n(contact, self.x[0], self.x[1]);
-        if let Some(row) = self.slider.law.stop_row(contact) {
-            let p = self.series.of_sliding(self.width, row);
+        if let (Some([of_s, of_w, constant]), Some((s, speed, sign))) =
+            (self.slider.law.stop_row(contact), sliding)
+        {
+            let p = of_sliding([of_s, sign * of_w, constant], s, speed);
             force_n = largest(&p, part, force_n);
         }
         let peak = &mut self.slider.stopping.demands.peak_force_n;

@@ -19,7 +19,7 @@ use super::workspace::Workspace;
 use crate::error::{Pulse, SolveError};
 use crate::friction::{Affine, Contact, Direction, EXITS, Exit, Fading, Hold, Law, Restraint};
 use crate::linear::lanes::{Eight, Width, combine8, dot, eight};
-use crate::linear::{BATCH, Force, Load, Series};
+use crate::linear::{BATCH, Force, Series};
 use crate::response::{Event, EventKind, Mode, StopDemands, SurfaceDemands};
 
 /// Extremes, path and duration of sliding; `s` is monotone between two events.
@@ -386,25 +386,6 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         combine8(simd, columns, &[1.0, friction, a, stop], &[], &x[..used])
     }
 
-    /// Expands the motion from a state into the series, over one unit of the phase.
-    #[inline(always)]
-    pub(super) fn expand(
-        simd: S,
-        width: W,
-        phase: &Phase,
-        x: &[f64],
-        load: &Load,
-        series: &mut Series,
-    ) {
-        match &phase.series {
-            Some(table) => {
-                let x = &x[..4 * width.fours()];
-                series.expand_by_table(simd, table, phase.slip, x, load);
-            }
-            None => series.expand(simd, &phase.system, phase.slip, x, load, phase.unit_s),
-        }
-    }
-
     /// What bounds the second derivatives of the outputs over the batch from a sample.
     ///
     /// A kink of the loads adds to `‖ẍ‖` at most `√M_tot |Δȧ| + |ΔṪ|/√M1`, and their change to `‖ẋ‖`
@@ -427,22 +408,10 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             Normal::Constant(_) => 0.0,
             Normal::Varying(n) => coefficient * ((n[sample + 1] - n[sample]) * per_dt),
         };
-        let (load, force) = ([a[sample], jerk], [force, force_rate]);
         let system = &phase.system;
-        let [first, second] = if self.width.modes() == 1 {
-            let (mut f, mut eta2) = ([0.0], [0.0]);
-            system.derivative_norms(
-                self.simd,
-                phase.slip,
-                &self.x,
-                load,
-                force,
-                [&mut f, &mut eta2],
-            )
-        } else {
-            let [f, eta2] = &mut self.spare;
-            system.derivative_norms(self.simd, phase.slip, &self.x, load, force, [f, eta2])
-        };
+        let loads = [[a[sample], jerk], [force, force_rate]];
+        let how = (self.simd, self.width);
+        let [first, second] = Self::derivative_norms(how, phase, &self.x, loads, &mut self.spare);
         let horizontal = Roughness::new(self.simd, self.window(sample));
         let of_a = if phase.slip { system.root_total_mass } else { system.root_storey_mass };
         let mut curvature = Curvature {
@@ -465,6 +434,23 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         curvature.first *= batch.growth;
         curvature.second *= batch.growth;
         curvature
+    }
+
+    /// Energy norms of `ẋ` and `ẍ` in a state under an acceleration and a force, each with its rate.
+    #[inline(always)]
+    pub(super) fn derivative_norms(
+        (simd, width): (S, W),
+        phase: &Phase,
+        x: &[f64],
+        [load, force]: [[f64; 2]; 2],
+        [f, eta2]: &mut [Vec<f64>; 2],
+    ) -> [f64; 2] {
+        let (system, slip) = (&phase.system, phase.slip);
+        if width.modes() == 1 {
+            let (mut f, mut eta2) = ([0.0], [0.0]);
+            return system.derivative_norms(simd, slip, x, load, force, [&mut f, &mut eta2]);
+        }
+        system.derivative_norms(simd, slip, x, load, force, [f, eta2])
     }
 
     /// The force that keeps the block stuck under an acceleration, eqs (8), (14).
@@ -531,7 +517,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     /// grow but by rounding.
     #[inline(always)]
     pub(super) fn set_limits(&mut self) {
-        self.peaks.limit.copy_from_slice(&self.peaks.peak);
+        for (limit, peak) in self.peaks.limit.iter_mut().zip(&self.peaks.peak) {
+            peak.load(self.simd).store_slice(&mut limit.0);
+        }
         if let (Mode::Stick, Normal::Constant(normal)) = (self.mode, self.ground.normal) {
             let bound = self.slider.law.largest_static() * normal * (1.0 - 1e-14);
             let first = &mut self.peaks.limit[0].0;

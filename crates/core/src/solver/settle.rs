@@ -403,7 +403,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         if mode != Mode::Stick {
             with_stop.force -= stop;
         }
-        Self::expand(self.simd, self.width, phase, x, &with_stop, &mut self.series);
+        phase.solution.expand(self.simd, &phase.system, x, &with_stop, &mut self.series);
         load
     }
 }

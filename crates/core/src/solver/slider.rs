@@ -192,6 +192,7 @@ impl<'a> Slider<'a> {
 
 /// First part of a segment after which a distance from a bound is negative; one that is zero at the
 /// start has been found not to go that way.
+#[inline(always)]
 pub(super) fn first_crossing(distance: &Polynomial, to: f64) -> Option<f64> {
     if distance[0] > 0.0 {
         return first_root(distance, to);

@@ -4,12 +4,11 @@ use std::sync::OnceLock;
 
 use fearless_simd::prelude::*;
 
-use super::outputs::{self, Outputs, Overturning};
+use super::outputs::{self, Outputs, Overturning, output};
 use crate::friction::{Law, Restraint, Restraints};
 use crate::linear::polynomial::DEGREE;
 use crate::linear::{
-    BATCH, MAX_RATE_STEP, Maps, Row, SeriesTable, StoreyDamping, System, Units, orders,
-    series_table,
+    BATCH, MAX_RATE_STEP, Maps, Row, Solution, StoreyDamping, System, Units, orders,
 };
 use crate::model::{Damping, Model};
 
@@ -53,7 +52,8 @@ pub(super) struct Phase {
     pub(super) slip: bool,
     /// Length of one series in s: a whole part of the step.
     pub(super) unit_s: f64,
-    pub(super) series: Option<SeriesTable>,
+    /// The motion over that, with the sliding velocity in slip and the demand on friction in stick.
+    pub(super) solution: Solution,
     pub(super) outputs: Outputs,
     /// What of the restraint is friction.
     pub(super) of_friction: Restraint,
@@ -238,7 +238,9 @@ impl Phase {
         let (of_friction, slip) = (slip.unwrap_or_default(), slip.is_some());
         let rate = if slip { system.slip_rate_rad_per_s } else { system.stick_rate_rad_per_s };
         let unit_s = unit_s(rate, dt_s);
-        let series = series_table(simd, &system, slip, unit_s, orders);
+        let tracked = &rows[if slip { output::VELOCITY } else { output::FRICTION }];
+        let tracked = (tracked.state.as_slice(), tracked.of_a, tracked.of_friction);
+        let solution = Solution::new(simd, &system, slip, (unit_s, orders), tracked);
         let growth = |length_s| if slip { system.growth(length_s) } else { 1.0 };
         let batch = batch_s
             .filter(|dt_s| system.storeys <= BATCH_STOREYS && dt_s * rate <= BATCH_RATE_STEP);
@@ -263,6 +265,6 @@ impl Phase {
         };
         let growth = growth(unit_s);
         let outputs = Outputs::new(&system, slip, rows);
-        Self { number, system, slip, unit_s, series, outputs, of_friction, growth, batch }
+        Self { number, system, slip, unit_s, solution, outputs, of_friction, growth, batch }
     }
 }

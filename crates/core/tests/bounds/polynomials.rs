@@ -3,16 +3,18 @@
 use crate::random::Random;
 use crate::systems::streams;
 use slipstick::linear::polynomial::{
-    DEGREE, Polynomial, curvature_bound, first_root, largest, value,
+    DEGREE, Polynomial, ZERO, curvature_bound, first_root, largest, value,
 };
 
 fn polynomial(random: &mut Random) -> Polynomial {
     let mut size = 1.0;
-    std::array::from_fn(|_| {
+    let mut c = ZERO;
+    for c in &mut c[..=DEGREE] {
         // As a Taylor series of rate times length about 1 would have them.
         size *= random.between(0.2, 0.9);
-        size * random.between(-1.0, 1.0)
-    })
+        *c = size * random.between(-1.0, 1.0);
+    }
+    c
 }
 
 /// (a) A function departs from its chord by at most D w²/8; a parabola does, at the middle.
@@ -30,7 +32,7 @@ fn prop_chord_bound_holds_and_a_parabola_reaches_it() {
             let departs = (value(&c, a + (b - a) * part) - chord).abs();
             assert!(departs <= bound + 1e-15, "{departs:e} from the chord, {bound:e} allowed");
         }
-        let mut parabola = [0.0; DEGREE + 1];
+        let mut parabola = ZERO;
         (parabola[0], parabola[1], parabola[2]) = (c[0], c[1], c[2]);
         let [ga, gb] = [a, b].map(|x| value(&parabola, x));
         let departs = (value(&parabola, 0.5 * (a + b)) - 0.5 * (ga + gb)).abs();
@@ -47,7 +49,7 @@ fn prop_no_dip_is_missed() {
         // squared, so that it touches zero there.
         let at = random.between(0.05, 0.95);
         let factor: Vec<f64> = (0..6).map(|_| random.between(-0.5, 0.5)).collect();
-        let mut c = [0.0; DEGREE + 1];
+        let mut c = ZERO;
         for (i, f) in factor.iter().enumerate() {
             for (j, g) in factor.iter().enumerate() {
                 let square = [at * at, -2.0 * at, 1.0];

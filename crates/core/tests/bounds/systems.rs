@@ -143,7 +143,7 @@ pub fn series(system: &System, slip: bool, state: &State, load: &Load, length_s:
         series.expand(simd, system, slip, &x, load, length_s);
     });
     let width = Many(system.modes());
-    Series((0..components).map(|i| series.component(width, i, 1.0)).collect())
+    Series((0..components).map(|i| series.component(width, i)).collect())
 }
 
 /// A coefficient of a series as a state.

@@ -4,8 +4,8 @@ use crate::systems::{
     Rates, State, System, assert_near, bend, coefficient, derivative, norm, rate, series, state,
     streams, system,
 };
-use slipstick::linear::polynomial::DEGREE;
-use slipstick::linear::{MAX_RATE_STEP, StoreyDamping, orders};
+use slipstick::linear::polynomial::{DEGREE, value};
+use slipstick::linear::{MAX_RATE_STEP, Solution, StoreyDamping, orders};
 
 /// (g) `‖A x‖ ≤ rate · ‖x‖` in stick and slip.
 #[test]
@@ -68,6 +68,57 @@ fn prop_fewer_orders_leave_out_no_more() {
         assert!(kept.is_multiple_of(4) && next < 6.4e-17, "{kept} orders leave out {next:e}");
     }
     assert_eq!([0.05, 0.8, 1.4].map(orders), [12, 16, 20]);
+}
+
+/// (f) A part of an interval by the map to the nearest sixteenth and a short series is what the whole
+/// series says, and so is the polynomial of one number.
+#[test]
+fn prop_parts_of_an_interval_agree_with_the_whole_series() {
+    for (mut random, damped) in streams() {
+        let made = system(&mut random, damped);
+        let system = &made.system;
+        for slip in [false, true] {
+            let length_s = MAX_RATE_STEP / rate(system, slip).max(1.0);
+            let mut x = state(&mut random, &made, slip);
+            let load = Rates::random(&mut random).load(0.0, length_s);
+            let whole = series(system, slip, &x, &load, length_s);
+            let components = x.0.len();
+            let draw = |_| random.between(-1.0, 1.0);
+            let mut row: Vec<f64> = (0..components).map(draw).collect();
+            row.resize(components.next_multiple_of(4), 0.0);
+            if !slip {
+                row[0] = 0.0;
+            }
+            let start = [&x.0[..], &[0.0; 4][..row.len() - components]].concat();
+            let mut out = row.clone();
+            let mut room = slipstick::linear::Series::new(system, DEGREE);
+            let (of_a, of_force) = (random.unit(), if slip { random.unit() } else { 0.0 });
+            let of_row = whole.row(&row[..components]);
+            for _ in 0..10 {
+                let part = random.unit();
+                let (mut number, mut size) = (0.0, 0.0);
+                fearless_simd::dispatch!(fearless_simd::Level::new(), simd => {
+                    let of = (row.as_slice(), of_a, of_force);
+                    let solution = Solution::new(simd, system, slip, (length_s, DEGREE), of);
+                    solution.state_at(simd, system, (&start, &load), part, &mut room, &mut out);
+                    let c = solution.number(simd, &start, &load);
+                    size += c.iter().map(|c| c.abs()).sum::<f64>();
+                    number += value(&c, part);
+                });
+                let direct = of_a * (load.acceleration + part * load.acceleration_change)
+                    + of_force * (load.force + part * load.force_change);
+                let expected = value(&of_row, part) + direct;
+                size += of_row.iter().map(|c| c.abs()).sum::<f64>();
+                assert!((number - expected).abs() <= 1e-14 * size, "{number:e}, {expected:e}");
+                whole.state_at(part, &mut x);
+                let (found, of) = (State(out[..components].to_vec()), norm(system, &x));
+                let largest = of.max(norm(system, &State(start[..components].to_vec())));
+                let error = State(found.0.iter().zip(&x.0).map(|(a, b)| a - b).collect());
+                assert!(norm(system, &error) <= 1e-14 * largest, "{:e}", norm(system, &error));
+                assert!((found.s() - x.s()).abs() <= 1e-14 * (1.0 + x.s().abs()));
+            }
+        }
+    }
 }
 
 /// (f) The first term that a series leaves out, which doubles cannot show in a sum: from the last

@@ -2,7 +2,7 @@
 
 use crate::friction::{Coefficient, Direction, SlipForce};
 use crate::linear::System;
-use crate::linear::polynomial::{DEGREE, Polynomial};
+use crate::linear::polynomial::{DEGREE, Polynomial, ZERO};
 use crate::model::{Contents, Model};
 use crate::response::Mode;
 
@@ -78,7 +78,6 @@ pub(super) struct Expansion {
     pub(super) part: f64,
 }
 
-const ZERO: Polynomial = [0.0; DEGREE + 1];
 
 impl Body {
     pub(super) fn new(model: &Model, system: &System) -> Self {

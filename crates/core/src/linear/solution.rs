@@ -1,0 +1,202 @@
+//! The motion over intervals of one length, prepared: its series, its parts, and one number of it.
+
+use fearless_simd::prelude::*;
+
+use super::lanes::{Four, combine4, dot};
+use super::polynomial::{Polynomial, ZERO};
+use super::series::{Load, Series};
+use super::system::System;
+
+/// Most storeys for which series go by a table, in stick and in slip: beyond, its sums are longer than
+/// the recursion.
+const TABLE_STOREYS: [usize; 2] = [1, 2];
+
+/// Most storeys for which a part of an interval goes by a map: beyond, the maps are too large.
+const MAP_STOREYS: usize = 10;
+
+/// Parts of an interval to which maps lead.
+const PARTS: usize = 16;
+
+/// Orders of a series from the nearest of them: (1.4 / 32)^9 / 9! = 1.6e-18.
+const SHORT: usize = 8;
+
+/// The motion over intervals of one length from any state under any loads that are linear in time.
+///
+/// All tables are sums over the same inputs: in slip the numbers of a [`Load`] and the state; in stick,
+/// where neither the force nor the block's own motion does anything, the state with the acceleration and
+/// its change in the place of `s` and `ṡ`.
+#[derive(Debug)]
+pub struct Solution {
+    slip: bool,
+    length_s: f64,
+    orders: usize,
+    /// The orders from the first on of the series, if that is shorter than the recursion.
+    series: Option<Vec<Four>>,
+    /// The state after each of the parts.
+    maps: Option<Vec<Four>>,
+    /// The coefficients of the number.
+    number: Vec<Four>,
+}
+
+impl Solution {
+    /// Tables of a system and of one number of it, `row` times the state, `of_a` times the
+    /// acceleration and `of_force` times the force.
+    #[inline(always)]
+    #[must_use]
+    pub fn new<S: Simd>(
+        simd: S,
+        system: &System,
+        slip: bool,
+        (length_s, orders): (f64, usize),
+        (row, of_a, of_force): (&[f64], f64, f64),
+    ) -> Self {
+        let mut series = Series::new(system, orders);
+        let components = 2 + 2 * system.modes();
+        let stride = components.next_multiple_of(4);
+        let (count, fours) = (if slip { 4 + stride } else { stride }, stride / 4);
+        let table = |wanted: bool, rows: usize| wanted.then(|| vec![Four::ZERO; rows * count]);
+        let by_table = system.storeys <= TABLE_STOREYS[usize::from(slip)];
+        let mut of_series = table(by_table, orders * fours);
+        let mut maps = table(system.storeys <= MAP_STOREYS, PARTS * fours);
+        let mut number = vec![Four::ZERO; (orders + 1).div_ceil(4) * count];
+        let (mut x, mut after) = (vec![0.0; stride], vec![0.0; stride]);
+        for input in 0..4 + components {
+            let of = |i: usize| f64::from(u8::from(input == i));
+            let load = Load {
+                acceleration: of(0),
+                acceleration_change: of(1),
+                force: of(2),
+                force_change: of(3),
+            };
+            x.fill(0.0);
+            if input >= 4 {
+                x[input - 4] = 1.0;
+            }
+            let place = match input {
+                _ if slip => input,
+                0 | 1 => input,
+                2..6 => continue,
+                _ => input - 4,
+            };
+            series.expand(simd, system, slip, &x, &load, length_s);
+            if let Some(table) = &mut of_series {
+                for k in 0..orders {
+                    let (c, _) = series.order(k + 1).as_chunks::<4>();
+                    for i in 0..fours {
+                        table[(k * fours + i) * count + place] = Four(c[i]);
+                    }
+                }
+            }
+            if let Some(maps) = &mut maps {
+                for part in 0..PARTS {
+                    series.state_at(simd, (part + 1) as f64 / PARTS as f64, &mut after);
+                    let (after, _) = after.as_chunks::<4>();
+                    for i in 0..fours {
+                        maps[(part * fours + i) * count + place] = Four(after[i]);
+                    }
+                }
+            }
+            for k in 0..=orders {
+                let [a, force] = load.order(k);
+                let c = dot(row, series.order(k)) + (of_a * a + of_force * force);
+                number[k / 4 * count + place].0[k % 4] = c;
+            }
+        }
+        Self { slip, length_s, orders, series: of_series, maps, number }
+    }
+
+    /// `out` as sums of the inputs.
+    #[inline(always)]
+    fn sum<S: Simd>(&self, simd: S, table: &[Four], x: &[f64], load: &Load, out: &mut [f64]) {
+        let [a, change] = [load.acceleration, load.acceleration_change];
+        if self.slip {
+            combine4(simd, table, &[a, change, load.force, load.force_change], &[], x, out);
+        } else {
+            combine4(simd, table, &[a, change, x[2], x[3]], &[], &x[4..], out);
+        }
+    }
+
+    /// Coefficients of the number from a padded state; in stick without what `s` adds.
+    #[inline(always)]
+    #[must_use]
+    pub fn number<S: Simd>(&self, simd: S, x: &[f64], load: &Load) -> Polynomial {
+        let mut c = ZERO;
+        let count = (self.orders + 1).next_multiple_of(4);
+        self.sum(simd, &self.number, x, load, &mut c[..count]);
+        c
+    }
+
+    /// The series from a padded state.
+    #[inline(always)]
+    pub fn expand<S: Simd>(
+        &self,
+        simd: S,
+        system: &System,
+        x: &[f64],
+        load: &Load,
+        series: &mut Series,
+    ) {
+        self.expand_to(simd, self.orders, system, x, load, series);
+    }
+
+    #[inline(always)]
+    fn expand_to<S: Simd>(
+        &self,
+        simd: S,
+        orders: usize,
+        system: &System,
+        x: &[f64],
+        load: &Load,
+        series: &mut Series,
+    ) {
+        match &self.series {
+            Some(table) => {
+                let (start, rest) = series.room(orders, x.len());
+                start.copy_from_slice(x);
+                if !self.slip {
+                    start[1] = 0.0;
+                }
+                self.sum(simd, table, x, load, rest);
+            }
+            None => series.expand_to(orders, simd, system, self.slip, x, load, self.length_s),
+        }
+    }
+
+    /// Padded state after a part of the interval, at most 1.
+    #[inline(always)]
+    pub fn state_at<S: Simd>(
+        &self,
+        simd: S,
+        system: &System,
+        (x, load): (&[f64], &Load),
+        part: f64,
+        series: &mut Series,
+        out: &mut [f64],
+    ) {
+        let Some(maps) = &self.maps else {
+            self.expand(simd, system, x, load, series);
+            series.state_at(simd, part, out);
+            return;
+        };
+        let nearest = (part * PARTS as f64 + 0.5) as usize;
+        let from = nearest as f64 / PARTS as f64;
+        if nearest == 0 {
+            out.copy_from_slice(x);
+        } else {
+            let size = maps.len() / PARTS;
+            self.sum(simd, &maps[(nearest - 1) * size..][..size], x, load, out);
+        }
+        if part != from {
+            let load = Load {
+                acceleration: load.acceleration + from * load.acceleration_change,
+                force: load.force + from * load.force_change,
+                ..*load
+            };
+            self.expand_to(simd, SHORT.min(self.orders), system, out, &load, series);
+            series.state_at(simd, part - from, out);
+        }
+        if !self.slip {
+            (out[0], out[1]) = (x[0], 0.0);
+        }
+    }
+}
