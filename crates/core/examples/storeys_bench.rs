@@ -3,7 +3,7 @@
 //! Prints a line a system, fields by tabs: name, number of storeys, samples, events, peak sliding
 //! displacement in m, then nanoseconds a run of the demands alone, of the history and of the history
 //! with its certificate, each the least of several runs of a prepared model, and of the preparation.
-//! With a system's name, `demands` or `certificate`, and a count it runs that so many times, for a
+//! With a system's name, `demands`, `history`, `certificate` or `set-up`, and a count it runs that so many times, for a
 //! profiler.
 
 #![allow(
@@ -60,6 +60,11 @@ fn main() -> Result<(), Box<dyn Error>> {
             Some((_, "set-up", count)) => {
                 for _ in 0..count {
                     black_box(Prepared::new(model.clone(), motion.dt_s()));
+                }
+            }
+            Some((_, "history", count)) => {
+                for _ in 0..count {
+                    black_box(prepared.response(motion)?);
                 }
             }
             Some((_, "certificate", count)) => {

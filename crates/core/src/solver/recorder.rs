@@ -28,7 +28,8 @@ pub(super) struct Recorder {
     slope_m_per_s2: f64,
     stop: bool,
     f: Vec<f64>,
-    floors: Vec<f64>,
+    /// Room for a state.
+    pub(super) state: Vec<f64>,
 }
 
 impl Recorder {
@@ -56,8 +57,7 @@ impl Recorder {
         }
         history.mode.reserve(room);
         history.rows.reserve(samples);
-        let (f, floors) = (vec![0.0; system.modes()], vec![0.0; storeys]);
-        Self { history, slope_m_per_s2, stop, f, floors }
+        Self { history, slope_m_per_s2, stop, f: vec![0.0; system.modes()], state: Vec::new() }
     }
 }
 
@@ -99,15 +99,17 @@ impl Recorder {
         if n == 0 {
             return;
         }
-        system.floors(&x[2..2 + modes], &mut self.floors);
-        h.storey_displacement_m.extend_from_slice(&self.floors);
-        system.floors(&x[2 + modes..2 + 2 * modes], &mut self.floors);
-        h.storey_velocity_m_per_s.extend_from_slice(&self.floors);
-        system.floors(knot.f, &mut self.floors);
-        h.storey_acceleration_m_per_s2.extend(self.floors.iter().map(|f| -f - slope));
+        let (eta, rate) = (&x[2..2 + modes], &x[2 + modes..2 + 2 * modes]);
+        for i in 0..n {
+            let shape = system.floor(i);
+            h.storey_displacement_m.push(dot(shape, eta));
+            h.storey_velocity_m_per_s.push(dot(shape, rate));
+            h.storey_acceleration_m_per_s2.push(-dot(shape, knot.f) - slope);
+        }
     }
 
     /// A knot; `row` if it is also a row of the sampled history.
+    #[inline]
     pub(super) fn knot(&mut self, system: &System, knot: &Knot<'_>, row: bool) {
         let (modes, x) = (system.modes(), knot.state);
         let mut f = core::mem::take(&mut self.f);

@@ -508,8 +508,10 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             Knot { time_s, mode, contact, table, acceleration, state: x, friction_n, force_n };
         if let Some(recorder) = &mut self.recorder {
             recorder.knot(&phase.system, &knot, row);
-            let now = self.slider.law.surfaces(&self.slider.memory, x[0]);
-            recorder.history.surface_displacement_m.extend(now);
+            if self.slider.law.series.is_some() {
+                let now = self.slider.law.surfaces(&self.slider.memory, x[0]);
+                recorder.history.surface_displacement_m.extend(now);
+            }
         }
     }
 

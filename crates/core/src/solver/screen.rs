@@ -392,10 +392,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         a: &Window,
         force: Force<'_>,
     ) {
-        if self.recorder.is_none() {
-            return;
-        }
-        let mut x = self.x.clone();
+        let Some(recorder) = &mut self.recorder else { return };
+        let mut x = core::mem::take(&mut recorder.state);
+        x.clone_from(&self.x);
         for k in 0..steps {
             if k > 0 {
                 batch.maps.after(self.simd, k, &self.x, a, force, &mut x);
@@ -407,6 +406,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 (self.ground.times_s[sample + k], self.ground.normal_at(sample + k).max(0.0));
             let table = self.ground.table[sample + k];
             self.record_knot(time_s, &x, [table, a[k], normal], true);
+        }
+        if let Some(recorder) = &mut self.recorder {
+            recorder.state = x;
         }
     }
 }
