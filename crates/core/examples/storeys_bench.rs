@@ -3,8 +3,8 @@
 //! Prints a line a system, fields by tabs: name, number of storeys, samples, events, peak sliding
 //! displacement in m, then nanoseconds a run of the demands alone, of the history and of the history
 //! with its certificate, each the least of several runs of a prepared model, and of the preparation.
-//! With a system's name, `demands`, `history`, `certificate` or `set-up`, and a count it runs that so many times, for a
-//! profiler.
+//! With a system's name, `demands`, `history`, `certificate` or `set-up`, and a count it runs that so
+//! many times, for a profiler.
 
 #![allow(
     clippy::disallowed_macros,

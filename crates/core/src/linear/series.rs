@@ -45,8 +45,9 @@ impl Load {
 #[derive(Clone, Debug, Default)]
 pub struct Series {
     stride: usize,
-    /// Orders of a whole series, and of the last.
+    /// Orders of a whole series.
     orders: usize,
+    /// Those of the last.
     used: usize,
     c: Vec<f64>,
     f: Vec<f64>,
@@ -101,20 +102,19 @@ impl Series {
         load: &Load,
         length_s: f64,
     ) {
-        self.expand_to(self.orders, simd, system, slip, x, load, length_s);
+        self.expand_to(simd, system, slip, x, load, (length_s, self.orders));
     }
 
     /// The same up to an order, a multiple of four.
     #[inline(always)]
     pub(super) fn expand_to<S: Simd>(
         &mut self,
-        orders: usize,
         simd: S,
         system: &System,
         slip: bool,
         x: &[f64],
         load: &Load,
-        length_s: f64,
+        (length_s, orders): (f64, usize),
     ) {
         let stride = self.stride;
         self.used = orders;

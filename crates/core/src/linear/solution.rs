@@ -2,7 +2,7 @@
 
 use fearless_simd::prelude::*;
 
-use super::lanes::{Four, combine4, dot};
+use super::lanes::{Four, Many, combine4};
 use super::polynomial::{Polynomial, ZERO};
 use super::series::{Load, Series};
 use super::system::System;
@@ -30,17 +30,26 @@ pub struct Solution {
     slip: bool,
     length_s: f64,
     orders: usize,
+    /// One number: factors of the state, of the acceleration and of the force.
+    row: Vec<f64>,
+    of_loads: [f64; 2],
     /// The orders from the first on of the series, if that is shorter than the recursion.
     series: Option<Vec<Four>>,
+    parts: Option<Parts>,
+}
+
+/// What an event needs in the place of the whole series.
+#[derive(Debug)]
+struct Parts {
     /// The state after each of the parts.
-    maps: Option<Vec<Four>>,
+    maps: Vec<Four>,
     /// The coefficients of the number.
     number: Vec<Four>,
 }
 
 impl Solution {
     /// Tables of a system and of one number of it, `row` times the state, `of_a` times the
-    /// acceleration and `of_force` times the force.
+    /// acceleration and `of_force` times the force; in stick without what `s` adds.
     #[inline(always)]
     #[must_use]
     pub fn new<S: Simd>(
@@ -50,17 +59,32 @@ impl Solution {
         (length_s, orders): (f64, usize),
         (row, of_a, of_force): (&[f64], f64, f64),
     ) -> Self {
+        let of_loads = [of_a, of_force];
+        let mut row = row.to_vec();
+        if !slip {
+            row[0] = 0.0;
+        }
+        let mut solution =
+            Self { slip, length_s, orders, row, of_loads, series: None, parts: None };
+        if system.storeys <= MAP_STOREYS {
+            solution.tabulate(simd, system);
+        }
+        solution
+    }
+
+    /// Makes the tables from what every input does by itself.
+    #[inline(always)]
+    fn tabulate<S: Simd>(&mut self, simd: S, system: &System) {
+        let (slip, orders, stride) = (self.slip, self.orders, self.row.len());
         let mut series = Series::new(system, orders);
-        let components = 2 + 2 * system.modes();
-        let stride = components.next_multiple_of(4);
         let (count, fours) = (if slip { 4 + stride } else { stride }, stride / 4);
-        let table = |wanted: bool, rows: usize| wanted.then(|| vec![Four::ZERO; rows * count]);
+        let table = |rows: usize| vec![Four::ZERO; rows * count];
         let by_table = system.storeys <= TABLE_STOREYS[usize::from(slip)];
-        let mut of_series = table(by_table, orders * fours);
-        let mut maps = table(system.storeys <= MAP_STOREYS, PARTS * fours);
-        let mut number = vec![Four::ZERO; (orders + 1).div_ceil(4) * count];
+        let mut of_series = by_table.then(|| table(orders * fours));
+        let mut maps = table(PARTS * fours);
+        let mut number = table((orders + 1).div_ceil(4));
         let (mut x, mut after) = (vec![0.0; stride], vec![0.0; stride]);
-        for input in 0..4 + components {
+        for input in 0..4 + 2 + 2 * system.modes() {
             let of = |i: usize| f64::from(u8::from(input == i));
             let load = Load {
                 acceleration: of(0),
@@ -78,7 +102,7 @@ impl Solution {
                 2..6 => continue,
                 _ => input - 4,
             };
-            series.expand(simd, system, slip, &x, &load, length_s);
+            series.expand(simd, system, slip, &x, &load, self.length_s);
             if let Some(table) = &mut of_series {
                 for k in 0..orders {
                     let (c, _) = series.order(k + 1).as_chunks::<4>();
@@ -87,22 +111,29 @@ impl Solution {
                     }
                 }
             }
-            if let Some(maps) = &mut maps {
-                for part in 0..PARTS {
-                    series.state_at(simd, (part + 1) as f64 / PARTS as f64, &mut after);
-                    let (after, _) = after.as_chunks::<4>();
-                    for i in 0..fours {
-                        maps[(part * fours + i) * count + place] = Four(after[i]);
-                    }
+            for part in 0..PARTS {
+                series.state_at(simd, (part + 1) as f64 / PARTS as f64, &mut after);
+                let (after, _) = after.as_chunks::<4>();
+                for i in 0..fours {
+                    maps[(part * fours + i) * count + place] = Four(after[i]);
                 }
             }
+            let c = self.number_of(system, &series, &load);
             for k in 0..=orders {
-                let [a, force] = load.order(k);
-                let c = dot(row, series.order(k)) + (of_a * a + of_force * force);
-                number[k / 4 * count + place].0[k % 4] = c;
+                number[k / 4 * count + place].0[k % 4] = c[k];
             }
         }
-        Self { slip, length_s, orders, series: of_series, maps, number }
+        (self.series, self.parts) = (of_series, Some(Parts { maps, number }));
+    }
+
+    /// Coefficients of the number from those of the state.
+    #[inline(always)]
+    fn number_of(&self, system: &System, series: &Series, load: &Load) -> Polynomial {
+        let mut c = series.row(Many(system.modes()), &self.row);
+        let [of_a, of_force] = self.of_loads;
+        c[0] += of_a * load.acceleration + of_force * load.force;
+        c[1] += of_a * load.acceleration_change + of_force * load.force_change;
+        c
     }
 
     /// `out` as sums of the inputs.
@@ -116,13 +147,23 @@ impl Solution {
         }
     }
 
-    /// Coefficients of the number from a padded state; in stick without what `s` adds.
+    /// Coefficients of the number from a padded state, over the whole interval.
     #[inline(always)]
     #[must_use]
-    pub fn number<S: Simd>(&self, simd: S, x: &[f64], load: &Load) -> Polynomial {
+    pub fn number<S: Simd>(
+        &self,
+        simd: S,
+        system: &System,
+        (x, load): (&[f64], &Load),
+        series: &mut Series,
+    ) -> Polynomial {
+        let Some(parts) = &self.parts else {
+            self.expand(simd, system, x, load, series);
+            return self.number_of(system, series, load);
+        };
         let mut c = ZERO;
         let count = (self.orders + 1).next_multiple_of(4);
-        self.sum(simd, &self.number, x, load, &mut c[..count]);
+        self.sum(simd, &parts.number, x, load, &mut c[..count]);
         c
     }
 
@@ -158,11 +199,12 @@ impl Solution {
                 }
                 self.sum(simd, table, x, load, rest);
             }
-            None => series.expand_to(orders, simd, system, self.slip, x, load, self.length_s),
+            None => series.expand_to(simd, system, self.slip, x, load, (self.length_s, orders)),
         }
     }
 
-    /// Padded state after a part of the interval, at most 1.
+    /// Padded state after a part of the interval, at most 1, from the state and under the load for which
+    /// [`number`](Self::number) was asked last.
     #[inline(always)]
     pub fn state_at<S: Simd>(
         &self,
@@ -173,27 +215,26 @@ impl Solution {
         series: &mut Series,
         out: &mut [f64],
     ) {
-        let Some(maps) = &self.maps else {
-            self.expand(simd, system, x, load, series);
-            series.state_at(simd, part, out);
-            return;
-        };
-        let nearest = (part * PARTS as f64 + 0.5) as usize;
-        let from = nearest as f64 / PARTS as f64;
-        if nearest == 0 {
-            out.copy_from_slice(x);
+        if let Some(Parts { maps, .. }) = &self.parts {
+            let nearest = (part * PARTS as f64 + 0.5) as usize;
+            let from = nearest as f64 / PARTS as f64;
+            if nearest == 0 {
+                out.copy_from_slice(x);
+            } else {
+                let size = maps.len() / PARTS;
+                self.sum(simd, &maps[(nearest - 1) * size..][..size], x, load, out);
+            }
+            if part != from {
+                let load = Load {
+                    acceleration: load.acceleration + from * load.acceleration_change,
+                    force: load.force + from * load.force_change,
+                    ..*load
+                };
+                self.expand_to(simd, SHORT.min(self.orders), system, out, &load, series);
+                series.state_at(simd, part - from, out);
+            }
         } else {
-            let size = maps.len() / PARTS;
-            self.sum(simd, &maps[(nearest - 1) * size..][..size], x, load, out);
-        }
-        if part != from {
-            let load = Load {
-                acceleration: load.acceleration + from * load.acceleration_change,
-                force: load.force + from * load.force_change,
-                ..*load
-            };
-            self.expand_to(simd, SHORT.min(self.orders), system, out, &load, series);
-            series.state_at(simd, part - from, out);
+            series.state_at(simd, part, out);
         }
         if !self.slip {
             (out[0], out[1]) = (x[0], 0.0);

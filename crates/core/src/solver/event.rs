@@ -131,11 +131,11 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
 
     /// Coefficients of the demand in stick over a unit.
     #[inline(always)]
-    fn demand_series(&self, load: &Load) -> Polynomial {
+    fn demand_series(&mut self, load: &Load) -> Polynomial {
         let phase = &self.tables.stick;
-        let x = &self.x[..4 * self.width.fours()];
+        let (x, system) = (&self.x[..4 * self.width.fours()], &phase.system);
         let row = &phase.outputs.rows[output::FRICTION];
-        let mut demand = phase.solution.number(self.simd, x, load);
+        let mut demand = phase.solution.number(self.simd, system, (x, load), &mut self.series);
         demand[0] += row.state[0] * x[0] + (row.of_stop * self.now.stop + row.constant);
         demand
     }
@@ -194,7 +194,9 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         let (segment, mut speed) = match self.now.fading {
             None => {
                 let x = &self.x[..4 * self.width.fours()];
-                (Self::segment(phase, stretch, from_s), phase.solution.number(self.simd, x, &load))
+                let (simd, start, series) = (self.simd, (x, &load), &mut self.series);
+                let speed = phase.solution.number(simd, &phase.system, start, series);
+                (Self::segment(phase, stretch, from_s), speed)
             }
             Some(fading) => {
                 let segment = self.expand_fading(&fading, stretch, from_s);

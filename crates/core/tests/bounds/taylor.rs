@@ -100,8 +100,9 @@ fn prop_parts_of_an_interval_agree_with_the_whole_series() {
                 fearless_simd::dispatch!(fearless_simd::Level::new(), simd => {
                     let of = (row.as_slice(), of_a, of_force);
                     let solution = Solution::new(simd, system, slip, (length_s, DEGREE), of);
-                    solution.state_at(simd, system, (&start, &load), part, &mut room, &mut out);
-                    let c = solution.number(simd, &start, &load);
+                    let from = (start.as_slice(), &load);
+                    let c = solution.number(simd, system, from, &mut room);
+                    solution.state_at(simd, system, from, part, &mut room, &mut out);
                     size += c.iter().map(|c| c.abs()).sum::<f64>();
                     number += value(&c, part);
                 });

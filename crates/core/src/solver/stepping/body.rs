@@ -78,7 +78,6 @@ pub(super) struct Expansion {
     pub(super) part: f64,
 }
 
-
 impl Body {
     pub(super) fn new(model: &Model, system: &System) -> Self {
         let frame = model.frame();
