@@ -11,6 +11,9 @@ use super::system::System;
 /// the recursion.
 const TABLE_STOREYS: [usize; 2] = [1, 2];
 
+/// The same of short series, which the table holds alone then.
+const SHORT_STOREYS: [usize; 2] = [2, 5];
+
 /// Most storeys for which a part of an interval goes by a map: beyond, the maps are too large.
 const MAP_STOREYS: usize = 10;
 
@@ -33,8 +36,8 @@ pub struct Solution {
     /// One number: factors of the state, of the acceleration and of the force.
     row: Vec<f64>,
     of_loads: [f64; 2],
-    /// The orders from the first on of the series, if that is shorter than the recursion.
-    series: Option<Vec<Four>>,
+    /// The orders from the first on of the series, as far as that is shorter than the recursion.
+    series: Vec<Four>,
     parts: Option<Parts>,
 }
 
@@ -65,7 +68,7 @@ impl Solution {
             row[0] = 0.0;
         }
         let mut solution =
-            Self { slip, length_s, orders, row, of_loads, series: None, parts: None };
+            Self { slip, length_s, orders, row, of_loads, series: Vec::new(), parts: None };
         if system.storeys <= MAP_STOREYS {
             solution.tabulate(simd, system);
         }
@@ -79,8 +82,13 @@ impl Solution {
         let mut series = Series::new(system, orders);
         let (count, fours) = (if slip { 4 + stride } else { stride }, stride / 4);
         let table = |rows: usize| vec![Four::ZERO; rows * count];
-        let by_table = system.storeys <= TABLE_STOREYS[usize::from(slip)];
-        let mut of_series = by_table.then(|| table(orders * fours));
+        let short = SHORT.min(orders);
+        let tabled = match system.storeys {
+            n if n <= TABLE_STOREYS[usize::from(slip)] => orders,
+            n if n <= SHORT_STOREYS[usize::from(slip)] => short,
+            _ => 0,
+        };
+        let mut of_series = table(tabled * fours);
         let mut maps = table(PARTS * fours);
         let mut number = table((orders + 1).div_ceil(4));
         let (mut x, mut after) = (vec![0.0; stride], vec![0.0; stride]);
@@ -103,12 +111,10 @@ impl Solution {
                 _ => input - 4,
             };
             series.expand(simd, system, slip, &x, &load, self.length_s);
-            if let Some(table) = &mut of_series {
-                for k in 0..orders {
-                    let (c, _) = series.order(k + 1).as_chunks::<4>();
-                    for i in 0..fours {
-                        table[(k * fours + i) * count + place] = Four(c[i]);
-                    }
+            for k in 0..tabled {
+                let (c, _) = series.order(k + 1).as_chunks::<4>();
+                for i in 0..fours {
+                    of_series[(k * fours + i) * count + place] = Four(c[i]);
                 }
             }
             for part in 0..PARTS {
@@ -190,17 +196,17 @@ impl Solution {
         load: &Load,
         series: &mut Series,
     ) {
-        match &self.series {
-            Some(table) => {
-                let (start, rest) = series.room(orders, x.len());
-                start.copy_from_slice(x);
-                if !self.slip {
-                    start[1] = 0.0;
-                }
-                self.sum(simd, table, x, load, rest);
-            }
-            None => series.expand_to(simd, system, self.slip, x, load, (self.length_s, orders)),
+        let inputs = if self.slip { 4 + x.len() } else { x.len() };
+        if self.series.len() < orders * (x.len() / 4) * inputs {
+            series.expand_to(simd, system, self.slip, x, load, (self.length_s, orders));
+            return;
         }
+        let (start, rest) = series.room(orders, x.len());
+        start.copy_from_slice(x);
+        if !self.slip {
+            start[1] = 0.0;
+        }
+        self.sum(simd, &self.series, x, load, rest);
     }
 
     /// Padded state after a part of the interval, at most 1, from the state and under the load for which

@@ -55,6 +55,20 @@ pub struct System {
     pub slip_rate_rad_per_s: f64,
 }
 
+/// Four numbers of a padded list from a place on, zeros beyond its end.
+#[inline(always)]
+fn four_from<S: Simd>(simd: S, x: &[f64], at: usize) -> f64x4<S> {
+    if let Some(x) = x.get(at..at + 4) {
+        return f64x4::from_slice(simd, x);
+    }
+    let (last, zero) = (f64x4::from_slice(simd, &x[x.len() - 4..]), four(simd, 0.0));
+    match x.len() - at {
+        3 => simd.slide_f64x4::<1>(last, zero),
+        2 => simd.slide_f64x4::<2>(last, zero),
+        _ => simd.slide_f64x4::<3>(last, zero),
+    }
+}
+
 /// Ω, D and L of four modes that nothing couples, zeros beyond the last.
 pub type Modes = [Four; 3];
 
@@ -499,10 +513,8 @@ impl System {
     #[inline(always)]
     fn four_modes<S: Simd>(&self, simd: S, x: &[f64], m: usize) -> [f64x4<S>; 2] {
         let n = self.participation.len();
-        [2 + 4 * m, 2 + n + 4 * m].map(|at| match x.get(at..at + 4) {
-            Some(x) => f64x4::from_slice(simd, x),
-            None => Four::new(&x[at..]).load(simd),
-        })
+        let (eta_at, rate_at) = (2 + 4 * m, 2 + n + 4 * m);
+        [four_from(simd, x, eta_at), four_from(simd, x, rate_at)]
     }
 
     /// Floor values `Φ η` of coordinates `η`.
