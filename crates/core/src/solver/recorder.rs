@@ -81,8 +81,7 @@ impl Recorder {
     /// Stores a knot; `row` if it is also a row of the sampled history.
     #[inline]
     pub(super) fn store(&mut self, system: &System, knot: &Stored<'_>, row: bool) {
-        let (n, modes) = (system.storeys, system.modes());
-        let (h, slope, x) = (&mut self.history, self.slope_m_per_s2, knot.state);
+        let h = &mut self.history;
         if row {
             h.rows.push(h.time_s.len());
         }
@@ -92,42 +91,88 @@ impl Recorder {
             h.contact.push(knot.contact);
         }
         h.table_acceleration_m_per_s2.push(knot.table);
+        self.store_motion(system, knot.state, [knot.block, knot.friction_n], knot.f);
+    }
+
+    /// Stores times and table accelerations of samples in one mode, each a row, before their motion.
+    #[inline]
+    pub(super) fn store_samples(
+        &mut self,
+        [times_s, table]: [&[f64]; 2],
+        mode: Mode,
+        contact: Contact,
+    ) {
+        let h = &mut self.history;
+        let (first, end) = (h.time_s.len(), h.time_s.len() + times_s.len());
+        for row in first..end {
+            h.rows.push(row);
+        }
+        h.time_s.extend_from_slice(times_s);
+        h.mode.resize(end, mode);
+        if self.stop {
+            h.contact.resize(end, contact);
+        }
+        h.table_acceleration_m_per_s2.extend_from_slice(table);
+    }
+
+    #[inline(always)]
+    fn store_motion(
+        &mut self,
+        system: &System,
+        x: &[f64],
+        [block, friction_n]: [f64; 2],
+        f: &[f64],
+    ) {
+        let (n, modes) = (system.storeys, system.modes());
+        let (h, slope) = (&mut self.history, self.slope_m_per_s2);
         h.sliding_displacement_m.push(x[0]);
         h.sliding_velocity_m_per_s.push(x[1]);
-        h.block_acceleration_m_per_s2.push(knot.block);
-        h.friction_force_n.push(knot.friction_n);
-        if n == 0 {
-            return;
-        }
+        h.block_acceleration_m_per_s2.push(block);
+        h.friction_force_n.push(friction_n);
         let (eta, rate) = (&x[2..2 + modes], &x[2 + modes..2 + 2 * modes]);
         for i in 0..n {
             let shape = system.floor(i);
             h.storey_displacement_m.push(dot(shape, eta));
             h.storey_velocity_m_per_s.push(dot(shape, rate));
-            h.storey_acceleration_m_per_s2.push(-dot(shape, knot.f) - slope);
+            h.storey_acceleration_m_per_s2.push(-dot(shape, f) - slope);
         }
     }
 
     /// A knot; `row` if it is also a row of the sampled history.
     #[inline]
     pub(super) fn knot(&mut self, system: &System, knot: &Knot<'_>, row: bool) {
-        let (modes, x) = (system.modes(), knot.state);
         let mut f = core::mem::take(&mut self.f);
-        system.restoring(&x[2..2 + modes], &x[2 + modes..2 + 2 * modes], &mut f);
-        let shear_n = dot(&system.participation, &f);
-        let (block, friction_n) = match knot.mode {
-            Mode::Stick => {
-                let inertia = system.block_mass_kg * knot.acceleration;
-                (knot.table, (inertia + knot.force_n) - shear_n)
-            }
-            Mode::Slip(_) => {
-                let u = system.block_acceleration(x[0], x[1], shear_n, knot.force_n);
-                (u - self.slope_m_per_s2, knot.friction_n)
-            }
-        };
+        let [block, friction_n] = self.forces(system, knot, &mut f);
         let Knot { time_s, mode, contact, table, state, .. } = *knot;
         let stored = Stored { time_s, mode, contact, table, state, block, friction_n, f: &f };
         self.store(system, &stored, row);
         self.f = f;
+    }
+
+    /// The motion at a knot whose time has been stored with those of other samples.
+    #[inline(always)]
+    pub(super) fn motion(&mut self, system: &System, knot: &Knot<'_>) {
+        let mut f = core::mem::take(&mut self.f);
+        let forces = self.forces(system, knot, &mut f);
+        self.store_motion(system, knot.state, forces, &f);
+        self.f = f;
+    }
+
+    /// Acceleration of the block and friction force at a knot; leaves `D η̇ + Ω η` in `f`.
+    #[inline(always)]
+    fn forces(&self, system: &System, knot: &Knot<'_>, f: &mut [f64]) -> [f64; 2] {
+        let (modes, x) = (system.modes(), knot.state);
+        system.restoring(&x[2..2 + modes], &x[2 + modes..2 + 2 * modes], f);
+        let shear_n = dot(&system.participation, f);
+        match knot.mode {
+            Mode::Stick => {
+                let inertia = system.block_mass_kg * knot.acceleration;
+                [knot.table, (inertia + knot.force_n) - shear_n]
+            }
+            Mode::Slip(_) => {
+                let u = system.block_acceleration(x[0], x[1], shear_n, knot.force_n);
+                [u - self.slope_m_per_s2, knot.friction_n]
+            }
+        }
     }
 }

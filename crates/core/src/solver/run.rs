@@ -146,6 +146,21 @@ impl InForce<'_> {
             Some(fading) => self.friction * normal_n + fading.at(w),
         }
     }
+
+    /// Friction force in slip, and the force that a [`Knot`] names, from what holds in stick.
+    #[inline(always)]
+    pub(super) fn forces(&self, hold: &Hold, normal_n: f64, x: &[f64]) -> [f64; 2] {
+        let mut friction_n = self.friction_n(normal_n, x[1]);
+        let force_n = match self.mode {
+            Mode::Stick => hold.force_n,
+            Mode::Slip(_) => friction_n - self.stop,
+        };
+        if self.phase.of_friction != Restraint::default() {
+            let Restraint { stiffness_n_per_m: k, damper_n_s_per_m: c } = self.phase.of_friction;
+            friction_n -= k * x[0] + c * x[1];
+        }
+        [friction_n, force_n]
+    }
 }
 
 /// An analysis under way.
@@ -494,24 +509,14 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         [table, acceleration, normal]: [f64; 3],
         row: bool,
     ) {
-        let (InForce { mode, phase, stop, .. }, contact) = (self.now, self.slider.memory.contact);
-        let mut friction_n = self.now.friction_n(normal, x[1]);
-        let force_n = match mode {
-            Mode::Stick => self.hold.force_n,
-            Mode::Slip(_) => friction_n - stop,
-        };
-        if phase.of_friction != Restraint::default() {
-            let Restraint { stiffness_n_per_m: k, damper_n_s_per_m: c } = phase.of_friction;
-            friction_n -= k * x[0] + c * x[1];
-        }
+        let (InForce { mode, phase, .. }, contact) = (self.now, self.slider.memory.contact);
+        let [friction_n, force_n] = self.now.forces(&self.hold, normal, x);
         let knot =
             Knot { time_s, mode, contact, table, acceleration, state: x, friction_n, force_n };
         if let Some(recorder) = &mut self.recorder {
             recorder.knot(&phase.system, &knot, row);
-            if self.slider.law.series.is_some() {
-                let now = self.slider.law.surfaces(&self.slider.memory, x[0]);
-                recorder.history.surface_displacement_m.extend(now);
-            }
+            let surfaces = self.slider.law.surfaces(&self.slider.memory, x[0]);
+            recorder.history.surface_displacement_m.extend(surfaces);
         }
     }
 

@@ -11,7 +11,8 @@ use fearless_simd::prelude::*;
 use super::ground::{Normal, largest_size};
 use super::outputs::output;
 use super::peaks::Extent;
-use super::run::{Curvature, Run};
+use super::recorder::Knot;
+use super::run::{Curvature, InForce, Run};
 use super::tables::{Batch, Phase};
 use crate::friction::Direction;
 use crate::linear::lanes::{Eight, Width, eight, greatest, least};
@@ -393,23 +394,32 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         force: Force<'_>,
     ) {
         let Some(recorder) = &mut self.recorder else { return };
+        let (InForce { mode, phase, .. }, contact) = (self.now, self.slider.memory.contact);
+        let samples = sample..sample + steps;
+        let (times_s, table) = (&self.ground.times_s[samples.clone()], &self.ground.table[samples]);
+        recorder.store_samples([times_s, table], mode, contact);
+        let stride = 4 * self.width.fours();
         let mut x = core::mem::take(&mut recorder.state);
         x.clone_from(&self.x);
         for k in 0..steps {
             if k > 0 {
-                batch.maps.after(self.simd, k, &self.x, a, force, &mut x);
-                if self.mode == Mode::Stick {
+                batch.maps.after(self.simd, k, &self.x[..stride], a, force, &mut x[..stride]);
+                if mode == Mode::Stick {
                     (x[0], x[1]) = (self.x[0], 0.0);
                 }
             }
-            let (time_s, normal) =
-                (self.ground.times_s[sample + k], self.ground.normal_at(sample + k).max(0.0));
-            let table = self.ground.table[sample + k];
-            self.record_knot(time_s, &x, [table, a[k], normal], true);
+            let normal = self.ground.normal_at(sample + k).max(0.0);
+            let [friction_n, force_n] = self.now.forces(&self.hold, normal, &x);
+            let (time_s, table, acceleration, state) = (times_s[k], table[k], a[k], &x[..stride]);
+            let knot =
+                Knot { time_s, mode, contact, table, acceleration, state, friction_n, force_n };
+            recorder.motion(&phase.system, &knot);
+            if self.slider.law.series.is_some() {
+                let surfaces = self.slider.law.surfaces(&self.slider.memory, x[0]);
+                recorder.history.surface_displacement_m.extend(surfaces);
+            }
         }
-        if let Some(recorder) = &mut self.recorder {
-            recorder.state = x;
-        }
+        recorder.state = x;
     }
 }
 
