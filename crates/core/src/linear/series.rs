@@ -335,12 +335,17 @@ impl Series {
     /// The coefficients of a padded row times the state.
     #[inline(always)]
     #[must_use]
-    pub fn row<W: Width>(&self, width: W, row: &[f64]) -> Polynomial {
+    pub fn row<S: Simd, W: Width>(&self, simd: S, width: W, row: &[f64]) -> Polynomial {
         let stride = 4 * width.fours();
-        let row = &row[..stride];
+        let (row, _) = row[..stride].as_chunks::<4>();
         let mut p = ZERO;
-        for (p, c) in p.iter_mut().zip(self.c.chunks_exact(stride)).take(self.used + 1) {
-            *p = dot(row, c);
+        for k in 0..=self.used {
+            let (c, _) = self.c[k * stride..][..stride].as_chunks::<4>();
+            let mut sum = four(simd, 0.0);
+            for i in 0..row.len() {
+                sum += f64x4::load_array_ref(simd, &row[i]) * f64x4::load_array_ref(simd, &c[i]);
+            }
+            p[k] = sum_of_lanes(sum);
         }
         p
     }

@@ -124,7 +124,7 @@ impl Solution {
                     maps[(part * fours + i) * count + place] = Four(after[i]);
                 }
             }
-            let c = self.number_of(system, &series, &load);
+            let c = self.number_of(simd, system, &series, &load);
             for k in 0..=orders {
                 number[k / 4 * count + place].0[k % 4] = c[k];
             }
@@ -134,8 +134,14 @@ impl Solution {
 
     /// Coefficients of the number from those of the state.
     #[inline(always)]
-    fn number_of(&self, system: &System, series: &Series, load: &Load) -> Polynomial {
-        let mut c = series.row(Many(system.modes()), &self.row);
+    fn number_of<S: Simd>(
+        &self,
+        simd: S,
+        system: &System,
+        series: &Series,
+        load: &Load,
+    ) -> Polynomial {
+        let mut c = series.row(simd, Many(system.modes()), &self.row);
         let [of_a, of_force] = self.of_loads;
         c[0] += of_a * load.acceleration + of_force * load.force;
         c[1] += of_a * load.acceleration_change + of_force * load.force_change;
@@ -165,7 +171,7 @@ impl Solution {
     ) -> Polynomial {
         let Some(parts) = &self.parts else {
             self.expand(simd, system, x, load, series);
-            return self.number_of(system, series, load);
+            return self.number_of(simd, system, series, load);
         };
         let mut c = ZERO;
         let count = (self.orders + 1).next_multiple_of(4);

@@ -456,8 +456,8 @@ pub(super) fn of_sliding(
 /// The series of an output from that of the state; the load's force contains no constant force of a
 /// stop but what `stop` says in the output's own way.
 #[inline(always)]
-pub(super) fn output_series<W: Width>(
-    width: W,
+pub(super) fn output_series<S: Simd, W: Width>(
+    (simd, width): (S, W),
     phase: &Phase,
     j: usize,
     series: &Series,
@@ -465,7 +465,7 @@ pub(super) fn output_series<W: Width>(
     stop: f64,
 ) -> Polynomial {
     let row = &phase.outputs.rows[j];
-    let mut p = series.row(width, &row.state);
+    let mut p = series.row(simd, width, &row.state);
     p[0] += (row.of_a * load.acceleration + row.of_friction * load.force)
         + (row.of_stop * stop + row.constant);
     p[1] += row.of_a * load.acceleration_change + row.of_friction * load.force_change;

@@ -199,7 +199,14 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             if self.peaks.above[g].0[lane] <= self.peaks.peak[g].0[lane] {
                 continue;
             }
-            let mut p = output_series(self.width, phase, j, &self.series, &load, self.now.stop);
+            let mut p = output_series(
+                (self.simd, self.width),
+                phase,
+                j,
+                &self.series,
+                &load,
+                self.now.stop,
+            );
             for (p, fade) in p.iter_mut().zip(&self.series.fade) {
                 *p += phase.outputs.rows[j].of_friction * fade;
             }

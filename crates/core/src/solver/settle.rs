@@ -354,7 +354,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                     if unit + 1 == units {
                         place.bound = 0.0;
                     }
-                    let p = output_series(self.width, phase, j, &self.series, &load, stop);
+                    let p =
+                        output_series((self.simd, self.width), phase, j, &self.series, &load, stop);
                     self.peaks.raise(j, &p, segment.part);
                 }
             }
@@ -381,7 +382,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let load = self.expand_candidate(i, phase, (&stretch, segment), &x);
         for j in 0..self.peaks.outputs {
             if self.peaks.asks(i, j) {
-                let p = output_series(self.width, phase, j, &self.series, &load, stop);
+                let p = output_series((self.simd, self.width), phase, j, &self.series, &load, stop);
                 self.peaks.raise(j, &p, segment.part);
             }
         }
