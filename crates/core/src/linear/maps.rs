@@ -167,6 +167,16 @@ impl Units {
         self.powers[k * size..][..size].chunks_exact(self.stride)
     }
 
+    /// What the samples of a batch leave after the `k + 1`-th of them, those to come nothing.
+    fn taps_of<'a>(
+        &'a self,
+        input: usize,
+        k: usize,
+        zero: &'a [f64],
+    ) -> impl Iterator<Item = &'a [f64]> + Clone {
+        (0..BATCH).map(move |m| if m <= k { self.state(&self.taps[input], k - m) } else { zero })
+    }
+
     /// The maps of whole states.
     #[must_use]
     pub fn maps(&self, system: &System, slip: bool) -> Maps {
@@ -175,16 +185,13 @@ impl Units {
             return self.maps_of_modes(n);
         }
         let zero = vec![0.0; self.stride];
-        let tap = |input: usize, k: usize, m: usize| {
-            if m <= k { self.state(&self.taps[input], k - m) } else { &zero }
-        };
         let columns = core::array::from_fn(|k| {
             let loads = [self.state(&self.constant, k), self.state(&self.first[0], k)];
-            let taps = (0..BATCH).map(|m| tap(0, k, m));
+            let taps = self.taps_of(0, k, &zero);
             by_fours(self.stride, loads.into_iter().chain(taps).chain(self.power(k)))
         });
         let force_columns = core::array::from_fn(|k| {
-            let taps = (0..BATCH).map(|m| tap(1, k, m));
+            let taps = self.taps_of(1, k, &zero);
             by_fours(self.stride, core::iter::once(self.state(&self.first[1], k)).chain(taps))
         });
         let quiet = if slip { Vec::new() } else { self.quiet(None) };
@@ -198,8 +205,7 @@ impl Units {
         let columns = core::array::from_fn(|k| {
             let of_state = modes_apart(&self.powers[k * size..][..size], n, self.stride);
             let first = core::iter::once(self.state(&self.first[0], k));
-            let taps =
-                (0..BATCH).map(|m| if m <= k { self.state(&self.taps[0], k - m) } else { &zero });
+            let taps = self.taps_of(0, k, &zero);
             by_fours(self.stride, first.chain(taps).chain(of_state.iter().map(Vec::as_slice)))
         });
         let force_columns = [const { Vec::new() }; BATCH];

@@ -36,6 +36,16 @@ impl Load {
             _ => [0.0; 2],
         }
     }
+
+    /// The first two coefficients of `of_a a + of_force force`; it has no others.
+    #[inline(always)]
+    #[must_use]
+    pub fn times(&self, [of_a, of_force]: [f64; 2]) -> [f64; 2] {
+        [
+            of_a * self.acceleration + of_force * self.force,
+            of_a * self.acceleration_change + of_force * self.force_change,
+        ]
+    }
 }
 
 /// Taylor coefficients of a state over an interval, in time over the interval's length.

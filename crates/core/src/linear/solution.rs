@@ -142,9 +142,9 @@ impl Solution {
         load: &Load,
     ) -> Polynomial {
         let mut c = series.row(simd, Many(system.modes()), &self.row);
-        let [of_a, of_force] = self.of_loads;
-        c[0] += of_a * load.acceleration + of_force * load.force;
-        c[1] += of_a * load.acceleration_change + of_force * load.force_change;
+        let [constant, change] = load.times(self.of_loads);
+        c[0] += constant;
+        c[1] += change;
         c
     }
 

@@ -466,9 +466,9 @@ pub(super) fn output_series<S: Simd, W: Width>(
 ) -> Polynomial {
     let row = &phase.outputs.rows[j];
     let mut p = series.row(simd, width, &row.state);
-    p[0] += (row.of_a * load.acceleration + row.of_friction * load.force)
-        + (row.of_stop * stop + row.constant);
-    p[1] += row.of_a * load.acceleration_change + row.of_friction * load.force_change;
+    let [constant, change] = load.times([row.of_a, row.of_friction]);
+    p[0] += constant + (row.of_stop * stop + row.constant);
+    p[1] += change;
     p
 }
 

@@ -183,7 +183,7 @@ pub(super) struct Run<'a, S, W> {
     /// Outputs in `x`, where they are known.
     pub(super) values: Vec<Eight>,
     pub(super) series: Series,
-    /// In stick the structure's, in slip the energy norm of the state at most.
+    /// Amplitudes of the structure in stick.
     pub(super) amplitudes: Vec<f64>,
     /// Room for two lists of storey coordinates.
     pub(super) spare: [Vec<f64>; 2],

@@ -268,13 +268,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             return phase.outputs.of_amplitudes(simd, g, departures);
         }
         let force = [force.at(k), (force.at(k + 1) - force.at(k)) * batch.per_dt];
-        let second = if self.width.modes() == 1 {
-            let (mut f, mut eta2) = ([0.0], [0.0]);
-            system.derivative_norms(simd, phase.slip, x, load, force, [&mut f, &mut eta2])[1]
-        } else {
-            let [f, eta2] = &mut self.spare;
-            system.derivative_norms(simd, phase.slip, x, load, force, [f, eta2])[1]
-        };
+        let how = (simd, self.width);
+        let [_, second] = Self::derivative_norms(how, phase, x, [load, force], &mut self.spare);
         phase.outputs.groups[g].norm.load(simd) * eight(simd, second * batch.growth * near)
     }
 
