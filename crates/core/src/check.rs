@@ -20,10 +20,11 @@ mod structure;
 
 use self::judge::Judge;
 use self::structure::{Phase, Structure};
-use crate::error::{GoOn, Pulse, Stopped, UNWATCHED};
+use crate::error::Stopped;
 use crate::friction::Direction;
 use crate::model::{Model, Stop, StopKind};
 use crate::motion::GroundMotion;
+use crate::progress::{GoOn, Pulse, UNWATCHED};
 use crate::response::{History, Response};
 
 /// Radians beyond which the phase of the fastest mode says nothing: every interval is divided into

@@ -1,7 +1,5 @@
 //! What can go wrong, one enum a kind of failure.
 
-use core::ops::ControlFlow;
-
 /// A number that a model cannot have.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ModelError {
@@ -222,52 +220,6 @@ pub enum RunError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("stopped before the end")]
 pub struct Stopped;
-
-/// Asked every few milliseconds of one long piece of work whether to go on; once it says no it is not
-/// asked again.
-pub type GoOn<'a> = &'a dyn Fn() -> ControlFlow<()>;
-
-/// Asks whether to go on after so much work.
-pub(crate) struct Pulse<'a> {
-    go_on: GoOn<'a>,
-    /// Units of work until it asks again.
-    left: u32,
-    stopped: bool,
-}
-
-/// Work that nothing stops.
-pub(crate) const UNWATCHED: GoOn<'static> = &|| ControlFlow::Continue(());
-
-impl<'a> Pulse<'a> {
-    /// Units of work between two questions; a unit is some ten nanoseconds.
-    const UNITS: u32 = 1 << 18;
-
-    /// Asks for the first time with the first work.
-    pub(crate) fn new(go_on: GoOn<'a>) -> Self {
-        Self { go_on, left: 0, stopped: false }
-    }
-
-    /// So many units are done.
-    #[inline(always)]
-    pub(crate) fn beat(&mut self, units: u32) -> Result<(), Stopped> {
-        if units < self.left {
-            self.left -= units;
-            return Ok(());
-        }
-        self.ask()
-    }
-
-    #[cold]
-    fn ask(&mut self) -> Result<(), Stopped> {
-        self.stopped = self.stopped || (self.go_on)().is_break();
-        if self.stopped {
-            self.left = 0;
-            return Err(Stopped);
-        }
-        self.left = Self::UNITS;
-        Ok(())
-    }
-}
 
 /// A choice that cannot be: which, what was expected, what was found.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -24,6 +24,7 @@ pub mod linear;
 pub mod model;
 pub mod motion;
 pub mod numerics;
+pub mod progress;
 pub mod record;
 pub mod response;
 pub mod solver;

@@ -16,9 +16,10 @@ mod summary;
 mod tables;
 mod workspace;
 
-use crate::error::{GoOn, SolveError, UNWATCHED};
+use crate::error::SolveError;
 use crate::model::Model;
 use crate::motion::GroundMotion;
+use crate::progress::{GoOn, UNWATCHED};
 use crate::response::{Method, Response};
 
 pub use event::EVENTS_PER_INTERVAL_LIMIT;

@@ -16,10 +16,11 @@ use super::judge::{STILL, between};
 use super::law::Dips;
 use super::structure::{Phase, Structure, excess, larger};
 use super::{Certificate, ClosestCall};
-use crate::error::{Pulse, Stopped};
+use crate::error::Stopped;
 use crate::friction::Direction;
 use crate::model::{Contents, Model};
 use crate::motion::GroundMotion;
+use crate::progress::Pulse;
 use crate::response::{Contact, History, Mode, Response};
 
 /// Largest rate times step.

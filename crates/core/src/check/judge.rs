@@ -11,10 +11,11 @@ use super::law::{Dips, Law};
 use super::step::{Look, Spread};
 use super::structure::{Phase, Structure, excess, larger};
 use super::{Certificate, ClosestCall};
-use crate::error::{Pulse, Stopped, UNWATCHED};
+use crate::error::Stopped;
 use crate::friction::Direction;
 use crate::model::Model;
 use crate::motion::GroundMotion;
+use crate::progress::{Pulse, UNWATCHED};
 use crate::response::{Contact, History, Mode, Response};
 
 /// A sliding velocity below this part of its peak has no sign: the depth of a dip through zero that

@@ -10,7 +10,8 @@ use fearless_simd::{Level, dispatch, f64x8};
 use super::collocation::{MOST_PASSES, NODES, POINTS, Rule};
 use super::demands::{Outputs, Peaks, output, raise};
 use super::structure::{Phase, StoreyDamping, Structure, larger as greatest};
-use crate::error::{Pulse, Stopped};
+use crate::error::Stopped;
+use crate::progress::Pulse;
 use crate::response::{History, Mode};
 
 /// Knots or intervals side by side.

@@ -11,12 +11,13 @@ use super::run::{Outcome, Run, Sliding};
 use super::tables::{self, Tables};
 use super::workspace::Workspace;
 use super::{stepping, summary};
-use crate::error::{GoOn, Pulse, SolveError, UNWATCHED};
+use crate::error::SolveError;
 use crate::friction::Law;
 use crate::linear::lanes::{Many, One, Width};
 use crate::model::{Model, Stop, StopKind};
 use crate::motion::GroundMotion;
 use crate::numerics::fractile::upper_median;
+use crate::progress::{GoOn, Pulse, UNWATCHED};
 use crate::response::{Method, Response, StopDemands};
 
 /// Most work of an analysis: radians that the fastest mode turns, times the square of the number of

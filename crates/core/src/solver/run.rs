@@ -16,10 +16,11 @@ use super::recorder::{Knot, Recorder};
 use super::slider::{Slider, Start};
 use super::tables::{Batch, Phase, Tables};
 use super::workspace::Workspace;
-use crate::error::{Pulse, SolveError};
+use crate::error::SolveError;
 use crate::friction::{Affine, Contact, Direction, EXITS, Exit, Fading, Hold, Law, Restraint};
 use crate::linear::lanes::{Eight, Width, combine8, dot, eight};
 use crate::linear::{BATCH, Force, Series};
+use crate::progress::Pulse;
 use crate::response::{Event, EventKind, Mode, StopDemands, SurfaceDemands};
 
 /// Extremes, path and duration of sliding; `s` is monotone between two events.

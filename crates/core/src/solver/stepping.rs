@@ -16,10 +16,11 @@ use super::ground::{Ground, Stretch};
 use super::run::{Outcome, Sliding};
 use super::slider::{Slider, Start};
 use super::tables::system_of;
-use crate::error::{GoOn, Pulse, SolveError};
+use crate::error::SolveError;
 use crate::friction::{Coefficient, Direction, Exit, Hold, Law, Reached, Restraint, SlipForce};
 use crate::linear::polynomial::{DEGREE, Polynomial, deflated, first_root, value};
 use crate::model::Model;
+use crate::progress::{GoOn, Pulse};
 use crate::response::{
     Contact, ContentsDemands, Event, EventKind, History, Mode, StopDemands, Warning,
 };

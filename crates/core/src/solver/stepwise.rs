@@ -10,12 +10,13 @@ use super::run::{Outcome, Sliding};
 use super::slider::Stopping;
 use super::summary;
 use super::tables::system_of;
-use crate::error::{GoOn, Pulse, SolveError};
+use crate::error::SolveError;
 use crate::friction::{Contact, Direction, Law, Restraint};
 use crate::linear::System;
 use crate::linear::lanes::{dot, greatest};
 use crate::model::Model;
 use crate::motion::GroundMotion;
+use crate::progress::{GoOn, Pulse};
 use crate::response::{Event, EventKind, Iterations, Method, Mode, Response};
 
 /// Largest change of an acceleration in the last iteration, `δ` of eqs (17), (18), in m/s².
