@@ -106,6 +106,22 @@ pub struct EnergyHistory {
 /// No history, or one that cannot be judged (lists of different lengths, times that run backwards, do not
 /// start at 0 or end before the motion, values that are not finite where steps depend on them)
 /// gets infinite figures.
+///
+/// # Examples
+/// ```
+/// use slipstick::check::check;
+/// use slipstick::{model::Model, motion::GroundMotion, solver};
+///
+/// let model = Model::builder().block("124 kg").friction(0.2, 0.15).build()?;
+/// let motion = GroundMotion::new(vec![0.0, 0.5, 0.5, 1.5], vec![4.0, 4.0, 0.0, 0.0], None)?;
+/// let mut response = solver::exact(&model, &motion)?;
+/// assert!(check(&model, &motion, &response).holds());
+///
+/// // A millionth more than what came out is found.
+/// response.demands.peak_sliding_displacement_m *= 1.0 + 1e-6;
+/// assert!(!check(&model, &motion, &response).holds());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn check(model: &Model, motion: &GroundMotion, response: &Response) -> Certificate {
     // Nothing stops it.

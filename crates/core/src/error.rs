@@ -31,6 +31,14 @@ pub enum ModelError {
         /// What it takes.
         expected: &'static str,
     },
+    /// Text that is no such quantity.
+    #[error("{quantity}: {error}")]
+    Quantity {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// What was expected and found.
+        error: UnitError,
+    },
 }
 
 /// A channel that a format of records cannot hold.

@@ -1,7 +1,9 @@
 //! Masses, springs, dampers, storeys: inert, checked data without an algorithm.
 
+mod builder;
 mod devices;
 
+pub use builder::ModelBuilder;
 pub use devices::{Contents, Devices};
 
 use crate::error::ModelError;
@@ -153,6 +155,9 @@ impl InitialState {
 }
 
 /// A checked model: block, slider, structure, gravity and initial state.
+///
+/// [`Model::builder`] takes quantities with units, [`Model::new`] numbers in SI, and
+/// [`input::parse`](crate::input::parse) the text of a model file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     block: Block,
@@ -279,6 +284,16 @@ impl Model {
     ///
     /// # Errors
     /// As [`Model::new`].
+    ///
+    /// # Examples
+    /// ```
+    /// use slipstick::friction::Friction;
+    /// use slipstick::model::Model;
+    ///
+    /// let model = Model::rigid_block(124.0, Friction::new(0.2, 0.15)?)?;
+    /// assert_eq!(model.weight_n(), 124.0 * 9.80665);
+    /// # Ok::<(), slipstick::error::ModelError>(())
+    /// ```
     pub fn rigid_block(mass_kg: f64, friction: Friction) -> Result<Self, ModelError> {
         Self::new(
             Block { mass_kg, width_m: None, height_m: None },

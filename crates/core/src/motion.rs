@@ -37,6 +37,21 @@ const SHORTEST_USUAL_S: f64 = 1e-3;
 /// Times start at 0 and do not decrease; a time that stands twice is a jump (left limit, then right
 /// limit). Before the first sample the table is at rest: a first sample other than 0 is a jump at
 /// t = 0. After the last sample both accelerations are 0.
+///
+/// # Examples
+/// ```
+/// use slipstick::motion::GroundMotion;
+///
+/// // A pulse of 3 m/s² for half a second: 0.5 s stands twice, for the jump at its end.
+/// let motion = GroundMotion::new(vec![0.0, 0.5, 0.5, 2.0], vec![3.0, 3.0, 0.0, 0.0], None)?;
+/// assert_eq!(motion.figures().pga_m_per_s2, 3.0);
+///
+/// let scaled = GroundMotion::evenly_spaced(0.01, vec![0.0, 1.0, -2.0, 0.5], None)?
+///     .scaled_to_peak(4.0)?
+///     .with_tail(5.0)?;
+/// assert_eq!(scaled.horizontal_m_per_s2()[..4], [0.0, 2.0, -4.0, 1.0]);
+/// # Ok::<(), slipstick::error::MotionError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroundMotion {
     times_s: Vec<f64>,

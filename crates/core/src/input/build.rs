@@ -442,6 +442,9 @@ fn model_error(values: &Values, error: &ModelError) -> InputError {
         ModelError::WrongCount { quantity, expected, found } => {
             (*quantity, format!("{expected} values, one a storey"), found.to_string())
         }
+        ModelError::Quantity { quantity, error } => {
+            (*quantity, error.expected.clone(), error.found.clone())
+        }
     };
     let paths = KEYS
         .iter()
