@@ -116,15 +116,18 @@ fn lists(response: &Response, units: Units) -> Vec<(&'static str, &[f64], f64)> 
 
 /// The first number of `b` that is not that of `a` times its unit.
 ///
-/// Impacts below 1 mm/s are neither counted nor listed: in other units others are.
+/// An impact below 1 mm/s is neither counted nor listed, nor the turn before it: where velocities have
+/// other units, those of a rigid stop are left out.
 fn first_other_bit(a: &Response, b: &Response, units: Units) -> Option<String> {
-    let any_speed = units.velocity() == 1.0;
+    let bounces = |event: &Event| matches!(event.kind, EventKind::Impact | EventKind::Rest);
+    let any_speed = units.velocity() == 1.0 || !a.events.iter().any(bounces);
     let differs = |what: &str, x: f64, y: f64, factor: f64| {
         let same = x * factor == y || (x.is_nan() && y.is_nan());
         (!same).then(|| format!("{what}: {x:e} × {factor:e} became {y:e}"))
     };
     let told = |response: &Response| -> Vec<Event> {
-        let listed = |event: &&Event| any_speed || event.kind != EventKind::Impact;
+        let left_out = |event: &&Event| matches!(event.kind, EventKind::Impact | EventKind::Reversal);
+        let listed = |event: &&Event| any_speed || !left_out(event);
         response.events.iter().filter(listed).copied().collect()
     };
     let (told_a, told_b) = (told(a), told(b));
@@ -148,7 +151,7 @@ fn first_other_bit(a: &Response, b: &Response, units: Units) -> Option<String> {
     }
     for column in a.demands.shape().columns() {
         let name = column.name();
-        if any_speed || name != "stop.impact_count" {
+        if any_speed || !["stop.impact_count", "reversal_count"].contains(&name.as_str()) {
             let [x, y] = [a, b].map(|r| column.value(&r.demands).unwrap_or(f64::NAN));
             if let Some(found) = differs(&name, x, y, units.of(&column)) {
                 return Some(found);
@@ -158,10 +161,12 @@ fn first_other_bit(a: &Response, b: &Response, units: Units) -> Option<String> {
     None
 }
 
-/// The first figure of a certificate that is not the same.
+/// The first figure of a certificate that is not the same; impacts below 1 mm/s are no close calls.
 fn other_certificate(a: &Certificate, b: &Certificate, units: Units) -> Option<String> {
+    let [x, y] = [a, b].map(|c| c.closest_call.map(|call| call.kind));
+    let of_impact = units.velocity() != 1.0 && [x, y].contains(&Some("impact"));
     let figures = |c: &Certificate| {
-        let call = c.closest_call;
+        let call = c.closest_call.filter(|_| !of_impact);
         [
             ("bound", c.bound),
             ("equilibrium residual", c.equilibrium_residual),
