@@ -13,6 +13,7 @@ mod common;
 use std::ops::Range;
 
 use common::random::Random;
+use common::sensible::{self, system};
 use common::sketch::Sketch;
 use slipstick::check::{Certificate, check};
 use slipstick::error::SolveError;
@@ -26,26 +27,11 @@ use slipstick::units::Dimension;
 const TOLERANCE: f64 = 1e-9;
 /// Relative change of the input that must move a well-determined figure by less.
 const PERTURBATION: f64 = 1e-12;
-/// Systems of a test; the long run has as many as are asked for.
+/// Systems of a test; the long run has as many as `SLIPSTICK_SEEDS=0..5000` asks for.
 const SYSTEMS: u64 = 200;
 
-/// The seeds of a test: `SLIPSTICK_SEEDS=0..5000` takes others.
 fn seeds() -> Range<u64> {
-    let given = std::env::var("SLIPSTICK_SEEDS").unwrap_or_default();
-    let range = given.split_once("..");
-    let range = range.and_then(|(from, to)| Some(from.parse().ok()?..to.parse().ok()?));
-    range.unwrap_or(0..SYSTEMS)
-}
-
-/// The system of a seed.
-fn system(seed: u64) -> Sketch {
-    let random = &mut Random::new(3_000_017 + seed);
-    if seed % 2 == 0 {
-        return Sketch::sensible(random);
-    }
-    let mut x = Sketch::shaken(random);
-    x.equip(random);
-    x
+    sensible::seeds(0..SYSTEMS)
 }
 
 fn solve(x: &Sketch) -> Result<Response, SolveError> {

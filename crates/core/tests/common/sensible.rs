@@ -1,6 +1,7 @@
 //! What an engineer would write: machines, tanks, buildings and mock-ups on sliders under earthquakes,
 //! sines, sweeps and pulses, with the devices that such things have, in round numbers.
 
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use slipstick::friction::{RateCurve, Series, Surface};
@@ -56,6 +57,26 @@ impl Sketch {
         x.vertical = motion.vertical_m_per_s2().map(<[f64]>::to_vec);
         x
     }
+}
+
+/// The system of a seed: every other one is what an engineer would write, the rest anything with any
+/// devices under a few samples.
+pub fn system(seed: u64) -> Sketch {
+    let random = &mut Random::new(3_000_017 + seed);
+    if seed % 2 == 0 {
+        return Sketch::sensible(random);
+    }
+    let mut x = Sketch::shaken(random);
+    x.equip(random);
+    x
+}
+
+/// The seeds that `SLIPSTICK_SEEDS=0..5000` asks for, else others.
+pub fn seeds(others: Range<u64>) -> Range<u64> {
+    let given = std::env::var("SLIPSTICK_SEEDS").unwrap_or_default();
+    let range = given.split_once("..");
+    let range = range.and_then(|(from, to)| Some(from.parse().ok()?..to.parse().ok()?));
+    range.unwrap_or(others)
 }
 
 /// Friction of a sliding material.
@@ -226,7 +247,9 @@ fn stop(random: &mut Random, x: &mut Sketch, gaps_m: [f64; 2]) {
 
 fn contents(random: &mut Random, x: &mut Sketch) {
     for _ in 0..random.of(&[1, 1, 1, 2, 3]) {
-        let kinetic_friction = random.written(0.1, 0.6);
+        // Perhaps of the material of the slider.
+        let own = x.kinetic_friction[0];
+        let kinetic_friction = if random.chance(0.2) { own } else { random.written(0.05, 0.6) };
         let over = random.of(&[1.0, 1.1, 1.25]);
         x.devices.contents.push(Contents {
             floor: random.integer(0, x.masses.len() as i64) as usize,
@@ -239,7 +262,7 @@ fn contents(random: &mut Random, x: &mut Sketch) {
 
 /// An earthquake, or what a shaking table is told.
 fn motion(random: &mut Random) -> GroundMotion {
-    let amplitude_m_per_s2 = random.even(0.5, 6.0);
+    let amplitude_m_per_s2 = if random.chance(0.03) { 0.0 } else { random.even(0.5, 6.0) };
     let duration_s = random.even(2.0, 10.0);
     let ramp_s = random.of(&[0.0, 0.0, 1.0]);
     let decay_s = random.of(&[0.0, 1.0]);
@@ -290,6 +313,11 @@ fn recorded(random: &mut Random) -> GroundMotion {
     }
     // Near a fault the vertical one may lift what stands on the ground.
     let part = random.of(&[0.4, 0.67, 0.67, 1.0, 2.0]);
+    if random.chance(0.05) {
+        // Its file is empty.
+        let flat = motion(vec![0.0; count]);
+        return horizontal.with_vertical(&flat, 1.0).expect("a motion").0;
+    }
     let up = motion(up).scaled_to_peak(part * peak).expect("a motion");
     horizontal.with_vertical(&up, 1.0).expect("a motion").0
 }
