@@ -5,7 +5,7 @@ use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
-use slipstick::error::{InputError, visible};
+use slipstick::error::{InputError, is_hidden, visible};
 use slipstick_files::{FileError, JobError, LaboratoryError, StudyError};
 
 /// Bad input, or an output that nobody reads any more.
@@ -119,12 +119,20 @@ impl Failure {
     }
 }
 
-/// Text to standard output, ended by a line feed.
+/// Text to standard output, ended by a line feed. What would steer the terminal is written as JSON and TOML
+/// write it in texts, `\u001b`.
 pub fn print(text: &str) -> Result<(), Failure> {
+    let mut shown = String::with_capacity(text.len() + 1);
+    for character in text.chars() {
+        if is_hidden(character) && !matches!(character, '\n' | '\t') {
+            shown.push_str(&format!("\\u{:04x}", u32::from(character)));
+        } else {
+            shown.push(character);
+        }
+    }
+    if !shown.ends_with('\n') {
+        shown.push('\n');
+    }
     let mut out = io::stdout().lock();
-    let end = if text.ends_with('\n') { "" } else { "\n" };
-    out.write_all(text.as_bytes())
-        .and_then(|()| out.write_all(end.as_bytes()))
-        .and_then(|()| out.flush())
-        .map_err(Failure::stdout)
+    out.write_all(shown.as_bytes()).and_then(|()| out.flush()).map_err(Failure::stdout)
 }

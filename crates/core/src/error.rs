@@ -82,6 +82,18 @@ pub enum MotionError {
         /// The value.
         found: f64,
     },
+    /// A value larger than any that can be computed with.
+    #[error("sample {index}: expected a {quantity} of at most {limit:e} in SI, found {found:e}")]
+    TooLarge {
+        /// Index of the sample, from 0.
+        index: usize,
+        /// Which of its values.
+        quantity: &'static str,
+        /// The value.
+        found: f64,
+        /// The limit.
+        limit: f64,
+    },
     /// Time that runs backwards, or stands still for more than one jump.
     #[error(
         "sample {index}: expected a time after {previous_s} s (or once the same, for a jump), \
@@ -134,6 +146,8 @@ pub enum MotionError {
     ZeroPeak,
 }
 
+const GIB: f64 = (1_u64 << 30) as f64;
+
 /// An analysis that has no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SolveError {
@@ -158,6 +172,22 @@ pub enum SolveError {
         limit: f64,
         /// What makes it long, and what to do.
         advice: String,
+    },
+    /// An analysis whose history, which its certificate needs, would not fit into the memory.
+    #[error(
+        "the history would take {:.1} GiB, where {:.0} GiB are the most: {samples} samples with \
+         {numbers} numbers each; take a longer time step or a shorter motion",
+        *bytes as f64 / GIB, *limit as f64 / GIB
+    )]
+    TooMuchMemory {
+        /// Memory that the analysis and its certificate would take.
+        bytes: u64,
+        /// The limit.
+        limit: u64,
+        /// Number of samples.
+        samples: usize,
+        /// Numbers that are kept of each.
+        numbers: usize,
     },
     /// A state that left the range of numbers.
     #[error("the response is not finite at {time_s} s: check masses, stiffnesses and the motion")]

@@ -3,7 +3,6 @@
 use core::f64::consts::TAU;
 
 use super::build::{derived, mass_kg};
-use super::keys::MAX_STOREYS;
 use super::reader::Values;
 use crate::error::InputError;
 use crate::linear::shear_frame_frequencies;
@@ -17,11 +16,6 @@ pub(super) fn frame(values: &Values, gravity_m_per_s2: f64) -> Result<Frame, Inp
             return Err(values.error("frame.period", expected, "no storey"));
         }
         return Ok(Frame::none());
-    }
-    if storeys > MAX_STOREYS {
-        let path = format!("storey.{}", MAX_STOREYS + 1);
-        let expected = format!("at most {MAX_STOREYS} storeys");
-        return Err(values.error(&path, expected, storeys.to_string()));
     }
     let masses_kg = each(storeys, |i| mass_kg(values, &format!("storey.{i}"), gravity_m_per_s2))?;
     let stiffnesses_n_per_m = stiffnesses(values, &masses_kg)?;

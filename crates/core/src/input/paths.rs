@@ -48,7 +48,7 @@ fn path_of(name: &str, path: &str, section: &'static Section) -> Option<String> 
         if key.name == name {
             return Some(path);
         }
-        let path = if matches!(key.kind, schema::Kind::Sections(_)) { path + ".1" } else { path };
+        let path = if matches!(key.kind, schema::Kind::Sections(..)) { path + ".1" } else { path };
         key.kind.section().and_then(|section| path_of(name, &path, section))
     })
 }

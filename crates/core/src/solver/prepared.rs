@@ -6,7 +6,7 @@ use fearless_simd::Level;
 use fearless_simd::prelude::*;
 
 use super::ground::{Ground, Normal, Sampling, contact_loss_s, varying_normal};
-use super::recorder::Recorder;
+use super::recorder::{self, Recorder};
 use super::run::{Outcome, Run, Sliding};
 use super::tables::{self, Tables};
 use super::workspace::Workspace;
@@ -226,6 +226,7 @@ fn solve(
     if !(work <= limit) {
         return Err(SolveError::TooMuchWork { work, limit, advice: advice(model, motion, rate) });
     }
+    recorder::fits(model, motion.len())?;
     let slope = tables.slope;
     let [mut sloped, mut varying] =
         [&mut room.acceleration, &mut room.normal_n].map(core::mem::take);

@@ -5,7 +5,7 @@
 
 use super::ground::{Normal, contact_loss_s, varying_normal};
 use super::outputs::{self, output};
-use super::recorder::{Recorder, Stored};
+use super::recorder::{self, Recorder, Stored};
 use super::run::{Outcome, Sliding};
 use super::slider::Stopping;
 use super::summary;
@@ -58,6 +58,7 @@ pub(super) fn solve(
     if let Some(what) = what {
         return Err(SolveError::NotTaken { method: "stepwise method", what });
     }
+    recorder::fits(model, motion.len())?;
     let system = system_of(model);
     let slope = model.slope_m_per_s2();
     let (mass_kg, gravity) = (model.total_mass_kg(), model.normal_gravity_m_per_s2());

@@ -219,7 +219,11 @@ fn bearing(random: &mut Random, x: &mut Sketch) {
         let slow = x.kinetic_friction[0];
         let fast = round(slow * random.of(&[0.7, 1.5, 2.0, 2.5]), 2);
         let curve = if random.chance(0.7) {
-            RateCurve::Exponential { slow, fast, rate_s_per_m: random.of(&[20.0, 25.0, 50.0, 100.0]) }
+            RateCurve::Exponential {
+                slow,
+                fast,
+                rate_s_per_m: random.of(&[20.0, 25.0, 50.0, 100.0]),
+            }
         } else {
             RateCurve::Pieces {
                 speeds_m_per_s: vec![0.0, 0.05, 0.2],
@@ -269,28 +273,54 @@ fn motion(random: &mut Random) -> GroundMotion {
     let made = match random.integer(0, 7) {
         0 => {
             let (frequency_hz, phase_rad) = (random.written(0.3, 6.0), 0.0);
-            Sine { frequency_hz, amplitude_m_per_s2, duration_s, dt_s: DT_S, phase_rad, ramp_s, decay_s }
-                .motion()
+            Sine {
+                frequency_hz,
+                amplitude_m_per_s2,
+                duration_s,
+                dt_s: DT_S,
+                phase_rad,
+                ramp_s,
+                decay_s,
+            }
+            .motion()
         }
         1 => {
             let kind = random.of(&[SweepKind::Linear, SweepKind::Logarithmic]);
             let (from_hz, to_hz) = (random.even(0.3, 1.0), random.even(3.0, 8.0));
-            Sweep { from_hz, to_hz, kind, amplitude_m_per_s2, duration_s, dt_s: DT_S, ramp_s, decay_s }
-                .motion()
+            Sweep {
+                from_hz,
+                to_hz,
+                kind,
+                amplitude_m_per_s2,
+                duration_s,
+                dt_s: DT_S,
+                ramp_s,
+                decay_s,
+            }
+            .motion()
         }
         2 => {
             let shape =
                 random.of(&[PulseShape::HalfSine, PulseShape::Rectangular, PulseShape::Triangular]);
             let duration_s = random.even(0.1, 1.0);
-            Pulse { shape, amplitude_m_per_s2, duration_s, start_s: random.of(&[0.0, 0.5]), dt_s: DT_S }
-                .motion()
+            Pulse {
+                shape,
+                amplitude_m_per_s2,
+                duration_s,
+                start_s: random.of(&[0.0, 0.5]),
+                dt_s: DT_S,
+            }
+            .motion()
         }
         _ => return with_tail(random, recorded),
     };
     with_tail(random, |_| made.expect("a motion"))
 }
 
-fn with_tail(random: &mut Random, motion: impl FnOnce(&mut Random) -> GroundMotion) -> GroundMotion {
+fn with_tail(
+    random: &mut Random,
+    motion: impl FnOnce(&mut Random) -> GroundMotion,
+) -> GroundMotion {
     let motion = motion(random);
     let tail_s = random.of(&[0.0, 2.0, 5.0]);
     motion.with_tail(tail_s).expect("a motion")

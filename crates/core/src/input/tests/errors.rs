@@ -444,6 +444,27 @@ fn exact_motions_that_cannot_be_made() {
     );
 }
 
+/// Squares and products of numbers stay finite: those of a size that nothing has are refused.
+#[test]
+fn exact_numbers_are_of_some_size() {
+    let sizes = "expected a mass that is 0 or from 1e-30 to 1e30 in SI, found";
+    assert!(small("325 kg", "1e150 kg").ends_with(&format!("{sizes} \"1e150 kg\"")));
+    assert!(small("325 kg", "1e-99 t").ends_with(&format!("{sizes} \"1e-99 t\"")));
+    let friction = "static_friction = 0.1\nkinetic_friction";
+    let rate = |rate: &str| {
+        let law = format!("{{ slow = 0.05, fast = 0.1, rate = \"{rate}\" }}");
+        let text = format!("[block]\nmass = \"1 t\"\n[slider]\n{friction} = {law}\n");
+        read(&text, &[])
+    };
+    assert_eq!(
+        rate("1e9 s/m").unwrap_err(),
+        "m.toml:5:56: slider.kinetic_friction.rate: expected a rate by speed from 0 to 1000 s/m, \
+         found \"1e9 s/m\""
+    );
+    assert!(rate("1 s/mm").is_ok());
+    assert!(crate::input::json_schema().contains("At most 1000 s/m."));
+}
+
 #[test]
 fn exact_stops_that_cannot_be() {
     let stop = |text: &str| with(&format!("[slider.stop]\n{text}")).unwrap_err();
