@@ -10,7 +10,7 @@ use crate::error::{InputError, ModelError};
 use crate::friction::{Coulomb, Direction, Friction, RateCurve, RateLaw, Series, Surface};
 use crate::model::{Block, Contents, Devices, Frame, InitialState, Model, Slider, Stop, StopKind};
 use crate::response::Method;
-use crate::units::STANDARD_GRAVITY_M_PER_S2;
+use crate::units::{LARGEST, STANDARD_GRAVITY_M_PER_S2};
 
 /// What an analysis needs of the values, and what a study draws anew for each of its samples.
 #[derive(Clone, Debug, PartialEq)]
@@ -157,10 +157,10 @@ pub(super) fn derived(
     what: &str,
     value: f64,
 ) -> Result<f64, InputError> {
-    if value.is_finite() {
+    if value.abs() <= LARGEST {
         return Ok(value);
     }
-    Err(values.wrong(path, format!("a value whose {what} is a finite number")))
+    Err(values.wrong(path, format!("a value whose {what} is at most {LARGEST:e} in SI")))
 }
 
 /// What is needed where there are no surfaces in series.

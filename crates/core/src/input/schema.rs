@@ -256,11 +256,16 @@ impl Range {
     #[must_use]
     pub fn refusal(self, name: &str, value: f64) -> String {
         let (least, most) = (units::SMALLEST, units::LARGEST);
-        let too_small = self == Self::Positive && value > 0.0 && value < least;
-        if too_small || (value.is_finite() && value.abs() > most) {
-            return format!("a {name} that is 0 or from {least:e} to {most:e} in SI");
+        let too_large = value.is_finite() && value.abs() > most;
+        match self {
+            Self::Positive if too_large || (value > 0.0 && value < least) => {
+                format!("a {name} from {least:e} to {most:e} in SI")
+            }
+            Self::Any | Self::NotNegative if too_large => {
+                format!("a {name} of at most {most:e} in SI")
+            }
+            _ => self.expected(name),
         }
-        self.expected(name)
     }
 
     /// The range in words, for a number of that name.
