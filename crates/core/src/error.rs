@@ -210,6 +210,9 @@ pub enum RunError {
     /// A motion that cannot be made or scaled.
     #[error(transparent)]
     Motion(#[from] MotionError),
+    /// Bounds of friction that make no model.
+    #[error(transparent)]
+    Model(#[from] ModelError),
     /// A model that is to move the table itself and does not.
     #[error("the model makes no motion")]
     NoMotion,
