@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use slipstick::error::{InputError, visible};
+use slipstick::record;
 use slipstick_files::{FileError, JobError, LaboratoryError, StudyError};
 
 /// Bad input, or an output that nobody reads any more.
@@ -30,6 +31,15 @@ pub enum Failure {
 impl Failure {
     /// A fault of an input whose text is at hand.
     pub fn input(error: InputError, text: &str) -> Self {
+        let name = &error.place.source_name;
+        // No TOML: perhaps the numbers of another file.
+        if error.path.is_empty()
+            && let Some(what) = numbers(name, text)
+        {
+            let mend = "a record is given beside a model, with --motion or --records; what was measured \
+                        stands before the model";
+            return Self::Message(format!("{name}: expected a model, found {what} ({mend})"));
+        }
         Self::Input { error: Box::new(error), text: text.to_owned() }
     }
 
@@ -57,6 +67,17 @@ impl Failure {
                 }
             }
         }
+    }
+}
+
+/// What a text is that holds numbers where a model was expected.
+fn numbers(name: &str, text: &str) -> Option<&'static str> {
+    let options =
+        record::Options { units: record::Units::parse("g"), dt_s: Some(1.0), format: None };
+    let columns = record::columns(name, text.as_bytes()).is_ok_and(|table| table.columns.len() > 1);
+    match record::read(name, text.as_bytes(), &options) {
+        Ok(_) => Some("a record"),
+        Err(_) => columns.then_some("a table of numbers"),
     }
 }
 
