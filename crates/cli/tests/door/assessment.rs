@@ -578,7 +578,7 @@ fn exact_ida_of_designs_and_bounds() {
 #[test]
 fn exact_design_counts_the_runs_that_fail() {
     let folder = suite("design-failed", 4);
-    // Kinetic friction above the static of 0.06 makes no model: two designs of five.
+    // Kinetic friction above the static of 0.06 makes no model: one design of five.
     let arguments = [
         "design",
         "model.toml",
