@@ -14,7 +14,11 @@ pub(super) struct Body {
     pub(super) stiffnesses_n_per_m: Vec<f64>,
     /// `C` row by row.
     damping: Vec<f64>,
+    /// What slides as one: items on one floor with the same coefficients, which start from rest and so
+    /// always move alike.
     pub(super) contents: Vec<Contents>,
+    /// Of each item of the model, what it is part of.
+    pub(super) part_of: Vec<usize>,
     /// Bound on the rates of the structure on a block that slides free, in rad/s.
     pub(super) rate_rad_per_s: f64,
 }
@@ -58,7 +62,8 @@ pub(super) struct Expansion {
     pub(super) v: Vec<Polynomial>,
     pub(super) r: Vec<Polynomial>,
     pub(super) p: Vec<Polynomial>,
-    /// Accelerations with the slope's share: block, floors, contents.
+    /// Accelerations with the slope's share: ground, block, floors, contents.
+    pub(super) ground: Polynomial,
     pub(super) u: Polynomial,
     pub(super) floors: Vec<Polynomial>,
     pub(super) carried: Vec<Polynomial>,
@@ -93,13 +98,25 @@ impl Body {
                 damping[i * n + j] = m[i] * column[i];
             }
         }
+        let mut contents: Vec<Contents> = Vec::new();
+        let join = |item: &Contents| {
+            let alike = |c: &Contents| Contents { mass_kg: item.mass_kg, ..*c } == *item;
+            if let Some(part) = contents.iter().position(alike) {
+                contents[part].mass_kg += item.mass_kg;
+                return part;
+            }
+            contents.push(*item);
+            contents.len() - 1
+        };
+        let part_of = model.devices().contents.iter().map(join).collect();
         Self {
             block_kg: model.block().mass_kg,
             total_kg: model.total_mass_kg(),
             masses_kg: m.clone(),
             stiffnesses_n_per_m: frame.stiffnesses_n_per_m.clone(),
             damping,
-            contents: model.devices().contents.clone(),
+            contents,
+            part_of,
             rate_rad_per_s: system.slip_rate_rad_per_s,
         }
     }
@@ -127,6 +144,17 @@ impl Body {
         }
     }
 
+    /// Sum of the sizes of the spring and damper forces on a floor, from 1.
+    pub(super) fn restoring_size(&self, x: &State, floor: usize) -> f64 {
+        let (n, k) = (self.storeys(), &self.stiffnesses_n_per_m);
+        let row = &self.damping[(floor - 1) * n..][..n];
+        let dampers = row.iter().zip(&x.v).map(|(c, v)| (c * v).abs()).sum::<f64>();
+        let below = if floor > 1 { x.q[floor - 2] } else { 0.0 };
+        let lower = (k[floor - 1] * (x.q[floor - 1] - below)).abs();
+        let upper = if floor < n { (k[floor] * (x.q[floor] - x.q[floor - 1])).abs() } else { 0.0 };
+        dampers + lower + upper
+    }
+
     /// Mass of a floor, or of the block, with the contents stuck to it.
     pub(super) fn joined_kg(&self, floor: usize, modes: &[Mode]) -> f64 {
         let own = if floor == 0 { self.block_kg } else { self.masses_kg[floor - 1] };
@@ -146,6 +174,7 @@ impl Body {
             v: vec![ZERO; n],
             r: vec![ZERO; e],
             p: vec![ZERO; e],
+            ground: ZERO,
             u: ZERO,
             floors: vec![ZERO; n],
             carried: vec![ZERO; e],
@@ -188,6 +217,7 @@ impl Body {
         }
         let mut a = ZERO;
         (a[0], a[1]) = (loads.acceleration[0], loads.acceleration[1] * unit_s);
+        out.ground = a;
         out.normal = ZERO;
         (out.normal[0], out.normal[1]) = (loads.normal[0], loads.normal[1] * unit_s);
         out.press = out.normal.map(|normal| normal / self.total_kg);

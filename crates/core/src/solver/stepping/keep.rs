@@ -21,8 +21,9 @@ pub(super) struct Peaks {
 }
 
 impl Peaks {
-    pub(super) fn new(model: &Model) -> Self {
-        let (n, contents) = (model.storeys(), model.devices().contents.len());
+    /// None so far, of so many `contents` that slide each by itself.
+    pub(super) fn new(model: &Model, contents: usize) -> Self {
+        let n = model.storeys();
         let block = model.block();
         let mut above_m = block.height_m.unwrap_or(0.0);
         let mut heights_m = vec![above_m];
@@ -192,12 +193,14 @@ impl Stepping<'_> {
             }
         }
         let surfaces = self.slider.law.surfaces(&self.slider.memory, self.x.s);
+        let parts = &self.body.part_of;
         let Some(h) = &mut self.history else { return };
         if row {
             h.rows.push(h.time_s.len());
         }
         h.time_s.push(time_s);
-        h.mode.extend_from_slice(&self.modes);
+        h.mode.push(self.modes[0]);
+        h.mode.extend(parts.iter().map(|&part| self.modes[1 + part]));
         if self.slider.law.stop.is_some() {
             h.contact.push(self.slider.memory.contact);
         }
@@ -211,9 +214,9 @@ impl Stepping<'_> {
         h.storey_acceleration_m_per_s2
             .extend(self.instant.floors.iter().map(|acceleration| acceleration[0] - slope));
         h.surface_displacement_m.extend(surfaces);
-        h.contents_displacement_m.extend_from_slice(&self.x.r);
-        h.contents_velocity_m_per_s.extend_from_slice(&self.x.p);
-        h.contents_acceleration_m_per_s2
-            .extend(self.instant.carried.iter().map(|acceleration| acceleration[0] - slope));
+        h.contents_displacement_m.extend(parts.iter().map(|&part| self.x.r[part]));
+        h.contents_velocity_m_per_s.extend(parts.iter().map(|&part| self.x.p[part]));
+        let carried = &self.instant.carried;
+        h.contents_acceleration_m_per_s2.extend(parts.iter().map(|&part| carried[part][0] - slope));
     }
 }
