@@ -106,7 +106,7 @@ static SLIDER: Section = Section {
         Key::optional(
             "radius",
             Kind::Quantity(Length, Range::Positive),
-            "Radius R of a pendulum slider: the spring K1 = M_tot g / R.",
+            "Radius R of a pendulum slider: the spring K1 = M_tot g cos θ / R.",
         ),
         Key::optional(
             "period",

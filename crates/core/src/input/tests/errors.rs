@@ -319,8 +319,8 @@ fn exact_rules_between_keys() {
     );
     assert_eq!(
         with("radius = \"1e-300 m\"\n[analysis]\ngravity = \"1e20 m/s2\"\n").unwrap_err(),
-        "m.toml:6:10: slider.radius: expected a value whose stiffness M_tot g / R is a finite \
-         number, found \"1e-300 m\""
+        "m.toml:6:10: slider.radius: expected a value whose stiffness M_tot g cos θ / R is a \
+         finite number, found \"1e-300 m\""
     );
     assert_eq!(
         changed("\"1.625 Hz\"", "\"1e-200 Hz\""),

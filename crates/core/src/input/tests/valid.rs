@@ -128,7 +128,7 @@ fn exact_each_initial_key_replaces_its_own_default() {
     );
 }
 
-/// K1 = M_tot g / R and C1 = 2 ξ √(K1 M_tot), with the storeys' masses and the model's gravity.
+/// K1 = M_tot g cos θ / R and C1 = 2 ξ √(K1 M_tot), with the storeys' masses and the model's gravity.
 #[test]
 fn exact_pendulum_radius_and_damping_ratio() {
     let text = SMALLEST.replace("[slider]", "[slider]\nradius = \"2 m\"\ndamping_ratio = 0.05");
@@ -140,6 +140,14 @@ fn exact_pendulum_radius_and_damping_ratio() {
     let omega = TAU / 0.5;
     assert_eq!(model.frame().stiffnesses_n_per_m, [75.0 * omega * omega]);
     assert_eq!(model.frame().damping, Damping::Dampers(vec![9.0]));
+}
+
+/// N/R, with the N that a tilted block presses on the surface.
+#[test]
+fn exact_tilted_pendulum_has_the_spring_of_its_normal_force() {
+    let text = SMALLEST.replace("[slider]", "[slider]\nradius = \"2 m\"\ntilt = \"60 mrad\"");
+    let model = read(&text, &[]).unwrap().model;
+    assert_eq!(model.slider().stiffness_n_per_m, model.normal_n() / 2.0);
 }
 
 #[test]

@@ -227,6 +227,12 @@ impl Stepping<'_> {
             return false;
         }
         let was = self.in_force();
+        if self.has_stopped(0) {
+            self.hold(0);
+            self.look_at_instant(&Self::loads(stretch, at_s));
+            let margin = self.held().margin(self.instant.friction[0], self.instant.normal[0]);
+            self.sliding[0].decide(margin);
+        }
         let chosen = self.choose(stretch, at_s, &reached);
         self.put_in_force(&was);
         if !due && chosen.modes == was.modes {
@@ -250,7 +256,6 @@ impl Stepping<'_> {
     /// Decides about all interfaces without velocity; those that have `reached` their bounds slide, if
     /// they move off.
     fn choose(&mut self, stretch: &Stretch, at_s: f64, reached: &[LetGo]) -> Assignment {
-        let slid = self.has_stopped(0);
         for i in 0..self.modes.len() {
             if self.has_stopped(i) {
                 self.hold(i);
@@ -264,10 +269,6 @@ impl Stepping<'_> {
             return if first.holds || reached.is_empty() { first } else { self.choose_anew(at, &held) };
         }
         let demand = self.series.friction[0];
-        if slid && !self.walks_jump {
-            let margin = self.held().margin(demand, self.series.normal[0]);
-            self.sliding[0].decide(margin);
-        }
         if first.holds && first.sticking == held.modes.len() - reached.len() {
             return first;
         }
