@@ -371,6 +371,7 @@ fn coincident_agree(seeds: std::ops::Range<u64>) {
     let failures: Vec<String> = seeds
         .filter_map(|seed| {
             let system = coincident(seed);
+            println!("seed {seed}");
             let expected = reference(&system.model, &motion(&system, 1.0)).expect("contact");
             differences(&system, &expected).err().map(|what| format!("{seed}: {what}"))
         })

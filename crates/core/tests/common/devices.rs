@@ -710,8 +710,11 @@ impl Run {
     /// let go meanwhile stops again.
     fn walk_jump(&mut self, time: Dd, from: [Dd; 2], to: [Dd; 2]) {
         let (before, told) = (self.x.modes.clone(), self.out.events.len());
+        let peaks = self.out.peaks.clone();
         self.cross(time, Dd::from(JUMP_S), Load::between(from, to));
         self.cross(time, Dd::from(1e3 * JUMP_S), Load::between(to, to));
+        // Peaks are those of both sides.
+        self.out.peaks = peaks;
         let mut told = self.out.events.split_off(told);
         told.retain(|event| {
             !matches!(event.kind, EventKind::Slip | EventKind::Stick | EventKind::Reversal)
@@ -1139,7 +1142,9 @@ impl Run {
         }
         let chosen = self.most_sticking(&held, &free, &reached, (load, h));
         let chosen = chosen.or_else(|| self.most_sticking(&held, &free, &[], (load, h)));
-        self.x = chosen.unwrap_or_else(|| panic!("nothing is possible at {time_s} s"));
+        self.x = chosen.unwrap_or_else(|| {
+            panic!("nothing is possible at {time_s} s: {before:?} {free:?} {reached:?}")
+        });
         if self.x.modes[0] == 0 && slid && matches!(self.body.stop, Stop::Rigid { .. }) {
             // Within the rounding of s off the stop the block is at it.
             for place in self.body.places.into_iter().flatten() {
