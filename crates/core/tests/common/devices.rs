@@ -34,7 +34,7 @@ const ALIKE: f64 = 1e-20;
 /// Impacts slower than this are not listed.
 const LISTED_IMPACT_M_PER_S: f64 = 1e-3;
 /// How long a jump takes.
-const JUMP_S: f64 = 1e-22;
+const JUMP_S: f64 = 1e-18;
 /// Bounces that end within this time are over.
 const LAST_BOUNCES_S: f64 = 1e-13;
 
@@ -680,6 +680,7 @@ pub fn reference(model: &Model, motion: &GroundMotion) -> Option<Reference> {
         let [t0, t1] = [i - 1, i].map(|j| Dd::from(times[j]));
         if t0 == t1 {
             run.walk_jump(t0, samples[i - 1], samples[i]);
+            run.sample(times[i]);
             continue;
         }
         run.cross(t0, t1 - t0, Load::between(samples[i - 1], samples[i]));
@@ -706,21 +707,19 @@ struct Run {
 }
 
 impl Run {
-    /// A jump: a ramp so short that nothing moves, and as short a time after it, in which what was only
-    /// let go meanwhile stops again.
+    /// A jump: a ramp so short that nothing moves, and a thousand times as long after it, in which what
+    /// was only let go meanwhile stops again. What slides then has reached its bound.
     fn walk_jump(&mut self, time: Dd, from: [Dd; 2], to: [Dd; 2]) {
-        let (before, told) = (self.x.modes.clone(), self.out.events.len());
-        let peaks = self.out.peaks.clone();
+        let (x, still, out) = (self.x.clone(), self.still.clone(), self.out.clone());
         self.cross(time, Dd::from(JUMP_S), Load::between(from, to));
         self.cross(time, Dd::from(1e3 * JUMP_S), Load::between(to, to));
-        // Peaks are those of both sides.
-        self.out.peaks = peaks;
-        let mut told = self.out.events.split_off(told);
-        told.retain(|event| {
-            !matches!(event.kind, EventKind::Slip | EventKind::Stick | EventKind::Reversal)
-        });
-        self.tell_changes(&before, time.value());
-        self.out.events.extend(told);
+        let after = std::mem::replace(&mut self.x, x);
+        let slides = |&i: &usize| {
+            (self.x.modes[i] == 0 || still[i]) && after.modes[i] != 0 && !self.still[i]
+        };
+        self.reached =
+            (0..still.len()).filter(slides).map(|i| (i, after.modes[i])).collect();
+        (self.still, self.out) = (still, out);
     }
 
     /// Goes through the interval between two samples.
