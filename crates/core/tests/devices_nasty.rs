@@ -371,7 +371,6 @@ fn coincident_agree(seeds: std::ops::Range<u64>) {
     let failures: Vec<String> = seeds
         .filter_map(|seed| {
             let system = coincident(seed);
-            println!("seed {seed}");
             let expected = reference(&system.model, &motion(&system, 1.0)).expect("contact");
             differences(&system, &expected).err().map(|what| format!("{seed}: {what}"))
         })
@@ -381,7 +380,7 @@ fn coincident_agree(seeds: std::ops::Range<u64>) {
 
 #[test]
 fn reference_coincident_contents() {
-    coincident_agree(0..300);
+    coincident_agree(0..1000);
 }
 
 /// The same of ten thousand.
