@@ -159,10 +159,24 @@ fn ramped(system: &System, ramp_s: f64) -> GroundMotion {
     ground(&times_s, &values, None)
 }
 
+/// Whether a sliding block may carry contents with just their own kinetic friction: the velocity that a
+/// ramp gave them then stays. In the limit it is zero, and they stick.
+fn keeps_a_velocity(model: &Model) -> bool {
+    let [kinetic, _] = model.kinetic_friction();
+    let has_drop = |c: &Contents| c.static_friction > c.kinetic_friction;
+    let contents = &model.devices().contents;
+    contents.iter().any(|c| c.kinetic_friction == kinetic)
+        && (model.static_friction()[0] > kinetic || contents.iter().any(has_drop))
+}
+
 fn jumps_are_ramps(seeds: std::ops::Range<u64>) {
-    let (mut wrong, mut compared) = (Vec::new(), 0);
-    for seed in seeds.clone() {
+    let (mut wrong, mut compared, mut known) = (Vec::new(), 0, 0);
+    for seed in seeds {
         let system = coincident(seed);
+        if keeps_a_velocity(&system.model) {
+            continue;
+        }
+        known += 1;
         let jump = response(&system.model, &motion(&system, 1.0)).demands;
         let [coarse, fine, finer] = [1e-6, 1e-8, 1e-9]
             .map(|ramp_s| response(&system.model, &ramped(&system, ramp_s)).demands);
@@ -174,7 +188,7 @@ fn jumps_are_ramps(seeds: std::ops::Range<u64>) {
         wrong.extend(difference(&finer, &jump, 1e-5).map(|off| format!("{seed}: {off}")));
     }
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
-    assert!(5 * compared >= 4 * (seeds.end - seeds.start), "{compared} compared");
+    assert!(10 * compared >= 9 * known, "{compared} of {known} compared");
 }
 
 #[test]

@@ -34,7 +34,7 @@ const ALIKE: f64 = 1e-20;
 /// Impacts slower than this are not listed.
 const LISTED_IMPACT_M_PER_S: f64 = 1e-3;
 /// How long a jump takes.
-const JUMP_S: f64 = 1e-18;
+const JUMP_S: f64 = 1e-20;
 /// Bounces that end within this time are over.
 const LAST_BOUNCES_S: f64 = 1e-13;
 
@@ -657,6 +657,7 @@ pub fn reference(model: &Model, motion: &GroundMotion) -> Option<Reference> {
     let mut run = Run {
         still: vec![false; 1 + count],
         reached: Vec::new(),
+        jumps: false,
         forces: 0.0,
         turn: None,
         body,
@@ -699,6 +700,8 @@ struct Run {
     still: Vec<bool>,
     /// Stuck ones that have reached their bounds, and the signs with which they slide there.
     reached: Vec<(usize, i32)>,
+    /// Whether a jump is walked.
+    jumps: bool,
     /// Largest force so far.
     forces: f64,
     /// The slider's last event, if it is a reversal since the last impact.
@@ -707,12 +710,14 @@ struct Run {
 }
 
 impl Run {
-    /// A jump: a ramp so short that nothing moves, and a thousand times as long after it, in which what
+    /// A jump: a ramp so short that nothing moves, and 100 000 times as long after it, in which what
     /// was only let go meanwhile stops again. What slides then has reached its bound.
     fn walk_jump(&mut self, time: Dd, from: [Dd; 2], to: [Dd; 2]) {
         let (x, still, out) = (self.x.clone(), self.still.clone(), self.out.clone());
+        self.jumps = true;
         self.cross(time, Dd::from(JUMP_S), Load::between(from, to));
-        self.cross(time, Dd::from(1e3 * JUMP_S), Load::between(to, to));
+        self.cross(time, Dd::from(1e5 * JUMP_S), Load::between(to, to));
+        self.jumps = false;
         let after = std::mem::replace(&mut self.x, x);
         let slides = |&i: &usize| {
             (self.x.modes[i] == 0 || still[i]) && after.modes[i] != 0 && !self.still[i]
@@ -826,14 +831,17 @@ impl Run {
         let b = load.b[0].value().abs();
         let forces = size(&p.ground) + size(&p.shear) + size(&p.friction) + size(&p.stop);
         let gain = h.value() * (forces.max(self.forces) / self.body.frame.block_kg.value() + b);
-        let mut list = vec![NOISE * size(&p.w).max(self.out.peaks.w).max(gain)];
+        // Within a jump velocities are as small as it is short.
+        let largest = |peak: f64| if self.jumps { 0.0 } else { peak };
+        let mut list = vec![NOISE * size(&p.w).max(largest(self.out.peaks.w)).max(gain)];
         for (e, contents) in self.body.contents.iter().enumerate() {
             let floor = match contents.floor {
                 0 => size(&p.block),
                 floor => size(&p.floors[floor - 1]),
             };
             let gain = gain.max(h.value() * floor);
-            list.push(NOISE * size(&p.z[e]).max(self.out.peaks.contents[e][1]).max(gain));
+            let peak = largest(self.out.peaks.contents[e][1]);
+            list.push(NOISE * size(&p.z[e]).max(peak).max(gain));
         }
         list
     }

@@ -187,7 +187,8 @@ pub fn coincident(seed: u64) -> System {
         damping: Damping::Dampers(vec![100.0; n]),
         heights_m: None,
     };
-    let frictions = [0.05, 0.1, 0.1, 0.15];
+    // Binary fractions: what should be equal is so to the last bit of the reference too.
+    let frictions = [0.0625, 0.125, 0.125, 0.1875];
     let coefficients = |r: &mut Random| {
         let kinetic = pick(r, &frictions);
         [kinetic * pick(r, &[1.0, 1.0, 1.25]), kinetic]
@@ -196,7 +197,7 @@ pub fn coincident(seed: u64) -> System {
     let contents: Vec<Contents> = (0..1 + (r.next() * 2.5) as usize)
         .map(|_| {
             let floor = if r.chance(0.3) { n } else { 0 };
-            let mass_kg = pick(r, &[20.0, 80.0, 100.0, 160.0]);
+            let mass_kg = pick(r, &[17.0, 83.0, 101.0, 157.0]);
             let [static_friction, kinetic_friction] =
                 if r.chance(0.4) { slider_friction } else { coefficients(r) };
             Contents { floor, mass_kg, static_friction, kinetic_friction }
@@ -235,7 +236,7 @@ pub fn coincident(seed: u64) -> System {
     let mut time_s = 0.0;
     for _ in 0..24 {
         let last = horizontal[horizontal.len() - 1];
-        if r.chance(0.2) {
+        if r.chance(0.2) && time_s > 0.0 {
             times_s.push(time_s);
             horizontal.push(r.between(-5.0, 5.0));
         }
