@@ -197,7 +197,7 @@ pub fn coincident(seed: u64) -> System {
     let contents: Vec<Contents> = (0..1 + (r.next() * 2.5) as usize)
         .map(|_| {
             let floor = if r.chance(0.3) { n } else { 0 };
-            let mass_kg = pick(r, &[17.0, 83.0, 101.0, 157.0]);
+            let mass_kg = pick(r, &[19.0, 83.0, 101.0, 157.0]);
             let [static_friction, kinetic_friction] =
                 if r.chance(0.4) { slider_friction } else { coefficients(r) };
             Contents { floor, mass_kg, static_friction, kinetic_friction }
