@@ -46,18 +46,18 @@ fn difference(a: &Demands, b: &Demands, part: f64) -> Option<String> {
     let size_m = a.peak_sliding_displacement_m.max(1e-6);
     let mut list = vec![
         ("peak s", a.peak_sliding_displacement_m, b.peak_sliding_displacement_m, size_m),
-        ("residual s", a.residual_sliding_displacement_m, b.residual_sliding_displacement_m, size_m),
+        (
+            "residual s",
+            a.residual_sliding_displacement_m,
+            b.residual_sliding_displacement_m,
+            size_m,
+        ),
         ("path", a.sliding_path_m, b.sliding_path_m, a.sliding_path_m.max(1e-6)),
     ];
     for (a, b) in a.contents.iter().zip(&b.contents) {
         let size_m = a.peak_sliding_displacement_m.max(1e-6);
         list.extend([
-            (
-                "peak r",
-                a.peak_sliding_displacement_m,
-                b.peak_sliding_displacement_m,
-                size_m,
-            ),
+            ("peak r", a.peak_sliding_displacement_m, b.peak_sliding_displacement_m, size_m),
             (
                 "residual r",
                 a.residual_sliding_displacement_m,

@@ -9,7 +9,7 @@ use fearless_simd::prelude::*;
 use super::ground::Stretch;
 use super::outputs::output;
 use super::run::{InForce, Run};
-use super::slider::{Start, first_crossing, leaving_order};
+use super::slider::{ROUNDING, Start, falls_below, first_crossing, leaving_order};
 use super::tables::Phase;
 use crate::error::SolveError;
 use crate::friction::{Direction, Exit, Fading};
@@ -160,7 +160,9 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
                 continue;
             }
             let distance = self.hold.distance(&demand, [normal, rise], direction);
+            let rounding = ROUNDING * (size * (normal + rise.abs() * segment.part));
             if let Some(part) = first_crossing(&distance, segment.part)
+                && falls_below(&distance, rounding, segment.part)
                 && release.is_none_or(|(first, _)| part < first)
             {
                 release = Some((part, direction));

@@ -176,7 +176,10 @@ impl<'a> Stepping<'a> {
             let length_s = times_s[sample + 1] - times_s[sample];
             if length_s == 0.0 {
                 self.record_sample(sample, true);
-                self.walk_jump(sample + 1, self.loads_at(sample), self.loads_at(sample + 1))?;
+                // What a jump at the very end lets go has no time to slide.
+                if times_s[sample] < times_s[last] {
+                    self.walk_jump(sample + 1, self.loads_at(sample), self.loads_at(sample + 1))?;
+                }
                 continue;
             }
             self.events_in_interval = 0;

@@ -722,8 +722,7 @@ impl Run {
         let slides = |&i: &usize| {
             (self.x.modes[i] == 0 || still[i]) && after.modes[i] != 0 && !self.still[i]
         };
-        self.reached =
-            (0..still.len()).filter(slides).map(|i| (i, after.modes[i])).collect();
+        self.reached = (0..still.len()).filter(slides).map(|i| (i, after.modes[i])).collect();
         (self.still, self.out) = (still, out);
     }
 

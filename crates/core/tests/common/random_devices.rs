@@ -216,9 +216,7 @@ pub fn coincident(seed: u64) -> System {
     });
     let [fixed, kinetic] = slider_friction;
     let slider = Slider {
-        friction: Friction::Coulomb(
-            Coulomb::new([fixed; 2], [kinetic; 2]).expect("friction"),
-        ),
+        friction: Friction::Coulomb(Coulomb::new([fixed; 2], [kinetic; 2]).expect("friction")),
         stiffness_n_per_m: pick(r, &[0.0, 0.0, 4000.0]),
         damper_n_s_per_m: 0.0,
         tilt_rad: 0.0,

@@ -10,12 +10,12 @@
 
 use super::super::ground::{Stretch, jump};
 use super::super::outputs::output;
-use super::super::slider::first_crossing;
+use super::super::slider::{ROUNDING, falls_below, first_crossing};
 use super::body::Expansion;
 use super::{Near, SLOWEST_IMPACT_M_PER_S, Stepping};
 use crate::error::SolveError;
 use crate::friction::{Direction, Memory};
-use crate::linear::polynomial::{DEGREE, Polynomial, derivative, first_root, value};
+use crate::linear::polynomial::{DEGREE, Polynomial, derivative, value};
 use crate::response::{EventKind, Mode};
 
 /// Where a bounce is below the rounding of `s`: parts of the stop's distance.
@@ -23,9 +23,6 @@ const LEAST_BOUNCE: f64 = 4.0 * f64::EPSILON;
 
 /// Longest remaining time of infinitely many bounces, in s: it is left out.
 const LONGEST_REST_S: f64 = 1e-13;
-
-/// Part of its terms below which a number is rounding.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// An interface that slides from rest, and where.
 pub(super) type LetGo = (usize, Direction);
@@ -179,9 +176,8 @@ impl Stepping<'_> {
             let rounding = self.rounding_of_distance(&self.series, interface);
             let order = leading(&distance, rounding)?;
             distance[..order].fill(0.0);
-            let mut raised = distance;
-            raised[0] += rounding;
-            first_root(&raised, self.series.part)?;
+            let falls = falls_below(&distance, rounding, self.series.part);
+            falls.then_some(())?;
             Some((first_crossing(&distance, self.series.part)?, to))
         };
         let both = [Direction::Negative, Direction::Positive].map(of);
@@ -235,8 +231,11 @@ impl Stepping<'_> {
         }
         let chosen = self.choose(stretch, at_s, &reached);
         self.put_in_force(&was);
-        if !due && chosen.modes == was.modes {
-            return false;
+        if chosen.modes == was.modes {
+            self.events_in_interval += 1;
+            if !due {
+                return false;
+            }
         }
         self.note_before(stretch, at_s, at_sample);
         (self.modes, self.slider.memory, self.start) = (chosen.modes, chosen.memory, chosen.start);
@@ -266,7 +265,11 @@ impl Stepping<'_> {
         let first = self.assign(at, &held, reached);
         let is_slider_free = held.modes[0] == Mode::Stick && reached.iter().all(|(i, _)| *i > 0);
         if !is_slider_free {
-            return if first.holds || reached.is_empty() { first } else { self.choose_anew(at, &held) };
+            return if first.holds || reached.is_empty() {
+                first
+            } else {
+                self.choose_anew(at, &held)
+            };
         }
         let demand = self.series.friction[0];
         if first.holds && first.sticking == held.modes.len() - reached.len() {
@@ -319,7 +322,11 @@ impl Stepping<'_> {
         let mut let_go = slides.to_vec();
         loop {
             let_go.drain(..).for_each(|(i, direction)| self.let_go(i, direction));
+            // What is rounding depends on the unit: all decisions of an instant, and the segment after
+            // them, take the same.
+            let unit_s = self.unit_s;
             self.expand(stretch, at_s);
+            self.unit_s = unit_s;
             let stuck = (1..self.modes.len()).filter(|&i| self.modes[i] == Mode::Stick);
             let_go = stuck.filter_map(|i| Some((i, self.leaving(i)?))).collect();
             if let_go.is_empty() {
