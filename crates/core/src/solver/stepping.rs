@@ -400,7 +400,7 @@ impl<'a> Stepping<'a> {
             self.body.expand(&self.x, &phase, &loads, (unit_s, DEGREE), &mut self.series);
             self.series.part
         });
-        self.series.part = part;
+        (self.series.part, self.series.from_s) = (part, from_s);
     }
 
     /// The polynomial of an exit, less what of it is known to vanish.

@@ -55,6 +55,8 @@ pub(super) struct Phase<'a> {
 /// The motion from an instant on, by powers of the time over `unit_s`.
 #[derive(Clone, Debug)]
 pub(super) struct Expansion {
+    /// Where it begins in its sample interval, and its unit.
+    pub(super) from_s: f64,
     pub(super) unit_s: f64,
     pub(super) s: Polynomial,
     pub(super) w: Polynomial,
@@ -167,6 +169,7 @@ impl Body {
     pub(super) fn room(&self) -> Expansion {
         let (n, e) = (self.storeys(), self.contents.len());
         Expansion {
+            from_s: 0.0,
             unit_s: 0.0,
             s: ZERO,
             w: ZERO,

@@ -49,6 +49,15 @@ fn leading(p: &Polynomial, rounding: f64) -> Option<usize> {
     (0..=DEGREE).find(|&k| p[k].abs() > rounding)
 }
 
+/// What is rounding of a number that changes so over a series: that of its terms, and of the time.
+fn and_of_time(rounding: f64, number: &Polynomial, series: &Expansion) -> f64 {
+    if series.unit_s > 0.0 {
+        rounding + ROUNDING * (series.from_s / series.unit_s) * number[1].abs()
+    } else {
+        rounding
+    }
+}
+
 /// Size of the first two coefficients.
 fn size(p: &Polynomial) -> f64 {
     p[0].abs() + p[1].abs()
@@ -132,23 +141,26 @@ impl Stepping<'_> {
     }
 
     /// What is rounding of that distance.
-    fn rounding_of_distance(&self, p: &Expansion, interface: usize) -> f64 {
-        if interface == 0 {
+    fn rounding_of_distance(&self, p: &Expansion, interface: usize, distance: &Polynomial) -> f64 {
+        let of_terms = if interface == 0 {
             let [low, high] = self.held().bounds.map(f64::abs);
             let bounds = [low, high].into_iter().filter(|bound| bound.is_finite());
             self.rounding_n(p) + ROUNDING * bounds.fold(0.0, f64::max) * size(&p.normal)
         } else {
             self.rounding_m_per_s2(p, interface)
-        }
+        };
+        and_of_time(of_terms, distance, p)
     }
 
     /// Where a stuck interface is about to slide by the series: the first derivative of demand − bound
     /// that does not vanish is positive.
     fn leaving(&self, interface: usize) -> Option<Direction> {
-        let (p, rounding) = (&self.series, self.rounding_of_distance(&self.series, interface));
+        let p = &self.series;
         [Direction::Negative, Direction::Positive].into_iter().find(|&to| {
-            let distance = self.distance(p, interface, to);
-            distance.is_some_and(|d| leading(&d, rounding).is_some_and(|k| d[k] < 0.0))
+            self.distance(p, interface, to).is_some_and(|distance| {
+                let rounding = self.rounding_of_distance(p, interface, &distance);
+                leading(&distance, rounding).is_some_and(|k| distance[k] < 0.0)
+            })
         })
     }
 
@@ -158,12 +170,13 @@ impl Stepping<'_> {
             return false;
         }
         self.look_at_instant(&Self::loads(stretch, at_s));
+        self.instant.from_s = at_s;
         let p = &self.instant;
         let stuck = (0..self.modes.len()).filter(|&i| self.modes[i] == Mode::Stick);
         let mut sides = stuck.flat_map(|i| [(i, Direction::Negative), (i, Direction::Positive)]);
         sides.any(|(i, to)| {
             let distance = self.distance(p, i, to);
-            distance.is_some_and(|d| !(d[0] > self.rounding_of_distance(p, i)))
+            distance.is_some_and(|d| !(d[0] > self.rounding_of_distance(p, i, &d)))
         })
     }
 
@@ -173,7 +186,7 @@ impl Stepping<'_> {
             let mut distance = self.distance(&self.series, interface, to)?;
             first_crossing(&distance, self.series.part)?;
             // What does not go further below zero than rounding is held.
-            let rounding = self.rounding_of_distance(&self.series, interface);
+            let rounding = self.rounding_of_distance(&self.series, interface, &distance);
             let order = leading(&distance, rounding)?;
             distance[..order].fill(0.0);
             let falls = falls_below(&distance, rounding, self.series.part);
@@ -189,9 +202,9 @@ impl Stepping<'_> {
         let stuck = (0..self.modes.len()).filter(|&i| self.modes[i] == Mode::Stick);
         let at_part = |i: usize| {
             let (at, to) = self.first_release(i)?;
-            let left = value(&self.distance(&self.series, i, to)?, part);
-            let rounding = self.rounding_of_distance(&self.series, i);
-            (at <= part || left <= rounding).then_some((i, to))
+            let distance = self.distance(&self.series, i, to)?;
+            let rounding = self.rounding_of_distance(&self.series, i, &distance);
+            (at <= part || value(&distance, part) <= rounding).then_some((i, to))
         };
         stuck.filter_map(at_part).collect()
     }
@@ -339,7 +352,9 @@ impl Stepping<'_> {
         for i in (0..count).filter(|&i| held.modes[i] == Mode::Stick) {
             if let Mode::Slip(direction) = self.modes[i] {
                 let acceleration = self.acceleration(i, direction);
-                let order = leading(&acceleration, self.rounding_m_per_s2(&self.series, i));
+                let of_terms = self.rounding_m_per_s2(&self.series, i);
+                let order =
+                    leading(&acceleration, and_of_time(of_terms, &acceleration, &self.series));
                 holds &= order.is_some_and(|k| acceleration[k] > 0.0);
                 start[i] = Some(1 + order.unwrap_or(0));
             }
