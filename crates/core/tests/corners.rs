@@ -9,6 +9,7 @@ use common::random_devices::{System, coincident, motion};
 use slipstick::input;
 use slipstick::model::{Contents, Devices, Model};
 use slipstick::motion::GroundMotion;
+use slipstick::numerics::random::Random;
 use slipstick::response::{Demands, Response};
 use slipstick::solver::exact;
 
@@ -216,6 +217,40 @@ fn exact_contact_lost_without_horizontal_motion_moves_nothing() {
         let found = response(&model(&slider, &more), &motion);
         assert_eq!(found.demands.sliding_path_m, 0.0, "{slider} {more}");
         assert!(found.events.is_empty(), "{:?}", found.events);
+    }
+}
+
+/// The same for a block alone, wherever in its interval contact is lost.
+#[test]
+fn exact_contact_lost_anywhere_moves_nothing() {
+    let block = model(&friction([0.2; 2]), "");
+    for depth in 10..60 {
+        let up = [0.0, -f64::from(depth), -f64::from(depth)];
+        let found = response(&block, &ground(&[0.0, 1.0, 2.0], &[0.0; 3], Some(&up)));
+        assert!(found.events.is_empty(), "{depth}: {:?}", found.events);
+    }
+}
+
+/// Motions far below all that friction holds, but for the instants at which contact is lost and regained.
+#[test]
+fn prop_tiny_motions_across_lost_contact_do_not_chatter() {
+    let surface = "[[slider.surface]]\nfriction = 0.2\n".to_owned();
+    for seed in 0..60 {
+        let r = &mut Random::new(seed);
+        let mut draw =
+            |size: f64| -> Vec<f64> { (0..40).map(|_| size * (2.0 * r.uniform() - 1.0)).collect() };
+        let size = [1e-14, 1e-10, 1e-7][seed as usize % 3];
+        let (horizontal, up) = (draw(size), draw(25.0));
+        let times_s: Vec<f64> = (0..40).map(|k| f64::from(k) / 32.0).collect();
+        let motion = ground(&times_s, &horizontal, Some(&up));
+        for (slider, more) in [
+            (friction([0.2, 0.15]), contents(20.0, [0.3, 0.2])),
+            (format!("{}\nradius = \"2 m\"", friction([0.2; 2])), contents(20.0, [0.2; 2])),
+            (String::new(), surface.clone()),
+        ] {
+            let found = response(&model(&slider, &more), &motion);
+            assert!(found.events.len() < 400, "{seed}: {} events", found.events.len());
+        }
     }
 }
 
