@@ -29,8 +29,7 @@ pub(super) type LetGo = (usize, Direction);
 
 /// Modes of all interfaces, with what follows from them.
 struct Assignment {
-    modes: Vec<Mode>,
-    memory: Memory,
+    in_force: InForce,
     start: Vec<Option<usize>>,
     sticking: usize,
     /// Whether each that sticks is within its bound and each that slides moves off.
@@ -244,14 +243,15 @@ impl Stepping<'_> {
         }
         let chosen = self.choose(stretch, at_s, &reached);
         self.put_in_force(&was);
-        if chosen.modes == was.modes {
+        if chosen.in_force.modes == was.modes {
             self.events_in_interval += 1;
             if !due {
                 return false;
             }
         }
         self.note_before(stretch, at_s, at_sample);
-        (self.modes, self.slider.memory, self.start) = (chosen.modes, chosen.memory, chosen.start);
+        self.put_in_force(&chosen.in_force);
+        self.start = chosen.start;
         self.tell(stretch, at_s, &was);
         true
     }
@@ -293,7 +293,7 @@ impl Stepping<'_> {
         // Contents that slide while the slider sticks.
         let with: Vec<LetGo> = (1..held.modes.len())
             .filter(|&i| held.modes[i] == Mode::Stick)
-            .filter_map(|i| match first.modes[i] {
+            .filter_map(|i| match first.in_force.modes[i] {
                 Mode::Slip(direction) => Some((i, direction)),
                 Mode::Stick => None,
             })
@@ -360,8 +360,7 @@ impl Stepping<'_> {
             }
         }
         let sticking = self.modes.iter().filter(|mode| **mode == Mode::Stick).count();
-        let InForce { modes, memory } = self.in_force();
-        Assignment { modes, memory, start, sticking, holds }
+        Assignment { in_force: self.in_force(), start, sticking, holds }
     }
 
     /// Acceleration of an interface by the series, positive along a direction.
@@ -427,8 +426,8 @@ impl Stepping<'_> {
                     let next = self.choose(&stretch, at_s, &reached);
                     self.events_in_interval += 1;
                     self.limit_events(self.ground.times_s[sample])?;
-                    (self.modes, self.slider.memory, self.start) =
-                        (next.modes, next.memory, next.start);
+                    self.put_in_force(&next.in_force);
+                    self.start = next.start;
                 }
                 let (to_s, part, end) = self.walk(&stretch, at_s);
                 self.follow(part, end);
