@@ -8,7 +8,7 @@ use super::energy::Energy;
 use super::ground::{Ground, Load};
 use super::lanes::{Bench, Group, Interval, Knots, Map, Reach, Sizes, Told, Work, Worst};
 use super::law::{Dips, Law};
-use super::step::{Look, Spread};
+use super::step::{Look, Spread, Unit};
 use super::structure::{Phase, Structure, excess, larger};
 use super::{Certificate, ClosestCall};
 use crate::error::{Pulse, Stopped, UNWATCHED};
@@ -79,8 +79,11 @@ pub(super) struct Judge<'a> {
     /// How far outputs may leave the chord of a step, by phase, and the longest step.
     pub(super) spreads: [Option<Spread>; 3],
     longest_s: f64,
-    /// Step of the motion, where it is even.
+    /// Step of most intervals of the motion.
     even_s: f64,
+    /// Intervals judged by maps so far.
+    #[cfg(test)]
+    by_maps: usize,
     level: Level,
     /// The knot up to which near decisions were looked at.
     fed: usize,
@@ -126,7 +129,9 @@ impl<'a> Judge<'a> {
             totals: Totals::default(),
             spreads: [const { None }; 3],
             longest_s: history.time_s.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max),
-            even_s: motion.dt_s().unwrap_or(f64::NAN),
+            even_s: common_step(motion.times_s(), 2.0 * instant_s),
+            #[cfg(test)]
+            by_maps: 0,
             level: Level::new(),
             fed: 0,
             state: vec![0.0; 2 * d],
@@ -320,21 +325,25 @@ impl<'a> Judge<'a> {
         Some((phase, interval))
     }
 
-    /// Bounds the outputs of a phase; the maps of the even step to its path, and to its places, if it is
-    /// one of this phase.
+    /// Bounds the outputs of a phase; the maps of the even step to its path, and to its places, where
+    /// there is an even step.
     fn prepare(&mut self, phase: Phase) -> Option<[Map; 2]> {
         let (rate, steps) = (self.scheme.rate(phase), self.steps(phase));
         let longest_s = if rate > 0.0 { MAX_TURN / rate } else { f64::INFINITY };
         let longest_s = longest_s.min(self.longest_s / steps as f64);
-        let columns = self.spread(phase, longest_s);
-        let same = (longest_s * steps as f64 - self.even_s).abs() <= 2.0 * self.instant_s;
-        let map = |columns: &Vec<f64>| Map::new(phase, self.structure.degrees(), columns);
-        let maps = same.then(|| columns.each_ref().map(map));
-        if maps.is_some() {
-            let [columns, _] = columns;
-            self.scheme.keep(phase, (self.even_s, steps), columns);
+        let longest = self.units(phase, longest_s);
+        self.spread(phase, longest_s, &longest);
+        if self.even_s.is_nan() {
+            return None;
         }
-        maps
+        let same = (longest_s * steps as f64 - self.even_s).abs() <= 2.0 * self.instant_s;
+        let even = if same { longest } else { self.units(phase, self.even_s / steps as f64) };
+        let columns = [Unit::paths(&even), Unit::places(&even)];
+        let maps =
+            columns.each_ref().map(|columns| Map::new(phase, self.structure.degrees(), columns));
+        let [columns, _] = columns;
+        self.scheme.keep(phase, (self.even_s, steps), columns);
+        Some(maps)
     }
 
     /// Judges a group and empties it.
@@ -351,6 +360,10 @@ impl<'a> Judge<'a> {
         group.fill();
         let (bounds, longest_s) = (&spread.leaving[..], spread.longest_s);
         let reach = Reach { bounds, longest_s, knots };
+        #[cfg(test)]
+        if maps.is_some() {
+            self.by_maps += group.count;
+        }
         let bench = self.bench(&[]);
         let (lanes, peaks) = ((&*group, maps), &mut self.peaks);
         dispatch!(self.level, simd => bench.group(simd, lanes, &reach, peaks, work, worst));
@@ -679,6 +692,27 @@ impl<'a> Judge<'a> {
     }
 }
 
+/// The length that more than half of the intervals between these times have, to within `same_s`; NaN
+/// where there is none.
+fn common_step(times_s: &[f64], same_s: f64) -> f64 {
+    let lengths = || times_s.windows(2).map(|pair| pair[1] - pair[0]);
+    let same = |a: f64, b: f64| (a - b).abs() <= same_s;
+    // Boyer and Moore's majority vote: pairs of unlike lengths cancel.
+    let (mut step_s, mut votes) = (f64::NAN, 0_usize);
+    for length_s in lengths() {
+        if votes == 0 {
+            step_s = length_s;
+        }
+        if same(length_s, step_s) {
+            votes += 1;
+        } else {
+            votes -= 1;
+        }
+    }
+    let count = lengths().filter(|length_s| same(*length_s, step_s)).count();
+    if step_s > 0.0 && 2 * count > times_s.len() - 1 { step_s } else { f64::NAN }
+}
+
 /// The load at a fraction of a stretch.
 pub(super) fn between([from, to]: [Load; 2], t: f64) -> Load {
     let linear = |from: f64, to: f64| from + (to - from) * t;
@@ -697,8 +731,9 @@ mod tests {
     use crate::model::{Block, Damping, Frame, InitialState, Slider};
     use crate::response::{Demands, Method};
 
-    /// A motion that is none of the model's, with its figures of every size.
-    fn wrong(n: usize) -> (Model, GroundMotion, Response) {
+    /// A motion that is none of the model's, with its figures of every size, under a motion of so many
+    /// samples that does not end at 0, and a tail.
+    fn wrong(n: usize, samples: usize, tail_s: f64) -> (Model, GroundMotion, Response) {
         let friction = Friction::Coulomb(Coulomb::new([0.1; 2], [0.08; 2]).unwrap());
         let rigid = Model::rigid_block(300.0, friction).unwrap();
         let frame = Frame {
@@ -711,10 +746,11 @@ mod tests {
         let block = Block { width_m: Some(1.0), ..*rigid.block() };
         let model = Model::new(block, slider, frame, 9.81, InitialState::rest()).unwrap();
         let wave = |k: usize, rate: f64| libm::sin(rate * k as f64);
-        let motion = (0..99).map(|k| 2.0 * wave(k, 0.3)).collect();
+        let motion = (0..samples).map(|k| 2.0 * wave(k, 0.3)).collect();
         let motion = GroundMotion::evenly_spaced(0.01, motion, None).unwrap();
+        let motion = motion.with_tail(tail_s).unwrap();
         let mut h = History { storeys: n, ..History::default() };
-        for k in 0..99 {
+        for k in 0..motion.len() {
             h.time_s.push(motion.times_s()[k]);
             h.mode.push(match k / 11 % 3 {
                 0 => Mode::Stick,
@@ -744,6 +780,33 @@ mod tests {
         (model, motion, response)
     }
 
+    /// The step that a record has goes by maps with a tail too, which begins with a jump.
+    #[test]
+    fn exact_common_step_goes_by_maps() {
+        for n in [0, 1, 2, 5] {
+            for tail_s in [0.0, 1.0, 1.0037] {
+                let (model, motion, response) = wrong(n, 800, tail_s);
+                assert_eq!(motion.dt_s().is_none(), tail_s > 0.0);
+                let structure = Structure::new(&model);
+                let history = response.history.as_ref().unwrap();
+                let (given, pulse) = ((&response, history), Pulse::new(UNWATCHED));
+                let mut judge = Judge::new(&model, &motion, given, &structure, pulse);
+                let knots = judge.knots().unwrap().unwrap();
+                judge.side_by_side(&knots).unwrap();
+                let (mapped, intervals) = (judge.by_maps, motion.len() - 1);
+                assert!(10 * mapped > 9 * intervals, "{n} storeys: {mapped} of {intervals}");
+            }
+        }
+    }
+
+    #[test]
+    fn exact_step_of_most_intervals_is_common() {
+        assert_eq!(common_step(&[0.0, 1.0, 2.0, 2.0, 3.0, 9.0], 0.0), 1.0);
+        assert_eq!(common_step(&[0.0, 5.0, 6.0, 6.5, 7.5, 8.5, 9.5], 0.0), 1.0);
+        assert!(common_step(&[0.0, 1.0, 2.0, 4.0, 6.0], 0.0).is_nan());
+        assert!(common_step(&[0.0, 0.0], 0.0).is_nan());
+    }
+
     #[test]
     fn exact_same_bits_by_every_instruction_set() {
         let mut levels = vec![Level::new()];
@@ -755,7 +818,7 @@ mod tests {
             levels.extend(best.as_sse2().map(Level::Sse2));
         }
         for n in [0, 1, 3] {
-            let (model, motion, response) = wrong(n);
+            let (model, motion, response) = wrong(n, 99, 0.0);
             let structure = Structure::new(&model);
             let of = |level| {
                 let history = response.history.as_ref().unwrap();

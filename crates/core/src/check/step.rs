@@ -30,9 +30,21 @@ pub(super) struct Spread {
 }
 
 /// The path of a unit input, and `x` and `ẍ` at its nodes.
-struct Unit {
+pub(super) struct Unit {
     path: Vec<f64>,
     trace: Vec<f64>,
+}
+
+impl Unit {
+    /// The paths of all, one after another.
+    pub(super) fn paths(all: &[Self]) -> Vec<f64> {
+        all.iter().flat_map(|unit| &unit.path).copied().collect()
+    }
+
+    /// `x` at the nodes of all, one after another.
+    pub(super) fn places(all: &[Self]) -> Vec<f64> {
+        all.iter().flat_map(|unit| &unit.trace[..unit.trace.len() / 2]).copied().collect()
+    }
 }
 
 impl Judge<'_> {
@@ -139,21 +151,16 @@ impl Judge<'_> {
         self.energy.spend(0.0, 0.0, taken, 0.0);
     }
 
-    /// Bounds the outputs between the ends of a step of a phase, for steps up to `longest_s`; returns
-    /// the paths of unit inputs over that step, one after another, and their places at the nodes.
-    pub(super) fn spread(&mut self, phase: Phase, longest_s: f64) -> [Vec<f64>; 2] {
+    /// Bounds the outputs between the ends of a step of a phase, for steps up to `longest_s`, from the
+    /// unit inputs over that step.
+    pub(super) fn spread(&mut self, phase: Phase, longest_s: f64, units: &[Unit]) {
         let d = self.structure.degrees();
         let (inputs, outputs) = (2 * d + 4, self.peaks.outputs.len());
         let mut bounds = vec![0.0; outputs * inputs];
         let mut values = vec![[0.0; POINTS]; outputs];
         let mut rate = vec![0.0; d];
-        let units = self.units(phase, longest_s);
-        let mut columns = Vec::with_capacity(inputs * ((NODES + 2) * d + NODES));
-        let mut all_places = Vec::with_capacity(inputs * NODES * d);
         for (j, Unit { path, trace }) in units.iter().enumerate() {
-            columns.extend_from_slice(path);
             let (places, rates) = trace.split_at(NODES * d);
-            all_places.extend_from_slice(places);
             let unit = |k: usize| if k == j { 1.0 } else { 0.0 };
             let linear = |k: usize, t: f64| unit(k) + (unit(k + 1) - unit(k)) * t;
             let start: Vec<f64> = (0..2 * d).map(unit).collect();
@@ -193,11 +200,10 @@ impl Judge<'_> {
         };
         let leaving = rows.map(of_row).filter(|(_, terms)| !terms.is_empty()).collect();
         self.spreads[phase as usize] = Some(Spread { longest_s, bounds, leaving });
-        [columns, all_places]
     }
 
     /// The steps of every unit input.
-    fn units(&self, phase: Phase, step_s: f64) -> Vec<Unit> {
+    pub(super) fn units(&self, phase: Phase, step_s: f64) -> Vec<Unit> {
         let d = self.structure.degrees();
         let mut work = Work::new(d);
         let mut units = Vec::with_capacity(2 * d + 4);
