@@ -806,7 +806,8 @@ impl<'a> Judge<'a> {
         let (n, surfaces) = (self.floors(), self.h.surface_displacements(k));
         for (i, mode) in b.modes.iter().enumerate() {
             let at = if i == 0 { 0 } else { n + i };
-            let mut speeds = [0.0; POINTS];
+            // Margin in stick, speed in slip.
+            let mut near = [f64::NAN; POINTS];
             for (point, (now, x, v)) in all.iter().enumerate() {
                 let t = self.rule.points[point];
                 let load = between(loads, t);
@@ -814,21 +815,16 @@ impl<'a> Judge<'a> {
                     Mode::Stick => {
                         let asked = self.holds(now, (x[0], surfaces), (i, true), &load);
                         self.excess = larger(self.excess, excess(asked.beyond()));
-                        if i == 0
-                            && let Some(margin) = asked.margin()
-                        {
-                            self.dips.feed(from_s + t * step_s, margin);
-                        }
+                        near[point] = asked.margin().unwrap_or(f64::NAN);
                     }
                     Mode::Slip(direction) => {
-                        speeds[point] = direction.sign() * v[at];
+                        near[point] = direction.sign() * v[at];
                         let blur = self.still + self.instant_s * self.own.jerked(at);
-                        if speeds[point] < -blur {
+                        if near[point] < -blur {
                             let force = self.slider.scale(load.normal, self.model.weight_n());
                             self.excess = larger(self.excess, force);
                         }
                         if i == 0 {
-                            self.dips.feed(from_s + t * step_s, speeds[point]);
                             let broken = self.slider.contact_excess(
                                 b.contact,
                                 (x[0], v[0]),
@@ -841,6 +837,13 @@ impl<'a> Judge<'a> {
                             }
                         }
                     }
+                }
+            }
+            if i == 0 {
+                if near.iter().any(|value| value.is_nan()) {
+                    self.dips.interrupt();
+                } else {
+                    self.dips.feed_points(self.rule, (from_s, step_s), &near);
                 }
             }
         }

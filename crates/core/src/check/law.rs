@@ -1,6 +1,7 @@
 //! The friction law as a judge reads it, and the decisions that came close.
 
 use super::ClosestCall;
+use super::collocation::{POINTS, Rule};
 use super::structure::{excess, larger};
 use crate::friction::Direction;
 use crate::model::{Model, Stop, StopKind};
@@ -166,6 +167,12 @@ fn index(direction: Direction) -> usize {
     }
 }
 
+/// The least of the inner values, if it is below both ends.
+pub(super) fn dip(values: &[f64; POINTS]) -> Option<usize> {
+    let least = (0..POINTS).fold(0, |best, i| if values[i] < values[best] { i } else { best });
+    (least > 0 && least + 1 < POINTS).then_some(least)
+}
+
 /// Local minima of a quantity within one phase, fed in order of time.
 ///
 /// A minimum counts once the quantity has fallen to it and risen from it by more than `slack`, the
@@ -208,6 +215,24 @@ impl Dips {
             }
             self.falling = !self.falling;
             (self.turn, self.turn_s) = (value, time_s);
+        }
+    }
+
+    /// Takes the values at the points of a step, with the least between two where they dip there.
+    pub(super) fn feed_points(
+        &mut self,
+        rule: &Rule,
+        (from_s, step_s): (f64, f64),
+        values: &[f64; POINTS],
+    ) {
+        let inner = dip(values);
+        for i in 0..POINTS {
+            let (t, value) = if inner == Some(i) {
+                rule.least(values, i, |_, value| value)
+            } else {
+                (rule.points[i], values[i])
+            };
+            self.feed(from_s + t * step_s, value);
         }
     }
 

@@ -5,7 +5,7 @@ use super::demands::Instant;
 use super::ground::Load;
 use super::judge::{Judge, STILL, between};
 use super::lanes::{LANES, Work};
-use super::law::Push;
+use super::law::{Push, dip};
 use super::structure::{Phase, excess, larger};
 use crate::friction::Direction;
 use crate::response::{Contact, Mode};
@@ -326,10 +326,4 @@ impl Judge<'_> {
             self.dips.feed(from_s + t * step_s, speed);
         }
     }
-}
-
-/// The least of the inner values, if it is below both ends.
-fn dip(values: &[f64; POINTS]) -> Option<usize> {
-    let least = (0..POINTS).fold(0, |best, i| if values[i] < values[best] { i } else { best });
-    (least > 0 && least + 1 < POINTS).then_some(least)
 }

@@ -315,7 +315,7 @@ impl Own {
             sums[0].path_m,
         );
         self.of_peaks(&mut c, model, d, rounding, peak_m);
-        for (e, contents) in d.contents.iter().enumerate() {
+        for (e, contents) in d.contents.iter().enumerate().take(model.devices().contents.len()) {
             let list: Vec<f64> = (0..h.len()).map(|k| h.contents_state(k, e)[0]).collect();
             let (peak_m, _, _, last_m) = extremes(&list);
             let own = sums[1 + e];
@@ -410,14 +410,15 @@ impl Own {
             number(coefficient, own / weight_n, force_n / weight_n);
         }
         let heights_m = model.frame().heights_m.as_ref();
-        for (i, storey) in d.storeys.iter().enumerate() {
+        let n = model.storeys();
+        for (i, storey) in d.storeys.iter().enumerate().take(n) {
             number(storey.peak_displacement_m, p.displacement[i], near_m);
             number(storey.peak_drift_m, p.drift[i], near_m);
             let near = force_n / model.frame().masses_kg[i];
             number(storey.peak_acceleration_m_per_s2, p.acceleration[i], near);
         }
-        c.same(d.storeys.len() == model.storeys());
-        for (i, storey) in d.storeys.iter().enumerate() {
+        c.same(d.storeys.len() == n);
+        for (i, storey) in d.storeys.iter().enumerate().take(n) {
             let height_m = heights_m.map(|heights_m| heights_m[i]);
             let ratio = height_m.map(|height_m| p.drift[i] / height_m);
             c.optional(storey.peak_drift_ratio, ratio, near_m / height_m.unwrap_or(1.0));
