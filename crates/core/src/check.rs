@@ -15,10 +15,12 @@ mod ground;
 mod judge;
 mod lanes;
 mod law;
+mod rate;
 mod step;
 mod structure;
 
 use self::judge::Judge;
+use self::law::Law;
 use self::structure::{Phase, Structure};
 use crate::error::{GoOn, Pulse, Stopped, UNWATCHED};
 use crate::friction::Direction;
@@ -131,12 +133,13 @@ pub fn check_while(
     let run = |history| {
         let vertical = motion.vertical_m_per_s2().is_some();
         let reached = reaches_rigid_stop(model, history);
-        if reached == Some(true) || !model.is_plain_between_stops(vertical) {
+        if reached == Some(true) || !is_plain(model, vertical) {
             let pulse = Pulse::new(go_on);
             let given = (response, history);
             return devices::certificate(model, motion, given, &structure, (bound, pulse));
         }
-        let judge = Judge::new(model, motion, (response, history), &structure, Pulse::new(go_on));
+        let (law, given) = (Law::new(model), (response, history));
+        let judge = Judge::new(model, motion, given, (&structure, &law), Pulse::new(go_on));
         let Some(mut certificate) = judge.run(bound)? else { return Ok(None) };
         if reached.is_some() {
             let calls = devices::near_misses(model, history);
@@ -162,6 +165,17 @@ fn unjudged(bound: f64) -> Certificate {
         bound,
         energy: EnergyHistory::default(),
     }
+}
+
+/// Whether [`Judge`] knows all that is in force between stops.
+fn is_plain(model: &Model, vertical: bool) -> bool {
+    let (devices, slider) = (model.devices(), model.slider());
+    let elastic = matches!(slider.stop, Some(Stop { kind: StopKind::Elastic { .. }, .. }));
+    let rate = devices.rate.is_none() || !elastic;
+    // The spring of a pendulum is constant: N = M g cos θ.
+    let spring = devices.radius_m.is_none()
+        || !vertical && (devices.rate.is_none() || slider.tilt_rad == 0.0);
+    rate && spring && devices.series.is_none() && devices.contents.is_empty()
 }
 
 /// Whether a history comes to a rigid stop, of a model that has one: `s` is monotone between knots.

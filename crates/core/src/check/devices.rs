@@ -67,10 +67,12 @@ pub(super) struct Judge<'a> {
     instant_s: f64,
     jolt: f64,
     still: f64,
+    /// Largest `N`.
+    normal: f64,
     displacement: [f64; 2],
     velocity: [f64; 2],
     force: [f64; 2],
-    table: f64,
+    table: [f64; 2],
     excess: f64,
     energy: Energy,
     closest: Option<ClosestCall>,
@@ -92,22 +94,25 @@ pub(super) fn certificate(
     (bound, pulse): (f64, Pulse<'_>),
 ) -> Result<Option<Certificate>, Stopped> {
     let end_s = history.time_s.last().copied().unwrap_or(0.0);
+    let ground = Ground::new(model, motion);
+    let (normal, table) = ground.largest(end_s);
     let mut judge = Judge {
         model,
         response,
         h: history,
         structure,
         contents: &model.devices().contents,
-        ground: Ground::new(model, motion),
+        ground,
         slider: Slider::new(model, motion.vertical_m_per_s2().is_some()),
         rule: Rule::get(),
         instant_s: 8.0 * f64::EPSILON * end_s,
         jolt: 0.0,
         still: 0.0,
+        normal,
         displacement: [0.0; 2],
         velocity: [0.0; 2],
         force: [0.0; 2],
-        table: 0.0,
+        table: [0.0, table],
         excess: 0.0,
         energy: Energy::default(),
         closest: None,
@@ -257,8 +262,7 @@ impl<'a> Judge<'a> {
             })
             .into_iter()
             .fold(0.0, f64::max);
-        let (normal, _) = self.ground.largest(self.h.time_s[k + 1]);
-        own + self.slider.rate(normal / self.structure.block_kg, speed)
+        own + self.slider.rate(self.normal / self.structure.block_kg, speed)
     }
 
     fn run(&mut self, bound: f64) -> Result<Option<Certificate>, Stopped> {
@@ -293,10 +297,7 @@ impl<'a> Judge<'a> {
     }
 
     fn finish(&mut self, bound: f64) -> Certificate {
-        let end_s = self.h.time_s.last().copied().unwrap_or(0.0);
-        let (normal, table) = self.ground.largest(end_s);
-        let equilibrium =
-            [self.displacement, self.velocity, self.force, [self.table, table]].map(relative);
+        let equilibrium = [self.displacement, self.velocity, self.force, self.table].map(relative);
         let near = |scale: f64| 64.0 * f64::EPSILON * scale;
         let rounding = own::Rounding {
             instant_s: self.instant_s,
@@ -312,7 +313,7 @@ impl<'a> Judge<'a> {
             equilibrium_residual: equilibrium.into_iter().fold(0.0, larger),
             friction_excess: relative([
                 self.excess,
-                self.slider.scale(normal, self.model.weight_n()),
+                self.slider.scale(self.normal, self.model.weight_n()),
             ]),
             energy_balance_error: self.energy.error(),
             demands_error,
@@ -625,7 +626,7 @@ impl<'a> Judge<'a> {
                 scale = floors.fold(own, |most, (a, m)| most.max((a * m).abs()));
             }
         }
-        self.table = larger(self.table, best[0]);
+        self.table[0] = larger(self.table[0], best[0]);
         self.force[0] = larger(self.force[0], best[1]);
         self.force[1] = larger(self.force[1], scale);
         self.excess = larger(self.excess, self.contact_excess(k));

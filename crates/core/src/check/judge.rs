@@ -57,7 +57,7 @@ pub(super) struct Judge<'a> {
     history: &'a History,
     pub(super) structure: &'a Structure,
     ground: Ground<'a>,
-    pub(super) law: Law,
+    pub(super) law: &'a Law,
     pub(super) scheme: Scheme<'a>,
     /// Velocities below this are zero to within rounding.
     pub(super) still: f64,
@@ -102,20 +102,28 @@ impl<'a> Judge<'a> {
         model: &'a Model,
         motion: &'a GroundMotion,
         (response, history): (&'a Response, &'a History),
-        structure: &'a Structure,
+        (structure, law): (&'a Structure, &'a Law),
         pulse: Pulse<'a>,
     ) -> Self {
         let d = structure.degrees();
         let end_s = history.time_s.last().copied().unwrap_or(0.0);
         let instant_s = 8.0 * f64::EPSILON * end_s;
+        let ground = Ground::new(model, motion);
+        let (normal, _) = ground.largest(end_s);
+        let relative = history
+            .block_acceleration_m_per_s2
+            .iter()
+            .zip(&history.table_acceleration_m_per_s2)
+            .fold(0.0, |most, (block, table)| (block - table).abs().max(most));
+        let added_rate = law.added_rate(normal / structure.block_kg, relative);
         Self {
             model,
             response,
             history,
             structure,
-            ground: Ground::new(model, motion),
-            law: Law::new(model),
-            scheme: Scheme::new(structure, 2.0 * instant_s),
+            ground,
+            law,
+            scheme: Scheme::new((structure, law), 2.0 * instant_s, added_rate),
             still: 0.0,
             instant_s,
             jolt: 0.0,
@@ -200,7 +208,7 @@ impl<'a> Judge<'a> {
             slope: self.model.slope_m_per_s2(),
             instant_s: self.instant_s,
             stop,
-            fixed: self.law.fixed(),
+            law: self.law,
         }
     }
 
@@ -310,7 +318,7 @@ impl<'a> Judge<'a> {
                 [0.0; 2]
             }
             Mode::Slip(direction) => {
-                [from, to].map(|load| self.law.sliding_force(direction, load.normal))
+                [from, to].map(|load| self.law.sliding_load(direction, load.normal))
             }
         };
         let interval = Interval {
@@ -331,6 +339,10 @@ impl<'a> Judge<'a> {
         let (rate, steps) = (self.scheme.rate(phase), self.steps(phase));
         let longest_s = if rate > 0.0 { MAX_TURN / rate } else { f64::INFINITY };
         let longest_s = longest_s.min(self.longest_s / steps as f64);
+        if phase != Phase::Stick && self.law.rate.is_some() {
+            self.spreads[phase as usize] = Some(Spread::unknown(longest_s));
+            return None;
+        }
         let longest = self.units(phase, longest_s);
         self.spread(phase, longest_s, &longest);
         if self.even_s.is_nan() {
@@ -359,7 +371,7 @@ impl<'a> Judge<'a> {
         let Some(spread) = &self.spreads[group.phase as usize] else { return Ok(()) };
         group.fill();
         let (bounds, longest_s) = (&spread.leaving[..], spread.longest_s);
-        let reach = Reach { bounds, longest_s, knots };
+        let reach = Reach { bounds, longest_s, unknown: spread.bounds.is_empty(), knots };
         #[cfg(test)]
         if maps.is_some() {
             self.by_maps += group.count;
@@ -605,7 +617,7 @@ impl<'a> Judge<'a> {
                 } else {
                     Direction::Negative
                 };
-                self.law.sliding_excess(h.friction_force_n[k], direction, load.normal)
+                self.law.sliding_excess(h.friction_force_n[k], (direction, w), load.normal)
             }
         };
         [(table - self.instant_s * load.slope.abs()).max(0.0), beyond]
@@ -790,7 +802,8 @@ mod tests {
                 let structure = Structure::new(&model);
                 let history = response.history.as_ref().unwrap();
                 let (given, pulse) = ((&response, history), Pulse::new(UNWATCHED));
-                let mut judge = Judge::new(&model, &motion, given, &structure, pulse);
+                let law = Law::new(&model);
+                let mut judge = Judge::new(&model, &motion, given, (&structure, &law), pulse);
                 let knots = judge.knots().unwrap().unwrap();
                 judge.side_by_side(&knots).unwrap();
                 let (mapped, intervals) = (judge.by_maps, motion.len() - 1);
@@ -823,7 +836,8 @@ mod tests {
             let of = |level| {
                 let history = response.history.as_ref().unwrap();
                 let (given, pulse) = ((&response, history), Pulse::new(UNWATCHED));
-                let mut judge = Judge::new(&model, &motion, given, &structure, pulse);
+                let law = Law::new(&model);
+                let mut judge = Judge::new(&model, &motion, given, (&structure, &law), pulse);
                 judge.level = level;
                 judge.run(1e-10).unwrap().unwrap()
             };

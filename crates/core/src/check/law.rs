@@ -2,6 +2,7 @@
 
 use super::ClosestCall;
 use super::collocation::{POINTS, Rule};
+use super::rate::RateFriction;
 use super::structure::{excess, larger};
 use crate::friction::Direction;
 use crate::model::{Model, Stop, StopKind};
@@ -11,6 +12,8 @@ use crate::response::{Contact, EventKind, Mode};
 pub(super) struct Law {
     fixed: [f64; 2],
     kinetic: [f64; 2],
+    /// In place of the kinetic coefficients, where there is one.
+    pub(super) rate: Option<RateFriction>,
     stop: Option<Stop>,
 }
 
@@ -39,6 +42,7 @@ impl Law {
         Self {
             fixed: model.static_friction(),
             kinetic: model.kinetic_friction(),
+            rate: RateFriction::new(model),
             stop: model.stop().copied(),
         }
     }
@@ -99,14 +103,34 @@ impl Law {
         if bound > 0.0 { bound } else { weight }
     }
 
-    /// `T = −μ_k N sgn ṡ`.
-    pub(super) fn sliding_force(&self, direction: Direction, normal: f64) -> f64 {
-        -direction.sign() * self.kinetic[index(direction)] * normal
+    /// `T = −μ_k N sgn ṡ`; with friction by speed what [`speed_factor`](Self::speed_factor) multiplies.
+    pub(super) fn sliding_load(&self, direction: Direction, normal: f64) -> f64 {
+        let mu = match &self.rate {
+            Some(rate) => rate.factor(direction),
+            None => self.kinetic[index(direction)],
+        };
+        -direction.sign() * mu * normal
+    }
+
+    /// What friction by speed makes of a load of sliding; 1 without.
+    pub(super) fn speed_factor(&self, w: f64) -> f64 {
+        self.rate.as_ref().map_or(1.0, |rate| rate.coefficients([w.abs()])[0])
+    }
+
+    /// `μ_k` at a speed.
+    pub(super) fn kinetic(&self, direction: Direction, speed: f64) -> f64 {
+        -direction.sign() * self.sliding_load(direction, 1.0) * self.speed_factor(speed)
     }
 
     /// Whether a slip in this direction could turn into a stick without slowing down to it smoothly.
     pub(super) fn drops(&self, direction: Direction) -> bool {
-        self.kinetic[index(direction)] < self.fixed[index(direction)]
+        self.kinetic(direction, 0.0) < self.fixed[index(direction)]
+    }
+
+    /// What friction by speed adds to the rates of a slip, as [`RateFriction::rate`] has it.
+    pub(super) fn added_rate(&self, normal: f64, acceleration: f64) -> f64 {
+        let fixed = self.fixed[0].max(self.fixed[1]);
+        self.rate.as_ref().map_or(0.0, |rate| rate.rate(normal, acceleration, fixed))
     }
 
     /// The bound that a demand of this sign meets: too large a `T` slides the block towards −x.
@@ -125,16 +149,21 @@ impl Law {
         (bound > 0.0).then(|| 1.0 - demand.abs() / bound)
     }
 
-    /// `|T + μ_k N sgn ṡ|` for the direction in which the block really moves.
-    pub(super) fn sliding_excess(&self, force: f64, direction: Direction, normal: f64) -> f64 {
-        (force - self.sliding_force(direction, normal)).abs()
+    /// `|T + μ_k N sgn ṡ|` for the direction in which the block really moves, at a velocity.
+    pub(super) fn sliding_excess(
+        &self,
+        force: f64,
+        (direction, w): (Direction, f64),
+        normal: f64,
+    ) -> f64 {
+        (force - self.sliding_load(direction, normal) * self.speed_factor(w)).abs()
     }
 
     /// The same for a slip whose velocity has the wrong sign. Where no kinetic friction tells the
     /// directions apart the static one stands for it: eq. (4) was not asked at ṡ = 0.
     pub(super) fn wrong_way(&self, claimed: Direction, normal: f64) -> f64 {
-        let force = self.sliding_force(claimed, normal);
-        let excess = self.sliding_excess(force, claimed.opposite(), normal);
+        let force = self.sliding_load(claimed, normal) * self.speed_factor(0.0);
+        let excess = self.sliding_excess(force, (claimed.opposite(), 0.0), normal);
         if excess > 0.0 { excess } else { self.fixed[0].max(self.fixed[1]) * normal }
     }
 
@@ -160,7 +189,8 @@ pub(super) fn contact_event(before: Contact, after: Contact) -> Option<EventKind
     }
 }
 
-fn index(direction: Direction) -> usize {
+/// Place of a direction in pairs.
+pub(super) fn index(direction: Direction) -> usize {
     match direction {
         Direction::Positive => 0,
         Direction::Negative => 1,

@@ -29,6 +29,13 @@ pub(super) struct Spread {
     pub(super) leaving: Vec<(usize, Vec<(usize, f64)>)>,
 }
 
+impl Spread {
+    /// Of steps whose law is not linear: nothing is known of the outputs in between.
+    pub(super) fn unknown(longest_s: f64) -> Self {
+        Self { longest_s, bounds: Vec::new(), leaving: Vec::new() }
+    }
+}
+
 /// The path of a unit input, and `x` and `ẍ` at its nodes.
 pub(super) struct Unit {
     path: Vec<f64>,
@@ -63,7 +70,7 @@ impl Judge<'_> {
         let forces = match mode {
             Mode::Stick => [0.0; 2],
             Mode::Slip(direction) => {
-                loads.map(|load| self.law.sliding_force(direction, load.normal))
+                loads.map(|load| self.law.sliding_load(direction, load.normal))
             }
         };
         let held = push.force(self.state[0], 0.0);
@@ -92,7 +99,6 @@ impl Judge<'_> {
         }
         self.state.copy_from_slice(path.end());
         if look == Look::All {
-            let ends = if mode == Mode::Stick { [values[0], values[POINTS - 1]] } else { forces };
             self.spend(step_s, loads, forces);
             if contact != Contact::Free && mode != Mode::Stick {
                 self.against_stop((contact, push), step_s);
@@ -100,7 +106,7 @@ impl Judge<'_> {
             if mode != Mode::Stick {
                 self.totals.path_m += (self.state[0] - self.before[0]).abs();
             }
-            self.track((mode, push), step_s, loads, ends);
+            self.track((mode, push), step_s, loads, forces);
         }
         match mode {
             Mode::Stick => self.held(from_s, step_s, loads, &values),
@@ -120,7 +126,7 @@ impl Judge<'_> {
             }
             let weight = step_s * rule.weights[node];
             let a = loads[0].a + (loads[1].a - loads[0].a) * c;
-            let force = forces[0] + (forces[1] - forces[0]) * c;
+            let force = (forces[0] + (forces[1] - forces[0]) * c) * self.law.speed_factor(v[0]);
             let power = -self.structure.momentum(v) * a;
             work += weight * power;
             size += weight * power.abs();
@@ -216,28 +222,39 @@ impl Judge<'_> {
         units
     }
 
-    /// Looks for peaks in the step just made; `ends` are the values of `T` there.
-    fn track(&mut self, (mode, push): (Mode, Push), step_s: f64, loads: [Load; 2], ends: [f64; 2]) {
+    /// Looks for peaks in the step just made; `forces` are the loads of sliding at its ends.
+    fn track(
+        &mut self,
+        (mode, push): (Mode, Push),
+        step_s: f64,
+        loads: [Load; 2],
+        forces: [f64; 2],
+    ) {
         let d = self.structure.degrees();
         let phase = self.scheme.phase();
         let length = self.peaks.outputs.len();
         let mut values = vec![[0.0; POINTS]; length];
+        let held = push.force(self.before[0], 0.0);
         for (i, state) in [(0, &self.before), (POINTS - 1, &self.state)] {
             let end = i.min(1);
             let (x, v) = state.split_at(d);
             let mut rate = vec![0.0; d];
-            let shifted = ends[end] + push.shift;
-            self.structure.accelerate(phase, (x, v), (loads[end].a, shifted), &mut rate);
-            let stop = push.force(x[0], v[0]);
-            let (a, force) = (loads[end].a, ends[end]);
+            let a = loads[end].a;
+            let (force, stop) = match mode {
+                Mode::Stick => (self.structure.demand(x, v, a) + held, held),
+                Mode::Slip(_) => {
+                    (forces[end] * self.law.speed_factor(v[0]), push.force(x[0], v[0]))
+                }
+            };
+            self.structure.accelerate(phase, (x, v), (a, force + push.shift), &mut rate);
             let now = Instant { x, v, rate: &rate, a, force, stop };
             self.peaks.outputs_at(&now, &mut values, i);
         }
         if phase != Phase::Pressed
             && let Some(spread) = &self.spreads[phase as usize]
+            && !spread.bounds.is_empty()
         {
-            let last = if mode == Mode::Stick { [0.0; 2] } else { ends };
-            let inputs = self.before.iter().copied().chain(loads.map(|load| load.a)).chain(last);
+            let inputs = self.before.iter().copied().chain(loads.map(|load| load.a)).chain(forces);
             let sizes: Vec<f64> = inputs.map(f64::abs).collect();
             let share = step_s / spread.longest_s;
             let rows = spread.bounds.chunks_exact(sizes.len());
@@ -248,7 +265,6 @@ impl Judge<'_> {
             }
         }
         let linear = |pair: [f64; 2], t: f64| pair[0] + (pair[1] - pair[0]) * t;
-        let held = push.force(self.before[0], 0.0);
         let points = self.scheme.rule.points;
         let [x, v, rates] = self.scheme.trace();
         for i in 1..=NODES {
@@ -257,7 +273,10 @@ impl Judge<'_> {
             let a = linear(loads.map(|load| load.a), points[i]);
             let (force, stop) = match mode {
                 Mode::Stick => (self.structure.demand(&x, &v, a) + held, held),
-                Mode::Slip(_) => (linear(ends, points[i]), push.force(x[0], v[0])),
+                Mode::Slip(_) => {
+                    let force = linear(forces, points[i]) * self.law.speed_factor(v[0]);
+                    (force, push.force(x[0], v[0]))
+                }
             };
             let now = Instant { x: &x, v: &v, rate: &rate, a, force, stop };
             self.peaks.outputs_at(&now, &mut values, i);
