@@ -272,9 +272,10 @@ impl<'a> Judge<'a> {
         }
         self.start();
         let (x, v) = self.stored(0);
-        let initial_j = self.kinetic(&v) + self.strain(&x);
+        let stop_j = self.slider.stop(self.contact(0)).strain(x[0]);
+        let initial_j = self.kinetic(&v) + self.strain(&x) + stop_j;
         let rounding_j = self.structure.total_kg * self.jolt * self.jolt;
-        self.energy.start(initial_j, rounding_j, knots);
+        self.energy.start(initial_j, stop_j, rounding_j, knots);
         self.dips = self.fresh_dips(0);
         let mut arrives = false;
         for k in 0..knots {
@@ -303,7 +304,8 @@ impl<'a> Judge<'a> {
             instant_s: self.instant_s,
             displacement_m: near(self.displacement[1]),
             velocity_m_per_s: near(self.velocity[1]),
-            force_n: near(self.force[1]),
+            force_n: near(self.force[1])
+                + self.slider.law.rounding(&self.ground, self.instant_s, self.normal),
         };
         let demands_error = self.own.error(self.model, self.response, self.h, &rounding);
         for call in near_misses(self.model, self.h) {
@@ -616,7 +618,9 @@ impl<'a> Judge<'a> {
             let friction = if modes[0] == Mode::Stick { asked.taken() } else { now.friction };
             force = force.max((friction - h.friction_force_n[k]).abs());
             let drift = load.slope.abs() * self.instant_s * self.structure.total_kg;
-            force = excess(force - drift);
+            let normal = load.normal_slope.abs() * self.instant_s
+                + 8.0 * f64::EPSILON * if load.normal_slope == 0.0 { 0.0 } else { self.normal };
+            force = excess(force - drift - self.slider.most() * normal);
             if table + force / self.structure.total_kg < best[0] + best[1] / self.structure.total_kg
             {
                 best = [table, force];

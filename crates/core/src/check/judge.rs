@@ -219,8 +219,10 @@ impl<'a> Judge<'a> {
         let (times, knots) = (&h.time_s, h.len());
         self.load_state(0);
         self.start();
-        let initial_j = self.structure.kinetic(self.v()) + self.structure.strain(self.x());
-        self.energy.start(initial_j, self.model.total_mass_kg() * self.jolt * self.jolt, knots);
+        let stop_j = self.law.push(self.contact(0)).strain(self.x()[0]);
+        let initial_j = self.structure.kinetic(self.v()) + self.structure.strain(self.x()) + stop_j;
+        let rounding_j = self.model.total_mass_kg() * self.jolt * self.jolt;
+        self.energy.start(initial_j, stop_j, rounding_j, knots);
         let told = self.side_by_side(&all)?;
         self.dips = self.fresh_dips(0);
         let mut arrives = false;
@@ -443,7 +445,7 @@ impl<'a> Judge<'a> {
             instant_s: self.instant_s,
             displacement_m: near(f.displacement[1]),
             velocity_m_per_s: near(f.velocity[1]),
-            force_n: near(f.force[1]),
+            force_n: near(f.force[1]) + self.law.rounding(&self.ground, self.instant_s, normal),
         };
         let own = (&self.peaks, &self.totals);
         let demands_error = demands::error(self.model, self.response, self.history, own, &rounding);
@@ -733,6 +735,7 @@ pub(super) fn between([from, to]: [Load; 2], t: f64) -> Load {
         a: linear(from.a, to.a),
         normal: linear(from.normal, to.normal),
         slope: from.slope,
+        normal_slope: from.normal_slope,
     }
 }
 

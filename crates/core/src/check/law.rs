@@ -2,6 +2,7 @@
 
 use super::ClosestCall;
 use super::collocation::{POINTS, Rule};
+use super::ground::Ground;
 use super::rate::RateFriction;
 use super::structure::{excess, larger};
 use crate::friction::Direction;
@@ -29,6 +30,12 @@ impl Push {
     /// Force of the block on the stop towards +x.
     pub(super) fn force(&self, s: f64, w: f64) -> f64 {
         self.stiffness * s + self.damper * w - self.shift
+    }
+
+    /// What its spring has stored: `(k s − shift)²/(2 k)`.
+    pub(super) fn strain(&self, s: f64) -> f64 {
+        let force = self.force(s, 0.0);
+        if force == 0.0 { 0.0 } else { 0.5 * force * (force / self.stiffness) }
     }
 }
 
@@ -95,6 +102,11 @@ impl Law {
                 Some((_, force)) => beyond(force),
             },
         }
+    }
+
+    /// What the rounding of times and of vertical motion makes of a force of friction at most.
+    pub(super) fn rounding(&self, ground: &Ground<'_>, instant_s: f64, normal: f64) -> f64 {
+        self.fixed[0].max(self.fixed[1]) * ground.normal_rounding(instant_s, normal)
     }
 
     /// Largest `μ_s N`, or the weight where that is 0: the scale of [`super::Certificate::friction_excess`].

@@ -50,7 +50,7 @@ impl Asked {
 }
 
 pub(super) struct Slider<'a> {
-    law: Law,
+    pub(super) law: Law,
     fixed: [f64; 2],
     radius_m: Option<f64>,
     series: Option<&'a Series>,
@@ -154,6 +154,11 @@ impl<'a> Slider<'a> {
             rate += libm::sqrt(normal / least);
         }
         rate + self.law.added_rate(normal, acceleration)
+    }
+
+    /// The largest coefficient at rest.
+    pub(super) fn most(&self) -> f64 {
+        self.fixed[0].max(self.fixed[1])
     }
 
     /// Largest `μ_s N`, or the weight where that is 0.

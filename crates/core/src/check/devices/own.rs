@@ -308,12 +308,9 @@ impl Own {
         let sums = &self.totals.interfaces;
         c.same(d.sliding_at_end == (h.modes(h.len() - 1)[0] != Mode::Stick));
         c.number(d.sliding_time_s, sums[0].sliding_s, instants_s, sums[0].sliding_s);
-        c.number(
-            d.sliding_path_m,
-            sums[0].path_m,
-            near_m * sums[0].path_m / peak_m.max(near_m),
-            sums[0].path_m,
-        );
+        // A path of many strokes is rounded in each.
+        let strokes = if peak_m > near_m { sums[0].path_m / peak_m } else { 1.0 };
+        c.number(d.sliding_path_m, sums[0].path_m, near_m * strokes, sums[0].path_m);
         self.of_peaks(&mut c, model, d, rounding, peak_m);
         for (e, contents) in d.contents.iter().enumerate().take(model.devices().contents.len()) {
             let list: Vec<f64> = (0..h.len()).map(|k| h.contents_state(k, e)[0]).collect();
