@@ -9,7 +9,7 @@ mod own;
 
 use self::law::{Slider, Sliding};
 use self::own::Own;
-use super::collocation::{NODES, POINTS, Rule};
+use super::collocation::{NODES, POINTS, ROUNDING, Rule};
 use super::energy::Energy;
 use super::ground::{Ground, Load};
 use super::judge::{STILL, between};
@@ -43,6 +43,27 @@ struct Now {
     friction: f64,
     /// Force of the block on the elastic stop towards +x.
     stop: f64,
+    /// Masses of the block and the floors with what sticks to them, and the pull of what slides there.
+    mass: Vec<f64>,
+    pull: Vec<f64>,
+}
+
+/// A node of a step.
+#[derive(Clone, Default)]
+struct Node {
+    now: Now,
+    x: Vec<f64>,
+    v: Vec<f64>,
+}
+
+/// Work space of a step: its start, its nodes, its end.
+#[derive(Default)]
+struct Room {
+    first: Node,
+    nodes: [Node; NODES],
+    end: Now,
+    /// Rates of a node in the pass before.
+    before: Vec<f64>,
 }
 
 /// What is in force between two knots.
@@ -80,6 +101,7 @@ pub(super) struct Judge<'a> {
     /// How the slip went that has led to the present knot, and `s` where it began.
     arriving: Option<(Sliding, f64)>,
     own: Own,
+    room: Room,
     /// Asks whether to go on, after so many units of work a step.
     pulse: Pulse<'a>,
     units: u32,
@@ -119,6 +141,7 @@ pub(super) fn certificate(
         dips: Dips::new(0.0),
         arriving: None,
         own: Own::new(model, history),
+        room: Room::default(),
         pulse,
         units: 64 * (1 + model.storeys() + model.devices().contents.len()) as u32,
     };
@@ -183,12 +206,22 @@ impl<'a> Judge<'a> {
 
     /// Accelerations and forces under a load.
     fn at(&self, b: &Between<'_>, load: &Load, x: &[f64], v: &[f64]) -> Now {
+        let mut now = Now::default();
+        self.find(b, load, (x, v), &mut now);
+        now
+    }
+
+    /// The same into what is there.
+    fn find(&self, b: &Between<'_>, load: &Load, (x, v): (&[f64], &[f64]), now: &mut Now) {
         let n = self.floors();
+        let Now { rate, floors, contents: carried, mass, pull, .. } = now;
         let (q, rates) = (&x[1..=n], &v[1..=n]);
         let press = load.normal / self.structure.total_kg;
-        let mut mass: Vec<f64> = vec![self.structure.block_kg];
+        mass.clear();
+        mass.push(self.structure.block_kg);
         mass.extend(&self.structure.masses_kg);
-        let mut pull = vec![0.0; n + 1];
+        pull.clear();
+        pull.resize(n + 1, 0.0);
         for (contents, mode) in self.contents.iter().zip(&b.modes[1..]) {
             match mode {
                 Mode::Stick => mass[contents.floor] += contents.mass_kg,
@@ -198,9 +231,11 @@ impl<'a> Judge<'a> {
                 }
             }
         }
-        let mut restoring = vec![0.0; n];
-        self.structure.add_elastic(q, &mut restoring);
-        self.structure.add_viscous(rates, &mut restoring);
+        // The restoring forces first, then the accelerations of the floors.
+        floors.clear();
+        floors.resize(n, 0.0);
+        self.structure.add_elastic(q, floors);
+        self.structure.add_viscous(rates, floors);
         let shear = self.structure.base_force(q, rates);
         let (s, w) = (x[0], v[0]);
         let push = self.slider.stop(b.contact);
@@ -223,20 +258,21 @@ impl<'a> Judge<'a> {
                 ((slider + shear + pull[0]) / mass[0], slider, friction)
             }
         };
-        let floors: Vec<f64> = (0..n).map(|i| (pull[i + 1] - restoring[i]) / mass[i + 1]).collect();
+        for (i, floor) in floors.iter_mut().enumerate() {
+            *floor = (pull[i + 1] - *floor) / mass[i + 1];
+        }
         let under = |floor: usize| if floor == 0 { block } else { floors[floor - 1] };
-        let contents: Vec<f64> = self
-            .contents
-            .iter()
-            .zip(&b.modes[1..])
-            .map(|(contents, mode)| match mode {
+        carried.clear();
+        carried.extend(self.contents.iter().zip(&b.modes[1..]).map(
+            |(contents, mode)| match mode {
                 Mode::Stick => under(contents.floor),
                 Mode::Slip(direction) => -direction.sign() * contents.kinetic_friction * press,
-            })
-            .collect();
-        let mut rate = vec![block - load.a];
+            },
+        ));
+        rate.clear();
+        rate.push(block - load.a);
         rate.extend(floors.iter().map(|floor| floor - block));
-        rate.extend(self.contents.iter().zip(&contents).map(|(c, a)| a - under(c.floor)));
+        rate.extend(self.contents.iter().zip(&*carried).map(|(c, a)| a - under(c.floor)));
         if b.modes[0] == Mode::Stick {
             rate[0] = 0.0;
         }
@@ -245,7 +281,8 @@ impl<'a> Judge<'a> {
                 *rate = 0.0;
             }
         }
-        Now { rate, block, floors, contents, shear, slider, friction, stop }
+        (now.block, now.shear, now.slider, now.friction) = (block, shear, slider, friction);
+        now.stop = stop;
     }
 
     /// Bound on the fastest rate between two knots, in 1/s.
@@ -728,61 +765,72 @@ impl<'a> Judge<'a> {
         fastest: &mut [f64],
     ) {
         let (d, rule) = (self.degrees(), self.rule);
-        let first = self.at(b, &loads[0], x, v);
-        let mut rates: Vec<Vec<f64>> = vec![first.rate.clone(); NODES];
-        let mut places = vec![vec![0.0; d]; NODES];
-        let mut speeds = vec![vec![0.0; d]; NODES];
-        let mut nodes = vec![Now::default(); NODES];
+        let mut room = core::mem::take(&mut self.room);
+        let Room { first, nodes, end, before } = &mut room;
+        first.x.clone_from(x);
+        first.v.clone_from(v);
+        self.find(b, &loads[0], (x, v), &mut first.now);
+        for node in nodes.iter_mut() {
+            node.now.rate.clone_from(&first.now.rate);
+            node.x.resize(d, 0.0);
+            node.v.resize(d, 0.0);
+        }
+        let size = self.own.most_jerked();
         let mut last = f64::INFINITY;
-        for _ in 0..MOST_PASSES {
+        for pass in 0..MOST_PASSES {
             let mut change: f64 = 0.0;
             // Each node takes what those before it have found in this pass.
             for i in 0..NODES {
                 for c in 0..d {
                     let (mut along, mut twice) = (0.0, 0.0);
-                    for (j, rate) in rates.iter().enumerate() {
-                        along += rule.a[i][j] * rate[c];
-                        twice += rule.aa[i][j] * rate[c];
+                    for (j, node) in nodes.iter().enumerate() {
+                        along += rule.a[i][j] * node.now.rate[c];
+                        twice += rule.aa[i][j] * node.now.rate[c];
                     }
-                    speeds[i][c] = v[c] + step_s * along;
-                    places[i][c] = x[c] + step_s * (rule.c[i] * v[c] + step_s * twice);
+                    nodes[i].v[c] = v[c] + step_s * along;
+                    nodes[i].x[c] = x[c] + step_s * (rule.c[i] * v[c] + step_s * twice);
                 }
-                let load = between(loads, rule.c[i]);
-                nodes[i] = self.at(b, &load, &places[i], &speeds[i]);
-                for c in 0..d {
-                    change = change.max((nodes[i].rate[c] - rates[i][c]).abs());
+                let Node { now, x, v } = &mut nodes[i];
+                before.clone_from(&now.rate);
+                self.find(b, &between(loads, rule.c[i]), (x, v), now);
+                for (new, old) in now.rate.iter().zip(&*before) {
+                    change = change.max((new - old).abs());
                 }
-                rates[i].copy_from_slice(&nodes[i].rate);
             }
-            // A change that no longer shrinks is rounding.
+            // The next pass would gain as much as this one; a change that no longer shrinks is rounding.
+            let next = change * (change / last);
             if change == 0.0
-                || (change >= 0.5 * last && change <= 1e-12 * self.own.jerked(0).max(1.0))
+                || (pass > 0 && next <= 0.5 * f64::EPSILON * size)
+                || (change >= 0.5 * last && change <= ROUNDING * size)
             {
                 break;
             }
             last = change;
         }
-        let start = (x.clone(), v.clone());
         for c in 0..d {
             let (mut along, mut twice) = (0.0, 0.0);
-            for (j, rate) in rates.iter().enumerate() {
-                along += rule.weights[j] * rate[c];
-                twice += rule.weights[j] * (1.0 - rule.c[j]) * rate[c];
+            for (j, node) in nodes.iter().enumerate() {
+                let rate = node.now.rate[c];
+                along += rule.weights[j] * rate;
+                twice += rule.weights[j] * (1.0 - rule.c[j]) * rate;
             }
             x[c] += step_s * (v[c] + step_s * twice);
             v[c] += step_s * along;
         }
-        let end = self.at(b, &loads[1], x, v);
-        self.spend(b, step_s, loads, (&nodes, &places, &speeds));
+        self.find(b, &loads[1], (x, v), end);
+        self.spend(b, step_s, loads, nodes);
         for (i, fastest) in fastest.iter_mut().enumerate() {
-            let all = speeds.iter().map(|v| v[i].abs());
-            *fastest = all.fold(fastest.max(start.1[i].abs()).max(v[i].abs()), f64::max);
+            let all = nodes.iter().map(|node| node.v[i].abs());
+            *fastest = all.fold(fastest.max(first.v[i].abs()).max(v[i].abs()), f64::max);
         }
-        let mut all: Vec<(&Now, &[f64], &[f64])> = vec![(&first, &start.0, &start.1)];
-        for i in 0..NODES {
-            all.push((&nodes[i], &places[i], &speeds[i]));
-        }
-        all.push((&end, x, v));
+        let all: [(&Now, &[f64], &[f64]); POINTS] = core::array::from_fn(|i| {
+            let node = match i {
+                0 => &*first,
+                i if i <= NODES => &nodes[i - 1],
+                _ => return (&*end, &x[..], &v[..]),
+            };
+            (&node.now, &node.x[..], &node.v[..])
+        });
         let surfaces = self.h.surface_displacements(k);
         let asked: Vec<law::Asked> = match b.modes[0] {
             Mode::Stick => all
@@ -796,7 +844,8 @@ impl<'a> Judge<'a> {
         };
         self.judge_step((k, b), from_s, step_s, loads, &all);
         self.own.see(self.model, rule, &all, &asked);
-        self.own.totals.path(b.modes, &start.0, x, self.floors());
+        self.own.totals.path(b.modes, &first.x, x, self.floors());
+        self.room = room;
     }
 
     /// Judges the inequalities at the points of a step.
@@ -855,19 +904,13 @@ impl<'a> Judge<'a> {
     }
 
     /// Adds up work and losses of a step.
-    fn spend(
-        &mut self,
-        b: &Between<'_>,
-        step_s: f64,
-        loads: [Load; 2],
-        (nodes, places, speeds): (&[Now], &[Vec<f64>], &[Vec<f64>]),
-    ) {
+    fn spend(&mut self, b: &Between<'_>, step_s: f64, loads: [Load; 2], nodes: &[Node]) {
         let n = self.floors();
         let (mut work, mut size, mut damping, mut friction) = (0.0, 0.0, 0.0, 0.0);
         for i in 0..NODES {
             let weight = step_s * self.rule.weights[i];
             let load = between(loads, self.rule.c[i]);
-            let (x, v, now) = (&places[i], &speeds[i], &nodes[i]);
+            let Node { now, x, v } = &nodes[i];
             let mut momentum = self.structure.block_kg * v[0];
             for j in 0..n {
                 momentum += self.structure.masses_kg[j] * (v[0] + v[1 + j]);

@@ -137,6 +137,11 @@ impl Own {
         self.jerked[degree]
     }
 
+    /// Largest acceleration of any degree that the history tells.
+    pub(super) fn most_jerked(&self) -> f64 {
+        self.jerked.iter().fold(0.0, |most, a| a.max(most))
+    }
+
     /// Takes the points of a step.
     pub(super) fn see(
         &mut self,
