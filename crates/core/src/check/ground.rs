@@ -114,6 +114,11 @@ impl<'a> Ground<'a> {
         })
     }
 
+    /// Whether the normal force varies.
+    pub(super) fn has_vertical(&self) -> bool {
+        self.vertical.is_some()
+    }
+
     /// What the rounding of times and of `g cos θ + Üv` makes of `N` at most; 0 without vertical motion.
     pub(super) fn normal_rounding(&self, instant_s: f64, normal: f64) -> f64 {
         let Some(vertical) = self.vertical else { return 0.0 };

@@ -57,6 +57,8 @@ pub(super) struct Judge<'a> {
     history: &'a History,
     pub(super) structure: &'a Structure,
     ground: Ground<'a>,
+    /// Largest `N` and `|Ü|`.
+    largest: (f64, f64),
     pub(super) law: &'a Law,
     pub(super) scheme: Scheme<'a>,
     /// Velocities below this are zero to within rounding.
@@ -74,6 +76,8 @@ pub(super) struct Judge<'a> {
     /// Near decisions of the phase under way.
     pub(super) dips: Dips,
     closest: Option<ClosestCall>,
+    /// A margin that the closest call has at most.
+    floor: f64,
     pub(super) peaks: Peaks<'a>,
     pub(super) totals: Totals,
     /// How far outputs may leave the chord of a step, by phase, and the longest step.
@@ -109,19 +113,21 @@ impl<'a> Judge<'a> {
         let end_s = history.time_s.last().copied().unwrap_or(0.0);
         let instant_s = 8.0 * f64::EPSILON * end_s;
         let ground = Ground::new(model, motion);
-        let (normal, _) = ground.largest(end_s);
-        let relative = history
-            .block_acceleration_m_per_s2
-            .iter()
-            .zip(&history.table_acceleration_m_per_s2)
-            .fold(0.0, |most, (block, table)| (block - table).abs().max(most));
-        let added_rate = law.added_rate(normal / structure.block_kg, relative);
+        let largest = ground.largest(end_s);
+        let relative = || {
+            let tables = history.table_acceleration_m_per_s2.iter();
+            let pairs = history.block_acceleration_m_per_s2.iter().zip(tables);
+            pairs.fold(0.0, |most, (block, table)| (block - table).abs().max(most))
+        };
+        let relative = if law.rate.is_some() { relative() } else { 0.0 };
+        let added_rate = law.added_rate(largest.0 / structure.block_kg, relative);
         Self {
             model,
             response,
             history,
             structure,
             ground,
+            largest,
             law,
             scheme: Scheme::new((structure, law), 2.0 * instant_s, added_rate),
             still: 0.0,
@@ -133,6 +139,7 @@ impl<'a> Judge<'a> {
             energy: Energy::default(),
             dips: Dips::new(0.0),
             closest: None,
+            floor: f64::INFINITY,
             peaks: Peaks::new(Outputs::new(model, structure)),
             totals: Totals::default(),
             spreads: [const { None }; 3],
@@ -224,6 +231,7 @@ impl<'a> Judge<'a> {
         let rounding_j = self.model.total_mass_kg() * self.jolt * self.jolt;
         self.energy.start(initial_j, stop_j, rounding_j, knots);
         let told = self.side_by_side(&all)?;
+        self.find_floor();
         self.dips = self.fresh_dips(0);
         let mut arrives = false;
         for k in 0..knots {
@@ -394,7 +402,7 @@ impl<'a> Judge<'a> {
         let (mode, from_s, to_s) = (h.mode[k], h.time_s[k], h.time_s[k + 1]);
         self.energy.spend(told.work, told.size, told.damping, told.friction);
         self.totals.add(mode, Contact::Free, to_s - from_s);
-        let near = self.closest.map_or(f64::INFINITY, |call| call.margin);
+        let near = self.closest.map_or(self.floor, |call| call.margin.min(self.floor));
         let (floor, wrong) = match mode {
             Mode::Stick => (near.min(self.dips.so_far()).max(0.0), told.least < 0.0),
             Mode::Slip(direction) => {
@@ -419,6 +427,37 @@ impl<'a> Judge<'a> {
         Ok(())
     }
 
+    /// Looks at all decisions where the block came to rest, and at maxima of the demand at knots: only
+    /// what comes closer is worth a search between knots.
+    fn find_floor(&mut self) {
+        let h = self.history;
+        for k in 1..h.len() {
+            if h.mode[k] != h.mode[k - 1] {
+                self.load_state(k);
+                self.change(k, h.mode[k - 1], h.mode[k]);
+            }
+        }
+        self.floor = self.closest.map_or(f64::INFINITY, |call| call.margin);
+        if self.ground.has_vertical() {
+            return;
+        }
+        let normal = self.largest.0;
+        let margin = |k: usize| self.law.margin(h.friction_force_n[k], normal);
+        for k in 1..h.len().saturating_sub(1) {
+            if h.mode[k - 1..=k + 1] != [Mode::Stick; 3] || self.contact(k) != Contact::Free {
+                continue;
+            }
+            if let (Some(before), Some(here), Some(after)) =
+                (margin(k - 1), margin(k), margin(k + 1))
+                && here <= before
+                && here <= after
+            {
+                // The demand has a maximum of this size or a larger one next to it.
+                self.floor = self.floor.min(here.max(0.0) + 1e-9);
+            }
+        }
+    }
+
     /// Decisions are looked at from the knot `k` to the next, and perhaps were not before.
     fn resume(&mut self, k: usize) {
         if self.fed != k {
@@ -434,8 +473,7 @@ impl<'a> Judge<'a> {
 
     fn certificate(self, bound: f64) -> Certificate {
         let weight = self.model.weight_n();
-        let end_s = self.history.time_s.last().copied().unwrap_or(0.0);
-        let (normal, table) = self.ground.largest(end_s);
+        let (normal, table) = self.largest;
         let f = &self.figures;
         let equilibrium = [f.displacement, f.velocity, f.force, [f.table[0], table]].map(relative);
         let energy_balance_error = self.energy.error();

@@ -689,7 +689,7 @@ impl Work {
             input.0[lane] = 1.0;
         }
         let group = Group { step_s: Eight([step_s; LANES]), ..Group::new(phase, 1) };
-        dispatch!(Level::new(), simd => bench.solve(simd, bench.structure.masses_kg.len(), &group, self));
+        dispatch!(Level::new(), simd => bench.solve(simd, bench.structure.masses_kg.len(), &group, None, self));
     }
 
     /// The path of a lane.
@@ -743,7 +743,7 @@ impl Bench<'_> {
                 Some([map, _]) => {
                     apply(simd, map, &work.input, &mut work.active, &mut work.path);
                 }
-                None => self.solve(simd, n, group, work),
+                None => self.solve(simd, n, group, Some((&places, step)), work),
             }
             self.spend(simd, n, group, step, work);
             match group.phase {
@@ -1048,9 +1048,34 @@ impl Bench<'_> {
         }
     }
 
-    /// Solves the collocation equations of every lane by iteration.
+    /// `s̈` or `q̈_i` stored at the knots of lanes, or those after them.
     #[inline(always)]
-    fn solve<S: Simd>(&self, simd: S, n: usize, group: &Group, work: &mut Work) {
+    fn stored_rate<S: Simd>(
+        &self,
+        simd: S,
+        (n, degree): (usize, usize),
+        places: &Places,
+        later: usize,
+    ) -> f64x8<S> {
+        let h = self.history;
+        let block = places.read(simd, &h.block_acceleration_m_per_s2, later, [1, 0]);
+        match degree {
+            0 => block - places.read(simd, &h.table_acceleration_m_per_s2, later, [1, 0]),
+            i => places.read(simd, &h.storey_acceleration_m_per_s2, later, [n, i - 1]) - block,
+        }
+    }
+
+    /// Solves the collocation equations of every lane by iteration, which begins with the line between
+    /// the accelerations stored at the ends of the intervals, of which it is the given step.
+    #[inline(always)]
+    fn solve<S: Simd>(
+        &self,
+        simd: S,
+        n: usize,
+        group: &Group,
+        stored: Option<(&Places, usize)>,
+        work: &mut Work,
+    ) {
         let rule = self.rule;
         let d = n + 1;
         let Work { input, state, path, trace, .. } = work;
@@ -1077,6 +1102,16 @@ impl Bench<'_> {
             },
         );
         rates.fill(Eight::ZERO);
+        if let Some((places, step)) = stored {
+            for k in 0..d {
+                let from = self.stored_rate(simd, (n, k), places, 0);
+                let rise = self.stored_rate(simd, (n, k), places, 1) - from;
+                for i in 0..NODES {
+                    let part = (step as f64 + rule.c[i]) / group.steps as f64;
+                    rates[i * d + k].store(from + rise * all(simd, part));
+                }
+            }
+        }
         let linear = group.phase == Phase::Stick || self.law.rate.is_none();
         let rounding = if linear { f64::INFINITY } else { ROUNDING };
         let mut last = Eight([f64::INFINITY; LANES]);
@@ -1298,14 +1333,6 @@ impl Bench<'_> {
         let h = self.history;
         let d = n + 1;
         let instant = all(simd, self.instant_s);
-        let block = both(
-            #[inline(always)]
-            |k| places.read(simd, &h.block_acceleration_m_per_s2, k, [1, 0]),
-        );
-        let table = both(
-            #[inline(always)]
-            |k| places.read(simd, &h.table_acceleration_m_per_s2, k, [1, 0]),
-        );
         for i in 0..d {
             let (lists, at) = if i == 0 {
                 ([&h.sliding_displacement_m, &h.sliding_velocity_m_per_s], [1, 0])
@@ -1314,14 +1341,7 @@ impl Bench<'_> {
             };
             let rates = both(
                 #[inline(always)]
-                |k| {
-                    let rate = if i == 0 {
-                        block[k] - table[k]
-                    } else {
-                        places.read(simd, &h.storey_acceleration_m_per_s2, k, at) - block[k]
-                    };
-                    rate.abs()
-                },
+                |k| self.stored_rate(simd, (n, i), places, k).abs(),
             );
             let x = work.path[NODES * d + i].load(simd);
             let v = work.path[(NODES + 1) * d + i].load(simd);
