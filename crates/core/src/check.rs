@@ -95,7 +95,7 @@ pub struct EnergyHistory {
     pub kinetic_j: Vec<f64>,
     /// Strain of spring and storeys.
     pub strain_j: Vec<f64>,
-    /// Spent in dampers so far, and what a stop has taken.
+    /// Spent in dampers so far, and what a stop has taken, with what it had at the start.
     pub damping_j: Vec<f64>,
     /// Spent in friction so far.
     pub friction_j: Vec<f64>,
