@@ -292,6 +292,8 @@ impl SlipForce {
             coefficient = self.of_normal;
             of_friction.stiffness_n_per_m = self.of_normal_s * normal_n;
             all.stiffness_n_per_m += of_friction.stiffness_n_per_m;
+        } else {
+            all.stiffness_n_per_m += self.of_normal_s * normal_n;
         }
         if slope_s_per_m != 0.0 {
             of_friction.damper_n_s_per_m = slope_s_per_m * normal_n;

@@ -248,7 +248,7 @@ fn solve(
     };
     let law = model.law(varies);
     if !tables::serve(model, &law, varies) {
-        return stepped(model, &law, motion, ground, (with_history, go_on));
+        return stepped(model, &law, (motion, ground), instructions, (with_history, go_on));
     }
     // Away from rigid stops they change nothing.
     let away = Law { rigid: None, ..law.clone().under(model.normal_n()) };
@@ -266,7 +266,7 @@ fn solve(
     let (mut outcome, recorder) = match solved {
         // What would happen beyond a rigid stop says nothing.
         Err(error) if law.rigid.is_some() && !matches!(error, SolveError::Stopped(_)) => {
-            return stepped(model, &law, motion, ground, (with_history, go_on));
+            return stepped(model, &law, (motion, ground), instructions, (with_history, go_on));
         }
         solved => solved?,
     };
@@ -274,7 +274,7 @@ fn solve(
         let within = |gap_m: &Option<f64>, s: f64| gap_m.is_none_or(|gap_m| s < gap_m);
         let Sliding { max_m, min_m, .. } = outcome.sliding;
         if !(within(positive, max_m) && within(negative, -min_m)) {
-            return stepped(model, &law, motion, ground, (with_history, go_on));
+            return stepped(model, &law, (motion, ground), instructions, (with_history, go_on));
         }
         outcome.stop = Some(StopDemands::default());
     }
@@ -297,12 +297,12 @@ fn solve(
 fn stepped(
     model: &Model,
     law: &Law,
-    motion: &GroundMotion,
-    ground: Ground<'_>,
+    (motion, ground): (&GroundMotion, Ground<'_>),
+    instructions: InstructionSet,
     (with_history, go_on): (bool, GoOn<'_>),
 ) -> Result<Response, SolveError> {
     let contact_loss_s = contact_loss_s(motion.times_s(), ground.normal);
-    let stepped = stepping::solve(model, law, ground, (with_history, go_on))?;
+    let stepped = stepping::solve(model, law, ground, instructions, (with_history, go_on))?;
     let mut warnings = summary::warnings(model, &stepped.outcome.events, &contact_loss_s);
     warnings.extend(stepped.warnings);
     let mut demands = summary::demands(model, &stepped.outcome, |j| stepped.peaks[j]);
@@ -388,9 +388,11 @@ impl Job for Analysis<'_> {
 pub struct InstructionSet(Level);
 
 /// Work that an instruction set does.
-trait Job {
+pub(super) trait Job {
+    /// What comes of it.
     type Output;
 
+    /// Does it.
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
@@ -417,7 +419,7 @@ impl InstructionSet {
     }
 
     #[inline(always)]
-    fn run<J: Job>(self, job: J) -> J::Output {
+    pub(super) fn run<J: Job>(self, job: J) -> J::Output {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         {
             #[cfg(feature = "scalar")]

@@ -5,14 +5,18 @@
 //! motion is one Taylor series in physical coordinates, nonlinear where the force is; the slider's law
 //! says which force, where it ends, what holds at rest and what follows.
 
+mod affine;
+mod ahead;
 mod body;
 mod decide;
 mod keep;
 
+use self::ahead::Ahead;
 use self::body::{Body, Expansion, Loads, Phase, State};
 use self::keep::Peaks;
 use super::event::{EVENTS_PER_INTERVAL_LIMIT, fitting};
 use super::ground::{Ground, Stretch};
+use super::prepared::InstructionSet;
 use super::run::{Outcome, Sliding};
 use super::slider::{Slider, Start};
 use super::tables::system_of;
@@ -42,9 +46,11 @@ pub(super) fn solve(
     model: &Model,
     law: &Law,
     ground: Ground<'_>,
+    instructions: InstructionSet,
     (with_history, go_on): (bool, GoOn<'_>),
 ) -> Result<Stepped, SolveError> {
-    let mut run = Stepping::new(model, law, ground, (with_history, Pulse::new(go_on)));
+    let how = (with_history, Pulse::new(go_on));
+    let mut run = Stepping::new(model, law, ground, instructions, how);
     run.go()?;
     Ok(run.stepped())
 }
@@ -73,6 +79,8 @@ struct Stepping<'a> {
     model: &'a Model,
     slider: Slider<'a>,
     ground: Ground<'a>,
+    instructions: InstructionSet,
+    ahead: Ahead,
     body: Body,
     x: State,
     modes: Vec<Mode>,
@@ -107,6 +115,7 @@ impl<'a> Stepping<'a> {
         model: &'a Model,
         law: &'a Law,
         ground: Ground<'a>,
+        instructions: InstructionSet,
         (with_history, pulse): (bool, Pulse<'a>),
     ) -> Self {
         let body = Body::new(model, &system_of(model));
@@ -139,6 +148,8 @@ impl<'a> Stepping<'a> {
             model,
             slider,
             ground,
+            instructions,
+            ahead: Ahead::default(),
             series: body.room(),
             instant: body.room(),
             peaks: Peaks::new(model),
@@ -167,24 +178,36 @@ impl<'a> Stepping<'a> {
         let times_s = self.ground.times_s;
         let last = times_s.len() - 1;
         self.note_ends(0.0)?;
-        for sample in 0..last {
-            let length_s = times_s[sample + 1] - times_s[sample];
-            if length_s == 0.0 {
-                self.record_sample(sample, true);
-                continue;
+        let mut sample = 0;
+        loop {
+            sample = self.run_ahead(sample, last);
+            if sample == last {
+                return self.finish(last);
             }
-            self.events_in_interval = 0;
-            let change_s = self.ground.contact_change(sample).map(|part| part * length_s);
-            let mut from_s = 0.0;
-            for to_s in [change_s.unwrap_or(0.0), length_s] {
-                if to_s > from_s {
-                    let stretch = self.ground.stretch(sample, from_s, to_s);
-                    self.step_stretch(&stretch)?;
-                    from_s = to_s;
-                }
+            self.step(sample)?;
+            sample += 1;
+        }
+    }
+
+    /// Goes through one sample interval, or a jump.
+    fn step(&mut self, sample: usize) -> Result<(), SolveError> {
+        let times_s = self.ground.times_s;
+        let length_s = times_s[sample + 1] - times_s[sample];
+        if length_s == 0.0 {
+            self.record_sample(sample, true);
+            return Ok(());
+        }
+        self.events_in_interval = 0;
+        let change_s = self.ground.contact_change(sample).map(|part| part * length_s);
+        let mut from_s = 0.0;
+        for to_s in [change_s.unwrap_or(0.0), length_s] {
+            if to_s > from_s {
+                let stretch = self.ground.stretch(sample, from_s, to_s);
+                self.step_stretch(&stretch)?;
+                from_s = to_s;
             }
         }
-        self.finish(last)
+        Ok(())
     }
 
     fn finish(&mut self, last: usize) -> Result<(), SolveError> {
@@ -214,6 +237,7 @@ impl<'a> Stepping<'a> {
         }
         self.end_leaning(end_s);
         self.slider.note_surfaces(self.x.s);
+        self.settle_candidates();
         Ok(())
     }
 
@@ -230,8 +254,8 @@ impl<'a> Stepping<'a> {
                 residual_sliding_displacement_m: self.x.r[i],
                 sliding_path_m: self.sliding[1 + i].path_m,
                 sliding_time_s: self.sliding[1 + i].time_s,
-                peak_sliding_velocity_m_per_s: self.peaks.contents_velocity[i],
-                peak_acceleration_m_per_s2: self.peaks.contents_acceleration[i],
+                peak_sliding_velocity_m_per_s: self.peaks.values[self.velocity_output(1 + i)],
+                peak_acceleration_m_per_s2: self.peaks.values[self.contents_acceleration_output(i)],
                 slip_count: count(1 + i, EventKind::Slip),
                 reversal_count: count(1 + i, EventKind::Reversal),
                 stick_count: count(1 + i, EventKind::Stick),
@@ -317,9 +341,15 @@ impl<'a> Stepping<'a> {
 
     /// Finds accelerations and forces of this instant.
     fn look_at_instant(&mut self, loads: &Loads) {
+        self.look_at_orders(0, loads);
+    }
+
+    /// Finds the coefficients of this instant up to an order; of the state one more is asked for than of
+    /// forces.
+    fn look_at_orders(&mut self, orders: usize, loads: &Loads) {
         let force = self.force(self.modes[0]);
         let phase = Phase { modes: &self.modes, force };
-        self.body.expand(&self.x, &phase, loads, (1.0, 0), &mut self.instant);
+        self.body.expand(&self.x, &phase, loads, (1.0, orders), &mut self.instant);
     }
 
     // ---- steps ----------------------------------------------------------------------------------

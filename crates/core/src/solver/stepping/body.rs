@@ -30,6 +30,35 @@ pub(super) struct State {
     pub(super) p: Vec<f64>,
 }
 
+impl State {
+    /// Number of its components.
+    pub(super) fn count(&self) -> usize {
+        2 + 2 * self.q.len() + 2 * self.r.len()
+    }
+
+    /// Copies its components into a list, in the order in which they are declared.
+    pub(super) fn get(&self, list: &mut [f64]) {
+        let own = [self.s, self.w];
+        let mut rest = list;
+        for part in [&own[..], &self.q, &self.v, &self.r, &self.p] {
+            let (here, after) = rest.split_at_mut(part.len());
+            here.copy_from_slice(part);
+            rest = after;
+        }
+    }
+
+    /// Takes its components from such a list.
+    pub(super) fn set(&mut self, list: &[f64]) {
+        let (own, mut rest) = list.split_at(2);
+        (self.s, self.w) = (own[0], own[1]);
+        for part in [&mut self.q, &mut self.v, &mut self.r, &mut self.p] {
+            let (here, after) = rest.split_at(part.len());
+            part.copy_from_slice(here);
+            rest = after;
+        }
+    }
+}
+
 /// Loads from an instant on, linear in the time after it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Loads {
@@ -350,6 +379,13 @@ impl Expansion {
         move_to(&mut x.v, &self.v);
         move_to(&mut x.r, &self.r);
         move_to(&mut x.p, &self.p);
+    }
+
+    /// The coefficients of an order of the state's components, in the order of [`State::get`].
+    pub(super) fn order(&self, k: usize, list: &mut [f64]) {
+        let own = [self.s, self.w];
+        let all = [&own[..], &self.q, &self.v, &self.r, &self.p].into_iter().flatten();
+        all.zip(list).for_each(|(c, out)| *out = c[k]);
     }
 
     /// The velocity of an interface, positive along a direction.

@@ -3,17 +3,15 @@
 use super::super::ground::Stretch;
 use super::super::outputs::output;
 use super::Stepping;
-use super::body::Loads;
-use crate::linear::polynomial::{DEGREE, Polynomial, curvature_bound, largest, value};
+use super::body::{Expansion, Loads};
+use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, curvature_bound, largest, value};
 use crate::model::Model;
 use crate::response::Mode;
 
 /// Largest sizes so far.
 pub(super) struct Peaks {
-    /// In the order of [`output`].
+    /// In the order of [`Stepping::output`].
     pub(super) values: Vec<f64>,
-    pub(super) contents_velocity: Vec<f64>,
-    pub(super) contents_acceleration: Vec<f64>,
     /// Whether the overturning moment is asked for.
     pub(super) overturns: bool,
     /// Heights of the block and of the floors above the sliding surface in m.
@@ -34,13 +32,16 @@ impl Peaks {
         }
         let known = heights_m.len() == n + 1 && (n > 0 || block.height_m.is_some());
         Self {
-            values: vec![0.0; output::STOREYS + (3 * n).saturating_sub(1)],
-            contents_velocity: vec![0.0; contents],
-            contents_acceleration: vec![0.0; contents],
+            values: vec![0.0; contents_outputs(n) + 2 * contents],
             overturns: block.width_m.is_some() && known,
             heights_m,
         }
     }
+}
+
+/// Place of the outputs of contents, after all others of `n` storeys.
+fn contents_outputs(n: usize) -> usize {
+    output::STOREYS + (3 * n).saturating_sub(1)
 }
 
 /// Raises a peak to the largest size of a polynomial on [0, `part`].
@@ -64,40 +65,61 @@ fn difference(a: &Polynomial, b: &Polynomial) -> Polynomial {
 }
 
 impl Stepping<'_> {
-    /// Looks for peaks in the part of the series just gone through.
-    pub(super) fn look(&mut self, part: f64) {
+    /// Output of the velocity of an interface.
+    pub(super) fn velocity_output(&self, interface: usize) -> usize {
+        let Some(i) = interface.checked_sub(1) else { return output::VELOCITY };
+        contents_outputs(self.body.storeys()) + i
+    }
+
+    /// Output of the acceleration of contents.
+    pub(super) fn contents_acceleration_output(&self, i: usize) -> usize {
+        contents_outputs(self.body.storeys()) + self.body.contents.len() + i
+    }
+
+    /// The series of an output: those of [`output`], then velocities and accelerations of contents.
+    pub(super) fn output(&self, series: &Expansion, j: usize) -> Polynomial {
         let (n, slope) = (self.body.storeys(), self.model.slope_m_per_s2());
-        let series = &self.series;
-        let y = &mut self.peaks.values;
-        raise(&mut y[output::VELOCITY], &series.w, part);
-        raise(&mut y[output::BLOCK], &less(&series.u, slope), part);
-        raise(&mut y[output::SLIDER], &series.slider, part);
-        raise(&mut y[output::BASE_SHEAR], &series.shear, part);
-        for i in 0..n {
-            raise(&mut y[output::displacement(i)], &series.q[i], part);
-            let acceleration = less(&series.floors[i], slope);
-            raise(&mut y[output::acceleration(n, i)], &acceleration, part);
-            if i > 0 {
-                let drift = difference(&series.q[i], &series.q[i - 1]);
-                raise(&mut y[output::drift(n, i)], &drift, part);
+        match j {
+            output::VELOCITY => series.w,
+            output::BLOCK => less(&series.u, slope),
+            output::SLIDER => series.slider,
+            output::FRICTION => series.friction,
+            output::BASE_SHEAR => series.shear,
+            output::OVERTURNING if self.peaks.overturns => self.moment(series),
+            output::OVERTURNING => ZERO,
+            j if j < output::acceleration(n, 0) => series.q[j - output::displacement(0)],
+            j if j < output::drift(n, 1) => {
+                less(&series.floors[j - output::acceleration(n, 0)], slope)
+            }
+            j if j < contents_outputs(n) => {
+                let i = 1 + j - output::drift(n, 1);
+                difference(&series.q[i], &series.q[i - 1])
+            }
+            j => {
+                let (i, contents) = (j - contents_outputs(n), self.body.contents.len());
+                if i < contents { series.p[i] } else { less(&series.carried[i - contents], slope) }
             }
         }
-        for i in 0..self.body.contents.len() {
-            raise(&mut self.peaks.contents_velocity[i], &series.p[i], part);
-            let acceleration = less(&series.carried[i], slope);
-            raise(&mut self.peaks.contents_acceleration[i], &acceleration, part);
+    }
+
+    /// Looks for peaks in the part of the series just gone through.
+    pub(super) fn look(&mut self, part: f64) {
+        for j in 0..self.peaks.values.len() {
+            match j {
+                output::FRICTION => self.look_at_friction(part),
+                output::OVERTURNING if !self.peaks.overturns => {}
+                j => {
+                    let p = self.output(&self.series, j);
+                    raise(&mut self.peaks.values[j], &p, part);
+                }
+            }
         }
-        if self.peaks.overturns {
-            let moment = self.moment();
-            raise(&mut self.peaks.values[output::OVERTURNING], &moment, part);
-        }
-        self.look_at_friction(part);
         self.look_at_stop(part);
     }
 
     /// Overturning moment of the inertia of block, floors and contents about the sliding surface.
-    fn moment(&self) -> Polynomial {
-        let (body, series) = (&self.body, &self.series);
+    fn moment(&self, series: &Expansion) -> Polynomial {
+        let body = &self.body;
         let heights_m = &self.peaks.heights_m;
         core::array::from_fn(|k| {
             let own = 0.5 * heights_m[0] * body.block_kg * series.u[k];
@@ -178,20 +200,34 @@ impl Stepping<'_> {
             return;
         }
         self.look_at_instant(loads);
-        let slope = self.model.slope_m_per_s2();
-        let stuck = self.modes[0] == Mode::Stick;
-        let mut friction_n = self.instant.friction[0];
-        if stuck {
+        let outputs = (0..self.peaks.values.len()).map(|j| self.output(&self.instant, j)[0]);
+        let mut outputs: Vec<f64> = outputs.collect();
+        if self.modes[0] == Mode::Stick {
+            let friction_n = &mut outputs[output::FRICTION];
             let hold = self.held();
             let [low, high] = hold.bounds.map(|bound| bound * loads.normal[0]);
             if hold.leans[0] {
-                friction_n = friction_n.max(low);
+                *friction_n = friction_n.max(low);
             }
             if hold.leans[1] {
-                friction_n = friction_n.min(high);
+                *friction_n = friction_n.min(high);
             }
         }
-        let surfaces = self.slider.law.surfaces(&self.slider.memory, self.x.s);
+        let mut state = vec![0.0; self.x.count()];
+        self.x.get(&mut state);
+        self.store([time_s, table], &state, &outputs, row);
+    }
+
+    /// Stores a sample as a row of the history, by its state and outputs.
+    pub(super) fn store_sample(&mut self, sample: usize, state: &[f64], outputs: &[f64]) {
+        let knot = [self.ground.times_s[sample], self.ground.table[sample]];
+        self.store(knot, state, outputs, true);
+    }
+
+    /// Stores a knot, by its state and outputs.
+    fn store(&mut self, [time_s, table]: [f64; 2], state: &[f64], outputs: &[f64], row: bool) {
+        let (n, contents) = (self.body.storeys(), self.body.contents.len());
+        let surfaces = self.slider.law.surfaces(&self.slider.memory, state[0]);
         let Some(h) = &mut self.history else { return };
         if row {
             h.rows.push(h.time_s.len());
@@ -202,18 +238,20 @@ impl Stepping<'_> {
             h.contact.push(self.slider.memory.contact);
         }
         h.table_acceleration_m_per_s2.push(table);
-        h.sliding_displacement_m.push(self.x.s);
-        h.sliding_velocity_m_per_s.push(self.x.w);
-        h.block_acceleration_m_per_s2.push(if stuck { table } else { self.instant.u[0] - slope });
-        h.friction_force_n.push(friction_n);
-        h.storey_displacement_m.extend_from_slice(&self.x.q);
-        h.storey_velocity_m_per_s.extend_from_slice(&self.x.v);
-        h.storey_acceleration_m_per_s2
-            .extend(self.instant.floors.iter().map(|acceleration| acceleration[0] - slope));
+        h.sliding_displacement_m.push(state[0]);
+        h.sliding_velocity_m_per_s.push(state[1]);
+        let block = if self.modes[0] == Mode::Stick { table } else { outputs[output::BLOCK] };
+        h.block_acceleration_m_per_s2.push(block);
+        h.friction_force_n.push(outputs[output::FRICTION]);
+        let (of_storeys, of_contents) = state[2..].split_at(2 * n);
+        h.storey_displacement_m.extend_from_slice(&of_storeys[..n]);
+        h.storey_velocity_m_per_s.extend_from_slice(&of_storeys[n..]);
+        let first = output::acceleration(n, 0);
+        h.storey_acceleration_m_per_s2.extend_from_slice(&outputs[first..][..n]);
         h.surface_displacement_m.extend(surfaces);
-        h.contents_displacement_m.extend_from_slice(&self.x.r);
-        h.contents_velocity_m_per_s.extend_from_slice(&self.x.p);
-        h.contents_acceleration_m_per_s2
-            .extend(self.instant.carried.iter().map(|acceleration| acceleration[0] - slope));
+        h.contents_displacement_m.extend_from_slice(&of_contents[..contents]);
+        h.contents_velocity_m_per_s.extend_from_slice(&of_contents[contents..][..contents]);
+        let first = contents_outputs(n) + contents;
+        h.contents_acceleration_m_per_s2.extend_from_slice(&outputs[first..][..contents]);
     }
 }

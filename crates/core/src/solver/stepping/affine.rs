@@ -1,0 +1,307 @@
+//! The motion between two events as an affine system over whole samples.
+//!
+//! Under a constant normal force and a force of the slider that is linear in `s` and `ṡ` it is `ẋ = A x + b a + g`
+//! in one assignment of modes. What [`Body::expand`](super::body::Body::expand) makes of units is its
+//! matrices, and every output `c·x + d a + e`. In the energy norm of block, floors and what is stuck
+//! to them
+//!
+//! ```text
+//! ‖x‖² = k s² + M1 ṡ² + Σ k_i (q_i − q_{i−1})² + Σ m_i (v_i + ṡ)²
+//! ```
+//!
+//! `ẍ` does not grow within a sample, as sliding contents do no more than a constant force; their own velocity
+//! has `p̈ = −(v̈_i + s⃛ + ȧ)`.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::super::ground::Normal;
+use super::super::prepared::Job;
+use super::Stepping;
+use super::ahead::Nine;
+use super::body::Loads;
+use crate::friction::{Coefficient, Memory};
+use crate::linear::lanes::eight;
+use crate::linear::{BATCH, MAX_RATE_STEP, Row, Units, Window};
+use crate::response::Mode;
+
+/// Most series to a step: beyond, samples are as well stepped through one by one.
+const MOST_PARTS: f64 = 16.0;
+
+/// One assignment of modes, on one branch of the slider's law.
+pub(super) struct Configuration {
+    pub(super) modes: Vec<Mode>,
+    pub(super) memory: Memory,
+    /// None where its motion is not affine, or too fast for the step.
+    pub(super) affine: Option<Affine>,
+}
+
+/// Its motion over the samples of a batch.
+pub(super) struct Affine {
+    pub(super) dt_s: f64,
+    /// The components of the state that move.
+    pub(super) moving: Vec<(usize, Row)>,
+    /// In the order of [`Stepping::output`].
+    pub(super) outputs: Vec<Number>,
+    /// Numbers of which `‖ẍ‖²` at the start of a sample is the sum of the squares.
+    pub(super) second: Vec<Number>,
+    /// What the energy norm can grow by over a sample: friction that falls with the speed feeds it.
+    pub(super) growth: f64,
+}
+
+/// A number `c·x + d a + e ȧ + constant`, of which `|ÿ| ≤ norm ‖ẍ‖ + of_jerk |ȧ|` within a sample.
+pub(super) struct Number {
+    of_state: Vec<(usize, f64)>,
+    of_a: f64,
+    of_rate: f64,
+    constant: f64,
+    pub(super) norm: f64,
+    pub(super) of_jerk: f64,
+}
+
+impl Number {
+    /// Of a state under an acceleration.
+    pub(super) fn at(&self, x: &[f64], a: f64) -> f64 {
+        let start = self.constant + self.of_a * a;
+        self.of_state.iter().fold(start, |sum, (i, c)| sum + c * x[*i])
+    }
+
+    /// At eight samples from the `k`-th of a batch on, with `ȧ` after each.
+    #[inline(always)]
+    pub(super) fn values<S: Simd>(
+        &self,
+        simd: S,
+        states: &[Nine],
+        (a, k): (&Window, usize),
+        rate: f64x8<S>,
+    ) -> f64x8<S> {
+        let a = f64x8::from_slice(simd, &a[k..k + BATCH]);
+        let loads = eight(simd, self.of_a) * a + eight(simd, self.of_rate) * rate;
+        let mut sum = eight(simd, self.constant) + loads;
+        for (i, c) in &self.of_state {
+            sum += eight(simd, *c) * f64x8::from_slice(simd, &states[*i][k..k + BATCH]);
+        }
+        sum
+    }
+}
+
+/// Makes the rows of single components.
+struct RowsOf<'a> {
+    units: &'a Units,
+    components: Vec<usize>,
+    stride: usize,
+}
+
+impl Job for RowsOf<'_> {
+    type Output = Vec<(usize, Row)>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Self::Output {
+        let mut rows = Vec::with_capacity(self.components.len());
+        let mut unit = vec![0.0; self.stride];
+        for i in self.components {
+            unit[i] = 1.0;
+            rows.push((i, self.units.row(simd, &unit, 0.0, 0.0)));
+            unit[i] = 0.0;
+        }
+        rows
+    }
+}
+
+/// `A` by columns, `b` and `g`.
+struct Matrices {
+    stride: usize,
+    a: Vec<f64>,
+    b: Vec<f64>,
+    g: Vec<f64>,
+}
+
+impl Matrices {
+    /// The rate `c·ẋ` of `c·x`: `c A`, `c·b`, `c·g`.
+    fn rate(&self, c: &[f64]) -> (Vec<f64>, f64, f64) {
+        let dot = |column: &[f64]| c.iter().zip(column).map(|(c, x)| c * x).sum::<f64>();
+        (self.a.chunks_exact(self.stride).map(dot).collect(), dot(&self.b), dot(&self.g))
+    }
+}
+
+/// What is not zero of a row.
+fn terms(row: &[f64]) -> Vec<(usize, f64)> {
+    row.iter().copied().enumerate().filter(|(_, c)| *c != 0.0).collect()
+}
+
+impl Stepping<'_> {
+    /// The place of the present configuration, if its motion is affine.
+    pub(super) fn configuration(&mut self) -> Option<usize> {
+        let dt_s = self.ground.sampling.dt_s?;
+        let Normal::Constant(normal_n) = self.ground.normal else { return None };
+        if !(normal_n > 0.0) || self.slider.law.series.is_some() {
+            return None;
+        }
+        let (all, memory) = (&self.ahead.configurations, &self.slider.memory);
+        let place = all.iter().position(|c| c.modes == self.modes && c.memory == *memory);
+        let place = place.unwrap_or_else(|| {
+            let affine = self.affine(dt_s, normal_n);
+            let (modes, memory) = (self.modes.clone(), self.slider.memory.clone());
+            self.ahead.configurations.push(Configuration { modes, memory, affine });
+            self.ahead.configurations.len() - 1
+        });
+        self.ahead.configurations[place].affine.is_some().then_some(place)
+    }
+
+    fn affine(&mut self, dt_s: f64, normal_n: f64) -> Option<Affine> {
+        let force = self.force(self.modes[0]);
+        if matches!(force.coefficient, Coefficient::Exponential { .. }) {
+            return None;
+        }
+        let restraint = force.under(normal_n).restraints.all;
+        let (k, c) = (restraint.stiffness_n_per_m, restraint.damper_n_s_per_m);
+        let block_kg = self.body.joined_kg(0, &self.modes);
+        let rate = self.body.rate_rad_per_s + (k / block_kg).sqrt() + c.abs() / block_kg;
+        let parts = (rate * dt_s / MAX_RATE_STEP).ceil().max(1.0);
+        if !(parts <= MOST_PARTS) {
+            return None;
+        }
+        let (matrices, outputs) = self.units(normal_n);
+        let Matrices { stride, a, b, g } = &matrices;
+        let units = Units::affine(a, b, g, (dt_s, parts as usize));
+        let components = (0..self.x.count()).filter(|&i| self.moves(i)).collect();
+        let moving = self.instructions.run(RowsOf { units: &units, components, stride: *stride });
+        let second = |row: &Vec<f64>| {
+            let (once, of_rate, _) = matrices.rate(row);
+            let (twice, of_a, constant) = matrices.rate(&once);
+            Number { of_state: terms(&twice), of_a, of_rate, constant, norm: 0.0, of_jerk: 0.0 }
+        };
+        let second = self.momenta(k).iter().map(second).collect();
+        let outputs = outputs.into_iter().map(|(row, of_a, constant)| {
+            let [norm, of_jerk] = self.dual_norm(&row, k);
+            Number { of_state: terms(&row), of_a, of_rate: 0.0, constant, norm, of_jerk }
+        });
+        let outputs = outputs.collect();
+        let growth = libm::exp((-c).max(0.0) / block_kg * dt_s);
+        Some(Affine { dt_s, moving, outputs, second, growth })
+    }
+
+    /// What the series makes of nothing, of units of the state and of a unit of acceleration: the matrices,
+    /// and each output as a row with its factor of the acceleration and its constant.
+    fn units(&mut self, normal_n: f64) -> (Matrices, Vec<(Vec<f64>, f64, f64)>) {
+        let (count, outputs) = (self.x.count(), self.peaks.values.len());
+        let stride = count.next_multiple_of(4);
+        let mut derivatives = vec![0.0; (count + 2) * stride];
+        let mut values = vec![0.0; (count + 2) * outputs];
+        let here = self.x.clone();
+        let mut x = vec![0.0; count];
+        let of_unit = derivatives.chunks_exact_mut(stride).zip(values.chunks_exact_mut(outputs));
+        for (unit, (derivative, values)) in of_unit.enumerate() {
+            // The state in the middle, after nothing.
+            x.fill(0.0);
+            if let Some(x) = unit.checked_sub(1).and_then(|i| x.get_mut(i)) {
+                *x = 1.0;
+            }
+            self.x.set(&x);
+            let a = if unit == count + 1 { 1.0 } else { 0.0 };
+            let loads = Loads { acceleration: [a, 0.0], normal: [normal_n, 0.0] };
+            self.look_at_orders(1, &loads);
+            self.instant.order(1, derivative);
+            for (j, value) in values.iter_mut().enumerate() {
+                *value = self.output(&self.instant, j)[0];
+            }
+        }
+        self.x = here;
+        for (list, size) in [(&mut derivatives, stride), (&mut values, outputs)] {
+            let (nothing, units) = list.split_at_mut(size);
+            for unit in units.chunks_exact_mut(size) {
+                unit.iter_mut().zip(&*nothing).for_each(|(unit, nothing)| *unit -= nothing);
+            }
+        }
+        // What stands still moves nothing: only rows of outputs ask for it.
+        let mut a = derivatives[stride..][..count * stride].to_vec();
+        a.resize(stride * stride, 0.0);
+        for (i, column) in a.chunks_exact_mut(stride).enumerate() {
+            if !self.moves(i) {
+                column.fill(0.0);
+            }
+        }
+        let (b, g) = (derivatives[(count + 1) * stride..].to_vec(), derivatives[..stride].to_vec());
+        let of = |unit: usize, j: usize| values[unit * outputs + j];
+        let row = |j: usize| (1..=count).map(|unit| of(unit, j)).collect();
+        let rows = (0..outputs).map(|j| (row(j), of(count + 1, j), of(0, j))).collect();
+        (Matrices { stride, a, b, g }, rows)
+    }
+
+    /// Whether a component of the state moves.
+    fn moves(&self, i: usize) -> bool {
+        let structure = 2 + 2 * self.body.storeys();
+        let contents = self.body.contents.len();
+        match i {
+            0 | 1 => self.modes[0] != Mode::Stick,
+            i if i < structure => true,
+            i if i < structure + 2 * contents => {
+                self.modes[1 + (i - structure) % contents] != Mode::Stick
+            }
+            _ => false,
+        }
+    }
+
+    /// Rows of which the energy norm squared is the sum of the squares, the slider on a spring `k`.
+    fn momenta(&self, k: f64) -> Vec<Vec<f64>> {
+        let (body, n) = (&self.body, self.body.storeys());
+        let stride = self.x.count().next_multiple_of(4);
+        let row = |factor: f64, components: &[(usize, f64)]| {
+            let mut row = vec![0.0; stride];
+            components.iter().for_each(|(i, c)| row[*i] = factor * c);
+            row
+        };
+        let mut all = Vec::with_capacity(2 + 2 * n);
+        if self.modes[0] != Mode::Stick {
+            all.push(row(k.sqrt(), &[(0, 1.0)]));
+            all.push(row(body.joined_kg(0, &self.modes).sqrt(), &[(1, 1.0)]));
+        }
+        for i in 0..n {
+            let root = body.stiffnesses_n_per_m[i].sqrt();
+            let drift = [(2 + i, 1.0), (1 + i, -1.0)];
+            all.push(row(root, &drift[..if i == 0 { 1 } else { 2 }]));
+            let root = body.joined_kg(1 + i, &self.modes).sqrt();
+            all.push(row(root, &[(2 + n + i, 1.0), (1, 1.0)]));
+        }
+        all
+    }
+
+    /// Largest value of a row on states of energy norm 1, and its size as a factor of `ȧ`, where the second
+    /// derivative is asked for.
+    ///
+    /// ```text
+    /// |c|*² = c_s²/k + (c_w − Σ c_v)²/M1 + Σ c_v²/m + Σ_i (Σ_{j≥i} c_q)²/k_i
+    /// ```
+    fn dual_norm(&self, row: &[f64], k: f64) -> [f64; 2] {
+        let (body, n) = (&self.body, self.body.storeys());
+        let slides = self.modes[0] != Mode::Stick;
+        let [mut of_s, mut of_w] = if slides { [row[0], row[1]] } else { [0.0; 2] };
+        let mut of_v = row[2 + n..2 + 2 * n].to_vec();
+        let mut of_jerk = 0.0;
+        let of_p = &row[2 + 2 * n + body.contents.len()..];
+        for (i, (contents, of_p)) in body.contents.iter().zip(of_p).enumerate() {
+            if self.modes[1 + i] == Mode::Stick {
+                continue;
+            }
+            of_jerk += of_p.abs();
+            of_w -= of_p;
+            if contents.floor > 0 {
+                of_v[contents.floor - 1] -= of_p;
+            }
+        }
+        let mut square = 0.0;
+        if slides {
+            of_w -= of_v.iter().sum::<f64>();
+            square = of_w * of_w / body.joined_kg(0, &self.modes);
+            of_s = if of_s == 0.0 { 0.0 } else { of_s * of_s / k };
+            square += of_s;
+        }
+        let (mut of_drift, of_q) = (0.0, &row[2..2 + n]);
+        for i in (0..n).rev() {
+            of_drift += of_q[i];
+            square += of_drift * of_drift / body.stiffnesses_n_per_m[i];
+            square += of_v[i] * of_v[i] / body.joined_kg(1 + i, &self.modes);
+        }
+        [square.sqrt(), of_jerk]
+    }
+}
