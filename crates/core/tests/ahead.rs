@@ -96,7 +96,11 @@ fn difference(a: &Response, b: &Response, rows: [usize; 2]) -> (f64, String) {
     for (x, y) in d.contents.iter().zip(&e.contents) {
         own("slide", x.peak_sliding_displacement_m, y.peak_sliding_displacement_m);
         own("path of contents", x.sliding_path_m, y.sliding_path_m);
-        own("velocity of contents", x.peak_sliding_velocity_m_per_s, y.peak_sliding_velocity_m_per_s);
+        own(
+            "velocity of contents",
+            x.peak_sliding_velocity_m_per_s,
+            y.peak_sliding_velocity_m_per_s,
+        );
         own("contents", x.peak_acceleration_m_per_s2, y.peak_acceleration_m_per_s2);
     }
     if let (Some(x), Some(y)) = (&d.stop, &e.stop) {
@@ -124,7 +128,9 @@ fn agree(first: u64, count: u64) {
         let (stepped, ahead) = match (&stepped, &ahead) {
             (Ok(stepped), Ok(ahead)) => (stepped, ahead),
             (Err(SolveError::EndOfTravel { .. }), Err(SolveError::EndOfTravel { .. })) => continue,
-            (stepped, ahead) => panic!("seed {seed}: {:?} and {:?}", stepped.is_ok(), ahead.is_ok()),
+            (stepped, ahead) => {
+                panic!("seed {seed}: {:?} and {:?}", stepped.is_ok(), ahead.is_ok())
+            }
         };
         compared += 1;
         events += stepped.events.len();

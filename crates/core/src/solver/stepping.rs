@@ -13,7 +13,7 @@ mod keep;
 
 use self::ahead::Ahead;
 use self::body::{Body, Expansion, Loads, Phase, State};
-use self::keep::Peaks;
+use self::keep::{Peaks, history};
 use super::event::{EVENTS_PER_INTERVAL_LIMIT, fitting};
 use super::ground::{Ground, Stretch};
 use super::prepared::InstructionSet;
@@ -105,6 +105,8 @@ struct Stepping<'a> {
     first_impact_s: Option<f64>,
     peaks: Peaks,
     history: Option<History>,
+    /// Room for the state and the outputs of a knot.
+    knot: [Vec<[f64; 1]>; 2],
     /// Asks whether to go on, after so many units of work a segment.
     pulse: Pulse<'a>,
     units: u32,
@@ -136,12 +138,7 @@ impl<'a> Stepping<'a> {
         }
         let slider = Slider::new(law, s, w);
         let surfaces = law.surfaces(&slider.memory, s).len();
-        let history = with_history.then(|| History {
-            storeys: body.storeys(),
-            interfaces: 1 + count,
-            surfaces,
-            ..History::default()
-        });
+        let history = with_history.then(|| history(&body, surfaces, ground.times_s.len()));
         let mut sliding = vec![Sliding::new(s)];
         sliding.resize(1 + count, Sliding::new(0.0));
         Self {
@@ -169,6 +166,7 @@ impl<'a> Stepping<'a> {
             leans_since_s: None,
             first_impact_s: None,
             history,
+            knot: [Vec::new(), Vec::new()],
             pulse,
             units: 128 * (1 + model.storeys() + count) as u32,
         }
@@ -510,15 +508,13 @@ impl<'a> Stepping<'a> {
 
     /// Moves to a part of the series.
     fn move_to(&mut self, part: f64) {
-        let (s, w) = (self.x.s, self.modes[0]);
-        let rests = self.x.r.clone();
         self.series.state_at(part, &mut self.x);
-        if w == Mode::Stick {
-            (self.x.s, self.x.w) = (s, 0.0);
+        if self.modes[0] == Mode::Stick {
+            (self.x.s, self.x.w) = (self.series.s[0], 0.0);
         }
-        for (i, r) in rests.into_iter().enumerate() {
+        for (i, r) in self.series.r.iter().enumerate() {
             if self.modes[1 + i] == Mode::Stick {
-                (self.x.r[i], self.x.p[i]) = (r, 0.0);
+                (self.x.r[i], self.x.p[i]) = (r[0], 0.0);
             }
         }
         if let Some(near) = &mut self.near {

@@ -203,7 +203,7 @@ impl Stepping<'_> {
             self.look_at_orders(1, &loads);
             self.instant.order(1, derivative);
             for (j, value) in values.iter_mut().enumerate() {
-                *value = self.output(&self.instant, j)[0];
+                *value = self.output(&self.instant, j).start();
             }
         }
         self.x = here;

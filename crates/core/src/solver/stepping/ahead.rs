@@ -36,8 +36,6 @@ pub(super) struct Ahead {
     states: Vec<Nine>,
     outputs: Vec<Nine>,
     gates: Vec<Gate>,
-    /// Components of the state and outputs at one sample.
-    knot: [Vec<f64>; 2],
 }
 
 /// What is positive while nothing happens: `Σ factor × value + constant` of an output, or of `s` and `ṡ`.
@@ -237,7 +235,7 @@ impl Stepping<'_> {
             return 0;
         }
         self.weigh(simd, ahead, (affine, configuration), (sample, steps), &departure);
-        self.record_batch(ahead, sample, steps);
+        self.store_samples(sample..sample + steps, [&ahead.states, &ahead.outputs]);
         for list in [&mut ahead.states, &mut ahead.outputs] {
             list.iter_mut().for_each(|nine| nine[0] = nine[steps]);
         }
@@ -289,21 +287,6 @@ impl Stepping<'_> {
                 let kept = Candidate { sample, configuration, output: j, bound, state };
                 ahead.candidates.push(kept);
             }
-        }
-    }
-
-    /// Records samples as rows of the history, if one is wanted.
-    fn record_batch(&mut self, ahead: &mut Ahead, sample: usize, steps: usize) {
-        if self.history.is_none() {
-            return;
-        }
-        let [x, y] = &mut ahead.knot;
-        for k in 0..steps {
-            x.clear();
-            x.extend(ahead.states.iter().map(|nine| nine[k]));
-            y.clear();
-            y.extend(ahead.outputs.iter().map(|nine| nine[k]));
-            self.store_sample(sample + k, x, y);
         }
     }
 

@@ -6,6 +6,9 @@ use crate::linear::polynomial::{DEGREE, Polynomial, ZERO};
 use crate::model::{Contents, Model};
 use crate::response::Mode;
 
+/// Terms of a series below this part of the largest are below rounding.
+const NEGLIGIBLE: f64 = 1e-18;
+
 /// Masses, springs and dampers of block and floors, and what stands on them.
 pub(super) struct Body {
     pub(super) block_kg: f64,
@@ -103,6 +106,9 @@ pub(super) struct Expansion {
     decay: Polynomial,
     /// Restoring forces on the floors, order by order.
     restoring: Vec<f64>,
+    /// Of block and floors: the mass with what is stuck to it, and the force of what slides on it over the
+    /// normal force of a unit of mass.
+    carriers: Vec<[f64; 2]>,
     /// Part of the unit up to which the series is exact to rounding.
     pub(super) part: f64,
 }
@@ -185,6 +191,7 @@ impl Body {
             press: ZERO,
             decay: ZERO,
             restoring: vec![0.0; n],
+            carriers: vec![[0.0; 2]; 1 + n],
             part: 1.0,
         }
     }
@@ -221,8 +228,15 @@ impl Body {
         (out.normal[0], out.normal[1]) = (loads.normal[0], loads.normal[1] * unit_s);
         out.press = out.normal.map(|normal| normal / self.total_kg);
         let [n0, n1] = [out.normal[0], out.normal[1]];
-        let block_kg = self.joined_kg(0, modes);
-        let floors_kg: Vec<f64> = (1..=n).map(|floor| self.joined_kg(floor, modes)).collect();
+        for (floor, carrier) in out.carriers.iter_mut().enumerate() {
+            *carrier = [self.joined_kg(floor, modes), 0.0];
+        }
+        for (contents, mode) in self.contents.iter().zip(&modes[1..]) {
+            let pull = mode.sign() * contents.kinetic_friction * contents.mass_kg;
+            out.carriers[contents.floor][1] += pull;
+        }
+        let block_kg = out.carriers[0][0];
+        let (mut largest, mut sizes) = (0.0_f64, [0.0; DEGREE + 1]);
         let force = &phase.force;
         let sign = modes[0].sign();
         if let Coefficient::Exponential { rate_s_per_m, .. } = force.coefficient {
@@ -235,19 +249,10 @@ impl Body {
             self.restoring(|i| out.q[i][k], |i| out.v[i][k], &mut restoring);
             let shear: f64 = restoring.iter().sum();
             let press = out.press[k];
-            // What sliding contents do to their floors.
-            let pull = |floor: usize| {
-                self.contents
-                    .iter()
-                    .zip(&modes[1..])
-                    .filter(|(c, _)| c.floor == floor)
-                    .fold(0.0, |sum, (c, mode)| {
-                        sum + mode.sign() * c.kinetic_friction * c.mass_kg * press
-                    })
-            };
-            let on_block = pull(0);
+            let on_block = out.carriers[0][1] * press;
             for i in 0..n {
-                out.floors[i][k] = (pull(i + 1) - restoring[i]) / floors_kg[i];
+                let [mass_kg, pull] = out.carriers[i + 1];
+                out.floors[i][k] = (pull * press - restoring[i]) / mass_kg;
             }
             out.restoring = restoring;
             out.shear[k] = shear;
@@ -294,6 +299,14 @@ impl Body {
                     Mode::Slip(direction) => -direction.sign() * contents.kinetic_friction * press,
                 };
             }
+            if orders == DEGREE {
+                sizes[k] = self.momentum(out, k);
+                largest = largest.max(sizes[k]);
+                let is_linear = matches!(force.coefficient, Coefficient::Linear { .. });
+                if is_linear && k > 4 && sizes[k].max(sizes[k - 1]) <= 1e-6 * NEGLIGIBLE * largest {
+                    break;
+                }
+            }
             if k == DEGREE || k == orders {
                 break;
             }
@@ -321,33 +334,39 @@ impl Body {
             }
         }
         if orders == DEGREE {
-            out.part = self.exact_part(phase, out);
+            out.part = self.exact_part(phase, out, (largest, &sizes));
         }
     }
 
+    /// Size of an order: momenta over √mass, so that all are of one kind.
+    fn momentum(&self, out: &Expansion, k: usize) -> f64 {
+        let own = |kg: f64, w: f64| kg * w * w;
+        let mut sum = own(self.block_kg, out.w[k]);
+        for (kg, v) in self.masses_kg.iter().zip(&out.v) {
+            sum += own(*kg, v[k] + out.w[k]);
+        }
+        for (contents, p) in self.contents.iter().zip(&out.p) {
+            sum += own(contents.mass_kg, p[k]);
+        }
+        sum.sqrt()
+    }
+
     /// Part of the unit over which the last terms of the series are below rounding, 4 at most.
-    fn exact_part(&self, phase: &Phase<'_>, out: &Expansion) -> f64 {
-        const NEGLIGIBLE: f64 = 1e-18;
-        // Momenta over √mass, so that all are of one kind.
-        let size = |k: usize| {
-            let own = |kg: f64, w: f64| kg * w * w;
-            let floors = (0..self.storeys())
-                .map(|i| own(self.masses_kg[i], out.v[i][k] + out.w[k]))
-                .sum::<f64>();
-            let contents = self.contents.iter().zip(&out.p);
-            let contents = contents.map(|(c, p)| own(c.mass_kg, p[k])).sum::<f64>();
-            (own(self.block_kg, out.w[k]) + floors + contents).sqrt()
-        };
+    fn exact_part(
+        &self,
+        phase: &Phase<'_>,
+        out: &Expansion,
+        (largest, sizes): (f64, &[f64; DEGREE + 1]),
+    ) -> f64 {
         let mut part: f64 = 4.0;
         let mut limit = |largest: f64, k: usize, last: f64| {
             if last > NEGLIGIBLE * largest {
                 part = part.min(libm::pow(NEGLIGIBLE * largest / last, 1.0 / k as f64));
             }
         };
-        let largest = (0..=DEGREE).map(size).fold(0.0, f64::max);
         if largest.is_finite() {
             for k in [DEGREE - 1, DEGREE] {
-                limit(largest, k, size(k));
+                limit(largest, k, sizes[k]);
             }
             if let Coefficient::Exponential { drop, .. } = phase.force.coefficient
                 && phase.modes[0] != Mode::Stick

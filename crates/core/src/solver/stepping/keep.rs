@@ -1,12 +1,14 @@
 //! Peaks of the series, and the knots of the history.
 
-use super::super::ground::Stretch;
+use core::ops::Range;
+
+use super::super::ground::{Ground, Stretch};
 use super::super::outputs::output;
 use super::Stepping;
-use super::body::{Expansion, Loads};
+use super::body::{Body, Expansion, Loads};
 use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, curvature_bound, largest, value};
 use crate::model::Model;
-use crate::response::Mode;
+use crate::response::{History, Mode};
 
 /// Largest sizes so far.
 pub(super) struct Peaks {
@@ -54,14 +56,36 @@ fn raise(peak: &mut f64, p: &Polynomial, part: f64) {
     *peak = largest(&p.map(|c| -c), part, largest(p, part, *peak));
 }
 
-fn less(p: &Polynomial, constant: f64) -> Polynomial {
-    let mut p = *p;
-    p[0] -= constant;
-    p
+/// An output as a part of an expansion.
+pub(super) enum Output<'e> {
+    /// Less a constant.
+    Less(&'e Polynomial, f64),
+    Difference([&'e Polynomial; 2]),
+    Made(Polynomial),
 }
 
-fn difference(a: &Polynomial, b: &Polynomial) -> Polynomial {
-    core::array::from_fn(|k| a[k] - b[k])
+impl Output<'_> {
+    /// Its value at the start.
+    pub(super) fn start(&self) -> f64 {
+        match self {
+            Self::Less(p, constant) => p[0] - constant,
+            Self::Difference([a, b]) => a[0] - b[0],
+            Self::Made(p) => p[0],
+        }
+    }
+
+    /// Its series.
+    fn series(&self) -> Polynomial {
+        match self {
+            Self::Less(p, constant) => {
+                let mut p = **p;
+                p[0] -= constant;
+                p
+            }
+            Self::Difference([a, b]) => core::array::from_fn(|k| a[k] - b[k]),
+            Self::Made(p) => *p,
+        }
+    }
 }
 
 impl Stepping<'_> {
@@ -76,28 +100,33 @@ impl Stepping<'_> {
         contents_outputs(self.body.storeys()) + self.body.contents.len() + i
     }
 
-    /// The series of an output: those of [`output`], then velocities and accelerations of contents.
-    pub(super) fn output(&self, series: &Expansion, j: usize) -> Polynomial {
+    /// An output: those of [`output`], then velocities and accelerations of contents.
+    pub(super) fn output<'e>(&self, series: &'e Expansion, j: usize) -> Output<'e> {
         let (n, slope) = (self.body.storeys(), self.model.slope_m_per_s2());
         match j {
-            output::VELOCITY => series.w,
-            output::BLOCK => less(&series.u, slope),
-            output::SLIDER => series.slider,
-            output::FRICTION => series.friction,
-            output::BASE_SHEAR => series.shear,
-            output::OVERTURNING if self.peaks.overturns => self.moment(series),
-            output::OVERTURNING => ZERO,
-            j if j < output::acceleration(n, 0) => series.q[j - output::displacement(0)],
-            j if j < output::drift(n, 1) => {
-                less(&series.floors[j - output::acceleration(n, 0)], slope)
+            output::VELOCITY => Output::Less(&series.w, 0.0),
+            output::BLOCK => Output::Less(&series.u, slope),
+            output::SLIDER => Output::Less(&series.slider, 0.0),
+            output::FRICTION => Output::Less(&series.friction, 0.0),
+            output::BASE_SHEAR => Output::Less(&series.shear, 0.0),
+            output::OVERTURNING => Output::Made(self.moment(series)),
+            j if j < output::acceleration(n, 0) => {
+                Output::Less(&series.q[j - output::displacement(0)], 0.0)
+            }
+            j if j < output::acceleration(n, n) => {
+                Output::Less(&series.floors[j - output::acceleration(n, 0)], slope)
             }
             j if j < contents_outputs(n) => {
-                let i = 1 + j - output::drift(n, 1);
-                difference(&series.q[i], &series.q[i - 1])
+                let i = 1 + j - output::acceleration(n, n);
+                Output::Difference([&series.q[i], &series.q[i - 1]])
             }
             j => {
                 let (i, contents) = (j - contents_outputs(n), self.body.contents.len());
-                if i < contents { series.p[i] } else { less(&series.carried[i - contents], slope) }
+                if i < contents {
+                    Output::Less(&series.p[i], 0.0)
+                } else {
+                    Output::Less(&series.carried[i - contents], slope)
+                }
             }
         }
     }
@@ -109,7 +138,7 @@ impl Stepping<'_> {
                 output::FRICTION => self.look_at_friction(part),
                 output::OVERTURNING if !self.peaks.overturns => {}
                 j => {
-                    let p = self.output(&self.series, j);
+                    let p = self.output(&self.series, j).series();
                     raise(&mut self.peaks.values[j], &p, part);
                 }
             }
@@ -119,6 +148,9 @@ impl Stepping<'_> {
 
     /// Overturning moment of the inertia of block, floors and contents about the sliding surface.
     fn moment(&self, series: &Expansion) -> Polynomial {
+        if !self.peaks.overturns {
+            return ZERO;
+        }
         let body = &self.body;
         let heights_m = &self.peaks.heights_m;
         core::array::from_fn(|k| {
@@ -200,10 +232,14 @@ impl Stepping<'_> {
             return;
         }
         self.look_at_instant(loads);
-        let outputs = (0..self.peaks.values.len()).map(|j| self.output(&self.instant, j)[0]);
-        let mut outputs: Vec<f64> = outputs.collect();
+        let [mut states, mut outputs] = core::mem::take(&mut self.knot);
+        states.resize(self.x.count(), [0.0]);
+        self.x.get(states.as_flattened_mut());
+        outputs.clear();
+        let all = 0..self.peaks.values.len();
+        outputs.extend(all.map(|j| [self.output(&self.instant, j).start()]));
         if self.modes[0] == Mode::Stick {
-            let friction_n = &mut outputs[output::FRICTION];
+            let [friction_n] = &mut outputs[output::FRICTION];
             let hold = self.held();
             let [low, high] = hold.bounds.map(|bound| bound * loads.normal[0]);
             if hold.leans[0] {
@@ -213,45 +249,93 @@ impl Stepping<'_> {
                 *friction_n = friction_n.min(high);
             }
         }
-        let mut state = vec![0.0; self.x.count()];
-        self.x.get(&mut state);
-        self.store([time_s, table], &state, &outputs, row);
+        self.store([&[time_s], &[table]], [&states, &outputs], row);
+        self.knot = [states, outputs];
     }
 
-    /// Stores a sample as a row of the history, by its state and outputs.
-    pub(super) fn store_sample(&mut self, sample: usize, state: &[f64], outputs: &[f64]) {
-        let knot = [self.ground.times_s[sample], self.ground.table[sample]];
-        self.store(knot, state, outputs, true);
+    /// Stores samples in the present modes as rows of the history, by their states and outputs side by side.
+    pub(super) fn store_samples<const K: usize>(
+        &mut self,
+        samples: Range<usize>,
+        lists: [&[[f64; K]]; 2],
+    ) {
+        let Ground { times_s, table, .. } = self.ground;
+        self.store([&times_s[samples.clone()], &table[samples]], lists, true);
     }
 
-    /// Stores a knot, by its state and outputs.
-    fn store(&mut self, [time_s, table]: [f64; 2], state: &[f64], outputs: &[f64], row: bool) {
-        let (n, contents) = (self.body.storeys(), self.body.contents.len());
-        let surfaces = self.slider.law.surfaces(&self.slider.memory, state[0]);
+    /// Stores knots in the present modes: their times, the accelerations of the table, their states and
+    /// outputs side by side.
+    fn store<const K: usize>(
+        &mut self,
+        [times_s, table]: [&[f64]; 2],
+        [states, outputs]: [&[[f64; K]]; 2],
+        are_rows: bool,
+    ) {
+        let (n, contents, count) = (self.body.storeys(), self.body.contents.len(), times_s.len());
         let Some(h) = &mut self.history else { return };
-        if row {
-            h.rows.push(h.time_s.len());
+        let (first, end) = (h.time_s.len(), h.time_s.len() + count);
+        if are_rows {
+            h.rows.extend(first..end);
         }
-        h.time_s.push(time_s);
-        h.mode.extend_from_slice(&self.modes);
+        h.time_s.extend_from_slice(times_s);
+        for k in 0..count {
+            h.mode.extend_from_slice(&self.modes);
+            if self.slider.law.series.is_some() {
+                let surfaces = self.slider.law.surfaces(&self.slider.memory, states[0][k]);
+                h.surface_displacement_m.extend(surfaces);
+            }
+        }
         if self.slider.law.stop.is_some() {
-            h.contact.push(self.slider.memory.contact);
+            h.contact.resize(end, self.slider.memory.contact);
         }
-        h.table_acceleration_m_per_s2.push(table);
-        h.sliding_displacement_m.push(state[0]);
-        h.sliding_velocity_m_per_s.push(state[1]);
-        let block = if self.modes[0] == Mode::Stick { table } else { outputs[output::BLOCK] };
-        h.block_acceleration_m_per_s2.push(block);
-        h.friction_force_n.push(outputs[output::FRICTION]);
-        let (of_storeys, of_contents) = state[2..].split_at(2 * n);
-        h.storey_displacement_m.extend_from_slice(&of_storeys[..n]);
-        h.storey_velocity_m_per_s.extend_from_slice(&of_storeys[n..]);
-        let first = output::acceleration(n, 0);
-        h.storey_acceleration_m_per_s2.extend_from_slice(&outputs[first..][..n]);
-        h.surface_displacement_m.extend(surfaces);
-        h.contents_displacement_m.extend_from_slice(&of_contents[..contents]);
-        h.contents_velocity_m_per_s.extend_from_slice(&of_contents[contents..][..contents]);
-        let first = contents_outputs(n) + contents;
-        h.contents_acceleration_m_per_s2.extend_from_slice(&outputs[first..][..contents]);
+        let side_by_side = |column: &mut Vec<f64>, lists: &[[f64; K]]| match lists {
+            [list] => column.extend_from_slice(&list[..count]),
+            lists => (0..count).for_each(|k| column.extend(lists.iter().map(|list| list[k]))),
+        };
+        h.table_acceleration_m_per_s2.extend_from_slice(table);
+        side_by_side(&mut h.sliding_displacement_m, &states[..1]);
+        side_by_side(&mut h.sliding_velocity_m_per_s, &states[1..2]);
+        if self.modes[0] == Mode::Stick {
+            h.block_acceleration_m_per_s2.extend_from_slice(table);
+        } else {
+            side_by_side(&mut h.block_acceleration_m_per_s2, &outputs[output::BLOCK..][..1]);
+        }
+        side_by_side(&mut h.friction_force_n, &outputs[output::FRICTION..][..1]);
+        let (of_storeys, of_contents) = states[2..].split_at(2 * n);
+        side_by_side(&mut h.storey_displacement_m, &of_storeys[..n]);
+        side_by_side(&mut h.storey_velocity_m_per_s, &of_storeys[n..]);
+        let accelerations = &outputs[output::acceleration(n, 0)..][..n];
+        side_by_side(&mut h.storey_acceleration_m_per_s2, accelerations);
+        side_by_side(&mut h.contents_displacement_m, &of_contents[..contents]);
+        side_by_side(&mut h.contents_velocity_m_per_s, &of_contents[contents..][..contents]);
+        let accelerations = &outputs[contents_outputs(n) + contents..][..contents];
+        side_by_side(&mut h.contents_acceleration_m_per_s2, accelerations);
+    }
+}
+
+/// A history with room for the knots of so many samples.
+pub(super) fn history(body: &Body, surfaces: usize, samples: usize) -> History {
+    let (n, contents, room) = (body.storeys(), body.contents.len(), samples + samples / 4);
+    let column = |width: usize| Vec::with_capacity(width * room);
+    History {
+        storeys: n,
+        interfaces: 1 + contents,
+        surfaces,
+        time_s: column(1),
+        mode: Vec::with_capacity((1 + contents) * room),
+        rows: Vec::with_capacity(samples),
+        table_acceleration_m_per_s2: column(1),
+        sliding_displacement_m: column(1),
+        sliding_velocity_m_per_s: column(1),
+        block_acceleration_m_per_s2: column(1),
+        friction_force_n: column(1),
+        storey_displacement_m: column(n),
+        storey_velocity_m_per_s: column(n),
+        storey_acceleration_m_per_s2: column(n),
+        surface_displacement_m: column(surfaces),
+        contents_displacement_m: column(contents),
+        contents_velocity_m_per_s: column(contents),
+        contents_acceleration_m_per_s2: column(contents),
+        ..History::default()
     }
 }
