@@ -10,7 +10,7 @@ use common::random_devices::{System, system};
 use slipstick::error::SolveError;
 use slipstick::motion::GroundMotion;
 use slipstick::response::{History, Response};
-use slipstick::solver::exact;
+use slipstick::solver::{InstructionSet, Prepared, PreparedMotion, exact, exact_demands};
 
 /// Largest difference, over the peak of each quantity.
 const TOLERANCE: f64 = 1e-10;
@@ -149,6 +149,47 @@ fn agree(first: u64, count: u64) {
     println!("{compared} compared, {events} events, {ill} ill-conditioned, worst {worst:.1e}");
     assert!(wrong.is_empty(), "{} differ:\n{}", wrong.len(), wrong.join("\n"));
     assert!(10 * compared >= 7 * count && 20 * ill <= count, "{compared} compared, {ill} ill");
+}
+
+/// The bits of demands and events, as of a system that is turned round where `sign` is −1.
+fn bits(r: &Response, sign: f64) -> Vec<u64> {
+    let d = &r.demands;
+    let signed = d.residual_sliding_displacement_m;
+    let contents = d.contents.iter();
+    let signed = core::iter::once(signed)
+        .chain(contents.clone().map(|c| c.residual_sliding_displacement_m))
+        .chain(r.events.iter().map(|e| e.sliding_displacement_m));
+    let sizes = [
+        d.peak_sliding_velocity_m_per_s,
+        d.peak_block_acceleration_m_per_s2,
+        d.peak_friction_force_n,
+        d.peak_slider_force_n,
+        d.peak_base_shear_n,
+    ];
+    let sizes = sizes.into_iter().chain(r.events.iter().map(|e| e.time_s));
+    let sizes = sizes.chain(contents.map(|c| c.peak_sliding_velocity_m_per_s));
+    let storeys = d.storeys.iter().map(|storey| storey.peak_acceleration_m_per_s2);
+    // −0 is 0.
+    signed.map(|x| sign * x).chain(sizes).chain(storeys).map(|x| (x + 0.0).to_bits()).collect()
+}
+
+#[test]
+fn exact_bits_know_no_side_no_history_and_no_instruction_set() {
+    for seed in 0..200 {
+        let system = system(seed);
+        let Ok(response) = exact(&system.model, &level(&system, 1.0)) else { continue };
+        let here = bits(&response, 1.0);
+        let mirrored = exact(&system.mirrored, &level(&system, -1.0)).expect("a response");
+        assert_eq!(bits(&mirrored, -1.0), here, "seed {seed} mirrored");
+        let demands = exact_demands(&system.model, &level(&system, 1.0)).expect("a response");
+        assert_eq!(bits(&demands, 1.0), here, "seed {seed} without history");
+        let motion = PreparedMotion::new(level(&system, 1.0));
+        let model = Prepared::new(system.model, motion.dt_s());
+        for set in InstructionSet::all() {
+            let response = model.demands_by(set, &motion).expect("a response");
+            assert_eq!(bits(&response, 1.0), here, "seed {seed} by {set:?}");
+        }
+    }
 }
 
 #[test]

@@ -126,6 +126,7 @@ impl Units {
 
     /// Of `ẋ = A x + b a + g force` under a constant force, `A` by padded columns, over a step of so many
     /// series: each no longer than [`MAX_RATE_STEP`](super::MAX_RATE_STEP) over the rate of `A`.
+    #[inline(always)]
     #[must_use]
     pub fn affine(a: &[f64], b: &[f64], g: &[f64], (dt_s, parts): (f64, usize)) -> Self {
         let stride = b.len();
@@ -135,16 +136,18 @@ impl Units {
             column[j] = 1.0;
             move_affine(a, [&none, &none], (dt_s, parts), column);
         }
-        let ends = [[b, &none], [&none, b], [g, &none], [&none, &none]].map(|load| {
-            let mut end = none.clone();
-            move_affine(a, load, (dt_s, parts), &mut end);
-            end
-        });
+        let mut ends = [const { Vec::new() }; 4];
+        let loads = [[b, &none], [&none, b], [g, &none], [&none, &none]];
+        for (end, load) in ends.iter_mut().zip(loads) {
+            end.resize(stride, 0.0);
+            move_affine(a, load, (dt_s, parts), end);
+        }
         Self::of_step(by_1, ends)
     }
 
     /// By the columns of `E`, and by what a unit leaves behind over one step: of a constant acceleration, of
     /// one that grows from zero, and of forces that do.
+    #[inline(always)]
     fn of_step(by_1: Vec<f64>, ends: [Vec<f64>; 4]) -> Self {
         let stride = ends[0].len();
         let [constant_a, ramp_a, constant_f, ramp_f] = ends;
@@ -393,6 +396,7 @@ fn move_modes<S: Simd>(
 
 /// Moves a state of `ẋ = A x + load` over a step under a load that is constant and one that grows to its
 /// whole from zero, by so many Taylor series.
+#[inline(always)]
 fn move_affine(
     a: &[f64],
     [constant, ramp]: [&[f64]; 2],
@@ -458,6 +462,7 @@ fn times(matrix: &[f64], x: &[f64], out: &mut [f64], stride: usize) {
 }
 
 /// Padded columns and what each power of a matrix makes of them, up to `count` times as many.
+#[inline(always)]
 fn chain(matrix: &[f64], start: Vec<f64>, count: usize, stride: usize) -> Vec<f64> {
     let size = start.len();
     let mut list = start;

@@ -85,29 +85,6 @@ impl Number {
     }
 }
 
-/// Makes the rows of single components.
-struct RowsOf<'a> {
-    units: &'a Units,
-    components: Vec<usize>,
-    stride: usize,
-}
-
-impl Job for RowsOf<'_> {
-    type Output = Vec<(usize, Row)>;
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> Self::Output {
-        let mut rows = Vec::with_capacity(self.components.len());
-        let mut unit = vec![0.0; self.stride];
-        for i in self.components {
-            unit[i] = 1.0;
-            rows.push((i, self.units.row(simd, &unit, 0.0, 0.0)));
-            unit[i] = 0.0;
-        }
-        rows
-    }
-}
-
 /// `A` by columns, `b` and `g`.
 struct Matrices {
     stride: usize,
@@ -121,6 +98,31 @@ impl Matrices {
     fn rate(&self, c: &[f64]) -> (Vec<f64>, f64, f64) {
         let dot = |column: &[f64]| c.iter().zip(column).map(|(c, x)| c * x).sum::<f64>();
         (self.a.chunks_exact(self.stride).map(dot).collect(), dot(&self.b), dot(&self.g))
+    }
+}
+
+/// Makes the rows of those components of the state that move, over a step of so many series.
+struct RowsOf<'a> {
+    matrices: &'a Matrices,
+    step: (f64, usize),
+    components: Vec<usize>,
+}
+
+impl Job for RowsOf<'_> {
+    type Output = Vec<(usize, Row)>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Self::Output {
+        let Self { matrices: Matrices { stride, a, b, g }, step, components } = self;
+        let units = Units::affine(a, b, g, step);
+        let mut rows = Vec::with_capacity(components.len());
+        let mut unit = vec![0.0; *stride];
+        for i in components {
+            unit[i] = 1.0;
+            rows.push((i, units.row(simd, &unit, 0.0, 0.0)));
+            unit[i] = 0.0;
+        }
+        rows
     }
 }
 
@@ -162,10 +164,9 @@ impl Stepping<'_> {
             return None;
         }
         let (matrices, outputs) = self.units(normal_n);
-        let Matrices { stride, a, b, g } = &matrices;
-        let units = Units::affine(a, b, g, (dt_s, parts as usize));
         let components = (0..self.x.count()).filter(|&i| self.moves(i)).collect();
-        let moving = self.instructions.run(RowsOf { units: &units, components, stride: *stride });
+        let step = (dt_s, parts as usize);
+        let moving = self.instructions.run(RowsOf { matrices: &matrices, step, components });
         let second = |row: &Vec<f64>| {
             let (once, of_rate, _) = matrices.rate(row);
             let (twice, of_a, constant) = matrices.rate(&once);

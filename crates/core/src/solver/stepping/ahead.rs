@@ -217,10 +217,10 @@ impl Stepping<'_> {
                 GateOf::Output(j, factor) => {
                     let y = &ahead.outputs[j];
                     let slack = departure.of(simd, &affine.outputs[j]) * eight(simd, factor.abs());
-                    let [first, last] = [0, 1].map(|k| {
-                        f64x8::from_slice(simd, &y[k..k + BATCH]) * eight(simd, factor)
-                            + eight(simd, gate.constant)
-                    });
+                    let slack = slack - eight(simd, gate.constant);
+                    let [first, last] = both_ends(simd, y);
+                    let factor = eight(simd, factor);
+                    let [first, last] = [first * factor, last * factor];
                     (first.simd_gt(slack) & last.simd_gt(slack)).to_bitmask()
                 }
                 GateOf::Level(factor) => {
@@ -262,7 +262,7 @@ impl Stepping<'_> {
             // Samples that are not taken do not count.
             let end = y[steps];
             y[steps + 1..].fill(end);
-            let [first, last] = [0, 1].map(|k| f64x8::from_slice(simd, &y[k..k + BATCH]));
+            let [first, last] = both_ends(simd, y);
             let slack = departure.of(simd, number);
             let attained = larger(first.abs(), last.abs());
             let peak = &mut self.peaks.values[j];
@@ -336,6 +336,12 @@ impl Stepping<'_> {
     }
 }
 
+/// The ends of eight intervals.
+#[inline(always)]
+fn both_ends<S: Simd>(simd: S, list: &Nine) -> [f64x8<S>; 2] {
+    [f64x8::from_slice(simd, &list[..BATCH]), f64x8::from_slice(simd, &list[1..])]
+}
+
 /// How far numbers depart from the chords over eight samples.
 struct Departure<S: Simd> {
     /// `‖ẍ‖` and `|ȧ|`, times `h²/8`.
@@ -346,7 +352,7 @@ struct Departure<S: Simd> {
 impl<S: Simd> Departure<S> {
     #[inline(always)]
     fn new(simd: S, affine: &Affine, states: &[Nine], a: &Window) -> Self {
-        let [first, last] = [0, 1].map(|k| f64x8::from_slice(simd, &a[k..k + BATCH]));
+        let [first, last] = both_ends(simd, a);
         let jerk = (last - first) * eight(simd, 1.0 / affine.dt_s);
         let mut square = eight(simd, 0.0);
         for number in &affine.second {

@@ -211,23 +211,22 @@ impl Body {
     ) {
         let (n, modes) = (self.storeys(), phase.modes);
         out.unit_s = unit_s;
-        (out.s, out.w) = (ZERO, ZERO);
+        if orders > 0 {
+            out.clear();
+        }
         (out.s[0], out.w[0]) = (x.s, x.w);
         for i in 0..n {
-            (out.q[i], out.v[i]) = (ZERO, ZERO);
             (out.q[i][0], out.v[i][0]) = (x.q[i], x.v[i]);
         }
         for (e, contents) in self.contents.iter().enumerate() {
-            (out.r[e], out.p[e], out.carried[e]) = (ZERO, ZERO, ZERO);
             (out.r[e][0], out.p[e][0]) = (x.r[e], x.p[e]);
             debug_assert!(contents.floor <= n, "contents stand on a floor");
         }
         let mut a = ZERO;
         (a[0], a[1]) = (loads.acceleration[0], loads.acceleration[1] * unit_s);
-        out.normal = ZERO;
         (out.normal[0], out.normal[1]) = (loads.normal[0], loads.normal[1] * unit_s);
-        out.press = out.normal.map(|normal| normal / self.total_kg);
         let [n0, n1] = [out.normal[0], out.normal[1]];
+        (out.press[0], out.press[1]) = (n0 / self.total_kg, n1 / self.total_kg);
         for (floor, carrier) in out.carriers.iter_mut().enumerate() {
             *carrier = [self.joined_kg(floor, modes), 0.0];
         }
@@ -384,6 +383,19 @@ impl Body {
 }
 
 impl Expansion {
+    /// Sets to zero what is not written order by order: normal forces, all that stands still, and the
+    /// orders that a series leaves off.
+    fn clear(&mut self) {
+        (self.s, self.w, self.u, self.shear) = (ZERO, ZERO, ZERO, ZERO);
+        (self.slider, self.friction, self.normal, self.press) = (ZERO, ZERO, ZERO, ZERO);
+        for list in [&mut self.q, &mut self.v, &mut self.floors] {
+            list.fill(ZERO);
+        }
+        for list in [&mut self.r, &mut self.p, &mut self.carried] {
+            list.fill(ZERO);
+        }
+    }
+
     /// The state at a part of the unit.
     pub(super) fn state_at(&self, part: f64, x: &mut State) {
         use crate::linear::polynomial::value;

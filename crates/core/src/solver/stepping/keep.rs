@@ -6,7 +6,9 @@ use super::super::ground::{Ground, Stretch};
 use super::super::outputs::output;
 use super::Stepping;
 use super::body::{Body, Expansion, Loads};
-use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, curvature_bound, largest, value};
+use crate::linear::polynomial::{
+    DEGREE, Polynomial, ZERO, curvature_bound, largest, size_bound, value,
+};
 use crate::model::Model;
 use crate::response::{History, Mode};
 
@@ -48,6 +50,9 @@ fn contents_outputs(n: usize) -> usize {
 
 /// Raises a peak to the largest size of a polynomial on [0, `part`].
 fn raise(peak: &mut f64, p: &Polynomial, part: f64) {
+    if size_bound(p) <= *peak {
+        return;
+    }
     let ends = p[0].abs().max(value(p, part).abs());
     *peak = peak.max(ends);
     if ends + 0.125 * curvature_bound(p) * (part * part) <= *peak {
@@ -288,29 +293,37 @@ impl Stepping<'_> {
         if self.slider.law.stop.is_some() {
             h.contact.resize(end, self.slider.memory.contact);
         }
-        let side_by_side = |column: &mut Vec<f64>, lists: &[[f64; K]]| match lists {
-            [list] => column.extend_from_slice(&list[..count]),
-            lists => (0..count).for_each(|k| column.extend(lists.iter().map(|list| list[k]))),
-        };
         h.table_acceleration_m_per_s2.extend_from_slice(table);
-        side_by_side(&mut h.sliding_displacement_m, &states[..1]);
-        side_by_side(&mut h.sliding_velocity_m_per_s, &states[1..2]);
+        side_by_side(count, &mut h.sliding_displacement_m, &states[..1]);
+        side_by_side(count, &mut h.sliding_velocity_m_per_s, &states[1..2]);
         if self.modes[0] == Mode::Stick {
             h.block_acceleration_m_per_s2.extend_from_slice(table);
         } else {
-            side_by_side(&mut h.block_acceleration_m_per_s2, &outputs[output::BLOCK..][..1]);
+            side_by_side(count, &mut h.block_acceleration_m_per_s2, &outputs[output::BLOCK..][..1]);
         }
-        side_by_side(&mut h.friction_force_n, &outputs[output::FRICTION..][..1]);
+        side_by_side(count, &mut h.friction_force_n, &outputs[output::FRICTION..][..1]);
         let (of_storeys, of_contents) = states[2..].split_at(2 * n);
-        side_by_side(&mut h.storey_displacement_m, &of_storeys[..n]);
-        side_by_side(&mut h.storey_velocity_m_per_s, &of_storeys[n..]);
+        side_by_side(count, &mut h.storey_displacement_m, &of_storeys[..n]);
+        side_by_side(count, &mut h.storey_velocity_m_per_s, &of_storeys[n..]);
         let accelerations = &outputs[output::acceleration(n, 0)..][..n];
-        side_by_side(&mut h.storey_acceleration_m_per_s2, accelerations);
-        side_by_side(&mut h.contents_displacement_m, &of_contents[..contents]);
-        side_by_side(&mut h.contents_velocity_m_per_s, &of_contents[contents..][..contents]);
+        side_by_side(count, &mut h.storey_acceleration_m_per_s2, accelerations);
+        side_by_side(count, &mut h.contents_displacement_m, &of_contents[..contents]);
+        side_by_side(count, &mut h.contents_velocity_m_per_s, &of_contents[contents..][..contents]);
         let accelerations = &outputs[contents_outputs(n) + contents..][..contents];
-        side_by_side(&mut h.contents_acceleration_m_per_s2, accelerations);
+        side_by_side(count, &mut h.contents_acceleration_m_per_s2, accelerations);
     }
+}
+
+/// Adds so many knots to a column, of numbers side by side.
+#[inline(always)]
+fn side_by_side<const K: usize>(count: usize, column: &mut Vec<f64>, lists: &[[f64; K]]) {
+    let end = column.len() + count * lists.len();
+    match lists {
+        // Whole lists are moved faster than parts of them.
+        [list] => column.extend_from_slice(list),
+        lists => (0..count).for_each(|k| column.extend(lists.iter().map(|list| list[k]))),
+    }
+    column.truncate(end);
 }
 
 /// A history with room for the knots of so many samples.
