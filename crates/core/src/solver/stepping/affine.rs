@@ -187,46 +187,42 @@ impl Stepping<'_> {
     fn units(&mut self, normal_n: f64) -> (Matrices, Vec<(Vec<f64>, f64, f64)>) {
         let (count, outputs) = (self.x.count(), self.peaks.values.len());
         let stride = count.next_multiple_of(4);
-        let mut derivatives = vec![0.0; (count + 2) * stride];
-        let mut values = vec![0.0; (count + 2) * outputs];
         let here = self.x.clone();
-        let mut x = vec![0.0; count];
-        let of_unit = derivatives.chunks_exact_mut(stride).zip(values.chunks_exact_mut(outputs));
-        for (unit, (derivative, values)) in of_unit.enumerate() {
-            // The state in the middle, after nothing.
-            x.fill(0.0);
-            if let Some(x) = unit.checked_sub(1).and_then(|i| x.get_mut(i)) {
-                *x = 1.0;
-            }
-            self.x.set(&x);
-            let a = if unit == count + 1 { 1.0 } else { 0.0 };
-            let loads = Loads { acceleration: [a, 0.0], normal: [normal_n, 0.0] };
-            self.look_at_orders(1, &loads);
-            self.instant.order(1, derivative);
-            for (j, value) in values.iter_mut().enumerate() {
-                *value = self.output(&self.instant, j).start();
-            }
+        let mut unit = vec![0.0; count + 1];
+        let nothing = self.respond(&unit, normal_n, stride);
+        let mut units = Vec::with_capacity(count + 1);
+        for i in 0..=count {
+            // Half the difference, which knows no side.
+            unit[i] = 1.0;
+            let mut response = self.respond(&unit, normal_n, stride);
+            unit[i] = -1.0;
+            let opposite = self.respond(&unit, normal_n, stride);
+            unit[i] = 0.0;
+            response.iter_mut().zip(opposite).for_each(|(x, other)| *x = 0.5 * (*x - other));
+            units.push(response);
         }
         self.x = here;
-        for (list, size) in [(&mut derivatives, stride), (&mut values, outputs)] {
-            let (nothing, units) = list.split_at_mut(size);
-            for unit in units.chunks_exact_mut(size) {
-                unit.iter_mut().zip(&*nothing).for_each(|(unit, nothing)| *unit -= nothing);
-            }
-        }
+        let mut a = vec![0.0; stride * stride];
         // What stands still moves nothing: only rows of outputs ask for it.
-        let mut a = derivatives[stride..][..count * stride].to_vec();
-        a.resize(stride * stride, 0.0);
-        for (i, column) in a.chunks_exact_mut(stride).enumerate() {
-            if !self.moves(i) {
-                column.fill(0.0);
-            }
+        for i in (0..count).filter(|&i| self.moves(i)) {
+            a[i * stride..][..stride].copy_from_slice(&units[i][..stride]);
         }
-        let (b, g) = (derivatives[(count + 1) * stride..].to_vec(), derivatives[..stride].to_vec());
-        let of = |unit: usize, j: usize| values[unit * outputs + j];
-        let row = |j: usize| (1..=count).map(|unit| of(unit, j)).collect();
-        let rows = (0..outputs).map(|j| (row(j), of(count + 1, j), of(0, j))).collect();
-        (Matrices { stride, a, b, g }, rows)
+        let (b, g) = (units[count][..stride].to_vec(), nothing[..stride].to_vec());
+        let row = |j: usize| (0..count).map(|i| units[i][j]).collect();
+        let rows = (stride..stride + outputs).map(|j| (row(j), units[count][j], nothing[j]));
+        (Matrices { stride, a, b, g }, rows.collect())
+    }
+
+    /// Derivative, padded, and outputs of a state and an acceleration.
+    fn respond(&mut self, state: &[f64], normal_n: f64, stride: usize) -> Vec<f64> {
+        self.x.set(state);
+        let acceleration = [state[self.x.count()], 0.0];
+        self.look_at_orders(1, &Loads { acceleration, normal: [normal_n, 0.0] });
+        let mut response = vec![0.0; stride];
+        self.instant.order(1, &mut response);
+        let outputs = 0..self.peaks.values.len();
+        response.extend(outputs.map(|j| self.output(&self.instant, j).start()));
+        response
     }
 
     /// Whether a component of the state moves.
