@@ -13,6 +13,7 @@ use super::super::peaks::bound_between;
 use super::super::prepared::Job;
 use super::Stepping;
 use super::affine::{Affine, Configuration, Number};
+use crate::friction::Contact;
 use crate::linear::lanes::{eight, larger, largest_lane};
 use crate::linear::{BATCH, Force, Window};
 use crate::response::Mode;
@@ -103,10 +104,11 @@ impl Stepping<'_> {
         reached
     }
 
-    /// Whether nothing waits to be decided, and what is near a stop has moved off.
+    /// Whether nothing waits to be decided, and the block is at no stop.
     fn may_run_ahead(&self) -> bool {
         let waits = self.pending.is_some()
             || self.near.is_some()
+            || matches!(self.slider.memory.contact, Contact::Pressed(_))
             || self.leant
             || self.slider.just.is_some()
             || self.start.iter().any(Option::is_some);

@@ -143,18 +143,18 @@ impl Body {
         self.masses_kg.len()
     }
 
-    /// `K q + C v`.
-    fn restoring(&self, q: impl Fn(usize) -> f64, v: impl Fn(usize) -> f64, out: &mut [f64]) {
+    /// `K q + C v`, order by order.
+    #[inline(always)]
+    fn restoring(&self, q: &[Polynomial], v: &[Polynomial], k: usize, out: &mut [f64]) {
         let n = self.storeys();
-        for (i, out) in out.iter_mut().enumerate() {
-            let row = &self.damping[i * n..][..n];
-            *out = row.iter().enumerate().fold(0.0, |sum, (j, c)| sum + c * v(j));
-        }
+        let (q, v, out) = (&q[..n], &v[..n], &mut out[..n]);
         let mut below = 0.0;
         for i in 0..n {
-            let here = q(i);
+            let row = &self.damping[i * n..][..n];
+            let drag = row.iter().zip(v).fold(0.0, |sum, (c, v)| sum + c * v[k]);
+            let here = q[i][k];
             let force = self.stiffnesses_n_per_m[i] * (here - below);
-            out[i] += force;
+            out[i] = drag + force;
             if i > 0 {
                 out[i - 1] -= force;
             }
@@ -245,7 +245,7 @@ impl Body {
         for k in 0..=orders.min(DEGREE) {
             // The last order of accelerations would need one more of the state.
             let mut restoring = core::mem::take(&mut out.restoring);
-            self.restoring(|i| out.q[i][k], |i| out.v[i][k], &mut restoring);
+            self.restoring(&out.q, &out.v, k, &mut restoring);
             let shear: f64 = restoring.iter().sum();
             let press = out.press[k];
             let on_block = out.carriers[0][1] * press;

@@ -50,9 +50,6 @@ fn contents_outputs(n: usize) -> usize {
 
 /// Raises a peak to the largest size of a polynomial on [0, `part`].
 fn raise(peak: &mut f64, p: &Polynomial, part: f64) {
-    if size_bound(p) <= *peak {
-        return;
-    }
     let ends = p[0].abs().max(value(p, part).abs());
     *peak = peak.max(ends);
     if ends + 0.125 * curvature_bound(p) * (part * part) <= *peak {
@@ -76,6 +73,15 @@ impl Output<'_> {
             Self::Less(p, constant) => p[0] - constant,
             Self::Difference([a, b]) => a[0] - b[0],
             Self::Made(p) => p[0],
+        }
+    }
+
+    /// Bound on its size over the unit.
+    fn size_bound(&self) -> f64 {
+        match self {
+            Self::Less(p, constant) => size_bound(p) + constant.abs(),
+            Self::Difference([a, b]) => size_bound(a) + size_bound(b),
+            Self::Made(p) => size_bound(p),
         }
     }
 
@@ -143,8 +149,11 @@ impl Stepping<'_> {
                 output::FRICTION => self.look_at_friction(part),
                 output::OVERTURNING if !self.peaks.overturns => {}
                 j => {
-                    let p = self.output(&self.series, j).series();
-                    raise(&mut self.peaks.values[j], &p, part);
+                    let output = self.output(&self.series, j);
+                    if !(output.size_bound() <= self.peaks.values[j]) {
+                        let p = output.series();
+                        raise(&mut self.peaks.values[j], &p, part);
+                    }
                 }
             }
         }
