@@ -302,3 +302,150 @@ impl Stepping<'_> {
         [square.sqrt(), of_jerk]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::ground::{Ground, Sampling};
+    use super::super::super::prepared::InstructionSet;
+    use super::*;
+    use crate::error::{Pulse, UNWATCHED};
+    use crate::friction::{Coulomb, Direction, Friction};
+    use crate::model::{Block, Contents, Damping, Devices, Frame, InitialState, Model, Slider};
+    use crate::motion::GroundMotion;
+
+    /// Two storeys with contents on the block, and two on the floors.
+    fn model(damper_n_s_per_m: f64) -> Model {
+        let friction = Coulomb::new([0.06; 2], [0.05; 2]).expect("friction");
+        let slider = Slider {
+            stiffness_n_per_m: 3e3,
+            damper_n_s_per_m,
+            ..Slider::new(Friction::Coulomb(friction))
+        };
+        let frame = Frame {
+            masses_kg: vec![200.0, 150.0],
+            stiffnesses_n_per_m: vec![5e4, 3e4],
+            damping: Damping::Dampers(vec![damper_n_s_per_m; 2]),
+            heights_m: None,
+        };
+        let block = Block { mass_kg: 400.0, width_m: None, height_m: None };
+        let item =
+            |floor| Contents { floor, mass_kg: 60.0, static_friction: 0.2, kinetic_friction: 0.1 };
+        let contents = vec![item(0), item(1), item(2)];
+        Model::new(block, slider, frame, 9.81, InitialState::rest())
+            .and_then(|model| model.with_devices(Devices { contents, ..Devices::default() }))
+            .expect("a model")
+    }
+
+    /// Looks at every assignment of modes of a model.
+    fn each(model: &Model, look: impl Fn(&mut Stepping<'_>)) {
+        let motion = GroundMotion::evenly_spaced(0.01, vec![0.0; 20], None).expect("a motion");
+        let (sampling, law) = (Sampling::new(&motion), model.law(false));
+        let ground = Ground {
+            times_s: motion.times_s(),
+            table: motion.horizontal_m_per_s2(),
+            acceleration: motion.horizontal_m_per_s2(),
+            normal: Normal::Constant(model.normal_n()),
+            sampling: &sampling,
+        };
+        for assignment in 0..16_u32 {
+            let how = (false, Pulse::new(UNWATCHED));
+            let mut run = Stepping::new(model, &law, ground, InstructionSet::best(), how);
+            for (i, mode) in run.modes.iter_mut().enumerate() {
+                if assignment & (1 << i) != 0 {
+                    *mode = Mode::Slip(Direction::Positive);
+                }
+            }
+            look(&mut run);
+        }
+    }
+
+    fn dot(a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a * b).sum()
+    }
+
+    /// States of the structure whose numbers are anything.
+    fn states(stride: usize, count: usize) -> Vec<Vec<f64>> {
+        let mut x = 1_u32;
+        let mut next = |_| {
+            x = x.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(x >> 8) / f64::from(1 << 23) - 1.0
+        };
+        (0..count).map(|_| (0..stride).map(&mut next).collect()).collect()
+    }
+
+    /// Proof (m): unloaded, what is stuck and what slides feed nothing; without dampers nothing is lost.
+    #[test]
+    fn exact_energy_norm_does_not_grow_in_any_assignment() {
+        for damper in [0.0, 300.0] {
+            let model = model(damper);
+            let k = model.slider().stiffness_n_per_m;
+            each(&model, |run| {
+                let (matrices, _) = run.units(model.normal_n());
+                let rows = run.momenta(k);
+                for x in states(matrices.stride, 50) {
+                    let (mut power, mut size) = (0.0, 0.0);
+                    for row in &rows {
+                        let (rate, ..) = matrices.rate(row);
+                        power += dot(row, &x) * dot(&rate, &x);
+                        size += (dot(row, &x) * dot(&rate, &x)).abs();
+                    }
+                    assert!(power <= 1e-12 * size, "{:?}: {power} of {size}", run.modes);
+                    assert!(damper > 0.0 || power >= -1e-12 * size, "{:?}: {power}", run.modes);
+                }
+            });
+        }
+    }
+
+    /// Proof (m): no state of energy norm 1 makes an output larger than its dual norm, and one reaches it.
+    #[test]
+    fn exact_dual_norms_of_outputs_hold_and_are_reached() {
+        let model = model(50.0);
+        let k = model.slider().stiffness_n_per_m;
+        each(&model, |run| {
+            let (n, slides) = (run.body.storeys(), run.modes[0] != Mode::Stick);
+            let (_, rows) = run.units(model.normal_n());
+            let momenta = run.momenta(k);
+            for (mut row, ..) in rows {
+                let [norm, _] = run.dual_norm(&row, k);
+                // The second derivative of the velocity of contents is that of what carries them.
+                let of_p = row.split_off(2 + 2 * n + run.body.contents.len());
+                row.truncate(2 + 2 * n);
+                for (i, of_p) in of_p.iter().enumerate() {
+                    if run.modes[1 + i] != Mode::Stick {
+                        let floor = run.body.contents[i].floor;
+                        row[1] -= of_p;
+                        if floor > 0 {
+                            row[1 + n + floor] -= of_p;
+                        }
+                    }
+                }
+                if !slides {
+                    (row[0], row[1]) = (0.0, 0.0);
+                }
+                let size = |x: &[f64]| {
+                    momenta.iter().map(|row| dot(row, x)).map(|x| x * x).sum::<f64>().sqrt()
+                };
+                for x in states(2 + 2 * n, 50) {
+                    let x = if slides { x } else { [&[0.0; 2], &x[2..]].concat() };
+                    assert!(dot(&row, &x).abs() <= norm * size(&x) * (1.0 + 1e-12));
+                }
+                // What is proportional to the row in the coordinates of the norm.
+                let mut worst = vec![0.0; 2 + 2 * n];
+                if slides {
+                    let of_v: f64 = row[2 + n..].iter().sum();
+                    worst[0] = row[0] / k;
+                    worst[1] = (row[1] - of_v) / run.body.joined_kg(0, &run.modes);
+                }
+                for i in 0..n {
+                    let drift = row[2 + i..2 + n].iter().sum::<f64>();
+                    let below = if i > 0 { worst[1 + i] } else { 0.0 };
+                    worst[2 + i] = below + drift / run.body.stiffnesses_n_per_m[i];
+                    let momentum = row[2 + n + i] / run.body.joined_kg(1 + i, &run.modes);
+                    worst[2 + n + i] = momentum - worst[1];
+                }
+                let reached = dot(&row, &worst) - norm * size(&worst);
+                assert!(reached.abs() <= 1e-12 * norm * norm, "{:?}: {reached}", run.modes);
+            }
+        });
+    }
+}

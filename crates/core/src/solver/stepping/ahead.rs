@@ -36,16 +36,16 @@ pub(super) struct Ahead {
     /// Components of the state and outputs at the samples of a batch.
     states: Vec<Nine>,
     outputs: Vec<Nine>,
-    gates: Vec<Gate>,
+    margins: Vec<Margin>,
 }
 
 /// What is positive while nothing happens: `Σ factor × value + constant` of an output, or of `s` and `ṡ`.
-struct Gate {
-    of: GateOf,
+struct Margin {
+    of: MarginOf,
     constant: f64,
 }
 
-enum GateOf {
+enum MarginOf {
     /// An output, by a factor.
     Output(usize, f64),
     /// `s`, which is monotone while the block slides: its value at a sample speaks for all before.
@@ -130,19 +130,19 @@ impl Stepping<'_> {
     }
 
     /// What must stay positive in the present modes; false where that is more than values of the outputs.
-    fn find_gates(&self, gates: &mut Vec<Gate>) -> bool {
-        gates.clear();
+    fn find_margins(&self, margins: &mut Vec<Margin>) -> bool {
+        margins.clear();
         let normal_n = self.ground.normal_at(0);
-        let mut push = |of, constant| gates.push(Gate { of, constant });
+        let mut push = |of, constant| margins.push(Margin { of, constant });
         for (i, mode) in self.modes.iter().enumerate() {
             match mode {
                 Mode::Slip(direction) => {
-                    push(GateOf::Output(self.velocity_output(i), direction.sign()), 0.0);
+                    push(MarginOf::Output(self.velocity_output(i), direction.sign()), 0.0);
                 }
                 Mode::Stick => {
                     let (asked, [low, high]) = self.held_between(i, normal_n);
-                    push(GateOf::Output(asked, 1.0), -low);
-                    push(GateOf::Output(asked, -1.0), high);
+                    push(MarginOf::Output(asked, 1.0), -low);
+                    push(MarginOf::Output(asked, -1.0), high);
                 }
             }
         }
@@ -150,8 +150,8 @@ impl Stepping<'_> {
             for exit in self.slider.law.exits(&self.slider.memory, direction).into_iter().flatten()
             {
                 match [exit.of_s, exit.of_w] {
-                    [of_s, 0.0] => push(GateOf::Level(of_s), exit.constant),
-                    [0.0, of_w] => push(GateOf::Output(output::VELOCITY, of_w), exit.constant),
+                    [of_s, 0.0] => push(MarginOf::Level(of_s), exit.constant),
+                    [0.0, of_w] => push(MarginOf::Output(output::VELOCITY, of_w), exit.constant),
                     _ => return false,
                 }
             }
@@ -168,8 +168,8 @@ impl Stepping<'_> {
         (affine, configuration): (&Affine, usize),
         [mut sample, end]: [usize; 2],
     ) -> usize {
-        let mut gates = core::mem::take(&mut ahead.gates);
-        if self.find_gates(&mut gates) {
+        let mut margins = core::mem::take(&mut ahead.margins);
+        if self.find_margins(&mut margins) {
             let count = self.x.count();
             ahead.x.resize(count.next_multiple_of(4), 0.0);
             self.x.get(&mut ahead.x);
@@ -180,7 +180,7 @@ impl Stepping<'_> {
             let start = affine.outputs.iter().map(|y| [y.at(&ahead.x, a); BATCH + 1]);
             ahead.outputs.extend(start);
             while sample + BATCH <= end && self.pulse.beat(self.units).is_ok() {
-                let steps = self.batch(simd, ahead, (affine, configuration), &gates, sample);
+                let steps = self.batch(simd, ahead, (affine, configuration), &margins, sample);
                 sample += steps;
                 if steps < BATCH {
                     break;
@@ -188,7 +188,7 @@ impl Stepping<'_> {
             }
             self.x.set(&ahead.x[..count]);
         }
-        ahead.gates = gates;
+        ahead.margins = margins;
         sample
     }
 
@@ -199,7 +199,7 @@ impl Stepping<'_> {
         simd: S,
         ahead: &mut Ahead,
         (affine, configuration): (&Affine, usize),
-        gates: &[Gate],
+        margins: &[Margin],
         sample: usize,
     ) -> usize {
         let Some(a) = self.ground.acceleration[sample..].first_chunk::<{ BATCH + 1 }>() else {
@@ -214,20 +214,20 @@ impl Stepping<'_> {
         }
         let departure = Departure::new(simd, affine, &ahead.states, a);
         let mut clear = u64::MAX;
-        for gate in gates {
-            clear &= match gate.of {
-                GateOf::Output(j, factor) => {
+        for margin in margins {
+            clear &= match margin.of {
+                MarginOf::Output(j, factor) => {
                     let y = &ahead.outputs[j];
                     let slack = departure.of(simd, &affine.outputs[j]) * eight(simd, factor.abs());
-                    let slack = slack - eight(simd, gate.constant);
+                    let slack = slack - eight(simd, margin.constant);
                     let [first, last] = both_ends(simd, y);
                     let factor = eight(simd, factor);
                     let [first, last] = [first * factor, last * factor];
                     (first.simd_gt(slack) & last.simd_gt(slack)).to_bitmask()
                 }
-                GateOf::Level(factor) => {
+                MarginOf::Level(factor) => {
                     let s = f64x8::from_slice(simd, &ahead.states[0][1..]);
-                    let value = s * eight(simd, factor) + eight(simd, gate.constant);
+                    let value = s * eight(simd, factor) + eight(simd, margin.constant);
                     value.simd_gt(eight(simd, 0.0)).to_bitmask()
                 }
             };

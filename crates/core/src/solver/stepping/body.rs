@@ -301,6 +301,7 @@ impl Body {
             if orders == DEGREE {
                 sizes[k] = self.momentum(out, k);
                 largest = largest.max(sizes[k]);
+                // What is a hundred-millionth of the motion keeps its digits.
                 let is_linear = matches!(force.coefficient, Coefficient::Linear { .. });
                 if is_linear && k > 4 && sizes[k].max(sizes[k - 1]) <= 1e-6 * NEGLIGIBLE * largest {
                     break;
