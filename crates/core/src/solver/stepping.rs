@@ -3,7 +3,8 @@
 //!
 //! The slider and the contents are interfaces, each of which sticks or slides. Between two events the
 //! motion is one Taylor series in physical coordinates, nonlinear where the force is; the slider's law
-//! says which force, where it ends, what holds at rest and what follows.
+//! says which force, where it ends, what holds at rest and what follows. Whole samples in which nothing
+//! happens go eight at a time where the motion is affine (`ahead`).
 
 mod affine;
 mod ahead;

@@ -20,7 +20,7 @@ use super::super::prepared::Job;
 use super::Stepping;
 use super::ahead::Nine;
 use super::body::Loads;
-use crate::friction::{Coefficient, Memory};
+use crate::friction::Memory;
 use crate::linear::lanes::eight;
 use crate::linear::{BATCH, MAX_RATE_STEP, Row, Units, Window};
 use crate::response::Mode;
@@ -28,11 +28,18 @@ use crate::response::Mode;
 /// Most series to a step: beyond, samples are as well stepped through one by one.
 const MOST_PARTS: f64 = 16.0;
 
+/// Most components of a state, and most configurations that are kept: beyond, the matrices are larger than
+/// the work that they save.
+const MOST_COMPONENTS: usize = 64;
+const MOST_CONFIGURATIONS: usize = 128;
+
 /// One assignment of modes, on one branch of the slider's law.
 pub(super) struct Configuration {
     pub(super) modes: Vec<Mode>,
     pub(super) memory: Memory,
-    /// None where its motion is not affine, or too fast for the step.
+    /// How often it was in force before it had matrices.
+    asked: usize,
+    /// None as long as it has none, and where it is too fast for the step.
     pub(super) affine: Option<Affine>,
 }
 
@@ -136,26 +143,35 @@ impl Stepping<'_> {
     pub(super) fn configuration(&mut self) -> Option<usize> {
         let dt_s = self.ground.sampling.dt_s?;
         let Normal::Constant(normal_n) = self.ground.normal else { return None };
-        if !(normal_n > 0.0) || self.slider.law.series.is_some() {
+        let (law, count) = (self.slider.law, self.x.count());
+        if !(normal_n > 0.0) || law.series.is_some() || law.fades() || count > MOST_COMPONENTS {
             return None;
         }
         let (all, memory) = (&self.ahead.configurations, &self.slider.memory);
         let place = all.iter().position(|c| c.modes == self.modes && c.memory == *memory);
-        let place = place.unwrap_or_else(|| {
-            let affine = self.affine(dt_s, normal_n);
-            let (modes, memory) = (self.modes.clone(), self.slider.memory.clone());
-            self.ahead.configurations.push(Configuration { modes, memory, affine });
-            self.ahead.configurations.len() - 1
-        });
+        let place = match place {
+            Some(place) => place,
+            None if all.len() < MOST_CONFIGURATIONS => {
+                let (modes, memory) = (self.modes.clone(), memory.clone());
+                let new = Configuration { modes, memory, asked: 0, affine: None };
+                self.ahead.configurations.push(new);
+                self.ahead.configurations.len() - 1
+            }
+            None => return None,
+        };
+        let configuration = &mut self.ahead.configurations[place];
+        if configuration.affine.is_none() {
+            // The matrices of a large system cost as much as many samples.
+            configuration.asked += 1;
+            if 32 * configuration.asked >= count * count {
+                self.ahead.configurations[place].affine = self.affine(dt_s, normal_n);
+            }
+        }
         self.ahead.configurations[place].affine.is_some().then_some(place)
     }
 
     fn affine(&mut self, dt_s: f64, normal_n: f64) -> Option<Affine> {
-        let force = self.force(self.modes[0]);
-        if matches!(force.coefficient, Coefficient::Exponential { .. }) {
-            return None;
-        }
-        let restraint = force.under(normal_n).restraints.all;
+        let restraint = self.force(self.modes[0]).under(normal_n).restraints.all;
         let (k, c) = (restraint.stiffness_n_per_m, restraint.damper_n_s_per_m);
         let block_kg = self.body.joined_kg(0, &self.modes);
         let rate = self.body.rate_rad_per_s + (k / block_kg).sqrt() + c.abs() / block_kg;
@@ -382,7 +398,10 @@ mod tests {
             each(&model, |run| {
                 let (matrices, _) = run.units(model.normal_n());
                 let rows = run.momenta(k);
-                for x in states(matrices.stride, 50) {
+                for mut x in states(matrices.stride, 50) {
+                    if run.modes[0] == Mode::Stick {
+                        x[..2].fill(0.0);
+                    }
                     let (mut power, mut size) = (0.0, 0.0);
                     for row in &rows {
                         let (rate, ..) = matrices.rate(row);

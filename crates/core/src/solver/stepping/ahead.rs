@@ -124,7 +124,7 @@ impl Stepping<'_> {
         let Some(i) = interface.checked_sub(1) else {
             return (output::FRICTION, self.held().holds_n(normal_n));
         };
-        let (slope, contents) = (self.model.slope_m_per_s2(), &self.body.contents[i]);
+        let (slope, contents) = (self.peaks.slope_m_per_s2, &self.body.contents[i]);
         let bound = contents.static_friction * (normal_n / self.body.total_kg);
         (self.contents_acceleration_output(i), [-bound - slope, bound - slope])
     }

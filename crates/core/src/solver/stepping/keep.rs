@@ -20,6 +20,8 @@ pub(super) struct Peaks {
     pub(super) overturns: bool,
     /// Heights of the block and of the floors above the sliding surface in m.
     heights_m: Vec<f64>,
+    /// `g sin θ`, which accelerations are reported without.
+    pub(super) slope_m_per_s2: f64,
 }
 
 impl Peaks {
@@ -39,6 +41,7 @@ impl Peaks {
             values: vec![0.0; contents_outputs(n) + 2 * contents],
             overturns: block.width_m.is_some() && known,
             heights_m,
+            slope_m_per_s2: model.slope_m_per_s2(),
         }
     }
 }
@@ -113,7 +116,7 @@ impl Stepping<'_> {
 
     /// An output: those of [`output`], then velocities and accelerations of contents.
     pub(super) fn output<'e>(&self, series: &'e Expansion, j: usize) -> Output<'e> {
-        let (n, slope) = (self.body.storeys(), self.model.slope_m_per_s2());
+        let (n, slope) = (self.body.storeys(), self.peaks.slope_m_per_s2);
         match j {
             output::VELOCITY => Output::Less(&series.w, 0.0),
             output::BLOCK => Output::Less(&series.u, slope),
