@@ -235,28 +235,31 @@ impl Body {
             out.carriers[contents.floor][1] += pull;
         }
         let block_kg = out.carriers[0][0];
+        let Expansion { s, w, u, press: pressure, shear: base, slider, friction, decay, .. } = out;
+        let Expansion { q, v, floors, r, p, carried, restoring, carriers, .. } = out;
+        // Lengths that the compiler knows to be the same.
+        let (q, v, floors) = (&mut q[..n], &mut v[..n], &mut floors[..n]);
+        let (restoring, carriers) = (&mut restoring[..n], &mut carriers[..=n]);
         let (mut largest, mut sizes) = (0.0_f64, [0.0; DEGREE + 1]);
         let force = &phase.force;
         let sign = modes[0].sign();
         if let Coefficient::Exponential { rate_s_per_m, .. } = force.coefficient {
-            out.decay = ZERO;
-            out.decay[0] = libm::exp(-rate_s_per_m * x.w.abs());
+            *decay = ZERO;
+            decay[0] = libm::exp(-rate_s_per_m * x.w.abs());
         }
         for k in 0..=orders.min(DEGREE) {
             // The last order of accelerations would need one more of the state.
-            let mut restoring = core::mem::take(&mut out.restoring);
-            self.restoring(&out.q, &out.v, k, &mut restoring);
+            self.restoring(q, v, k, restoring);
             let shear: f64 = restoring.iter().sum();
-            let press = out.press[k];
-            let on_block = out.carriers[0][1] * press;
+            let press = pressure[k];
+            let on_block = carriers[0][1] * press;
             for i in 0..n {
-                let [mass_kg, pull] = out.carriers[i + 1];
-                out.floors[i][k] = (pull * press - restoring[i]) / mass_kg;
+                let [mass_kg, pull] = carriers[i + 1];
+                floors[i][k] = (pull * press - restoring[i]) / mass_kg;
             }
-            out.restoring = restoring;
-            out.shear[k] = shear;
-            let [s_k, w_k] = [out.s[k], out.w[k]];
-            let (s_before, first) = if k > 0 { (out.s[k - 1], 0.0) } else { (0.0, 1.0) };
+            base[k] = shear;
+            let [s_k, w_k] = [s[k], w[k]];
+            let (s_before, first) = if k > 0 { (s[k - 1], 0.0) } else { (0.0, 1.0) };
             // N (p0 + p1 s)
             let [p0, p1] = [force.of_normal, force.of_normal_s];
             let product = n0 * (p0 * first + p1 * s_k)
@@ -265,9 +268,9 @@ impl Body {
                 + force.restraint.damper_n_s_per_m * w_k)
                 + (force.force_n * first + product);
             if modes[0] == Mode::Stick {
-                out.u[k] = a[k];
-                out.slider[k] = block_kg * a[k] - shear - on_block;
-                out.friction[k] = out.slider[k] + spring;
+                u[k] = a[k];
+                slider[k] = block_kg * a[k] - shear - on_block;
+                friction[k] = slider[k] + spring;
             } else {
                 let mu = |k: usize, w_k: f64, decay: &Polynomial| {
                     let first = if k == 0 { 1.0 } else { 0.0 };
@@ -280,26 +283,25 @@ impl Body {
                         }
                     }
                 };
-                let mut resisting = n0 * mu(k, w_k, &out.decay);
+                let mut resisting = n0 * mu(k, w_k, decay);
                 if k > 0 {
-                    resisting += n1 * mu(k - 1, out.w[k - 1], &out.decay);
+                    resisting += n1 * mu(k - 1, w[k - 1], decay);
                 }
-                out.slider[k] = -sign * resisting - spring;
+                slider[k] = -sign * resisting - spring;
                 let rubbing = if force.is_friction { product } else { 0.0 };
-                out.friction[k] = -sign * resisting - rubbing;
-                out.u[k] = (out.slider[k] + shear + on_block) / block_kg;
+                friction[k] = -sign * resisting - rubbing;
+                u[k] = (slider[k] + shear + on_block) / block_kg;
             }
             for (e, contents) in self.contents.iter().enumerate() {
-                let under =
-                    if contents.floor == 0 { out.u[k] } else { out.floors[contents.floor - 1][k] };
+                let under = if contents.floor == 0 { u[k] } else { floors[contents.floor - 1][k] };
                 let mode = modes[1 + e];
-                out.carried[e][k] = match mode {
+                carried[e][k] = match mode {
                     Mode::Stick => under,
                     Mode::Slip(direction) => -direction.sign() * contents.kinetic_friction * press,
                 };
             }
             if orders == DEGREE {
-                sizes[k] = self.momentum(out, k);
+                sizes[k] = self.momentum(w, v, p, k);
                 largest = largest.max(sizes[k]);
                 // What is a hundred-millionth of the motion keeps its digits.
                 let is_linear = matches!(force.coefficient, Coefficient::Linear { .. });
@@ -312,24 +314,24 @@ impl Body {
             }
             let step = unit_s / (k + 1) as f64;
             if modes[0] != Mode::Stick {
-                out.w[k + 1] = step * (out.u[k] - a[k]);
-                out.s[k + 1] = step * out.w[k];
+                w[k + 1] = step * (u[k] - a[k]);
+                s[k + 1] = step * w[k];
                 if let Coefficient::Exponential { rate_s_per_m, .. } = force.coefficient {
-                    let sum = (0..=k)
-                        .fold(0.0, |sum, j| sum + (j + 1) as f64 * out.w[j + 1] * out.decay[k - j]);
-                    out.decay[k + 1] = -rate_s_per_m * sign * sum / (k + 1) as f64;
+                    let sum =
+                        (0..=k).fold(0.0, |sum, j| sum + (j + 1) as f64 * w[j + 1] * decay[k - j]);
+                    decay[k + 1] = -rate_s_per_m * sign * sum / (k + 1) as f64;
                 }
             }
             for i in 0..n {
-                out.v[i][k + 1] = step * (out.floors[i][k] - out.u[k]);
-                out.q[i][k + 1] = step * out.v[i][k];
+                v[i][k + 1] = step * (floors[i][k] - u[k]);
+                q[i][k + 1] = step * v[i][k];
             }
             for (e, contents) in self.contents.iter().enumerate() {
                 if modes[1 + e] != Mode::Stick {
                     let floor = contents.floor;
-                    let under = if floor == 0 { out.u[k] } else { out.floors[floor - 1][k] };
-                    out.p[e][k + 1] = step * (out.carried[e][k] - under);
-                    out.r[e][k + 1] = step * out.p[e][k];
+                    let under = if floor == 0 { u[k] } else { floors[floor - 1][k] };
+                    p[e][k + 1] = step * (carried[e][k] - under);
+                    r[e][k + 1] = step * p[e][k];
                 }
             }
         }
@@ -339,13 +341,14 @@ impl Body {
     }
 
     /// Size of an order: momenta over √mass, so that all are of one kind.
-    fn momentum(&self, out: &Expansion, k: usize) -> f64 {
+    #[inline(always)]
+    fn momentum(&self, w: &Polynomial, v: &[Polynomial], p: &[Polynomial], k: usize) -> f64 {
         let own = |kg: f64, w: f64| kg * w * w;
-        let mut sum = own(self.block_kg, out.w[k]);
-        for (kg, v) in self.masses_kg.iter().zip(&out.v) {
-            sum += own(*kg, v[k] + out.w[k]);
+        let mut sum = own(self.block_kg, w[k]);
+        for (kg, v) in self.masses_kg.iter().zip(v) {
+            sum += own(*kg, v[k] + w[k]);
         }
-        for (contents, p) in self.contents.iter().zip(&out.p) {
+        for (contents, p) in self.contents.iter().zip(p) {
             sum += own(contents.mass_kg, p[k]);
         }
         sum.sqrt()
