@@ -314,6 +314,12 @@ impl Law {
         series.as_ref().is_none_or(|all| all.surfaces().len() <= TABLED_SURFACES)
     }
 
+    /// Whether the block has but two branches, each with a constant friction force over the normal force.
+    #[must_use]
+    pub fn is_plain(&self) -> bool {
+        self.rate.is_none() && self.series.is_none() && self.stop.is_none()
+    }
+
     /// Whether friction fades with the speed.
     #[must_use]
     pub fn fades(&self) -> bool {

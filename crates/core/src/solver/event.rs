@@ -43,9 +43,9 @@ impl Segment {
 }
 
 impl<S: Simd, W: Width> Run<'_, S, W> {
-    /// Goes through one sample interval.
+    /// Goes through one sample interval from a time in it.
     #[inline(never)]
-    pub(super) fn step_events(&mut self, sample: usize) -> Result<(), SolveError> {
+    pub(super) fn step_events(&mut self, sample: usize, mut from_s: f64) -> Result<(), SolveError> {
         let simd = self.simd;
         simd.vectorize(
             #[inline(always)]
@@ -53,7 +53,6 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
                 self.events_in_interval = 0;
                 let length_s = self.ground.times_s[sample + 1] - self.ground.times_s[sample];
                 let change_s = self.ground.contact_change(sample).map(|part| part * length_s);
-                let mut from_s = 0.0;
                 for to_s in [change_s.unwrap_or(0.0), length_s] {
                     if to_s > from_s {
                         let stretch = self.ground.stretch(sample, from_s, to_s);
@@ -132,7 +131,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
     /// Coefficients of the demand in stick over a unit.
     #[inline(always)]
     fn demand_series(&mut self, load: &Load) -> Polynomial {
-        let phase = &self.tables.stick;
+        let phase = self.tables.stick.get();
         let (x, system) = (&self.x[..4 * self.width.fours()], &phase.system);
         let row = &phase.outputs.rows[output::FRICTION];
         let mut demand = phase.solution.number(self.simd, system, (x, load), &mut self.series);
@@ -143,7 +142,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
     /// One segment of stick, up to its end or the release in it; the time reached.
     #[inline(always)]
     fn stick_segment(&mut self, stretch: &Stretch, from_s: f64) -> f64 {
-        let phase = &self.tables.stick;
+        let phase = self.tables.stick.get();
         let segment = Self::segment(phase, stretch, from_s);
         let load = stretch.load(from_s, phase.unit_s, 0.0);
         let demand = self.demand_series(&load);
@@ -188,7 +187,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
     /// One segment of slip, up to its end or the first of its exits in it; the time reached.
     #[inline(always)]
     fn slip_segment(&mut self, stretch: &Stretch, direction: Direction, from_s: f64) -> f64 {
-        let phase = self.now.phase;
+        let phase = self.now.phase.get();
         let mut load = stretch.load(from_s, phase.unit_s, self.now.friction);
         load.force -= self.now.stop;
         let (segment, mut speed) = match self.now.fading {
@@ -366,7 +365,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         at_s: f64,
         direction: Direction,
     ) -> Option<usize> {
-        let phase = &self.tables.stick;
+        let phase = self.tables.stick.get();
         let load = stretch.load(at_s, phase.unit_s, 0.0);
         let demand = self.demand_series(&load);
         let normal = [0.0, stretch.normal_rate * phase.unit_s];

@@ -1,8 +1,11 @@
 //! The motion as the equations see it: along the slope with gravity's pull, and as normal force.
 
+use std::sync::OnceLock;
+
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
+use super::dense::Windows;
 use crate::linear::lanes::{greatest, largest_lane, least, sum_of_lanes};
 use crate::linear::{BATCH, Load, Window};
 use crate::model::Model;
@@ -15,6 +18,8 @@ pub(super) struct Sampling {
     pub(super) dt_s: Option<f64>,
     /// The other intervals, in order: jumps, an odd end, a gap.
     irregular: Vec<usize>,
+    /// Found where they are first needed.
+    windows: OnceLock<Windows>,
 }
 
 impl Sampling {
@@ -24,7 +29,14 @@ impl Sampling {
             Some(dt_s) => (Some(dt_s), Vec::new()),
             None => regular_step(motion.times_s()),
         };
-        Self { dt_s, irregular }
+        Self { dt_s, irregular, windows: OnceLock::new() }
+    }
+
+    /// Largest sizes of a motion in windows, if it has a step.
+    #[inline(always)]
+    pub(super) fn windows<S: Simd>(&self, simd: S, table: &[f64]) -> Option<&Windows> {
+        let dt_s = self.dt_s?;
+        Some(self.windows.get_or_init(|| Windows::new(simd, table, dt_s)))
     }
 
     /// End of the regular intervals that begin at a sample: the first sample whose interval has

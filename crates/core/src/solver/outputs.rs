@@ -31,6 +31,11 @@ pub(super) mod output {
     /// drifts from the second storey on: that of the first is its displacement.
     pub(in crate::solver) const STOREYS: usize = 6;
 
+    /// Number of outputs with `n` storeys.
+    pub(in crate::solver) fn count(n: usize) -> usize {
+        STOREYS + 2 * n + n.saturating_sub(1)
+    }
+
     /// Displacement of storey `i` of `n`.
     pub(in crate::solver) fn displacement(i: usize) -> usize {
         STOREYS + i
@@ -72,6 +77,11 @@ pub(super) struct Overturning {
 }
 
 impl Overturning {
+    /// What `f` of one storey and the block's acceleration add.
+    pub(super) fn arms(&self) -> [f64; 2] {
+        [self.arm[0], self.block]
+    }
+
     /// The moment of the inertia of floors and block about the sliding surface, in N m.
     pub(super) fn moment(&self, f: &[f64], u: f64) -> f64 {
         self.block * u - dot(&self.arm, f)

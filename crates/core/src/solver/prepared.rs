@@ -388,7 +388,7 @@ impl Job for Analysis<'_> {
 pub struct InstructionSet(Level);
 
 /// Work that an instruction set does.
-trait Job {
+pub(super) trait Job {
     type Output;
 
     fn run<S: Simd>(self, simd: S) -> Self::Output;
@@ -417,7 +417,7 @@ impl InstructionSet {
     }
 
     #[inline(always)]
-    fn run<J: Job>(self, job: J) -> J::Output {
+    pub(super) fn run<J: Job>(self, job: J) -> J::Output {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         {
             #[cfg(feature = "scalar")]

@@ -1,8 +1,8 @@
 //! Keeps the history of a response.
 
 use crate::friction::{Contact, Law};
-use crate::linear::System;
 use crate::linear::lanes::dot;
+use crate::linear::{BATCH, System};
 use crate::response::{History, Mode};
 
 /// What is known at a knot.
@@ -61,6 +61,17 @@ impl Recorder {
     }
 }
 
+/// Adds the first of nine numbers.
+#[inline(always)]
+fn extend(list: &mut Vec<f64>, numbers: &[f64; BATCH + 1], steps: usize) {
+    if steps == BATCH {
+        // Of a known length: no call.
+        list.extend_from_slice(&numbers[..BATCH]);
+    } else {
+        list.extend_from_slice(&numbers[..steps]);
+    }
+}
+
 /// What is stored at a knot.
 pub(super) struct Stored<'a> {
     pub(super) time_s: f64,
@@ -113,6 +124,27 @@ impl Recorder {
             h.contact.resize(end, contact);
         }
         h.table_acceleration_m_per_s2.extend_from_slice(table);
+    }
+
+    /// Stores the motion at the first of nine samples whose times have been stored: `s`, `ṡ`, the block's
+    /// acceleration and friction; displacement, velocity and acceleration of one storey.
+    #[inline(always)]
+    pub(super) fn store_block(
+        &mut self,
+        steps: usize,
+        block: [&[f64; BATCH + 1]; 4],
+        storey: Option<&[[f64; BATCH + 1]; 3]>,
+    ) {
+        let h = &mut self.history;
+        extend(&mut h.sliding_displacement_m, block[0], steps);
+        extend(&mut h.sliding_velocity_m_per_s, block[1], steps);
+        extend(&mut h.block_acceleration_m_per_s2, block[2], steps);
+        extend(&mut h.friction_force_n, block[3], steps);
+        if let Some([displacement, velocity, acceleration]) = storey {
+            extend(&mut h.storey_displacement_m, displacement, steps);
+            extend(&mut h.storey_velocity_m_per_s, velocity, steps);
+            extend(&mut h.storey_acceleration_m_per_s2, acceleration, steps);
+        }
     }
 
     #[inline(always)]

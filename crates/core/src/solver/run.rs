@@ -9,12 +9,13 @@ use core::mem::take;
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
+use super::dense;
 use super::ground::{Ground, Normal, Roughness};
 use super::outputs::{Group, output};
 use super::peaks::Peaks;
 use super::recorder::{Knot, Recorder};
 use super::slider::{Slider, Start};
-use super::tables::{Batch, Phase, Tables};
+use super::tables::{Batch, LazyPhase, Phase, Tables};
 use super::workspace::Workspace;
 use crate::error::{Pulse, SolveError};
 use crate::friction::{Affine, Contact, Direction, EXITS, Exit, Fading, Hold, Law, Restraint};
@@ -128,7 +129,7 @@ impl Curvature {
 #[derive(Clone, Copy)]
 pub(super) struct InForce<'a> {
     pub(super) mode: Mode,
-    pub(super) phase: &'a Phase,
+    pub(super) phase: &'a LazyPhase,
     /// Constant part of the friction force over the normal force, `−σ μ_k`; 0 in stick.
     pub(super) friction: f64,
     /// What the stop does to the outputs: in slip the constant force of its branch, in stick its force.
@@ -155,11 +156,42 @@ impl InForce<'_> {
             Mode::Stick => hold.force_n,
             Mode::Slip(_) => friction_n - self.stop,
         };
-        if self.phase.of_friction != Restraint::default() {
-            let Restraint { stiffness_n_per_m: k, damper_n_s_per_m: c } = self.phase.of_friction;
+        let of_friction = self.phase.of_friction();
+        if of_friction != Restraint::default() {
+            let Restraint { stiffness_n_per_m: k, damper_n_s_per_m: c } = of_friction;
             friction_n -= k * x[0] + c * x[1];
         }
         [friction_n, force_n]
+    }
+}
+
+impl<'a> Ahead<'a> {
+    fn new<S: Simd>(
+        simd: S,
+        tables: &'a Tables,
+        law: &Law,
+        ground: &Ground<'a>,
+        hold: &Hold,
+    ) -> Option<Self> {
+        let tables_ahead = tables.dense.as_deref()?;
+        let Normal::Constant(normal_n) = ground.normal else { return None };
+        if !(law.is_plain() && normal_n > 0.0) {
+            return None;
+        }
+        let windows = ground.sampling.windows(simd, ground.table)?;
+        let kinetic = [Direction::Positive, Direction::Negative]
+            .map(|d| -d.sign() * law.friction.kinetic_coefficient(d) * normal_n);
+        let ground = dense::Ground {
+            times_s: ground.times_s,
+            table: ground.table,
+            acceleration: ground.acceleration,
+            slope_size: tables.slope.abs(),
+            normal_n,
+            hold: *hold,
+            bounds: hold.bounds.map(|bound| bound * normal_n),
+            kinetic,
+        };
+        Some(Self { tables: tables_ahead, windows, ground })
     }
 }
 
@@ -202,6 +234,17 @@ pub(super) struct Run<'a, S, W> {
     pub(super) events: Vec<Event>,
     pub(super) sliding: Sliding,
     pub(super) events_in_interval: u32,
+    /// The way ahead, where there is one.
+    dense: Option<Ahead<'a>>,
+    /// Its places that may hold a peak.
+    candidates: Vec<dense::Candidate>,
+}
+
+/// A way ahead of the walk, for one storey or none under a plain law and a constant normal force.
+struct Ahead<'a> {
+    tables: &'a dense::Tables,
+    windows: &'a dense::Windows,
+    ground: dense::Ground<'a>,
 }
 
 impl<'a, S: Simd, W: Width> Run<'a, S, W> {
@@ -223,8 +266,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             w if w < 0.0 => Mode::Slip(Direction::Negative),
             _ => Mode::Stick,
         };
-        let outputs = &tables.stick.outputs;
-        let (groups, outputs) = (outputs.groups.len(), outputs.rows.len());
+        let outputs = output::count(system.storeys);
+        let groups = outputs.div_ceil(8);
         let values = Workspace::list(&mut room.values, groups, Eight::ZERO);
         let [mut amplitudes, f, g] =
             room.modes.each_mut().map(|list| Workspace::list(list, n, 0.0));
@@ -237,7 +280,12 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let slider = Slider::new(law, s, w);
         let hold = slider.hold(s);
         let now = InForce { mode, phase: &tables.stick, friction: 0.0, stop: 0.0, fading: None };
+        let dense = Ahead::new(simd, tables, law, &ground, &slider.hold(s));
+        let mut candidates = take(&mut room.candidates);
+        candidates.clear();
         Self {
+            dense,
+            candidates,
             simd,
             width,
             tables,
@@ -280,14 +328,68 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 continue;
             }
             let end = self.ground.sampling.regular_end(sample, last);
-            sample = self.screened(sample, end);
+            let mut from_s = 0.0;
+            if self.dense.is_some() {
+                dense::Reached { sample, at_s: from_s } = self.run_ahead(sample, end)?;
+            } else {
+                sample = self.screened(sample, end);
+            }
             self.pulse.beat(self.units[0])?;
             if sample < last && times_s[sample + 1] > times_s[sample] {
-                self.step_events(sample)?;
+                self.step_events(sample, from_s)?;
                 sample += 1;
             }
         }
         self.finish(last)
+    }
+
+    /// Takes the way ahead as far as it is sure.
+    #[inline(never)]
+    fn run_ahead(&mut self, sample: usize, end: usize) -> Result<dense::Reached, SolveError> {
+        let Some(ahead) = self.dense.take() else {
+            return Ok(dense::Reached { sample, at_s: 0.0 });
+        };
+        let mut carry = self.give();
+        let tables = (ahead.tables, ahead.windows);
+        let history = self.recorder.as_mut().map(|recorder| (recorder, &*self.tables.stick.system));
+        let keeps = (history, &mut self.pulse);
+        let reached =
+            dense::run_ahead(self.simd, tables, &ahead.ground, keeps, &mut carry, [sample, end]);
+        self.take_back(carry);
+        self.dense = Some(ahead);
+        reached
+    }
+
+    /// Looks at what it has left open.
+    #[inline(never)]
+    fn settle_ahead(&mut self) {
+        if let Some(ahead) = self.dense.take() {
+            let mut carry = self.give();
+            dense::settle(self.simd, (ahead.tables, ahead.windows), &ahead.ground, &mut carry);
+            self.take_back(carry);
+        }
+    }
+
+    fn give(&mut self) -> dense::Carry {
+        let mut carry = dense::Carry {
+            x: [0.0; 4],
+            peak: self.peaks.peak[0].0,
+            mode: self.mode,
+            start: self.start,
+            events: take(&mut self.events),
+            sliding: self.sliding,
+            candidates: take(&mut self.candidates),
+        };
+        carry.x.copy_from_slice(&self.x[..4]);
+        carry
+    }
+
+    fn take_back(&mut self, carry: dense::Carry) {
+        self.x[..4].copy_from_slice(&carry.x);
+        self.peaks.peak[0].0 = carry.peak;
+        (self.mode, self.start, self.sliding) = (carry.mode, carry.start, carry.sliding);
+        (self.events, self.candidates) = (carry.events, carry.candidates);
+        self.set_in_force();
     }
 
     fn finish(&mut self, last: usize) -> Result<(), SolveError> {
@@ -313,6 +415,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             self.slider.stopping.change(end_s, 0.0, self.slider.memory.contact, Contact::Free);
         }
         self.slider.note_surfaces(self.x[0]);
+        self.settle_ahead();
         self.settle_peaks();
         Ok(())
     }
@@ -333,6 +436,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         room.modes = [self.amplitudes, f, g];
         (room.values, room.series) = (self.values, self.series);
         (room.peaks, room.events) = (self.peaks, self.events);
+        room.candidates = self.candidates;
         (outcome, self.recorder)
     }
 
@@ -359,7 +463,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 self.exits = self.slider.law.exits(&self.slider.memory, direction);
                 let force = self.slider.law.force(&self.slider.memory, direction);
                 let Affine { restraints, force_n, coefficient, fading } = force.under(normal_n);
-                let phase = self.tables.under(self.simd, restraints);
+                let phase = self.tables.under(restraints);
                 let (friction, stop) = (-coefficient, force_n);
                 self.now = InForce { mode, phase, friction, stop, fading };
             }

@@ -34,7 +34,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     /// Takes samples up to the end of the evenly spaced ones; the first that the bounds leave open.
     #[inline(always)]
     pub(super) fn screened(&mut self, sample: usize, end: usize) -> usize {
-        let phase = self.now.phase;
+        let phase = self.now.phase.get();
         let Some(batch) = &phase.batch else { return sample };
         if self.start.is_some() || self.now.fading.is_some() || sample + BATCH > end {
             return sample;

@@ -1,10 +1,13 @@
 //! What an analysis needs to know of a structure and a step, made once.
 
-use std::sync::OnceLock;
+use core::ops::Deref;
+use std::sync::{Arc, OnceLock};
 
 use fearless_simd::prelude::*;
 
+use super::dense;
 use super::outputs::{self, Outputs, Overturning, output};
+use super::prepared::{InstructionSet, Job};
 use crate::friction::{Law, Restraint, Restraints};
 use crate::linear::polynomial::DEGREE;
 use crate::linear::{
@@ -21,26 +24,76 @@ const BATCH_RATE_STEP: f64 = 8.0;
 /// Tables of a structure, its restraints by the ground, and a step.
 #[derive(Debug)]
 pub(super) struct Tables {
-    pub(super) stick: Phase,
+    pub(super) stick: LazyPhase,
     /// One for each restraint of the law.
-    slip: Vec<Slip>,
+    slip: Vec<LazyPhase>,
     /// Orders of all series.
     pub(super) orders: usize,
-    /// Moment arms, where the overturning moment is an output.
-    overturning: Option<Overturning>,
+    /// Whether the overturning moment is an output.
+    overturns: bool,
     /// `g sin θ`.
     pub(super) slope: f64,
     /// `s, ṡ, η, η̇` at the start, padded.
     pub(super) start: Vec<f64>,
-    dt_s: Option<f64>,
+    /// For the way ahead of one storey or none.
+    pub(super) dense: Option<Box<dense::Tables>>,
 }
 
-/// Tables of slip under one restraint, made where it is first in force.
+/// What tables of stick, or of slip under one restraint, are made of where they are first needed.
 #[derive(Debug)]
-struct Slip {
-    restraints: Restraints,
-    system: System,
+pub(super) struct LazyPhase {
+    /// Its number: 0 is stick.
+    pub(super) number: usize,
+    pub(super) system: Arc<System>,
+    /// None in stick.
+    restraints: Option<Restraints>,
+    dt_s: Option<f64>,
+    batch_s: Option<f64>,
+    orders: usize,
+    overturning: Option<Arc<Overturning>>,
+    slope: f64,
     phase: OnceLock<Phase>,
+}
+
+impl LazyPhase {
+    /// What of the restraint is friction.
+    pub(super) fn of_friction(&self) -> Restraint {
+        self.restraints.map(|restraints| restraints.of_friction).unwrap_or_default()
+    }
+
+    /// The tables.
+    #[inline(always)]
+    pub(super) fn get(&self) -> &Phase {
+        match self.phase.get() {
+            Some(phase) => phase,
+            None => InstructionSet::best().run(Made(self)),
+        }
+    }
+}
+
+impl Deref for LazyPhase {
+    type Target = Phase;
+
+    #[inline(always)]
+    fn deref(&self) -> &Phase {
+        self.get()
+    }
+}
+
+struct Made<'a>(&'a LazyPhase);
+
+impl<'a> Job for Made<'a> {
+    type Output = &'a Phase;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> &'a Phase {
+        self.0.phase.get_or_init(|| {
+            simd.vectorize(
+                #[inline(always)]
+                || Phase::new(simd, self.0),
+            )
+        })
+    }
 }
 
 /// Tables of stick, or of slip under one restraint.
@@ -48,7 +101,7 @@ struct Slip {
 pub(super) struct Phase {
     /// Its number: 0 is stick.
     pub(super) number: usize,
-    pub(super) system: System,
+    pub(super) system: Arc<System>,
     pub(super) slip: bool,
     /// Length of one series in s: a whole part of the step.
     pub(super) unit_s: f64,
@@ -113,39 +166,67 @@ impl Tables {
         } else {
             free.restrained(stiffness_n_per_m, damper_n_s_per_m)
         };
-        let slip: Vec<Slip> = law
-            .restraints(normal_n)
-            .into_iter()
-            .map(|restraints| {
-                let Restraint { stiffness_n_per_m: k, damper_n_s_per_m: c } = restraints.all;
-                let same = k == free.stiffness_n_per_m && c == free.damper_n_s_per_m;
-                let system = if same { free.clone() } else { free.restrained(k, c) };
-                Slip { restraints, system, phase: OnceLock::new() }
-            })
-            .collect();
-        let rates = slip.iter().map(|slip| slip.system.slip_rate_rad_per_s);
-        let rate_step = |rate: f64| rate * unit_s(rate, dt_s);
-        let orders = if law.fades() {
-            DEGREE
-        } else {
-            orders(rates.map(rate_step).fold(rate_step(free.stick_rate_rad_per_s), f64::max))
-        };
-        let overturning = outputs::overturning(model, &free);
+        let free = Arc::new(free);
+        let overturning = outputs::overturning(model, &free).map(Arc::new);
         let slope = model.slope_m_per_s2();
-        let rows = outputs::rows(&free, None, overturning.as_ref(), slope);
-        let batch_s = dt_s.filter(|_| is_tabled);
-        let stick = Phase::new(simd, (0, free), None, (dt_s, batch_s), orders, rows);
-        let start = start(model, &stick.system);
-        let tables = Self { stick, slip, orders, overturning, slope, start, dt_s };
-        if is_tabled {
-            tables.slip(simd, 0);
+        let mut stick = LazyPhase {
+            number: 0,
+            system: free.clone(),
+            restraints: None,
+            dt_s,
+            batch_s: dt_s.filter(|_| is_tabled),
+            orders: DEGREE,
+            overturning,
+            slope,
+            phase: OnceLock::new(),
+        };
+        let mut slip = Vec::with_capacity(2);
+        for restraints in law.restraints(normal_n) {
+            let Restraint { stiffness_n_per_m: k, damper_n_s_per_m: c } = restraints.all;
+            let same = k == free.stiffness_n_per_m && c == free.damper_n_s_per_m;
+            let system = if same { free.clone() } else { Arc::new(free.restrained(k, c)) };
+            slip.push(LazyPhase {
+                number: 1 + slip.len(),
+                system,
+                restraints: Some(restraints),
+                // Pressed against a stop, samples go one by one.
+                batch_s: dt_s.filter(|_| !restraints.is_pressed),
+                overturning: stick.overturning.clone(),
+                phase: OnceLock::new(),
+                ..stick
+            });
+        }
+        if !law.fades() {
+            let rates = slip.iter().map(|slip| slip.system.slip_rate_rad_per_s);
+            let rate_step = |rate: f64| rate * unit_s(rate, dt_s);
+            let first = rate_step(free.stick_rate_rad_per_s);
+            stick.orders = orders(rates.map(rate_step).fold(first, f64::max));
+            for slip in &mut slip {
+                slip.orders = stick.orders;
+            }
+        }
+        let start = start(model, &free);
+        let arms = stick.overturning.as_ref().map_or([0.0; 2], |moment| moment.arms());
+        let dense =
+            dt_s.filter(|_| free.storeys <= 1 && is_tabled && law.is_plain()).and_then(|dt_s| {
+                let rows = |slip: Option<&Restraint>| {
+                    outputs::rows(&free, slip, stick.overturning.as_deref(), slope)
+                };
+                let (stick, slip) = (rows(None), rows(Some(&Restraint::default())));
+                dense::Tables::new(simd, &free, (arms, slope), [&stick, &slip], dt_s)
+            });
+        let overturns = stick.overturning.is_some();
+        let tables = Self { orders: stick.orders, stick, slip, overturns, slope, start, dense };
+        if is_tabled && tables.dense.is_none() {
+            tables.stick.get();
+            tables.slip[0].get();
         }
         tables
     }
 
     /// Whether the overturning moment is an output.
     pub(super) fn overturns(&self) -> bool {
-        self.overturning.is_some()
+        self.overturns
     }
 
     /// Largest rate of slip under any restraint, in rad/s.
@@ -153,54 +234,17 @@ impl Tables {
         self.slip.iter().fold(0.0, |rate, slip| slip.system.slip_rate_rad_per_s.max(rate))
     }
 
-    /// A phase that has been in force, by its number.
+    /// A phase by its number.
     #[inline(always)]
     pub(super) fn phase(&self, number: usize) -> &Phase {
-        let slip = self.slip.get(number.wrapping_sub(1)).and_then(|slip| slip.phase.get());
-        slip.unwrap_or(&self.stick)
+        self.slip.get(number.wrapping_sub(1)).unwrap_or(&self.stick).get()
     }
 
     /// Tables of slip under the restraints of a branch.
     #[inline(always)]
-    pub(super) fn under<S: Simd>(&self, simd: S, restraints: Restraints) -> &Phase {
-        let place = self.slip.iter().position(|slip| slip.restraints == restraints);
-        self.slip(simd, place.unwrap_or_default())
-    }
-
-    #[inline(always)]
-    fn slip<S: Simd>(&self, simd: S, i: usize) -> &Phase {
-        match self.slip[i].phase.get() {
-            Some(phase) => phase,
-            None => self.made(simd, i),
-        }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn made<S: Simd>(&self, simd: S, i: usize) -> &Phase {
-        let Slip { restraints: Restraints { of_friction, is_pressed, .. }, system, phase } =
-            &self.slip[i];
-        phase.get_or_init(|| {
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    let moment = self.overturning.as_ref();
-                    let rows = outputs::rows(system, Some(of_friction), moment, self.slope);
-                    // Pressed against a stop, samples go one by one.
-                    let batch_s = self.dt_s.filter(|_| !is_pressed);
-                    let lengths = (self.dt_s, batch_s);
-                    let of_friction = Some(*of_friction);
-                    Phase::new(
-                        simd,
-                        (1 + i, system.clone()),
-                        of_friction,
-                        lengths,
-                        self.orders,
-                        rows,
-                    )
-                },
-            )
-        })
+    pub(super) fn under(&self, restraints: Restraints) -> &LazyPhase {
+        let place = self.slip.iter().position(|slip| slip.restraints == Some(restraints));
+        &self.slip[place.unwrap_or_default()]
     }
 }
 
@@ -227,15 +271,13 @@ fn unit_s(rate_rad_per_s: f64, dt_s: Option<f64>) -> f64 {
 impl Phase {
     /// Tables of slip with what of its restraint is friction, or of stick.
     #[inline(always)]
-    fn new<S: Simd>(
-        simd: S,
-        (number, system): (usize, System),
-        slip: Option<Restraint>,
-        (dt_s, batch_s): (Option<f64>, Option<f64>),
-        orders: usize,
-        rows: Vec<outputs::OutputRow>,
-    ) -> Self {
-        let (of_friction, slip) = (slip.unwrap_or_default(), slip.is_some());
+    fn new<S: Simd>(simd: S, of: &LazyPhase) -> Self {
+        let LazyPhase { number, ref system, restraints, dt_s, batch_s, orders, slope, .. } = *of;
+        let moment = of.overturning.as_deref();
+        let of_friction = restraints.map(|restraints| restraints.of_friction);
+        let rows = outputs::rows(system, of_friction.as_ref(), moment, slope);
+        let (of_friction, slip) = (of_friction.unwrap_or_default(), of_friction.is_some());
+        let system = system.clone();
         let rate = if slip { system.slip_rate_rad_per_s } else { system.stick_rate_rad_per_s };
         let unit_s = unit_s(rate, dt_s);
         let tracked = &rows[if slip { output::VELOCITY } else { output::FRICTION }];

@@ -1,5 +1,6 @@
 //! Room that one analysis leaves to the next.
 
+use super::dense::Candidate;
 use super::peaks::Peaks;
 use crate::linear::Series;
 use crate::linear::lanes::Eight;
@@ -19,6 +20,7 @@ pub struct Workspace {
     pub(super) modes: [Vec<f64>; 3],
     pub(super) peaks: Peaks,
     pub(super) events: Vec<Event>,
+    pub(super) candidates: Vec<Candidate>,
 }
 
 impl Workspace {
