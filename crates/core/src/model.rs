@@ -370,6 +370,19 @@ impl Model {
         model
     }
 
+    /// Whether another model has the same linear system, start and devices: whether the two differ in the
+    /// slider's coefficients of friction and its gap alone.
+    #[must_use]
+    pub fn has_system_of(&self, other: &Self) -> bool {
+        let Slider { friction, gap_m, .. } = other.slider;
+        Slider { friction, gap_m, ..self.slider } == other.slider
+            && self.gravity_m_per_s2 == other.gravity_m_per_s2
+            && self.block == other.block
+            && self.frame == other.frame
+            && self.initial == other.initial
+            && self.devices == other.devices
+    }
+
     /// The same model with all coefficients of the slider times `factor`.
     ///
     /// # Errors

@@ -1,5 +1,6 @@
 //! Solves the equations of motion: exactly, or by the paper's stepwise program.
 
+mod course;
 mod dense;
 mod event;
 mod ground;

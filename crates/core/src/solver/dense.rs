@@ -1,83 +1,111 @@
-//! A way ahead for one storey or none under a plain law: no stop, no rate, a constant normal force.
+//! Running ahead of event stepping: one storey or none under a plain law, a constant normal force, evenly
+//! spaced samples.
 //!
-//! The state stays in registers. A block of eight samples follows from its start by one precomputed
-//! formula, and a bound shows that nothing happened between: no event, no new peak. Where the bound is
-//! too coarse the same formula gives one value at all eight samples at once, and a bound for single
-//! samples shows how far nothing happens. The next sample goes by its Taylor series ([`step`]), which
-//! takes events that are beyond doubt; whatever is not is handed back to event stepping, in the midst of
-//! the sample if need be. The book's chapter "Theory" has the proofs.
+//! What the general way does for any number of storeys, screened propagation ([`screen`]), event samples
+//! ([`event`]) and candidates for peaks ([`peaks`]), is done here for four numbers that stay in vector
+//! registers. It goes on while nothing is in doubt and hands over by returning, in the midst of a sample if
+//! need be: two roots near each other, an event on a sample, a demand at its bound are left to event
+//! stepping, and so is every motion with an irregular interval. It decides nothing by itself: what follows an event is
+//! said by [`Course`]. The book's chapter "Theory" has the bounds and their proofs.
 
+mod ahead;
+mod equations;
+mod event;
 mod lanes;
-mod leap;
+mod outputs;
 mod peaks;
-mod plant;
+mod record;
+mod screen;
 mod series;
-mod step;
 mod tables;
-mod view;
-mod walk;
-mod windows;
 
-use fearless_simd::Level;
 use fearless_simd::prelude::*;
 
-use self::walk::Walk;
+use self::ahead::Ahead;
+use super::course::Course;
+use super::ground::{Ground, Normal};
+use super::recorder::Recorder;
 use crate::error::{Pulse, SolveError};
+use crate::friction::{Direction, Law};
 use crate::linear::System;
-use crate::solver::recorder::Recorder;
 
-pub(super) use peaks::Candidate;
-pub(super) use tables::Tables;
-pub(super) use walk::{Carry, Ground, Reached};
-pub(super) use windows::Windows;
+pub(super) use self::outputs::Shape;
+pub(super) use self::peaks::Candidate;
+pub(super) use self::tables::Tables;
 
-/// Walks from a sample towards the end of the evenly spaced samples.
-pub(super) fn run_ahead<S: Simd>(
-    simd: S,
-    tables: (&Tables, &Windows),
-    ground: &Ground<'_>,
-    keeps: (Option<(&mut Recorder, &System)>, &mut Pulse<'_>),
-    carry: &mut Carry,
-    samples: [usize; 2],
-) -> Result<Reached, SolveError> {
-    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    if simd.level().as_avx2().is_some()
-        && let Some(wide) = Level::new().as_avx512()
-    {
-        return go(wide, tables, ground, keeps, carry, samples);
+/// What running ahead needs to know of an analysis.
+#[derive(Clone, Copy)]
+pub(super) struct Dense<'a> {
+    tables: &'a Tables,
+    system: &'a System,
+    ground: Ground<'a>,
+    normal_n: f64,
+    /// `−μ_s⁺ N` and `μ_s⁻ N`.
+    bounds_n: [f64; 2],
+    /// Friction force of sliding towards +x and towards −x.
+    kinetic_n: [f64; 2],
+}
+
+/// What it shares with the general way.
+pub(super) struct Shared<'r, 'a> {
+    /// `s, ṡ, η, η̇`, with zeros for the structure of a rigid block.
+    pub(super) x: &'r mut [f64; 4],
+    /// Peaks attained so far, in the order of the outputs.
+    pub(super) peak: &'r mut [f64; 8],
+    pub(super) course: &'r mut Course<'a>,
+    pub(super) candidates: &'r mut Vec<Candidate>,
+    pub(super) recorder: Option<&'r mut Recorder>,
+    pub(super) pulse: &'r mut Pulse<'a>,
+}
+
+/// How far it has come: so long after a sample, from where event stepping goes on.
+#[derive(Clone, Copy)]
+pub(super) struct Reached {
+    pub(super) sample: usize,
+    pub(super) at_s: f64,
+}
+
+impl<'a> Dense<'a> {
+    /// Where a law and a normal force allow it.
+    pub(super) fn new(
+        (tables, system): (&'a Tables, &'a System),
+        law: &Law,
+        ground: Ground<'a>,
+    ) -> Option<Self> {
+        let Normal::Constant(normal_n) = ground.normal else { return None };
+        if !(law.is_plain() && normal_n > 0.0) {
+            return None;
+        }
+        let both = [Direction::Positive, Direction::Negative];
+        let of_static = both.map(|d| -d.sign() * law.friction.static_coefficient(d) * normal_n);
+        let of_kinetic = both.map(|d| -d.sign() * law.friction.kinetic_coefficient(d) * normal_n);
+        Some(Self { tables, system, ground, normal_n, bounds_n: of_static, kinetic_n: of_kinetic })
     }
-    go(simd, tables, ground, keeps, carry, samples)
-}
 
-#[inline(never)]
-fn go<S: Simd>(
-    simd: S,
-    tables: (&Tables, &Windows),
-    ground: &Ground<'_>,
-    (recorder, pulse): (Option<(&mut Recorder, &System)>, &mut Pulse<'_>),
-    carry: &mut Carry,
-    [sample, end]: [usize; 2],
-) -> Result<Reached, SolveError> {
-    simd.vectorize(
-        #[inline(always)]
-        || Walk::new(simd, tables, ground, recorder, carry).go(sample, end, pulse),
-    )
-}
+    /// Goes on from the first of two samples towards the second, as far as nothing is in doubt.
+    #[inline(never)]
+    pub(super) fn run_ahead<S: Simd>(
+        &self,
+        simd: S,
+        shared: Shared<'_, 'a>,
+        samples: [usize; 2],
+    ) -> Result<Reached, SolveError> {
+        simd.vectorize(
+            #[inline(always)]
+            || Ahead::new(simd, self, shared).go(samples),
+        )
+    }
 
-/// Looks at all places that may still hold a peak.
-#[inline(never)]
-pub(super) fn settle<S: Simd>(
-    simd: S,
-    tables: (&Tables, &Windows),
-    ground: &Ground<'_>,
-    carry: &mut Carry,
-) {
-    simd.vectorize(
-        #[inline(always)]
-        || {
-            let mut walk = Walk::new(simd, tables, ground, None, carry);
-            walk.settle();
-            walk.hand_peaks();
-        },
-    );
+    /// Settles what may still hold a peak.
+    #[inline(never)]
+    pub(super) fn settle<S: Simd>(&self, simd: S, shared: Shared<'_, 'a>) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let mut ahead = Ahead::new(simd, self, shared);
+                ahead.settle();
+                ahead.hand_over();
+            },
+        );
+    }
 }

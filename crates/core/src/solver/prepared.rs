@@ -66,6 +66,9 @@ impl From<GroundMotion> for PreparedMotion {
 ///
 /// They depend neither on friction nor on the motion's values: one prepared model serves all levels
 /// of a record, and [`Prepared::with_model`] all coefficients of friction.
+///
+/// With one storey or none, a plain law, a constant normal force and even steps, the solver *runs ahead* of
+/// the way that serves all models, as far as nothing is in doubt.
 #[derive(Clone, Debug)]
 pub struct Prepared {
     model: Arc<Model>,
@@ -82,16 +85,24 @@ impl Prepared {
         Self { model, dt_s, tables }
     }
 
-    /// Another model for the same step, with the tables of this one where the two differ in friction
-    /// alone.
+    /// Another model for the same step, with the tables of this one where both have one
+    /// [system](Model::has_system_of).
     #[must_use]
     pub fn with_model(&self, model: impl Into<Arc<Model>>) -> Self {
         let model = model.into();
-        if self.model.with_friction(model.slider().friction) == *model {
+        if self.model.has_system_of(&model) {
             Self { model, ..self.clone() }
         } else {
             Self::new(model, self.dt_s)
         }
+    }
+
+    /// The same without [running ahead](Prepared): every event by event stepping, for comparison.
+    #[must_use]
+    pub fn without_running_ahead(self) -> Self {
+        let mut tables = tables_of(&self.model, self.dt_s);
+        tables.dense = None;
+        Self { tables: Arc::new(tables), ..self }
     }
 
     /// The model itself.
@@ -159,7 +170,19 @@ impl Prepared {
     /// # Errors
     /// [`SolveError`] with time and cause.
     pub fn response(&self, motion: &PreparedMotion) -> Result<Response, SolveError> {
-        self.solve(InstructionSet::best(), motion, (true, UNWATCHED), &mut Workspace::default())
+        self.response_by(InstructionSet::best(), motion)
+    }
+
+    /// The same by a given instruction set.
+    ///
+    /// # Errors
+    /// [`SolveError`] with time and cause.
+    pub fn response_by(
+        &self,
+        instructions: InstructionSet,
+        motion: &PreparedMotion,
+    ) -> Result<Response, SolveError> {
+        self.solve(instructions, motion, (true, UNWATCHED), &mut Workspace::default())
     }
 
     fn solve(

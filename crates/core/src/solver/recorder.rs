@@ -129,7 +129,7 @@ impl Recorder {
     /// Stores the motion at the first of nine samples whose times have been stored: `s`, `ṡ`, the block's
     /// acceleration and friction; displacement, velocity and acceleration of one storey.
     #[inline(always)]
-    pub(super) fn store_block(
+    pub(super) fn store_batch(
         &mut self,
         steps: usize,
         block: [&[f64; BATCH + 1]; 4],

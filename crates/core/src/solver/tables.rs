@@ -66,8 +66,14 @@ impl LazyPhase {
     pub(super) fn get(&self) -> &Phase {
         match self.phase.get() {
             Some(phase) => phase,
-            None => InstructionSet::best().run(Made(self)),
+            None => self.make(),
         }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn make(&self) -> &Phase {
+        InstructionSet::best().run(Made(self))
     }
 }
 
@@ -99,8 +105,6 @@ impl<'a> Job for Made<'a> {
 /// Tables of stick, or of slip under one restraint.
 #[derive(Debug)]
 pub(super) struct Phase {
-    /// Its number: 0 is stick.
-    pub(super) number: usize,
     pub(super) system: Arc<System>,
     pub(super) slip: bool,
     /// Length of one series in s: a whole part of the step.
@@ -108,8 +112,6 @@ pub(super) struct Phase {
     /// The motion over that, with the sliding velocity in slip and the demand on friction in stick.
     pub(super) solution: Solution,
     pub(super) outputs: Outputs,
-    /// What of the restraint is friction.
-    pub(super) of_friction: Restraint,
     /// How much the energy norm can grow over one series: friction that falls with the speed feeds it.
     pub(super) growth: f64,
     pub(super) batch: Option<Batch>,
@@ -206,15 +208,18 @@ impl Tables {
             }
         }
         let start = start(model, &free);
-        let arms = stick.overturning.as_ref().map_or([0.0; 2], |moment| moment.arms());
-        let dense =
-            dt_s.filter(|_| free.storeys <= 1 && is_tabled && law.is_plain()).and_then(|dt_s| {
-                let rows = |slip: Option<&Restraint>| {
-                    outputs::rows(&free, slip, stick.overturning.as_deref(), slope)
-                };
-                let (stick, slip) = (rows(None), rows(Some(&Restraint::default())));
-                dense::Tables::new(simd, &free, (arms, slope), [&stick, &slip], dt_s)
-            });
+        let plain_s = dt_s.filter(|_| free.storeys <= 1 && is_tabled && law.is_plain());
+        let dense = plain_s.and_then(|dt_s| {
+            let moment = stick.overturning.as_deref();
+            let rows = [None, Some(&Restraint::default())]
+                .map(|slip| outputs::rows(&free, slip, moment, slope));
+            let shape = dense::Shape {
+                floor: if free.storeys == 1 { free.floor(0)[0] } else { 0.0 },
+                arms: moment.map_or([0.0; 2], Overturning::arms),
+                slope,
+            };
+            dense::Tables::new(simd, &free, shape, rows.each_ref().map(Vec::as_slice), dt_s)
+        });
         let overturns = stick.overturning.is_some();
         let tables = Self { orders: stick.orders, stick, slip, overturns, slope, start, dense };
         if is_tabled && tables.dense.is_none() {
@@ -272,11 +277,11 @@ impl Phase {
     /// Tables of slip with what of its restraint is friction, or of stick.
     #[inline(always)]
     fn new<S: Simd>(simd: S, of: &LazyPhase) -> Self {
-        let LazyPhase { number, ref system, restraints, dt_s, batch_s, orders, slope, .. } = *of;
+        let LazyPhase { ref system, restraints, dt_s, batch_s, orders, slope, .. } = *of;
         let moment = of.overturning.as_deref();
         let of_friction = restraints.map(|restraints| restraints.of_friction);
         let rows = outputs::rows(system, of_friction.as_ref(), moment, slope);
-        let (of_friction, slip) = (of_friction.unwrap_or_default(), of_friction.is_some());
+        let slip = of_friction.is_some();
         let system = system.clone();
         let rate = if slip { system.slip_rate_rad_per_s } else { system.stick_rate_rad_per_s };
         let unit_s = unit_s(rate, dt_s);
@@ -307,6 +312,6 @@ impl Phase {
         };
         let growth = growth(unit_s);
         let outputs = Outputs::new(&system, slip, rows);
-        Self { number, system, slip, unit_s, solution, outputs, of_friction, growth, batch }
+        Self { system, slip, unit_s, solution, outputs, growth, batch }
     }
 }

@@ -20,6 +20,8 @@ pub struct Sketch {
     pub kinetic_friction: [f64; 2],
     pub tilt: f64,
     pub gravity: f64,
+    /// Whether it has a width and heights, so that the overturning moment is an output.
+    pub overturns: bool,
     pub s: f64,
     pub w: f64,
     /// `None`: the model's own default.
@@ -44,6 +46,7 @@ impl Sketch {
             kinetic_friction: [kinetic_friction; 2],
             tilt: 0.0,
             gravity: 8.0,
+            overturns: false,
             s: 0.0,
             w: 0.0,
             q: None,
@@ -195,7 +198,11 @@ impl Sketch {
     pub fn model(&self) -> Model {
         let friction = Coulomb::new(self.static_friction, self.kinetic_friction).expect("friction");
         Model::new(
-            Block { mass_kg: self.block, width_m: None, height_m: None },
+            Block {
+                mass_kg: self.block,
+                width_m: self.overturns.then_some(1.0),
+                height_m: self.overturns.then_some(0.5),
+            },
             Slider {
                 friction: Friction::Coulomb(friction),
                 stiffness_n_per_m: self.spring,
@@ -208,7 +215,7 @@ impl Sketch {
                 masses_kg: self.masses.clone(),
                 stiffnesses_n_per_m: self.stiffnesses.clone(),
                 damping: self.damping.clone(),
-                heights_m: None,
+                heights_m: self.overturns.then(|| vec![3.0; self.masses.len()]),
             },
             self.gravity,
             InitialState {

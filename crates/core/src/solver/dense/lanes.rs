@@ -1,12 +1,10 @@
-//! Sums of few columns, which the compiler unrolls.
+//! Sums of a known number of columns, which the compiler unrolls.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
+pub(super) use crate::linear::BATCH;
 pub(super) use crate::linear::lanes::{Eight, Four, eight, four, greatest, larger, least};
-
-/// Samples in a block.
-pub(super) use crate::linear::BATCH as BLOCK;
 
 /// A column times a number.
 #[inline(always)]

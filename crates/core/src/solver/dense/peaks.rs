@@ -1,63 +1,51 @@
-//! Peaks of the tracked quantities: what has been attained, and where more may hide.
-//!
-//! A block is kept as a whole, and a second look takes the samples of it that may hold more.
+//! Peaks of the outputs: what has been attained, and candidates for more.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
-use super::lanes::{BLOCK, Eight, Four, combine4, combine8, eight, four, greatest, larger};
+use super::ahead::Ahead;
+use super::event::{Segment, Span};
+use super::lanes::{Eight, Four, combine4, combine8, eight, four, greatest, larger};
 use super::series::Series;
-use super::step::Segment;
-use super::walk::Walk;
-use crate::friction::Direction;
 use crate::linear::polynomial::{ZERO, largest};
 use crate::response::Mode;
-use crate::solver::outputs::output as tracked;
+use crate::solver::outputs::output;
 
-/// Most places in question that are kept before they are looked at.
-const ROOM: usize = 16;
+/// Candidates that are kept before they are settled.
+const CANDIDATES: usize = 16;
 
 /// Some whole samples of one phase.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Block {
+pub(super) struct Samples {
     pub(super) sample: usize,
     pub(super) steps: usize,
-    /// Of sliding; none in stick.
-    pub(super) direction: Option<Direction>,
-    pub(super) x: [f64; 4],
-}
-
-/// A segment of a piece of a sample.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
-    pub(super) sample: usize,
-    pub(super) segment: Segment,
-    pub(super) x: [f64; 4],
     pub(super) mode: Mode,
+    /// State at their start.
+    pub(super) x: [f64; 4],
 }
 
 #[derive(Clone, Copy, Debug)]
 enum Place {
-    /// With what a chord over a sample hides.
-    Block(Block, Eight),
-    /// Up to an event or its end.
-    Part(Part),
+    /// With the slack of the outputs over one of them.
+    Samples(Samples, Eight),
+    Segment(Segment),
 }
 
+/// A place that may hold a peak.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Candidate {
     place: Place,
-    /// Bounds on the tracked quantities; zero where it cannot hold a peak.
+    /// Upper bounds on the outputs; zero where it cannot hold a peak.
     above: Eight,
 }
 
-impl<S: Simd> Walk<'_, S> {
-    /// Looks for peaks in whole samples, among the quantities whose bits are set in `open`; a chord
-    /// over a sample hides `slack` of the gates.
+impl<S: Simd> Ahead<'_, '_, S> {
+    /// Looks for peaks of the outputs whose bits are open in whole samples, over each of which the gates
+    /// have a slack.
     #[inline(never)]
-    pub(super) fn watch<const SLIP: bool>(
+    pub(super) fn look_over<const SLIP: bool>(
         &mut self,
-        block: &Block,
+        samples: &Samples,
         mut open: u64,
         slack: f64x4<S>,
     ) {
@@ -65,60 +53,54 @@ impl<S: Simd> Walk<'_, S> {
         simd.vectorize(
             #[inline(always)]
             || {
-                let a = self.block_at(block.sample);
-                let phase = self.phase::<SLIP>();
-                let force = block.direction.map_or(0.0, |direction| self.force(direction));
-                let rows = if SLIP {
-                    [
-                        self.row::<SLIP>(&phase.rows[0], block.x, a, force),
-                        self.row::<SLIP>(&phase.rows[1], block.x, a, force),
-                        self.row::<SLIP>(&phase.rows[2], block.x, a, force),
-                        self.row::<SLIP>(&phase.rows[4], block.x, a, force),
-                    ]
+                let Samples { sample, steps, mode, x } = *samples;
+                let (a, phase, force_n) =
+                    (self.window(sample), self.phase::<SLIP>(), self.force_n(mode));
+                let rows = &phase.rows;
+                let mut state = [eight(simd, x[0]); 4];
+                if SLIP {
+                    state[0] = self.row::<SLIP>(&rows[0], x, a, force_n);
+                    state[1] = self.row::<SLIP>(&rows[1], x, a, force_n);
                 } else {
-                    [
-                        eight(simd, block.x[0]),
-                        eight(simd, 0.0),
-                        self.row::<SLIP>(&phase.rows[2], block.x, a, force),
-                        self.row::<SLIP>(&phase.rows[4], block.x, a, force),
-                    ]
-                };
-                let table = f64x8::from_slice(simd, &a[1..]);
-                let first = self.view::<SLIP>(block.x, a[0], force).abs().to_array();
-                let slack = combine8(simd, &phase.view.of_gates, slack.to_array()).to_array();
-                let mut peak = self.peak.to_array();
-                let mut above = [0.0; 8];
-                let steps = (1_u64 << block.steps) - 1;
+                    state[1] = eight(simd, 0.0);
+                }
+                state[2] = self.row::<SLIP>(&rows[2], x, a, force_n);
+                state[3] = self.row::<SLIP>(&rows[4], x, a, force_n);
+                let of = &phase.outputs;
+                let (mut input, mut inputs) = (force_n, eight(simd, force_n));
+                if !SLIP {
+                    (input, inputs) = (a[0], f64x8::from_slice(simd, &a[1..]));
+                }
+                let first = of.at(simd, x, input).abs().to_array();
+                let slack = combine8(simd, &of.of_gates, slack.to_array()).to_array();
+                let (mut peak, mut above) = (self.peak.to_array(), [0.0; 8]);
+                let all = (1_u64 << steps) - 1;
                 while open != 0 {
                     let j = open.trailing_zeros() as usize;
                     open &= open - 1;
-                    let c = &phase.view.columns;
-                    let input = if SLIP {
-                        eight(simd, phase.view.of_force.0[j]) * eight(simd, force)
-                    } else {
-                        eight(simd, phase.view.of_acceleration.0[j]) * table
-                    };
-                    let values = ((rows[0] * eight(simd, c[0].0[j])
-                        + rows[1] * eight(simd, c[1].0[j]))
-                        + (rows[2] * eight(simd, c[2].0[j]) + rows[3] * eight(simd, c[3].0[j])))
-                        + (input + eight(simd, phase.view.constant.0[j]));
-                    let sizes = values.abs();
+                    let c = of.columns.each_ref().map(|column| column.0[j]);
+                    let of_state = (state[0] * eight(simd, c[0]) + state[1] * eight(simd, c[1]))
+                        + (state[2] * eight(simd, c[2]) + state[3] * eight(simd, c[3]));
+                    let of_input =
+                        inputs * eight(simd, of.of_input.0[j]) + eight(simd, of.constant.0[j]);
+                    let sizes = (of_state + of_input).abs();
                     let limit = peak[j] - slack[j];
-                    let hits = sizes.simd_gt(eight(simd, limit)).to_bitmask() & steps;
-                    if hits == 0 && first[j] <= limit {
+                    let passes = sizes.simd_gt(eight(simd, limit)).to_bitmask() & all;
+                    if passes == 0 && first[j] <= limit {
                         continue;
                     }
-                    let attained = sizes.to_array()[..block.steps]
-                        .iter()
-                        .fold(first[j], |most, x| if *x > most { *x } else { most });
-                    peak[j] = if attained > peak[j] { attained } else { peak[j] };
+                    let mut attained = first[j];
+                    for size in &sizes.to_array()[..steps] {
+                        attained = greatest(attained, *size);
+                    }
+                    peak[j] = greatest(peak[j], attained);
                     above[j] = attained + slack[j];
                 }
                 self.peak = f64x8::load_array(simd, peak);
-                self.set_gates();
+                self.set_limits();
                 let above = Eight(above);
                 if above.load(simd).simd_gt(self.peak).any_true() {
-                    self.keep(Candidate { place: Place::Block(*block, Eight(slack)), above });
+                    self.keep(Candidate { place: Place::Samples(*samples, Eight(slack)), above });
                 }
             },
         );
@@ -128,93 +110,98 @@ impl<S: Simd> Walk<'_, S> {
     #[inline(always)]
     pub(super) fn look<const SLIP: bool>(
         &mut self,
-        part: &Part,
+        segment: &Segment,
         series: &Series<S>,
         end: f64x4<S>,
         t: f64,
-        friction: [f64; 2],
+        friction_n: [f64; 2],
     ) {
-        let simd = self.simd;
-        let a = part.segment.a;
-        let end_a = a + part.segment.change * t;
-        let gates = &self.phase::<SLIP>().gates;
-        let input = if SLIP { friction } else { [a, end_a] };
-        let slack = combine4(simd, &gates.sizes, series.bend) * four(simd, 0.125 * (t * t));
-        let first = self.gates::<SLIP>(Four(part.x).load(simd), input[0]);
+        let (simd, storey) = (self.simd, &self.of.tables.storey);
+        let Span { a, change, .. } = segment.span;
+        let input = if SLIP { friction_n } else { [a, a + change * t] };
+        let slack = self.slack::<SLIP>(series, t);
+        let first = self.gates::<SLIP>(Four(segment.x).load(simd), input[0]);
         let last = self.gates::<SLIP>(end, input[1]);
-        let quiet = (self.inside(first, slack) & self.inside(last, slack)).all_true();
-        let plant = &self.tables.plant;
-        let spring =
-            [plant.stiffness_n_per_m * part.x[0], plant.stiffness_n_per_m * end.as_array()[0]];
-        let most = greatest(friction[0].abs(), friction[1].abs());
-        let sliders = [friction[0] - spring[0], friction[1] - spring[1]];
-        let slider = greatest(sliders[0].abs(), sliders[1].abs());
-        let forces = if SLIP {
+        let quiet = (self.within(first, slack) & self.within(last, slack)).all_true();
+        let [s, end_s] = [segment.x[0], end.as_array()[0]];
+        let slider_n = [
+            friction_n[0] - storey.stiffness_n_per_m * s,
+            friction_n[1] - storey.stiffness_n_per_m * end_s,
+        ];
+        let friction = greatest(friction_n[0].abs(), friction_n[1].abs());
+        let slider = greatest(slider_n[0].abs(), slider_n[1].abs());
+        let stays = if SLIP {
             let peak = self.peak.as_array();
-            most <= peak[tracked::FRICTION] && slider <= peak[tracked::SLIDER]
+            friction <= peak[output::FRICTION] && slider <= peak[output::SLIDER]
         } else {
-            let hidden = plant.participation * slack.as_array()[2];
-            most + hidden <= self.most_friction && slider + hidden <= self.most_slider
+            let hidden = storey.participation * slack.as_array()[2];
+            friction + hidden <= self.most_friction && slider + hidden <= self.most_slider
         };
-        if !(quiet && forces) || self.careful {
-            self.look_at_all::<SLIP>(part, end.to_array(), t, input, slack);
+        if !(quiet && stays) || self.several {
+            self.look_at_outputs::<SLIP>(segment, end.to_array(), t, input, slack);
         }
     }
 
-    /// The same for all tracked quantities.
+    /// How far the gates depart from the chord over the first part `t` of a segment at most.
     #[inline(always)]
-    fn look_at_all<const SLIP: bool>(
+    fn slack<const SLIP: bool>(&self, series: &Series<S>, t: f64) -> f64x4<S> {
+        let sizes = &self.phase::<SLIP>().gates.sizes;
+        combine4(self.simd, sizes, series.curvature) * four(self.simd, 0.125 * (t * t))
+    }
+
+    /// The same for all outputs.
+    #[inline(always)]
+    fn look_at_outputs<const SLIP: bool>(
         &mut self,
-        part: &Part,
+        segment: &Segment,
         end: [f64; 4],
         t: f64,
         input: [f64; 2],
         slack: f64x4<S>,
     ) {
-        let simd = self.simd;
-        let first = self.view::<SLIP>(part.x, input[0], input[0]);
-        let last = self.view::<SLIP>(end, input[1], input[1]);
-        let of_gates = &self.phase::<SLIP>().view.of_gates;
-        let slack = combine8(simd, of_gates, slack.to_array());
+        let (simd, of) = (self.simd, &self.phase::<SLIP>().outputs);
+        let (first, last) = (of.at(simd, segment.x, input[0]), of.at(simd, end, input[1]));
+        let slack = combine8(simd, &of.of_gates, slack.to_array());
         let attained = larger(first.abs(), last.abs());
         if (attained + slack).simd_le(self.peak).all_true() {
             return;
         }
         self.peak = larger(self.peak, attained);
-        self.set_gates();
-        // An extreme lies inside only where the ends are less than four times the slack apart.
+        self.set_limits();
+        // A parabola of that curvature between ends d apart rises above the higher one by
+        // (slack − d/4)²/slack, and not at all where d ≥ 4 slack.
         let zero = eight(simd, 0.0);
         let inside = slack - (last - first).abs() * eight(simd, 0.25);
-        let bulge = inside.simd_gt(zero).select(inside * (inside / slack), zero);
+        let rise = inside.simd_gt(zero).select(inside * (inside / slack), zero);
         // A few ulp are no more than the rounding of the ends.
-        let above = attained + bulge;
+        let above = attained + rise;
         let rounding = self.peak * eight(simd, 1e-15);
         if above.simd_gt(self.peak + rounding).any_true() {
-            let mut part = *part;
-            part.segment.rest = t;
-            self.keep(Candidate { place: Place::Part(part), above: Eight(above.to_array()) });
+            let mut segment = *segment;
+            segment.span.rest = t;
+            let above = Eight(above.to_array());
+            self.keep(Candidate { place: Place::Segment(segment), above });
         }
     }
 
     #[inline(never)]
     fn keep(&mut self, candidate: Candidate) {
-        if self.carry.candidates.len() == ROOM {
+        if self.shared.candidates.len() == CANDIDATES {
             self.drop_overtaken();
-            if self.carry.candidates.len() > ROOM / 2 {
+            if self.shared.candidates.len() > CANDIDATES / 2 {
                 self.settle();
             }
         }
-        self.carry.candidates.push(candidate);
+        self.shared.candidates.push(candidate);
     }
 
     fn drop_overtaken(&mut self) {
         let peak = self.peak.to_array();
-        self.carry
-            .candidates
-            .retain(|c| c.above.0.iter().zip(&peak).any(|(above, peak)| above > peak));
+        let may = |c: &Candidate| c.above.0.iter().zip(&peak).any(|(above, peak)| above > peak);
+        self.shared.candidates.retain(may);
     }
 
-    /// Looks at all places still in question.
+    /// Settles all candidates.
     #[inline(never)]
     pub(super) fn settle(&mut self) {
         let simd = self.simd;
@@ -222,125 +209,95 @@ impl<S: Simd> Walk<'_, S> {
             #[inline(always)]
             || {
                 self.drop_overtaken();
-                let mut candidates = core::mem::take(&mut self.carry.candidates);
-                for candidate in candidates.drain(..) {
-                    let above = candidate.above.load(simd);
-                    if above.simd_le(self.peak).all_true() {
+                for i in 0..self.shared.candidates.len() {
+                    let Candidate { place, above } = self.shared.candidates[i];
+                    if above.load(simd).simd_le(self.peak).all_true() {
                         continue;
                     }
-                    match (&candidate.place, candidate.place.slides()) {
-                        (Place::Part(part), true) => self.look_at::<true>(part),
-                        (Place::Part(part), false) => self.look_at::<false>(part),
-                        (Place::Block(block, slack), true) => {
-                            self.look_through::<true>(block, slack)
+                    match place {
+                        Place::Segment(segment) if segment.mode == Mode::Stick => {
+                            self.settle_segment::<false>(&segment);
                         }
-                        (Place::Block(block, slack), false) => {
-                            self.look_through::<false>(block, slack);
+                        Place::Segment(segment) => {
+                            self.settle_segment::<true>(&segment);
+                        }
+                        Place::Samples(samples, slack) if samples.mode == Mode::Stick => {
+                            self.settle_samples::<false>(&samples, &slack);
+                        }
+                        Place::Samples(samples, slack) => {
+                            self.settle_samples::<true>(&samples, &slack);
                         }
                     }
                 }
-                self.carry.candidates = candidates;
+                self.shared.candidates.clear();
             },
         );
     }
 
-    /// Looks at the samples of a block that may hold a peak.
+    /// Settles those of some samples that may hold a peak.
     #[inline(always)]
-    fn look_through<const SLIP: bool>(&mut self, block: &Block, slack: &Eight) {
-        let (simd, pieces) = (self.simd, self.tables.pieces);
-        let force = block.direction.map_or(0.0, |direction| self.force(direction));
-        let mode = block.direction.map_or(Mode::Stick, Mode::Slip);
-        let a: &[f64; BLOCK + 1] = self.block_at(block.sample);
-        let x = Four(block.x).load(simd);
-        let slack = slack.load(simd);
-        let mut start = block.x;
-        let mut first = self.view::<SLIP>(start, a[0], force);
-        for k in 0..block.steps {
-            let end = self.end::<SLIP>(k + 1, x, a, force).to_array();
-            let last = self.view::<SLIP>(end, a[k + 1], force);
+    fn settle_samples<const SLIP: bool>(&mut self, samples: &Samples, slack: &Eight) {
+        let (simd, pieces) = (self.simd, self.of.tables.pieces);
+        let Samples { sample, steps, mode, x: first_x } = *samples;
+        let (a, force_n, of) =
+            (self.window(sample), self.force_n(mode), &self.phase::<SLIP>().outputs);
+        let (x, slack) = (Four(first_x).load(simd), slack.load(simd));
+        let mut start = first_x;
+        let mut first = of.at(simd, start, if SLIP { force_n } else { a[0] });
+        for k in 0..steps {
+            let end = self.after::<SLIP>(k + 1, x, a, force_n).to_array();
+            let last = of.at(simd, end, if SLIP { force_n } else { a[k + 1] });
             if (larger(first.abs(), last.abs()) + slack).simd_gt(self.peak).any_true() {
                 let change = (a[k + 1] - a[k]) / pieces as f64;
                 let mut x = start;
                 for piece in 0..pieces {
-                    let at = a[k] + change * piece as f64;
-                    let segment = Segment { rest: 1.0, a: at, change };
-                    let part = Part { sample: block.sample + k, segment, x, mode };
-                    let series = self.series_of::<SLIP>(&part, force);
-                    self.look_closely::<SLIP>(&part, &series, force);
-                    x = series.at(simd, 1.0).to_array();
+                    let span = Span { rest: 1.0, a: a[k] + change * piece as f64, change };
+                    x = self.settle_segment::<SLIP>(&Segment { sample: sample + k, span, mode, x });
                 }
             }
             (start, first) = (end, last);
         }
     }
 
+    /// Settles a segment by the Taylor polynomials of what may hold a peak; the state at its end.
     #[inline(always)]
-    fn look_at<const SLIP: bool>(&mut self, part: &Part) {
-        let force = match part.mode {
-            Mode::Stick => 0.0,
-            Mode::Slip(direction) => self.force(direction),
-        };
-        let series = self.series_of::<SLIP>(part, force);
-        self.look_closely::<SLIP>(part, &series, force);
-    }
-
-    #[inline(always)]
-    fn series_of<const SLIP: bool>(&self, part: &Part, force: f64) -> Series<S> {
-        let table = &self.phase::<SLIP>().series;
-        Series::new::<SLIP>(self.simd, table, part.x, &part.segment, force)
-    }
-
-    /// Looks at a segment by the Taylor polynomials of what may hold a peak.
-    #[inline(always)]
-    fn look_closely<const SLIP: bool>(&mut self, part: &Part, series: &Series<S>, force: f64) {
-        let simd = self.simd;
-        let rest = part.segment.rest;
-        let (a, change) = (part.segment.a, part.segment.change);
+    fn settle_segment<const SLIP: bool>(&mut self, segment: &Segment) -> [f64; 4] {
+        let (simd, phase) = (self.simd, self.phase::<SLIP>());
+        let (Span { rest, a, change }, of) = (segment.span, &phase.outputs);
+        let force_n = self.force_n(segment.mode);
+        let series = Series::new::<SLIP>(simd, &phase.series, segment.x, &segment.span, force_n);
         let end = series.at(simd, rest).to_array();
-        let first = self.view::<SLIP>(part.x, a, force);
-        let last = self.view::<SLIP>(end, a + change * rest, force);
-        let view = &self.phase::<SLIP>().view;
-        let sizes = &self.phase::<SLIP>().gates.sizes;
-        let slack = combine4(simd, sizes, series.bend) * four(simd, 0.125 * (rest * rest));
-        let slack = combine8(simd, &view.of_gates, slack.to_array());
-        // A peak at the upper side, and at the lower one.
+        let input = if SLIP { [force_n; 2] } else { [a, a + change * rest] };
+        let (first, last) = (of.at(simd, segment.x, input[0]), of.at(simd, end, input[1]));
+        let slack = combine8(simd, &of.of_gates, self.slack::<SLIP>(&series, rest).to_array());
+        // A peak on the upper side, and on the lower one.
         let upper = (larger(first, last) + slack).simd_gt(self.peak).to_bitmask();
         let lower = (larger(-first, -last) + slack).simd_gt(self.peak).to_bitmask();
         let mut open = upper | lower;
         self.peak = larger(self.peak, larger(first.abs(), last.abs()));
-        let mut peak = self.peak.to_array();
-        let first = first.to_array();
+        let (mut peak, first) = (self.peak.to_array(), first.to_array());
         while open != 0 {
             let j = open.trailing_zeros() as usize;
             open &= open - 1;
-            let mut q = ZERO;
-            q[0] = first[j];
+            let mut p = ZERO;
+            p[0] = first[j];
+            let c = of.columns.each_ref().map(|column| column.0[j]);
             let mut power = 1.0;
-            for (k, c) in series.coefficients().iter().enumerate() {
+            for (k, x) in series.coefficients().iter().enumerate() {
                 power *= rest;
-                let columns = &view.columns;
-                let value = (columns[0].0[j] * c[0] + columns[1].0[j] * c[1])
-                    + (columns[2].0[j] * c[2] + columns[3].0[j] * c[3]);
-                let input = if SLIP || k > 0 { 0.0 } else { view.of_acceleration.0[j] * change };
-                q[k + 1] = (value + input) * power;
+                let of_state = (c[0] * x[0] + c[1] * x[1]) + (c[2] * x[2] + c[3] * x[3]);
+                let of_input = if SLIP || k > 0 { 0.0 } else { of.of_input.0[j] * change };
+                p[k + 1] = (of_state + of_input) * power;
             }
             if upper >> j & 1 != 0 {
-                peak[j] = largest(&q, 1.0, peak[j]);
+                peak[j] = largest(&p, 1.0, peak[j]);
             }
             if lower >> j & 1 != 0 {
-                peak[j] = largest(&q.map(|c| -c), 1.0, peak[j]);
+                peak[j] = largest(&p.map(|c| -c), 1.0, peak[j]);
             }
         }
         self.peak = f64x8::load_array(simd, peak);
-        self.set_gates();
-    }
-}
-
-impl Place {
-    fn slides(&self) -> bool {
-        match self {
-            Self::Block(block, _) => block.direction.is_some(),
-            Self::Part(part) => part.mode != Mode::Stick,
-        }
+        self.set_limits();
+        end
     }
 }

@@ -3,13 +3,13 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
+use super::equations::{OneStorey, unit};
+use super::event::Span;
 use super::lanes::{Eight, Four, four, times8};
-use super::plant::{Plant, unit};
-use super::step::Segment;
-use super::tables::ORDERS as DEGREE;
+use super::tables::ORDERS;
 
 /// Pairs of orders.
-const PAIRS: usize = DEGREE / 2;
+const PAIRS: usize = ORDERS / 2;
 
 /// Taylor coefficients from the first on over a piece, two orders side by side: what one unit of
 /// each component of the state, of the acceleration, of its change over the piece and of the
@@ -20,10 +20,10 @@ pub(super) type Table = [[Eight; 7]; PAIRS];
 pub(super) const EMPTY: Table = [[Eight::ZERO; 7]; PAIRS];
 
 /// 1 / (k + 1).
-const RECIPROCAL: [f64; DEGREE] = {
-    let mut table = [0.0; DEGREE];
+const RECIPROCAL: [f64; ORDERS] = {
+    let mut table = [0.0; ORDERS];
     let mut k = 0;
-    while k < DEGREE {
+    while k < ORDERS {
         table[k] = 1.0 / (k + 1) as f64;
         k += 1;
     }
@@ -37,7 +37,7 @@ const TWICE: [Eight; PAIRS] = factors(true);
 const fn factors(twice: bool) -> [Eight; PAIRS] {
     let mut table = [Eight::ZERO; PAIRS];
     let mut k = 1;
-    while k <= DEGREE {
+    while k <= ORDERS {
         let factor = if twice { k * (k - 1) } else { k } as f64;
         let mut i = 0;
         while i < 4 {
@@ -51,18 +51,18 @@ const fn factors(twice: bool) -> [Eight; PAIRS] {
 
 /// Fills the table of a phase.
 #[inline(always)]
-pub(super) fn fill(plant: &Plant, slip: bool, piece_s: f64, table: &mut Table) {
+pub(super) fn fill(storey: &OneStorey, slip: bool, piece_s: f64, table: &mut Table) {
     let inputs = if slip { 0..7 } else { 2..6 };
     let mut x: [[f64; 4]; 7] =
         core::array::from_fn(|input| if input < 4 { unit(input) } else { [0.0; 4] });
     // All inputs order by order: they do not wait for each other.
-    for k in 0..DEGREE {
+    for k in 0..ORDERS {
         let step = piece_s * RECIPROCAL[k];
         for input in inputs.clone() {
             // The acceleration counts at the start, its change in the order after.
             let a = if input == 4 + k && k < 2 { 1.0 } else { 0.0 };
             let force = if input == 6 && k == 0 { 1.0 } else { 0.0 };
-            x[input] = plant.rate(slip, x[input], a, force).map(|rate| step * rate);
+            x[input] = storey.rate(slip, x[input], a, force).map(|rate| step * rate);
             table[k / 2][input].0[k % 2 * 4..][..4].copy_from_slice(&x[input]);
         }
     }
@@ -81,22 +81,22 @@ pub(super) fn sum(table: &Table, input: usize) -> [f64; 4] {
     end
 }
 
-/// Taylor coefficients of the state over a piece from the first on, and their bound on its second
-/// derivative.
+/// Taylor coefficients `c_k` of the state over a piece from the first on, and `Σ k (k − 1) |c_k|`, which
+/// bounds its second derivative.
 pub(super) struct Series<S: Simd> {
     x: f64x4<S>,
     /// An odd order and the even one after it, side by side.
     c: [f64x8<S>; PAIRS],
-    /// The same for the second derivative.
+    /// `k (k − 1) c_k`.
     second: [f64x8<S>; PAIRS],
-    pub(super) bend: f64x4<S>,
+    pub(super) curvature: f64x4<S>,
 }
 
 /// What the coefficients of every order are made of.
 struct Order<'a, S: Simd> {
     simd: S,
     x: [f64; 4],
-    segment: &'a Segment,
+    span: &'a Span,
     force: f64,
 }
 
@@ -105,8 +105,7 @@ impl<S: Simd> Order<'_, S> {
     fn of<const SLIP: bool>(&self, table: &[Eight; 7]) -> f64x8<S> {
         let (simd, x) = (self.simd, self.x);
         let structure = times8(simd, &table[2], x[2]) + times8(simd, &table[3], x[3]);
-        let load =
-            times8(simd, &table[4], self.segment.a) + times8(simd, &table[5], self.segment.change);
+        let load = times8(simd, &table[4], self.span.a) + times8(simd, &table[5], self.span.change);
         if SLIP {
             let block = times8(simd, &table[0], x[0]) + times8(simd, &table[1], x[1]);
             (block + structure) + (load + times8(simd, &table[6], self.force))
@@ -142,10 +141,10 @@ impl<S: Simd> Series<S> {
         simd: S,
         table: &Table,
         x: [f64; 4],
-        segment: &Segment,
+        span: &Span,
         force: f64,
     ) -> Self {
-        let order = Order { simd, x, segment, force };
+        let order = Order { simd, x, span, force };
         // One by one: a loop would not be unrolled.
         let c = [
             order.of::<SLIP>(&table[0]),
@@ -159,7 +158,7 @@ impl<S: Simd> Series<S> {
         let size = |j: usize| second[j].abs();
         let (odd, even) =
             (((size(0) + size(1)) + (size(2) + size(3))) + (size(4) + size(5))).split();
-        Self { x: Four(x).load(simd), c, second, bend: odd + even }
+        Self { x: Four(x).load(simd), c, second, curvature: odd + even }
     }
 
     /// State at a part of the piece.
@@ -184,7 +183,7 @@ impl<S: Simd> Series<S> {
 
     /// The coefficients one by one, from the first on.
     #[inline(always)]
-    pub(super) fn coefficients(&self) -> [[f64; 4]; DEGREE] {
+    pub(super) fn coefficients(&self) -> [[f64; 4]; ORDERS] {
         let pairs = self.c.map(|c| c.to_array());
         core::array::from_fn(|k| {
             let at = k % 2 * 4;

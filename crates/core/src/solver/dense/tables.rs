@@ -1,42 +1,42 @@
-//! What a block needs to know of a system and a time step, made once.
+//! What a batch and a sample need to know of a linear system and a step, made once.
 //!
-//! All tables hold the state in the order `s, ṡ, η, η̇`; a rigid block has zeros for the structure.
-//! They depend neither on friction nor on the motion.
+//! A batch is the sum of the maps in [`maps`](crate::linear::Maps), here with a number of columns that the
+//! compiler knows:
+//!
+//! ```text
+//! x_{i+k} = E^k x_i + first_k a_i + Σ_{m=1..k} tap_{k−m} a_{i+m} + force_k T
+//! ```
 
 use fearless_simd::prelude::*;
 
-use super::lanes::{BLOCK, Eight, Four};
-use super::plant::{Plant, unit};
+use super::equations::{OneStorey, unit};
+use super::lanes::{BATCH, Eight, Four};
+use super::outputs::{Gates, Outputs, Shape};
 use super::series::{self, Table};
-use super::view::View;
-pub(super) use crate::linear::QUIET;
-use crate::linear::System;
+use crate::linear::{QUIET, System};
 use crate::solver::outputs::OutputRow;
 
-/// Orders of the series, for a rate times a piece of [`MAX_RATE_STEP`] at most: the first term left out is
-/// below 3e-17 of the largest.
+/// Orders of the series: with [`PIECE_RATE`] the first term left out is below 3e-17 of the largest.
 pub(super) const ORDERS: usize = 12;
 
-/// Largest rate times piece.
-const MAX_RATE_STEP: f64 = 0.3;
+/// Largest rate times the length of a series.
+const PIECE_RATE: f64 = 0.3;
 
-/// Largest rate times step: beyond, bounds by the energy norm alone cost more than they save.
-const MOST_RATE_STEP: f64 = 0.65;
+/// Largest rate times step: beyond, the bounds of the general way save more than its tables cost.
+const STEP_RATE: f64 = 0.65;
 
-/// Tables of a system and a step.
+/// Tables of a system with one storey or none and a step. They depend neither on friction nor on the
+/// motion.
 #[derive(Debug)]
 pub(in crate::solver) struct Tables {
-    pub(super) plant: Plant,
-    /// Equal pieces into which a sample is cut for its Taylor series.
+    pub(super) storey: OneStorey,
+    pub(super) shape: Shape,
+    /// Equal pieces into which a sample is cut for its Taylor series, and the length of one.
     pub(super) pieces: usize,
     pub(super) piece_s: f64,
     pub(super) stick: Phase,
     pub(super) slip: Phase,
     pub(super) quiet: Quiet,
-    /// `Φ`, and what `f` and the block's acceleration add to the overturning moment.
-    pub(super) shape: f64,
-    pub(super) arm: [f64; 2],
-    pub(super) slope: f64,
 }
 
 /// Tables of stick or slip.
@@ -44,53 +44,26 @@ pub(in crate::solver) struct Tables {
 pub(super) struct Phase {
     pub(super) series: Table,
     /// `E^k`, column by column.
-    pub(super) power: [[Four; 4]; BLOCK + 1],
+    pub(super) power: [[Four; 4]; BATCH + 1],
     /// What a unit of acceleration at the first sample leaves after `k`.
-    pub(super) first: [Four; BLOCK + 1],
+    pub(super) first: [Four; BATCH + 1],
     /// What a unit of acceleration at a sample leaves `j − 8` samples later, zeros before it.
-    pub(super) tap: [Four; 2 * BLOCK],
+    pub(super) tap: [Four; 2 * BATCH],
     /// What a unit of friction force leaves after `k` samples.
-    pub(super) force: [Four; BLOCK + 1],
-    /// The same for one value at all samples of a block: `s`, `ṡ`, `η`, `f`, `η̇`; in stick the demand
-    /// without the spring's part in the place of `s`.
+    pub(super) force: [Four; BATCH + 1],
+    /// `s` (in stick the demand without the spring's part), `ṡ, η, f, η̇` at the samples of a batch.
     pub(super) rows: [Row; 5],
-    /// The tracked quantities.
-    pub(super) view: View,
-    /// What is watched on the way.
+    pub(super) outputs: Outputs,
     pub(super) gates: Gates,
 }
 
-/// What is watched from block to block: `ṡ`, `η`, `f` and the block's acceleration `u`. Nearly all
-/// tracked quantities follow from one of them.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Gates {
-    /// They are the sum of these times the state and the input: the friction force in slip, the
-    /// acceleration in stick.
-    pub(super) columns: [Four; 4],
-    pub(super) of_input: Four,
-    /// Sizes of the columns.
-    pub(super) sizes: [Four; 4],
-    pub(super) bend: Bend,
-}
-
-/// One value at the samples `1 … 8` after a state.
+/// One number at the samples `1 … 8` after a state.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Row {
     pub(super) state: [Eight; 4],
     pub(super) first: Eight,
-    pub(super) tap: [Eight; BLOCK],
+    pub(super) tap: [Eight; BATCH],
     pub(super) force: Eight,
-}
-
-/// Bound on what a chord hides of the gates: the sum of these times the norm of the state at the
-/// start, the largest acceleration, its largest rate, and the friction force. In slip a chord spans
-/// a block, in stick a sample.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Bend {
-    pub(super) of_norm: Four,
-    pub(super) of_acceleration: Four,
-    pub(super) of_rate: Four,
-    pub(super) of_force: Four,
 }
 
 /// Stick over many samples.
@@ -99,69 +72,56 @@ pub(super) struct Quiet {
     pub(super) power: [Four; 4],
     pub(super) first: Four,
     pub(super) tap: [Four; QUIET],
-    /// Bounds over a block and over the stretch on the size of the demand without the spring's part,
-    /// of `η`, `f` and `a`: of the norm of the state at the start, and of the largest acceleration.
-    pub(super) of_norm: Four,
+    /// Bounds on the sizes of the demand without the spring's part, of `η`, `f` and `a`: of the amplitude at
+    /// the start, and of the largest acceleration in a batch and in all the samples.
+    pub(super) of_amplitude: Four,
     pub(super) of_acceleration: [Four; 2],
 }
 
 impl Tables {
-    /// Tables of a system with at most one storey, unless the step is too long for its rates.
+    /// Tables for the outputs of stick and slip, unless the step is too long for the system's rates.
     #[inline(always)]
     pub(in crate::solver) fn new<S: Simd>(
         simd: S,
         system: &System,
-        (arm, slope): ([f64; 2], f64),
+        shape: Shape,
         rows: [&[OutputRow]; 2],
         dt_s: f64,
     ) -> Option<Box<Self>> {
-        let pieces = (dt_s * system.slip_rate_rad_per_s / MAX_RATE_STEP).ceil().max(1.0);
-        if !(system.storeys <= 1
-            && system.damper_n_s_per_m >= 0.0
-            && dt_s * system.slip_rate_rad_per_s <= MOST_RATE_STEP)
-        {
+        let rate = dt_s * system.slip_rate_rad_per_s;
+        if !(system.storeys <= 1 && system.damper_n_s_per_m >= 0.0 && rate <= STEP_RATE) {
             return None;
         }
+        let pieces = (rate / PIECE_RATE).ceil().max(1.0);
         // Filled in place: they are too large to be moved about.
         let mut tables = Box::new(Self::EMPTY);
-        tables.plant = Plant::new(system);
+        (tables.storey, tables.shape) = (OneStorey::new(system), shape);
         (tables.pieces, tables.piece_s) = (pieces as usize, dt_s / pieces);
-        tables.shape = if system.storeys == 1 { system.floor(0)[0] } else { 0.0 };
-        (tables.arm, tables.slope) = (arm, slope);
         simd.vectorize(
             #[inline(always)]
-            || tables.fill(dt_s, rows),
+            || tables.fill(system, rows, dt_s),
         );
         Some(tables)
     }
 
     #[inline(always)]
-    fn fill(&mut self, dt_s: f64, rows: [&[OutputRow]; 2]) {
-        let Self { plant, pieces, piece_s, stick, slip, quiet, shape, arm, .. } = self;
-        let mut taps = [Four::ZERO; BLOCK + 1];
+    fn fill(&mut self, system: &System, rows: [&[OutputRow]; 2], dt_s: f64) {
+        let Self { storey, pieces, piece_s, stick, slip, quiet, shape } = self;
+        let mut taps = [Four::ZERO; BATCH + 1];
         for (is_slip, phase) in [(true, slip), (false, &mut *stick)] {
-            series::fill(plant, is_slip, *piece_s, &mut phase.series);
+            series::fill(storey, is_slip, *piece_s, &mut phase.series);
             let sample = Sample::new(&phase.series, is_slip, *pieces);
             sample.taps(&mut taps);
-            phase.fill(plant, is_slip, &sample, &taps);
-            phase.view = View::new(rows[usize::from(is_slip)], plant, is_slip, (*shape, *arm));
-            phase.gates = Gates::new(plant, is_slip, dt_s);
+            phase.fill(storey, is_slip, &sample, &taps);
+            phase.outputs.fill(rows[usize::from(is_slip)], storey, is_slip, shape);
+            phase.gates = Gates::new(system, storey, is_slip, dt_s);
         }
-        quiet.fill(plant, stick, &taps, dt_s);
+        quiet.fill(system, storey, stick, &taps, dt_s);
     }
 
     const EMPTY: Self = Self {
-        plant: Plant {
-            block_mass_kg: 0.0,
-            per_block_mass: 0.0,
-            stiffness_n_per_m: 0.0,
-            damper_n_s_per_m: 0.0,
-            omega2: 0.0,
-            decay: 0.0,
-            participation: 0.0,
-            root_mass: 0.0,
-            per_root_block: 0.0,
-        },
+        storey: OneStorey::NONE,
+        shape: Shape { floor: 0.0, arms: [0.0; 2], slope: 0.0 },
         pieces: 0,
         piece_s: 0.0,
         stick: Phase::EMPTY,
@@ -170,89 +130,46 @@ impl Tables {
             power: [Four::ZERO; 4],
             first: Four::ZERO,
             tap: [Four::ZERO; QUIET],
-            of_norm: Four::ZERO,
+            of_amplitude: Four::ZERO,
             of_acceleration: [Four::ZERO; 2],
         },
-        shape: 0.0,
-        arm: [0.0; 2],
-        slope: 0.0,
     };
-}
-
-type Matrix = [[f64; 4]; 4];
-
-/// What unit inputs leave at the end of one sample: of the state, of a constant acceleration, of
-/// one that rises from 0 to 1, of a friction force.
-struct Sample {
-    state: Matrix,
-    constant: [f64; 4],
-    ramp: [f64; 4],
-    force: [f64; 4],
 }
 
 impl Phase {
-    const EMPTY: Self = {
-        let zeros = [Four::ZERO; 4];
-        let row = Row {
+    const EMPTY: Self = Self {
+        series: series::EMPTY,
+        power: [[Four::ZERO; 4]; BATCH + 1],
+        first: [Four::ZERO; BATCH + 1],
+        tap: [Four::ZERO; 2 * BATCH],
+        force: [Four::ZERO; BATCH + 1],
+        rows: [Row {
             state: [Eight::ZERO; 4],
             first: Eight::ZERO,
-            tap: [Eight::ZERO; BLOCK],
+            tap: [Eight::ZERO; BATCH],
             force: Eight::ZERO,
-        };
-        Self {
-            series: series::EMPTY,
-            power: [zeros; BLOCK + 1],
-            first: [Four::ZERO; BLOCK + 1],
-            tap: [Four::ZERO; 2 * BLOCK],
-            force: [Four::ZERO; BLOCK + 1],
-            rows: [row; 5],
-            view: View {
-                columns: [Eight::ZERO; 4],
-                of_acceleration: Eight::ZERO,
-                of_force: Eight::ZERO,
-                constant: Eight::ZERO,
-                of_gates: [Eight::ZERO; 4],
-            },
-            gates: Gates {
-                columns: zeros,
-                of_input: Four::ZERO,
-                sizes: zeros,
-                bend: Bend {
-                    of_norm: Four::ZERO,
-                    of_acceleration: Four::ZERO,
-                    of_rate: Four::ZERO,
-                    of_force: Four::ZERO,
-                },
-            },
-        }
+        }; 5],
+        outputs: Outputs::EMPTY,
+        gates: Gates::EMPTY,
     };
 
     #[inline(always)]
-    fn fill(&mut self, plant: &Plant, slip: bool, sample: &Sample, taps: &[Four; BLOCK + 1]) {
-        self.tap[BLOCK..].copy_from_slice(&taps[..BLOCK]);
-        for j in 0..4 {
-            self.power[0][j] = Four(unit(j));
-        }
-        for k in 1..=BLOCK {
-            for j in 0..4 {
-                self.power[k][j] = Four(times(&sample.state, self.power[k - 1][j].0));
-            }
-            self.first[k] = Four(match k {
-                1 => sample.before(),
-                _ => times(&sample.state, self.first[k - 1].0),
-            });
-            self.force[k] = Four(times(&sample.state, self.force[k - 1].0));
-            for i in 0..4 {
-                self.force[k].0[i] += sample.force[i];
-            }
+    fn fill(&mut self, storey: &OneStorey, slip: bool, sample: &Sample, taps: &[Four; BATCH + 1]) {
+        self.tap[BATCH..].copy_from_slice(&taps[..BATCH]);
+        self.power[0] = core::array::from_fn(|j| Four(unit(j)));
+        for k in 1..=BATCH {
+            self.power[k] = self.power[k - 1].map(|column| times(&sample.state, column));
+            self.first[k] =
+                if k == 1 { sample.before() } else { times(&sample.state, self.first[k - 1]) };
+            self.force[k] = sum(times(&sample.state, self.force[k - 1]), sample.force);
         }
         let values = |column: &Four| {
             let [s, w, eta, rate] = column.0;
-            let f = plant.restoring(&column.0);
-            [if slip { s } else { -plant.participation * f }, w, eta, f, rate]
+            let f = storey.restoring(&column.0);
+            [if slip { s } else { -storey.participation * f }, w, eta, f, rate]
         };
-        for k in 1..=BLOCK {
-            let state = self.power[k].map(|column| values(&column));
+        for k in 1..=BATCH {
+            let state = self.power[k].each_ref().map(values);
             let (first, force) = (values(&self.first[k]), values(&self.force[k]));
             for (i, row) in self.rows.iter_mut().enumerate() {
                 for j in 0..4 {
@@ -262,170 +179,125 @@ impl Phase {
             }
         }
         // What a sample leaves at those before it, at itself and after it.
-        let mut left = [[0.0; 2 * BLOCK]; 5];
-        for (j, tap) in taps[..BLOCK].iter().enumerate() {
+        let mut left = [[0.0; 2 * BATCH]; 5];
+        for (j, tap) in taps[..BATCH].iter().enumerate() {
             for (left, value) in left.iter_mut().zip(values(tap)) {
-                left[BLOCK - 1 + j] = value;
+                left[BATCH - 1 + j] = value;
             }
         }
         if !slip {
-            left[0][BLOCK - 1] += plant.block_mass_kg;
+            left[0][BATCH - 1] += storey.block_mass_kg;
         }
         for (row, left) in self.rows.iter_mut().zip(&left) {
             for (m, tap) in row.tap.iter_mut().enumerate() {
-                tap.0.copy_from_slice(&left[BLOCK - 1 - m..][..BLOCK]);
+                tap.0.copy_from_slice(&left[BATCH - 1 - m..][..BATCH]);
             }
         }
     }
-}
-
-impl Gates {
-    #[inline(always)]
-    fn new(plant: &Plant, slip: bool, dt_s: f64) -> Self {
-        let span_s = if slip { BLOCK as f64 * dt_s } else { dt_s };
-        let f = [0.0, 0.0, plant.omega2, plant.decay];
-        let share = plant.participation * plant.per_block_mass;
-        let u = [
-            -plant.stiffness_n_per_m * plant.per_block_mass,
-            -plant.damper_n_s_per_m * plant.per_block_mass,
-            share * f[2],
-            share * f[3],
-        ];
-        let u = if slip { u } else { [0.0; 4] };
-        let rows = [[0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], f, u];
-        let columns: [Four; 4] =
-            core::array::from_fn(|i| Four(core::array::from_fn(|j| rows[j][i])));
-        let [of_norm, of_acceleration, of_rate, of_force] =
-            bend(plant, slip, &rows, [span_s, dt_s]).map(Four);
-        Self {
-            columns,
-            of_input: Four([0.0, 0.0, 0.0, if slip { plant.per_block_mass } else { 1.0 }]),
-            sizes: columns.map(|column| Four(column.0.map(f64::abs))),
-            bend: Bend { of_norm, of_acceleration, of_rate, of_force },
-        }
-    }
-}
-
-/// [`Bend`] of some rows over chords of `span_s` within a block: `g″` of `g = c·x` is
-/// `c A² x + c A b a + c A d T + c b ȧ`, and the norm of the state grows in the block by no more
-/// than its duration times `√M_tot |a| + |T|/√M1`.
-#[inline(always)]
-fn bend(
-    plant: &Plant,
-    slip: bool,
-    rows: &[[f64; 4]; 4],
-    [span_s, dt_s]: [f64; 2],
-) -> [[f64; 4]; 4] {
-    let a: Matrix = core::array::from_fn(|j| plant.rate(slip, unit(j), 0.0, 0.0));
-    let on_a = plant.rate(slip, [0.0; 4], 1.0, 0.0);
-    let on_force = if slip { plant.rate(slip, [0.0; 4], 0.0, 1.0) } else { [0.0; 4] };
-    let reach = 0.125 * span_s * span_s;
-    let block_s = BLOCK as f64 * dt_s;
-    let growth = if slip { plant.root_mass } else { plant.participation };
-    let mut bend = [[0.0; 4]; 4];
-    for (j, row) in rows.iter().enumerate() {
-        let once: [f64; 4] = core::array::from_fn(|i| dot(row, &a[i]));
-        let twice: [f64; 4] = core::array::from_fn(|i| dot(&once, &a[i]));
-        let on_norm = plant.dual_norm(slip, twice);
-        bend[0][j] = reach * on_norm;
-        bend[1][j] = reach * (dot(&once, &on_a).abs() + on_norm * (block_s * growth));
-        bend[2][j] = reach * dot(row, &on_a).abs();
-        bend[3][j] =
-            reach * (dot(&once, &on_force).abs() + on_norm * (block_s * plant.per_root_block));
-    }
-    bend
 }
 
 impl Quiet {
     #[inline(always)]
-    fn fill(&mut self, plant: &Plant, stick: &Phase, taps: &[Four; BLOCK + 1], dt_s: f64) {
-        let square = |m: &Matrix| -> Matrix { core::array::from_fn(|j| times(m, m[j])) };
-        let by_8 = stick.power[BLOCK].map(|c| c.0);
+    fn fill(
+        &mut self,
+        system: &System,
+        storey: &OneStorey,
+        stick: &Phase,
+        taps: &[Four; BATCH + 1],
+        dt_s: f64,
+    ) {
+        let square = |m: &Matrix| m.map(|column| times(m, column));
+        let by_8 = stick.power[BATCH];
         let by_16 = square(&by_8);
-        self.power = square(&by_16).map(Four);
-        // The first sample's ramp down has the whole stretch before it.
-        self.first = Four(times(&by_16, times(&by_8, stick.first[BLOCK].0)));
-        self.tap[..=BLOCK].copy_from_slice(taps);
+        self.power = square(&by_16);
+        // The first sample's ramp down has all the samples before it.
+        self.first = times(&by_16, times(&by_8, stick.first[BATCH]));
+        self.tap[..=BATCH].copy_from_slice(taps);
         // From the sample after it on what a unit has left moves on by itself.
-        for j in BLOCK + 1..QUIET {
-            self.tap[j] = Four(times(&by_8, self.tap[j - BLOCK].0));
+        for j in BATCH + 1..QUIET {
+            self.tap[j] = times(&by_8, self.tap[j - BATCH]);
         }
-        let of_f = plant.dual_norm(false, [0.0, 0.0, plant.omega2, plant.decay]);
-        let of_eta = plant.dual_norm(false, unit(2));
-        let of_norm = [plant.participation * of_f, of_eta, of_f, 0.0];
-        self.of_norm = Four(of_norm);
-        for (of_acceleration, samples) in self.of_acceleration.iter_mut().zip([BLOCK, QUIET]) {
-            let growth = samples as f64 * dt_s * plant.participation;
-            *of_acceleration = Four(of_norm.map(|of_norm| of_norm * growth));
-            of_acceleration.0[0] += plant.block_mass_kg;
+        let l = storey.participation.abs();
+        let of_f = system.dual_norm(false, &[0.0, 0.0, storey.omega2, storey.decay]);
+        let of_amplitude = [l * of_f, system.dual_norm(false, &unit(2)), of_f, 0.0];
+        self.of_amplitude = Four(of_amplitude);
+        // (k) The amplitude grows by no more than |L| ∫|a| dt.
+        for (of_acceleration, samples) in self.of_acceleration.iter_mut().zip([BATCH, QUIET]) {
+            let growth = samples as f64 * dt_s * l;
+            *of_acceleration = Four(of_amplitude.map(|of| of * growth));
+            of_acceleration.0[0] += storey.block_mass_kg;
             of_acceleration.0[3] = 1.0;
         }
     }
 }
 
+/// Four columns.
+type Matrix = [Four; 4];
+
+/// What unit inputs leave at the end of one sample: of the state, of a constant acceleration, of one that
+/// rises from 0 to 1, of a friction force.
+struct Sample {
+    state: Matrix,
+    constant: Four,
+    ramp: Four,
+    force: Four,
+}
+
 impl Sample {
     #[inline(always)]
-    fn new(series: &Table, slip: bool, pieces: usize) -> Self {
-        let sum = |input: usize| series::sum(series, input);
-        let mut piece: Matrix = core::array::from_fn(sum);
-        for (j, column) in piece.iter_mut().enumerate() {
-            column[j] += 1.0;
-        }
-        let (of_a, of_change) = (sum(4), sum(5));
-        let of_force = if slip { sum(6) } else { [0.0; 4] };
+    fn new(table: &Table, slip: bool, pieces: usize) -> Self {
+        let end = |input: usize| Four(series::sum(table, input));
+        let piece: Matrix = core::array::from_fn(|j| sum(end(j), Four(unit(j))));
+        let (of_a, of_change) = (end(4), end(5));
+        let of_force = if slip { end(6) } else { Four::ZERO };
         let per_piece = 1.0 / pieces as f64;
-        let run = |mut x: [f64; 4], a: [f64; 2], force: f64| {
+        let run = |mut x: Four, [from, to]: [f64; 2], force: f64| {
+            let change = (to - from) * per_piece;
             for i in 0..pieces {
-                let start = a[0] + (a[1] - a[0]) * (per_piece * i as f64);
-                let change = (a[1] - a[0]) * per_piece;
+                let a = from + change * i as f64;
                 let moved = times(&piece, x);
-                x = core::array::from_fn(|i| {
-                    moved[i] + (of_a[i] * start + of_change[i] * change) + of_force[i] * force
-                });
+                x = Four(core::array::from_fn(|i| {
+                    (moved.0[i] + (of_a.0[i] * a + of_change.0[i] * change)) + of_force.0[i] * force
+                }));
             }
             x
         };
+        let state =
+            |j: usize| if pieces == 1 { piece[j] } else { run(Four(unit(j)), [0.0; 2], 0.0) };
         Self {
-            state: core::array::from_fn(|j| {
-                if pieces == 1 { piece[j] } else { run(unit(j), [0.0; 2], 0.0) }
-            }),
-            constant: run([0.0; 4], [1.0, 1.0], 0.0),
-            ramp: run([0.0; 4], [0.0, 1.0], 0.0),
-            force: run([0.0; 4], [0.0; 2], 1.0),
+            state: core::array::from_fn(state),
+            constant: run(Four::ZERO, [1.0, 1.0], 0.0),
+            ramp: run(Four::ZERO, [0.0, 1.0], 0.0),
+            force: run(Four::ZERO, [0.0; 2], 1.0),
         }
     }
 
     /// What a unit of acceleration that ramps down in a sample leaves.
     #[inline(always)]
-    fn before(&self) -> [f64; 4] {
-        core::array::from_fn(|i| self.constant[i] - self.ramp[i])
+    fn before(&self) -> Four {
+        Four(core::array::from_fn(|i| self.constant.0[i] - self.ramp.0[i]))
     }
 
     /// What a unit at a sample leaves behind: it ramps up before and down in the next sample.
     #[inline(always)]
-    fn taps(&self, taps: &mut [Four; BLOCK + 1]) {
-        taps[0] = Four(self.ramp);
-        for j in 1..=BLOCK {
-            taps[j] = Four(times(&self.state, taps[j - 1].0));
-            if j == 1 {
-                let before = self.before();
-                for i in 0..4 {
-                    taps[1].0[i] += before[i];
-                }
-            }
+    fn taps(&self, taps: &mut [Four; BATCH + 1]) {
+        taps[0] = self.ramp;
+        taps[1] = sum(times(&self.state, taps[0]), self.before());
+        for j in 2..=BATCH {
+            taps[j] = times(&self.state, taps[j - 1]);
         }
     }
 }
 
 #[inline(always)]
-fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
-    (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
+fn sum(a: Four, b: Four) -> Four {
+    Four(core::array::from_fn(|i| a.0[i] + b.0[i]))
 }
 
 #[inline(always)]
-fn times(columns: &Matrix, x: [f64; 4]) -> [f64; 4] {
-    core::array::from_fn(|i| {
-        (columns[0][i] * x[0] + columns[1][i] * x[1])
-            + (columns[2][i] * x[2] + columns[3][i] * x[3])
-    })
+fn times(columns: &Matrix, x: Four) -> Four {
+    let ([a, b, c, d], x) = (columns, x.0);
+    Four(core::array::from_fn(|i| {
+        (a.0[i] * x[0] + b.0[i] * x[1]) + (c.0[i] * x[2] + d.0[i] * x[3])
+    }))
 }

@@ -1,10 +1,10 @@
-//! The equations of motion of a rigid block or a block with one storey.
+//! The equations of motion of a rigid block, or a block with one storey, in their few numbers.
 
 use crate::linear::System;
 
-/// The equations of a rigid block (with zeros) or a block with one storey.
+/// A rigid block (with zeros for the storey) or a block with one storey. A state is `s, ṡ, η, η̇`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Plant {
+pub(super) struct OneStorey {
     pub(super) block_mass_kg: f64,
     pub(super) per_block_mass: f64,
     pub(super) stiffness_n_per_m: f64,
@@ -21,15 +21,25 @@ pub(super) struct Plant {
     pub(super) per_root_block: f64,
 }
 
-impl Plant {
+impl OneStorey {
+    pub(super) const NONE: Self = Self {
+        block_mass_kg: 0.0,
+        per_block_mass: 0.0,
+        stiffness_n_per_m: 0.0,
+        damper_n_s_per_m: 0.0,
+        omega2: 0.0,
+        decay: 0.0,
+        participation: 0.0,
+        root_mass: 0.0,
+        per_root_block: 0.0,
+    };
+
     pub(super) fn new(system: &System) -> Self {
         let of = |x: f64, v: f64| {
             let mut f = [0.0];
             system.restoring(&[x], &[v], &mut f);
             f[0]
         };
-        let participation = system.participation[0];
-        let total_kg = system.block_mass_kg + participation * participation;
         Self {
             block_mass_kg: system.block_mass_kg,
             per_block_mass: system.per_block_mass,
@@ -37,9 +47,9 @@ impl Plant {
             damper_n_s_per_m: system.damper_n_s_per_m,
             omega2: of(1.0, 0.0),
             decay: of(0.0, 1.0),
-            participation,
-            root_mass: total_kg.sqrt(),
-            per_root_block: 1.0 / system.block_mass_kg.sqrt(),
+            participation: system.participation[0],
+            root_mass: system.root_total_mass,
+            per_root_block: system.per_root_block,
         }
     }
 
@@ -51,20 +61,20 @@ impl Plant {
 
     /// `u` in slip under a friction force.
     #[inline(always)]
-    pub(super) fn block_acceleration(&self, x: &[f64; 4], f: f64, force: f64) -> f64 {
-        ((force - self.damper_n_s_per_m * x[1])
+    pub(super) fn block_acceleration(&self, x: &[f64; 4], f: f64, force_n: f64) -> f64 {
+        ((force_n - self.damper_n_s_per_m * x[1])
             + (self.participation * f - self.stiffness_n_per_m * x[0]))
             * self.per_block_mass
     }
 
-    /// The force that keeps the block stuck under an acceleration.
+    /// `M1 a + K1 s − L·f`: what keeps the block stuck.
     #[inline(always)]
     pub(super) fn demand_n(&self, x: &[f64; 4], a: f64) -> f64 {
         (self.block_mass_kg * a + self.stiffness_n_per_m * x[0])
             - self.participation * self.restoring(x)
     }
 
-    /// Energy norm of a state.
+    /// `‖x‖`.
     #[inline(always)]
     pub(super) fn norm(&self, x: &[f64; 4]) -> f64 {
         let momentum = x[3] + self.participation * x[1];
@@ -72,32 +82,18 @@ impl Plant {
         (of_block + (self.omega2 * (x[2] * x[2]) + momentum * momentum)).sqrt()
     }
 
-    /// Energy norm of the structure's part of a state, which is all that moves in stick.
+    /// `√(Ω η² + η̇²)`, which is all that moves in stick.
     #[inline(always)]
-    pub(super) fn norm_of_structure(&self, x: &[f64; 4]) -> f64 {
+    pub(super) fn amplitude(&self, x: &[f64; 4]) -> f64 {
         (self.omega2 * (x[2] * x[2]) + x[3] * x[3]).sqrt()
     }
 
-    /// Largest value of a row on states of norm 1; in stick on those of the structure alone.
+    /// `ẋ = A x + b a + d T`.
     #[inline(always)]
-    pub(super) fn dual_norm(&self, slip: bool, c: [f64; 4]) -> f64 {
-        let of_structure = c[2] * c[2] / self.omega2 + c[3] * c[3];
-        let of_block = if slip {
-            let of_s = if c[0] == 0.0 { 0.0 } else { c[0] * c[0] / self.stiffness_n_per_m };
-            let momentum = c[1] - c[3] * self.participation;
-            of_s + momentum * momentum * self.per_block_mass
-        } else {
-            0.0
-        };
-        (of_block + of_structure).sqrt()
-    }
-
-    /// Derivative of a state under an acceleration and a friction force.
-    #[inline(always)]
-    pub(super) fn rate(&self, slip: bool, x: [f64; 4], a: f64, force: f64) -> [f64; 4] {
+    pub(super) fn rate(&self, slip: bool, x: [f64; 4], a: f64, force_n: f64) -> [f64; 4] {
         let f = self.restoring(&x);
         if slip {
-            let u = self.block_acceleration(&x, f, force);
+            let u = self.block_acceleration(&x, f, force_n);
             [x[1], u - a, x[3], -f - self.participation * u]
         } else {
             [0.0, 0.0, x[3], -f - self.participation * a]
