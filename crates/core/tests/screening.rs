@@ -151,9 +151,11 @@ fn figures(r: &Response) -> (Vec<Figure>, [u64; 3], bool) {
 /// both have the same knots in the same modes.
 fn difference_of_histories(a: &Response, b: &Response) -> (f64, String, bool) {
     let mut worst = (0.0, String::new());
+    // Between the knots of a short slip the velocity is larger than at any.
+    let velocity = a.demands.peak_sliding_velocity_m_per_s;
     let (Some(a), Some(b)) = (&a.history, &b.history) else { return (0.0, String::new(), true) };
     if a.mode != b.mode || a.rows != b.rows {
-        return (0.0, "knots".to_owned(), false);
+        return (1.0, "knots".to_owned(), false);
     }
     let columns = |h: &History| {
         [
@@ -169,7 +171,8 @@ fn difference_of_histories(a: &Response, b: &Response) -> (f64, String, bool) {
         ]
     };
     for ((name, a), (_, b)) in columns(a).iter().zip(&columns(b)) {
-        let peak = a.iter().fold(1e-300_f64, |peak, x| peak.max(x.abs()));
+        let least = if *name == "sliding velocity" { velocity } else { 0.0 };
+        let peak = a.iter().fold(least.max(1e-300), |peak, x| peak.max(x.abs()));
         for (knot, (a, b)) in a.iter().zip(b).enumerate() {
             let off = (a - b).abs() / peak;
             if !(off <= worst.0) {
@@ -194,7 +197,7 @@ fn difference(a: &Response, b: &Response, least: f64) -> (f64, String, bool) {
         }
     }
     let (off, what, same) = difference_of_histories(a, b);
-    if off > worst.0 || !same {
+    if off > worst.0 {
         worst = (off, what);
     }
     (worst.0, worst.1, same && counts == other_counts && sliding == other_sliding)
@@ -269,7 +272,9 @@ fn agree_by(
             worst = worst.max(off);
             continue;
         }
-        let moved = sketch.perturbed(PERTURBATION).iter().fold((0.0_f64, true), |moved, other| {
+        // Either way: a demand that just stays at its bound decides as one that just passes it.
+        let others = [PERTURBATION, -PERTURBATION].map(|part| sketch.perturbed(part));
+        let moved = others.iter().flatten().fold((0.0_f64, true), |moved, other| {
             let (model, motion) = other.build();
             let other = stepped(&model, &motion);
             let (off, _, same) = difference(&stepped_alone, &other, least);
@@ -313,7 +318,12 @@ fn runs_ahead(random: &mut Random) -> Sketch {
             x.set_spring(random.logarithmic(1.0, 30.0));
             x.damper = x.total() * random.logarithmic(0.1, 50.0);
         }
-        4 => x.tilt = random.between(-0.1, 0.1),
+        4 => {
+            // In motion from the start: a storey that hardly moves about where the slope bends it to is known to
+            // that many digits less.
+            x.tilt = random.between(-0.1, 0.1);
+            x.disturb(random, 0.05, 0.2);
+        }
         5 => x.disturb(random, 0.2, 1.0),
         _ => {}
     }

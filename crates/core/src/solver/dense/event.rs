@@ -114,8 +114,10 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let (sign, bound) = if below { (1.0, high) } else { (-1.0, low) };
         let (m, l) = (sign * storey.block_mass_kg, sign * storey.participation);
         let distance = sign * (bound - demand);
-        let [c1, c2, c3, c4] = series.leading().map(|c| l * storey.restoring(&c));
-        let slope = c1 - m * change;
+        let [c1, c2, c3, c4] = series.leading();
+        let slope = l * storey.restoring(&c1) - m * change;
+        let (c2, c3, c4) =
+            (l * storey.restoring(&c2), l * storey.restoring(&c3), l * storey.restoring(&c4));
         let is_simple = (above || below)
             && distance > AMBIGUOUS * bound.abs()
             && sign * (bound - end_demand) < 0.0
@@ -130,7 +132,8 @@ impl<S: Simd> Ahead<'_, '_, S> {
             }
             let y = series.at(simd, t);
             let derivatives = series.derivatives(simd, t);
-            let [f1, f2] = derivatives.map(|y| l * storey.restoring(y.as_array()));
+            let f1 = l * storey.restoring(derivatives[0].as_array());
+            let f2 = l * storey.restoring(derivatives[1].as_array());
             let g = sign * bound - sign * storey.demand_n(y.as_array(), a + change * t);
             let d = halley(g, f1 - m * change, f2);
             t += d;
@@ -152,7 +155,8 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let series = Series::<S>::new::<true>(simd, table, x, &segment.span, force_n);
         let end = series.at(simd, rest);
         let curvature = series.curvature.as_array()[1];
-        let [c1, c2, c3, c4] = series.leading().map(|c| sign * c[1]);
+        let [c1, c2, c3, c4] = series.leading();
+        let (c1, c2, c3, c4) = (sign * c1[1], sign * c2[1], sign * c3[1], sign * c4[1]);
         let (speed, end_speed) = (sign * x[1], sign * end.as_array()[1]);
         let start = self.shared.course.start;
         let slides = match start {
@@ -182,7 +186,8 @@ impl<S: Simd> Ahead<'_, '_, S> {
             }
             let y = series.at(simd, t);
             let derivatives = series.derivatives(simd, t);
-            let [g1, g2] = derivatives.map(|y| sign * y.as_array()[1]);
+            let (g1, g2) =
+                (sign * derivatives[0].as_array()[1], sign * derivatives[1].as_array()[1]);
             let d = halley(sign * y.as_array()[1], g1, g2);
             t += d;
             if d.abs() < SHORT {

@@ -142,12 +142,16 @@ impl Gates {
             let [k, c] = [storey.stiffness_n_per_m, storey.damper_n_s_per_m];
             rows[3] = [-k * per_mass, -c * per_mass, share * f[2], share * f[3]];
         }
-        let columns: [Four; 4] =
-            core::array::from_fn(|i| Four(core::array::from_fn(|j| rows[j][i])));
+        let (mut columns, mut sizes) = ([Four::ZERO; 4], [Four::ZERO; 4]);
+        for (j, row) in rows.iter().enumerate() {
+            for i in 0..4 {
+                (columns[i].0[j], sizes[i].0[j]) = (row[i], row[i].abs());
+            }
+        }
         Self {
             columns,
             of_input: Four([0.0, 0.0, 0.0, if slip { storey.per_block_mass } else { 1.0 }]),
-            sizes: columns.map(|column| Four(column.0.map(f64::abs))),
+            sizes,
             slack: Slack::new(system, storey, slip, &rows, dt_s),
         }
     }
@@ -168,7 +172,10 @@ impl Slack {
         rows: &[[f64; 4]; 4],
         dt_s: f64,
     ) -> Self {
-        let a: [[f64; 4]; 4] = core::array::from_fn(|j| storey.rate(slip, unit(j), 0.0, 0.0));
+        let mut a = [[0.0; 4]; 4];
+        for (j, column) in a.iter_mut().enumerate() {
+            *column = storey.rate(slip, unit(j), 0.0, 0.0);
+        }
         let b = storey.rate(slip, [0.0; 4], 1.0, 0.0);
         let d = if slip { storey.rate(slip, [0.0; 4], 0.0, 1.0) } else { [0.0; 4] };
         let batch_s = BATCH as f64 * dt_s;
@@ -177,8 +184,13 @@ impl Slack {
         let growth = if slip { storey.root_mass } else { storey.participation.abs() };
         let mut of = [[0.0; 4]; 4];
         for (j, c) in rows.iter().enumerate() {
-            let ca = a.map(|column| dot(c, &column));
-            let caa = a.map(|column| dot(&ca, &column));
+            let (mut ca, mut caa) = ([0.0; 4], [0.0; 4]);
+            for i in 0..4 {
+                ca[i] = dot(c, &a[i]);
+            }
+            for i in 0..4 {
+                caa[i] = dot(&ca, &a[i]);
+            }
             let norm = system.dual_norm(slip, &caa);
             of[0][j] = reach * norm;
             of[1][j] = reach * (dot(&ca, &b).abs() + norm * (batch_s * growth));

@@ -50,9 +50,11 @@ impl<S: Simd> Ahead<'_, '_, S> {
             || {
                 let (storey, shape) = (&self.of.tables.storey, self.of.tables.shape);
                 let (a, rows) = (self.window(sample), &self.phase::<SLIP>().rows);
-                let [k, c, l] =
-                    [storey.stiffness_n_per_m, storey.damper_n_s_per_m, storey.participation];
-                let [k, c, l] = [k, c, l].map(|x| eight(simd, x));
+                let (k, c, l) = (
+                    eight(simd, storey.stiffness_n_per_m),
+                    eight(simd, storey.damper_n_s_per_m),
+                    eight(simd, storey.participation),
+                );
                 let (slope, f0) = (shape.slope, storey.restoring(&x));
                 let has_storey = shape.floor != 0.0;
                 let mut f = eight(simd, 0.0);
@@ -78,17 +80,18 @@ impl<S: Simd> Ahead<'_, '_, S> {
                     let first = storey.demand_n(&x, a[0]);
                     friction = window(first, demand + eight(simd, of_spring));
                 }
-                let of_storey = has_storey.then(|| {
+                let mut of_storey = None;
+                if has_storey {
                     let eta = self.row::<SLIP>(&rows[2], x, a, force_n);
                     let rate = self.row::<SLIP>(&rows[4], x, a, force_n);
                     let floor = eight(simd, shape.floor);
                     let acceleration = -(floor * f) - eight(simd, slope);
-                    [
+                    of_storey = Some([
                         window(shape.floor * x[2], floor * eta),
                         window(shape.floor * x[3], floor * rate),
                         window(-(shape.floor * f0) - slope, acceleration),
-                    ]
-                });
+                    ]);
+                }
                 let (ground, mode) = (&self.of.ground, self.shared.course.mode);
                 let samples = sample..sample + steps;
                 let times = [&ground.times_s[samples.clone()], &ground.table[samples]];

@@ -5,7 +5,7 @@ use fearless_simd::{f64x4, f64x8};
 
 use super::equations::{OneStorey, unit};
 use super::event::Span;
-use super::lanes::{Eight, Four, four, times8};
+use super::lanes::{Eight, Four, eight, four, times8};
 use super::tables::ORDERS;
 
 /// Pairs of orders.
@@ -62,7 +62,8 @@ pub(super) fn fill(storey: &OneStorey, slip: bool, piece_s: f64, table: &mut Tab
             // The acceleration counts at the start, its change in the order after.
             let a = if input == 4 + k && k < 2 { 1.0 } else { 0.0 };
             let force = if input == 6 && k == 0 { 1.0 } else { 0.0 };
-            x[input] = storey.rate(slip, x[input], a, force).map(|rate| step * rate);
+            let [s, w, eta, rate] = storey.rate(slip, x[input], a, force);
+            x[input] = [step * s, step * w, step * eta, step * rate];
             table[k / 2][input].0[k % 2 * 4..][..4].copy_from_slice(&x[input]);
         }
     }
@@ -123,7 +124,7 @@ impl<S: Simd> Powers<S> {
     fn new(simd: S, t: f64) -> Self {
         let t2 = t * t;
         let t4 = t2 * t2;
-        Self([t2, t4, t4 * t4].map(|x| f64x8::splat(simd, x)))
+        Self([eight(simd, t2), eight(simd, t4), eight(simd, t4 * t4)])
     }
 
     /// The sum of `c[j] t^2j`.
@@ -155,9 +156,9 @@ impl<S: Simd> Series<S> {
             order.of::<SLIP>(&table[5]),
         ];
         let second = weighted(simd, &c, &TWICE);
-        let size = |j: usize| second[j].abs();
-        let (odd, even) =
-            (((size(0) + size(1)) + (size(2) + size(3))) + (size(4) + size(5))).split();
+        let (c0, c1, c2) = (second[0].abs(), second[1].abs(), second[2].abs());
+        let (c3, c4, c5) = (second[3].abs(), second[4].abs(), second[5].abs());
+        let (odd, even) = (((c0 + c1) + (c2 + c3)) + (c4 + c5)).split();
         Self { x: Four(x).load(simd), c, second, curvature: odd + even }
     }
 
@@ -175,7 +176,7 @@ impl<S: Simd> Series<S> {
         let (odd, even) = powers.sum(&weighted(simd, &self.c, &ONCE)).split();
         let first = odd + even * four(simd, t);
         let s = &self.second;
-        let none = f64x8::splat(simd, 0.0);
+        let none = eight(simd, 0.0);
         let (odd, even) = powers.sum(&[s[1], s[2], s[3], s[4], s[5], none]).split();
         let second = s[0].split().1 + (odd * four(simd, t) + even * four(simd, t * t));
         [first, second]
@@ -184,11 +185,12 @@ impl<S: Simd> Series<S> {
     /// The coefficients one by one, from the first on.
     #[inline(always)]
     pub(super) fn coefficients(&self) -> [[f64; 4]; ORDERS] {
-        let pairs = self.c.map(|c| c.to_array());
-        core::array::from_fn(|k| {
-            let at = k % 2 * 4;
-            core::array::from_fn(|i| pairs[k / 2][at + i])
-        })
+        let mut all = [[0.0; 4]; ORDERS];
+        for (pair, c) in all.as_chunks_mut::<2>().0.iter_mut().zip(&self.c) {
+            let (odd, even) = c.split();
+            *pair = [odd.to_array(), even.to_array()];
+        }
+        all
     }
 
     /// The first four coefficients.
@@ -207,6 +209,12 @@ fn weighted<S: Simd>(
     c: &[f64x8<S>; PAIRS],
     factors: &[Eight; PAIRS],
 ) -> [f64x8<S>; PAIRS] {
-    let one = |j: usize| c[j] * factors[j].load(simd);
-    [one(0), one(1), one(2), one(3), one(4), one(5)]
+    [
+        c[0] * factors[0].load(simd),
+        c[1] * factors[1].load(simd),
+        c[2] * factors[2].load(simd),
+        c[3] * factors[3].load(simd),
+        c[4] * factors[4].load(simd),
+        c[5] * factors[5].load(simd),
+    ]
 }

@@ -156,32 +156,35 @@ impl Phase {
     #[inline(always)]
     fn fill(&mut self, storey: &OneStorey, slip: bool, sample: &Sample, taps: &[Four; BATCH + 1]) {
         self.tap[BATCH..].copy_from_slice(&taps[..BATCH]);
-        self.power[0] = core::array::from_fn(|j| Four(unit(j)));
+        for j in 0..4 {
+            self.power[0][j] = Four(unit(j));
+        }
         for k in 1..=BATCH {
-            self.power[k] = self.power[k - 1].map(|column| times(&sample.state, column));
+            for j in 0..4 {
+                self.power[k][j] = times(&sample.state, self.power[k - 1][j]);
+            }
             self.first[k] =
                 if k == 1 { sample.before() } else { times(&sample.state, self.first[k - 1]) };
             self.force[k] = sum(times(&sample.state, self.force[k - 1]), sample.force);
         }
-        let values = |column: &Four| {
-            let [s, w, eta, rate] = column.0;
-            let f = storey.restoring(&column.0);
-            [if slip { s } else { -storey.participation * f }, w, eta, f, rate]
-        };
         for k in 1..=BATCH {
-            let state = self.power[k].each_ref().map(values);
-            let (first, force) = (values(&self.first[k]), values(&self.force[k]));
+            let (first, force) =
+                (values(storey, slip, &self.first[k]), values(storey, slip, &self.force[k]));
             for (i, row) in self.rows.iter_mut().enumerate() {
-                for j in 0..4 {
-                    row.state[j].0[k - 1] = state[j][i];
-                }
                 (row.first.0[k - 1], row.force.0[k - 1]) = (first[i], force[i]);
+            }
+            for j in 0..4 {
+                let state = values(storey, slip, &self.power[k][j]);
+                for (i, row) in self.rows.iter_mut().enumerate() {
+                    row.state[j].0[k - 1] = state[i];
+                }
             }
         }
         // What a sample leaves at those before it, at itself and after it.
         let mut left = [[0.0; 2 * BATCH]; 5];
         for (j, tap) in taps[..BATCH].iter().enumerate() {
-            for (left, value) in left.iter_mut().zip(values(tap)) {
+            let values = values(storey, slip, tap);
+            for (left, value) in left.iter_mut().zip(values) {
                 left[BATCH - 1 + j] = value;
             }
         }
@@ -196,6 +199,14 @@ impl Phase {
     }
 }
 
+/// The numbers of [`Phase::rows`] in a state.
+#[inline(always)]
+fn values(storey: &OneStorey, slip: bool, x: &Four) -> [f64; 5] {
+    let [s, w, eta, rate] = x.0;
+    let f = storey.restoring(&x.0);
+    [if slip { s } else { -storey.participation * f }, w, eta, f, rate]
+}
+
 impl Quiet {
     #[inline(always)]
     fn fill(
@@ -206,10 +217,15 @@ impl Quiet {
         taps: &[Four; BATCH + 1],
         dt_s: f64,
     ) {
-        let square = |m: &Matrix| m.map(|column| times(m, column));
         let by_8 = stick.power[BATCH];
-        let by_16 = square(&by_8);
-        self.power = square(&by_16);
+        let mut by_16 = by_8;
+        for column in &mut by_16 {
+            *column = times(&by_8, *column);
+        }
+        self.power = by_16;
+        for column in &mut self.power {
+            *column = times(&by_16, *column);
+        }
         // The first sample's ramp down has all the samples before it.
         self.first = times(&by_16, times(&by_8, stick.first[BATCH]));
         self.tap[..=BATCH].copy_from_slice(taps);
@@ -246,30 +262,32 @@ struct Sample {
 impl Sample {
     #[inline(always)]
     fn new(table: &Table, slip: bool, pieces: usize) -> Self {
-        let end = |input: usize| Four(series::sum(table, input));
-        let piece: Matrix = core::array::from_fn(|j| sum(end(j), Four(unit(j))));
-        let (of_a, of_change) = (end(4), end(5));
-        let of_force = if slip { end(6) } else { Four::ZERO };
+        let (of_a, of_change) = (Four(series::sum(table, 4)), Four(series::sum(table, 5)));
+        let of_force = if slip { Four(series::sum(table, 6)) } else { Four::ZERO };
+        let mut piece = [Four::ZERO; 4];
+        for (j, column) in piece.iter_mut().enumerate() {
+            *column = sum(Four(series::sum(table, j)), Four(unit(j)));
+        }
+        // State, constant and ramp of the acceleration, force.
+        let mut left = [Four::ZERO; 7];
+        for (j, x) in left[..4].iter_mut().enumerate() {
+            x.0[j] = 1.0;
+        }
+        let mut inputs = [[0.0; 3]; 7];
+        (inputs[4], inputs[5], inputs[6]) = ([1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
         let per_piece = 1.0 / pieces as f64;
-        let run = |mut x: Four, [from, to]: [f64; 2], force: f64| {
+        for (x, [from, to, force]) in left.iter_mut().zip(inputs) {
             let change = (to - from) * per_piece;
             for i in 0..pieces {
-                let a = from + change * i as f64;
-                let moved = times(&piece, x);
-                x = Four(core::array::from_fn(|i| {
-                    (moved.0[i] + (of_a.0[i] * a + of_change.0[i] * change)) + of_force.0[i] * force
-                }));
+                let (moved, a) = (times(&piece, *x), from + change * i as f64);
+                for (i, x) in x.0.iter_mut().enumerate() {
+                    *x = (moved.0[i] + (of_a.0[i] * a + of_change.0[i] * change))
+                        + of_force.0[i] * force;
+                }
             }
-            x
-        };
-        let state =
-            |j: usize| if pieces == 1 { piece[j] } else { run(Four(unit(j)), [0.0; 2], 0.0) };
-        Self {
-            state: core::array::from_fn(state),
-            constant: run(Four::ZERO, [1.0, 1.0], 0.0),
-            ramp: run(Four::ZERO, [0.0, 1.0], 0.0),
-            force: run(Four::ZERO, [0.0; 2], 1.0),
         }
+        let [s, w, eta, rate, constant, ramp, force] = left;
+        Self { state: [s, w, eta, rate], constant, ramp, force }
     }
 
     /// What a unit of acceleration that ramps down in a sample leaves.
