@@ -35,10 +35,10 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     #[inline(always)]
     pub(super) fn screened(&mut self, sample: usize, end: usize) -> usize {
         let phase = self.now.phase.get();
-        let Some(batch) = &phase.batch else { return sample };
         if self.course.start.is_some() || self.now.fading.is_some() || sample + BATCH > end {
             return sample;
         }
+        let Some(batch) = phase.batch() else { return sample };
         match self.course.mode {
             Mode::Slip(_) if self.x[1] == 0.0 => sample,
             Mode::Slip(direction) => self.slide((phase, batch), sample, end, direction),

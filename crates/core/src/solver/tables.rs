@@ -102,6 +102,22 @@ impl<'a> Job for Made<'a> {
     }
 }
 
+struct MadeBatch<'a>(&'a Phase, f64);
+
+impl<'a> Job for MadeBatch<'a> {
+    type Output = &'a Batch;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> &'a Batch {
+        self.0.batch.get_or_init(|| {
+            simd.vectorize(
+                #[inline(always)]
+                || Batch::new(simd, self.0, self.1),
+            )
+        })
+    }
+}
+
 /// Tables of stick, or of slip under one restraint.
 #[derive(Debug)]
 pub(super) struct Phase {
@@ -114,7 +130,9 @@ pub(super) struct Phase {
     pub(super) outputs: Outputs,
     /// How much the energy norm can grow over one series: friction that falls with the speed feeds it.
     pub(super) growth: f64,
-    pub(super) batch: Option<Batch>,
+    /// Step of the batches, where samples go by them.
+    batch_s: Option<f64>,
+    batch: OnceLock<Batch>,
 }
 
 /// Maps over batches of samples, and the outputs as rows over them.
@@ -223,8 +241,8 @@ impl Tables {
         let overturns = stick.overturning.is_some();
         let tables = Self { orders: stick.orders, stick, slip, overturns, slope, start, dense };
         if is_tabled && tables.dense.is_none() {
-            tables.stick.get();
-            tables.slip[0].get();
+            tables.stick.get().batch();
+            tables.slip[0].get().batch();
         }
         tables
     }
@@ -288,30 +306,49 @@ impl Phase {
         let tracked = &rows[if slip { output::VELOCITY } else { output::FRICTION }];
         let tracked = (tracked.state.as_slice(), tracked.of_a, tracked.of_friction);
         let solution = Solution::new(simd, &system, slip, (unit_s, orders), tracked);
-        let growth = |length_s| if slip { system.growth(length_s) } else { 1.0 };
-        let batch = batch_s
+        let batch_s = batch_s
             .filter(|dt_s| system.storeys <= BATCH_STOREYS && dt_s * rate <= BATCH_RATE_STEP);
-        let batch = if let Some(dt_s) = batch {
-            let units = Units::new(simd, &system, slip, dt_s);
-            let of_s: Vec<f64> =
-                (0..rows[0].state.len()).map(|i| if i == 0 { 1.0 } else { 0.0 }).collect();
-            let mut of_rows = Vec::with_capacity(rows.len());
-            for row in &rows {
-                of_rows.push(units.row(simd, &row.state, row.of_a, row.of_friction));
-            }
-            Some(Batch {
-                dt_s,
-                per_dt: 1.0 / dt_s,
-                maps: units.maps(&system, slip),
-                rows: of_rows,
-                displacement: units.row(simd, &of_s, 0.0, 0.0),
-                growth: growth(BATCH as f64 * dt_s),
-            })
-        } else {
-            None
-        };
-        let growth = growth(unit_s);
+        let growth = if slip { system.growth(unit_s) } else { 1.0 };
         let outputs = Outputs::new(&system, slip, rows);
-        Self { system, slip, unit_s, solution, outputs, growth, batch }
+        let batch = OnceLock::new();
+        Self { system, slip, unit_s, solution, outputs, growth, batch_s, batch }
+    }
+
+    /// Maps over batches of samples, where they go by them; made where they are first needed.
+    #[inline(always)]
+    pub(super) fn batch(&self) -> Option<&Batch> {
+        match self.batch.get() {
+            Some(batch) => Some(batch),
+            None => self.make_batch(),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn make_batch(&self) -> Option<&Batch> {
+        Some(InstructionSet::best().run(MadeBatch(self, self.batch_s?)))
+    }
+}
+
+impl Batch {
+    #[inline(always)]
+    fn new<S: Simd>(simd: S, phase: &Phase, dt_s: f64) -> Self {
+        let Phase { ref system, slip, .. } = *phase;
+        let rows = &phase.outputs.rows;
+        let units = Units::new(simd, system, slip, dt_s);
+        let mut of_s = vec![0.0; rows[0].state.len()];
+        of_s[0] = 1.0;
+        let mut of_rows = Vec::with_capacity(rows.len());
+        for row in rows {
+            of_rows.push(units.row(simd, &row.state, row.of_a, row.of_friction));
+        }
+        Self {
+            dt_s,
+            per_dt: 1.0 / dt_s,
+            maps: units.maps(system, slip),
+            rows: of_rows,
+            displacement: units.row(simd, &of_s, 0.0, 0.0),
+            growth: if slip { system.growth(BATCH as f64 * dt_s) } else { 1.0 },
+        }
     }
 }
