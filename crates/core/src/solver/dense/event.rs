@@ -17,6 +17,9 @@ use crate::solver::slider::Start;
 /// Events nearer to an end of a piece, and decisions of a smaller margin, are ambiguous.
 const AMBIGUOUS: f64 = 1e-9;
 
+/// A slip that starts with less than this part of what friction gives is ambiguous if it ends at once.
+const CLEAR: f64 = 1e-2;
+
 /// Longest correction of a root that is made by derivatives, in pieces: the next term of the state is below
 /// rounding.
 const SHORT: f64 = 2e-5;
@@ -172,14 +175,23 @@ impl<S: Simd> Ahead<'_, '_, S> {
             self.shared.course.start = None;
             return self.through::<true>(segment, at_sample, &series, end, [force_n; 2]);
         }
-        let is_simple = start.is_none()
-            && speed > 0.0
-            && end_speed < 0.0
-            && crosses_once(c1, 2.0 * c2, curvature, rest);
-        if !is_simple {
+        let mut t = match start {
+            None if speed > 0.0 && crosses_once(c1, 2.0 * c2, curvature, rest) => {
+                guess([speed, c1, c2, c3, c4])
+            }
+            // |ṡ|/t = c₁ + c₂ t + …, whose second derivative is at most D − 2 |c₂|; c₁ as computed is a
+            // difference of accelerations of this size.
+            Some(Start { order: 1, acceleration })
+                if acceleration > CLEAR * self.of.bounds_n[1] * tables.storey.per_block_mass
+                    && c2 + rest * (curvature - 2.0 * c2.abs()) < 0.0 =>
+            {
+                guess([c1, c2, c3, c4, 0.0])
+            }
+            _ => return End::Ambiguous,
+        };
+        if !(end_speed < 0.0) {
             return End::Ambiguous;
         }
-        let mut t = guess([speed, c1, c2, c3, c4]);
         for _ in 0..4 {
             if !(t > 0.0 && t < rest) {
                 return End::Ambiguous;
@@ -227,7 +239,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
         }
         self.move_to::<SLIP>(segment, at_sample, series, (t, x), friction_n);
         if SLIP {
-            self.shared.x[1] = 0.0;
+            (self.shared.x[1], self.shared.course.start) = (0.0, None);
         }
         End::Event(t)
     }
