@@ -1,9 +1,6 @@
 //! Any bytes as a study plan.
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-
-#[path = "../shared/plan.rs"]
-mod plan;
+use slipstick_fuzz::{fuzz_target, plan};
 
 fuzz_target!(|bytes: &[u8]| plan::check(bytes));

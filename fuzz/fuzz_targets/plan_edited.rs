@@ -2,10 +2,7 @@
 //! others.
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-
-#[path = "../shared/plan.rs"]
-mod plan;
+use slipstick_fuzz::{fuzz_target, plan};
 
 const PLANS: [&str; 4] = [
     include_str!("../../examples/studies/amplification.toml"),

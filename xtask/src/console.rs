@@ -17,8 +17,7 @@ pub fn console(options: &[&str]) -> Outcome {
         ["--write"] => true,
         _ => return Err(format!("console: expected --write, found {}", options.join(" "))),
     };
-    shell::run(&mut shell::cargo("build --release -p slipstick-cli"))?;
-    let folder = shell::target_folder()?.join("release");
+    let folder = built()?;
     let (blocks, differing) = pages(&folder, write)?;
     match differing.as_slice() {
         _ if write => println!("wrote {} of {blocks} outputs", differing.len()),
@@ -26,6 +25,12 @@ pub fn console(options: &[&str]) -> Outcome {
         _ => return Err(differing.join("\n")),
     }
     Ok(())
+}
+
+/// Builds the command; the folder that it is in.
+pub fn built() -> Result<PathBuf, String> {
+    shell::run(&mut shell::cargo("build --release -p slipstick-cli"))?;
+    Ok(shell::target_folder()?.join("release"))
 }
 
 /// Runs the commands of every page with the programs in a folder. The number of blocks, and what
@@ -41,11 +46,7 @@ pub fn pages(programs: &Path, write: bool) -> Result<(usize, Vec<String>), Strin
     let (mut blocks, mut differing) = (0, Vec::new());
     for page in pages {
         let path = root.join(&page);
-        let text = std::fs::read_to_string(&path)
-            .map_err(|error| format!("{}: {error}", page.display()))?;
-        let scratch = shell::target_folder()?.join("console").join(page.with_extension(""));
-        let mut terminal = Terminal { folder: scratch, programs, started: false };
-        let (fresh, count) = page_again(&text, |command| terminal.run(command))?;
+        let Rerun { text, fresh, blocks: count, .. } = rerun(programs, &page)?;
         blocks += count;
         if fresh == text {
             continue;
@@ -59,6 +60,26 @@ pub fn pages(programs: &Path, write: bool) -> Result<(usize, Vec<String>), Strin
         }
     }
     Ok((blocks, differing))
+}
+
+/// A page whose commands have run once more.
+pub struct Rerun {
+    text: String,
+    fresh: String,
+    blocks: usize,
+    /// Where they ran, and left what they write.
+    pub folder: PathBuf,
+}
+
+/// Runs the commands of a page, named by its path in the repository.
+pub fn rerun(programs: &Path, page: &Path) -> Result<Rerun, String> {
+    let path = shell::root().join(page);
+    let text =
+        std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", page.display()))?;
+    let folder = shell::target_folder()?.join("console").join(page.with_extension(""));
+    let mut terminal = Terminal { folder: folder.clone(), programs, started: false };
+    let (fresh, blocks) = page_again(&text, |command| terminal.run(command))?;
+    Ok(Rerun { text, fresh, blocks, folder })
 }
 
 /// A folder in which commands run one after another.

@@ -25,7 +25,7 @@ Usage: cargo xtask TASK
   console [--write]              runs the commands that README and book show and compares what
                                  they print (--write: puts it there)
   paper [--write]                reproduces the paper and compares with the book's chapter
-                                 (--write: into book/src/paper.md and book/src/figures)
+                                 (--write: into book/src/paper.md)
   bench-peers [--json] [--quick] [--write]
                                  times the same analyses here, in a numba loop, SciPy and
                                  OpenSeesPy (needs python3; makes .venv)
@@ -62,8 +62,9 @@ Usage: cargo xtask TASK
   dist                           the best binary (static where the musl target is installed),
                                  manual pages, completions, checksums: into target/dist
   man                            the manual pages, into the target folder
-  book                           the manual, into book/build (installs mdbook)
-  figures                        the figures of the README and the manual, into book/src/figures
+  book                           the manual with its figures, into book/build (installs mdbook)
+  figures                        the figures of the README and the manual, into book/src/figures;
+                                 the repository holds those of the README only
   help                           this text
 ";
 

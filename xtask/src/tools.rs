@@ -1,6 +1,7 @@
 //! Small tasks. Those that need a tool beyond cargo and rustup install it.
 
 use crate::shell::{self, Outcome};
+use crate::{console, paper};
 use std::fs;
 use std::path::Path;
 
@@ -16,15 +17,31 @@ pub fn deny() -> Outcome {
     shell::run(&mut shell::cargo("deny --workspace check"))
 }
 
-/// The manual, into `book/build`.
+/// The manual, into `book/build`, with its figures.
 pub fn book() -> Outcome {
     shell::ensure_installed("mdbook", "--version", "mdbook")?;
+    figures()?;
     shell::run(shell::command("mdbook").args(["build", "book"]))
 }
 
-/// The figures of the README and the manual, drawn from an example.
+/// What the chapter on fragilities shows of what its commands draw.
+const FRAGILITY: [(&str, &str); 4] = [
+    ("out/ida/ida.svg", "fragility-ida.svg"),
+    ("out/fragility/fragility.svg", "fragility-curve.svg"),
+    ("out/cloud/cloud.svg", "fragility-cloud.svg"),
+    ("out/design/front.svg", "fragility-front.svg"),
+];
+
+/// The figures of the manual, into `book/src/figures`: from an example, from the commands of the
+/// chapter on fragilities, and of the paper. The repository holds only those of the README.
 pub fn figures() -> Outcome {
-    shell::run(&mut shell::cargo("run --quiet -p slipstick-files --example figures"))
+    shell::run(&mut shell::cargo("run --quiet --release -p slipstick-files --example figures"))?;
+    let page = Path::new("book/src/tutorial-fragility.md");
+    let folder = console::rerun(&console::built()?, page)?.folder;
+    for (made, shown) in FRAGILITY {
+        paper::copy(&folder.join(made), &shell::root().join("book/src/figures").join(shown))?;
+    }
+    paper::draw().map(drop)
 }
 
 /// The manual pages of the command, into `man` in the target folder.

@@ -174,7 +174,7 @@ pub struct RunArgs {
     pub vertical: Vec<String>,
     /// Other horizontal components of the suite, as many and in the same order: both components of a pair
     /// take one factor; may be repeated
-    #[arg(long, value_name = "PATTERN", num_args = 1.., requires = "records", help_heading = "Ground motion")]
+    #[arg(long, value_name = "PATTERN", num_args = 1.., help_heading = "Ground motion")]
     pub second: Vec<String>,
     /// Spectrum that pairs are scaled to: a CSV with the columns period_s and sa_g
     #[arg(long, value_name = "FILE", requires = "second", requires = "periods", conflicts_with_all = ["scale", "scale_to"], help_heading = "Ground motion")]

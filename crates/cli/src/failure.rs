@@ -5,7 +5,8 @@ use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
-use slipstick::error::{InputError, visible};
+use slipstick::error::{InputError, is_hidden, visible};
+use slipstick::record;
 use slipstick_files::{FileError, JobError, LaboratoryError, StudyError};
 
 /// Bad input, or an output that nobody reads any more.
@@ -30,6 +31,15 @@ pub enum Failure {
 impl Failure {
     /// A fault of an input whose text is at hand.
     pub fn input(error: InputError, text: &str) -> Self {
+        let name = &error.place.source_name;
+        // No TOML: perhaps the numbers of another file.
+        if error.path.is_empty()
+            && let Some(what) = numbers(name, text)
+        {
+            let mend = "a record is given beside a model, with --motion or --records; what was measured \
+                        stands before the model";
+            return Self::Message(format!("{name}: expected a model, found {what} ({mend})"));
+        }
         Self::Input { error: Box::new(error), text: text.to_owned() }
     }
 
@@ -58,6 +68,18 @@ impl Failure {
             }
         }
     }
+}
+
+/// What a text is that holds numbers where a model was expected.
+fn numbers(name: &str, text: &str) -> Option<&'static str> {
+    // Units and step that a file states itself must not be given.
+    let units = [None, record::Units::parse("g")];
+    let mut options = units.into_iter().flat_map(|units| {
+        [None, Some(1.0)].map(|dt_s| record::Options { units, dt_s, format: None })
+    });
+    let is_record = options.any(|options| record::read(name, text.as_bytes(), &options).is_ok());
+    let columns = record::columns(name, text.as_bytes()).is_ok_and(|table| table.columns.len() > 1);
+    if is_record { Some("a record") } else { columns.then_some("a table of numbers") }
 }
 
 /// A message to standard error, what would steer the terminal made visible. Where nobody can be told,
@@ -119,12 +141,20 @@ impl Failure {
     }
 }
 
-/// Text to standard output, ended by a line feed.
+/// Text to standard output, ended by a line feed. What would steer the terminal is written as JSON and TOML
+/// write it in texts, `\u001b`.
 pub fn print(text: &str) -> Result<(), Failure> {
+    let mut shown = String::with_capacity(text.len() + 1);
+    for character in text.chars() {
+        if is_hidden(character) && !matches!(character, '\n' | '\t') {
+            shown.push_str(&format!("\\u{:04x}", u32::from(character)));
+        } else {
+            shown.push(character);
+        }
+    }
+    if !shown.ends_with('\n') {
+        shown.push('\n');
+    }
     let mut out = io::stdout().lock();
-    let end = if text.ends_with('\n') { "" } else { "\n" };
-    out.write_all(text.as_bytes())
-        .and_then(|()| out.write_all(end.as_bytes()))
-        .and_then(|()| out.flush())
-        .map_err(Failure::stdout)
+    out.write_all(shown.as_bytes()).and_then(|()| out.flush()).map_err(Failure::stdout)
 }

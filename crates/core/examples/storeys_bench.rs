@@ -158,12 +158,17 @@ fn with_devices() -> Result<Vec<(&'static str, Model)>, Box<dyn Error>> {
         travel_m: Some(travel_m),
     };
     let double = Series::new(vec![surface(0.4, 0.03, 0.05), surface(1.6, 0.055, 0.6)], 1.1)?;
-    let rigid = Slider {
-        stop: Some(Stop { gap_m: [Some(1.0); 2], kind: StopKind::Rigid { restitution: 0.5 } }),
-        ..*plain()?.slider()
+    let rigid = |gap_m| -> Result<Model, Box<dyn Error>> {
+        let (plain, kind) = (plain()?, StopKind::Rigid { restitution: 0.5 });
+        let stop = Some(Stop { gap_m: [Some(gap_m); 2], kind });
+        let slider = Slider { stop, ..*plain.slider() };
+        let (block, frame) = (*plain.block(), plain.frame().clone());
+        Ok(Model::new(block, slider, frame, STANDARD_GRAVITY_M_PER_S2, InitialState::rest())?)
     };
-    let contents =
-        Contents { floor: 1, mass_kg: 50.0, static_friction: 0.4, kinetic_friction: 0.3 };
+    let contents = |static_friction, kinetic_friction| -> Result<Model, Box<dyn Error>> {
+        let contents = Contents { floor: 1, mass_kg: 50.0, static_friction, kinetic_friction };
+        Ok(plain()?.with_devices(Devices { contents: vec![contents], ..Devices::default() })?)
+    };
     let without = |slider: Slider| {
         let slider = Slider { stiffness_n_per_m: 0.0, ..slider };
         let plain = plain()?;
@@ -188,20 +193,10 @@ fn with_devices() -> Result<Vec<(&'static str, Model)>, Box<dyn Error>> {
             without(slider)?
                 .with_devices(Devices { series: Some(double), ..Devices::default() })?,
         ),
-        (
-            "n = 1, rigid stop not reached",
-            Model::new(
-                *plain()?.block(),
-                rigid,
-                plain()?.frame().clone(),
-                STANDARD_GRAVITY_M_PER_S2,
-                InitialState::rest(),
-            )?,
-        ),
-        (
-            "n = 1, contents",
-            plain_with(Devices { contents: vec![contents], ..Devices::default() })?,
-        ),
+        ("n = 1, rigid stop not reached", rigid(1.0)?),
+        ("n = 1, rigid stop struck", rigid(0.03)?),
+        ("n = 1, contents", contents(0.4, 0.3)?),
+        ("n = 1, contents that slide", contents(0.1, 0.08)?),
     ])
 }
 

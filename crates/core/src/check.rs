@@ -15,15 +15,18 @@ mod ground;
 mod judge;
 mod lanes;
 mod law;
+mod rate;
 mod step;
 mod structure;
 
 use self::judge::Judge;
+use self::law::Law;
 use self::structure::{Phase, Structure};
-use crate::error::{GoOn, Pulse, Stopped, UNWATCHED};
+use crate::error::Stopped;
 use crate::friction::Direction;
 use crate::model::{Model, Stop, StopKind};
 use crate::motion::GroundMotion;
+use crate::progress::{GoOn, Pulse, UNWATCHED};
 use crate::response::{History, Response};
 
 /// Radians beyond which the phase of the fastest mode says nothing: every interval is divided into
@@ -93,7 +96,7 @@ pub struct EnergyHistory {
     pub kinetic_j: Vec<f64>,
     /// Strain of spring and storeys.
     pub strain_j: Vec<f64>,
-    /// Spent in dampers so far, and what a stop has taken.
+    /// Spent in dampers so far, and what a stop has taken, with what it had at the start.
     pub damping_j: Vec<f64>,
     /// Spent in friction so far.
     pub friction_j: Vec<f64>,
@@ -105,6 +108,22 @@ pub struct EnergyHistory {
 /// No history, or one that cannot be judged (lists of different lengths, times that run backwards, do not
 /// start at 0 or end before the motion, values that are not finite where steps depend on them)
 /// gets infinite figures.
+///
+/// # Examples
+/// ```
+/// use slipstick::check::check;
+/// use slipstick::{model::Model, motion::GroundMotion, solver};
+///
+/// let model = Model::builder().block("124 kg").friction(0.2, 0.15).build()?;
+/// let motion = GroundMotion::new(vec![0.0, 0.5, 0.5, 1.5], vec![4.0, 4.0, 0.0, 0.0], None)?;
+/// let mut response = solver::exact(&model, &motion)?;
+/// assert!(check(&model, &motion, &response).holds());
+///
+/// // A millionth more than what came out is found.
+/// response.demands.peak_sliding_displacement_m *= 1.0 + 1e-6;
+/// assert!(!check(&model, &motion, &response).holds());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn check(model: &Model, motion: &GroundMotion, response: &Response) -> Certificate {
     // Nothing stops it.
@@ -131,12 +150,13 @@ pub fn check_while(
     let run = |history| {
         let vertical = motion.vertical_m_per_s2().is_some();
         let reached = reaches_rigid_stop(model, history);
-        if reached == Some(true) || !model.is_plain_between_stops(vertical) {
+        if reached == Some(true) || !is_plain(model, vertical) {
             let pulse = Pulse::new(go_on);
             let given = (response, history);
             return devices::certificate(model, motion, given, &structure, (bound, pulse));
         }
-        let judge = Judge::new(model, motion, (response, history), &structure, Pulse::new(go_on));
+        let (law, given) = (Law::new(model), (response, history));
+        let judge = Judge::new(model, motion, given, (&structure, &law), Pulse::new(go_on));
         let Some(mut certificate) = judge.run(bound)? else { return Ok(None) };
         if reached.is_some() {
             let calls = devices::near_misses(model, history);
@@ -162,6 +182,17 @@ fn unjudged(bound: f64) -> Certificate {
         bound,
         energy: EnergyHistory::default(),
     }
+}
+
+/// Whether [`Judge`] knows all that is in force between stops.
+fn is_plain(model: &Model, vertical: bool) -> bool {
+    let (devices, slider) = (model.devices(), model.slider());
+    let elastic = matches!(slider.stop, Some(Stop { kind: StopKind::Elastic { .. }, .. }));
+    let rate = devices.rate.is_none() || !elastic;
+    // The spring of a pendulum is constant: N = M g cos θ.
+    let spring = devices.radius_m.is_none()
+        || !vertical && (devices.rate.is_none() || slider.tilt_rad == 0.0);
+    rate && spring && devices.series.is_none() && devices.contents.is_empty()
 }
 
 /// Whether a history comes to a rigid stop, of a model that has one: `s` is monotone between knots.

@@ -1,7 +1,5 @@
 //! What can go wrong, one enum a kind of failure.
 
-use core::ops::ControlFlow;
-
 /// A number that a model cannot have.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ModelError {
@@ -32,6 +30,14 @@ pub enum ModelError {
         quantity: &'static str,
         /// What it takes.
         expected: &'static str,
+    },
+    /// Text that is no such quantity.
+    #[error("{quantity}: {error}")]
+    Quantity {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// What was expected and found.
+        error: UnitError,
     },
 }
 
@@ -81,6 +87,18 @@ pub enum MotionError {
         quantity: &'static str,
         /// The value.
         found: f64,
+    },
+    /// A value larger than any that can be computed with.
+    #[error("sample {index}: expected a {quantity} of at most {limit:e} in SI, found {found:e}")]
+    TooLarge {
+        /// Index of the sample, from 0.
+        index: usize,
+        /// Which of its values.
+        quantity: &'static str,
+        /// The value.
+        found: f64,
+        /// The limit.
+        limit: f64,
     },
     /// Time that runs backwards, or stands still for more than one jump.
     #[error(
@@ -134,6 +152,8 @@ pub enum MotionError {
     ZeroPeak,
 }
 
+const GIB: f64 = (1_u64 << 30) as f64;
+
 /// An analysis that has no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SolveError {
@@ -158,6 +178,22 @@ pub enum SolveError {
         limit: f64,
         /// What makes it long, and what to do.
         advice: String,
+    },
+    /// An analysis whose history, which its certificate needs, would not fit into the memory.
+    #[error(
+        "the history would take {:.1} GiB, where {:.0} GiB are the most: {samples} samples with \
+         {numbers} numbers each; take a longer time step or a shorter motion",
+        *bytes as f64 / GIB, *limit as f64 / GIB
+    )]
+    TooMuchMemory {
+        /// Memory that the analysis and its certificate would take.
+        bytes: u64,
+        /// The limit.
+        limit: u64,
+        /// Number of samples.
+        samples: usize,
+        /// Numbers that are kept of each.
+        numbers: usize,
     },
     /// A state that left the range of numbers.
     #[error("the response is not finite at {time_s} s: check masses, stiffnesses and the motion")]
@@ -210,6 +246,9 @@ pub enum RunError {
     /// A motion that cannot be made or scaled.
     #[error(transparent)]
     Motion(#[from] MotionError),
+    /// Bounds of friction that make no model.
+    #[error(transparent)]
+    Model(#[from] ModelError),
     /// A model that is to move the table itself and does not.
     #[error("the model makes no motion")]
     NoMotion,
@@ -222,52 +261,6 @@ pub enum RunError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("stopped before the end")]
 pub struct Stopped;
-
-/// Asked every few milliseconds of one long piece of work whether to go on; once it says no it is not
-/// asked again.
-pub type GoOn<'a> = &'a dyn Fn() -> ControlFlow<()>;
-
-/// Asks whether to go on after so much work.
-pub(crate) struct Pulse<'a> {
-    go_on: GoOn<'a>,
-    /// Units of work until it asks again.
-    left: u32,
-    stopped: bool,
-}
-
-/// Work that nothing stops.
-pub(crate) const UNWATCHED: GoOn<'static> = &|| ControlFlow::Continue(());
-
-impl<'a> Pulse<'a> {
-    /// Units of work between two questions; a unit is some ten nanoseconds.
-    const UNITS: u32 = 1 << 18;
-
-    /// Asks for the first time with the first work.
-    pub(crate) fn new(go_on: GoOn<'a>) -> Self {
-        Self { go_on, left: 0, stopped: false }
-    }
-
-    /// So many units are done.
-    #[inline(always)]
-    pub(crate) fn beat(&mut self, units: u32) -> Result<(), Stopped> {
-        if units < self.left {
-            self.left -= units;
-            return Ok(());
-        }
-        self.ask()
-    }
-
-    #[cold]
-    fn ask(&mut self) -> Result<(), Stopped> {
-        self.stopped = self.stopped || (self.go_on)().is_break();
-        if self.stopped {
-            self.left = 0;
-            return Err(Stopped);
-        }
-        self.left = Self::UNITS;
-        Ok(())
-    }
-}
 
 /// A choice that cannot be: which, what was expected, what was found.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -1,7 +1,9 @@
 //! Masses, springs, dampers, storeys: inert, checked data without an algorithm.
 
+mod builder;
 mod devices;
 
+pub use builder::ModelBuilder;
 pub use devices::{Contents, Devices};
 
 use crate::error::ModelError;
@@ -153,6 +155,9 @@ impl InitialState {
 }
 
 /// A checked model: block, slider, structure, gravity and initial state.
+///
+/// [`Model::builder`] takes quantities with units, [`Model::new`] numbers in SI, and
+/// [`input::parse`](crate::input::parse) the text of a model file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     block: Block,
@@ -279,6 +284,16 @@ impl Model {
     ///
     /// # Errors
     /// As [`Model::new`].
+    ///
+    /// # Examples
+    /// ```
+    /// use slipstick::friction::Friction;
+    /// use slipstick::model::Model;
+    ///
+    /// let model = Model::rigid_block(124.0, Friction::new(0.2, 0.15)?)?;
+    /// assert_eq!(model.weight_n(), 124.0 * 9.80665);
+    /// # Ok::<(), slipstick::error::ModelError>(())
+    /// ```
     pub fn rigid_block(mass_kg: f64, friction: Friction) -> Result<Self, ModelError> {
         Self::new(
             Block { mass_kg, width_m: None, height_m: None },
@@ -368,6 +383,19 @@ impl Model {
         let mut model = self.clone();
         model.slider.friction = friction;
         model
+    }
+
+    /// Whether another model has the same linear system, start and devices: whether the two differ in the
+    /// slider's coefficients of friction and its gap alone.
+    #[must_use]
+    pub fn has_system_of(&self, other: &Self) -> bool {
+        let Slider { friction, gap_m, .. } = other.slider;
+        Slider { friction, gap_m, ..self.slider } == other.slider
+            && self.gravity_m_per_s2 == other.gravity_m_per_s2
+            && self.block == other.block
+            && self.frame == other.frame
+            && self.initial == other.initial
+            && self.devices == other.devices
     }
 
     /// The same model with all coefficients of the slider times `factor`.

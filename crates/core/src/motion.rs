@@ -17,8 +17,11 @@ pub use made::{Pulse, PulseShape, Sine, Sweep, SweepKind};
 pub use series::{Quantity, Series};
 pub use spectrum::{Ordinates, Spectrum, logarithmic_periods, spectrum};
 
+use std::sync::Arc;
+
 use crate::error::MotionError;
 use crate::numerics::fractile::upper_median;
+use crate::units::LARGEST;
 
 /// Most samples that a motion may have.
 pub const MAX_SAMPLES: usize = 100_000_000;
@@ -36,12 +39,27 @@ const SHORTEST_USUAL_S: f64 = 1e-3;
 ///
 /// Times start at 0 and do not decrease; a time that stands twice is a jump (left limit, then right
 /// limit). Before the first sample the table is at rest: a first sample other than 0 is a jump at
-/// t = 0. After the last sample both accelerations are 0.
+/// t = 0. After the last sample both accelerations are 0. Copies share the samples.
+///
+/// # Examples
+/// ```
+/// use slipstick::motion::GroundMotion;
+///
+/// // A pulse of 3 m/s² for half a second: 0.5 s stands twice, for the jump at its end.
+/// let motion = GroundMotion::new(vec![0.0, 0.5, 0.5, 2.0], vec![3.0, 3.0, 0.0, 0.0], None)?;
+/// assert_eq!(motion.figures().pga_m_per_s2, 3.0);
+///
+/// let scaled = GroundMotion::evenly_spaced(0.01, vec![0.0, 1.0, -2.0, 0.5], None)?
+///     .scaled_to_peak(4.0)?
+///     .with_tail(5.0)?;
+/// assert_eq!(scaled.horizontal_m_per_s2()[..4], [0.0, 2.0, -4.0, 1.0]);
+/// # Ok::<(), slipstick::error::MotionError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroundMotion {
-    times_s: Vec<f64>,
-    horizontal_m_per_s2: Vec<f64>,
-    vertical_m_per_s2: Option<Vec<f64>>,
+    times_s: Arc<Vec<f64>>,
+    horizontal_m_per_s2: Arc<Vec<f64>>,
+    vertical_m_per_s2: Option<Arc<Vec<f64>>>,
     dt_s: Option<f64>,
 }
 
@@ -54,7 +72,7 @@ impl GroundMotion {
     ///
     /// # Errors
     /// [`MotionError`] for fewer than two samples, lists of different lengths, values that are not
-    /// finite, times that decrease or stand still for more than two samples, no duration, and a
+    /// finite or larger than [`LARGEST`], times that decrease or stand still for more than two samples, no duration, and a
     /// duration out of proportion to the samples.
     pub fn new(
         mut times_s: Vec<f64>,
@@ -88,7 +106,21 @@ impl GroundMotion {
             return Err(MotionError::Gap { index, from_s, to_s, longest_s });
         }
         let dt_s = constant_step(&times_s);
-        Ok(Self { times_s, horizontal_m_per_s2: horizontal, vertical_m_per_s2: vertical, dt_s })
+        Ok(Self::of(times_s, horizontal, vertical, dt_s))
+    }
+
+    fn of(
+        times_s: Vec<f64>,
+        horizontal: Vec<f64>,
+        vertical: Option<Vec<f64>>,
+        dt_s: Option<f64>,
+    ) -> Self {
+        Self {
+            times_s: Arc::new(times_s),
+            horizontal_m_per_s2: Arc::new(horizontal),
+            vertical_m_per_s2: vertical.map(Arc::new),
+            dt_s,
+        }
     }
 
     /// A motion with samples at `0, dt, 2 dt, …`.
@@ -112,12 +144,7 @@ impl GroundMotion {
         let n = horizontal.len();
         check_values(n, &horizontal, vertical.as_deref())?;
         let times_s: Vec<f64> = (0..n).map(|i| i as f64 * dt_s).collect();
-        Ok(Self {
-            times_s,
-            horizontal_m_per_s2: horizontal,
-            vertical_m_per_s2: vertical,
-            dt_s: Some(dt_s),
-        })
+        Ok(Self::of(times_s, horizontal, vertical, Some(dt_s)))
     }
 
     /// Times of the samples in s, from 0, not decreasing.
@@ -135,7 +162,7 @@ impl GroundMotion {
     /// Acceleration normal to the sliding surface at the samples, Üv in m/s², positive upwards.
     #[must_use]
     pub fn vertical_m_per_s2(&self) -> Option<&[f64]> {
-        self.vertical_m_per_s2.as_deref()
+        self.vertical_m_per_s2.as_deref().map(Vec::as_slice)
     }
 
     /// The constant step in s, or `None` where the samples are unevenly spaced or jump.
@@ -177,8 +204,12 @@ fn check_values(n: usize, horizontal: &[f64], vertical: Option<&[f64]>) -> Resul
         if values.len() != n {
             return Err(MotionError::TooShort { found: values.len() });
         }
-        if let Some((index, &found)) = values.iter().enumerate().find(|(_, a)| !a.is_finite()) {
-            return Err(MotionError::NotFinite { index, quantity, found });
+        let wrong = |a: &f64| !(a.abs() <= LARGEST);
+        if let Some((index, &found)) = values.iter().enumerate().find(|(_, a)| wrong(a)) {
+            return Err(match found.is_finite() {
+                true => MotionError::TooLarge { index, quantity, found, limit: LARGEST },
+                false => MotionError::NotFinite { index, quantity, found },
+            });
         }
     }
     Ok(())
@@ -236,6 +267,18 @@ mod tests {
             Err(error) => panic!("{error}"),
             Ok(_) => None,
         }
+    }
+
+    /// Squares of what is computed with are finite.
+    #[test]
+    fn exact_accelerations_are_of_some_size() {
+        let of =
+            |a| GroundMotion::evenly_spaced(1.0, vec![0.0, a], None).map_err(|e| e.to_string());
+        assert_eq!(
+            of(-1e150).unwrap_err(),
+            "sample 1: expected a horizontal acceleration of at most 1e30 in SI, found -1e150"
+        );
+        assert!(of(1e30).is_ok() && of(1e-320).is_ok());
     }
 
     /// A few samples cannot last for days: work grows with the duration.

@@ -26,6 +26,7 @@ mod keys;
 mod knet;
 mod miniseed;
 mod nsmn;
+mod origin;
 mod peer;
 mod quality;
 mod renadic;
@@ -46,6 +47,7 @@ use crate::motion::{GroundMotion, MAX_STEP_S, Series};
 
 pub(crate) use delimited::bracket;
 pub use delimited::{Column, Columns};
+pub use origin::Origin;
 pub use quality::{REST_KINDS, is_note, rest};
 pub(crate) use sampling::of_times;
 use text::Text;

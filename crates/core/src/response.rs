@@ -1,7 +1,10 @@
 //! What an analysis returns: peaks and counts, events, histories, warnings.
 
 mod columns;
+mod limits;
 mod registry;
+
+pub use limits::{flat_geometry, struck};
 
 pub use registry::{
     DEMANDS, Demand, DemandColumn, DemandKind, DemandOf, DemandShape, PrintedRow, demand_values,

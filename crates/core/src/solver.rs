@@ -1,5 +1,7 @@
 //! Solves the equations of motion: exactly, or by the paper's stepwise program.
 
+mod course;
+mod dense;
 mod event;
 mod ground;
 mod outputs;
@@ -16,9 +18,10 @@ mod summary;
 mod tables;
 mod workspace;
 
-use crate::error::{GoOn, SolveError, UNWATCHED};
+use crate::error::SolveError;
 use crate::model::Model;
 use crate::motion::GroundMotion;
+use crate::progress::{GoOn, UNWATCHED};
 use crate::response::{Method, Response};
 
 pub use event::EVENTS_PER_INTERVAL_LIMIT;
@@ -36,13 +39,11 @@ pub use workspace::Workspace;
 ///
 /// # Examples
 /// ```
-/// use slipstick::friction::{Coulomb, Friction};
 /// use slipstick::{model::Model, motion::GroundMotion, solver};
 ///
 /// // Newmark's block: 0.4 g for 0.5 s over friction of 0.2 stops after 1 s, 0.49 m behind.
 /// let g = slipstick::units::STANDARD_GRAVITY_M_PER_S2;
-/// let friction = Friction::Coulomb(Coulomb::new([0.2; 2], [0.2; 2])?);
-/// let model = Model::rigid_block(124.0, friction)?;
+/// let model = Model::builder().block("124 kg").friction(0.2, 0.2).build()?;
 /// let times_s = vec![0.0, 0.5, 0.5, 1.5];
 /// let motion = GroundMotion::new(times_s, vec![0.4 * g, 0.4 * g, 0.0, 0.0], None)?;
 /// let response = solver::exact(&model, &motion)?;
@@ -92,6 +93,21 @@ pub fn stepwise_within(
 ///
 /// # Errors
 /// [`SolveError`] with time and cause.
+///
+/// # Examples
+/// ```
+/// use slipstick::response::{EventKind, Method};
+/// use slipstick::{model::Model, motion::GroundMotion, solver};
+///
+/// let model = Model::builder().block("325 kg").friction(0.02, 0.012).spring("143 kN/m").build()?;
+/// let samples = (0..500).map(|k| 0.5 * (0.2 * f64::from(k)).sin()).collect();
+/// let motion = GroundMotion::evenly_spaced(0.01, samples, None)?;
+/// let exact = solver::solve(&model, &motion, Method::Exact)?;
+/// assert_eq!(exact.events[0].kind, EventKind::Slip);
+/// let stepwise = solver::solve(&model, &motion, Method::Stepwise)?;
+/// assert!(stepwise.iterations.is_some());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn solve(model: &Model, motion: &GroundMotion, method: Method) -> Result<Response, SolveError> {
     match method {
         Method::Exact => exact(model, motion),
@@ -108,12 +124,10 @@ pub fn solve(model: &Model, motion: &GroundMotion, method: Method) -> Result<Res
 /// ```
 /// use core::ops::ControlFlow;
 /// use slipstick::error::{SolveError, Stopped};
-/// use slipstick::friction::{Coulomb, Friction};
 /// use slipstick::response::Method;
 /// use slipstick::{model::Model, motion::GroundMotion, solver};
 ///
-/// let friction = Friction::Coulomb(Coulomb::new([0.2; 2], [0.2; 2])?);
-/// let model = Model::rigid_block(124.0, friction)?;
+/// let model = Model::builder().block("124 kg").friction(0.2, 0.2).build()?;
 /// let motion = GroundMotion::evenly_spaced(0.01, vec![0.0; 1_000_000], None)?;
 /// let stopped = solver::solve_while(&model, &motion, Method::Exact, &|| ControlFlow::Break(()));
 /// assert_eq!(stopped.err(), Some(SolveError::Stopped(Stopped)));

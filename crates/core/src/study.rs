@@ -52,6 +52,37 @@ pub struct Record {
 }
 
 /// A study whose runs can be computed, in any order.
+///
+/// # Examples
+/// ```
+/// use slipstick::input::plan::Plan;
+/// use slipstick::study::{Study, engine::Engine};
+///
+/// let model = r#"
+///     [block]
+///     mass = "30 t"
+///     [slider]
+///     static_friction = 0.06
+///     kinetic_friction = 0.05
+///     [motion.sine]
+///     frequency = "1 Hz"
+///     amplitude = "0.3 g"
+///     duration = "5 s"
+///     dt = "0.01 s"
+/// "#;
+/// let plan = r#"
+///     model = "machine.toml"
+///     [vary]
+///     "slider.radius" = { values = ["1 m", "2 m", "4 m"] }
+///     [sampling]
+///     method = "grid"
+/// "#;
+/// let plan = Plan::parse("plan.toml", plan)?;
+/// let study = Study::new(&plan, "machine.toml", model, Vec::new())?;
+/// let rows = study.rows(0..study.runs(), &Engine::unwatched())?;
+/// assert_eq!(rows.iter().map(|row| row.values[0]).collect::<Vec<_>>(), [1.0, 2.0, 4.0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Study {
     design: Design,

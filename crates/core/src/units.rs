@@ -14,6 +14,12 @@ mod tests;
 /// Standard gravity in m/s²: what "g" means in a record or a scale, and the default of a model.
 pub const STANDARD_GRAVITY_M_PER_S2: f64 = 9.80665;
 
+/// Largest size of a number in SI that a model or a motion may have, and the smallest of one that must be
+/// > 0: products of some of them are still finite, and far from 0.
+pub const LARGEST: f64 = 1e30;
+/// See [`LARGEST`].
+pub const SMALLEST: f64 = 1e-30;
+
 const POUND_KG: f64 = 0.453_592_37;
 const POUND_FORCE_N: f64 = POUND_KG * STANDARD_GRAVITY_M_PER_S2;
 const INCH_M: f64 = 0.0254;

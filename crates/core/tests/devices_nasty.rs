@@ -6,7 +6,7 @@
 mod common;
 
 use common::devices::{Event, Reference, reference};
-use common::random_devices::{System, motion, system};
+use common::random_devices::{System, coincident, motion, system};
 use slipstick::error::SolveError;
 use slipstick::friction::RateCurve;
 use slipstick::model::{Model, StopKind};
@@ -363,6 +363,31 @@ fn agree(seeds: &[u64]) {
         })
         .collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// Systems in which much coincides: what the solver calls equal to rounding, the reference calls equal
+/// to 1e-26. Where a change of the input by 1e-12 makes another story, both must still tell the same.
+fn coincident_agree(seeds: std::ops::Range<u64>) {
+    let failures: Vec<String> = seeds
+        .filter_map(|seed| {
+            let system = coincident(seed);
+            let expected = reference(&system.model, &motion(&system, 1.0)).expect("contact");
+            differences(&system, &expected).err().map(|what| format!("{seed}: {what}"))
+        })
+        .collect();
+    assert!(failures.is_empty(), "{} differ:\n{}", failures.len(), failures.join("\n"));
+}
+
+#[test]
+fn reference_coincident_contents() {
+    coincident_agree(0..1000);
+}
+
+/// The same of ten thousand.
+#[test]
+#[ignore = "minutes: cargo test -p slipstick --test devices_nasty -- --ignored --nocapture"]
+fn reference_many_coincident_contents() {
+    coincident_agree(0..10_000);
 }
 
 /// Systems that would run out of travel if their rigid stop were not there.

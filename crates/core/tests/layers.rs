@@ -8,8 +8,9 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// From left to right.
-const ORDER: [&str; 16] = [
+const ORDER: [&str; 17] = [
     "error",
+    "progress",
     "units",
     "table",
     "numerics",

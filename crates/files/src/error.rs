@@ -60,6 +60,16 @@ pub enum FileError {
         /// Why.
         source: MotionError,
     },
+    /// A record that cannot be what it is to be run as.
+    #[error("{}: expected {expected}, found {found}", shown(path))]
+    Unfit {
+        /// The record.
+        path: PathBuf,
+        /// What was expected.
+        expected: String,
+        /// What was found.
+        found: String,
+    },
     /// A step of processing that has no answer for a channel.
     #[error("{}: {step}: {source}", shown(path))]
     Processing {

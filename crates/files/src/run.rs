@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use slipstick::assessment::single::{Job, Outcome, described};
-use slipstick::error::{GoOn, InputError, MotionError, SolveError};
+use slipstick::error::{InputError, MotionError, SolveError};
 use slipstick::input::loaded::Loaded;
 use slipstick::input::{Analysis, MotionSource, RecordSource};
+use slipstick::progress::GoOn;
 use slipstick_report::Summary;
 
 use crate::error::{FileError, reason};

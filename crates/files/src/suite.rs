@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use slipstick::assessment::suite::{Suite, SuiteRecord};
 use slipstick::error::{ChoiceError, Stopped};
+use slipstick::input::loaded::Loaded;
 use slipstick::record::Units;
 use slipstick::response::Warning;
 use slipstick::study::engine::Engine;
@@ -11,6 +12,7 @@ use slipstick::study::engine::Engine;
 use crate::error::FileError;
 use crate::globs::{expand_all, expand_once, named_twice};
 use crate::load::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
+use crate::unfit::refuse_unfit;
 
 /// Why the records of a suite cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -103,16 +105,15 @@ impl OpenSuite {
         };
         let loaded = engine.runs(files.len(), load)?;
         let loaded = loaded.into_iter().collect::<Result<Vec<_>, FileError>>()?;
+        let read: Vec<_> = files.iter().map(PathBuf::as_path).zip(&loaded).collect();
+        let same = refuse_unfit(&read, request.channel.is_some(), pairs)?;
         let mut open = Self::of(&stems_or_paths(&files), loaded, false);
         for (i, record) in open.suite.records.iter_mut().enumerate() {
             record.pair = pairs.then_some(i / 2);
         }
-        let twice = named_twice(&again);
-        open.warnings.extend(twice.map(|message| Warning {
-            kind: "record_named_twice",
-            time_s: None,
-            message,
-        }));
+        let warning = |kind| move |message| Warning { kind, time_s: None, message };
+        open.warnings.extend(named_twice(&again).map(warning("record_named_twice")));
+        open.warnings.extend(same.into_iter().map(warning("same_motion")));
         Ok(open)
     }
 
@@ -141,8 +142,8 @@ impl OpenSuite {
                 }
             }
             let name = name.clone();
-            let motion = loaded.loaded.motion;
-            open.suite.records.push(SuiteRecord { name, motion, pair: None });
+            let Loaded { motion, origin, .. } = loaded.loaded;
+            open.suite.records.push(SuiteRecord { name, motion, pair: None, origin });
         }
         let one = |(kind, messages): (&'static str, Vec<String>)| {
             let more = match messages.len() {

@@ -174,6 +174,7 @@ pub struct OutputFolder {
     folder: PathBuf,
     inputs: Vec<PathBuf>,
     files: Vec<Temporary>,
+    stale: Vec<PathBuf>,
     made: Vec<PathBuf>,
 }
 
@@ -189,6 +190,7 @@ impl OutputFolder {
             folder: folder.to_owned(),
             inputs: inputs.to_vec(),
             files: vec![],
+            stale: vec![],
             made: vec![],
         };
         output.make(folder)?;
@@ -261,6 +263,17 @@ impl OutputFolder {
         Ok(())
     }
 
+    /// Names of what another analysis may have written here: with its summary replaced they would be taken
+    /// for results of this one. They are removed where a summary stood, never an input.
+    pub fn replaces(&mut self, names: &[&str]) {
+        if !self.path("summary.json").is_file() {
+            return;
+        }
+        let own = |path: &PathBuf| path.is_file() && refuse_inputs(path, &self.inputs).is_ok();
+        let stale = names.iter().map(|name| self.path(name)).filter(own).collect();
+        self.stale = stale;
+    }
+
     /// Gives every file its name.
     ///
     /// # Errors
@@ -270,6 +283,9 @@ impl OutputFolder {
         let mut files = std::mem::take(&mut self.files).into_iter();
         let renamed = files.try_for_each(|file| file.rename(&mut live));
         if renamed.is_ok() {
+            for path in &self.stale {
+                let _ = fs::remove_file(path);
+            }
             for folder in self.made.drain(..) {
                 live.folders.remove(&folder);
             }

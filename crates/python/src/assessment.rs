@@ -10,11 +10,12 @@ use slipstick::assessment::models::Models;
 use slipstick::assessment::observed::{FitTo, FragilityRequest, run_fragility};
 use slipstick::assessment::spectrum::{SpectrumRequest, run_spectrum};
 use slipstick::assessment::suite::{Scaling, Suite, SuiteRecord};
+use slipstick::input::loaded::Loaded;
 use slipstick::input::{Bound as FrictionBound, FrictionBounds};
 use slipstick::motion::intensity::Measure;
 use slipstick::record::Units;
 use slipstick::table;
-use slipstick_files::{OpenSuite, SuiteError, SuiteRequest, read_table};
+use slipstick_files::{OpenSuite, SuiteError, SuiteRequest, read_runs};
 use slipstick_report::DisplayUnits;
 use slipstick_report::assessment::design::DesignReport;
 use slipstick_report::assessment::fragility::FragilityReport;
@@ -117,8 +118,8 @@ pub(crate) fn read_suite(
 /// Records under their names.
 fn suite(records: Vec<(String, Motion)>) -> Suite {
     let records = records.into_iter().map(|(name, motion)| {
-        let motion = motion.0.loaded.motion;
-        SuiteRecord { name, motion, pair: None }
+        let Loaded { motion, origin, .. } = motion.0.loaded;
+        SuiteRecord { name, motion, pair: None, origin }
     });
     Suite { records: records.collect(), made: false }
 }
@@ -469,6 +470,6 @@ pub(crate) fn fragility(
 #[pyfunction]
 #[pyo3(name = "read_table")]
 pub(crate) fn table_of_files(py: Python<'_>, files: Vec<std::path::PathBuf>) -> PyResult<Table> {
-    let read = py.detach(|| read_table(&files)).map_err(|error| of_file(py, &error))?;
+    let read = py.detach(|| read_runs(&files)).map_err(|error| of_file(py, &error))?;
     Ok(Table(read.table))
 }

@@ -8,7 +8,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use pyo3::prelude::*;
-use slipstick::error::GoOn;
+use slipstick::progress::GoOn;
 use slipstick::study::engine::Engine;
 use slipstick_files::on_threads;
 

@@ -71,6 +71,12 @@ fn row(
         DemandKind::Flag => if *value != 0.0 { "yes" } else { "no" }.to_owned(),
     };
     let label = match (column.demand.of, column.part) {
+        // One force passes through all surfaces, slopes and friction alike.
+        _ if column.demand.key == "peak_friction_force_n"
+            && !summary.demands.surfaces.is_empty() =>
+        {
+            "Peak friction and restoring force".to_owned()
+        }
         (DemandOf::Run | DemandOf::Stop, _) => match &summary.names.block {
             Some(name) => printed.label.replace("block", &shortened(name, 24)),
             None => printed.label.to_owned(),

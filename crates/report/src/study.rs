@@ -15,6 +15,18 @@ use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::markup::shortened;
 use crate::number::{compact, count, rounded, significant};
 
+/// What the runs warn of, a sentence a kind with the first run that does.
+#[must_use]
+pub fn said(summary: &StudySummary) -> Vec<String> {
+    let of = |(kind, runs, first): &(String, u64, u64)| match runs {
+        1 => format!("run {first} gave the warning {kind}"),
+        _ => {
+            format!("{} runs gave the warning {kind}, the first of them run {first}", count(*runs))
+        }
+    };
+    summary.warned.iter().map(of).collect()
+}
+
 /// The table that the command prints: the demands that engineers ask for first, level by level.
 #[must_use]
 pub fn table(summary: &StudySummary, display: DisplayUnits) -> String {
@@ -163,7 +175,7 @@ mod tests {
             row(1, "residual_sliding_displacement_m"),
         ];
         let measure = Some(("PGA".to_owned(), "m/s2"));
-        let summary = StudySummary { name: "Tank".to_owned(), measure, rows };
+        let summary = StudySummary { name: "Tank".to_owned(), measure, rows, warned: Vec::new() };
         let table = super::table(&summary, DisplayUnits::Si);
         assert!(table.contains("\nresidual sliding displacement (mm)\n"), "{table}");
         assert!(table.contains("\nstorey2 peak drift (mm)\n"), "{table}");

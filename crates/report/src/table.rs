@@ -2,6 +2,8 @@
 
 use slipstick::error::visible;
 use slipstick::model::Model;
+use slipstick::motion::Figures;
+use slipstick::record::rest;
 use slipstick::response::Method;
 
 use crate::describe::{model_line, value};
@@ -47,6 +49,12 @@ pub fn table(summary: &Summary, model: &Model, record: &str, display: DisplayUni
     out.0
 }
 
+/// Whether the displacement of a motion grows with its length: its peak is no peak of the ground.
+pub(crate) fn drifts(figures: &Figures) -> bool {
+    let Figures { pga_m_per_s2, pgv_m_per_s, end_velocity_m_per_s, .. } = *figures;
+    !rest(0.0, pga_m_per_s2, end_velocity_m_per_s, pgv_m_per_s).is_empty()
+}
+
 fn record_figures(summary: &Summary, display: DisplayUnits) -> String {
     let record = &summary.record;
     // The end velocity is read against the peak, so it has the unit of the peak.
@@ -57,10 +65,11 @@ fn record_figures(summary: &Summary, display: DisplayUnits) -> String {
     let show = |quantity, si: f64| show_as(quantity, si, si);
     let dt = summary.dt_s.map_or("uneven samples".to_owned(), |dt| format!("step {dt} s"));
     format!(
-        "PGA {}, PGV {}, PGD {}, end velocity {}, {dt}, {} in all",
+        "PGA {}, PGV {}, PGD {}{}, end velocity {}, {dt}, {} in all",
         show(Quantity::Acceleration, record.pga_m_per_s2),
         show(Quantity::Velocity, record.pgv_m_per_s),
         show(Quantity::Length, record.pgd_m),
+        if drifts(record) { " (the record drifts)" } else { "" },
         show_as(Quantity::Velocity, record.pgv_m_per_s, record.end_velocity_m_per_s),
         value(display, Quantity::Time, summary.duration_s),
     )

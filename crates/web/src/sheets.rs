@@ -239,13 +239,19 @@ fn suite(
             name: stem.to_owned(),
             motion: loaded.motion,
             pair: None,
+            origin: loaded.origin,
         });
     }
     if suite.records.is_empty() {
         suite.made = !matches!(analysis.motion, Some(MotionSource::Record(_)));
         let loaded = records.motion(analysis, text)?;
         let name = loaded.description.join("; ");
-        suite.records.push(SuiteRecord { name, motion: loaded.motion, pair: None });
+        suite.records.push(SuiteRecord {
+            name,
+            motion: loaded.motion,
+            pair: None,
+            origin: loaded.origin,
+        });
     }
     Ok(suite)
 }
@@ -598,7 +604,9 @@ impl Planned {
             runs().for_each(|(run, row)| take(run, row[1 + column]));
             Ok(())
         };
-        let passes = Rows { solved: &solved, demand: &demand };
+        // The page keeps the numbers of rows alone.
+        let warnings = |_: &mut dyn FnMut(u64, &str)| Ok(());
+        let passes = Rows { solved: &solved, demand: &demand, warnings: &warnings };
         let summary = self.study.summary(&self.name, &passes, &Engine::unwatched());
         let report = StudyReport {
             version: VERSION,

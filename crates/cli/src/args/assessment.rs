@@ -163,6 +163,10 @@ pub struct IdaArgs {
     /// Limit on the demand: "150 mm", or slider.gap for that of the model
     #[arg(long, value_name = "LIMIT")]
     pub to: Option<String>,
+    /// Other horizontal components of the suite, as many and in the same order: both components of a pair
+    /// take one factor, and certainty is clustered by pair; may be repeated
+    #[arg(long, value_name = "PATTERN", num_args = 1.., requires = "records", help_heading = "Ground motion")]
+    pub second: Vec<String>,
     /// Parameter to vary, which makes designs: slider.radius="1, 2, 3 m"; may be repeated
     #[arg(long, value_name = "PATH=VALUES")]
     pub vary: Vec<String>,

@@ -18,7 +18,7 @@ use slipstick_report::assessment::{Sheet, Went, key};
 use slipstick_report::{FileNote, InputText};
 
 use super::compare::name as model_name;
-use super::run::{ModelFile, command_line, overrides, read_model};
+use super::run::{ModelFile, command_line, overrides, read_model, tell_replaced};
 use crate::args::{BoundsArgs, BoundsName, ResultArgs, ScaleArgs, SuiteArgs};
 use crate::failure::{Failure, print, say};
 use crate::progress::counted;
@@ -50,6 +50,7 @@ impl Opened {
         let overrides = overrides(&args.set, None)?;
         let analysis = input::from_bytes(&file.name, &file.bytes, &overrides)
             .map_err(|error| Failure::input(error, &file.text()))?;
+        tell_replaced(&file, &overrides, &analysis, args.result.quiet);
         if analysis.method != Method::Exact {
             let expected = "the exact method, which is the only one over a suite";
             let error = analysis.error_at("analysis.method", expected, "\"stepwise\"");
@@ -245,6 +246,7 @@ pub fn conclude(
     inputs: &[(String, String)],
 ) -> Result<(), Failure> {
     if let Some(mut folder) = folder {
+        folder.replaces(&["history.csv", "events.csv"]);
         for (name, table) in tables {
             match name.rsplit_once('.') {
                 Some((_, "parquet")) => folder.write(name, &to_parquet(Path::new(name), table)?)?,

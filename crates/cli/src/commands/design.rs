@@ -9,7 +9,7 @@ use super::assessment::{Opened, conclude, limit, message, scaling, share};
 use crate::args::DesignArgs;
 use crate::failure::Failure;
 
-/// Searches, prints and writes; status 1 where no design keeps the gap.
+/// Searches, prints and writes; status 1 where no design keeps the gap, or a run has no answer.
 pub fn design(args: &DesignArgs) -> Result<ExitCode, Failure> {
     let opened = Opened::open(&args.suite)?;
     let mut options: Vec<(&str, String)> = Vec::new();
@@ -65,7 +65,8 @@ pub fn design(args: &DesignArgs) -> Result<ExitCode, Failure> {
     let tables =
         [("front.csv", &run.front), ("front.parquet", &run.front), ("runs.parquet", &run.runs)];
     conclude(&args.suite.result, folder, &sheet, &tables, &opened.sources(), &opened.inputs())?;
-    Ok(ExitCode::from(u8::from(run.found.front.is_empty())))
+    let unanswered = run.found.front.is_empty() || !run.failures.is_empty();
+    Ok(ExitCode::from(u8::from(unanswered)))
 }
 
 fn gap(args: &DesignArgs, opened: &Opened) -> Result<f64, Failure> {

@@ -11,8 +11,8 @@ use slipstick::assessment::observed::{
 use slipstick::study::engine::Engine;
 use slipstick::table::Table;
 use slipstick_files::{
-    OutputFolder, ReadTable, expand, read_bytes, read_csv, read_table, reading_time, sha256_hex,
-    time_left,
+    OutputFolder, ReadTable, expand, limit_of_ida, read_bytes, read_csv, read_runs, read_table,
+    reading_time, sha256_hex, time_left,
 };
 use slipstick_report::assessment::Sheet;
 use slipstick_report::assessment::fragility::{FragilityFamily, FragilityReport};
@@ -27,7 +27,10 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
     let of = |option: &str, text: &Option<String>| {
         text.as_deref().map(|text| limit(option, text, &args.demand)).transpose()
     };
-    let bound = of("--limit", &args.limit)?;
+    let bound = match of("--limit", &args.limit)? {
+        None => limit_of_ida(&args.source, &args.demand),
+        given => given,
+    };
     let confidence = share("--confidence", args.confidence)?;
     let read = || read(&args.source);
     let estimate = || reading_left(&args.source);
@@ -176,5 +179,5 @@ fn read(source: &Path) -> Result<(Vec<Source>, ReadTable), Failure> {
         let sha256 = sha256_hex(&read_bytes(path)?);
         sources.push((path.display().to_string(), sha256, "runs".to_owned()));
     }
-    Ok((sources, read_table(&files)?))
+    Ok((sources, read_runs(&files)?))
 }

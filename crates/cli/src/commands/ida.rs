@@ -8,7 +8,7 @@ use slipstick::motion::intensity::Measure;
 use slipstick::study::engine::Engine;
 use slipstick_report::assessment::ida::IdaFamily;
 
-use super::assessment::{Opened, conclude, failure, limit, measure, message};
+use super::assessment::{Opened, conclude, failure, limit, measure, message, open_pairs};
 use crate::args::IdaArgs;
 use crate::failure::Failure;
 
@@ -17,7 +17,7 @@ const HUNTED: [f64; 2] = [0.05, 20.0];
 
 /// Runs, prints and writes.
 pub fn ida(args: &IdaArgs) -> Result<ExitCode, Failure> {
-    let opened = Opened::open(&args.suite)?;
+    let opened = Opened::open_with(&args.suite, || open_pairs(&args.suite, &args.second))?;
     let measure = measure(&args.measure)?;
     let varied: Vec<(&str, String)> = args.vary.iter().map(|text| ("vary", text.clone())).collect();
     let models = opened.models(&varied)?;

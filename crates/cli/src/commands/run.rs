@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use slipstick::assessment::single::Outcome;
-use slipstick::input::{self, Override, Scale};
+use slipstick::error::InputError;
+use slipstick::input::{self, Analysis, Override, Scale};
 use slipstick::record;
 use slipstick::response::History;
 use slipstick::units::Dimension;
@@ -30,6 +31,10 @@ pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
 
 /// One model on one motion.
 fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
+    if !args.second.is_empty() {
+        let mend = "a suite beside it, --records <PATTERN>, whose other components these are";
+        return Err(Failure::Message(format!("--second: expected {mend}")));
+    }
     if args.measure.is_some() {
         let mend = "a suite beside it, --records <PATTERN>: one record is scaled by its peak";
         return Err(Failure::Message(format!("--measure: expected {mend}")));
@@ -39,8 +44,10 @@ fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
     if args.motion.is_none() {
         overrides.extend(scale_of_model(args)?);
     }
-    let analysis = input::from_bytes(&model.name, &model.bytes, &overrides)
-        .map_err(|error| Failure::input(error, &model.text()))?;
+    let analysis = input::from_bytes(&model.name, &model.bytes, &overrides).map_err(|error| {
+        of_scale(&error).unwrap_or_else(|| Failure::input(error, &model.text()))
+    })?;
+    tell_replaced(&model, &overrides, &analysis, args.result.quiet);
     args.record.only_with("--motion <FILE>", args.motion.is_some())?;
     let record = args.motion.as_deref().map(|path| record_request(args, path)).transpose()?;
     let in_model = |error| Failure::job(error, &model.name, &model.text());
@@ -142,6 +149,37 @@ fn scale_of_model(args: &RunArgs) -> Result<Option<Override>, Failure> {
     set.map(Some).map_err(|error| Failure::Message(error.to_string()))
 }
 
+/// What is wrong with `--scale` or `--scale-to` where the model's motion is made.
+fn of_scale(error: &InputError) -> Option<Failure> {
+    let option = error.place.source_name.split(' ').next()?;
+    let key = error.path.strip_prefix("motion.scale")?;
+    (["--scale", "--scale-to"].contains(&option) && ["", "_to"].contains(&key)).then(|| {
+        let expected = "a record to scale, that of the model or of --motion";
+        let mend = "--set changes the amplitude of a made motion";
+        Failure::Message(format!("{option}: expected {expected}, found {} ({mend})", error.found))
+    })
+}
+
+/// Says what a key that was set takes the place of.
+pub(super) fn tell_replaced(
+    model: &ModelFile,
+    overrides: &[Override],
+    analysis: &Analysis,
+    quiet: bool,
+) {
+    if quiet || overrides.is_empty() {
+        return;
+    }
+    let Ok(written) = input::from_bytes(&model.name, &model.bytes, &[]) else { return };
+    let kept: Vec<&str> = analysis.inputs().map(|input| input.path).collect();
+    let gone: Vec<&str> =
+        written.inputs().map(|input| input.path).filter(|path| !kept.contains(path)).collect();
+    if !gone.is_empty() {
+        let set: Vec<&str> = overrides.iter().map(Override::path).collect();
+        say(format_args!("note: {} replaces {} of the model", set.join(", "), gone.join(", ")));
+    }
+}
+
 /// The factor of `--scale`.
 pub(super) fn scale_factor(text: &str) -> Result<f64, Failure> {
     let factor = text.trim().parse::<f64>().ok().filter(|factor| factor.is_finite());
@@ -240,6 +278,7 @@ fn write_files(
         command_line: &command_line,
         display: args.result.display_units.into(),
     };
+    folder.replaces(&["runs.csv", "governing.csv", "histories.svg", "shares.svg"]);
     folder.write("summary.json", summary.to_json().as_bytes())?;
     let empty = History::default();
     let history = outcome.nominal.response.history.as_ref().unwrap_or(&empty);

@@ -13,7 +13,7 @@ use slipstick_files::{
 };
 use slipstick_report::assessment::Went;
 use slipstick_report::number::count;
-use slipstick_report::study::{StudyReport, table};
+use slipstick_report::study::{StudyReport, said, table};
 use slipstick_report::{FileNote, InputText};
 
 use super::run::command_line;
@@ -112,6 +112,9 @@ fn run(args: &StudyArgs, study: &OpenStudy, shard: Shard, out: &Path) -> Result<
     }
     let summary = counted("summarising", args.quiet, |engine| conclude(study, out, engine))?;
     print(&table(&summary, args.display_units.into()))?;
+    for warning in said(&summary).iter().filter(|_| !args.quiet) {
+        say(format_args!("warning: {warning}"));
+    }
     if args.report {
         report(args, study, &summary, outcome.checks.rows, out)?;
     }

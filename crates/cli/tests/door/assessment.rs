@@ -430,7 +430,7 @@ fn exact_what_is_wrong_is_said() {
     let with = |arguments: &[&'static str]| -> Vec<&'static str> {
         [&arguments[..2], &records[..], &arguments[2..]].concat()
     };
-    let cases: [(Vec<&str>, &str); 13] = [
+    let cases: [(Vec<&str>, &str); 14] = [
         (
             with(&["spectrum", "model.toml", "--over", "storey.1.perod=0.1..3s:30"]),
             "--over storey.1.perod: expected a path of the model, found \"storey.1.perod\"; nearest is \
@@ -477,17 +477,33 @@ fn exact_what_is_wrong_is_said() {
             "--vary: expected something to vary, --friction or --vary slider.radius=1..5m:50",
         ),
         (
-            vec!["fragility", "none.csv"],
+            vec!["fragility", "none.csv", "--measure", "PGA"],
             "none of 8 runs exceeds the limit, up to an intensity of 0.2: a fragility cannot be told; go \
              to higher intensities or take a smaller limit (intensities in m/s2)",
         ),
-        (vec!["fragility", "cell.csv"], "cell.csv:3:5: expected a number in runs, found \"x\""),
         (
-            vec!["fragility", "columns.csv", "--demand", "peak_drift", "--limit", "1"],
+            vec!["fragility", "none.csv"],
+            "--measure: expected the measure of level [m/s2], which none.csv does not state",
+        ),
+        (
+            vec!["fragility", "cell.csv", "--measure", "PGA"],
+            "cell.csv:3:5: expected a number in runs, found \"x\"",
+        ),
+        (
+            vec![
+                "fragility",
+                "columns.csv",
+                "--measure",
+                "PGA",
+                "--demand",
+                "peak_drift",
+                "--limit",
+                "1",
+            ],
             "--demand: expected a column of columns.csv, found \"peak_drift\"; nearest is \"peak_drift_m\"",
         ),
         (
-            vec!["fragility", "columns.csv", "--demand", "peak_drift_m"],
+            vec!["fragility", "columns.csv", "--measure", "PGA", "--demand", "peak_drift_m"],
             "--limit: expected a limit on the demand, such as \"150 mm\", found nothing",
         ),
     ];
@@ -572,4 +588,78 @@ fn exact_ida_of_designs_and_bounds() {
         spectrum["groups"],
         serde_json::json!(["lower friction", "nominal friction", "upper friction"])
     );
+}
+
+/// A design whose runs have no answer says how many, and the status is that of a failure.
+#[test]
+fn exact_design_counts_the_runs_that_fail() {
+    let folder = suite("design-failed", 4);
+    // Kinetic friction above the static of 0.06 makes no model: one design of five.
+    let arguments = [
+        "design",
+        "model.toml",
+        "--records",
+        "records",
+        "--vary",
+        "slider.kinetic_friction=0.03, 0.04, 0.05, 0.06, 0.07",
+        "--gap",
+        "1 m",
+        "--sensitivity",
+        "0",
+    ];
+    let output = folder.output(&arguments);
+    let shown = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{shown}");
+    let words = shown.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("of 20 were needed, 4 of them without an answer"), "{shown}");
+    assert!(
+        words.contains("runs have no answer and count as beyond the gap; the first: r0: "),
+        "{shown}"
+    );
+}
+
+/// Two components of one station are one observation: standard errors are clustered by pair.
+#[test]
+fn exact_ida_clusters_pairs() {
+    let folder = suite("ida-pairs", 8);
+    let levels = ["--levels", "1..6 m/s2:21", "--to", "40 mm", "-q"];
+    let files: Vec<String> = (0..8).map(|i| format!("records/r{i}.csv")).collect();
+    let file = |i: usize| files[i].as_str();
+    let (first, second) = ([0, 2, 4, 6].map(file), [1, 3, 5, 7].map(file));
+    let ida = ["ida", "model.toml", "--records"];
+    folder
+        .stdout(&[&ida[..], &first, &["--second"], &second, &levels, &["--out", "pairs"]].concat());
+    folder.stdout(&[&ida[..], &["records"], &levels, &["--out", "alone"]].concat());
+    let csv = folder.read("pairs/ida.csv");
+    assert_eq!(cells(&csv, "pair")[..2], ["r0", "r0"]);
+    assert!(cells(&csv, "pair").iter().all(|pair| ["r0", "r2", "r4", "r6"].contains(&&pair[..])));
+    // Both components take the factor that brings their geometric mean to the level.
+    let scales = column(&csv, "scale");
+    assert_eq!(scales[0], scales[21], "{csv}");
+    assert!(!folder.read("alone/ida.csv").lines().next().unwrap().contains("pair"));
+    let of = |source: &str| json(&folder, &["fragility", source, "--limit", "40 mm"]);
+    let (pairs, alone) = (of("pairs"), of("alone"));
+    assert_eq!((&pairs["clustered_by"], &pairs["records"]), (&"pair".into(), &4.into()));
+    assert_eq!((&alone["clustered_by"], &alone["records"]), (&"record".into(), &8.into()));
+    // Files that state their earthquake and station need no option.
+    let at2 = |name: &str, number: usize, component: &str| {
+        let values =
+            column(&folder.read(&format!("records/r{number}.csv")), "acceleration_m_per_s2");
+        let mut text = format!(
+            "PEER STRONG MOTION DATABASE RECORD\nEvent {}, Station, {component}\n\
+             ACCELERATION TIME SERIES IN UNITS OF G\nNPTS= {}, DT= .0200 SEC\n",
+            number / 2,
+            values.len()
+        );
+        values.iter().for_each(|value| text.push_str(&format!("{:.7}\n", value / 9.80665)));
+        folder.write(name, text);
+    };
+    for number in 0..8 {
+        at2(&format!("at2/r{number}.AT2"), number, if number % 2 == 0 { "000" } else { "090" });
+    }
+    folder.stdout(&[&ida[..], &["at2"], &levels, &["--out", "stated"]].concat());
+    let stated = of("stated");
+    assert_eq!((&stated["clustered_by"], &stated["records"]), (&"pair".into(), &4.into()));
+    assert!((number(&stated["median"]) / number(&alone["median"]) - 1.0).abs() < 1e-3);
+    assert!(stated["se_ln_median"] != alone["se_ln_median"]);
 }

@@ -284,3 +284,47 @@ fn exact_intensities_without_a_unit_are_refused() {
     assert_eq!(velocity["measure_unit"], "m/s");
     assert!((number(&velocity["median"]) * 100.0 / si - 1.0).abs() < 1e-9);
 }
+
+/// What the records of a study were scaled to is what its levels are of, whatever is asked for.
+#[test]
+fn exact_levels_keep_their_measure() {
+    let folder = suite("fragility-measure", 5);
+    folder.write(
+        "plan.toml",
+        "model = \"model.toml\"\n[records]\nfiles = [\"records/*.csv\"]\nmeasure = \"Sa(0.45 s)\"\n\
+         levels = [\"2 m/s2\", \"3 m/s2\", \"4 m/s2\", \"5 m/s2\", \"6 m/s2\"]\n",
+    );
+    folder.stdout(&["study", "plan.toml", "--out", "study", "-q"]);
+    let common = ["--limit", "40 mm"];
+    for source in ["study", "study/parts"] {
+        let found = json(&folder, &[&["fragility", source], &common[..]].concat());
+        assert_eq!(
+            (&found["measure"], &found["measure_unit"]),
+            (&"Sa(0.45 s)".into(), &"m/s2".into())
+        );
+        let asked = [&["fragility", source, "--measure", "Sa(0.45 s)"], &common[..]].concat();
+        assert_eq!(json(&folder, &asked)["median"], found["median"]);
+        let other = [&["fragility", source, "--measure", "Sa(0.7 s)"], &common[..]].concat();
+        let refused = folder.refused(&other);
+        let expected = "--measure: expected Sa(0.45 s), of which the levels of study/parts/";
+        assert!(refused.starts_with(expected), "{refused}");
+    }
+    // A part without its study does not say what its levels are of.
+    let parts = folder.names("study/parts");
+    std::fs::create_dir(folder.path().join("alone")).unwrap();
+    let part = folder.path().join("study/parts").join(&parts[0]);
+    std::fs::copy(part, folder.path().join("alone/rows.parquet")).unwrap();
+    for more in [&[][..], &["--measure", "Sa(0.7 s)"]] {
+        let refused =
+            folder.refused(&[&["fragility", "alone/rows.parquet"], &common[..], more].concat());
+        let expected = "--measure: expected a measure that alone/rows.parquet has a column of";
+        assert!(refused.starts_with(expected), "{refused}");
+    }
+    // Counts whose table does not say it need the option.
+    folder.write("stripes.csv", "level [g],runs,exceeded\n0.2,11,1\n0.4,11,4\n0.8,11,10\n");
+    let refused = folder.refused(&["fragility", "stripes.csv"]);
+    assert!(
+        refused.starts_with("--measure: expected the measure of level [g], which"),
+        "{refused}"
+    );
+}

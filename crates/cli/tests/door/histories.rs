@@ -197,3 +197,126 @@ fn exact_what_a_suite_cannot_be_asked() {
     let refused = folder.refused(&[&alone[..], &["--measure", "PGV"]].concat());
     assert!(refused.contains("--measure: expected a suite"), "{refused}");
 }
+
+/// Of several models each column is of one bound of friction, and the statistic below is that of the column.
+#[test]
+fn exact_mean_is_that_of_the_printed_column() {
+    let folder = folder("histories-columns", 7);
+    // With a gap so large that it plays no part the bounds differ in what they make of single records.
+    let text =
+        folder.stdout(&["run", "model.toml", "plain.toml", "--records", "records", "--scale", "3"]);
+    let table = text.split("Peak sliding displacement").nth(1).unwrap();
+    let rows: Vec<Vec<&str>> = table
+        .lines()
+        .map(|line| line.split_whitespace().collect())
+        .skip_while(|words: &Vec<&str>| words.first() != Some(&"Record"))
+        .take(9)
+        .collect();
+    assert!(
+        rows[0].iter().any(|word| ["(lower)", "(nominal)", "(upper)"].contains(word)),
+        "{text}"
+    );
+    assert_eq!(rows[8][0], "Mean", "{text}");
+    for column in 1..=2 {
+        let value = |row: &Vec<&str>| row[column].parse::<f64>().unwrap();
+        let mean = rows[1..8].iter().map(value).sum::<f64>() / 7.0;
+        // Cells have four digits.
+        assert!((value(&rows[8]) / mean - 1.0).abs() < 1e-3, "{text}");
+    }
+}
+
+/// What the slider strikes and what the storeys are called is told of a suite as of a single run.
+#[test]
+fn exact_stops_contents_and_names_of_a_suite() {
+    let folder = folder("histories-met", 3);
+    let model = MODEL
+        .replace("gap = \"20 mm\"\n", "stop = { gap = \"10 mm\", stiffness = \"400 kN/m\" }\n")
+        .replace("[block]\n", "[block]\nname = \"Base mat\"\n")
+        .replace("[[storey]]\n", "[[storey]]\nname = \"Roof\"\n");
+    let contents = "[[contents]]\nfloor = 0\nmass = \"20 kg\"\nstatic_friction = 0.05\n\
+                    kinetic_friction = 0.04\n";
+    folder.write("met.toml", format!("{model}{contents}"));
+    let text =
+        folder.stdout(&["run", "met.toml", "--records", "records", "--scale", "2", "--out", "out"]);
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for said in [
+        "the block strikes its stop",
+        "Stop peak force",
+        "Contents 1 peak sliding displacement",
+        "Base mat peak acceleration",
+        "Roof peak acceleration",
+    ] {
+        assert!(words.contains(said), "{said}: {text}");
+    }
+    assert!(folder.read("out/report.html").contains("the block strikes its stop"));
+}
+
+/// A pendulum that slides far on its dish is not the flat one that is computed.
+#[test]
+fn exact_flat_geometry_is_said_of_runs_suites_and_studies() {
+    let folder = folder("histories-flat", 2);
+    let said = "of its radius: flat geometry holds to 0.2";
+    let one = ["run", "plain.toml", "--motion", "records/r1.csv", "--scale", "8"];
+    let text = folder.stdout(&one);
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words(&text).contains(said), "{text}");
+    let text = folder.stdout(&["run", "plain.toml", "--records", "records", "--scale", "8"]);
+    assert!(words(&text).contains(said), "{text}");
+    folder.write(
+        "plan.toml",
+        "model = \"plain.toml\"\n[records]\nfiles = [\"records/*.csv\"]\nscale = [0.5, 8.0]\n",
+    );
+    let output = folder.output(&["study", "plan.toml", "--out", "study"]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    let warned = "warning: 2 runs gave the warning flat_geometry, the first of them run 1\n";
+    assert!(said.contains(warned), "{said}");
+}
+
+/// Every sentence of a report says which run it is of, or is of all of them.
+#[test]
+fn exact_sentences_of_a_report_are_of_the_bound_that_governs() {
+    let model = MODEL
+        .replace("mass = \"300 kg\"", "mass = \"300 kg\"\nwidth = \"0.3 m\"")
+        .replace("mass = \"200 kg\"", "mass = \"200 kg\"\nheight = \"1 m\"")
+        .replace("{ lower = 0.8, upper = 1.2 }", "{ lower = 0.5, upper = 2.0 }");
+    let folder = folder("histories-sentences", 1);
+    folder.write("wide.toml", model);
+    let arguments = ["wide.toml", "--motion", "records/r0.csv", "--scale", "1.5", "--out", "out"];
+    folder.json(&arguments);
+    let moving = "The block is still sliding at the end of the analysis (lower-bound friction).";
+    assert!(folder.read("out/report.html").contains(moving));
+    // A tail in which it comes to rest under every bound.
+    let one = folder.json(&[&arguments[..], &["--set", "analysis.tail=30 s"]].concat());
+    let of = |key: &str| {
+        let runs = [&one, &one["bounds"]["lower"], &one["bounds"]["upper"]];
+        let sizes = runs.map(|run| run[key].as_f64().unwrap().abs());
+        assert!(sizes[0] != sizes[1] && sizes[0] != sizes[2], "{key}: {sizes:?}");
+        sizes.into_iter().fold(0.0, f64::max)
+    };
+    let page = folder.read("out/report.html").replace('\u{2212}', "-").replace("&#39;", "'");
+    let after = |words: &str, before: &str| -> f64 {
+        let rest = page.split(words).nth(1).unwrap_or_else(|| panic!("{words}"));
+        let number = rest.split(before).next().unwrap().split_whitespace().next().unwrap();
+        number.parse::<f64>().unwrap().abs()
+    };
+    let near = |found: f64, expected: f64| {
+        assert!((found / expected - 1.0).abs() < 6e-3, "{found} for {expected}");
+    };
+    near(after("Its peak over all bounds of friction uses ", " %"), 100.0 * of("gap_ratio"));
+    near(after("It comes to rest at ", " mm"), 1e3 * of("residual_sliding_displacement_m"));
+    near(after("The largest overturning moment is ", " of"), of("overturning_ratio"));
+}
+
+/// The force through surfaces in series has their slopes in it: over the weight it is no friction.
+#[test]
+fn exact_force_of_surfaces_is_friction_and_restoring_force() {
+    let folder = Folder::with_model(
+        "histories-series",
+        "[block]\nmass = \"1 t\"\n[slider]\n[[slider.surface]]\nfriction = 0.03\nradius = \"0.5 m\"\n\
+         [[slider.surface]]\nfriction = 0.06\nradius = \"2 m\"\n[motion]\nsine = { frequency = \"1 Hz\", \
+         amplitude = \"3 m/s2\", duration = \"6 s\", dt = \"0.01 s\" }\n",
+    );
+    let text = folder.stdout(&["run", "model.toml"]);
+    assert!(text.contains("Peak friction and restoring force"), "{text}");
+    assert!(!text.contains("Peak friction force"), "{text}");
+}

@@ -244,3 +244,48 @@ fn exact_friction_that_follows_the_speed_is_told() {
     let said = text(&slow.stdout);
     assert!(said.contains("slider.kinetic_friction_force.rate: "), "{said}");
 }
+
+/// What is wrong with a cyclic test is said, of the file it is wrong with.
+#[test]
+fn exact_what_is_suspicious_of_a_cyclic_test_is_said() {
+    let folder = Folder::new("cyclic-suspicious");
+    let path = format!("{}/../../examples/laboratory/cyclic-1hz.csv", env!("CARGO_MANIFEST_DIR"));
+    let made = std::fs::read_to_string(path).unwrap();
+    let (head, rows) = made.split_once('\n').unwrap();
+    let with = |force: &dyn Fn(f64, f64) -> f64| -> String {
+        let row = |row: &str| {
+            let cells: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
+            format!("{},{},{}\n", cells[0], cells[1], force(cells[0], cells[2]))
+        };
+        rows.lines().map(row).collect()
+    };
+    let cyclic = ["identify", "cyclic"];
+    // A force of the other sign gives energy where friction takes it.
+    folder.write("reversed.csv", format!("{head}\n{}", with(&|_, force| -force)));
+    let output = folder.output(&[&cyclic[..], &["reversed.csv"]].concat());
+    assert_eq!((output.status.code(), text(&output.stdout)), (Some(1), String::new()));
+    let said = stderr(&output);
+    assert!(said.contains("reversed.csv: friction comes out negative, -18"), "{said}");
+    assert!(said.contains("--map \"force=… * -1\""), "{said}");
+    folder.stdout(&[&cyclic[..], &["reversed.csv", "--map", "force=force * -1"]].concat());
+    // Displacements in mm under a head that says m.
+    folder.write("metres.csv", made.replace("displacement (mm)", "displacement (m)"));
+    let said = stderr(&folder.output(&[&cyclic[..], &["metres.csv", "--json"]].concat()));
+    assert!(said.contains("unit_suspect: the strokes are "), "{said}");
+    // Names on one line and units on the next, a force among them.
+    folder.write("two.csv", format!("Time,Displacement,Force\n(s),(mm),(N)\n{rows}"));
+    let of = |file: &str| -> Value {
+        serde_json::from_str(&folder.stdout(&[&cyclic[..], &[file, "--json", "-q"]].concat()))
+            .unwrap()
+    };
+    folder.write("one.csv", &made);
+    assert_eq!(of("two.csv")["estimates"], of("one.csv")["estimates"]);
+    // Of several files a warning names its own; a drift is that of the whole test.
+    let last_s = rows.lines().last().unwrap().split(',').next().unwrap().parse::<f64>().unwrap();
+    folder.write("drift.csv", format!("{head}\n{}", with(&|t, force| force + 40.0 * t / last_s)));
+    let output = folder.output(&[&cyclic[..], &["one.csv", "drift.csv", "--json"]].concat());
+    let said = stderr(&output);
+    let drift = said.split("drift.csv: the middle of the force loop drifts by ").nth(1).unwrap();
+    let drift: f64 = drift.split(' ').next().unwrap().parse().unwrap();
+    assert!((drift / 40.0 - 1.0).abs() < 0.1, "{said}");
+}

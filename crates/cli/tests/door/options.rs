@@ -120,7 +120,9 @@ fn exact_scale_without_a_motion_is_that_of_the_model() {
     assert_eq!(twice["record"]["pga_m_per_s2"], 10.0);
     folder.write("sine.toml", BLOCK);
     let found = folder.refused(&["run", "sine.toml", "--scale-to", "0.3 g"]);
-    assert!(found.contains("motion.scale_to"), "{found}");
+    let expected = "--scale-to: expected a record to scale, that of the model or of --motion, found \
+                    \"scale_to\" beside \"sine\"";
+    assert!(found.starts_with(expected), "{found}");
 }
 
 /// A tail that ends between two steps does not make the record's step uneven.

@@ -1,6 +1,6 @@
 //! Records that are none: one message with its place.
 
-use super::support::{Folder, RECORD, RECORDED};
+use super::support::{BLOCK, Folder, RECORD, RECORDED};
 
 const AT2: &str = "PEER NGA STRONG MOTION DATABASE RECORD\nSomewhere, 1999\n\
                    ACCELERATION TIME SERIES IN UNITS OF G\nNPTS=   5, DT=   .0100 SEC\n\
@@ -90,4 +90,65 @@ fn exact_vertical_record_is_named() {
     folder.write("up.csv", "");
     let found = folder.refused(&["run", "model.toml"]);
     assert_eq!(found, "up.csv:1:1: expected a record, found \"an empty file\"");
+}
+
+fn at2(event: &str, station: &str, component: &str, peak: f64) -> String {
+    format!(
+        "PEER NGA STRONG MOTION DATABASE RECORD\n{event}, {station}, {component}\nACCELERATION TIME SERIES IN UNITS OF G\n\
+         NPTS=   5, DT=   .1000 SEC\n 0.0 {peak} -{peak} {peak} 0.0\n"
+    )
+}
+
+/// A folder that holds all three components of a station is no suite of horizontal motions.
+#[test]
+fn exact_vertical_components_are_no_records_of_a_suite() {
+    let folder = Folder::with_model("records-vertical", BLOCK);
+    folder.write("all/RSN68_PEL090.AT2", at2("San Fernando", "LA - Hollywood", "090", 0.2));
+    folder.write("all/RSN68_PEL-UP.AT2", at2("San Fernando", "LA - Hollywood", "UP", 0.1));
+    folder.write(
+        "plan.toml",
+        "model = \"model.toml\"\n[records]\nfiles = [\"all/*.AT2\"]\nscale = [1.0]\n",
+    );
+    let up = "all/RSN68_PEL-UP.AT2: expected a horizontal component";
+    let suite = ["run", "model.toml", "--records", "all"];
+    let spectrum =
+        ["spectrum", "model.toml", "--records", "all", "--over", "slider.spring=1,2 kN/m"];
+    for arguments in [&suite[..], &spectrum, &["study", "plan.toml", "--out", "out"]] {
+        let refused = folder.refused(arguments);
+        assert!(refused.starts_with(up), "{refused}");
+    }
+    let beside = ["run", "model.toml", "--records", "all/*090.AT2", "--vertical", "all/*UP.AT2"];
+    folder.stdout(&beside);
+}
+
+/// The components of a pair are of one earthquake and two files.
+#[test]
+fn exact_pairs_are_of_one_event_and_two_files() {
+    let folder = Folder::with_model("records-pairs", BLOCK);
+    folder.write("x.AT2", at2("KOBE 01/16/95", "SHIN-OSAKA", "000", 0.2));
+    folder.write("y.AT2", at2("KOBE 01/16/95", "SHIN-OSAKA", "090", 0.15));
+    folder.write("other.AT2", at2("KOCAELI 08/17/99", "ARCELIK", "090", 0.15));
+    folder.write("copy.AT2", at2("KOBE 01/16/95", "SHIN-OSAKA", "000", 0.2));
+    let pair = |second: &str| {
+        folder.refused(&["run", "model.toml", "--records", "x.AT2", "--second", second])
+    };
+    assert_eq!(
+        pair("x.AT2"),
+        "x.AT2: expected the other component of x.AT2, found the same motion"
+    );
+    assert_eq!(
+        pair("copy.AT2"),
+        "copy.AT2: expected the other component of x.AT2, found the same motion"
+    );
+    assert_eq!(
+        pair("other.AT2"),
+        "other.AT2: expected the other component of x.AT2, found components of the earthquakes \
+         \"KOBE 01/16/95\" and \"KOCAELI 08/17/99\""
+    );
+    folder.stdout(&["run", "model.toml", "--records", "x.AT2", "--second", "y.AT2"]);
+    // The same motion under two names counts twice in every share: said, not refused.
+    let text = folder.stdout(&["run", "model.toml", "--records", "x.AT2", "y.AT2", "copy.AT2"]);
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let said = "x.AT2 and copy.AT2 are the same motion";
+    assert!(words.join(" ").contains(said), "{text}");
 }

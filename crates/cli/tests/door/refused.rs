@@ -363,3 +363,134 @@ fn exact_endless_analyses_are_refused_with_advice() {
     assert!(refused.contains("the motion has a gap of 8990.01 s; cut it there"), "{refused}");
     assert!(begun.elapsed().as_secs() < 60, "{:?}", begun.elapsed());
 }
+
+/// What was meant is named: a record is no model, a made motion is not scaled, an option belongs to another.
+#[test]
+fn exact_messages_say_what_was_meant() {
+    let folder = Folder::with_model("meant", BLOCK);
+    folder.write("record.csv", RECORD);
+    let at2 = "PEER NGA STRONG MOTION DATABASE RECORD\nSomewhere, 1999, Station, 090\n\
+               ACCELERATION TIME SERIES IN UNITS OF G\nNPTS=   5, DT=   .0100 SEC\n\
+               0.1E+00 0.2E+00 0.3E+00 0.4E+00 0.5E+00\n";
+    folder.write("record.AT2", at2);
+    for (arguments, expected) in [
+        (
+            &["run", "model.toml", "--scale-to", "0.3 g"][..],
+            "--scale-to: expected a record to scale, that of the model or of --motion, found ",
+        ),
+        (&["run", "record.AT2"], "record.AT2: expected a model, found a record (a record is given"),
+        (&["run", "record.csv"], "record.csv: expected a model, found a record (a record is given"),
+        (
+            &["compare", "model.toml", "record.csv"],
+            "record.csv: expected a model, found a record (a record is given beside a model, with \
+             --motion or --records; what was measured stands before the model)",
+        ),
+        (
+            &["identify", "cyclic", "record.AT2"],
+            "record.AT2:5:40: expected a table with a column a sensor, found \"a record of ground motion, \
+             PEER AT2\"",
+        ),
+        (
+            &["run", "model.toml", "--second", "record.csv"],
+            "--second: expected a suite beside it, --records <PATTERN>",
+        ),
+        (
+            &["run", "model.toml", "--set", "slider.friction=0.1"],
+            "--set slider.friction=…:1:1: expected a path of the model, found \"slider.friction\"; \
+             nearest is \"slider.static_friction\"",
+        ),
+        (
+            &[
+                "ida",
+                "model.toml",
+                "--records",
+                "record.csv",
+                "--levels",
+                "1, 2 m/s2",
+                "--demand",
+                "force",
+            ],
+            "--demand: expected the key of a demand, such as peak_sliding_displacement_m, found \
+             \"force\"; nearest is \"peak_slider_force_n\"",
+        ),
+    ] {
+        let found = folder.refused(arguments);
+        assert!(found.starts_with(expected), "{arguments:?}: {found}");
+    }
+}
+
+/// A key that takes the place of others says so: a gap is no stop.
+#[test]
+fn exact_replaced_keys_are_said() {
+    let stop = "[slider]\nstop = { gap = \"50 mm\", stiffness = \"1 MN/m\" }";
+    let folder = Folder::with_model("replaced", &BLOCK.replace("[slider]", stop));
+    let output = folder.output(&["run", "model.toml", "--set", "slider.gap=20 mm"]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    let expected =
+        "note: slider.gap replaces slider.stop.gap, slider.stop.stiffness of the model\n";
+    assert!(said.contains(expected), "{said}");
+    let output = folder.output(&["run", "model.toml", "--set", "slider.spring=30 kN/m"]);
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
+}
+
+/// The results of a suite are not mixed with the history of an earlier run.
+#[test]
+fn exact_results_of_another_run_do_not_stay() {
+    let folder = Folder::with_model("stale", BLOCK);
+    folder.write("records/a.csv", RECORD);
+    folder.stdout(&["run", "model.toml", "--out", "out", "-q"]);
+    assert!(folder.names("out").contains(&"history.csv".to_owned()));
+    folder.write("out/mine.csv", "a,b\n1,2\n");
+    folder.stdout(&["run", "model.toml", "--records", "records", "--out", "out", "-q"]);
+    let names = folder.names("out");
+    assert!(
+        !names.iter().any(|name| ["history.csv", "events.csv"].contains(&&name[..])),
+        "{names:?}"
+    );
+    assert!(names.contains(&"runs.csv".to_owned()) && names.contains(&"mine.csv".to_owned()));
+    folder.stdout(&["run", "model.toml", "--out", "out", "-q"]);
+    let names = folder.names("out");
+    assert!(!names.contains(&"runs.csv".to_owned()) && names.contains(&"history.csv".to_owned()));
+    // A file of that name in a folder without results is somebody's own.
+    folder.write("own/history.csv", "a,b\n1,2\n");
+    folder.stdout(&["run", "model.toml", "--records", "records", "--out", "own", "-q"]);
+    assert_eq!(folder.read("own/history.csv"), "a,b\n1,2\n");
+}
+
+/// The displacement of a record that drifts is no displacement of the ground, and is marked.
+#[test]
+fn exact_drifting_displacement_is_marked() {
+    let folder = Folder::with_model("drifting", RECORDED);
+    folder.write("record.csv", RECORD);
+    assert!(!folder.stdout(&["run", "model.toml"]).contains("drifts)"));
+    folder.write("record.csv", "time_s,acceleration_m_per_s2\n0,0\n1,5\n2,-3\n3,0\n");
+    let text = folder.stdout(&["run", "model.toml", "--out", "out"]);
+    assert!(
+        text.split_whitespace().collect::<Vec<_>>().join(" ").contains("(the record drifts)"),
+        "{text}"
+    );
+    assert!(folder.read("out/report.html").contains("PGD (the record drifts)"));
+}
+
+/// Radii and surfaces that are hardly meant are said, and run.
+#[test]
+fn exact_suspicious_surfaces_are_said() {
+    let motion = "[motion]\nsine = { frequency = \"2 Hz\", amplitude = \"3 m/s2\", duration = \"2 s\", \
+                  dt = \"0.01 s\" }\n";
+    let model = |slider: &str| format!("[block]\nmass = \"1 t\"\n[slider]\n{slider}\n{motion}");
+    let small = "static_friction = 0.06\nkinetic_friction = 0.05\nradius = \"2 mm\"";
+    let inner = "[[slider.surface]]\nfriction = 0.08\nradius = \"0.5 m\"\n[[slider.surface]]\n\
+                 friction = 0.03\nradius = \"2 m\"";
+    for (name, slider, said) in [
+        ("small", small, "a radius is 0.002 m: below 0.05 m is no pendulum slider's"),
+        (
+            "inner",
+            inner,
+            "the surface of radius 0.5 m has the friction 0.08, that of 2 m only 0.03",
+        ),
+    ] {
+        let folder = Folder::with_model(&format!("suspicious-{name}"), &model(slider));
+        let text = folder.stdout(&["run", "model.toml"]);
+        assert!(text.split_whitespace().collect::<Vec<_>>().join(" ").contains(said), "{text}");
+    }
+}

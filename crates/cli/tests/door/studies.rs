@@ -165,6 +165,10 @@ fn exact_summary_is_that_of_the_sorted_values() {
         };
         let mut values: Vec<(usize, f64)> =
             column.values.iter().enumerate().filter_map(of_level).collect();
+        if cells[2].starts_with("residual_") {
+            // What is left has either sign: its figures are those of its size.
+            values.iter_mut().for_each(|(_, value)| *value = value.abs());
+        }
         assert_eq!([number(4), number(5)], [500.0, 0.0]);
         if values.is_empty() {
             assert_eq!(cells[6], "");
@@ -546,6 +550,43 @@ fn exact_leftovers_alone_need_no_word() {
     let refused = folder.refused(&["study", "plan.toml", "--out", "third", "--resume"]);
     let expected = "third/parts: expected a folder to write to, found a file";
     assert!(refused.contains(expected), "{refused}");
+}
+
+/// What a killed study left half-written of its other files goes, and nothing else.
+#[test]
+fn exact_leftovers_of_other_files_are_removed() {
+    let folder = folder("study-leftover-files");
+    folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
+    for file in ["manifest.json", "summary.csv", "report.html", "mine.csv"] {
+        folder.write(&format!("out/.{file}.4711-0.tmp"), "half");
+    }
+    folder.stdout(&["study", "plan.toml", "--out", "out", "-q", "--shard", "1/1", "--resume"]);
+    let mut left = vec![".mine.csv.4711-0.tmp"];
+    left.extend(WRITTEN);
+    assert_eq!(folder.names("out"), left);
+}
+
+/// What steers a terminal in the name of a record is shown and not done, and the line that repeats a run
+/// runs it.
+#[cfg(unix)]
+#[test]
+fn exact_hidden_characters_of_records_are_made_visible() {
+    let folder = folder("study-hidden");
+    let name = "records/c\u{1b}[2J'\u{202e}d.csv";
+    folder.write(name, RECORD);
+    let hidden = |text: &str| text.contains(['\u{1b}', '\u{202e}']);
+    let output = folder.output(&["study", "plan.toml", "--out", "out", "--report"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    for told in [text(&output.stdout), text(&output.stderr)] {
+        assert!(!hidden(&told), "{told:?}");
+    }
+    let line = folder.stdout(&["study", "plan.toml", "--repeat", "2249"]);
+    assert!(!hidden(&line) && line.contains(r"$'records/c\x1b[2J\'\xe2\x80\xaed.csv'"), "{line}");
+    let quoted = line.trim_end().replacen("slipstick", env!("CARGO_BIN_EXE_slipstick"), 1);
+    let mut shell = std::process::Command::new("bash");
+    let ran = shell.args(["-c", &quoted]).current_dir(folder.path()).output().unwrap();
+    assert_eq!(ran.status.code(), Some(0), "{}", text(&ran.stderr));
+    assert!(!hidden(&text(&ran.stdout)), "{}", text(&ran.stdout));
 }
 
 /// Parts beside the manifest are not run a second time: they are merged as they stand, and

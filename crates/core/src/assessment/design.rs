@@ -376,7 +376,7 @@ pub fn run_design(
         let runs = runner.pairs(pairs, &parts)?;
         let demand = |(run, (_, record)): (Result<Demand, RunError>, &(usize, usize))| {
             run.unwrap_or_else(|error| {
-                failures.push(FailedRun { record: suite.records[*record].name.clone(), error });
+                failures.push(runner.failed(*record, error));
                 FAILED
             })
         };
@@ -389,7 +389,9 @@ pub fn run_design(
         Some(factors) => {
             let designs: Vec<usize> =
                 found.front.iter().chain(&found.nearest).map(|point| point.design).collect();
-            Some(runner.bounded(&designs, &parts, factors, &target)?)
+            let (bounded, failed) = runner.bounded(&designs, &parts, factors, &target)?;
+            failures.extend(failed);
+            Some(bounded)
         }
     };
     let sensitivity = if request.sensitivity > 0 { runner.sensitivity(request)? } else { None };
@@ -513,32 +515,51 @@ impl<'a> Runner<'a> {
         Ok(runs.into_iter().flatten().collect())
     }
 
-    /// Figures of designs with friction times the lower and the upper factor.
+    /// Figures of designs with friction times the lower and the upper factor, and the runs that failed.
     fn bounded(
         &self,
         designs: &[usize],
         parts: &[Result<Parts, RunError>],
         factors: [f64; 2],
         target: &Target,
-    ) -> Result<Vec<Bounded>, AssessmentError> {
+    ) -> Result<(Vec<Bounded>, Vec<FailedRun>), AssessmentError> {
         let records = self.suite.records.len();
         self.engine.plan((designs.len() * 2 * records) as u64);
-        let demands = self.engine.map(designs.len() * 2, |i| {
+        let runs = self.engine.map(designs.len() * 2, |i| {
             let (design, factor) = (designs[i / 2], factors[i % 2]);
-            let failed = vec![FAILED; records];
-            let Ok(parts) = &parts[design] else { return Ok(failed) };
-            let Ok(model) = parts.model.with_friction_times(factor) else { return Ok(failed) };
-            let (mut running, mut room) = (Running::new(&model, self.engine), Workspace::default());
-            let of = |record| self.run(parts, (&mut running, &mut room), record).unwrap_or(FAILED);
-            let demands: Vec<Demand> = (0..records).map(of).collect();
+            let of_all = || -> Result<Vec<Result<Demand, RunError>>, RunError> {
+                let parts = parts[design].as_ref().map_err(Clone::clone)?;
+                let model = parts.model.with_friction_times(factor)?;
+                let (mut running, mut room) =
+                    (Running::new(&model, self.engine), Workspace::default());
+                let of = |record| self.run(parts, (&mut running, &mut room), record);
+                Ok((0..records).map(of).collect())
+            };
+            let runs = of_all().unwrap_or_else(|error| vec![Err(error); records]);
             self.engine.done(records as u64)?;
-            Ok(demands)
+            Ok(runs)
         })?;
+        let mut failures = Vec::new();
+        let mut demand = |(record, run): (usize, Result<Demand, RunError>)| {
+            run.unwrap_or_else(|error| {
+                failures.push(self.failed(record, error));
+                FAILED
+            })
+        };
+        let demands: Vec<Vec<Demand>> = runs
+            .into_iter()
+            .map(|runs| runs.into_iter().enumerate().map(&mut demand).collect())
+            .collect();
         let bounded = |(pair, &design): (&[Vec<Demand>], &usize)| {
             let (lower, upper) = (target.figures(&pair[0])?, target.figures(&pair[1])?);
             Ok(Bounded { design, lower, upper })
         };
-        demands.chunks(2).zip(designs).map(bounded).collect()
+        let bounded = demands.chunks(2).zip(designs).map(bounded);
+        Ok((bounded.collect::<Result<_, AssessmentError>>()?, failures))
+    }
+
+    fn failed(&self, record: usize, error: RunError) -> FailedRun {
+        FailedRun { record: self.suite.records[record].name.clone(), error }
     }
 
     /// Figures over the two main variables, at no more than [`MAP_VALUES`] values of each.

@@ -5,9 +5,9 @@ use super::single::{Job, Judged};
 use super::suite::{PairScaling, Scaled, Suite};
 use super::{AssessmentError, FailedRun};
 use crate::error::RunError;
-use crate::input::{Analysis, Bound};
+use crate::input::{Analysis, Bound, Names};
 use crate::motion::target::Matched;
-use crate::response::{DemandColumn, DemandShape, Demands, Method, Warning};
+use crate::response::{DemandColumn, DemandShape, Demands, Method, Warning, flat_geometry, struck};
 use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
 
@@ -51,6 +51,8 @@ pub struct OnRecord {
 pub struct ModelHistories {
     /// Its name.
     pub name: String,
+    /// What its block and its storeys are called.
+    pub names: Names,
     /// The gap of its slider in m, where it has one.
     pub gap_m: Option<f64>,
     /// The bounds of friction that were run.
@@ -138,8 +140,15 @@ impl ModelHistories {
     /// The bound with which a demand governs, and the demand; `None` where no record has it.
     #[must_use]
     pub fn governs(&self, column: &DemandColumn) -> Option<(&Bound, f64)> {
-        let all = self.bounds.iter().enumerate().map(|(i, b)| (b, self.governing(column, i)));
-        all.filter(|(_, value)| !value.is_nan()).reduce(|a, b| if b.1 > a.1 { b } else { a })
+        self.governing_bound(column).map(|i| (&self.bounds[i], self.governing(column, i)))
+    }
+
+    /// Index of the bound with which a demand governs.
+    #[must_use]
+    pub fn governing_bound(&self, column: &DemandColumn) -> Option<usize> {
+        let all = (0..self.bounds.len()).map(|i| (i, self.governing(column, i)));
+        let all = all.filter(|(_, value)| !value.is_nan());
+        all.reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|(i, _)| i)
     }
 }
 
@@ -167,6 +176,7 @@ pub fn run_histories(
         let records = records.into_iter().collect::<Result<Vec<_>, Box<FailedRun>>>()?;
         done.push(ModelHistories {
             name: model.name.to_owned(),
+            names: model.analysis.names.clone(),
             gap_m: model.analysis.model.slider().gap_m,
             bounds: bounds(model.analysis),
             records,
@@ -199,7 +209,21 @@ fn on_record(model: &ModelOn<'_>, record: usize, scale: f64) -> Result<OnRecord,
         None => vec![nominal],
         Some([lower, upper]) => vec![lower, nominal, upper],
     };
-    let noticed = judged.iter().flat_map(|judged| judged.response.warnings.iter().cloned());
+    let bounds = bounds(model.analysis);
+    let noticed = judged.iter().zip(&bounds).flat_map(|(judged, bound)| {
+        let friction = if bounds.len() > 1 { Some(bound.name) } else { None };
+        let of_bound = |warning: Warning| match friction {
+            Some(name) => {
+                let message = format!("{name} friction: {}", warning.message);
+                Warning { message, ..warning }
+            }
+            None => warning,
+        };
+        let Judged { model, response, .. } = judged;
+        let met = struck(model, &response.demands).into_iter();
+        let met = met.chain(flat_geometry(model, &response.demands)).map(of_bound);
+        response.warnings.iter().cloned().chain(met).collect::<Vec<_>>()
+    });
     let holds =
         |judged: &Judged| judged.response.method == Method::Stepwise || judged.certificate.holds();
     Ok(OnRecord {

@@ -326,7 +326,8 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
     // The designs that are kept, in their own order.
     let mut kept: Vec<usize> = groups.iter().flat_map(|group| group.designs.clone()).collect();
     kept.sort_unstable();
-    let unscaled = suite.measure(measure, engine)?;
+    let unscaled = suite.measure_of_pairs(measure, engine)?;
+    let clusters = suite.clusters();
     let parts = kept.iter().map(|&design| designs.parts(design)).collect::<Result<Vec<_>, _>>()?;
     let one = |(running, room): (&mut Running<'_>, &mut Workspace),
                parts: &Parts,
@@ -413,7 +414,8 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
             names.extend(suite.records.iter().map(name));
             own.extend_from_slice(&curves[at * records..(at + 1) * records]);
         }
-        let fit = request.limit.map(|limit| fit_of(&own, limit));
+        let of_curves: Vec<usize> = (0..own.len()).map(|curve| clusters[curve % records]).collect();
+        let fit = request.limit.map(|limit| fit_of(&own, limit, &of_curves));
         IdaGroup { value, text, averaged, names, curves: own, fit }
     };
     let groups = groups.into_iter().map(group).collect();
@@ -421,6 +423,8 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
     let of_curves: Vec<usize> = (0..curves_count).map(|curve| kept[curve / records]).collect();
     let capacities = request.limit.map(|limit| {
         let mut table = capacities(&curves, limit, &names, measure);
+        let of_pairs = (0..curves_count).map(|curve| clusters[curve % records]);
+        table.columns.extend(suite.pair_column(of_pairs));
         table.columns.extend(designs.table(&of_curves).columns);
         table
     });
@@ -433,6 +437,8 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
     rows.texts("record", flat.iter().map(|(curve, _)| names[*curve].clone()).collect());
     rows.texts("measure", vec![measure.to_string(); flat.len()]);
     rows.texts("measure_unit", vec![measure.unit().to_owned(); flat.len()]);
+    rows.columns
+        .extend(suite.pair_column(flat.iter().map(|(curve, _)| clusters[*curve % records])));
     let choice = if hunt.is_some() { "hunted" } else { "given" };
     rows.texts("level_choice", vec![choice.to_owned(); flat.len()]);
     rows.numbers("level", measure.unit(), flat.iter().map(|(_, run)| run.level).collect());
@@ -528,10 +534,13 @@ impl<'a> Designs<'a> {
 /// Most designs of one analysis: a curve of each record for each of them is kept.
 const MOST_DESIGNS: usize = 100_000;
 
-fn fit_of(curves: &[Curve], limit: f64) -> Result<Fragility, FitError> {
+/// The fit of the first crossings; clustered where several curves share what they are clustered by.
+fn fit_of(curves: &[Curve], limit: f64, clusters: &[usize]) -> Result<Fragility, FitError> {
     let crossings = curves.iter().map(|curve| curve.first_crossing(limit));
     let of = |c: Crossing| Capacity { level: c.level, reached: c.reached };
-    Fragility::of_capacities(&crossings.map(of).collect::<Vec<_>>())
+    let shared = (1..clusters.len()).any(|i| clusters[..i].contains(&clusters[i]));
+    let clusters = if shared { clusters } else { &[] };
+    Fragility::of_capacities_by_record(&crossings.map(of).collect::<Vec<_>>(), clusters)
 }
 
 /// The first crossings, a row a curve.

@@ -150,7 +150,11 @@ impl Models {
                 what: "demand".to_owned(),
                 expected: "the key of a demand, such as peak_sliding_displacement_m".to_owned(),
                 found: format!("{name:?}"),
-                nearest: similar(name, names.iter().map(String::as_str)),
+                nearest: similar(name, names.iter().map(String::as_str)).or_else(|| {
+                    // `drift` is in `storey1_peak_drift_m`.
+                    let has = names.iter().filter(|known| name.len() > 2 && known.contains(name));
+                    has.min_by_key(|known| known.len()).cloned()
+                }),
             })
         })
     }

@@ -2,10 +2,11 @@
 //! floor spectra, and what an engineer must be told.
 
 use crate::check::{self, Certificate};
-use crate::error::{GoOn, InputError, MotionError, SolveError, Stopped, UNWATCHED};
+use crate::error::{InputError, MotionError, SolveError, Stopped};
 use crate::input::{Analysis, Bound, MotionSource};
 use crate::model::Model;
 use crate::motion::{GroundMotion, spectrum};
+use crate::progress::{GoOn, UNWATCHED};
 use crate::response::{History, Response, Warning};
 use crate::solver;
 use crate::study::notices::{coarse_sampling, highest_hz, longest_step_s, suspicious};

@@ -7,8 +7,9 @@ use crate::input::Parts;
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{LevelMeasure, Measure};
 use crate::motion::target::{Matched, TargetSpectrum, matching_periods, maximum_direction};
+use crate::record::Origin;
 use crate::study::engine::{Engine, made_motion, scaled_with_tail};
-use crate::table::Table;
+use crate::table::{Column, Table};
 
 /// How records are scaled, vertical components with them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,6 +84,8 @@ pub struct SuiteRecord {
     pub motion: GroundMotion,
     /// The pair of horizontal components that it is one of; the two stand beside each other.
     pub pair: Option<usize>,
+    /// What its file says of where it was recorded.
+    pub origin: Origin,
 }
 
 /// The records that a model is run on.
@@ -124,6 +127,34 @@ impl Suite {
             }
         }
         Ok(values)
+    }
+
+    /// The same, of a pair the geometric mean of its components: both take one factor.
+    ///
+    /// # Errors
+    /// As [`Suite::measure`].
+    pub(super) fn measure_of_pairs(
+        &self,
+        measure: &Measure,
+        engine: &Engine<'_>,
+    ) -> Result<Vec<f64>, AssessmentError> {
+        let mut values = self.measure(measure, engine)?;
+        for i in 1..values.len() {
+            let pair = self.records[i].pair;
+            if pair.is_some() && pair == self.records[i - 1].pair {
+                let mean = (values[i - 1] * values[i]).sqrt();
+                values[i - 1] = mean;
+                values[i] = mean;
+            }
+        }
+        Ok(values)
+    }
+
+    /// The column `pair` with the name of each row's cluster; none where every record is alone.
+    pub(super) fn pair_column(&self, of_rows: impl Iterator<Item = usize>) -> Option<Column> {
+        let alone = self.clusters().iter().enumerate().all(|(i, first)| i == *first);
+        let names = of_rows.map(|first| self.records[first].name.clone());
+        (!alone).then(|| Column::texts("pair", names.collect()))
     }
 
     /// The factor on each record.
@@ -209,6 +240,19 @@ impl Suite {
         let each = groups.iter().zip(of_groups);
         let factors = each.flat_map(|(group, factor)| vec![factor; group.len()]).collect();
         Ok(Scaled { factors, matched })
+    }
+
+    /// For each record the first one that shares its earthquake and station: the components of a pair, or
+    /// records whose files say so. Their demands are not independent.
+    #[must_use]
+    pub fn clusters(&self) -> Vec<usize> {
+        let records = &self.records;
+        let together = |a: &SuiteRecord, b: &SuiteRecord| match (a.pair, b.pair) {
+            (Some(a), Some(b)) => a == b,
+            _ => a.origin.is_with(&b.origin),
+        };
+        let first = |i: usize| (0..i).find(|&j| together(&records[j], &records[i])).unwrap_or(i);
+        (0..records.len()).map(first).collect()
     }
 
     /// The name of a record's pair, that of its first component; empty where it is in none.

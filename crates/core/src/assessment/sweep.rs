@@ -6,14 +6,13 @@ use super::models::Models;
 use crate::error::RunError;
 use crate::motion::GroundMotion;
 use crate::response::Demands;
-use crate::solver::{Prepared, PreparedMotion, Workspace};
+use crate::solver::{PreparedMotion, Workspace};
 
 /// The models of a grid under one motion, a part of them at a time.
 #[derive(Debug)]
 pub struct Sweep {
     models: Models,
     motion: PreparedMotion,
-    prepared: Option<Prepared>,
     room: Workspace,
 }
 
@@ -22,7 +21,7 @@ impl Sweep {
     #[must_use]
     pub fn new(models: Models, motion: GroundMotion) -> Self {
         let motion = PreparedMotion::new(motion);
-        Self { models, motion, prepared: None, room: Workspace::default() }
+        Self { models, motion, room: Workspace::default() }
     }
 
     /// The models and their grid.
@@ -40,13 +39,8 @@ impl Sweep {
 
     fn one(&mut self, number: usize) -> Result<Demands, RunError> {
         let model = self.models.parts(&self.models.grid().values(number))?.model;
-        let prepared = match self.prepared.take() {
-            Some(prepared) => prepared.with_model(model),
-            None => Prepared::new(model, self.motion.dt_s()),
-        };
-        let response = prepared.demands_in(&mut self.room, &self.motion);
-        self.prepared = Some(prepared);
-        Ok(response?.demands)
+        let prepared = self.room.prepare(&model, self.motion.dt_s());
+        Ok(prepared.demands_in(&mut self.room, &self.motion)?.demands)
     }
 }
 

@@ -14,6 +14,7 @@
 
 use std::sync::LazyLock;
 
+use super::law::Law;
 use super::structure::{Phase, Structure};
 
 /// Nodes of the rule.
@@ -26,6 +27,8 @@ pub(super) const MAX_TURN: f64 = 0.5;
 const LOADS: usize = 4;
 /// Most passes of the iteration.
 pub(super) const MOST_PASSES: usize = 100;
+/// Changes below this part of the accelerations may be rounding.
+pub(super) const ROUNDING: f64 = 1e-12;
 /// Most intervals that are kept.
 const KEPT: usize = 16;
 
@@ -194,6 +197,7 @@ struct Kept {
 pub(super) struct Scheme<'a> {
     pub(super) rule: &'static Rule,
     structure: &'a Structure,
+    law: &'a Law,
     rates: [f64; 3],
     kept: Vec<Kept>,
     same_s: f64,
@@ -213,13 +217,22 @@ pub(super) struct Scheme<'a> {
 }
 
 impl<'a> Scheme<'a> {
-    /// Intervals that differ by no more than `same_s` count as one.
-    pub(super) fn new(structure: &'a Structure, same_s: f64) -> Self {
+    /// Intervals that differ by no more than `same_s` count as one; friction by speed adds to the rates
+    /// of a slip.
+    pub(super) fn new(
+        (structure, law): (&'a Structure, &'a Law),
+        same_s: f64,
+        added_rate: f64,
+    ) -> Self {
         let d = structure.degrees();
+        let rate = |phase: Phase| {
+            structure.rate(phase) + if phase == Phase::Stick { 0.0 } else { added_rate }
+        };
         Self {
             rule: Rule::get(),
             structure,
-            rates: [Phase::Stick, Phase::Slip, Phase::Pressed].map(|phase| structure.rate(phase)),
+            law,
+            rates: [Phase::Stick, Phase::Slip, Phase::Pressed].map(rate),
             kept: Vec::new(),
             same_s,
             solved: false,
@@ -257,8 +270,8 @@ impl<'a> Scheme<'a> {
         let Kept { phase, duration_s, steps, solved, .. } = self.kept[self.slot];
         if self.kept[self.slot].columns.is_empty() {
             // The columns cost as much as these solutions, so they are made when that is spent.
-            if solved < self.input.len() {
-                self.kept[self.slot].solved += 1;
+            if solved < self.input.len() || !self.is_linear(phase) {
+                self.kept[self.slot].solved = solved.saturating_add(1);
                 self.solve(phase, self.step_s);
                 self.solved = true;
                 return &self.path;
@@ -277,6 +290,11 @@ impl<'a> Scheme<'a> {
             }
         }
         &self.path
+    }
+
+    /// Whether the path of a phase is a linear map of its inputs.
+    fn is_linear(&self, phase: Phase) -> bool {
+        phase == Phase::Stick || self.law.rate.is_none()
     }
 
     /// The phase under way.
@@ -361,12 +379,15 @@ impl<'a> Scheme<'a> {
         let d = self.path.degrees;
         self.forces.fill(0.0);
         let mut last = f64::INFINITY;
-        // A pass gains a factor of about ten; at rounding the change no longer shrinks.
+        // A pass gains a factor of about ten; at rounding the change no longer shrinks. Where the law is
+        // not linear the first may gain little.
+        let rounding = if self.is_linear(phase) { f64::INFINITY } else { ROUNDING };
         for pass in 0..MOST_PASSES {
             let (mut change, mut size) = (0.0_f64, 0.0_f64);
             for i in 0..NODES {
                 self.node(h, i);
-                let load = self.load(i);
+                let (a, load) = self.load(i);
+                let load = (a, load * self.law.speed_factor(self.v[0]));
                 self.structure.accelerate(phase, (&self.x, &self.v), load, &mut self.next);
                 let old = &mut self.forces[i * d..(i + 1) * d];
                 for (old, &new) in old.iter_mut().zip(&self.next) {
@@ -375,7 +396,8 @@ impl<'a> Scheme<'a> {
                     *old = new;
                 }
             }
-            if change <= 0.5 * f64::EPSILON * size || pass >= 8 && change >= 0.5 * last {
+            let stalled = change >= 0.5 * last && change <= rounding * size;
+            if change <= 0.5 * f64::EPSILON * size || pass >= 8 && stalled {
                 break;
             }
             last = change;

@@ -9,17 +9,18 @@ mod own;
 
 use self::law::{Slider, Sliding};
 use self::own::Own;
-use super::collocation::{NODES, POINTS, Rule};
+use super::collocation::{NODES, POINTS, ROUNDING, Rule};
 use super::energy::Energy;
 use super::ground::{Ground, Load};
 use super::judge::{STILL, between};
 use super::law::Dips;
 use super::structure::{Phase, Structure, excess, larger};
 use super::{Certificate, ClosestCall};
-use crate::error::{Pulse, Stopped};
+use crate::error::Stopped;
 use crate::friction::Direction;
 use crate::model::{Contents, Model};
 use crate::motion::GroundMotion;
+use crate::progress::Pulse;
 use crate::response::{Contact, History, Mode, Response};
 
 /// Largest rate times step.
@@ -43,6 +44,27 @@ struct Now {
     friction: f64,
     /// Force of the block on the elastic stop towards +x.
     stop: f64,
+    /// Masses of the block and the floors with what sticks to them, and the pull of what slides there.
+    mass: Vec<f64>,
+    pull: Vec<f64>,
+}
+
+/// A node of a step.
+#[derive(Clone, Default)]
+struct Node {
+    now: Now,
+    x: Vec<f64>,
+    v: Vec<f64>,
+}
+
+/// Work space of a step: its start, its nodes, its end.
+#[derive(Default)]
+struct Room {
+    first: Node,
+    nodes: [Node; NODES],
+    end: Now,
+    /// Rates of a node in the pass before.
+    before: Vec<f64>,
 }
 
 /// What is in force between two knots.
@@ -67,10 +89,12 @@ pub(super) struct Judge<'a> {
     instant_s: f64,
     jolt: f64,
     still: f64,
+    /// Largest `N`.
+    normal: f64,
     displacement: [f64; 2],
     velocity: [f64; 2],
     force: [f64; 2],
-    table: f64,
+    table: [f64; 2],
     excess: f64,
     energy: Energy,
     closest: Option<ClosestCall>,
@@ -78,6 +102,7 @@ pub(super) struct Judge<'a> {
     /// How the slip went that has led to the present knot, and `s` where it began.
     arriving: Option<(Sliding, f64)>,
     own: Own,
+    room: Room,
     /// Asks whether to go on, after so many units of work a step.
     pulse: Pulse<'a>,
     units: u32,
@@ -92,28 +117,32 @@ pub(super) fn certificate(
     (bound, pulse): (f64, Pulse<'_>),
 ) -> Result<Option<Certificate>, Stopped> {
     let end_s = history.time_s.last().copied().unwrap_or(0.0);
+    let ground = Ground::new(model, motion);
+    let (normal, table) = ground.largest(end_s);
     let mut judge = Judge {
         model,
         response,
         h: history,
         structure,
         contents: &model.devices().contents,
-        ground: Ground::new(model, motion),
+        ground,
         slider: Slider::new(model, motion.vertical_m_per_s2().is_some()),
         rule: Rule::get(),
         instant_s: 8.0 * f64::EPSILON * end_s,
         jolt: 0.0,
         still: 0.0,
+        normal,
         displacement: [0.0; 2],
         velocity: [0.0; 2],
         force: [0.0; 2],
-        table: 0.0,
+        table: [0.0, table],
         excess: 0.0,
         energy: Energy::default(),
         closest: None,
         dips: Dips::new(0.0),
         arriving: None,
         own: Own::new(model, history),
+        room: Room::default(),
         pulse,
         units: 64 * (1 + model.storeys() + model.devices().contents.len()) as u32,
     };
@@ -178,12 +207,22 @@ impl<'a> Judge<'a> {
 
     /// Accelerations and forces under a load.
     fn at(&self, b: &Between<'_>, load: &Load, x: &[f64], v: &[f64]) -> Now {
+        let mut now = Now::default();
+        self.find(b, load, (x, v), &mut now);
+        now
+    }
+
+    /// The same into what is there.
+    fn find(&self, b: &Between<'_>, load: &Load, (x, v): (&[f64], &[f64]), now: &mut Now) {
         let n = self.floors();
+        let Now { rate, floors, contents: carried, mass, pull, .. } = now;
         let (q, rates) = (&x[1..=n], &v[1..=n]);
         let press = load.normal / self.structure.total_kg;
-        let mut mass: Vec<f64> = vec![self.structure.block_kg];
+        mass.clear();
+        mass.push(self.structure.block_kg);
         mass.extend(&self.structure.masses_kg);
-        let mut pull = vec![0.0; n + 1];
+        pull.clear();
+        pull.resize(n + 1, 0.0);
         for (contents, mode) in self.contents.iter().zip(&b.modes[1..]) {
             match mode {
                 Mode::Stick => mass[contents.floor] += contents.mass_kg,
@@ -193,9 +232,11 @@ impl<'a> Judge<'a> {
                 }
             }
         }
-        let mut restoring = vec![0.0; n];
-        self.structure.add_elastic(q, &mut restoring);
-        self.structure.add_viscous(rates, &mut restoring);
+        // The restoring forces first, then the accelerations of the floors.
+        floors.clear();
+        floors.resize(n, 0.0);
+        self.structure.add_elastic(q, floors);
+        self.structure.add_viscous(rates, floors);
         let shear = self.structure.base_force(q, rates);
         let (s, w) = (x[0], v[0]);
         let push = self.slider.stop(b.contact);
@@ -218,20 +259,21 @@ impl<'a> Judge<'a> {
                 ((slider + shear + pull[0]) / mass[0], slider, friction)
             }
         };
-        let floors: Vec<f64> = (0..n).map(|i| (pull[i + 1] - restoring[i]) / mass[i + 1]).collect();
+        for (i, floor) in floors.iter_mut().enumerate() {
+            *floor = (pull[i + 1] - *floor) / mass[i + 1];
+        }
         let under = |floor: usize| if floor == 0 { block } else { floors[floor - 1] };
-        let contents: Vec<f64> = self
-            .contents
-            .iter()
-            .zip(&b.modes[1..])
-            .map(|(contents, mode)| match mode {
+        carried.clear();
+        carried.extend(self.contents.iter().zip(&b.modes[1..]).map(
+            |(contents, mode)| match mode {
                 Mode::Stick => under(contents.floor),
                 Mode::Slip(direction) => -direction.sign() * contents.kinetic_friction * press,
-            })
-            .collect();
-        let mut rate = vec![block - load.a];
+            },
+        ));
+        rate.clear();
+        rate.push(block - load.a);
         rate.extend(floors.iter().map(|floor| floor - block));
-        rate.extend(self.contents.iter().zip(&contents).map(|(c, a)| a - under(c.floor)));
+        rate.extend(self.contents.iter().zip(&*carried).map(|(c, a)| a - under(c.floor)));
         if b.modes[0] == Mode::Stick {
             rate[0] = 0.0;
         }
@@ -240,7 +282,8 @@ impl<'a> Judge<'a> {
                 *rate = 0.0;
             }
         }
-        Now { rate, block, floors, contents, shear, slider, friction, stop }
+        (now.block, now.shear, now.slider, now.friction) = (block, shear, slider, friction);
+        now.stop = stop;
     }
 
     /// Bound on the fastest rate between two knots, in 1/s.
@@ -257,8 +300,7 @@ impl<'a> Judge<'a> {
             })
             .into_iter()
             .fold(0.0, f64::max);
-        let (normal, _) = self.ground.largest(self.h.time_s[k + 1]);
-        own + self.slider.rate(normal / self.structure.block_kg, speed)
+        own + self.slider.rate(self.normal / self.structure.block_kg, speed)
     }
 
     fn run(&mut self, bound: f64) -> Result<Option<Certificate>, Stopped> {
@@ -268,9 +310,10 @@ impl<'a> Judge<'a> {
         }
         self.start();
         let (x, v) = self.stored(0);
-        let initial_j = self.kinetic(&v) + self.strain(&x);
+        let stop_j = self.slider.stop(self.contact(0)).strain(x[0]);
+        let initial_j = self.kinetic(&v) + self.strain(&x) + stop_j;
         let rounding_j = self.structure.total_kg * self.jolt * self.jolt;
-        self.energy.start(initial_j, rounding_j, knots);
+        self.energy.start(initial_j, stop_j, rounding_j, knots);
         self.dips = self.fresh_dips(0);
         let mut arrives = false;
         for k in 0..knots {
@@ -288,21 +331,22 @@ impl<'a> Judge<'a> {
                 self.interval(k)?;
             }
         }
+        if knots > 1 && !arrives && self.h.time_s[knots - 1] == self.h.time_s[knots - 2] {
+            self.after_last_jump(knots - 1);
+        }
         self.close(self.modes(knots - 1)[0]);
         Ok(Some(self.finish(bound)))
     }
 
     fn finish(&mut self, bound: f64) -> Certificate {
-        let end_s = self.h.time_s.last().copied().unwrap_or(0.0);
-        let (normal, table) = self.ground.largest(end_s);
-        let equilibrium =
-            [self.displacement, self.velocity, self.force, [self.table, table]].map(relative);
+        let equilibrium = [self.displacement, self.velocity, self.force, self.table].map(relative);
         let near = |scale: f64| 64.0 * f64::EPSILON * scale;
         let rounding = own::Rounding {
             instant_s: self.instant_s,
             displacement_m: near(self.displacement[1]),
             velocity_m_per_s: near(self.velocity[1]),
-            force_n: near(self.force[1]),
+            force_n: near(self.force[1])
+                + self.slider.law.rounding(&self.ground, self.instant_s, self.normal),
         };
         let demands_error = self.own.error(self.model, self.response, self.h, &rounding);
         for call in near_misses(self.model, self.h) {
@@ -312,7 +356,7 @@ impl<'a> Judge<'a> {
             equilibrium_residual: equilibrium.into_iter().fold(0.0, larger),
             friction_excess: relative([
                 self.excess,
-                self.slider.scale(normal, self.model.weight_n()),
+                self.slider.scale(self.normal, self.model.weight_n()),
             ]),
             energy_balance_error: self.energy.error(),
             demands_error,
@@ -615,7 +659,9 @@ impl<'a> Judge<'a> {
             let friction = if modes[0] == Mode::Stick { asked.taken() } else { now.friction };
             force = force.max((friction - h.friction_force_n[k]).abs());
             let drift = load.slope.abs() * self.instant_s * self.structure.total_kg;
-            force = excess(force - drift);
+            let normal = load.normal_slope.abs() * self.instant_s
+                + 8.0 * f64::EPSILON * if load.normal_slope == 0.0 { 0.0 } else { self.normal };
+            force = excess(force - drift - self.slider.most() * normal);
             if table + force / self.structure.total_kg < best[0] + best[1] / self.structure.total_kg
             {
                 best = [table, force];
@@ -625,7 +671,7 @@ impl<'a> Judge<'a> {
                 scale = floors.fold(own, |most, (a, m)| most.max((a * m).abs()));
             }
         }
-        self.table = larger(self.table, best[0]);
+        self.table[0] = larger(self.table[0], best[0]);
         self.force[0] = larger(self.force[0], best[1]);
         self.force[1] = larger(self.force[1], scale);
         self.excess = larger(self.excess, self.contact_excess(k));
@@ -640,6 +686,25 @@ impl<'a> Judge<'a> {
         if let Some(beyond) = self.slider.beyond_walls(x[0]) {
             self.displacement[0] = larger(self.displacement[0], beyond);
         }
+    }
+
+    /// Judges the last knot by the load after a jump there, which no interval follows.
+    fn after_last_jump(&mut self, k: usize) {
+        let modes = self.modes(k);
+        let [_, _, load, _] = self.ground.instant(self.h.time_s[k]);
+        let (x, v) = self.stored(k);
+        let now = self.at(&self.between_knots(k, modes), &load, &x, &v);
+        let surfaces = self.h.surface_displacements(k);
+        let asked = self.holds(&now, (x[0], surfaces), (0, true), &load);
+        for (i, mode) in modes.iter().enumerate() {
+            if *mode == Mode::Stick {
+                let asked = self.holds(&now, (x[0], surfaces), (i, true), &load);
+                self.excess = larger(self.excess, excess(asked.beyond()));
+            }
+        }
+        let asked = if modes[0] == Mode::Stick { vec![asked; POINTS] } else { Vec::new() };
+        let all = [(&now, &x[..], &v[..]); POINTS];
+        self.own.see(self.model, self.rule, &all, &asked);
     }
 
     fn contact_excess(&self, k: usize) -> f64 {
@@ -723,61 +788,72 @@ impl<'a> Judge<'a> {
         fastest: &mut [f64],
     ) {
         let (d, rule) = (self.degrees(), self.rule);
-        let first = self.at(b, &loads[0], x, v);
-        let mut rates: Vec<Vec<f64>> = vec![first.rate.clone(); NODES];
-        let mut places = vec![vec![0.0; d]; NODES];
-        let mut speeds = vec![vec![0.0; d]; NODES];
-        let mut nodes = vec![Now::default(); NODES];
+        let mut room = core::mem::take(&mut self.room);
+        let Room { first, nodes, end, before } = &mut room;
+        first.x.clone_from(x);
+        first.v.clone_from(v);
+        self.find(b, &loads[0], (x, v), &mut first.now);
+        for node in nodes.iter_mut() {
+            node.now.rate.clone_from(&first.now.rate);
+            node.x.resize(d, 0.0);
+            node.v.resize(d, 0.0);
+        }
+        let size = self.own.most_jerked();
         let mut last = f64::INFINITY;
-        for _ in 0..MOST_PASSES {
+        for pass in 0..MOST_PASSES {
             let mut change: f64 = 0.0;
             // Each node takes what those before it have found in this pass.
             for i in 0..NODES {
                 for c in 0..d {
                     let (mut along, mut twice) = (0.0, 0.0);
-                    for (j, rate) in rates.iter().enumerate() {
-                        along += rule.a[i][j] * rate[c];
-                        twice += rule.aa[i][j] * rate[c];
+                    for (j, node) in nodes.iter().enumerate() {
+                        along += rule.a[i][j] * node.now.rate[c];
+                        twice += rule.aa[i][j] * node.now.rate[c];
                     }
-                    speeds[i][c] = v[c] + step_s * along;
-                    places[i][c] = x[c] + step_s * (rule.c[i] * v[c] + step_s * twice);
+                    nodes[i].v[c] = v[c] + step_s * along;
+                    nodes[i].x[c] = x[c] + step_s * (rule.c[i] * v[c] + step_s * twice);
                 }
-                let load = between(loads, rule.c[i]);
-                nodes[i] = self.at(b, &load, &places[i], &speeds[i]);
-                for c in 0..d {
-                    change = change.max((nodes[i].rate[c] - rates[i][c]).abs());
+                let Node { now, x, v } = &mut nodes[i];
+                before.clone_from(&now.rate);
+                self.find(b, &between(loads, rule.c[i]), (x, v), now);
+                for (new, old) in now.rate.iter().zip(&*before) {
+                    change = change.max((new - old).abs());
                 }
-                rates[i].copy_from_slice(&nodes[i].rate);
             }
-            // A change that no longer shrinks is rounding.
+            // The next pass would gain as much as this one; a change that no longer shrinks is rounding.
+            let next = change * (change / last);
             if change == 0.0
-                || (change >= 0.5 * last && change <= 1e-12 * self.own.jerked(0).max(1.0))
+                || (pass > 0 && next <= 0.5 * f64::EPSILON * size)
+                || (change >= 0.5 * last && change <= ROUNDING * size)
             {
                 break;
             }
             last = change;
         }
-        let start = (x.clone(), v.clone());
         for c in 0..d {
             let (mut along, mut twice) = (0.0, 0.0);
-            for (j, rate) in rates.iter().enumerate() {
-                along += rule.weights[j] * rate[c];
-                twice += rule.weights[j] * (1.0 - rule.c[j]) * rate[c];
+            for (j, node) in nodes.iter().enumerate() {
+                let rate = node.now.rate[c];
+                along += rule.weights[j] * rate;
+                twice += rule.weights[j] * (1.0 - rule.c[j]) * rate;
             }
             x[c] += step_s * (v[c] + step_s * twice);
             v[c] += step_s * along;
         }
-        let end = self.at(b, &loads[1], x, v);
-        self.spend(b, step_s, loads, (&nodes, &places, &speeds));
+        self.find(b, &loads[1], (x, v), end);
+        self.spend(b, step_s, loads, nodes);
         for (i, fastest) in fastest.iter_mut().enumerate() {
-            let all = speeds.iter().map(|v| v[i].abs());
-            *fastest = all.fold(fastest.max(start.1[i].abs()).max(v[i].abs()), f64::max);
+            let all = nodes.iter().map(|node| node.v[i].abs());
+            *fastest = all.fold(fastest.max(first.v[i].abs()).max(v[i].abs()), f64::max);
         }
-        let mut all: Vec<(&Now, &[f64], &[f64])> = vec![(&first, &start.0, &start.1)];
-        for i in 0..NODES {
-            all.push((&nodes[i], &places[i], &speeds[i]));
-        }
-        all.push((&end, x, v));
+        let all: [(&Now, &[f64], &[f64]); POINTS] = core::array::from_fn(|i| {
+            let node = match i {
+                0 => &*first,
+                i if i <= NODES => &nodes[i - 1],
+                _ => return (&*end, &x[..], &v[..]),
+            };
+            (&node.now, &node.x[..], &node.v[..])
+        });
         let surfaces = self.h.surface_displacements(k);
         let asked: Vec<law::Asked> = match b.modes[0] {
             Mode::Stick => all
@@ -791,7 +867,8 @@ impl<'a> Judge<'a> {
         };
         self.judge_step((k, b), from_s, step_s, loads, &all);
         self.own.see(self.model, rule, &all, &asked);
-        self.own.totals.path(b.modes, &start.0, x, self.floors());
+        self.own.totals.path(b.modes, &first.x, x, self.floors());
+        self.room = room;
     }
 
     /// Judges the inequalities at the points of a step.
@@ -806,7 +883,8 @@ impl<'a> Judge<'a> {
         let (n, surfaces) = (self.floors(), self.h.surface_displacements(k));
         for (i, mode) in b.modes.iter().enumerate() {
             let at = if i == 0 { 0 } else { n + i };
-            let mut speeds = [0.0; POINTS];
+            // Margin in stick, speed in slip.
+            let mut near = [f64::NAN; POINTS];
             for (point, (now, x, v)) in all.iter().enumerate() {
                 let t = self.rule.points[point];
                 let load = between(loads, t);
@@ -814,21 +892,16 @@ impl<'a> Judge<'a> {
                     Mode::Stick => {
                         let asked = self.holds(now, (x[0], surfaces), (i, true), &load);
                         self.excess = larger(self.excess, excess(asked.beyond()));
-                        if i == 0
-                            && let Some(margin) = asked.margin()
-                        {
-                            self.dips.feed(from_s + t * step_s, margin);
-                        }
+                        near[point] = asked.margin().unwrap_or(f64::NAN);
                     }
                     Mode::Slip(direction) => {
-                        speeds[point] = direction.sign() * v[at];
+                        near[point] = direction.sign() * v[at];
                         let blur = self.still + self.instant_s * self.own.jerked(at);
-                        if speeds[point] < -blur {
+                        if near[point] < -blur {
                             let force = self.slider.scale(load.normal, self.model.weight_n());
                             self.excess = larger(self.excess, force);
                         }
                         if i == 0 {
-                            self.dips.feed(from_s + t * step_s, speeds[point]);
                             let broken = self.slider.contact_excess(
                                 b.contact,
                                 (x[0], v[0]),
@@ -843,23 +916,24 @@ impl<'a> Judge<'a> {
                     }
                 }
             }
+            if i == 0 {
+                if near.iter().any(|value| value.is_nan()) {
+                    self.dips.interrupt();
+                } else {
+                    self.dips.feed_points(self.rule, (from_s, step_s), &near);
+                }
+            }
         }
     }
 
     /// Adds up work and losses of a step.
-    fn spend(
-        &mut self,
-        b: &Between<'_>,
-        step_s: f64,
-        loads: [Load; 2],
-        (nodes, places, speeds): (&[Now], &[Vec<f64>], &[Vec<f64>]),
-    ) {
+    fn spend(&mut self, b: &Between<'_>, step_s: f64, loads: [Load; 2], nodes: &[Node]) {
         let n = self.floors();
         let (mut work, mut size, mut damping, mut friction) = (0.0, 0.0, 0.0, 0.0);
         for i in 0..NODES {
             let weight = step_s * self.rule.weights[i];
             let load = between(loads, self.rule.c[i]);
-            let (x, v, now) = (&places[i], &speeds[i], &nodes[i]);
+            let Node { now, x, v } = &nodes[i];
             let mut momentum = self.structure.block_kg * v[0];
             for j in 0..n {
                 momentum += self.structure.masses_kg[j] * (v[0] + v[1 + j]);

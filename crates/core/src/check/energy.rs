@@ -37,15 +37,16 @@ pub(super) struct Energy {
 }
 
 impl Energy {
-    /// Begins with the initial energy `E₀`; `rounding_j` is what the rounding of times makes of a
-    /// system at rest. Both in J.
-    pub(super) fn start(&mut self, initial_j: f64, rounding_j: f64, knots: usize) {
+    /// Begins with the initial energy `E₀`, of which a stop has taken `stop_j`; `rounding_j` is what the
+    /// rounding of times makes of a system at rest. All in J.
+    pub(super) fn start(&mut self, initial_j: f64, stop_j: f64, rounding_j: f64, knots: usize) {
         let history = &mut self.history;
         for list in [&mut history.input_j, &mut history.damping_j, &mut history.friction_j] {
             list.reserve(knots);
         }
         self.input.add(initial_j);
         self.size.add(initial_j);
+        self.damping.add(stop_j);
         self.scale = rounding_j;
     }
 
@@ -62,8 +63,10 @@ impl Energy {
         let [input, damping, friction] = [self.input, self.damping, self.friction].map(Sum::value);
         let difference = input - kinetic - strain - damping - friction;
         self.difference = larger(self.difference, difference);
-        self.scale =
-            larger(self.scale, self.size.value() + kinetic + strain + damping + friction.abs());
+        self.scale = larger(
+            self.scale,
+            self.size.value() + kinetic + strain + damping.abs() + friction.abs(),
+        );
         self.history.input_j.push(input);
         self.history.damping_j.push(damping);
         self.history.friction_j.push(friction);

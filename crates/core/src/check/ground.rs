@@ -14,6 +14,8 @@ pub(super) struct Load {
     pub(super) normal: f64,
     /// `dÜ/dt` on that side in m/s³.
     pub(super) slope: f64,
+    /// `dN/dt` on that side in N/s.
+    pub(super) normal_slope: f64,
 }
 
 /// A stretch in which `a` and `N` are linear.
@@ -63,22 +65,25 @@ impl<'a> Ground<'a> {
         }
         if from_s == times[i] && end_s == times[i + 1] && self.press(i) * self.press(i + 1) >= 0.0 {
             let [from, to] = [i, i + 1].map(|i| (self.horizontal[i], self.press(i)));
-            let slope = (to.0 - from.0) / (end_s - from_s);
-            let loads = [from, to].map(|(table, press)| self.load(table, press, slope));
+            let loads = [from, to].map(|now| self.load(now, self.slopes(i)));
             return Piece { to_s: end_s, loads };
         }
         let mut to_s = end_s.min(times[i + 1]);
         let [from, to] = [from_s, to_s].map(|t| self.between(i, t));
-        let (mut to, from) = (to, from);
+        let (mut to, mut from) = (to, from);
         if from.1 * to.1 < 0.0 {
             let crossing_s = from_s + (to_s - from_s) * (from.1 / (from.1 - to.1));
             if from_s < crossing_s && crossing_s < to_s {
                 to_s = crossing_s;
                 to = (self.between(i, to_s).0, 0.0);
+            } else if crossing_s <= from_s {
+                // Within the rounding of the time.
+                from.1 = 0.0;
+            } else {
+                to.1 = 0.0;
             }
         }
-        let slope = (self.horizontal[i + 1] - self.horizontal[i]) / (times[i + 1] - times[i]);
-        Piece { to_s, loads: [from, to].map(|(table, press)| self.load(table, press, slope)) }
+        Piece { to_s, loads: [from, to].map(|now| self.load(now, self.slopes(i))) }
     }
 
     /// All that the table does at one instant: the limit from the left, the samples at that time,
@@ -87,12 +92,8 @@ impl<'a> Ground<'a> {
     pub(super) fn instant(&self, t: f64) -> [Load; 4] {
         let times = self.times_s;
         let n = times.len();
-        let inside = |i: usize| {
-            let (table, press) = self.between(i, t);
-            let slope = (self.horizontal[i + 1] - self.horizontal[i]) / (times[i + 1] - times[i]);
-            self.load(table, press, slope)
-        };
-        let sample = |i: usize| self.load(self.horizontal[i], self.press(i), 0.0);
+        let inside = |i: usize| self.load(self.between(i, t), self.slopes(i));
+        let sample = |i: usize| self.load((self.horizontal[i], self.press(i)), [0.0; 2]);
         let first = times.partition_point(|&s| s < t);
         let after = times.partition_point(|&s| s <= t);
         let left = if first == 0 || first == n { self.at_rest() } else { inside(first - 1) };
@@ -108,18 +109,40 @@ impl<'a> Ground<'a> {
         let rest = self.at_rest();
         let samples = self.times_s.iter().take_while(|&&t| t <= end_s).count();
         (0..samples).fold((rest.normal, 0.0), |(normal, table), i| {
-            let load = self.load(self.horizontal[i], self.press(i), 0.0);
+            let load = self.load((self.horizontal[i], self.press(i)), [0.0; 2]);
             (load.normal.max(normal), load.table.abs().max(table))
         })
     }
 
-    fn at_rest(&self) -> Load {
-        self.load(0.0, self.gravity, 0.0)
+    /// Whether the normal force varies.
+    pub(super) fn has_vertical(&self) -> bool {
+        self.vertical.is_some()
     }
 
-    fn load(&self, table: f64, press: f64, slope: f64) -> Load {
+    /// What the rounding of times and of `g cos θ + Üv` makes of `N` at most; 0 without vertical motion.
+    pub(super) fn normal_rounding(&self, instant_s: f64, normal: f64) -> f64 {
+        let Some(vertical) = self.vertical else { return 0.0 };
+        let times = self.times_s.windows(2);
+        let rates = times.zip(vertical.windows(2)).filter(|(t, _)| t[1] > t[0]);
+        let rates = rates.map(|(t, v)| ((v[1] - v[0]) / (t[1] - t[0])).abs());
+        instant_s * self.total_kg * rates.fold(0.0, f64::max) + 8.0 * f64::EPSILON * normal
+    }
+
+    fn at_rest(&self) -> Load {
+        self.load((0.0, self.gravity), [0.0; 2])
+    }
+
+    fn load(&self, (table, press): (f64, f64), [slope, press_slope]: [f64; 2]) -> Load {
         let normal = self.total_kg * press.max(0.0);
-        Load { table, a: table + self.slope, normal, slope }
+        let normal_slope = self.total_kg * press_slope;
+        Load { table, a: table + self.slope, normal, slope, normal_slope }
+    }
+
+    /// `dÜ/dt` and `dÜv/dt` between the samples `i` and `i + 1`.
+    fn slopes(&self, i: usize) -> [f64; 2] {
+        let length_s = self.times_s[i + 1] - self.times_s[i];
+        let of = |list: &[f64]| (list[i + 1] - list[i]) / length_s;
+        [of(self.horizontal), self.vertical.map_or(0.0, of)]
     }
 
     /// `g cos θ + Üv` at a sample.

@@ -8,13 +8,14 @@ use super::energy::Energy;
 use super::ground::{Ground, Load};
 use super::lanes::{Bench, Group, Interval, Knots, Map, Reach, Sizes, Told, Work, Worst};
 use super::law::{Dips, Law};
-use super::step::{Look, Spread};
+use super::step::{Look, Spread, Unit};
 use super::structure::{Phase, Structure, excess, larger};
 use super::{Certificate, ClosestCall};
-use crate::error::{Pulse, Stopped, UNWATCHED};
+use crate::error::Stopped;
 use crate::friction::Direction;
 use crate::model::Model;
 use crate::motion::GroundMotion;
+use crate::progress::{Pulse, UNWATCHED};
 use crate::response::{Contact, History, Mode, Response};
 
 /// A sliding velocity below this part of its peak has no sign: the depth of a dip through zero that
@@ -57,7 +58,9 @@ pub(super) struct Judge<'a> {
     history: &'a History,
     pub(super) structure: &'a Structure,
     ground: Ground<'a>,
-    pub(super) law: Law,
+    /// Largest `N` and `|Ü|`.
+    largest: (f64, f64),
+    pub(super) law: &'a Law,
     pub(super) scheme: Scheme<'a>,
     /// Velocities below this are zero to within rounding.
     pub(super) still: f64,
@@ -74,13 +77,18 @@ pub(super) struct Judge<'a> {
     /// Near decisions of the phase under way.
     pub(super) dips: Dips,
     closest: Option<ClosestCall>,
+    /// A margin that the closest call has at most.
+    floor: f64,
     pub(super) peaks: Peaks<'a>,
     pub(super) totals: Totals,
     /// How far outputs may leave the chord of a step, by phase, and the longest step.
     pub(super) spreads: [Option<Spread>; 3],
     longest_s: f64,
-    /// Step of the motion, where it is even.
+    /// Step of most intervals of the motion.
     even_s: f64,
+    /// Intervals judged by maps so far.
+    #[cfg(test)]
+    by_maps: usize,
     level: Level,
     /// The knot up to which near decisions were looked at.
     fed: usize,
@@ -99,20 +107,30 @@ impl<'a> Judge<'a> {
         model: &'a Model,
         motion: &'a GroundMotion,
         (response, history): (&'a Response, &'a History),
-        structure: &'a Structure,
+        (structure, law): (&'a Structure, &'a Law),
         pulse: Pulse<'a>,
     ) -> Self {
         let d = structure.degrees();
         let end_s = history.time_s.last().copied().unwrap_or(0.0);
         let instant_s = 8.0 * f64::EPSILON * end_s;
+        let ground = Ground::new(model, motion);
+        let largest = ground.largest(end_s);
+        let relative = || {
+            let tables = history.table_acceleration_m_per_s2.iter();
+            let pairs = history.block_acceleration_m_per_s2.iter().zip(tables);
+            pairs.fold(0.0, |most, (block, table)| (block - table).abs().max(most))
+        };
+        let relative = if law.rate.is_some() { relative() } else { 0.0 };
+        let added_rate = law.added_rate(largest.0 / structure.block_kg, relative);
         Self {
             model,
             response,
             history,
             structure,
-            ground: Ground::new(model, motion),
-            law: Law::new(model),
-            scheme: Scheme::new(structure, 2.0 * instant_s),
+            ground,
+            largest,
+            law,
+            scheme: Scheme::new((structure, law), 2.0 * instant_s, added_rate),
             still: 0.0,
             instant_s,
             jolt: 0.0,
@@ -122,11 +140,14 @@ impl<'a> Judge<'a> {
             energy: Energy::default(),
             dips: Dips::new(0.0),
             closest: None,
+            floor: f64::INFINITY,
             peaks: Peaks::new(Outputs::new(model, structure)),
             totals: Totals::default(),
             spreads: [const { None }; 3],
             longest_s: history.time_s.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max),
-            even_s: motion.dt_s().unwrap_or(f64::NAN),
+            even_s: common_step(motion.times_s(), 2.0 * instant_s),
+            #[cfg(test)]
+            by_maps: 0,
             level: Level::new(),
             fed: 0,
             state: vec![0.0; 2 * d],
@@ -195,7 +216,7 @@ impl<'a> Judge<'a> {
             slope: self.model.slope_m_per_s2(),
             instant_s: self.instant_s,
             stop,
-            fixed: self.law.fixed(),
+            law: self.law,
         }
     }
 
@@ -206,9 +227,12 @@ impl<'a> Judge<'a> {
         let (times, knots) = (&h.time_s, h.len());
         self.load_state(0);
         self.start();
-        let initial_j = self.structure.kinetic(self.v()) + self.structure.strain(self.x());
-        self.energy.start(initial_j, self.model.total_mass_kg() * self.jolt * self.jolt, knots);
+        let stop_j = self.law.push(self.contact(0)).strain(self.x()[0]);
+        let initial_j = self.structure.kinetic(self.v()) + self.structure.strain(self.x()) + stop_j;
+        let rounding_j = self.model.total_mass_kg() * self.jolt * self.jolt;
+        self.energy.start(initial_j, stop_j, rounding_j, knots);
         let told = self.side_by_side(&all)?;
+        self.find_floor();
         self.dips = self.fresh_dips(0);
         let mut arrives = false;
         for k in 0..knots {
@@ -305,7 +329,7 @@ impl<'a> Judge<'a> {
                 [0.0; 2]
             }
             Mode::Slip(direction) => {
-                [from, to].map(|load| self.law.sliding_force(direction, load.normal))
+                [from, to].map(|load| self.law.sliding_load(direction, load.normal))
             }
         };
         let interval = Interval {
@@ -320,21 +344,29 @@ impl<'a> Judge<'a> {
         Some((phase, interval))
     }
 
-    /// Bounds the outputs of a phase; the maps of the even step to its path, and to its places, if it is
-    /// one of this phase.
+    /// Bounds the outputs of a phase; the maps of the even step to its path, and to its places, where
+    /// there is an even step.
     fn prepare(&mut self, phase: Phase) -> Option<[Map; 2]> {
         let (rate, steps) = (self.scheme.rate(phase), self.steps(phase));
         let longest_s = if rate > 0.0 { MAX_TURN / rate } else { f64::INFINITY };
         let longest_s = longest_s.min(self.longest_s / steps as f64);
-        let columns = self.spread(phase, longest_s);
-        let same = (longest_s * steps as f64 - self.even_s).abs() <= 2.0 * self.instant_s;
-        let map = |columns: &Vec<f64>| Map::new(phase, self.structure.degrees(), columns);
-        let maps = same.then(|| columns.each_ref().map(map));
-        if maps.is_some() {
-            let [columns, _] = columns;
-            self.scheme.keep(phase, (self.even_s, steps), columns);
+        if phase != Phase::Stick && self.law.rate.is_some() {
+            self.spreads[phase as usize] = Some(Spread::unknown(longest_s));
+            return None;
         }
-        maps
+        let longest = self.units(phase, longest_s);
+        self.spread(phase, longest_s, &longest);
+        if self.even_s.is_nan() {
+            return None;
+        }
+        let same = (longest_s * steps as f64 - self.even_s).abs() <= 2.0 * self.instant_s;
+        let even = if same { longest } else { self.units(phase, self.even_s / steps as f64) };
+        let columns = [Unit::paths(&even), Unit::places(&even)];
+        let maps =
+            columns.each_ref().map(|columns| Map::new(phase, self.structure.degrees(), columns));
+        let [columns, _] = columns;
+        self.scheme.keep(phase, (self.even_s, steps), columns);
+        Some(maps)
     }
 
     /// Judges a group and empties it.
@@ -350,7 +382,11 @@ impl<'a> Judge<'a> {
         let Some(spread) = &self.spreads[group.phase as usize] else { return Ok(()) };
         group.fill();
         let (bounds, longest_s) = (&spread.leaving[..], spread.longest_s);
-        let reach = Reach { bounds, longest_s, knots };
+        let reach = Reach { bounds, longest_s, unknown: spread.bounds.is_empty(), knots };
+        #[cfg(test)]
+        if maps.is_some() {
+            self.by_maps += group.count;
+        }
         let bench = self.bench(&[]);
         let (lanes, peaks) = ((&*group, maps), &mut self.peaks);
         dispatch!(self.level, simd => bench.group(simd, lanes, &reach, peaks, work, worst));
@@ -367,7 +403,7 @@ impl<'a> Judge<'a> {
         let (mode, from_s, to_s) = (h.mode[k], h.time_s[k], h.time_s[k + 1]);
         self.energy.spend(told.work, told.size, told.damping, told.friction);
         self.totals.add(mode, Contact::Free, to_s - from_s);
-        let near = self.closest.map_or(f64::INFINITY, |call| call.margin);
+        let near = self.closest.map_or(self.floor, |call| call.margin.min(self.floor));
         let (floor, wrong) = match mode {
             Mode::Stick => (near.min(self.dips.so_far()).max(0.0), told.least < 0.0),
             Mode::Slip(direction) => {
@@ -392,6 +428,37 @@ impl<'a> Judge<'a> {
         Ok(())
     }
 
+    /// Looks at all decisions where the block came to rest, and at maxima of the demand at knots: only
+    /// what comes closer is worth a search between knots.
+    fn find_floor(&mut self) {
+        let h = self.history;
+        for k in 1..h.len() {
+            if h.mode[k] != h.mode[k - 1] {
+                self.load_state(k);
+                self.change(k, h.mode[k - 1], h.mode[k]);
+            }
+        }
+        self.floor = self.closest.map_or(f64::INFINITY, |call| call.margin);
+        if self.ground.has_vertical() {
+            return;
+        }
+        let normal = self.largest.0;
+        let margin = |k: usize| self.law.margin(h.friction_force_n[k], normal);
+        for k in 1..h.len().saturating_sub(1) {
+            if h.mode[k - 1..=k + 1] != [Mode::Stick; 3] || self.contact(k) != Contact::Free {
+                continue;
+            }
+            if let (Some(before), Some(here), Some(after)) =
+                (margin(k - 1), margin(k), margin(k + 1))
+                && here <= before
+                && here <= after
+            {
+                // The demand has a maximum of this size or a larger one next to it.
+                self.floor = self.floor.min(here.max(0.0) + 1e-9);
+            }
+        }
+    }
+
     /// Decisions are looked at from the knot `k` to the next, and perhaps were not before.
     fn resume(&mut self, k: usize) {
         if self.fed != k {
@@ -407,8 +474,7 @@ impl<'a> Judge<'a> {
 
     fn certificate(self, bound: f64) -> Certificate {
         let weight = self.model.weight_n();
-        let end_s = self.history.time_s.last().copied().unwrap_or(0.0);
-        let (normal, table) = self.ground.largest(end_s);
+        let (normal, table) = self.largest;
         let f = &self.figures;
         let equilibrium = [f.displacement, f.velocity, f.force, [f.table[0], table]].map(relative);
         let energy_balance_error = self.energy.error();
@@ -418,7 +484,7 @@ impl<'a> Judge<'a> {
             instant_s: self.instant_s,
             displacement_m: near(f.displacement[1]),
             velocity_m_per_s: near(f.velocity[1]),
-            force_n: near(f.force[1]),
+            force_n: near(f.force[1]) + self.law.rounding(&self.ground, self.instant_s, normal),
         };
         let own = (&self.peaks, &self.totals);
         let demands_error = demands::error(self.model, self.response, self.history, own, &rounding);
@@ -592,7 +658,7 @@ impl<'a> Judge<'a> {
                 } else {
                     Direction::Negative
                 };
-                self.law.sliding_excess(h.friction_force_n[k], direction, load.normal)
+                self.law.sliding_excess(h.friction_force_n[k], (direction, w), load.normal)
             }
         };
         [(table - self.instant_s * load.slope.abs()).max(0.0), beyond]
@@ -679,6 +745,27 @@ impl<'a> Judge<'a> {
     }
 }
 
+/// The length that more than half of the intervals between these times have, to within `same_s`; NaN
+/// where there is none.
+fn common_step(times_s: &[f64], same_s: f64) -> f64 {
+    let lengths = || times_s.windows(2).map(|pair| pair[1] - pair[0]);
+    let same = |a: f64, b: f64| (a - b).abs() <= same_s;
+    // Boyer and Moore's majority vote: pairs of unlike lengths cancel.
+    let (mut step_s, mut votes) = (f64::NAN, 0_usize);
+    for length_s in lengths() {
+        if votes == 0 {
+            step_s = length_s;
+        }
+        if same(length_s, step_s) {
+            votes += 1;
+        } else {
+            votes -= 1;
+        }
+    }
+    let count = lengths().filter(|length_s| same(*length_s, step_s)).count();
+    if step_s > 0.0 && 2 * count > times_s.len() - 1 { step_s } else { f64::NAN }
+}
+
 /// The load at a fraction of a stretch.
 pub(super) fn between([from, to]: [Load; 2], t: f64) -> Load {
     let linear = |from: f64, to: f64| from + (to - from) * t;
@@ -687,6 +774,7 @@ pub(super) fn between([from, to]: [Load; 2], t: f64) -> Load {
         a: linear(from.a, to.a),
         normal: linear(from.normal, to.normal),
         slope: from.slope,
+        normal_slope: from.normal_slope,
     }
 }
 
@@ -697,8 +785,9 @@ mod tests {
     use crate::model::{Block, Damping, Frame, InitialState, Slider};
     use crate::response::{Demands, Method};
 
-    /// A motion that is none of the model's, with its figures of every size.
-    fn wrong(n: usize) -> (Model, GroundMotion, Response) {
+    /// A motion that is none of the model's, with its figures of every size, under a motion of so many
+    /// samples that does not end at 0, and a tail.
+    fn wrong(n: usize, samples: usize, tail_s: f64) -> (Model, GroundMotion, Response) {
         let friction = Friction::Coulomb(Coulomb::new([0.1; 2], [0.08; 2]).unwrap());
         let rigid = Model::rigid_block(300.0, friction).unwrap();
         let frame = Frame {
@@ -711,10 +800,11 @@ mod tests {
         let block = Block { width_m: Some(1.0), ..*rigid.block() };
         let model = Model::new(block, slider, frame, 9.81, InitialState::rest()).unwrap();
         let wave = |k: usize, rate: f64| libm::sin(rate * k as f64);
-        let motion = (0..99).map(|k| 2.0 * wave(k, 0.3)).collect();
+        let motion = (0..samples).map(|k| 2.0 * wave(k, 0.3)).collect();
         let motion = GroundMotion::evenly_spaced(0.01, motion, None).unwrap();
+        let motion = motion.with_tail(tail_s).unwrap();
         let mut h = History { storeys: n, ..History::default() };
-        for k in 0..99 {
+        for k in 0..motion.len() {
             h.time_s.push(motion.times_s()[k]);
             h.mode.push(match k / 11 % 3 {
                 0 => Mode::Stick,
@@ -744,6 +834,34 @@ mod tests {
         (model, motion, response)
     }
 
+    /// The step that a record has goes by maps with a tail too, which begins with a jump.
+    #[test]
+    fn exact_common_step_goes_by_maps() {
+        for n in [0, 1, 2, 5] {
+            for tail_s in [0.0, 1.0, 1.0037] {
+                let (model, motion, response) = wrong(n, 800, tail_s);
+                assert_eq!(motion.dt_s().is_none(), tail_s > 0.0);
+                let structure = Structure::new(&model);
+                let history = response.history.as_ref().unwrap();
+                let (given, pulse) = ((&response, history), Pulse::new(UNWATCHED));
+                let law = Law::new(&model);
+                let mut judge = Judge::new(&model, &motion, given, (&structure, &law), pulse);
+                let knots = judge.knots().unwrap().unwrap();
+                judge.side_by_side(&knots).unwrap();
+                let (mapped, intervals) = (judge.by_maps, motion.len() - 1);
+                assert!(10 * mapped > 9 * intervals, "{n} storeys: {mapped} of {intervals}");
+            }
+        }
+    }
+
+    #[test]
+    fn exact_step_of_most_intervals_is_common() {
+        assert_eq!(common_step(&[0.0, 1.0, 2.0, 2.0, 3.0, 9.0], 0.0), 1.0);
+        assert_eq!(common_step(&[0.0, 5.0, 6.0, 6.5, 7.5, 8.5, 9.5], 0.0), 1.0);
+        assert!(common_step(&[0.0, 1.0, 2.0, 4.0, 6.0], 0.0).is_nan());
+        assert!(common_step(&[0.0, 0.0], 0.0).is_nan());
+    }
+
     #[test]
     fn exact_same_bits_by_every_instruction_set() {
         let mut levels = vec![Level::new()];
@@ -755,12 +873,13 @@ mod tests {
             levels.extend(best.as_sse2().map(Level::Sse2));
         }
         for n in [0, 1, 3] {
-            let (model, motion, response) = wrong(n);
+            let (model, motion, response) = wrong(n, 99, 0.0);
             let structure = Structure::new(&model);
             let of = |level| {
                 let history = response.history.as_ref().unwrap();
                 let (given, pulse) = ((&response, history), Pulse::new(UNWATCHED));
-                let mut judge = Judge::new(&model, &motion, given, &structure, pulse);
+                let law = Law::new(&model);
+                let mut judge = Judge::new(&model, &motion, given, (&structure, &law), pulse);
                 judge.level = level;
                 judge.run(1e-10).unwrap().unwrap()
             };

@@ -7,10 +7,12 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f64x8};
 
-use super::collocation::{MOST_PASSES, NODES, POINTS, Rule};
+use super::collocation::{MOST_PASSES, NODES, POINTS, ROUNDING, Rule};
 use super::demands::{Outputs, Peaks, output, raise};
+use super::law::Law;
 use super::structure::{Phase, StoreyDamping, Structure, larger as greatest};
-use crate::error::{Pulse, Stopped};
+use crate::error::Stopped;
+use crate::progress::Pulse;
 use crate::response::{History, Mode};
 
 /// Knots or intervals side by side.
@@ -152,8 +154,7 @@ pub(super) struct Bench<'a> {
     pub(super) instant_s: f64,
     /// Force of the block on the stop at every knot; empty without a stop.
     pub(super) stop: &'a [f64],
-    /// Static coefficients towards +x and −x.
-    pub(super) fixed: [f64; 2],
+    pub(super) law: &'a Law,
 }
 
 /// What one look at the knots tells of each.
@@ -282,6 +283,15 @@ impl Bench<'_> {
             }
         };
         all(simd, s.damper) * w * w + storeys
+    }
+
+    /// `T` in a slip at a velocity, of a load of sliding.
+    #[inline(always)]
+    fn sliding_force<S: Simd>(&self, simd: S, w: f64x8<S>, load: f64x8<S>) -> f64x8<S> {
+        match &self.law.rate {
+            Some(rate) => load * f64x8::load_array(simd, rate.coefficients(w.abs().to_array())),
+            None => load,
+        }
     }
 
     /// `1ᵀ (C q̇ + K q)`.
@@ -579,6 +589,8 @@ impl Map {
 pub(super) struct Reach<'a> {
     /// Output by output, those only that leave it.
     pub(super) bounds: &'a [(usize, Vec<(usize, f64)>)],
+    /// Whether nothing is known of it.
+    pub(super) unknown: bool,
     pub(super) longest_s: f64,
     pub(super) knots: &'a Knots,
 }
@@ -678,7 +690,7 @@ impl Work {
             input.0[lane] = 1.0;
         }
         let group = Group { step_s: Eight([step_s; LANES]), ..Group::new(phase, 1) };
-        dispatch!(Level::new(), simd => bench.solve(simd, bench.structure.masses_kg.len(), &group, self));
+        dispatch!(Level::new(), simd => bench.solve(simd, bench.structure.masses_kg.len(), &group, None, self));
     }
 
     /// The path of a lane.
@@ -732,7 +744,7 @@ impl Bench<'_> {
                 Some([map, _]) => {
                     apply(simd, map, &work.input, &mut work.active, &mut work.path);
                 }
-                None => self.solve(simd, n, group, work),
+                None => self.solve(simd, n, group, Some((&places, step)), work),
             }
             self.spend(simd, n, group, step, work);
             match group.phase {
@@ -804,7 +816,9 @@ impl Bench<'_> {
         let a = input[2 * d + end].load(simd);
         let force = match phase {
             Phase::Stick => self.demand(simd, x, v, a),
-            Phase::Slip | Phase::Pressed => input[2 * d + 2 + end].load(simd),
+            Phase::Slip | Phase::Pressed => {
+                self.sliding_force(simd, v(0), input[2 * d + 2 + end].load(simd))
+            }
         };
         self.outputs(
             simd,
@@ -905,6 +919,9 @@ impl Bench<'_> {
             let limit = all(simd, peaks.attained[*g] * (1.0 + 1e-12));
             passes |= most.simd_gt(limit).to_bitmask();
         }
+        if reach.unknown {
+            passes = (1 << LANES) - 1;
+        }
         if passes != 0 {
             for end in 0..2 {
                 if step + end == 0 || step + end == group.steps {
@@ -949,7 +966,9 @@ impl Bench<'_> {
             let a = load(2 * d);
             let force = match group.phase {
                 Phase::Stick => path[(NODES + 2) * d + i].load(simd),
-                Phase::Slip | Phase::Pressed => load(2 * d + 2),
+                Phase::Slip | Phase::Pressed => {
+                    self.sliding_force(simd, path[i * d].load(simd), load(2 * d + 2))
+                }
             };
             let x = inlined(
                 #[inline(always)]
@@ -1030,9 +1049,34 @@ impl Bench<'_> {
         }
     }
 
-    /// Solves the collocation equations of every lane by iteration.
+    /// `s̈` or `q̈_i` stored at the knots of lanes, or those after them.
     #[inline(always)]
-    fn solve<S: Simd>(&self, simd: S, n: usize, group: &Group, work: &mut Work) {
+    fn stored_rate<S: Simd>(
+        &self,
+        simd: S,
+        (n, degree): (usize, usize),
+        places: &Places,
+        later: usize,
+    ) -> f64x8<S> {
+        let h = self.history;
+        let block = places.read(simd, &h.block_acceleration_m_per_s2, later, [1, 0]);
+        match degree {
+            0 => block - places.read(simd, &h.table_acceleration_m_per_s2, later, [1, 0]),
+            i => places.read(simd, &h.storey_acceleration_m_per_s2, later, [n, i - 1]) - block,
+        }
+    }
+
+    /// Solves the collocation equations of every lane by iteration, which begins with the line between
+    /// the accelerations stored at the ends of the intervals, of which it is the given step.
+    #[inline(always)]
+    fn solve<S: Simd>(
+        &self,
+        simd: S,
+        n: usize,
+        group: &Group,
+        stored: Option<(&Places, usize)>,
+        work: &mut Work,
+    ) {
         let rule = self.rule;
         let d = n + 1;
         let Work { input, state, path, trace, .. } = work;
@@ -1059,6 +1103,18 @@ impl Bench<'_> {
             },
         );
         rates.fill(Eight::ZERO);
+        if let Some((places, step)) = stored {
+            for k in 0..d {
+                let from = self.stored_rate(simd, (n, k), places, 0);
+                let rise = self.stored_rate(simd, (n, k), places, 1) - from;
+                for i in 0..NODES {
+                    let part = (step as f64 + rule.c[i]) / group.steps as f64;
+                    rates[i * d + k].store(from + rise * all(simd, part));
+                }
+            }
+        }
+        let linear = group.phase == Phase::Stick || self.law.rate.is_none();
+        let rounding = if linear { f64::INFINITY } else { ROUNDING };
         let mut last = Eight([f64::INFINITY; LANES]);
         for pass in 0..MOST_PASSES {
             let (mut change, mut size) = (all(simd, 0.0), all(simd, 0.0));
@@ -1085,11 +1141,17 @@ impl Bench<'_> {
                         old.store(rate);
                     },
                 );
-                let loads = (load(2 * d, rule.c[i]), load(2 * d + 2, rule.c[i]));
+                let force = self.sliding_force(simd, v(0), load(2 * d + 2, rule.c[i]));
+                let loads = (load(2 * d, rule.c[i]), force);
                 self.accelerate(simd, n, group.phase, (x, v), loads, take);
             }
-            let small = change.simd_le(all(simd, 2.0 * f64::EPSILON) * size);
-            let stalled = change.simd_ge(all(simd, 0.5) * last.load(simd));
+            // The next pass would gain as much as this one.
+            let next = change * change;
+            let gained = all(simd, if pass > 0 { 0.5 * f64::EPSILON } else { -1.0 });
+            let small = change.simd_le(all(simd, 2.0 * f64::EPSILON) * size)
+                | next.simd_le(gained * size * last.load(simd));
+            let stalled = change.simd_ge(all(simd, 0.5) * last.load(simd))
+                & change.simd_le(all(simd, rounding) * size);
             if small.all_true() || (pass >= 8 && (small | stalled).all_true()) {
                 break;
             }
@@ -1247,7 +1309,8 @@ impl Bench<'_> {
                     #[inline(always)]
                     |j| v(1 + j),
                 );
-            friction -= weight * (force + (force1 - force) * c) * v(0);
+            let force = self.sliding_force(simd, v(0), force + (force1 - force) * c);
+            friction -= weight * force * v(0);
         }
         let told = &mut work.told;
         told.work.store(told.work.load(simd) + done);
@@ -1271,14 +1334,6 @@ impl Bench<'_> {
         let h = self.history;
         let d = n + 1;
         let instant = all(simd, self.instant_s);
-        let block = both(
-            #[inline(always)]
-            |k| places.read(simd, &h.block_acceleration_m_per_s2, k, [1, 0]),
-        );
-        let table = both(
-            #[inline(always)]
-            |k| places.read(simd, &h.table_acceleration_m_per_s2, k, [1, 0]),
-        );
         for i in 0..d {
             let (lists, at) = if i == 0 {
                 ([&h.sliding_displacement_m, &h.sliding_velocity_m_per_s], [1, 0])
@@ -1287,14 +1342,7 @@ impl Bench<'_> {
             };
             let rates = both(
                 #[inline(always)]
-                |k| {
-                    let rate = if i == 0 {
-                        block[k] - table[k]
-                    } else {
-                        places.read(simd, &h.storey_acceleration_m_per_s2, k, at) - block[k]
-                    };
-                    rate.abs()
-                },
+                |k| self.stored_rate(simd, (n, i), places, k).abs(),
             );
             let x = work.path[NODES * d + i].load(simd);
             let v = work.path[(NODES + 1) * d + i].load(simd);
@@ -1323,7 +1371,7 @@ impl Bench<'_> {
             |end| normal[end].load(simd),
         );
         let one = all(simd, 1.0);
-        let [positive, negative] = [all(simd, self.fixed[0]), all(simd, self.fixed[1])];
+        let [positive, negative] = self.law.fixed().map(|mu| all(simd, mu));
         // Too large a `T` slides the block towards −x.
         let margin = inlined(
             #[inline(always)]
@@ -1380,7 +1428,9 @@ impl Bench<'_> {
             keep(simd, &mut worst.table, (group.table[end].load(simd) - table).abs() - blur);
             if group.phase != Phase::Stick {
                 let force = places.read(simd, &h.friction_force_n, end, [1, 0]);
-                keep(simd, &mut worst.excess, (force - group.force[end].load(simd)).abs());
+                let w = places.read(simd, &h.sliding_velocity_m_per_s, end, [1, 0]);
+                let own = self.sliding_force(simd, w, group.force[end].load(simd));
+                keep(simd, &mut worst.excess, (force - own).abs());
             }
         }
     }

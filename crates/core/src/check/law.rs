@@ -1,6 +1,9 @@
 //! The friction law as a judge reads it, and the decisions that came close.
 
 use super::ClosestCall;
+use super::collocation::{POINTS, Rule};
+use super::ground::Ground;
+use super::rate::RateFriction;
 use super::structure::{excess, larger};
 use crate::friction::Direction;
 use crate::model::{Model, Stop, StopKind};
@@ -10,6 +13,8 @@ use crate::response::{Contact, EventKind, Mode};
 pub(super) struct Law {
     fixed: [f64; 2],
     kinetic: [f64; 2],
+    /// In place of the kinetic coefficients, where there is one.
+    pub(super) rate: Option<RateFriction>,
     stop: Option<Stop>,
 }
 
@@ -26,6 +31,12 @@ impl Push {
     pub(super) fn force(&self, s: f64, w: f64) -> f64 {
         self.stiffness * s + self.damper * w - self.shift
     }
+
+    /// What its spring has stored: `(k s − shift)²/(2 k)`.
+    pub(super) fn strain(&self, s: f64) -> f64 {
+        let force = self.force(s, 0.0);
+        if force == 0.0 { 0.0 } else { 0.5 * force * (force / self.stiffness) }
+    }
 }
 
 impl Law {
@@ -38,6 +49,7 @@ impl Law {
         Self {
             fixed: model.static_friction(),
             kinetic: model.kinetic_friction(),
+            rate: RateFriction::new(model),
             stop: model.stop().copied(),
         }
     }
@@ -92,20 +104,45 @@ impl Law {
         }
     }
 
+    /// What the rounding of times and of vertical motion makes of a force of friction at most.
+    pub(super) fn rounding(&self, ground: &Ground<'_>, instant_s: f64, normal: f64) -> f64 {
+        self.fixed[0].max(self.fixed[1]) * ground.normal_rounding(instant_s, normal)
+    }
+
     /// Largest `μ_s N`, or the weight where that is 0: the scale of [`super::Certificate::friction_excess`].
     pub(super) fn scale(&self, normal: f64, weight: f64) -> f64 {
         let bound = self.fixed[0].max(self.fixed[1]) * normal;
         if bound > 0.0 { bound } else { weight }
     }
 
-    /// `T = −μ_k N sgn ṡ`.
-    pub(super) fn sliding_force(&self, direction: Direction, normal: f64) -> f64 {
-        -direction.sign() * self.kinetic[index(direction)] * normal
+    /// `T = −μ_k N sgn ṡ`; with friction by speed what [`speed_factor`](Self::speed_factor) multiplies.
+    pub(super) fn sliding_load(&self, direction: Direction, normal: f64) -> f64 {
+        let mu = match &self.rate {
+            Some(rate) => rate.factor(direction),
+            None => self.kinetic[index(direction)],
+        };
+        -direction.sign() * mu * normal
+    }
+
+    /// What friction by speed makes of a load of sliding; 1 without.
+    pub(super) fn speed_factor(&self, w: f64) -> f64 {
+        self.rate.as_ref().map_or(1.0, |rate| rate.coefficients([w.abs()])[0])
+    }
+
+    /// `μ_k` at a speed.
+    pub(super) fn kinetic(&self, direction: Direction, speed: f64) -> f64 {
+        -direction.sign() * self.sliding_load(direction, 1.0) * self.speed_factor(speed)
     }
 
     /// Whether a slip in this direction could turn into a stick without slowing down to it smoothly.
     pub(super) fn drops(&self, direction: Direction) -> bool {
-        self.kinetic[index(direction)] < self.fixed[index(direction)]
+        self.kinetic(direction, 0.0) < self.fixed[index(direction)]
+    }
+
+    /// What friction by speed adds to the rates of a slip, as [`RateFriction::rate`] has it.
+    pub(super) fn added_rate(&self, normal: f64, acceleration: f64) -> f64 {
+        let fixed = self.fixed[0].max(self.fixed[1]);
+        self.rate.as_ref().map_or(0.0, |rate| rate.rate(normal, acceleration, fixed))
     }
 
     /// The bound that a demand of this sign meets: too large a `T` slides the block towards −x.
@@ -124,16 +161,21 @@ impl Law {
         (bound > 0.0).then(|| 1.0 - demand.abs() / bound)
     }
 
-    /// `|T + μ_k N sgn ṡ|` for the direction in which the block really moves.
-    pub(super) fn sliding_excess(&self, force: f64, direction: Direction, normal: f64) -> f64 {
-        (force - self.sliding_force(direction, normal)).abs()
+    /// `|T + μ_k N sgn ṡ|` for the direction in which the block really moves, at a velocity.
+    pub(super) fn sliding_excess(
+        &self,
+        force: f64,
+        (direction, w): (Direction, f64),
+        normal: f64,
+    ) -> f64 {
+        (force - self.sliding_load(direction, normal) * self.speed_factor(w)).abs()
     }
 
     /// The same for a slip whose velocity has the wrong sign. Where no kinetic friction tells the
     /// directions apart the static one stands for it: eq. (4) was not asked at ṡ = 0.
     pub(super) fn wrong_way(&self, claimed: Direction, normal: f64) -> f64 {
-        let force = self.sliding_force(claimed, normal);
-        let excess = self.sliding_excess(force, claimed.opposite(), normal);
+        let force = self.sliding_load(claimed, normal) * self.speed_factor(0.0);
+        let excess = self.sliding_excess(force, (claimed.opposite(), 0.0), normal);
         if excess > 0.0 { excess } else { self.fixed[0].max(self.fixed[1]) * normal }
     }
 
@@ -159,11 +201,18 @@ pub(super) fn contact_event(before: Contact, after: Contact) -> Option<EventKind
     }
 }
 
-fn index(direction: Direction) -> usize {
+/// Place of a direction in pairs.
+pub(super) fn index(direction: Direction) -> usize {
     match direction {
         Direction::Positive => 0,
         Direction::Negative => 1,
     }
+}
+
+/// The least of the inner values, if it is below both ends.
+pub(super) fn dip(values: &[f64; POINTS]) -> Option<usize> {
+    let least = (0..POINTS).fold(0, |best, i| if values[i] < values[best] { i } else { best });
+    (least > 0 && least + 1 < POINTS).then_some(least)
 }
 
 /// Local minima of a quantity within one phase, fed in order of time.
@@ -208,6 +257,24 @@ impl Dips {
             }
             self.falling = !self.falling;
             (self.turn, self.turn_s) = (value, time_s);
+        }
+    }
+
+    /// Takes the values at the points of a step, with the least between two where they dip there.
+    pub(super) fn feed_points(
+        &mut self,
+        rule: &Rule,
+        (from_s, step_s): (f64, f64),
+        values: &[f64; POINTS],
+    ) {
+        let inner = dip(values);
+        for i in 0..POINTS {
+            let (t, value) = if inner == Some(i) {
+                rule.least(values, i, |_, value| value)
+            } else {
+                (rule.points[i], values[i])
+            };
+            self.feed(from_s + t * step_s, value);
         }
     }
 

@@ -5,7 +5,7 @@ use super::demands::Instant;
 use super::ground::Load;
 use super::judge::{Judge, STILL, between};
 use super::lanes::{LANES, Work};
-use super::law::Push;
+use super::law::{Push, dip};
 use super::structure::{Phase, excess, larger};
 use crate::friction::Direction;
 use crate::response::{Contact, Mode};
@@ -29,10 +29,29 @@ pub(super) struct Spread {
     pub(super) leaving: Vec<(usize, Vec<(usize, f64)>)>,
 }
 
+impl Spread {
+    /// Of steps whose law is not linear: nothing is known of the outputs in between.
+    pub(super) fn unknown(longest_s: f64) -> Self {
+        Self { longest_s, bounds: Vec::new(), leaving: Vec::new() }
+    }
+}
+
 /// The path of a unit input, and `x` and `ẍ` at its nodes.
-struct Unit {
+pub(super) struct Unit {
     path: Vec<f64>,
     trace: Vec<f64>,
+}
+
+impl Unit {
+    /// The paths of all, one after another.
+    pub(super) fn paths(all: &[Self]) -> Vec<f64> {
+        all.iter().flat_map(|unit| &unit.path).copied().collect()
+    }
+
+    /// `x` at the nodes of all, one after another.
+    pub(super) fn places(all: &[Self]) -> Vec<f64> {
+        all.iter().flat_map(|unit| &unit.trace[..unit.trace.len() / 2]).copied().collect()
+    }
 }
 
 impl Judge<'_> {
@@ -51,7 +70,7 @@ impl Judge<'_> {
         let forces = match mode {
             Mode::Stick => [0.0; 2],
             Mode::Slip(direction) => {
-                loads.map(|load| self.law.sliding_force(direction, load.normal))
+                loads.map(|load| self.law.sliding_load(direction, load.normal))
             }
         };
         let held = push.force(self.state[0], 0.0);
@@ -80,7 +99,6 @@ impl Judge<'_> {
         }
         self.state.copy_from_slice(path.end());
         if look == Look::All {
-            let ends = if mode == Mode::Stick { [values[0], values[POINTS - 1]] } else { forces };
             self.spend(step_s, loads, forces);
             if contact != Contact::Free && mode != Mode::Stick {
                 self.against_stop((contact, push), step_s);
@@ -88,7 +106,7 @@ impl Judge<'_> {
             if mode != Mode::Stick {
                 self.totals.path_m += (self.state[0] - self.before[0]).abs();
             }
-            self.track((mode, push), step_s, loads, ends);
+            self.track((mode, push), step_s, loads, forces);
         }
         match mode {
             Mode::Stick => self.held(from_s, step_s, loads, &values),
@@ -108,7 +126,7 @@ impl Judge<'_> {
             }
             let weight = step_s * rule.weights[node];
             let a = loads[0].a + (loads[1].a - loads[0].a) * c;
-            let force = forces[0] + (forces[1] - forces[0]) * c;
+            let force = (forces[0] + (forces[1] - forces[0]) * c) * self.law.speed_factor(v[0]);
             let power = -self.structure.momentum(v) * a;
             work += weight * power;
             size += weight * power.abs();
@@ -139,21 +157,16 @@ impl Judge<'_> {
         self.energy.spend(0.0, 0.0, taken, 0.0);
     }
 
-    /// Bounds the outputs between the ends of a step of a phase, for steps up to `longest_s`; returns
-    /// the paths of unit inputs over that step, one after another, and their places at the nodes.
-    pub(super) fn spread(&mut self, phase: Phase, longest_s: f64) -> [Vec<f64>; 2] {
+    /// Bounds the outputs between the ends of a step of a phase, for steps up to `longest_s`, from the
+    /// unit inputs over that step.
+    pub(super) fn spread(&mut self, phase: Phase, longest_s: f64, units: &[Unit]) {
         let d = self.structure.degrees();
         let (inputs, outputs) = (2 * d + 4, self.peaks.outputs.len());
         let mut bounds = vec![0.0; outputs * inputs];
         let mut values = vec![[0.0; POINTS]; outputs];
         let mut rate = vec![0.0; d];
-        let units = self.units(phase, longest_s);
-        let mut columns = Vec::with_capacity(inputs * ((NODES + 2) * d + NODES));
-        let mut all_places = Vec::with_capacity(inputs * NODES * d);
         for (j, Unit { path, trace }) in units.iter().enumerate() {
-            columns.extend_from_slice(path);
             let (places, rates) = trace.split_at(NODES * d);
-            all_places.extend_from_slice(places);
             let unit = |k: usize| if k == j { 1.0 } else { 0.0 };
             let linear = |k: usize, t: f64| unit(k) + (unit(k + 1) - unit(k)) * t;
             let start: Vec<f64> = (0..2 * d).map(unit).collect();
@@ -193,11 +206,10 @@ impl Judge<'_> {
         };
         let leaving = rows.map(of_row).filter(|(_, terms)| !terms.is_empty()).collect();
         self.spreads[phase as usize] = Some(Spread { longest_s, bounds, leaving });
-        [columns, all_places]
     }
 
     /// The steps of every unit input.
-    fn units(&self, phase: Phase, step_s: f64) -> Vec<Unit> {
+    pub(super) fn units(&self, phase: Phase, step_s: f64) -> Vec<Unit> {
         let d = self.structure.degrees();
         let mut work = Work::new(d);
         let mut units = Vec::with_capacity(2 * d + 4);
@@ -210,28 +222,39 @@ impl Judge<'_> {
         units
     }
 
-    /// Looks for peaks in the step just made; `ends` are the values of `T` there.
-    fn track(&mut self, (mode, push): (Mode, Push), step_s: f64, loads: [Load; 2], ends: [f64; 2]) {
+    /// Looks for peaks in the step just made; `forces` are the loads of sliding at its ends.
+    fn track(
+        &mut self,
+        (mode, push): (Mode, Push),
+        step_s: f64,
+        loads: [Load; 2],
+        forces: [f64; 2],
+    ) {
         let d = self.structure.degrees();
         let phase = self.scheme.phase();
         let length = self.peaks.outputs.len();
         let mut values = vec![[0.0; POINTS]; length];
+        let held = push.force(self.before[0], 0.0);
         for (i, state) in [(0, &self.before), (POINTS - 1, &self.state)] {
             let end = i.min(1);
             let (x, v) = state.split_at(d);
             let mut rate = vec![0.0; d];
-            let shifted = ends[end] + push.shift;
-            self.structure.accelerate(phase, (x, v), (loads[end].a, shifted), &mut rate);
-            let stop = push.force(x[0], v[0]);
-            let (a, force) = (loads[end].a, ends[end]);
+            let a = loads[end].a;
+            let (force, stop) = match mode {
+                Mode::Stick => (self.structure.demand(x, v, a) + held, held),
+                Mode::Slip(_) => {
+                    (forces[end] * self.law.speed_factor(v[0]), push.force(x[0], v[0]))
+                }
+            };
+            self.structure.accelerate(phase, (x, v), (a, force + push.shift), &mut rate);
             let now = Instant { x, v, rate: &rate, a, force, stop };
             self.peaks.outputs_at(&now, &mut values, i);
         }
         if phase != Phase::Pressed
             && let Some(spread) = &self.spreads[phase as usize]
+            && !spread.bounds.is_empty()
         {
-            let last = if mode == Mode::Stick { [0.0; 2] } else { ends };
-            let inputs = self.before.iter().copied().chain(loads.map(|load| load.a)).chain(last);
+            let inputs = self.before.iter().copied().chain(loads.map(|load| load.a)).chain(forces);
             let sizes: Vec<f64> = inputs.map(f64::abs).collect();
             let share = step_s / spread.longest_s;
             let rows = spread.bounds.chunks_exact(sizes.len());
@@ -242,7 +265,6 @@ impl Judge<'_> {
             }
         }
         let linear = |pair: [f64; 2], t: f64| pair[0] + (pair[1] - pair[0]) * t;
-        let held = push.force(self.before[0], 0.0);
         let points = self.scheme.rule.points;
         let [x, v, rates] = self.scheme.trace();
         for i in 1..=NODES {
@@ -251,7 +273,10 @@ impl Judge<'_> {
             let a = linear(loads.map(|load| load.a), points[i]);
             let (force, stop) = match mode {
                 Mode::Stick => (self.structure.demand(&x, &v, a) + held, held),
-                Mode::Slip(_) => (linear(ends, points[i]), push.force(x[0], v[0])),
+                Mode::Slip(_) => {
+                    let force = linear(forces, points[i]) * self.law.speed_factor(v[0]);
+                    (force, push.force(x[0], v[0]))
+                }
             };
             let now = Instant { x: &x, v: &v, rate: &rate, a, force, stop };
             self.peaks.outputs_at(&now, &mut values, i);
@@ -320,10 +345,4 @@ impl Judge<'_> {
             self.dips.feed(from_s + t * step_s, speed);
         }
     }
-}
-
-/// The least of the inner values, if it is below both ends.
-fn dip(values: &[f64; POINTS]) -> Option<usize> {
-    let least = (0..POINTS).fold(0, |best, i| if values[i] < values[best] { i } else { best });
-    (least > 0 && least + 1 < POINTS).then_some(least)
 }

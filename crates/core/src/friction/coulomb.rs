@@ -54,6 +54,14 @@ impl Coulomb {
 }
 
 impl Friction {
+    /// Coulomb friction with a static and a kinetic coefficient, the same in both directions.
+    ///
+    /// # Errors
+    /// As [`Coulomb::new`], which takes coefficients by direction.
+    pub fn new(fixed: f64, kinetic: f64) -> Result<Self, ModelError> {
+        Coulomb::new([fixed; 2], [kinetic; 2]).map(Self::Coulomb)
+    }
+
     /// Static coefficient against sliding in a direction.
     #[must_use]
     pub fn static_coefficient(&self, direction: Direction) -> f64 {

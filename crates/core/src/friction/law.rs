@@ -292,6 +292,8 @@ impl SlipForce {
             coefficient = self.of_normal;
             of_friction.stiffness_n_per_m = self.of_normal_s * normal_n;
             all.stiffness_n_per_m += of_friction.stiffness_n_per_m;
+        } else {
+            all.stiffness_n_per_m += self.of_normal_s * normal_n;
         }
         if slope_s_per_m != 0.0 {
             of_friction.damper_n_s_per_m = slope_s_per_m * normal_n;
@@ -312,6 +314,12 @@ impl Law {
             return rate.is_none() && radius_m.is_none() && series.is_none();
         }
         series.as_ref().is_none_or(|all| all.surfaces().len() <= TABLED_SURFACES)
+    }
+
+    /// Whether the block has but two branches, each with a constant friction force over the normal force.
+    #[must_use]
+    pub fn is_plain(&self) -> bool {
+        self.rate.is_none() && self.series.is_none() && self.stop.is_none()
     }
 
     /// Whether friction fades with the speed.

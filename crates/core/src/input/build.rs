@@ -10,7 +10,7 @@ use crate::error::{InputError, ModelError};
 use crate::friction::{Coulomb, Direction, Friction, RateCurve, RateLaw, Series, Surface};
 use crate::model::{Block, Contents, Devices, Frame, InitialState, Model, Slider, Stop, StopKind};
 use crate::response::Method;
-use crate::units::STANDARD_GRAVITY_M_PER_S2;
+use crate::units::{LARGEST, STANDARD_GRAVITY_M_PER_S2};
 
 /// What an analysis needs of the values, and what a study draws anew for each of its samples.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,10 +93,11 @@ fn slider(
 ) -> Result<Slider, InputError> {
     let frame_kg = frame.masses_kg.iter().fold(block.mass_kg, |sum, m| sum + m);
     let total_mass_kg = frame_kg + carried_kg;
+    let tilt_rad = values.number("slider.tilt").unwrap_or(0.0);
     let (radius_m, period_s) = (values.number("slider.radius"), values.number("slider.period"));
     let stiffness_n_per_m = if let Some(radius_m) = radius_m {
-        let stiffness = total_mass_kg * gravity_m_per_s2 / radius_m;
-        derived(values, "slider.radius", "stiffness M_tot g / R", stiffness)?
+        let normal_n = total_mass_kg * (gravity_m_per_s2 * libm::cos(tilt_rad));
+        derived(values, "slider.radius", "stiffness M_tot g cos θ / R", normal_n / radius_m)?
     } else if let Some(period_s) = period_s {
         let stiffness = total_mass_kg * (TAU / period_s) * (TAU / period_s);
         derived(values, "slider.period", "stiffness M_tot (2 π / T)²", stiffness)?
@@ -118,7 +119,7 @@ fn slider(
         friction: friction(values)?,
         stiffness_n_per_m,
         damper_n_s_per_m,
-        tilt_rad: values.number("slider.tilt").unwrap_or(0.0),
+        tilt_rad,
         gap_m: values.number("slider.gap"),
         stop: stop(values, block)?,
     })
@@ -157,10 +158,10 @@ pub(super) fn derived(
     what: &str,
     value: f64,
 ) -> Result<f64, InputError> {
-    if value.is_finite() {
+    if value.abs() <= LARGEST {
         return Ok(value);
     }
-    Err(values.wrong(path, format!("a value whose {what} is a finite number")))
+    Err(values.wrong(path, format!("a value whose {what} is at most {LARGEST:e} in SI")))
 }
 
 /// What is needed where there are no surfaces in series.
@@ -441,6 +442,9 @@ fn model_error(values: &Values, error: &ModelError) -> InputError {
         }
         ModelError::WrongCount { quantity, expected, found } => {
             (*quantity, format!("{expected} values, one a storey"), found.to_string())
+        }
+        ModelError::Quantity { quantity, error } => {
+            (*quantity, error.expected.clone(), error.found.clone())
         }
     };
     let paths = KEYS

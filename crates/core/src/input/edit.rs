@@ -119,7 +119,7 @@ fn edited(source_name: &str, text: &str, set: &Override) -> Option<String> {
 /// The list that a path would make one item longer: `storey` of `storey.3` where there are two.
 fn next_of<'a>(root: &Table, path: &'a str) -> Option<&'a str> {
     let (list, number) = path.split_once('.')?;
-    let Kind::Sections(_) = kind_of(list)? else { return None };
+    let Kind::Sections(..) = kind_of(list)? else { return None };
     let count = match root.get(list).map(|entry| &entry.node.value) {
         None => 0,
         Some(Value::List(items)) => items.len(),

@@ -1,7 +1,7 @@
 //! The description of the keys as a JSON Schema, for editors.
 
 use super::json::Json;
-use super::keys::{MAX_STOREYS, MODEL};
+use super::keys::MODEL;
 use super::plan_keys::{DISTRIBUTION, PLAN};
 use super::schema::{Exclusive, Key, Kind, Range, Section, Special};
 use crate::units::Dimension;
@@ -83,7 +83,7 @@ fn given(name: &'static str) -> Vec<(&'static str, Json)> {
 }
 
 fn key(key: &Key) -> Json {
-    let mut entries = vec![("description", Json::text(key.doc))];
+    let mut entries = vec![("description", description(key))];
     match &key.kind {
         Kind::Text(example) => {
             entries.extend([("type", Json::text("string")), ("minLength", Json::Number(1.0))]);
@@ -121,8 +121,9 @@ fn key(key: &Key) -> Json {
             let either = vec![Json::Object(quantity(*dimension)), Json::Object(number(*range))];
             entries.push(("anyOf", Json::List(either)));
         }
-        Kind::Quantities(dimension, _) => {
+        Kind::Quantities(dimension, _, most) => {
             entries.push(("type", Json::text("array")));
+            entries.push(("maxItems", Json::Number(*most as f64)));
             entries.push(("items", Json::Object(quantity(*dimension))));
         }
         Kind::Section(inner) => {
@@ -130,9 +131,9 @@ fn key(key: &Key) -> Json {
                 entries.extend(inner);
             }
         }
-        Kind::Sections(inner) => {
+        Kind::Sections(inner, most) => {
             entries.push(("type", Json::text("array")));
-            entries.push(("maxItems", Json::Number(MAX_STOREYS as f64)));
+            entries.push(("maxItems", Json::Number(*most as f64)));
             entries.push(("items", section(inner)));
         }
         Kind::Texts(example) => {
@@ -140,8 +141,9 @@ fn key(key: &Key) -> Json {
             entries.push(("anyOf", Json::List(vec![a("string"), Json::Object(list)])));
             entries.push(("examples", Json::texts([*example])));
         }
-        Kind::Numbers(range) => {
+        Kind::Numbers(range, most) => {
             entries.push(("type", Json::text("array")));
+            entries.push(("maxItems", Json::Number(*most as f64)));
             entries.push(("items", Json::Object(number(*range))));
         }
         Kind::Whole(least, most) => {
@@ -152,6 +154,11 @@ fn key(key: &Key) -> Json {
         Kind::Special(special) => entries.extend(self::special(*special)),
     }
     Json::Object(entries)
+}
+
+/// What a key means, and what a pattern cannot say of its value.
+fn description(key: &Key) -> Json {
+    Json::text(key.doc)
 }
 
 fn special(special: Special) -> Vec<(&'static str, Json)> {

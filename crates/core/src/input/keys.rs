@@ -10,6 +10,12 @@ use crate::units::Dimension::{
 /// modes takes a second.
 pub const MAX_STOREYS: usize = 200;
 
+/// The most items of contents, surfaces in series, and points of friction by speed: several times what
+/// anyone models, few enough that an analysis takes seconds.
+pub const MAX_CONTENTS: usize = 50;
+pub const MAX_SURFACES: usize = 10;
+pub const MAX_SPEEDS: usize = 100;
+
 /// The whole file.
 pub static MODEL: Section = Section {
     keys: &[
@@ -18,12 +24,12 @@ pub static MODEL: Section = Section {
         Key::required("slider", Kind::Section(&SLIDER), "The bearing between table and block."),
         Key::optional(
             "storey",
-            Kind::Sections(&STOREY),
+            Kind::Sections(&STOREY, MAX_STOREYS),
             "Storeys of the structure on the block: none, one or many, from the block up.",
         ),
         Key::optional(
             "contents",
-            Kind::Sections(&CONTENTS),
+            Kind::Sections(&CONTENTS, MAX_CONTENTS),
             "What stands unfastened on the block or on a floor and may slide there.",
         ),
         Key::optional("frame", Kind::Section(&FRAME), "What the storeys have in common."),
@@ -88,7 +94,7 @@ static SLIDER: Section = Section {
         ),
         Key::optional(
             "surface",
-            Kind::Sections(&SURFACE),
+            Kind::Sections(&SURFACE, MAX_SURFACES),
             "Sliding surfaces in series, as of a double pendulum; instead of friction, spring and \
              radius.",
         ),
@@ -106,7 +112,7 @@ static SLIDER: Section = Section {
         Key::optional(
             "radius",
             Kind::Quantity(Length, Range::Positive),
-            "Radius R of a pendulum slider: the spring K1 = M_tot g / R.",
+            "Radius R of a pendulum slider: the spring K1 = M_tot g cos θ / R.",
         ),
         Key::optional(
             "period",
@@ -194,17 +200,17 @@ static TRIPLE: Section = Section {
     keys: &[
         Key::required(
             "effective_radius",
-            Kind::Quantities(Length, Range::Positive),
+            Kind::Quantities(Length, Range::Positive, 4),
             "Effective radii of the four surfaces, those of the outer ones the larger.",
         ),
         Key::required(
             "friction",
-            Kind::Numbers(Range::Positive),
+            Kind::Numbers(Range::Positive, 4),
             "Kinetic coefficients of friction of the four surfaces; the inner two are alike.",
         ),
         Key::required(
             "travel",
-            Kind::Quantities(Length, Range::Positive),
+            Kind::Quantities(Length, Range::Positive, 4),
             "Displacement capacities of the four surfaces.",
         ),
     ],
@@ -308,12 +314,12 @@ static KINETIC: Section = Section {
         .beside("slow"),
         Key::optional(
             "velocity",
-            Kind::Quantities(Velocity, Range::NotNegative),
+            Kind::Quantities(Velocity, Range::NotNegative, MAX_SPEEDS),
             "Sliding velocities from 0 on, between which friction follows straight lines.",
         ),
         Key::optional(
             "coefficient",
-            Kind::Numbers(Range::NotNegative),
+            Kind::Numbers(Range::NotNegative, MAX_SPEEDS),
             "Coefficients at these velocities; beyond the last it stays.",
         )
         .beside("velocity"),
@@ -533,12 +539,12 @@ static INITIAL: Section = Section {
         ),
         Key::optional(
             "storey_displacement",
-            Kind::Quantities(Length, Range::Any),
+            Kind::Quantities(Length, Range::Any, MAX_STOREYS),
             "Displacements of the floors relative to the block, one a storey.",
         ),
         Key::optional(
             "storey_velocity",
-            Kind::Quantities(Velocity, Range::Any),
+            Kind::Quantities(Velocity, Range::Any, MAX_STOREYS),
             "Velocities of the floors relative to the block, one a storey.",
         ),
     ],

@@ -4,7 +4,7 @@
 use super::Scale;
 use crate::error::MotionError;
 use crate::motion::{Figures, GroundMotion};
-use crate::record::{self, Channel, Quantity, Record};
+use crate::record::{self, Channel, Origin, Quantity, Record};
 use crate::response::Warning;
 
 /// The column that becomes the vertical component of its neighbour without being asked for.
@@ -26,6 +26,8 @@ pub struct Loaded {
     pub motion: GroundMotion,
     /// Name of the horizontal channel; empty for a made motion.
     pub channel: String,
+    /// What its file says of where it was recorded.
+    pub origin: Origin,
     /// What was understood, one line a record: `PEER AT2, 2800 values, 0.005 s, g`.
     pub description: Vec<String>,
     /// Figures of the horizontal component as analysed.
@@ -66,7 +68,8 @@ impl Loaded {
         let figures = motion.figures();
         let description = vec![description];
         let channel = String::new();
-        Self { motion, channel, description, figures, warnings: vec![] }
+        let origin = Origin::default();
+        Self { motion, channel, origin, description, figures, warnings: vec![] }
     }
 
     /// A record along the surface, perhaps one normal to it times a factor, both scaled as one.
@@ -106,7 +109,8 @@ impl Loaded {
         let motion = motion.map_err(of_vertical(false))?;
         let figures = motion.figures();
         warnings.extend(of_motion(&motion, &figures, lengths_differ));
-        Ok(Self { motion, channel: channel.name.clone(), description, figures, warnings })
+        let (channel, origin) = (channel.name.clone(), Origin::of(channel));
+        Ok(Self { motion, channel, origin, description, figures, warnings })
     }
 }
 

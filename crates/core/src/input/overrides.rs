@@ -175,7 +175,7 @@ fn si_unit(path: &str) -> &'static str {
             Kind::Quantity(dimension, _)
             | Kind::QuantityOr(dimension, ..)
             | Kind::QuantityOrRatio(dimension, _)
-            | Kind::Quantities(dimension, _),
+            | Kind::Quantities(dimension, ..),
         ) => dimension.si_unit(),
         _ => "",
     }
@@ -245,7 +245,9 @@ fn set(
     }
     let index = index.unwrap_or_else(|| {
         let empty = match key.kind {
-            Kind::Sections(_) | Kind::Quantities(..) | Kind::Numbers(_) => Value::List(Vec::new()),
+            Kind::Sections(..) | Kind::Quantities(..) | Kind::Numbers(..) => {
+                Value::List(Vec::new())
+            }
             _ => Value::Table(Table(Vec::new())),
         };
         let node = Node { spot: spot.clone(), value: empty };
@@ -350,7 +352,7 @@ pub(super) fn find_kind(path: &str) -> Result<&'static Kind, (String, Option<Str
         if keys.peek().is_none() {
             return Ok(&key.kind);
         }
-        if matches!(key.kind, Kind::Sections(_) | Kind::Quantities(..) | Kind::Numbers(_)) {
+        if matches!(key.kind, Kind::Sections(..) | Kind::Quantities(..) | Kind::Numbers(..)) {
             let number = keys.next().unwrap_or("");
             if number.parse::<usize>().is_ok_and(|number| number > 0) {
                 known = join(&known, number);

@@ -34,10 +34,15 @@ pub(super) fn nearest_key(
 ) -> Option<NearestKey> {
     let names = section.keys.iter().map(|key| key.name);
     let here = names.min_by_key(|known| edit_distance(name, known))?;
-    if 2 * edit_distance(name, here) > here.len().max(2)
-        && let Some(path) = path_of(name, "", root)
-    {
-        return Some(NearestKey::Elsewhere(path));
+    if 2 * edit_distance(name, here) > here.len().max(2) {
+        // `friction` means `static_friction` beside it rather than a key of that name elsewhere.
+        let ends = |known: &str| known.strip_suffix(name).is_some_and(|start| start.ends_with('_'));
+        if let Some(here) = section.keys.iter().map(|key| key.name).find(|known| ends(known)) {
+            return Some(NearestKey::Here(here));
+        }
+        if let Some(path) = path_of(name, "", root) {
+            return Some(NearestKey::Elsewhere(path));
+        }
     }
     Some(NearestKey::Here(here))
 }
@@ -48,7 +53,7 @@ fn path_of(name: &str, path: &str, section: &'static Section) -> Option<String> 
         if key.name == name {
             return Some(path);
         }
-        let path = if matches!(key.kind, schema::Kind::Sections(_)) { path + ".1" } else { path };
+        let path = if matches!(key.kind, schema::Kind::Sections(..)) { path + ".1" } else { path };
         key.kind.section().and_then(|section| path_of(name, &path, section))
     })
 }

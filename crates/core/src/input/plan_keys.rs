@@ -81,7 +81,7 @@ static RECORDS: Section = Section {
         .beside("second"),
         Key::optional(
             "periods",
-            Kind::Quantities(Dimension::Time, Range::Positive),
+            Kind::Quantities(Dimension::Time, Range::Positive, 2),
             "First and last period over which pairs are brought to the spectrum.",
         ),
         Key::optional(
@@ -92,7 +92,7 @@ static RECORDS: Section = Section {
         .beside("measure"),
         Key::optional(
             "scale",
-            Kind::Numbers(Range::Any),
+            Kind::Numbers(Range::Any, MAX_RUNS as usize),
             "Factors on every record, instead of a measure; default [1].",
         ),
     ],

@@ -250,9 +250,8 @@ impl Values {
                 }
                 Ok(())
             }
-            (Kind::Sections(section), Value::List(nodes)) => {
-                Arc::make_mut(&mut self.tables)
-                    .insert(path.to_owned(), (node.spot.clone(), nodes.len()));
+            (Kind::Sections(section, most), Value::List(nodes)) => {
+                self.begin_list(path, node, nodes, *most)?;
                 for (index, item) in nodes.iter().enumerate() {
                     let path = join(path, &(index + 1).to_string());
                     let Value::Table(table) = &item.value else {
@@ -262,9 +261,8 @@ impl Values {
                 }
                 Ok(())
             }
-            (Kind::Quantities(dimension, range), Value::List(nodes)) => {
-                Arc::make_mut(&mut self.tables)
-                    .insert(path.to_owned(), (node.spot.clone(), nodes.len()));
+            (Kind::Quantities(dimension, range, most), Value::List(nodes)) => {
+                self.begin_list(path, node, nodes, *most)?;
                 for (index, item) in nodes.iter().enumerate() {
                     let path = join(path, &(index + 1).to_string());
                     let given = self.quantity(&path, item, *dimension, *range)?;
@@ -286,9 +284,8 @@ impl Values {
                 }
                 Ok(())
             }
-            (Kind::Numbers(range), Value::List(nodes)) => {
-                Arc::make_mut(&mut self.tables)
-                    .insert(path.to_owned(), (node.spot.clone(), nodes.len()));
+            (Kind::Numbers(range, most), Value::List(nodes)) => {
+                self.begin_list(path, node, nodes, *most)?;
                 for (index, item) in nodes.iter().enumerate() {
                     let path = join(path, &(index + 1).to_string());
                     let given = self.bare_number(&path, item, *range)?;
@@ -303,6 +300,23 @@ impl Values {
             }
             _ => self.read_leaf(path, node, kind),
         }
+    }
+
+    /// Keeps the length of a list, which has no more items than its key takes.
+    fn begin_list(
+        &mut self,
+        path: &str,
+        node: &Node,
+        nodes: &[Node],
+        most: usize,
+    ) -> Result<(), InputError> {
+        if let Some(one_too_many) = nodes.get(most) {
+            let path = join(path, &(most + 1).to_string());
+            let (expected, found) = (format!("at most {most}"), nodes.len().to_string());
+            return Err(self.sources.error(&one_too_many.spot, &path, expected, found));
+        }
+        Arc::make_mut(&mut self.tables).insert(path.to_owned(), (node.spot.clone(), nodes.len()));
+        Ok(())
     }
 
     fn read_leaf(&mut self, path: &str, node: &Node, kind: &Kind) -> Result<(), InputError> {
@@ -341,7 +355,7 @@ impl Values {
             (Kind::Number(range) | Kind::NumberOr(range, _), _) if node.ratio().is_some() => {
                 self.number_in_range(path, node, node.ratio().unwrap_or(f64::NAN), *range)?
             }
-            (Kind::Sections(_), Value::Table(_)) => {
+            (Kind::Sections(..), Value::Table(_)) => {
                 let expected = format!("[[{path}]] in two brackets, one for each");
                 return Err(self.sources.error(&node.spot, path, expected, format!("[{path}]")));
             }
@@ -397,7 +411,7 @@ impl Values {
         if range.contains(value) {
             return Ok(Given::Number(value));
         }
-        Err(self.mistyped(path, node, range.expected(dimension.name())))
+        Err(self.mistyped(path, node, range.refusal(dimension.name(), value)))
     }
 
     /// A number without a unit, perhaps in percent.
@@ -418,7 +432,7 @@ impl Values {
         if range.contains(value) {
             return Ok(Given::Number(value));
         }
-        Err(self.mistyped(path, node, range.expected("number")))
+        Err(self.mistyped(path, node, range.refusal("number", value)))
     }
 
     /// The error for a value that is not what was expected.

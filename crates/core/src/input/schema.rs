@@ -3,7 +3,7 @@
 //! Known keys, types, ranges, excluding keys, the paths that `--set` takes and the JSON schema all
 //! come from the same [`Section`]s, so none can disagree with another.
 
-use crate::units::Dimension;
+use crate::units::{self, Dimension};
 
 /// A table of keys.
 #[derive(Debug)]
@@ -60,16 +60,16 @@ pub enum Kind {
     QuantityOr(Dimension, Range, &'static Section),
     /// A number with its unit, or a bare number where only ratios count.
     QuantityOrRatio(Dimension, Range),
-    /// A list of numbers with their units.
-    Quantities(Dimension, Range),
+    /// A list of numbers with their units, and how many at most.
+    Quantities(Dimension, Range, usize),
     /// A section of its own.
     Section(&'static Section),
-    /// Any number of sections of the same form.
-    Sections(&'static Section),
+    /// Sections of the same form, and how many at most.
+    Sections(&'static Section, usize),
     /// A text or a list of texts; here an example.
     Texts(&'static str),
-    /// A list of dimensionless numbers.
-    Numbers(Range),
+    /// A list of dimensionless numbers, and how many at most.
+    Numbers(Range, usize),
     /// A whole number from the first to the second.
     Whole(u64, u64),
     /// What only its own reader can judge.
@@ -92,7 +92,7 @@ pub enum Special {
 /// The largest whole number that every program keeps when it reads it as a double.
 pub const MAX_WHOLE: u64 = 1 << 53;
 
-/// The numbers that a key takes; always finite.
+/// The numbers that a key takes; always at most [`units::LARGEST`] in size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Range {
     /// All.
@@ -153,7 +153,7 @@ impl Kind {
             Self::NumberOr(_, section)
             | Self::QuantityOr(_, _, section)
             | Self::Section(section)
-            | Self::Sections(section) => Some(section),
+            | Self::Sections(section, _) => Some(section),
             _ => None,
         }
     }
@@ -193,20 +193,22 @@ impl Kind {
             Self::QuantityOrRatio(dimension, _) => {
                 format!("{} (or a ratio, where a period is given)", with_unit(dimension))
             }
-            Self::Quantities(dimension, Range::Positive | Range::NotNegative) => {
+            Self::Quantities(dimension, Range::Positive | Range::NotNegative, _) => {
                 let (what, example) = (dimension.with_article(), dimension.example());
                 format!("a list, each {what} with its unit, such as [\"{example}\"]")
             }
-            Self::Quantities(dimension, _) => {
+            Self::Quantities(dimension, ..) => {
                 let (what, example) = (dimension.with_article(), dimension.example());
                 format!("a list with {what} for each storey, such as [\"{example}\"]")
             }
             Self::Section(_) => "a table of keys".to_owned(),
-            Self::Sections(_) => "a list of tables".to_owned(),
+            Self::Sections(..) => "a list of tables".to_owned(),
             Self::Texts(example) => {
                 format!("text in quotes or a list of such, such as [\"{example}\"]")
             }
-            Self::Numbers(range) => format!("a list of numbers, each {}", range.expected("number")),
+            Self::Numbers(range, _) => {
+                format!("a list of numbers, each {}", range.expected("number"))
+            }
             Self::Whole(least, most) if *most == MAX_WHOLE => {
                 format!("a whole number from {least}")
             }
@@ -237,14 +239,30 @@ impl Range {
     /// Whether a number is finite and in the range.
     #[must_use]
     pub fn contains(self, value: f64) -> bool {
-        value.is_finite()
+        value.abs() <= units::LARGEST
             && match self {
                 Self::Any => true,
-                Self::Positive => value > 0.0,
+                Self::Positive => value >= units::SMALLEST,
                 Self::NotNegative => value >= 0.0,
                 Self::Fraction => value.abs() < 1.0,
                 Self::Tilt => value.abs() < core::f64::consts::FRAC_PI_2,
             }
+    }
+
+    /// What to write, in words, instead of a number of that name that is not in the range.
+    #[must_use]
+    pub fn refusal(self, name: &str, value: f64) -> String {
+        let (least, most) = (units::SMALLEST, units::LARGEST);
+        let too_large = value.is_finite() && value.abs() > most;
+        match self {
+            Self::Positive if too_large || (value > 0.0 && value < least) => {
+                format!("a {name} from {least:e} to {most:e} in SI")
+            }
+            Self::Any | Self::NotNegative if too_large => {
+                format!("a {name} of at most {most:e} in SI")
+            }
+            _ => self.expected(name),
+        }
     }
 
     /// The range in words, for a number of that name.

@@ -99,7 +99,7 @@ fn split(path: &str) -> (String, String) {
     let mut parts = path.split('.');
     let first = parts.next().unwrap_or("");
     let rest: Vec<&str> = parts.collect();
-    let listed = matches!(kind_of(first), Some(Kind::Sections(_)));
+    let listed = matches!(kind_of(first), Some(Kind::Sections(..)));
     match rest.as_slice() {
         [] => (String::new(), first.to_owned()),
         [number, rest @ ..] if listed => (format!("{first}.{number}"), rest.join(".")),

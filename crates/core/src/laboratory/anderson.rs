@@ -12,6 +12,7 @@ use core::f64::consts::TAU;
 
 use super::metrics::peak;
 use crate::motion;
+use crate::numerics::sort;
 
 /// The scores, each from 0 to 10, in the order of the original.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,6 +61,21 @@ impl Anderson {
     #[must_use]
     pub fn mean(&self) -> f64 {
         self.scores().iter().map(|(_, score)| score).sum::<f64>() / 10.0
+    }
+}
+
+impl Anderson {
+    /// The mean with its word; and the lowest score where that deserves another, which a mean of ten hides.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let mean = self.mean();
+        let mut scores = self.scores();
+        sort(&mut scores, |a, b| a.1.total_cmp(&b.1));
+        let (name, lowest) = scores[0];
+        if word(lowest) == word(mean) {
+            return format!("{mean:.1} {}", word(mean));
+        }
+        format!("{mean:.1}, {} {lowest:.1} {}", name.replace('_', " "), word(lowest))
     }
 }
 
@@ -260,6 +276,20 @@ mod tests {
     #[test]
     fn exact_words_and_edges() {
         assert_eq!([3.9, 4.0, 6.0, 8.0].map(word), ["poor", "fair", "good", "excellent"]);
+        let all = |cross_correlation| Anderson {
+            arias_duration: 9.5,
+            energy_duration: 9.5,
+            arias_intensity: 9.5,
+            energy_integral: 9.5,
+            peak_acceleration: 9.5,
+            peak_velocity: 9.5,
+            peak_displacement: 9.5,
+            response_spectrum: 9.5,
+            fourier_spectrum: 9.5,
+            cross_correlation,
+        };
+        assert_eq!(all(9.5).words(), "9.5 excellent");
+        assert_eq!(all(6.7).words(), "9.2, cross correlation 6.7 good");
         assert_eq!((score(0.0, 0.0), score(0.0, 1.0), score(2.0, 2.0)), (10.0, 0.0, 10.0));
         let (times_s, a) = wave(1.0, 0.0);
         assert!(anderson(&times_s, &a, &vec![0.0; a.len()]).is_none());

@@ -172,14 +172,31 @@ pub struct Drift {
     pub n_per_s: f64,
     /// Ends of its 95 % interval in N/s.
     pub interval_n_per_s: [f64; 2],
-    /// What it makes from the first cycle to the last, in N.
+    /// What it makes from the first sample to the last, in N.
     pub over_test_n: f64,
 }
 
 impl CyclicFit {
     /// What a reader must know of it.
     #[must_use]
-    pub fn warning(&self) -> Option<Warning> {
+    pub fn warnings(&self) -> Vec<Warning> {
+        self.drift_warning().into_iter().chain(self.unit_warning()).collect()
+    }
+
+    /// Strokes that no test rig has.
+    fn unit_warning(&self) -> Option<Warning> {
+        let stroke_m = self.cycles.iter().fold(0.0, |most: f64, cycle| most.max(cycle.stroke_m));
+        (stroke_m > LONGEST_STROKE_M).then(|| Warning {
+            kind: "unit_suspect",
+            time_s: None,
+            message: format!(
+                "the strokes are {stroke_m:.1} m long: if the displacement is in mm, say so with --map \
+                 \"displacement=… [mm]\""
+            ),
+        })
+    }
+
+    fn drift_warning(&self) -> Option<Warning> {
         let Drift { n_per_s, interval_n_per_s: [low, high], over_test_n } = self.drift?;
         let message = format!(
             "the middle of the force loop drifts by {over_test_n:.3} N over the test ({:.3} N/min, 95 % \
@@ -212,6 +229,15 @@ pub enum CyclicError {
         range_m: f64,
         /// Standard deviation of its noise, in m.
         noise_m: f64,
+    },
+    /// A force that pushes where it should brake.
+    #[error(
+        "friction comes out negative, {friction_n:.4} N in the mean: the force points the other way; \
+         say so with --map \"force=… * -1\""
+    )]
+    Reversed {
+        /// Mean kinetic friction in N.
+        friction_n: f64,
     },
     /// Too few strokes.
     #[error("too few cycles: {found}, at least {LEAST_CYCLES} complete ones are needed")]
@@ -310,7 +336,14 @@ fn of_steady_zero(test: &CyclicTest) -> Result<CyclicFit, CyclicError> {
     if cycles.len() < LEAST_CYCLES {
         return Err(CyclicError::TooFewCycles { found: cycles.len() });
     }
-    let (runs, drift) = (runs(test, &cycles, &sampling), drift(&cycles));
+    let friction_n =
+        cycles.iter().flat_map(|cycle| cycle.kinetic_n).sum::<f64>() / (2 * cycles.len()) as f64;
+    let left_n = cycles.iter().fold(0.0, |most: f64, cycle| most.max(cycle.residual_n));
+    if friction_n < -left_n {
+        return Err(CyclicError::Reversed { friction_n });
+    }
+    let duration_s = test.times_s[n - 1] - test.times_s[0];
+    let (runs, drift) = (runs(test, &cycles, &sampling), drift(&cycles, duration_s));
     Ok(CyclicFit {
         cycles,
         slack_m,
@@ -391,13 +424,16 @@ fn shared(test: &CyclicTest, cycles: &[Cycle], sampling_n: f64) -> [f64; 2] {
     [one, one * 0.5 * (1.0 + correlation(0.5 * steps))]
 }
 
+/// Strokes of test rigs are shorter than this, in m.
+const LONGEST_STROKE_M: f64 = 5.0;
+
 /// How sure a drift must be: one of a hundred tests whose cell holds its zero shows one nevertheless.
 const SURE_OF_DRIFT: f64 = 0.99;
 /// Least part of the friction that a drift makes over a test.
 const LEAST_DRIFT: f64 = 0.005;
 
 /// The slope of the middle of the force loop over time, where it is clear of the cycles' scatter.
-fn drift(cycles: &[Cycle]) -> Option<Drift> {
+fn drift(cycles: &[Cycle], duration_s: f64) -> Option<Drift> {
     let middle = |cycle: &Cycle| 0.5 * (cycle.kinetic_n[0] - cycle.kinetic_n[1]);
     let time_s = |cycle: &Cycle| 0.5 * (cycle.span_s[0] + cycle.span_s[1]);
     let start_s = cycles.first().map(time_s)?;
@@ -410,7 +446,7 @@ fn drift(cycles: &[Cycle]) -> Option<Drift> {
     let freedom = rows.len() as f64 - 2.0;
     let error = (fit.sse / freedom * fit.covariance[1][1]).sqrt();
     let n_per_s = fit.coefficients[1];
-    let over_test_n = n_per_s * rows.last().map_or(0.0, |(x, _)| x[1]);
+    let over_test_n = n_per_s * duration_s;
     let kinetic_n = |cycle: &Cycle| 0.5 * (cycle.kinetic_n[0] + cycle.kinetic_n[1]);
     let mean_n = cycles.iter().map(kinetic_n).sum::<f64>() / cycles.len() as f64;
     let half = |confidence: f64| student_quantile(confidence, freedom) * error;

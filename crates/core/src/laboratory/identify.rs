@@ -344,8 +344,19 @@ pub fn cyclic(
     let forces = histories.iter().flat_map(|[_, force]| &force.values);
     let largest_n = forces.fold(0.0, |m: f64, f| m.max(f.abs()));
     let together = estimates(&all, largest_n, normal_force_n);
-    let mut warnings: Vec<_> = measured.iter().flat_map(|m| m.warnings.clone()).collect();
-    warnings.extend(fits.iter().filter_map(CyclicFit::warning));
+    // Of several files each warning names its own.
+    let of_file = |measured: &Measured, warning: Warning| match histories.len() {
+        1 => warning,
+        _ => {
+            Warning { message: format!("{}: {}", measured.source_name, warning.message), ..warning }
+        }
+    };
+    let read = measured.iter().flat_map(|m| m.warnings.iter().cloned().map(move |w| (m, w)));
+    let fitted = measured
+        .iter()
+        .zip(&fits)
+        .flat_map(|(m, fit)| fit.warnings().into_iter().map(move |w| (m, w)));
+    let mut warnings: Vec<Warning> = read.chain(fitted).map(|(m, w)| of_file(m, w)).collect();
     warnings.extend(zero_not_stated(&all));
     let kinetic = match &together.rate {
         Some(rate) => rate.estimates.iter().all(|estimate| estimate.value().is_some()),

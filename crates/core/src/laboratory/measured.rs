@@ -58,7 +58,8 @@ impl Measured {
     /// unit that is missing or not the one the header states, no times, times that run backwards
     /// or leave a gap.
     pub fn read(source_name: &str, bytes: &[u8], mapping: &Mapping) -> Result<Self, MeasuredError> {
-        Self::of_columns(record::columns(source_name, bytes)?, mapping)
+        let columns = record::columns(source_name, bytes);
+        Self::of_columns(columns.map_err(|error| of_format(source_name, bytes, error))?, mapping)
     }
 
     /// As [`Measured::read`], of columns that were read already.
@@ -343,6 +344,18 @@ fn by_name(column: &Column) -> Option<(Channel, &'static Unit)> {
         let channel = Channel::parse(&name[..at])?;
         Some((channel, unit_of(&column.name[at + 1..], channel.dimension())?))
     })
+}
+
+/// The error for a file of ground motion, which says so; else as it is.
+fn of_format(source_name: &str, bytes: &[u8], error: RecordError) -> RecordError {
+    match record::read(source_name, bytes, &record::Options::default()) {
+        Ok(record) if record.format != record::Format::Delimited => RecordError {
+            expected: "a table with a column a sensor".into(),
+            found: format!("a record of ground motion, {}", record.layout),
+            ..error
+        },
+        _ => error,
+    }
 }
 
 type Clock = (Vec<f64>, Option<f64>, Vec<Warning>);

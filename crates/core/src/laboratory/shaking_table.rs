@@ -208,7 +208,18 @@ fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
         .filter(|(_, free)| **free)
         .map(|((left, series), _)| (series.channel, -mean(left)))
         .collect();
-    let warnings = warnings(&raw, &chosen, &offsets, found.length);
+    let mut warnings = warnings(&raw, &chosen, &offsets, found.length);
+    let tilted = test.parameters.iter().any(|parameter| parameter.path == "slider.tilt");
+    let table = test.measured.series.iter().find(|s| s.channel == Channel::TableAcceleration);
+    if tilted && table.is_some_and(|series| !series.zero_known) {
+        let message = "the zero of table_acceleration is not stated, and 1 mg of it is 1 mrad of \
+                       slider.tilt: what is fitted is their sum; --map \"zero=first 2 s\" states the zero";
+        warnings.push(Warning {
+            kind: "zero_not_stated",
+            time_s: None,
+            message: message.to_owned(),
+        });
+    }
     Ok(TableFit {
         estimates,
         values,

@@ -121,6 +121,35 @@ impl Units {
             end.resize(stride, 0.0);
             advance(simd, system, slip, dt_s, load, &mut series, end);
         }
+        Self::of_step(by_1, ends)
+    }
+
+    /// Of `ẋ = A x + b a + g force` under a constant force, `A` by padded columns, over a step of so many
+    /// series: each no longer than [`MAX_RATE_STEP`](super::MAX_RATE_STEP) over the rate of `A`.
+    #[inline(always)]
+    #[must_use]
+    pub fn affine(a: &[f64], b: &[f64], g: &[f64], (dt_s, parts): (f64, usize)) -> Self {
+        let stride = b.len();
+        let none = vec![0.0; stride];
+        let mut by_1 = vec![0.0; a.len()];
+        for (j, column) in by_1.chunks_exact_mut(stride).enumerate() {
+            column[j] = 1.0;
+            move_affine(a, [&none, &none], (dt_s, parts), column);
+        }
+        let mut ends = [const { Vec::new() }; 4];
+        let loads = [[b, &none], [&none, b], [g, &none], [&none, &none]];
+        for (end, load) in ends.iter_mut().zip(loads) {
+            end.resize(stride, 0.0);
+            move_affine(a, load, (dt_s, parts), end);
+        }
+        Self::of_step(by_1, ends)
+    }
+
+    /// By the columns of `E`, and by what a unit leaves behind over one step: of a constant acceleration, of
+    /// one that grows from zero, and of forces that do.
+    #[inline(always)]
+    fn of_step(by_1: Vec<f64>, ends: [Vec<f64>; 4]) -> Self {
+        let stride = ends[0].len();
         let [constant_a, ramp_a, constant_f, ramp_f] = ends;
         // A sample's unit ramps up in the interval before it and down in the one after.
         let first = [(&constant_a, &ramp_a), (&constant_f, &ramp_f)].map(|(constant, ramp)| {
@@ -365,6 +394,46 @@ fn move_modes<S: Simd>(
     }
 }
 
+/// Moves a state of `ẋ = A x + load` over a step under a load that is constant and one that grows to its
+/// whole from zero, by so many Taylor series.
+#[inline(always)]
+fn move_affine(
+    a: &[f64],
+    [constant, ramp]: [&[f64]; 2],
+    (length_s, parts): (f64, usize),
+    x: &mut [f64],
+) {
+    let stride = x.len();
+    let (part, part_s) = (1.0 / parts as f64, length_s / parts as f64);
+    let [mut term, mut next] = [vec![0.0; stride], vec![0.0; stride]];
+    for i in 0..parts {
+        term.copy_from_slice(x);
+        for k in 0..DEGREE {
+            next.fill(0.0);
+            times(a, &term, &mut next, stride);
+            let (of_constant, of_ramp) = match k {
+                0 => (1.0, part * i as f64),
+                1 => (0.0, part),
+                _ => (0.0, 0.0),
+            };
+            for (next, (constant, ramp)) in next.iter_mut().zip(constant.iter().zip(ramp)) {
+                *next += of_constant * constant + of_ramp * ramp;
+            }
+            let step_s = part_s / (k + 1) as f64;
+            let mut changes = false;
+            for ((term, next), x) in term.iter_mut().zip(&next).zip(&mut *x) {
+                *term = step_s * next;
+                let sum = *x + *term;
+                changes |= sum != *x;
+                *x = sum;
+            }
+            if !changes && k > 1 {
+                break;
+            }
+        }
+    }
+}
+
 /// Of a matrix of padded columns that couples no modes what each component does to itself, and what the
 /// other of its mode does to it.
 fn modes_apart(matrix: &[f64], n: usize, stride: usize) -> [Vec<f64>; 2] {
@@ -393,6 +462,7 @@ fn times(matrix: &[f64], x: &[f64], out: &mut [f64], stride: usize) {
 }
 
 /// Padded columns and what each power of a matrix makes of them, up to `count` times as many.
+#[inline(always)]
 fn chain(matrix: &[f64], start: Vec<f64>, count: usize, stride: usize) -> Vec<f64> {
     let size = start.len();
     let mut list = start;

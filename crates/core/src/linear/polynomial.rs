@@ -86,6 +86,13 @@ pub fn curvature_bound(c: &Polynomial) -> f64 {
     weighted_sum(c, &FACTORS[1])
 }
 
+/// Bound on the size over [0, 1]: `Σ |c_k|`.
+#[inline(always)]
+#[must_use]
+pub fn size_bound(c: &Polynomial) -> f64 {
+    weighted_sum(c, &[1.0; COEFFICIENTS])
+}
+
 /// `Σ factors_k |c_k|`.
 #[inline(always)]
 fn weighted_sum(c: &Polynomial, factors: &Polynomial) -> f64 {

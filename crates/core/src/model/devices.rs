@@ -10,7 +10,7 @@ pub struct Devices {
     /// Kinetic friction by sliding speed; at rest it must not be above the static friction.
     pub rate: Option<RateLaw>,
     /// Radius of the slider's pendulum in m. Its spring follows the normal force, `N(t)/R`; the
-    /// slider's own stiffness is that under the weight, `M_tot g/R`.
+    /// slider's own stiffness is that under the weight, `M_tot g cos θ/R`.
     pub radius_m: Option<f64>,
     /// Surfaces in series, of which the slider's friction is the first to slide.
     pub series: Option<Series>,

@@ -1,5 +1,7 @@
 //! Motions made from motions: scaled, with a tail, with a vertical component.
 
+use std::sync::Arc;
+
 use super::figures::peak;
 use super::{GroundMotion, MAX_SAMPLES};
 use crate::error::MotionError;
@@ -9,8 +11,8 @@ impl GroundMotion {
     /// The same motion with both components times `factor`, which may be negative.
     ///
     /// # Errors
-    /// [`MotionError::OutOfRange`] for a factor that is not finite, [`MotionError::NotFinite`]
-    /// where a product is not.
+    /// [`MotionError::OutOfRange`] for a factor that is not finite, [`MotionError::NotFinite`] and
+    /// [`MotionError::TooLarge`] where a product is.
     pub fn scaled(&self, factor: f64) -> Result<Self, MotionError> {
         if !factor.is_finite() {
             let expected = "a finite factor";
@@ -18,12 +20,12 @@ impl GroundMotion {
         }
         let times = |values: &[f64]| values.iter().map(|a| factor * a).collect::<Vec<_>>();
         let horizontal = times(&self.horizontal_m_per_s2);
-        let vertical = self.vertical_m_per_s2.as_deref().map(times);
+        let vertical = self.vertical_m_per_s2().map(times);
         super::check_values(horizontal.len(), &horizontal, vertical.as_deref())?;
         Ok(Self {
             times_s: self.times_s.clone(),
-            horizontal_m_per_s2: horizontal,
-            vertical_m_per_s2: vertical,
+            horizontal_m_per_s2: Arc::new(horizontal),
+            vertical_m_per_s2: vertical.map(Arc::new),
             dt_s: self.dt_s,
         })
     }
@@ -32,7 +34,7 @@ impl GroundMotion {
     #[must_use]
     pub fn first(&self, samples: usize) -> Option<Self> {
         let cut = |values: &[f64]| values.get(..samples).map(<[f64]>::to_vec);
-        let vertical = self.vertical_m_per_s2.as_deref().map(cut);
+        let vertical = self.vertical_m_per_s2().map(cut);
         Self::new(cut(&self.times_s)?, cut(&self.horizontal_m_per_s2)?, vertical.flatten()).ok()
     }
 
@@ -63,11 +65,12 @@ impl GroundMotion {
         let [cos, sin] = direction(degrees);
         let x = &self.horizontal_m_per_s2;
         let Some(y) = &self.vertical_m_per_s2 else { return Ok(self.clone()) };
-        let horizontal: Vec<f64> = x.iter().zip(y).map(|(x, y)| x * cos + y * sin).collect();
+        let sum = x.iter().zip(&**y).map(|(x, y)| x * cos + y * sin);
+        let horizontal: Vec<f64> = sum.collect();
         super::check_values(horizontal.len(), &horizontal, None)?;
         Ok(Self {
             times_s: self.times_s.clone(),
-            horizontal_m_per_s2: horizontal,
+            horizontal_m_per_s2: Arc::new(horizontal),
             vertical_m_per_s2: None,
             dt_s: self.dt_s,
         })
@@ -95,9 +98,9 @@ impl GroundMotion {
         let dt_s = self.dt_s.unwrap_or_else(|| median_interval(&self.times_s));
         let samples = steps(tail_s, dt_s, n + 1)?;
 
-        let mut times_s = self.times_s.clone();
-        let mut horizontal = self.horizontal_m_per_s2.clone();
-        let mut vertical = self.vertical_m_per_s2.clone();
+        let mut times_s = self.times_s.to_vec();
+        let mut horizontal = self.horizontal_m_per_s2.to_vec();
+        let mut vertical = self.vertical_m_per_s2().map(<[f64]>::to_vec);
         let at_rest = horizontal[n - 1] == 0.0 && vertical.as_ref().is_none_or(|v| v[n - 1] == 0.0);
         if !at_rest && times_s[n - 2] == end_s {
             // It ends with a jump, whose right side holds for no time.
@@ -125,8 +128,7 @@ impl GroundMotion {
     ///
     /// # Errors
     /// [`MotionError::OutOfRange`] for a factor that is not finite, [`MotionError::TooLong`] for
-    /// more than [`MAX_SAMPLES`] times in the union, [`MotionError::NotFinite`] where a product
-    /// is not finite.
+    /// more than [`MAX_SAMPLES`] times in the union, and as [`GroundMotion::scaled`].
     pub fn with_vertical(&self, other: &Self, factor: f64) -> Result<(Self, bool), MotionError> {
         let other = other.scaled(factor)?;
         let (own, up) = (&self.times_s, &other.times_s);

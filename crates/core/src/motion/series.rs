@@ -1,5 +1,7 @@
 //! A quantity over time before it is ground motion: what processing works on.
 
+use std::sync::Arc;
+
 use super::{GroundMotion, constant_step};
 use crate::error::MotionError;
 
@@ -44,8 +46,8 @@ impl Quantity {
 /// and a time that stands twice is a jump.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    pub(super) times_s: Vec<f64>,
-    pub(super) values: Vec<f64>,
+    pub(super) times_s: Arc<Vec<f64>>,
+    pub(super) values: Arc<Vec<f64>>,
     pub(super) quantity: Quantity,
     pub(super) dt_s: Option<f64>,
 }
@@ -165,7 +167,7 @@ impl Series {
     /// The same with other values at the same times.
     pub(super) fn with_values(&self, values: Vec<f64>) -> Result<Self, MotionError> {
         super::check_values(self.times_s.len(), &values, None)?;
-        Ok(Self { values, ..self.clone() })
+        Ok(Self { values: Arc::new(values), ..self.clone() })
     }
 
     /// Value at a time inside, along the straight lines; at a jump the limit from the right, or
@@ -197,11 +199,11 @@ impl GroundMotion {
 
     /// `Ü + Üv` as a horizontal motion.
     fn sum(&self) -> Self {
-        let up = self.vertical_m_per_s2.iter().flatten();
-        let horizontal = self.horizontal_m_per_s2.iter().zip(up).map(|(a, b)| a + b).collect();
+        let up = self.vertical_m_per_s2().unwrap_or_default();
+        let sum = self.horizontal_m_per_s2.iter().zip(up).map(|(a, b)| a + b);
         Self {
             times_s: self.times_s.clone(),
-            horizontal_m_per_s2: horizontal,
+            horizontal_m_per_s2: Arc::new(sum.collect()),
             vertical_m_per_s2: None,
             dt_s: constant_step(&self.times_s).or(self.dt_s),
         }

@@ -78,6 +78,18 @@ pub fn logarithmic_periods(from_s: f64, to_s: f64, count: usize) -> Vec<f64> {
 /// [`MotionError`] for fewer than two samples or unequal lists; for values that are not finite;
 /// for times that decrease; for a period that is negative or shorter than a ten-millionth of the
 /// duration; for a damping ratio outside `0 ≤ ξ < 1`.
+///
+/// # Examples
+/// ```
+/// use slipstick::motion::{logarithmic_periods, spectrum};
+///
+/// let (times_s, acceleration) = (vec![0.0, 0.1, 0.2, 0.3], vec![0.0, 2.0, -1.0, 0.0]);
+/// let periods_s = logarithmic_periods(0.05, 5.0, 100);
+/// let spectrum = spectrum(&times_s, &acceleration, &periods_s, &[0.05])?;
+/// let stiffest = spectrum.of_damping(0)[0];
+/// assert!((1.0..4.0).contains(&stiffest.sa_m_per_s2));
+/// # Ok::<(), slipstick::error::MotionError>(())
+/// ```
 pub fn spectrum(
     times_s: &[f64],
     acceleration_m_per_s2: &[f64],

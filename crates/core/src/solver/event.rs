@@ -6,10 +6,11 @@
 
 use fearless_simd::prelude::*;
 
+use super::course::Instant;
 use super::ground::Stretch;
 use super::outputs::output;
 use super::run::{InForce, Run};
-use super::slider::{Start, first_crossing, leaving_order};
+use super::slider::{ROUNDING, falls_below, first_crossing, leaving_order};
 use super::tables::Phase;
 use crate::error::SolveError;
 use crate::friction::{Direction, Exit, Fading};
@@ -18,7 +19,7 @@ use crate::linear::polynomial::{
     DEGREE, Polynomial, ZERO, curvature_bound, first_root, first_root_after_zero, value,
 };
 use crate::linear::{Load, Series};
-use crate::response::{EventKind, Mode};
+use crate::response::Mode;
 
 /// Most events in one sample interval before an analysis is given up.
 pub const EVENTS_PER_INTERVAL_LIMIT: u32 = 1_000_000;
@@ -43,17 +44,16 @@ impl Segment {
 }
 
 impl<S: Simd, W: Width> Run<'_, S, W> {
-    /// Goes through one sample interval.
+    /// Goes through one sample interval from a time in it.
     #[inline(never)]
-    pub(super) fn step_events(&mut self, sample: usize) -> Result<(), SolveError> {
+    pub(super) fn step_events(&mut self, sample: usize, mut from_s: f64) -> Result<(), SolveError> {
         let simd = self.simd;
         simd.vectorize(
             #[inline(always)]
             || {
-                self.events_in_interval = 0;
+                self.course.events_in_interval = 0;
                 let length_s = self.ground.times_s[sample + 1] - self.ground.times_s[sample];
                 let change_s = self.ground.contact_change(sample).map(|part| part * length_s);
-                let mut from_s = 0.0;
                 for to_s in [change_s.unwrap_or(0.0), length_s] {
                     if to_s > from_s {
                         let stretch = self.ground.stretch(sample, from_s, to_s);
@@ -72,23 +72,23 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         let mut first = at_s == 0.0;
         loop {
             // Whatever is due at this instant: a stop on a sample, a release by a jump.
-            let before = self.events.len();
-            if matches!(self.mode, Mode::Slip(_)) && self.start.is_none() && self.x[1] == 0.0 {
+            let before = self.course.events.len();
+            if self.course.is_stopped(self.x[1]) {
                 self.note_before_event(stretch, at_s, first);
                 self.stop(stretch, at_s);
             }
-            if self.mode == Mode::Stick {
-                self.release_if_due(stretch, at_s, first && before == self.events.len());
+            if self.course.mode == Mode::Stick {
+                self.release_if_due(stretch, at_s, first && before == self.course.events.len());
             }
-            if first || self.events.len() > before {
+            if first || self.course.events.len() > before {
                 self.record(stretch, at_s, first);
             }
             first = false;
             let time_s = self.ground.times_s[stretch.interval] + at_s;
-            if self.mode != Mode::Stick && self.slider.at_end() {
+            if self.course.mode != Mode::Stick && self.course.slider.at_end() {
                 return Err(SolveError::EndOfTravel { time_s });
             }
-            if self.events_in_interval > EVENTS_PER_INTERVAL_LIMIT {
+            if self.course.events_in_interval > EVENTS_PER_INTERVAL_LIMIT {
                 let limit = EVENTS_PER_INTERVAL_LIMIT;
                 return Err(SolveError::TooManyEvents { time_s, limit });
             }
@@ -96,7 +96,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
                 return Err(SolveError::NotFinite { time_s });
             }
             self.pulse.beat(self.units[1])?;
-            at_s = match self.mode {
+            at_s = match self.course.mode {
                 Mode::Stick => self.stick_segment(stretch, at_s),
                 Mode::Slip(direction) => self.slip_segment(stretch, direction, at_s),
             };
@@ -132,7 +132,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
     /// Coefficients of the demand in stick over a unit.
     #[inline(always)]
     fn demand_series(&mut self, load: &Load) -> Polynomial {
-        let phase = &self.tables.stick;
+        let phase = self.tables.stick.get();
         let (x, system) = (&self.x[..4 * self.width.fours()], &phase.system);
         let row = &phase.outputs.rows[output::FRICTION];
         let mut demand = phase.solution.number(self.simd, system, (x, load), &mut self.series);
@@ -143,7 +143,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
     /// One segment of stick, up to its end or the release in it; the time reached.
     #[inline(always)]
     fn stick_segment(&mut self, stretch: &Stretch, from_s: f64) -> f64 {
-        let phase = &self.tables.stick;
+        let phase = self.tables.stick.get();
         let segment = Self::segment(phase, stretch, from_s);
         let load = stretch.load(from_s, phase.unit_s, 0.0);
         let demand = self.demand_series(&load);
@@ -160,7 +160,9 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
                 continue;
             }
             let distance = self.hold.distance(&demand, [normal, rise], direction);
+            let rounding = ROUNDING * (size * (normal + rise.abs() * segment.part));
             if let Some(part) = first_crossing(&distance, segment.part)
+                && falls_below(&distance, rounding, segment.part)
                 && release.is_none_or(|(first, _)| part < first)
             {
                 release = Some((part, direction));
@@ -171,16 +173,16 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
             None => segment,
         };
         self.move_to(phase, &load, segment.part);
-        if self.slider.law.stop.is_some() {
+        if self.course.slider.law.stop.is_some() {
             self.look_at_stop(None, segment.part);
         }
         self.look(phase, stretch, &segment, &load);
         let at_s = segment.to_s;
         let Some((_, direction)) = release else { return at_s };
         self.record(stretch, at_s, false);
-        let acceleration = self.drop_at_release(stretch, at_s, direction);
-        let order = if acceleration > 0.0 { 1 } else { 2 };
-        self.slip_from_stick(stretch, at_s, direction, Start { order, acceleration });
+        let at = self.instant(stretch, at_s);
+        self.course.release(&at, &self.hold, direction, 1);
+        self.set_in_force();
         self.record(stretch, at_s, false);
         at_s
     }
@@ -188,7 +190,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
     /// One segment of slip, up to its end or the first of its exits in it; the time reached.
     #[inline(always)]
     fn slip_segment(&mut self, stretch: &Stretch, direction: Direction, from_s: f64) -> f64 {
-        let phase = self.now.phase;
+        let phase = self.now.phase.get();
         let mut load = stretch.load(from_s, phase.unit_s, self.now.friction);
         load.force -= self.now.stop;
         let (segment, mut speed) = match self.now.fading {
@@ -207,7 +209,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         for c in &mut speed {
             *c *= sign;
         }
-        let mut first = match self.start.take() {
+        let mut first = match self.course.start.take() {
             None => first_root(&speed, segment.part),
             Some(start) => {
                 if start.order == 1 {
@@ -217,19 +219,19 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
             }
         }
         .map(|part| (part, None));
-        let asks = self.exits.iter().any(Option::is_some) || self.slider.law.stop.is_some();
+        let asks = self.exits.iter().any(Option::is_some) || self.course.slider.law.stop.is_some();
         let displacement = asks.then(|| integral(&speed, sign * segment.unit_s, self.x[0]));
         if let Some(displacement) = &displacement {
             for exit in self.exits.iter().flatten() {
                 let to = first.map_or(segment.part, |(part, _)| part);
                 let row = [exit.of_s, sign * exit.of_w, exit.constant];
-                let value = self.slider.of_exit(exit, of_sliding(row, displacement, &speed));
+                let value = self.course.slider.of_exit(exit, of_sliding(row, displacement, &speed));
                 if let Some(part) = first_root(&value, to) {
                     first = Some((part, Some(*exit)));
                 }
             }
         }
-        self.slider.just = None;
+        self.course.slider.just = None;
         let segment = match first {
             Some((part, _)) => segment.up_to(part),
             None => segment,
@@ -249,7 +251,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
                 [self.x[0], self.x[1]] = exit.reached.place(direction, [self.x[0], self.x[1]]);
             }
         }
-        if self.slider.law.stop.is_some() {
+        if self.course.slider.law.stop.is_some() {
             let sliding = displacement.as_ref().map(|s| (s, &speed, sign));
             self.look_at_stop(sliding, segment.part);
         }
@@ -287,47 +289,33 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
     /// What follows an exit other than a stop.
     fn leave_branch(&mut self, stretch: &Stretch, at_s: f64, direction: Direction, exit: &Exit) {
         self.record(stretch, at_s, false);
-        let time_s = self.ground.times_s[stretch.interval] + at_s;
+        let at = self.instant(stretch, at_s);
         let place = [self.x[0], self.x[1]];
-        match self.slider.follow(exit.reached, direction, time_s, place) {
-            Some(kind) => self.push_event(time_s, kind),
-            None => self.events_in_interval += 1,
+        match self.course.slider.follow(exit.reached, direction, at.time_s, place) {
+            Some(kind) => self.course.push(&at, kind),
+            None => self.course.events_in_interval += 1,
         }
         self.set_in_force();
         self.record(stretch, at_s, false);
     }
 
-    /// The sliding velocity is zero: stick if friction holds, eq. (4), else slip on, eq. (3).
-    pub(super) fn stop(&mut self, stretch: &Stretch, at_s: f64) {
-        let normal = stretch.normal_at(at_s);
-        self.slider.settle(self.x[0]);
-        let hold = self.slider.hold(self.x[0]);
-        let demand = self.demand(&hold, stretch.acceleration_at(at_s));
-        self.sliding.decide(hold.margin(demand, normal));
-        let time_s = self.ground.times_s[stretch.interval] + at_s;
-        let Some(direction) = hold.gives_way(demand, normal) else {
-            self.sliding.end(time_s, self.x[0]);
-            self.mode = Mode::Stick;
-            self.push_event(time_s, EventKind::Stick);
-            self.set_in_force();
-            return;
-        };
-        self.start = Some(self.start_beyond(demand, normal, direction));
-        if self.mode == Mode::Slip(direction) {
-            self.slider.law.resume(&mut self.slider.memory, 0.0, direction);
-            self.set_in_force();
-        } else {
-            self.sliding.end(time_s, self.x[0]);
-            self.begin_slip(stretch, at_s, direction, EventKind::Reversal);
+    /// The present state so long after the first sample of an interval.
+    fn instant(&self, stretch: &Stretch, at_s: f64) -> Instant {
+        Instant {
+            time_s: self.ground.times_s[stretch.interval] + at_s,
+            place_m: self.x[0],
+            normal_n: stretch.normal_at(at_s),
+            mass_kg: self.tables.stick.system.block_mass_kg,
         }
     }
 
-    /// How a slip starts under a force beyond what holds: `|s̈| = (|T| − μ_k N) / M1`.
-    fn start_beyond(&self, demand: f64, normal: f64, direction: Direction) -> Start {
-        let kinetic_n = self.slider.resistance(self.x[0], direction) * normal;
-        let asked_n = -direction.sign() * demand;
-        let mass_kg = self.tables.stick.system.block_mass_kg;
-        Start { order: 1, acceleration: (asked_n - kinetic_n) / mass_kg }
+    /// The sliding velocity is zero: what follows.
+    pub(super) fn stop(&mut self, stretch: &Stretch, at_s: f64) {
+        self.course.slider.settle(self.x[0]);
+        let hold = self.course.slider.hold(self.x[0]);
+        let demand = self.demand(&hold, stretch.acceleration_at(at_s));
+        self.course.stop(&self.instant(stretch, at_s), &hold, demand, None);
+        self.set_in_force();
     }
 
     /// In stick: slip if the demand is beyond its bound (a jump), or on it and about to pass it.
@@ -340,8 +328,10 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         if low < demand && demand < high {
             return;
         }
-        let (direction, start) = if let Some(direction) = hold.gives_way(demand, normal) {
-            (direction, self.start_beyond(demand, normal, direction))
+        let at = self.instant(stretch, at_s);
+        if let Some(direction) = hold.gives_way(demand, normal) {
+            self.note_before_event(stretch, at_s, at_sample);
+            self.course.give_way(&at, demand, direction);
         } else {
             let ways = [(high, Direction::Negative), (low, Direction::Positive)];
             let due = ways.into_iter().filter(|(bound, _)| demand == *bound).find_map(
@@ -350,12 +340,22 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
                 },
             );
             let Some((direction, order)) = due else { return };
-            let acceleration = self.drop_at_release(stretch, at_s, direction);
-            let order = if acceleration > 0.0 { 1 } else { order + 1 };
-            (direction, Start { order, acceleration })
-        };
-        self.note_before_event(stretch, at_s, at_sample);
-        self.slip_from_stick(stretch, at_s, direction, start);
+            self.note_before_event(stretch, at_s, at_sample);
+            self.course.release(&at, &hold, direction, order);
+        }
+        self.set_in_force();
+    }
+
+    /// Decides by the loads after a jump at the very end, and looks at the outputs under them.
+    pub(super) fn look_after_jump(&mut self, stretch: &Stretch) {
+        if self.course.mode == Mode::Stick {
+            self.release_if_due(stretch, 0.0, true);
+        }
+        let phase = self.now.phase.get();
+        let load = stretch.load(0.0, phase.unit_s, self.now.friction);
+        let segment = Segment { from_s: 0.0, to_s: 0.0, unit_s: phase.unit_s, part: 0.0 };
+        self.next.copy_from_slice(&self.x);
+        self.look(phase, stretch, &segment, &load);
     }
 
     /// With the demand on its bound: order of the first derivative of (|T| − bound) that does not
@@ -366,40 +366,11 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         at_s: f64,
         direction: Direction,
     ) -> Option<usize> {
-        let phase = &self.tables.stick;
+        let phase = self.tables.stick.get();
         let load = stretch.load(at_s, phase.unit_s, 0.0);
         let demand = self.demand_series(&load);
         let normal = [0.0, stretch.normal_rate * phase.unit_s];
         leaving_order(&self.hold.distance(&demand, normal, direction))
-    }
-
-    fn slip_from_stick(
-        &mut self,
-        stretch: &Stretch,
-        at_s: f64,
-        direction: Direction,
-        start: Start,
-    ) {
-        self.start = Some(start);
-        self.begin_slip(stretch, at_s, direction, EventKind::Slip);
-    }
-
-    /// `|s̈|` just after a release on the bound: `(μ_s − μ_k) N / M1`.
-    fn drop_at_release(&self, stretch: &Stretch, at_s: f64, direction: Direction) -> f64 {
-        self.slider.drop(&self.hold, self.x[0], direction) * stretch.normal_at(at_s)
-            / self.tables.stick.system.block_mass_kg
-    }
-
-    fn begin_slip(&mut self, stretch: &Stretch, at_s: f64, direction: Direction, kind: EventKind) {
-        let time_s = self.ground.times_s[stretch.interval] + at_s;
-        self.mode = Mode::Slip(direction);
-        self.sliding.begin(time_s, self.x[0]);
-        self.push_event(time_s, kind);
-        if let Some(contact) = self.slider.begin(self.x[0], direction) {
-            let kind = self.slider.change_contact(time_s, 0.0, contact);
-            self.push_event(time_s, kind);
-        }
-        self.set_in_force();
     }
 
     /// Records the knot before an event at an instant that no segment has led to.

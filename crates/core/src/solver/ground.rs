@@ -46,6 +46,13 @@ pub(super) fn largest_size<S: Simd>(simd: S, x: &Window) -> f64 {
     greatest(first.abs(), largest_lane(simd, f64x8::from_slice(simd, rest).abs()))
 }
 
+/// Largest |x_{i+1} − x_i| in a batch.
+#[inline(always)]
+pub(super) fn largest_change<S: Simd>(simd: S, x: &Window) -> f64 {
+    let (before, after) = (f64x8::from_slice(simd, &x[..BATCH]), f64x8::from_slice(simd, &x[1..]));
+    largest_lane(simd, (after - before).abs())
+}
+
 /// Least value in a batch.
 #[inline(always)]
 fn smallest<S: Simd>(simd: S, x: &Window) -> f64 {
@@ -153,6 +160,13 @@ impl<'a> Normal<'a> {
     }
 }
 
+/// The time in s over which a jump is walked as a ramp: nothing moves meanwhile, but its accelerations
+/// have their order. 2^−200 s.
+const RAMP_S: f64 = f64::from_bits((1023 - 200) << 52);
+
+/// How long the loads stand after it: 2^30 times that.
+const STANDING_S: f64 = f64::from_bits((1023 - 170) << 52);
+
 /// A stretch of one sample interval over which all loads are linear.
 #[derive(Clone, Copy)]
 pub(super) struct Stretch {
@@ -163,7 +177,9 @@ pub(super) struct Stretch {
     pub(super) to_s: f64,
     acceleration: f64,
     pub(super) acceleration_rate: f64,
+    /// Normal force at `normal_from_s`: 0 where contact changes, which has no rounding.
     normal: f64,
+    normal_from_s: f64,
     pub(super) normal_rate: f64,
 }
 
@@ -205,6 +221,13 @@ impl Ground<'_> {
         interval == 0 || self.times_s[interval - 1] == self.times_s[interval]
     }
 
+    /// The loads after a jump at the last sample, where there is one.
+    pub(super) fn after_last_jump(&self) -> Option<Stretch> {
+        let last = self.times_s.len() - 1;
+        let loads = [self.acceleration[last], self.normal_at(last)];
+        (self.times_s[last] == self.times_s[last - 1]).then(|| Stretch::standing(last, loads, 1.0))
+    }
+
     /// `Ü` at a time after an interval's first sample.
     pub(super) fn table_at(&self, interval: usize, at_s: f64) -> f64 {
         let length_s = self.times_s[interval + 1] - self.times_s[interval];
@@ -223,22 +246,22 @@ impl Ground<'_> {
     #[inline(always)]
     pub(super) fn stretch(&self, interval: usize, from_s: f64, to_s: f64) -> Stretch {
         let length_s = self.times_s[interval + 1] - self.times_s[interval];
-        let over_length = 1.0 / length_s;
-        let [a0, a1] = [self.acceleration[interval], self.acceleration[interval + 1]];
-        let [n0, n1] = self.normals(interval);
-        let normal_rate = (n1 - n0) * over_length;
-        let middle = n0 + normal_rate * (0.5 * (from_s + to_s));
-        let (normal, normal_rate) = if middle > 0.0 { (n0, normal_rate) } else { (0.0, 0.0) };
-        Stretch {
-            interval,
-            from_s,
-            to_s,
-            acceleration: a0,
-            acceleration_rate: (a1 - a0) * over_length,
-            normal,
-            normal_rate,
-        }
+        let accelerations = [self.acceleration[interval], self.acceleration[interval + 1]];
+        Stretch::new(interval, length_s, accelerations, self.normals(interval), [from_s, to_s])
     }
+}
+
+/// The steep ramp that a jump of acceleration and normal force at a sample is the limit of, cut where
+/// contact changes, and the loads after it, which stand for as long as what has started may take to stop.
+pub(super) fn jump(sample: usize, from: [f64; 2], to: [f64; 2]) -> Vec<Stretch> {
+    let [a, n] = [0, 1].map(|i| [from[i], to[i]]);
+    let part = |[from_s, to_s]: [f64; 2]| Stretch::new(sample, RAMP_S, a, n, [from_s, to_s]);
+    let mut all = match change(n).map(|part| part * RAMP_S) {
+        Some(change_s) => vec![part([0.0, change_s]), part([change_s, RAMP_S])],
+        None => vec![part([0.0, RAMP_S])],
+    };
+    all.push(Stretch::standing(sample, to, STANDING_S));
+    all
 }
 
 /// Where in an interval between two normal forces (as a part of it) contact is lost or regained.
@@ -272,6 +295,41 @@ pub(super) fn contact_loss_s(times_s: &[f64], normal: Normal<'_>) -> Vec<[f64; 2
 }
 
 impl Stretch {
+    /// Part of an interval with these loads at its ends; contact does not change in it.
+    #[inline(always)]
+    fn new(
+        interval: usize,
+        length_s: f64,
+        [a0, a1]: [f64; 2],
+        [n0, n1]: [f64; 2],
+        [from_s, to_s]: [f64; 2],
+    ) -> Self {
+        let over_length = 1.0 / length_s;
+        let normal_rate = (n1 - n0) * over_length;
+        let (normal, normal_from_s) = match change([n0, n1]) {
+            Some(part) => (0.0, part * length_s),
+            None if n1 == 0.0 => (0.0, length_s),
+            None => (n0, 0.0),
+        };
+        let middle = normal + normal_rate * (0.5 * (from_s + to_s) - normal_from_s);
+        let (normal, normal_rate) = if middle > 0.0 { (normal, normal_rate) } else { (0.0, 0.0) };
+        Self {
+            interval,
+            from_s,
+            to_s,
+            acceleration: a0,
+            acceleration_rate: (a1 - a0) * over_length,
+            normal,
+            normal_from_s,
+            normal_rate,
+        }
+    }
+
+    /// Loads that stand for a time.
+    pub(super) fn standing(interval: usize, [a, n]: [f64; 2], length_s: f64) -> Self {
+        Self::new(interval, length_s, [a; 2], [n; 2], [0.0, length_s])
+    }
+
     /// `a` at a time after the interval's first sample.
     #[inline(always)]
     pub(super) fn acceleration_at(&self, at_s: f64) -> f64 {
@@ -281,7 +339,7 @@ impl Stretch {
     /// Normal force at a time after the interval's first sample, ≥ 0.
     #[inline(always)]
     pub(super) fn normal_at(&self, at_s: f64) -> f64 {
-        greatest(0.0, self.normal + self.normal_rate * at_s)
+        greatest(0.0, self.normal + self.normal_rate * (at_s - self.normal_from_s))
     }
 }
 
@@ -333,6 +391,7 @@ mod tests {
             let near = |sum: f64, found: f64| (found - sum).abs() <= 1e-14 * sum;
             assert!(near(kinks, found.kinks) && near(changes().sum(), found.variation));
             assert_eq!(found.change, changes().fold(0.0, f64::max));
+            assert_eq!(largest_change(simd, x), found.change);
         }
     }
 }

@@ -31,6 +31,11 @@ pub(super) mod output {
     /// drifts from the second storey on: that of the first is its displacement.
     pub(in crate::solver) const STOREYS: usize = 6;
 
+    /// Number of outputs with `n` storeys.
+    pub(in crate::solver) fn count(n: usize) -> usize {
+        STOREYS + 2 * n + n.saturating_sub(1)
+    }
+
     /// Displacement of storey `i` of `n`.
     pub(in crate::solver) fn displacement(i: usize) -> usize {
         STOREYS + i
@@ -72,6 +77,11 @@ pub(super) struct Overturning {
 }
 
 impl Overturning {
+    /// What `f` of one storey and the block's acceleration add.
+    pub(super) fn arms(&self) -> [f64; 2] {
+        [self.arm[0], self.block]
+    }
+
     /// The moment of the inertia of floors and block about the sliding surface, in N m.
     pub(super) fn moment(&self, f: &[f64], u: f64) -> f64 {
         self.block * u - dot(&self.arm, f)
@@ -122,21 +132,22 @@ pub(super) fn rows(
         row.state[2..2 + y.len()].copy_from_slice(y);
         row
     };
+    let still = vec![0.0; n];
     let of_f = |y: &[f64], factor: f64| {
         let mut row = none();
-        let drag = system.drag(y);
+        let (of_eta, of_rate) = row.state[2..2 + 2 * n].split_at_mut(n);
+        system.restoring(&still, y, of_rate);
         for j in 0..n {
-            row.state[2 + j] = factor * (system.omega2[j] * y[j]);
-            row.state[2 + n + j] = factor * drag[j];
+            of_eta[j] = factor * (system.omega2[j] * y[j]);
+            of_rate[j] *= factor;
         }
         row
     };
     let l = &system.participation;
     let (mass, per_mass) = (system.block_mass_kg, system.per_block_mass);
     // u, of which slip has u = (T − stop − c ṡ − k s + L·f) / M1 and stick u = a.
-    let mut u = none();
+    let mut u = if slip.is_some() { of_f(l, per_mass) } else { none() };
     if slip.is_some() {
-        u = of_f(l, per_mass);
         u.state[0] = -system.stiffness_n_per_m * per_mass;
         u.state[1] = -system.damper_n_s_per_m * per_mass;
         (u.of_friction, u.of_stop) = (per_mass, -per_mass);
@@ -144,9 +155,10 @@ pub(super) fn rows(
         u.of_a = 1.0;
     }
     let mut velocity = none();
-    let mut slider = none();
-    let mut friction = none();
+    let mut slider = if slip.is_some() { none() } else { of_f(l, -1.0) };
+    let mut friction;
     if let Some(of_friction) = slip {
+        friction = none();
         velocity.state[1] = 1.0;
         (slider.state[0], slider.state[1]) = (-system.stiffness_n_per_m, -system.damper_n_s_per_m);
         (slider.of_friction, slider.of_stop) = (1.0, -1.0);
@@ -154,7 +166,6 @@ pub(super) fn rows(
         friction.state[0] = -of_friction.stiffness_n_per_m;
         friction.state[1] = -of_friction.damper_n_s_per_m;
     } else {
-        slider = of_f(l, -1.0);
         slider.of_a = mass;
         friction = slider.clone();
         friction.state[0] = system.stiffness_n_per_m;
@@ -171,7 +182,8 @@ pub(super) fn rows(
         row
     });
     let block = OutputRow { constant: -slope, ..u };
-    let mut all = vec![velocity, block, slider, friction, of_f(l, 1.0), moment];
+    let mut all = Vec::with_capacity(output::count(system.storeys));
+    all.extend([velocity, block, slider, friction, of_f(l, 1.0), moment]);
     let storeys = 0..system.storeys;
     all.extend(storeys.clone().map(|i| of_eta(system.floor(i))));
     all.extend(

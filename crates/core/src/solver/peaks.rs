@@ -259,15 +259,15 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         sliding: Option<(&Polynomial, &Polynomial, f64)>,
         part: f64,
     ) {
-        let contact = self.slider.memory.contact;
-        let mut force_n = self.slider.law.stop_force_n(contact, self.x[0], self.x[1]);
+        let contact = self.course.slider.memory.contact;
+        let mut force_n = self.course.slider.law.stop_force_n(contact, self.x[0], self.x[1]);
         if let (Some([of_s, of_w, constant]), Some((s, speed, sign))) =
-            (self.slider.law.stop_row(contact), sliding)
+            (self.course.slider.law.stop_row(contact), sliding)
         {
             let p = of_sliding([of_s, sign * of_w, constant], s, speed);
             force_n = largest(&p, part, force_n);
         }
-        let peak = &mut self.slider.stopping.demands.peak_force_n;
+        let peak = &mut self.course.slider.stopping.demands.peak_force_n;
         *peak = greatest(*peak, force_n);
     }
 

@@ -6,22 +6,27 @@ use fearless_simd::Level;
 use fearless_simd::prelude::*;
 
 use super::ground::{Ground, Normal, Sampling, contact_loss_s, varying_normal};
-use super::recorder::Recorder;
+use super::recorder::{self, Recorder};
 use super::run::{Outcome, Run, Sliding};
 use super::tables::{self, Tables};
 use super::workspace::Workspace;
 use super::{stepping, summary};
-use crate::error::{GoOn, Pulse, SolveError, UNWATCHED};
-use crate::friction::Law;
+use crate::error::SolveError;
+use crate::friction::{Law, RateCurve, RateLaw};
 use crate::linear::lanes::{Many, One, Width};
 use crate::model::{Model, Stop, StopKind};
 use crate::motion::GroundMotion;
 use crate::numerics::fractile::upper_median;
+use crate::progress::{GoOn, Pulse, UNWATCHED};
 use crate::response::{Method, Response, StopDemands};
 
 /// Most work of an analysis: radians that the fastest mode turns, times the square of the number of
 /// masses. That is some minutes; at ten times as many radians of one mode its phase is lost to rounding.
 const WORK_LIMIT: f64 = 3e8;
+
+/// Most factors of e by which friction fades with the speed: each takes a series, and all some twenty
+/// seconds.
+const FADING_LIMIT: f64 = 1e5;
 
 /// Radians of the fastest mode in a usual step of the motion beyond which it is no mode but a rigid link.
 const RIGID_RADIANS: f64 = 100.0;
@@ -66,6 +71,9 @@ impl From<GroundMotion> for PreparedMotion {
 ///
 /// They depend neither on friction nor on the motion's values: one prepared model serves all levels
 /// of a record, and [`Prepared::with_model`] all coefficients of friction.
+///
+/// With one storey or none, a plain law, a constant normal force and even steps, the solver *runs ahead* of
+/// the way that serves all models, as far as nothing is in doubt.
 #[derive(Clone, Debug)]
 pub struct Prepared {
     model: Arc<Model>,
@@ -82,16 +90,24 @@ impl Prepared {
         Self { model, dt_s, tables }
     }
 
-    /// Another model for the same step, with the tables of this one where the two differ in friction
-    /// alone.
+    /// Another model for the same step, with the tables of this one where both have one
+    /// [system](Model::has_system_of).
     #[must_use]
     pub fn with_model(&self, model: impl Into<Arc<Model>>) -> Self {
         let model = model.into();
-        if self.model.with_friction(model.slider().friction) == *model {
+        if self.model.has_system_of(&model) {
             Self { model, ..self.clone() }
         } else {
             Self::new(model, self.dt_s)
         }
+    }
+
+    /// The same without [running ahead](Prepared): every event by event stepping, for comparison.
+    #[must_use]
+    pub fn without_running_ahead(self) -> Self {
+        let mut tables = tables_of(&self.model, self.dt_s);
+        tables.dense = None;
+        Self { tables: Arc::new(tables), ..self }
     }
 
     /// The model itself.
@@ -159,7 +175,19 @@ impl Prepared {
     /// # Errors
     /// [`SolveError`] with time and cause.
     pub fn response(&self, motion: &PreparedMotion) -> Result<Response, SolveError> {
-        self.solve(InstructionSet::best(), motion, (true, UNWATCHED), &mut Workspace::default())
+        self.response_by(InstructionSet::best(), motion)
+    }
+
+    /// The same by a given instruction set.
+    ///
+    /// # Errors
+    /// [`SolveError`] with time and cause.
+    pub fn response_by(
+        &self,
+        instructions: InstructionSet,
+        motion: &PreparedMotion,
+    ) -> Result<Response, SolveError> {
+        self.solve(instructions, motion, (true, UNWATCHED), &mut Workspace::default())
     }
 
     fn solve(
@@ -226,6 +254,19 @@ fn solve(
     if !(work <= limit) {
         return Err(SolveError::TooMuchWork { work, limit, advice: advice(model, motion, rate) });
     }
+    if let Some(RateCurve::Exponential { rate_s_per_m, .. }) =
+        model.devices().rate.as_ref().map(RateLaw::curve)
+    {
+        let (work, limit) = (rate_s_per_m * absolute_velocity(motion), FADING_LIMIT);
+        if !(work <= limit) {
+            let advice =
+                "friction changes within a hair of no speed; take one coefficient, or check \
+                          the rate"
+                    .to_owned();
+            return Err(SolveError::TooMuchWork { work, limit, advice });
+        }
+    }
+    recorder::fits(model, motion.len())?;
     let slope = tables.slope;
     let [mut sloped, mut varying] =
         [&mut room.acceleration, &mut room.normal_n].map(core::mem::take);
@@ -248,7 +289,7 @@ fn solve(
     };
     let law = model.law(varies);
     if !tables::serve(model, &law, varies) {
-        return stepped(model, &law, motion, ground, (with_history, go_on));
+        return stepped(model, &law, (motion, ground), instructions, (with_history, go_on));
     }
     // Away from rigid stops they change nothing.
     let away = Law { rigid: None, ..law.clone().under(model.normal_n()) };
@@ -266,7 +307,7 @@ fn solve(
     let (mut outcome, recorder) = match solved {
         // What would happen beyond a rigid stop says nothing.
         Err(error) if law.rigid.is_some() && !matches!(error, SolveError::Stopped(_)) => {
-            return stepped(model, &law, motion, ground, (with_history, go_on));
+            return stepped(model, &law, (motion, ground), instructions, (with_history, go_on));
         }
         solved => solved?,
     };
@@ -274,7 +315,7 @@ fn solve(
         let within = |gap_m: &Option<f64>, s: f64| gap_m.is_none_or(|gap_m| s < gap_m);
         let Sliding { max_m, min_m, .. } = outcome.sliding;
         if !(within(positive, max_m) && within(negative, -min_m)) {
-            return stepped(model, &law, motion, ground, (with_history, go_on));
+            return stepped(model, &law, (motion, ground), instructions, (with_history, go_on));
         }
         outcome.stop = Some(StopDemands::default());
     }
@@ -297,12 +338,12 @@ fn solve(
 fn stepped(
     model: &Model,
     law: &Law,
-    motion: &GroundMotion,
-    ground: Ground<'_>,
+    (motion, ground): (&GroundMotion, Ground<'_>),
+    instructions: InstructionSet,
     (with_history, go_on): (bool, GoOn<'_>),
 ) -> Result<Response, SolveError> {
     let contact_loss_s = contact_loss_s(motion.times_s(), ground.normal);
-    let stepped = stepping::solve(model, law, ground, (with_history, go_on))?;
+    let stepped = stepping::solve(model, law, ground, instructions, (with_history, go_on))?;
     let mut warnings = summary::warnings(model, &stepped.outcome.events, &contact_loss_s);
     warnings.extend(stepped.warnings);
     let mut demands = summary::demands(model, &stepped.outcome, |j| stepped.peaks[j]);
@@ -320,6 +361,13 @@ fn stepped(
 
 /// What makes an analysis long, and what to do: a link that is rigid beside the motion's steps, a gap
 /// in the motion, or the length of both.
+/// `∫|Ü| dt` by the trapezoidal rule, in m/s.
+fn absolute_velocity(motion: &GroundMotion) -> f64 {
+    let (times_s, a) = (motion.times_s(), motion.horizontal_m_per_s2());
+    let intervals = times_s.windows(2).zip(a.windows(2));
+    intervals.map(|(t, a)| 0.5 * (a[0].abs() + a[1].abs()) * (t[1] - t[0])).sum()
+}
+
 fn advice(model: &Model, motion: &GroundMotion, rate: f64) -> String {
     let steps = || motion.times_s().windows(2).map(|t| t[1] - t[0]).filter(|&h| h > 0.0);
     let usual_s = upper_median(steps()).unwrap_or(0.0);
@@ -388,9 +436,11 @@ impl Job for Analysis<'_> {
 pub struct InstructionSet(Level);
 
 /// Work that an instruction set does.
-trait Job {
+pub(super) trait Job {
+    /// What comes of it.
     type Output;
 
+    /// Does it.
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
@@ -417,7 +467,7 @@ impl InstructionSet {
     }
 
     #[inline(always)]
-    fn run<J: Job>(self, job: J) -> J::Output {
+    pub(super) fn run<J: Job>(self, job: J) -> J::Output {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         {
             #[cfg(feature = "scalar")]

@@ -1,9 +1,33 @@
 //! Keeps the history of a response.
 
+use crate::error::SolveError;
 use crate::friction::{Contact, Law};
-use crate::linear::System;
 use crate::linear::lanes::dot;
+use crate::linear::{BATCH, System};
+use crate::model::Model;
 use crate::response::{History, Mode};
+
+/// Memory of an analysis with history and certificate: so many bytes a sample and number kept, and the
+/// most in all.
+const BYTES_A_NUMBER: u64 = 40;
+const MEMORY_LIMIT: u64 = 4 << 30;
+
+/// Whether the history of so many samples and its certificate fit: what cannot be certified is not answered,
+/// kept or not.
+///
+/// # Errors
+/// [`SolveError::TooMuchMemory`] where they do not.
+pub(super) fn fits(model: &Model, samples: usize) -> Result<(), SolveError> {
+    let devices = model.devices();
+    let surfaces = devices.series.as_ref().map_or(0, |series| series.surfaces().len());
+    // t, Ü, s, ṡ, block, T, five energies; q, q̇ and acceleration; r, ṙ and acceleration; u.
+    let numbers = 11 + 3 * model.storeys() + 3 * devices.contents.len() + surfaces;
+    let (bytes, limit) = (BYTES_A_NUMBER * samples as u64 * numbers as u64, MEMORY_LIMIT);
+    if bytes <= limit {
+        return Ok(());
+    }
+    Err(SolveError::TooMuchMemory { bytes, limit, samples, numbers })
+}
 
 /// What is known at a knot.
 pub(super) struct Knot<'a> {
@@ -61,6 +85,17 @@ impl Recorder {
     }
 }
 
+/// Adds the first of nine numbers.
+#[inline(always)]
+fn extend(list: &mut Vec<f64>, numbers: &[f64; BATCH + 1], steps: usize) {
+    if steps == BATCH {
+        // Of a known length: no call.
+        list.extend_from_slice(&numbers[..BATCH]);
+    } else {
+        list.extend_from_slice(&numbers[..steps]);
+    }
+}
+
 /// What is stored at a knot.
 pub(super) struct Stored<'a> {
     pub(super) time_s: f64,
@@ -113,6 +148,27 @@ impl Recorder {
             h.contact.resize(end, contact);
         }
         h.table_acceleration_m_per_s2.extend_from_slice(table);
+    }
+
+    /// Stores the motion at the first of nine samples whose times have been stored: `s`, `ṡ`, the block's
+    /// acceleration and friction; displacement, velocity and acceleration of one storey.
+    #[inline(always)]
+    pub(super) fn store_batch(
+        &mut self,
+        steps: usize,
+        block: [&[f64; BATCH + 1]; 4],
+        storey: Option<&[[f64; BATCH + 1]; 3]>,
+    ) {
+        let h = &mut self.history;
+        extend(&mut h.sliding_displacement_m, block[0], steps);
+        extend(&mut h.sliding_velocity_m_per_s, block[1], steps);
+        extend(&mut h.block_acceleration_m_per_s2, block[2], steps);
+        extend(&mut h.friction_force_n, block[3], steps);
+        if let Some([displacement, velocity, acceleration]) = storey {
+            extend(&mut h.storey_displacement_m, displacement, steps);
+            extend(&mut h.storey_velocity_m_per_s, velocity, steps);
+            extend(&mut h.storey_acceleration_m_per_s2, acceleration, steps);
+        }
     }
 
     #[inline(always)]
@@ -174,5 +230,24 @@ impl Recorder {
                 [u - self.slope_m_per_s2, knot.friction_n]
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::friction::{Coulomb, Friction};
+
+    /// 40 bytes × 11 numbers × 9e7 samples.
+    #[test]
+    fn exact_histories_that_do_not_fit_are_refused() {
+        let friction = Friction::Coulomb(Coulomb::new([0.1; 2], [0.1; 2]).unwrap());
+        let model = Model::rigid_block(100.0, friction).unwrap();
+        assert_eq!(fits(&model, 9_000_000), Ok(()));
+        assert_eq!(
+            fits(&model, 90_000_000).unwrap_err().to_string(),
+            "the history would take 36.9 GiB, where 4 GiB are the most: 90000000 samples with 11 \
+             numbers each; take a longer time step or a shorter motion"
+        );
     }
 }

@@ -2,25 +2,29 @@
 //!
 //! Evenly spaced samples go by screened propagation (`screen`), eight at a time, as far as a bound
 //! shows that nothing happens in them. Every other sample goes by event stepping (`event`), which
-//! knows the Taylor series of the motion and misses nothing. Peaks are looked for in `peaks`.
+//! knows the Taylor series of the motion and misses nothing. Peaks are looked for in `peaks`. Where
+//! `dense` can, it runs ahead of all three. `course` says what follows an event.
 
 use core::mem::take;
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
+use super::course::Course;
+use super::dense::{self, Dense, Reached};
 use super::ground::{Ground, Normal, Roughness};
 use super::outputs::{Group, output};
 use super::peaks::Peaks;
 use super::recorder::{Knot, Recorder};
-use super::slider::{Slider, Start};
-use super::tables::{Batch, Phase, Tables};
+use super::slider::Slider;
+use super::tables::{Batch, LazyPhase, Phase, Tables};
 use super::workspace::Workspace;
-use crate::error::{Pulse, SolveError};
-use crate::friction::{Affine, Contact, Direction, EXITS, Exit, Fading, Hold, Law, Restraint};
+use crate::error::SolveError;
+use crate::friction::{Affine, Contact, EXITS, Exit, Fading, Hold, Law, Restraint};
 use crate::linear::lanes::{Eight, Width, combine8, dot, eight};
 use crate::linear::{BATCH, Force, Series};
-use crate::response::{Event, EventKind, Mode, StopDemands, SurfaceDemands};
+use crate::progress::Pulse;
+use crate::response::{Event, Mode, StopDemands, SurfaceDemands};
 
 /// Extremes, path and duration of sliding; `s` is monotone between two events.
 #[derive(Clone, Copy)]
@@ -128,7 +132,7 @@ impl Curvature {
 #[derive(Clone, Copy)]
 pub(super) struct InForce<'a> {
     pub(super) mode: Mode,
-    pub(super) phase: &'a Phase,
+    pub(super) phase: &'a LazyPhase,
     /// Constant part of the friction force over the normal force, `−σ μ_k`; 0 in stick.
     pub(super) friction: f64,
     /// What the stop does to the outputs: in slip the constant force of its branch, in stick its force.
@@ -155,8 +159,9 @@ impl InForce<'_> {
             Mode::Stick => hold.force_n,
             Mode::Slip(_) => friction_n - self.stop,
         };
-        if self.phase.of_friction != Restraint::default() {
-            let Restraint { stiffness_n_per_m: k, damper_n_s_per_m: c } = self.phase.of_friction;
+        let of_friction = self.phase.of_friction();
+        if of_friction != Restraint::default() {
+            let Restraint { stiffness_n_per_m: k, damper_n_s_per_m: c } = of_friction;
             friction_n -= k * x[0] + c * x[1];
         }
         [friction_n, force_n]
@@ -168,7 +173,6 @@ pub(super) struct Run<'a, S, W> {
     pub(super) simd: S,
     pub(super) width: W,
     pub(super) tables: &'a Tables,
-    pub(super) slider: Slider<'a>,
     pub(super) ground: Ground<'a>,
     /// Where a history is wanted.
     pub(super) recorder: Option<Recorder>,
@@ -188,20 +192,19 @@ pub(super) struct Run<'a, S, W> {
     /// Room for two lists of storey coordinates.
     pub(super) spare: [Vec<f64>; 2],
     pub(super) peaks: Peaks,
-    pub(super) mode: Mode,
+    pub(super) course: Course<'a>,
     /// What follows from mode and memory.
     pub(super) now: InForce<'a>,
     /// In slip how the branch can end.
     pub(super) exits: [Option<Exit>; EXITS],
     /// What holds the block at rest, in stick.
     pub(super) hold: Hold,
-    /// Set while a slip has just started.
-    pub(super) start: Option<Start>,
     /// Length that a series of fading friction had last, in s.
     pub(super) fading_s: f64,
-    pub(super) events: Vec<Event>,
-    pub(super) sliding: Sliding,
-    pub(super) events_in_interval: u32,
+    /// Where it can run ahead.
+    dense: Option<Dense<'a>>,
+    /// What may hold a peak of what it has gone through.
+    candidates: Vec<dense::Candidate>,
 }
 
 impl<'a, S: Simd, W: Width> Run<'a, S, W> {
@@ -218,13 +221,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let [mut x, next] = room.states.each_mut().map(|x| Workspace::list(x, stride, 0.0));
         x.copy_from_slice(&tables.start);
         let [s, w] = [x[0], x[1]];
-        let mode = match w {
-            w if w > 0.0 => Mode::Slip(Direction::Positive),
-            w if w < 0.0 => Mode::Slip(Direction::Negative),
-            _ => Mode::Stick,
-        };
-        let outputs = &tables.stick.outputs;
-        let (groups, outputs) = (outputs.groups.len(), outputs.rows.len());
+        let outputs = output::count(system.storeys);
+        let groups = outputs.div_ceil(8);
         let values = Workspace::list(&mut room.values, groups, Eight::ZERO);
         let [mut amplitudes, f, g] =
             room.modes.each_mut().map(|list| Workspace::list(list, n, 0.0));
@@ -234,14 +232,22 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         peaks.serve(groups, outputs, stride);
         let mut events = take(&mut room.events);
         events.clear();
-        let slider = Slider::new(law, s, w);
-        let hold = slider.hold(s);
-        let now = InForce { mode, phase: &tables.stick, friction: 0.0, stop: 0.0, fading: None };
+        let course = Course::new(Slider::new(law, s, w), [s, w], events);
+        let now = InForce {
+            mode: course.mode,
+            phase: &tables.stick,
+            friction: 0.0,
+            stop: 0.0,
+            fading: None,
+        };
+        let of_dense = tables.dense.as_deref();
+        let dense = of_dense.and_then(|of| Dense::new((of, &tables.stick.system), law, ground));
+        let mut candidates = take(&mut room.candidates);
+        candidates.clear();
         Self {
             simd,
             width,
             tables,
-            slider,
             ground,
             recorder,
             pulse,
@@ -252,15 +258,13 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             amplitudes,
             spare: [f, g],
             peaks,
-            mode,
+            hold: course.slider.hold(s),
+            course,
             now,
             exits: [None; EXITS],
-            hold,
-            start: None,
             fading_s: f64::INFINITY,
-            events,
-            sliding: Sliding::new(s),
-            events_in_interval: 0,
+            dense,
+            candidates,
             x,
         }
     }
@@ -268,7 +272,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     /// Goes through all sample intervals.
     #[inline(always)]
     pub(super) fn go(&mut self) -> Result<(), SolveError> {
-        let times_s = self.ground.times_s;
+        let (simd, times_s) = (self.simd, self.ground.times_s);
         let last = times_s.len() - 1;
         let mut sample = 0;
         self.set_in_force();
@@ -280,14 +284,34 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 continue;
             }
             let end = self.ground.sampling.regular_end(sample, last);
-            sample = self.screened(sample, end);
+            let mut from_s = 0.0;
+            if let Some((dense, shared)) = self.sharing() {
+                let samples = [sample, end];
+                Reached { sample, at_s: from_s } = dense.run_ahead(simd, shared, samples)?;
+                self.set_in_force();
+            } else {
+                sample = self.screened(sample, end);
+            }
             self.pulse.beat(self.units[0])?;
             if sample < last && times_s[sample + 1] > times_s[sample] {
-                self.step_events(sample)?;
+                self.step_events(sample, from_s)?;
                 sample += 1;
             }
         }
         self.finish(last)
+    }
+
+    /// What runs ahead, and what it shares with this.
+    fn sharing(&mut self) -> Option<(Dense<'a>, dense::Shared<'_, 'a>)> {
+        let shared = dense::Shared {
+            x: self.x.first_chunk_mut()?,
+            peak: &mut self.peaks.peak.first_mut()?.0,
+            course: &mut self.course,
+            candidates: &mut self.candidates,
+            recorder: self.recorder.as_mut(),
+            pulse: &mut self.pulse,
+        };
+        Some((self.dense?, shared))
     }
 
     fn finish(&mut self, last: usize) -> Result<(), SolveError> {
@@ -295,7 +319,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         if !self.x.iter().all(|x| x.is_finite()) {
             return Err(SolveError::NotFinite { time_s: end_s });
         }
-        if matches!(self.mode, Mode::Slip(_)) && self.start.is_none() && self.x[1] == 0.0 {
+        if self.course.is_stopped(self.x[1]) {
             // A stop at the very end is decided by the limit from the left.
             let interval = (0..last).rev().find(|&i| self.ground.times_s[i] < end_s);
             if let Some(interval) = interval {
@@ -305,14 +329,26 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 self.stop(&stretch, length_s);
             }
         }
+        if let Some(stretch) = self.ground.after_last_jump() {
+            self.look_after_jump(&stretch);
+        }
         self.record_sample(last, true);
-        if matches!(self.mode, Mode::Slip(_)) {
-            self.sliding.end(end_s, self.x[0]);
+        if matches!(self.course.mode, Mode::Slip(_)) {
+            self.course.sliding.end(end_s, self.x[0]);
         }
-        if self.slider.law.stop.is_some() {
-            self.slider.stopping.change(end_s, 0.0, self.slider.memory.contact, Contact::Free);
+        if self.course.slider.law.stop.is_some() {
+            self.course.slider.stopping.change(
+                end_s,
+                0.0,
+                self.course.slider.memory.contact,
+                Contact::Free,
+            );
         }
-        self.slider.note_surfaces(self.x[0]);
+        self.course.slider.note_surfaces(self.x[0]);
+        let simd = self.simd;
+        if let Some((dense, shared)) = self.sharing() {
+            dense.settle(simd, shared);
+        }
         self.settle_peaks();
         Ok(())
     }
@@ -320,19 +356,20 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     /// What the analysis leaves behind, its recorder, and its room.
     pub(super) fn outcome(self, room: &mut Workspace) -> (Outcome, Option<Recorder>) {
         let outcome = Outcome {
-            events: self.events.clone(),
+            events: self.course.events.clone(),
             overturns: self.tables.overturns(),
-            sliding: self.sliding,
-            stop: self.slider.law.stop.map(|_| self.slider.stopping.demands),
-            surfaces: self.slider.surfaces.demands(),
+            sliding: self.course.sliding,
+            stop: self.course.slider.law.stop.map(|_| self.course.slider.stopping.demands),
+            surfaces: self.course.slider.surfaces.demands(),
             residual_m: self.x[0],
-            sliding_at_end: matches!(self.mode, Mode::Slip(_)),
+            sliding_at_end: matches!(self.course.mode, Mode::Slip(_)),
         };
         let [f, g] = self.spare;
         room.states = [self.x, self.next];
         room.modes = [self.amplitudes, f, g];
         (room.values, room.series) = (self.values, self.series);
-        (room.peaks, room.events) = (self.peaks, self.events);
+        (room.peaks, room.events) = (self.peaks, self.course.events);
+        room.candidates = self.candidates;
         (outcome, self.recorder)
     }
 
@@ -340,7 +377,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
 
     /// Finds what follows from mode and memory.
     pub(super) fn set_in_force(&mut self) {
-        let (mode, s) = (self.mode, self.x[0]);
+        let (mode, s) = (self.course.mode, self.x[0]);
         let normal_n = match self.ground.normal {
             Normal::Constant(normal_n) => normal_n,
             // The restraints of a law that is affine under any force do not ask for it.
@@ -350,16 +387,16 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         self.now = InForce { mode, phase: stick, friction: 0.0, stop: 0.0, fading: None };
         match mode {
             Mode::Stick => {
-                self.hold = self.slider.law.hold(&self.slider.memory, s);
-                if self.slider.law.stop.is_some() {
+                self.hold = self.course.slider.law.hold(&self.course.slider.memory, s);
+                if self.course.slider.law.stop.is_some() {
                     self.now.stop = self.hold.force_n - stick.system.stiffness_n_per_m * s;
                 }
             }
             Mode::Slip(direction) => {
-                self.exits = self.slider.law.exits(&self.slider.memory, direction);
-                let force = self.slider.law.force(&self.slider.memory, direction);
+                self.exits = self.course.slider.law.exits(&self.course.slider.memory, direction);
+                let force = self.course.slider.law.force(&self.course.slider.memory, direction);
                 let Affine { restraints, force_n, coefficient, fading } = force.under(normal_n);
-                let phase = self.tables.under(self.simd, restraints);
+                let phase = self.tables.under(restraints);
                 let (friction, stop) = (-coefficient, force_n);
                 self.now = InForce { mode, phase, friction, stop, fading };
             }
@@ -480,13 +517,6 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
 
     // ---- what is kept ---------------------------------------------------------------------------
 
-    pub(super) fn push_event(&mut self, time_s: f64, kind: EventKind) {
-        self.events_in_interval += 1;
-        let sliding_displacement_m = self.x[0];
-        let event = Event { time_s, kind, mode: self.mode, sliding_displacement_m, interface: 0 };
-        self.events.push(event);
-    }
-
     /// Records the present state as a knot at a sample.
     #[inline(never)]
     pub(super) fn record_sample(&mut self, sample: usize, row: bool) {
@@ -509,13 +539,13 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         [table, acceleration, normal]: [f64; 3],
         row: bool,
     ) {
-        let (InForce { mode, phase, .. }, contact) = (self.now, self.slider.memory.contact);
+        let (InForce { mode, phase, .. }, contact) = (self.now, self.course.slider.memory.contact);
         let [friction_n, force_n] = self.now.forces(&self.hold, normal, x);
         let knot =
             Knot { time_s, mode, contact, table, acceleration, state: x, friction_n, force_n };
         if let Some(recorder) = &mut self.recorder {
             recorder.knot(&phase.system, &knot, row);
-            let surfaces = self.slider.law.surfaces(&self.slider.memory, x[0]);
+            let surfaces = self.course.slider.law.surfaces(&self.course.slider.memory, x[0]);
             recorder.history.surface_displacement_m.extend(surfaces);
         }
     }
@@ -527,14 +557,14 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         for (limit, peak) in self.peaks.limit.iter_mut().zip(&self.peaks.peak) {
             peak.load(self.simd).store_slice(&mut limit.0);
         }
-        if let (Mode::Stick, Normal::Constant(normal)) = (self.mode, self.ground.normal) {
-            let bound = self.slider.law.largest_static() * normal * (1.0 - 1e-14);
+        if let (Mode::Stick, Normal::Constant(normal)) = (self.course.mode, self.ground.normal) {
+            let bound = self.course.slider.law.largest_static() * normal * (1.0 - 1e-14);
             let first = &mut self.peaks.limit[0].0;
             if first[output::FRICTION] >= bound {
                 first[output::FRICTION] = f64::INFINITY;
             }
-            let free =
-                self.tables.stick.system.stiffness_n_per_m == 0.0 && self.slider.law.stop.is_none();
+            let free = self.tables.stick.system.stiffness_n_per_m == 0.0
+                && self.course.slider.law.stop.is_none();
             if free && first[output::SLIDER] >= bound {
                 first[output::SLIDER] = f64::INFINITY;
             }

@@ -34,12 +34,12 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     /// Takes samples up to the end of the evenly spaced ones; the first that the bounds leave open.
     #[inline(always)]
     pub(super) fn screened(&mut self, sample: usize, end: usize) -> usize {
-        let phase = self.now.phase;
-        let Some(batch) = &phase.batch else { return sample };
-        if self.start.is_some() || self.now.fading.is_some() || sample + BATCH > end {
+        let phase = self.now.phase.get();
+        if self.course.start.is_some() || self.now.fading.is_some() || sample + BATCH > end {
             return sample;
         }
-        match self.mode {
+        let Some(batch) = phase.batch() else { return sample };
+        match self.course.mode {
             Mode::Slip(_) if self.x[1] == 0.0 => sample,
             Mode::Slip(direction) => self.slide((phase, batch), sample, end, direction),
             Mode::Stick => self.rest((phase, batch), sample, end),
@@ -394,7 +394,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         force: Force<'_>,
     ) {
         let Some(recorder) = &mut self.recorder else { return };
-        let (InForce { mode, phase, .. }, contact) = (self.now, self.slider.memory.contact);
+        let (InForce { mode, phase, .. }, contact) = (self.now, self.course.slider.memory.contact);
         let samples = sample..sample + steps;
         let (times_s, table) = (&self.ground.times_s[samples.clone()], &self.ground.table[samples]);
         recorder.store_samples([times_s, table], mode, contact);
@@ -414,8 +414,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             let knot =
                 Knot { time_s, mode, contact, table, acceleration, state, friction_n, force_n };
             recorder.motion(&phase.system, &knot);
-            if self.slider.law.series.is_some() {
-                let surfaces = self.slider.law.surfaces(&self.slider.memory, x[0]);
+            if self.course.slider.law.series.is_some() {
+                let surfaces = self.course.slider.law.surfaces(&self.course.slider.memory, x[0]);
                 recorder.history.surface_displacement_m.extend(surfaces);
             }
         }
@@ -441,7 +441,7 @@ fn held_steps<S: Simd>(
 
 /// Samples up to the last before the first that is not clear: both ends of each must be.
 #[inline(always)]
-fn clear_steps(clear: u64, first: bool) -> usize {
+pub(super) fn clear_steps(clear: u64, first: bool) -> usize {
     let ends = (clear << 1) | u64::from(first);
     ((!ends).trailing_zeros() as usize).saturating_sub(1).min(BATCH)
 }

@@ -148,7 +148,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let simd = self.simd;
         let Candidate { sample, extent, phase, stop, .. } = self.peaks.candidates[i];
         let phase = self.tables.phase(phase);
-        let (Extent::Samples(count, curvature), Some(batch)) = (extent, &phase.batch) else {
+        let (Extent::Samples(count, curvature), Some(batch)) = (extent, phase.batch()) else {
             return;
         };
         let Some(a) = self.ground.acceleration[sample..].first_chunk() else { return };
@@ -332,7 +332,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     fn settle_sample(&mut self, (i, k): (usize, usize), places: Range<usize>, only_highest: bool) {
         let Candidate { sample, mode, phase, stop, .. } = self.peaks.candidates[i];
         let phase = self.tables.phase(phase);
-        let Some(batch) = &phase.batch else { return };
+        let Some(batch) = phase.batch() else { return };
         let mut x = core::mem::take(&mut self.peaks.room.x);
         self.state_of(i, k, batch, &mut x);
         let stretch = self.ground.stretch(sample + k, 0.0, batch.dt_s);

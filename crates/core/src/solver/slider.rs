@@ -190,6 +190,17 @@ impl<'a> Slider<'a> {
     }
 }
 
+/// Part of its terms below which a number is rounding.
+pub(super) const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Whether a distance from a bound goes below zero by more than what of it is rounding.
+#[inline(always)]
+pub(super) fn falls_below(distance: &Polynomial, rounding: f64, to: f64) -> bool {
+    let mut raised = *distance;
+    raised[0] += rounding;
+    first_root(&raised, to).is_some()
+}
+
 /// First part of a segment after which a distance from a bound is negative; one that is zero at the
 /// start has been found not to go that way.
 #[inline(always)]

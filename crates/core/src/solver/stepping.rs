@@ -3,23 +3,30 @@
 //!
 //! The slider and the contents are interfaces, each of which sticks or slides. Between two events the
 //! motion is one Taylor series in physical coordinates, nonlinear where the force is; the slider's law
-//! says which force, where it ends, what holds at rest and what follows.
+//! says which force, where it ends, what holds at rest and what follows. Whole samples in which nothing
+//! happens go eight at a time where the motion is affine (`ahead`).
 
+mod affine;
+mod ahead;
 mod body;
 mod decide;
 mod keep;
 
+use self::ahead::Ahead;
 use self::body::{Body, Expansion, Loads, Phase, State};
-use self::keep::Peaks;
+use self::decide::LetGo;
+use self::keep::{Peaks, history};
 use super::event::{EVENTS_PER_INTERVAL_LIMIT, fitting};
 use super::ground::{Ground, Stretch};
+use super::prepared::InstructionSet;
 use super::run::{Outcome, Sliding};
-use super::slider::{Slider, Start};
+use super::slider::Slider;
 use super::tables::system_of;
-use crate::error::{GoOn, Pulse, SolveError};
+use crate::error::SolveError;
 use crate::friction::{Coefficient, Direction, Exit, Hold, Law, Reached, Restraint, SlipForce};
 use crate::linear::polynomial::{DEGREE, Polynomial, deflated, first_root, value};
 use crate::model::Model;
+use crate::progress::{GoOn, Pulse};
 use crate::response::{
     Contact, ContentsDemands, Event, EventKind, History, Mode, StopDemands, Warning,
 };
@@ -42,9 +49,11 @@ pub(super) fn solve(
     model: &Model,
     law: &Law,
     ground: Ground<'_>,
+    instructions: InstructionSet,
     (with_history, go_on): (bool, GoOn<'_>),
 ) -> Result<Stepped, SolveError> {
-    let mut run = Stepping::new(model, law, ground, (with_history, Pulse::new(go_on)));
+    let how = (with_history, Pulse::new(go_on));
+    let mut run = Stepping::new(model, law, ground, instructions, how);
     run.go()?;
     Ok(run.stepped())
 }
@@ -56,8 +65,8 @@ enum End {
     Still(usize),
     /// The slider's branch ends.
     Exit(Exit),
-    /// An interface that stuck slides.
-    Release(usize, Direction),
+    /// Interfaces that stuck reach their bounds.
+    Release,
     /// Friction takes all of a push against a rigid stop from here on, or no longer does.
     Lean,
 }
@@ -73,15 +82,18 @@ struct Stepping<'a> {
     model: &'a Model,
     slider: Slider<'a>,
     ground: Ground<'a>,
+    instructions: InstructionSet,
+    ahead: Ahead,
     body: Body,
     x: State,
     modes: Vec<Mode>,
-    start: Vec<Option<Start>>,
-    /// An interface that has reached its bound.
-    pending: Option<(usize, Direction)>,
+    /// Number of leading coefficients of `|velocity|` that vanish where a slip starts.
+    start: Vec<Option<usize>>,
+    /// Interfaces that have reached their bounds.
+    pending: Vec<LetGo>,
+    /// Whether a jump is walked, in which displacements stand.
+    walks_jump: bool,
     near: Option<Near>,
-    /// The contact with an elastic stop with which the slider sets out.
-    begun: Option<Contact>,
     /// What friction takes of a push against a rigid stop has just become all of it, or too little.
     leant: bool,
     series: Expansion,
@@ -97,6 +109,8 @@ struct Stepping<'a> {
     first_impact_s: Option<f64>,
     peaks: Peaks,
     history: Option<History>,
+    /// Room for the state and the outputs of a knot.
+    knot: [Vec<[f64; 1]>; 2],
     /// Asks whether to go on, after so many units of work a segment.
     pulse: Pulse<'a>,
     units: u32,
@@ -107,6 +121,7 @@ impl<'a> Stepping<'a> {
         model: &'a Model,
         law: &'a Law,
         ground: Ground<'a>,
+        instructions: InstructionSet,
         (with_history, pulse): (bool, Pulse<'a>),
     ) -> Self {
         let body = Body::new(model, &system_of(model));
@@ -127,28 +142,25 @@ impl<'a> Stepping<'a> {
         }
         let slider = Slider::new(law, s, w);
         let surfaces = law.surfaces(&slider.memory, s).len();
-        let history = with_history.then(|| History {
-            storeys: body.storeys(),
-            interfaces: 1 + count,
-            surfaces,
-            ..History::default()
-        });
+        let history = with_history.then(|| history(&body, surfaces, ground.times_s.len()));
         let mut sliding = vec![Sliding::new(s)];
         sliding.resize(1 + count, Sliding::new(0.0));
         Self {
             model,
             slider,
             ground,
+            instructions,
+            ahead: Ahead::default(),
             series: body.room(),
             instant: body.room(),
-            peaks: Peaks::new(model),
+            peaks: Peaks::new(model, count),
             body,
             x,
             modes,
             start: vec![None; 1 + count],
-            pending: None,
+            pending: Vec::new(),
+            walks_jump: false,
             near: None,
-            begun: None,
             leant: false,
             unit_s: f64::INFINITY,
             events: Vec::new(),
@@ -158,6 +170,7 @@ impl<'a> Stepping<'a> {
             leans_since_s: None,
             first_impact_s: None,
             history,
+            knot: [Vec::new(), Vec::new()],
             pulse,
             units: 128 * (1 + model.storeys() + count) as u32,
         }
@@ -167,24 +180,43 @@ impl<'a> Stepping<'a> {
         let times_s = self.ground.times_s;
         let last = times_s.len() - 1;
         self.note_ends(0.0)?;
-        for sample in 0..last {
-            let length_s = times_s[sample + 1] - times_s[sample];
-            if length_s == 0.0 {
-                self.record_sample(sample, true);
-                continue;
+        self.lean(0.0);
+        let before = [self.model.slope_m_per_s2(), self.model.normal_n()];
+        self.walk_jump(0, before, self.loads_at(0))?;
+        let mut sample = 0;
+        loop {
+            sample = self.run_ahead(sample, last);
+            if sample == last {
+                return self.finish(last);
             }
-            self.events_in_interval = 0;
-            let change_s = self.ground.contact_change(sample).map(|part| part * length_s);
-            let mut from_s = 0.0;
-            for to_s in [change_s.unwrap_or(0.0), length_s] {
-                if to_s > from_s {
-                    let stretch = self.ground.stretch(sample, from_s, to_s);
-                    self.step_stretch(&stretch)?;
-                    from_s = to_s;
-                }
+            self.step(sample)?;
+            sample += 1;
+        }
+    }
+
+    /// Goes through one sample interval, or a jump.
+    fn step(&mut self, sample: usize) -> Result<(), SolveError> {
+        let times_s = self.ground.times_s;
+        let length_s = times_s[sample + 1] - times_s[sample];
+        if length_s == 0.0 {
+            self.record_sample(sample, true);
+            // What a jump at the very end lets go has no time to slide.
+            if times_s[sample] < times_s[times_s.len() - 1] {
+                self.walk_jump(sample + 1, self.loads_at(sample), self.loads_at(sample + 1))?;
+            }
+            return Ok(());
+        }
+        self.events_in_interval = 0;
+        let change_s = self.ground.contact_change(sample).map(|part| part * length_s);
+        let mut from_s = 0.0;
+        for to_s in [change_s.unwrap_or(0.0), length_s] {
+            if to_s > from_s {
+                let stretch = self.ground.stretch(sample, from_s, to_s);
+                self.step_stretch(&stretch)?;
+                from_s = to_s;
             }
         }
-        self.finish(last)
+        Ok(())
     }
 
     fn finish(&mut self, last: usize) -> Result<(), SolveError> {
@@ -192,15 +224,21 @@ impl<'a> Stepping<'a> {
         if !(self.x.s.is_finite() && self.x.w.is_finite()) {
             return Err(SolveError::NotFinite { time_s: end_s });
         }
-        if (0..self.modes.len()).any(|i| self.has_stopped(i)) {
-            // A stop at the very end is decided by the limit from the left.
+        let due = (0..self.modes.len()).any(|i| self.has_stopped(i)) || !self.pending.is_empty();
+        if due {
+            // A decision at the very end is made by the limit from the left.
             let interval = (0..last).rev().find(|&i| self.ground.times_s[i] < end_s);
             if let Some(interval) = interval {
                 let length_s = end_s - self.ground.times_s[interval];
                 let stretch = self.ground.stretch(interval, 0.0, length_s);
-                self.record(&stretch, length_s, false);
-                self.decide_stops(&stretch, length_s);
+                self.decide(&stretch, length_s, false);
             }
+        }
+        if let Some(stretch) = self.ground.after_last_jump() {
+            self.walk_jump(last, self.loads_at(last - 1), self.loads_at(last))?;
+            self.decide(&stretch, 0.0, true);
+            self.expand(&stretch, 0.0);
+            self.look(0.0);
         }
         self.record_sample(last, true);
         for i in 0..self.modes.len() {
@@ -214,6 +252,7 @@ impl<'a> Stepping<'a> {
         }
         self.end_leaning(end_s);
         self.slider.note_surfaces(self.x.s);
+        self.settle_candidates();
         Ok(())
     }
 
@@ -222,21 +261,22 @@ impl<'a> Stepping<'a> {
             let all = self.events.iter();
             all.filter(|e| e.interface == interface && e.kind == kind).count() as u64
         };
-        let contents = (0..self.body.contents.len())
-            .map(|i| ContentsDemands {
-                peak_sliding_displacement_m: self.sliding[1 + i]
-                    .max_m
-                    .max(-self.sliding[1 + i].min_m),
-                residual_sliding_displacement_m: self.x.r[i],
-                sliding_path_m: self.sliding[1 + i].path_m,
-                sliding_time_s: self.sliding[1 + i].time_s,
-                peak_sliding_velocity_m_per_s: self.peaks.contents_velocity[i],
-                peak_acceleration_m_per_s2: self.peaks.contents_acceleration[i],
-                slip_count: count(1 + i, EventKind::Slip),
-                reversal_count: count(1 + i, EventKind::Reversal),
-                stick_count: count(1 + i, EventKind::Stick),
-            })
-            .collect();
+        let of_part = |part: &usize| {
+            let (interface, sliding) = (1 + part, &self.sliding[1 + part]);
+            ContentsDemands {
+                peak_sliding_displacement_m: sliding.max_m.max(-sliding.min_m),
+                residual_sliding_displacement_m: self.x.r[*part],
+                sliding_path_m: sliding.path_m,
+                sliding_time_s: sliding.time_s,
+                peak_sliding_velocity_m_per_s: self.peaks.values[self.velocity_output(interface)],
+                peak_acceleration_m_per_s2: self.peaks.values
+                    [self.contents_acceleration_output(*part)],
+                slip_count: count(interface, EventKind::Slip),
+                reversal_count: count(interface, EventKind::Reversal),
+                stick_count: count(interface, EventKind::Stick),
+            }
+        };
+        let contents = self.body.part_of.iter().map(of_part).collect();
         let warnings = self.first_impact_s.map(|time_s| Warning {
             kind: "impulses_excluded",
             time_s: Some(time_s),
@@ -252,7 +292,7 @@ impl<'a> Stepping<'a> {
         };
         Stepped {
             outcome: Outcome {
-                events: self.events,
+                events: self.events_of_items(),
                 overturns: self.peaks.overturns,
                 sliding: self.sliding[0],
                 stop: has_stop.then_some(demands),
@@ -265,6 +305,21 @@ impl<'a> Stepping<'a> {
             history: self.history,
             warnings: warnings.into_iter().collect(),
         }
+    }
+
+    /// All events, those of contents for each item that slides with them.
+    fn events_of_items(&self) -> Vec<Event> {
+        let mut all = Vec::with_capacity(self.events.len());
+        for event in &self.events {
+            if event.interface == 0 {
+                all.push(*event);
+                continue;
+            }
+            let items = self.body.part_of.iter().enumerate();
+            let alike = items.filter(|(_, part)| 1 + **part == event.interface);
+            all.extend(alike.map(|(item, _)| Event { interface: 1 + item, ..*event }));
+        }
+        all
     }
 
     // ---- what is in force -----------------------------------------------------------------------
@@ -286,6 +341,11 @@ impl<'a> Stepping<'a> {
             Some(near) if near.offset != 0.0 => Hold { leans: [false; 2], ..hold },
             _ => hold,
         }
+    }
+
+    /// Acceleration and normal force at a sample.
+    fn loads_at(&self, sample: usize) -> [f64; 2] {
+        [self.ground.acceleration[sample], self.ground.normal_at(sample)]
     }
 
     fn loads(stretch: &Stretch, at_s: f64) -> Loads {
@@ -317,9 +377,15 @@ impl<'a> Stepping<'a> {
 
     /// Finds accelerations and forces of this instant.
     fn look_at_instant(&mut self, loads: &Loads) {
+        self.look_at_orders(0, loads);
+    }
+
+    /// Finds the coefficients of this instant up to an order; of the state one more is asked for than of
+    /// forces.
+    fn look_at_orders(&mut self, orders: usize, loads: &Loads) {
         let force = self.force(self.modes[0]);
         let phase = Phase { modes: &self.modes, force };
-        self.body.expand(&self.x, &phase, loads, (1.0, 0), &mut self.instant);
+        self.body.expand(&self.x, &phase, loads, (1.0, orders), &mut self.instant);
     }
 
     // ---- steps ----------------------------------------------------------------------------------
@@ -336,10 +402,7 @@ impl<'a> Stepping<'a> {
             first = false;
             let time_s = self.ground.times_s[stretch.interval] + at_s;
             self.note_ends(time_s)?;
-            if self.events_in_interval > EVENTS_PER_INTERVAL_LIMIT {
-                let limit = EVENTS_PER_INTERVAL_LIMIT;
-                return Err(SolveError::TooManyEvents { time_s, limit });
-            }
+            self.limit_events(time_s)?;
             if !(self.x.s.is_finite() && self.x.w.is_finite()) {
                 return Err(SolveError::NotFinite { time_s });
             }
@@ -348,10 +411,19 @@ impl<'a> Stepping<'a> {
             }
             self.pulse.beat(self.units)?;
             at_s = self.segment(stretch, at_s)?;
-            if at_s >= stretch.to_s && self.pending.is_none() {
+            // At a sample the limit from the right decides.
+            if at_s >= stretch.to_s {
                 return Ok(());
             }
         }
+    }
+
+    fn limit_events(&self, time_s: f64) -> Result<(), SolveError> {
+        let limit = EVENTS_PER_INTERVAL_LIMIT;
+        if self.events_in_interval > limit {
+            return Err(SolveError::TooManyEvents { time_s, limit });
+        }
+        Ok(())
     }
 
     /// Expands the motion from an instant over as much of a stretch as one series takes.
@@ -360,12 +432,13 @@ impl<'a> Stepping<'a> {
         let left_s = stretch.to_s - from_s;
         let force = self.force(self.modes[0]);
         let phase = Phase { modes: &self.modes, force };
-        let fastest = 1.0 / self.body.rate_rad_per_s.max(1e-3);
+        let rate = self.body.rate_rad_per_s;
+        let fastest = if rate > 0.0 { 1.0 / rate } else { left_s };
         let [_, part] = fitting(&mut self.unit_s, fastest, left_s, |unit_s| {
             self.body.expand(&self.x, &phase, &loads, (unit_s, DEGREE), &mut self.series);
             self.series.part
         });
-        self.series.part = part;
+        (self.series.part, self.series.from_s) = (part, from_s);
     }
 
     /// The polynomial of an exit, less what of it is known to vanish.
@@ -383,54 +456,25 @@ impl<'a> Stepping<'a> {
 
     /// One segment, up to its end or the first event in it; the time reached.
     fn segment(&mut self, stretch: &Stretch, from_s: f64) -> Result<f64, SolveError> {
+        let (to_s, part, end) = self.walk(stretch, from_s);
+        self.look(part);
+        self.follow(part, end);
+        match end {
+            Some(End::Lean) => {
+                self.leant = true;
+                self.record(stretch, to_s, false);
+            }
+            Some(End::Exit(exit)) => self.reach(stretch, to_s, exit.reached)?,
+            _ => {}
+        }
+        Ok(to_s)
+    }
+
+    /// Moves up to the end of the series or the first event in it: the time and the part of the series
+    /// reached, and what ends there.
+    fn walk(&mut self, stretch: &Stretch, from_s: f64) -> (f64, f64, Option<End>) {
         self.expand(stretch, from_s);
-        let mut part = self.series.part;
-        let (mut end, mut lean) = (None, None);
-        let mut take = |at: Option<f64>, what: End| {
-            if let Some(at) = at
-                && (at < part || end.is_none())
-            {
-                (part, end) = (at, Some(what));
-            }
-        };
-        for i in 0..self.modes.len() {
-            let Mode::Slip(direction) = self.modes[i] else { continue };
-            let mut speed = self.series.speed(i, direction);
-            if let Some(start) = self.start[i] {
-                if start.order == 1 && !(speed[1] > 0.0) {
-                    speed[1] = start.acceleration * self.series.unit_s;
-                }
-                speed = deflated(&speed, start.order);
-            }
-            take(first_root(&speed, self.series.part), End::Still(i));
-        }
-        if let Mode::Slip(direction) = self.modes[0] {
-            for exit in self.slider.law.exits(&self.slider.memory, direction).into_iter().flatten()
-            {
-                let p = self.of_exit(&exit);
-                take(first_root(&p, self.series.part), End::Exit(exit));
-            }
-        }
-        for i in 0..self.modes.len() {
-            if self.modes[i] == Mode::Stick
-                && let Some((at, direction)) = self.first_release(i)
-            {
-                take(Some(at), End::Release(i, direction));
-            }
-        }
-        if let Some((_, mut beyond)) = self.beyond_friction() {
-            if core::mem::take(&mut self.leant) {
-                beyond[0] = 0.0;
-            }
-            lean = Some(beyond);
-        }
-        if let Some(beyond) = lean
-            && let Some(order) = beyond.iter().position(|c| *c != 0.0)
-        {
-            let sign = beyond[order].signum();
-            let p = deflated(&beyond.map(|c| sign * c), order);
-            take(first_root(&p, self.series.part).filter(|at| *at > 0.0), End::Lean);
-        }
+        let (part, end) = self.first_end();
         let is_whole = end.is_none() && part == 1.0;
         let to_s = from_s + part * self.series.unit_s;
         // The series of a whole stretch ends where the stretch does.
@@ -442,26 +486,61 @@ impl<'a> Stepping<'a> {
         self.move_to(part);
         self.start.fill(None);
         self.slider.just = None;
-        self.look(part);
-        match end {
-            None => {
-                for i in 0..self.modes.len() {
-                    if let Mode::Slip(direction) = self.modes[i]
-                        && direction.sign() * self.velocity(i) <= 0.0
-                    {
-                        self.stand(i);
-                    }
-                }
+        (to_s, part, end)
+    }
+
+    /// The part of the series after which something ends, and what does.
+    fn first_end(&mut self) -> (f64, Option<End>) {
+        let mut part = self.series.part;
+        let mut end = None;
+        let mut take = |at: Option<f64>, what: End| {
+            if let Some(at) = at
+                && (at < part || end.is_none())
+            {
+                (part, end) = (at, Some(what));
             }
-            Some(End::Still(i)) => self.stand(i),
-            Some(End::Release(i, direction)) => self.pending = Some((i, direction)),
-            Some(End::Lean) => {
-                self.leant = true;
-                self.record(stretch, to_s, false);
-            }
-            Some(End::Exit(exit)) => self.reach(stretch, to_s, exit.reached)?,
+        };
+        for i in 0..self.modes.len() {
+            let Mode::Slip(direction) = self.modes[i] else { continue };
+            let speed = self.series.speed(i, direction);
+            let left = self.start[i].map_or(speed, |order| deflated(&speed, order));
+            take(first_root(&left, self.series.part), End::Still(i));
         }
-        Ok(to_s)
+        if let Mode::Slip(direction) = self.modes[0]
+            && !self.walks_jump
+        {
+            for exit in self.slider.law.exits(&self.slider.memory, direction).into_iter().flatten()
+            {
+                let p = self.of_exit(&exit);
+                take(first_root(&p, self.series.part), End::Exit(exit));
+            }
+        }
+        for i in 0..self.modes.len() {
+            if self.modes[i] == Mode::Stick {
+                take(self.first_release(i).map(|(at, _)| at), End::Release);
+            }
+        }
+        if let Some((_, mut beyond)) = self.beyond_friction().filter(|_| !self.walks_jump) {
+            if core::mem::take(&mut self.leant) {
+                beyond[0] = 0.0;
+            }
+            if let Some(order) = beyond.iter().position(|c| *c != 0.0) {
+                let sign = beyond[order].signum();
+                let p = deflated(&beyond.map(|c| sign * c), order);
+                take(first_root(&p, self.series.part).filter(|at| *at > 0.0), End::Lean);
+            }
+        }
+        (part, end)
+    }
+
+    /// What has come to a halt or reached its bound at a part of the series.
+    fn follow(&mut self, part: f64, end: Option<End>) {
+        match end {
+            Some(End::Still(i)) => self.stand(i),
+            Some(End::Release) => self.pending = self.released(part),
+            _ => {}
+        }
+        self.stop_within_rounding(part);
     }
 
     /// Where the slider rests against a rigid stop: how much of its push friction cannot take, positive
@@ -480,15 +559,13 @@ impl<'a> Stepping<'a> {
 
     /// Moves to a part of the series.
     fn move_to(&mut self, part: f64) {
-        let (s, w) = (self.x.s, self.modes[0]);
-        let rests = self.x.r.clone();
         self.series.state_at(part, &mut self.x);
-        if w == Mode::Stick {
-            (self.x.s, self.x.w) = (s, 0.0);
+        if self.modes[0] == Mode::Stick {
+            (self.x.s, self.x.w) = (self.series.s[0], 0.0);
         }
-        for (i, r) in rests.into_iter().enumerate() {
+        for (i, r) in self.series.r.iter().enumerate() {
             if self.modes[1 + i] == Mode::Stick {
-                (self.x.r[i], self.x.p[i]) = (r, 0.0);
+                (self.x.r[i], self.x.p[i]) = (r[0], 0.0);
             }
         }
         if let Some(near) = &mut self.near {

@@ -5,17 +5,18 @@
 
 use super::ground::{Normal, contact_loss_s, varying_normal};
 use super::outputs::{self, output};
-use super::recorder::{Recorder, Stored};
+use super::recorder::{self, Recorder, Stored};
 use super::run::{Outcome, Sliding};
 use super::slider::Stopping;
 use super::summary;
 use super::tables::system_of;
-use crate::error::{GoOn, Pulse, SolveError};
+use crate::error::SolveError;
 use crate::friction::{Contact, Direction, Law, Restraint};
 use crate::linear::System;
 use crate::linear::lanes::{dot, greatest};
 use crate::model::Model;
 use crate::motion::GroundMotion;
+use crate::progress::{GoOn, Pulse};
 use crate::response::{Event, EventKind, Iterations, Method, Mode, Response};
 
 /// Largest change of an acceleration in the last iteration, `δ` of eqs (17), (18), in m/s².
@@ -58,6 +59,7 @@ pub(super) fn solve(
     if let Some(what) = what {
         return Err(SolveError::NotTaken { method: "stepwise method", what });
     }
+    recorder::fits(model, motion.len())?;
     let system = system_of(model);
     let slope = model.slope_m_per_s2();
     let (mass_kg, gravity) = (model.total_mass_kg(), model.normal_gravity_m_per_s2());

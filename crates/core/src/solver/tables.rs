@@ -1,10 +1,13 @@
 //! What an analysis needs to know of a structure and a step, made once.
 
-use std::sync::OnceLock;
+use core::ops::Deref;
+use std::sync::{Arc, OnceLock};
 
 use fearless_simd::prelude::*;
 
+use super::dense;
 use super::outputs::{self, Outputs, Overturning, output};
+use super::prepared::{InstructionSet, Job};
 use crate::friction::{Law, Restraint, Restraints};
 use crate::linear::polynomial::DEGREE;
 use crate::linear::{
@@ -21,45 +24,115 @@ const BATCH_RATE_STEP: f64 = 8.0;
 /// Tables of a structure, its restraints by the ground, and a step.
 #[derive(Debug)]
 pub(super) struct Tables {
-    pub(super) stick: Phase,
+    pub(super) stick: LazyPhase,
     /// One for each restraint of the law.
-    slip: Vec<Slip>,
+    slip: Vec<LazyPhase>,
     /// Orders of all series.
     pub(super) orders: usize,
-    /// Moment arms, where the overturning moment is an output.
-    overturning: Option<Overturning>,
+    /// Whether the overturning moment is an output.
+    overturns: bool,
     /// `g sin θ`.
     pub(super) slope: f64,
     /// `s, ṡ, η, η̇` at the start, padded.
     pub(super) start: Vec<f64>,
-    dt_s: Option<f64>,
+    /// For the way ahead of one storey or none.
+    pub(super) dense: Option<Box<dense::Tables>>,
 }
 
-/// Tables of slip under one restraint, made where it is first in force.
+/// What tables of stick, or of slip under one restraint, are made of where they are first needed.
 #[derive(Debug)]
-struct Slip {
-    restraints: Restraints,
-    system: System,
+pub(super) struct LazyPhase {
+    /// Its number: 0 is stick.
+    pub(super) number: usize,
+    pub(super) system: Arc<System>,
+    /// None in stick.
+    restraints: Option<Restraints>,
+    dt_s: Option<f64>,
+    batch_s: Option<f64>,
+    orders: usize,
+    overturning: Option<Arc<Overturning>>,
+    slope: f64,
     phase: OnceLock<Phase>,
+}
+
+impl LazyPhase {
+    /// What of the restraint is friction.
+    pub(super) fn of_friction(&self) -> Restraint {
+        self.restraints.map(|restraints| restraints.of_friction).unwrap_or_default()
+    }
+
+    /// The tables.
+    #[inline(always)]
+    pub(super) fn get(&self) -> &Phase {
+        match self.phase.get() {
+            Some(phase) => phase,
+            None => self.make(),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn make(&self) -> &Phase {
+        InstructionSet::best().run(Made(self))
+    }
+}
+
+impl Deref for LazyPhase {
+    type Target = Phase;
+
+    #[inline(always)]
+    fn deref(&self) -> &Phase {
+        self.get()
+    }
+}
+
+struct Made<'a>(&'a LazyPhase);
+
+impl<'a> Job for Made<'a> {
+    type Output = &'a Phase;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> &'a Phase {
+        self.0.phase.get_or_init(|| {
+            simd.vectorize(
+                #[inline(always)]
+                || Phase::new(simd, self.0),
+            )
+        })
+    }
+}
+
+struct MadeBatch<'a>(&'a Phase, f64);
+
+impl<'a> Job for MadeBatch<'a> {
+    type Output = &'a Batch;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> &'a Batch {
+        self.0.batch.get_or_init(|| {
+            simd.vectorize(
+                #[inline(always)]
+                || Batch::new(simd, self.0, self.1),
+            )
+        })
+    }
 }
 
 /// Tables of stick, or of slip under one restraint.
 #[derive(Debug)]
 pub(super) struct Phase {
-    /// Its number: 0 is stick.
-    pub(super) number: usize,
-    pub(super) system: System,
+    pub(super) system: Arc<System>,
     pub(super) slip: bool,
     /// Length of one series in s: a whole part of the step.
     pub(super) unit_s: f64,
     /// The motion over that, with the sliding velocity in slip and the demand on friction in stick.
     pub(super) solution: Solution,
     pub(super) outputs: Outputs,
-    /// What of the restraint is friction.
-    pub(super) of_friction: Restraint,
     /// How much the energy norm can grow over one series: friction that falls with the speed feeds it.
     pub(super) growth: f64,
-    pub(super) batch: Option<Batch>,
+    /// Step of the batches, where samples go by them.
+    batch_s: Option<f64>,
+    batch: OnceLock<Batch>,
 }
 
 /// Maps over batches of samples, and the outputs as rows over them.
@@ -113,39 +186,70 @@ impl Tables {
         } else {
             free.restrained(stiffness_n_per_m, damper_n_s_per_m)
         };
-        let slip: Vec<Slip> = law
-            .restraints(normal_n)
-            .into_iter()
-            .map(|restraints| {
-                let Restraint { stiffness_n_per_m: k, damper_n_s_per_m: c } = restraints.all;
-                let same = k == free.stiffness_n_per_m && c == free.damper_n_s_per_m;
-                let system = if same { free.clone() } else { free.restrained(k, c) };
-                Slip { restraints, system, phase: OnceLock::new() }
-            })
-            .collect();
-        let rates = slip.iter().map(|slip| slip.system.slip_rate_rad_per_s);
-        let rate_step = |rate: f64| rate * unit_s(rate, dt_s);
-        let orders = if law.fades() {
-            DEGREE
-        } else {
-            orders(rates.map(rate_step).fold(rate_step(free.stick_rate_rad_per_s), f64::max))
-        };
-        let overturning = outputs::overturning(model, &free);
+        let free = Arc::new(free);
+        let overturning = outputs::overturning(model, &free).map(Arc::new);
         let slope = model.slope_m_per_s2();
-        let rows = outputs::rows(&free, None, overturning.as_ref(), slope);
-        let batch_s = dt_s.filter(|_| is_tabled);
-        let stick = Phase::new(simd, (0, free), None, (dt_s, batch_s), orders, rows);
-        let start = start(model, &stick.system);
-        let tables = Self { stick, slip, orders, overturning, slope, start, dt_s };
-        if is_tabled {
-            tables.slip(simd, 0);
+        let mut stick = LazyPhase {
+            number: 0,
+            system: free.clone(),
+            restraints: None,
+            dt_s,
+            batch_s: dt_s.filter(|_| is_tabled),
+            orders: DEGREE,
+            overturning,
+            slope,
+            phase: OnceLock::new(),
+        };
+        let mut slip = Vec::with_capacity(2);
+        for restraints in law.restraints(normal_n) {
+            let Restraint { stiffness_n_per_m: k, damper_n_s_per_m: c } = restraints.all;
+            let same = k == free.stiffness_n_per_m && c == free.damper_n_s_per_m;
+            let system = if same { free.clone() } else { Arc::new(free.restrained(k, c)) };
+            slip.push(LazyPhase {
+                number: 1 + slip.len(),
+                system,
+                restraints: Some(restraints),
+                // Pressed against a stop, samples go one by one.
+                batch_s: dt_s.filter(|_| !restraints.is_pressed),
+                overturning: stick.overturning.clone(),
+                phase: OnceLock::new(),
+                ..stick
+            });
+        }
+        if !law.fades() {
+            let rates = slip.iter().map(|slip| slip.system.slip_rate_rad_per_s);
+            let rate_step = |rate: f64| rate * unit_s(rate, dt_s);
+            let first = rate_step(free.stick_rate_rad_per_s);
+            stick.orders = orders(rates.map(rate_step).fold(first, f64::max));
+            for slip in &mut slip {
+                slip.orders = stick.orders;
+            }
+        }
+        let start = start(model, &free);
+        let plain_s = dt_s.filter(|_| free.storeys <= 1 && is_tabled && law.is_plain());
+        let dense = plain_s.and_then(|dt_s| {
+            let moment = stick.overturning.as_deref();
+            let rows = [None, Some(&Restraint::default())]
+                .map(|slip| outputs::rows(&free, slip, moment, slope));
+            let shape = dense::Shape {
+                floor: if free.storeys == 1 { free.floor(0)[0] } else { 0.0 },
+                arms: moment.map_or([0.0; 2], Overturning::arms),
+                slope,
+            };
+            dense::Tables::new(simd, &free, shape, rows.each_ref().map(Vec::as_slice), dt_s)
+        });
+        let overturns = stick.overturning.is_some();
+        let tables = Self { orders: stick.orders, stick, slip, overturns, slope, start, dense };
+        if is_tabled && tables.dense.is_none() {
+            tables.stick.get().batch();
+            tables.slip[0].get().batch();
         }
         tables
     }
 
     /// Whether the overturning moment is an output.
     pub(super) fn overturns(&self) -> bool {
-        self.overturning.is_some()
+        self.overturns
     }
 
     /// Largest rate of slip under any restraint, in rad/s.
@@ -153,54 +257,17 @@ impl Tables {
         self.slip.iter().fold(0.0, |rate, slip| slip.system.slip_rate_rad_per_s.max(rate))
     }
 
-    /// A phase that has been in force, by its number.
+    /// A phase by its number.
     #[inline(always)]
     pub(super) fn phase(&self, number: usize) -> &Phase {
-        let slip = self.slip.get(number.wrapping_sub(1)).and_then(|slip| slip.phase.get());
-        slip.unwrap_or(&self.stick)
+        self.slip.get(number.wrapping_sub(1)).unwrap_or(&self.stick).get()
     }
 
     /// Tables of slip under the restraints of a branch.
     #[inline(always)]
-    pub(super) fn under<S: Simd>(&self, simd: S, restraints: Restraints) -> &Phase {
-        let place = self.slip.iter().position(|slip| slip.restraints == restraints);
-        self.slip(simd, place.unwrap_or_default())
-    }
-
-    #[inline(always)]
-    fn slip<S: Simd>(&self, simd: S, i: usize) -> &Phase {
-        match self.slip[i].phase.get() {
-            Some(phase) => phase,
-            None => self.made(simd, i),
-        }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn made<S: Simd>(&self, simd: S, i: usize) -> &Phase {
-        let Slip { restraints: Restraints { of_friction, is_pressed, .. }, system, phase } =
-            &self.slip[i];
-        phase.get_or_init(|| {
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    let moment = self.overturning.as_ref();
-                    let rows = outputs::rows(system, Some(of_friction), moment, self.slope);
-                    // Pressed against a stop, samples go one by one.
-                    let batch_s = self.dt_s.filter(|_| !is_pressed);
-                    let lengths = (self.dt_s, batch_s);
-                    let of_friction = Some(*of_friction);
-                    Phase::new(
-                        simd,
-                        (1 + i, system.clone()),
-                        of_friction,
-                        lengths,
-                        self.orders,
-                        rows,
-                    )
-                },
-            )
-        })
+    pub(super) fn under(&self, restraints: Restraints) -> &LazyPhase {
+        let place = self.slip.iter().position(|slip| slip.restraints == Some(restraints));
+        &self.slip[place.unwrap_or_default()]
     }
 }
 
@@ -227,44 +294,61 @@ fn unit_s(rate_rad_per_s: f64, dt_s: Option<f64>) -> f64 {
 impl Phase {
     /// Tables of slip with what of its restraint is friction, or of stick.
     #[inline(always)]
-    fn new<S: Simd>(
-        simd: S,
-        (number, system): (usize, System),
-        slip: Option<Restraint>,
-        (dt_s, batch_s): (Option<f64>, Option<f64>),
-        orders: usize,
-        rows: Vec<outputs::OutputRow>,
-    ) -> Self {
-        let (of_friction, slip) = (slip.unwrap_or_default(), slip.is_some());
+    fn new<S: Simd>(simd: S, of: &LazyPhase) -> Self {
+        let LazyPhase { ref system, restraints, dt_s, batch_s, orders, slope, .. } = *of;
+        let moment = of.overturning.as_deref();
+        let of_friction = restraints.map(|restraints| restraints.of_friction);
+        let rows = outputs::rows(system, of_friction.as_ref(), moment, slope);
+        let slip = of_friction.is_some();
+        let system = system.clone();
         let rate = if slip { system.slip_rate_rad_per_s } else { system.stick_rate_rad_per_s };
         let unit_s = unit_s(rate, dt_s);
         let tracked = &rows[if slip { output::VELOCITY } else { output::FRICTION }];
         let tracked = (tracked.state.as_slice(), tracked.of_a, tracked.of_friction);
         let solution = Solution::new(simd, &system, slip, (unit_s, orders), tracked);
-        let growth = |length_s| if slip { system.growth(length_s) } else { 1.0 };
-        let batch = batch_s
+        let batch_s = batch_s
             .filter(|dt_s| system.storeys <= BATCH_STOREYS && dt_s * rate <= BATCH_RATE_STEP);
-        let batch = if let Some(dt_s) = batch {
-            let units = Units::new(simd, &system, slip, dt_s);
-            let of_s: Vec<f64> =
-                (0..rows[0].state.len()).map(|i| if i == 0 { 1.0 } else { 0.0 }).collect();
-            let mut of_rows = Vec::with_capacity(rows.len());
-            for row in &rows {
-                of_rows.push(units.row(simd, &row.state, row.of_a, row.of_friction));
-            }
-            Some(Batch {
-                dt_s,
-                per_dt: 1.0 / dt_s,
-                maps: units.maps(&system, slip),
-                rows: of_rows,
-                displacement: units.row(simd, &of_s, 0.0, 0.0),
-                growth: growth(BATCH as f64 * dt_s),
-            })
-        } else {
-            None
-        };
-        let growth = growth(unit_s);
+        let growth = if slip { system.growth(unit_s) } else { 1.0 };
         let outputs = Outputs::new(&system, slip, rows);
-        Self { number, system, slip, unit_s, solution, outputs, of_friction, growth, batch }
+        let batch = OnceLock::new();
+        Self { system, slip, unit_s, solution, outputs, growth, batch_s, batch }
+    }
+
+    /// Maps over batches of samples, where they go by them; made where they are first needed.
+    #[inline(always)]
+    pub(super) fn batch(&self) -> Option<&Batch> {
+        match self.batch.get() {
+            Some(batch) => Some(batch),
+            None => self.make_batch(),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn make_batch(&self) -> Option<&Batch> {
+        Some(InstructionSet::best().run(MadeBatch(self, self.batch_s?)))
+    }
+}
+
+impl Batch {
+    #[inline(always)]
+    fn new<S: Simd>(simd: S, phase: &Phase, dt_s: f64) -> Self {
+        let Phase { ref system, slip, .. } = *phase;
+        let rows = &phase.outputs.rows;
+        let units = Units::new(simd, system, slip, dt_s);
+        let mut of_s = vec![0.0; rows[0].state.len()];
+        of_s[0] = 1.0;
+        let mut of_rows = Vec::with_capacity(rows.len());
+        for row in rows {
+            of_rows.push(units.row(simd, &row.state, row.of_a, row.of_friction));
+        }
+        Self {
+            dt_s,
+            per_dt: 1.0 / dt_s,
+            maps: units.maps(system, slip),
+            rows: of_rows,
+            displacement: units.row(simd, &of_s, 0.0, 0.0),
+            growth: if slip { system.growth(BATCH as f64 * dt_s) } else { 1.0 },
+        }
     }
 }

@@ -153,7 +153,7 @@ impl<'a> Running<'a> {
         let dt_s = motion.dt_s();
         let prepared = match self.prepared.take().filter(|prepared| prepared.dt_s() == dt_s) {
             Some(prepared) => prepared,
-            None => Prepared::new(self.model.clone(), dt_s),
+            None => room.prepare(self.model, dt_s),
         };
         // The first question comes at once: short runs do not bother the follower.
         let long = Cell::new(false);

@@ -12,6 +12,9 @@ const RIGID_LINK: f64 = 100.0;
 /// Coefficient of friction above which it is said that it is high.
 const HIGH_FRICTION: f64 = 0.5;
 
+/// Radius below which it is said that it is small, in m.
+const SMALL_RADIUS_M: f64 = 0.05;
+
 /// Damping ratio of the storeys above which it is said that it is high.
 const HIGH_DAMPING: f64 = 0.3;
 
@@ -42,7 +45,45 @@ pub(crate) fn suspicious(model: &Model) -> Vec<Warning> {
              percent meant?"
         ),
     });
-    [high_friction, high_damping].into_iter().flatten().collect()
+    [high_friction, high_damping, small_radius(model), inner_friction(model)]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// A radius that no slider has.
+fn small_radius(model: &Model) -> Option<Warning> {
+    let devices = model.devices();
+    let surfaces = devices.series.as_ref().map_or(&[][..], |series| series.surfaces());
+    let radii = surfaces.iter().filter_map(|surface| surface.radius_m).chain(devices.radius_m);
+    let least_m = radii.fold(f64::INFINITY, f64::min);
+    (least_m < SMALL_RADIUS_M).then(|| Warning {
+        kind: "small_radius",
+        time_s: None,
+        message: format!(
+            "a radius is {least_m} m: below {SMALL_RADIUS_M} m is no pendulum slider's; were metres meant?"
+        ),
+    })
+}
+
+/// A surface of a smaller radius that holds longer than one of a larger: inner surfaces are made to slide
+/// first.
+fn inner_friction(model: &Model) -> Option<Warning> {
+    let surfaces = model.devices().series.as_ref()?.surfaces();
+    let curved = || surfaces.iter().filter_map(|on| Some((on.radius_m?, on.friction)));
+    let (inner, outer) = curved().find_map(|inner| {
+        let outer = curved().find(|outer| inner.0 < outer.0 && inner.1 > outer.1)?;
+        Some((inner, outer))
+    })?;
+    Some(Warning {
+        kind: "inner_friction_high",
+        time_s: None,
+        message: format!(
+            "the surface of radius {} m has the friction {}, that of {} m only {}: inner surfaces are \
+             made to slide first; were the surfaces written in another order?",
+            inner.0, inner.1, outer.0, outer.1
+        ),
+    })
 }
 
 /// Frequency of the highest mode, or of the block on its spring, in Hz.

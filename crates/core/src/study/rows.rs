@@ -8,10 +8,11 @@ use super::notices::{coarse_sampling, longest_step_s};
 use super::{Case, Sample, Study, chunks};
 use crate::error::{RunError, Stopped};
 use crate::input::{MotionSource, Parts};
+use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{IntensityMeasures, Measure};
 use crate::record::is_note;
-use crate::response::{Response, demand_values};
+use crate::response::{Response, demand_values, flat_geometry};
 use crate::solver::{PreparedMotion, Workspace};
 
 /// Most samples of scaled copies of a record that are held at a time.
@@ -209,7 +210,8 @@ impl Study {
                         self.noticed(case, &sample.suspicious, highest_hz, step_s)
                     },
                 );
-                (demand_values(&response.demands), warnings(&noticed, &response), None)
+                let model = sample.parts.as_ref().ok().map(|parts| &parts.model);
+                (demand_values(&response.demands), warnings(&noticed, model, &response), None)
             }
             Err(error) => (vec![f64::NAN; self.demands], Vec::new(), Some(error)),
         };
@@ -275,14 +277,20 @@ impl Study {
 }
 
 /// Kinds of warnings that a run gives without its certificate, each once.
-pub(super) fn warnings(of_record: &[&'static str], response: &Response) -> Vec<&'static str> {
+pub(super) fn warnings(
+    of_record: &[&'static str],
+    model: Option<&Model>,
+    response: &Response,
+) -> Vec<&'static str> {
+    let flat = model.and_then(|model| flat_geometry(model, &response.demands));
+    let flat = flat.map(|warning| warning.kind);
     let gap = response.demands.gap_ratio.is_some_and(|ratio| ratio > 1.0);
     let gap = gap.then_some("gap_exceeded");
     let slides = response.demands.slip_count > 0 || response.demands.sliding_path_m > 0.0;
     let gap = gap.into_iter().chain((!slides).then_some("nothing_slides"));
     let of_solver = response.warnings.iter().map(|warning| warning.kind);
     let mut kinds = Vec::new();
-    for kind in of_record.iter().copied().chain(gap).chain(of_solver) {
+    for kind in of_record.iter().copied().chain(gap).chain(flat).chain(of_solver) {
         if !kinds.contains(&kind) && !is_note(kind) {
             kinds.push(kind);
         }
@@ -295,7 +303,6 @@ mod tests {
     use super::*;
     use crate::friction::{Coulomb, Friction};
     use crate::input::plan::Plan;
-    use crate::model::Model;
     use crate::motion::target::maximum_direction;
     use crate::solver;
     use crate::study::Record;

@@ -55,8 +55,10 @@ pub struct StudySummary {
     pub name: String,
     /// The measure that levels are values of, with its SI unit.
     pub measure: Option<(String, &'static str)>,
-    /// Level by level, demand by demand.
+    /// Level by level, demand by demand; residuals without their sign.
     pub rows: Vec<LevelSummary>,
+    /// Kinds of warnings, each with the number of runs that gave it and the first of those.
+    pub warned: Vec<(String, u64, u64)>,
 }
 
 impl StudySummary {
@@ -116,6 +118,8 @@ pub struct Rows<'a, E> {
     pub solved: &'a (dyn Fn(Take<'_, bool>) -> Result<(), E> + Sync),
     /// The values of the demand at an index of [`Study::shape`]'s columns, NaN where there is none.
     pub demand: &'a Passes<'a, E>,
+    /// The warnings of each run, joined by `;`.
+    pub warnings: &'a (dyn Fn(&mut dyn FnMut(u64, &str)) -> Result<(), E> + Sync),
 }
 
 impl Study {
@@ -136,12 +140,23 @@ impl Study {
             *runs += 1;
             *failures += u64::from(!solved);
         })?;
+        let mut warned: Vec<(String, u64, u64)> = Vec::new();
+        (rows.warnings)(&mut |run, kinds| {
+            for kind in kinds.split(';').filter(|kind| !kind.is_empty()) {
+                match warned.iter_mut().find(|(known, ..)| known == kind) {
+                    Some((_, runs, _)) => *runs += 1,
+                    None => warned.push((kind.to_owned(), 1, run)),
+                }
+            }
+        })?;
         let demands = self.shape.columns().into_iter().enumerate();
         let demands: Vec<(usize, DemandColumn)> =
             demands.filter(|(_, column)| column.demand.kind != DemandKind::Flag).collect();
         let of_demand = |i: usize| -> Result<Vec<LevelSummary>, E> {
             let (index, column) = demands[i];
-            let source = Source { study: self, rows, demand: index };
+            // What is left has either sign: its fractiles are those of its size.
+            let unsigned = column.demand.key.starts_with("residual_");
+            let source = Source { study: self, rows, demand: index, unsigned };
             let figures = figures(&source, groups)?;
             let single = self.cases.levels == 1 && column.demand.study_place > 0;
             let steps = if single { STEPS } else { 0 };
@@ -188,7 +203,7 @@ impl Study {
             Levels::Measure { measure, .. } => Some((measure.to_string(), measure.unit())),
             Levels::Factors(_) => None,
         };
-        Ok(StudySummary { name: name.to_owned(), measure, rows })
+        Ok(StudySummary { name: name.to_owned(), measure, rows, warned })
     }
 }
 
@@ -210,6 +225,8 @@ struct Source<'a, E> {
     study: &'a Study,
     rows: &'a Rows<'a, E>,
     demand: usize,
+    /// Whether it is taken without its sign.
+    unsigned: bool,
 }
 
 impl<E> Source<'_, E> {
@@ -217,6 +234,7 @@ impl<E> Source<'_, E> {
     fn each(&self, mut take: impl FnMut(u64, usize, f64)) -> Result<(), E> {
         (self.rows.demand)(self.demand, &mut |run, value| {
             if !value.is_nan() {
+                let value = if self.unsigned { value.abs() } else { value };
                 take(run, self.study.group(run), value);
             }
         })
@@ -390,14 +408,25 @@ mod tests {
             rows.iter().for_each(|row| take(row.run, row.demands[i]));
             Ok(())
         };
-        let summary =
-            study.summary("s", &Rows { solved: &solved, demand: &demand }, &engine).unwrap();
+        let warnings = |take: &mut dyn FnMut(u64, &str)| {
+            rows.iter().for_each(|row| take(row.run, &row.warnings.join(";")));
+            Ok(())
+        };
+        let passes = Rows { solved: &solved, demand: &demand, warnings: &warnings };
+        let summary = study.summary("s", &passes, &engine).unwrap();
+        let slid = |row: &Row| !row.warnings.contains(&"nothing_slides");
+        let still = rows.iter().filter(|row| !slid(row)).count() as u64;
+        let told = summary.warned.iter().find(|(kind, ..)| kind == "nothing_slides");
+        assert_eq!(told.map_or(0, |(_, runs, _)| *runs), still);
         for found in &summary.rows {
             let (index, _) = study.shape().find(&found.demand.name()).unwrap();
             let of_level = |row: &&Row| row.case.level == found.level && row.error.is_none();
             let mut values: Vec<f64> =
                 rows.iter().filter(of_level).map(|row| row.demands[index]).collect();
             values.retain(|value| !value.is_nan());
+            if found.demand.name() == "residual_sliding_displacement_m" {
+                values.iter_mut().for_each(|value| *value = value.abs());
+            }
             assert_eq!(
                 (found.runs, found.failures),
                 (37, 37 - rows.iter().filter(of_level).count() as u64)

@@ -61,7 +61,7 @@ impl Study {
         let noticed = self.noticed(row.case, &suspicious, highest_hz, step_s);
         let same = row.error.is_none()
             && bits(&demand_values(&response.demands)) == bits(&row.demands)
-            && warnings(&noticed, &response) == row.warnings;
+            && warnings(&noticed, Some(&analysis.model), &response) == row.warnings;
         let holds = certificate.holds();
         let Certificate {
             equilibrium_residual,

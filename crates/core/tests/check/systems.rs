@@ -1,8 +1,10 @@
 //! Systems, and what is done with their histories.
 
 use slipstick::check::{Certificate, check};
-use slipstick::friction::{Coulomb, Friction};
-use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
+use slipstick::friction::{Coulomb, Friction, RateCurve, RateLaw, Series, Surface};
+use slipstick::model::{
+    Block, Contents, Damping, Devices, Frame, InitialState, Model, Slider, Stop, StopKind,
+};
 use slipstick::motion::GroundMotion;
 use slipstick::response::{Demands, History, Method, Mode, Response};
 use slipstick::solver;
@@ -159,10 +161,30 @@ pub fn worst(c: &Certificate) -> f64 {
     c.equilibrium_residual.max(c.friction_excess).max(c.energy_balance_error)
 }
 
-/// Indices of the knots just before a change from one kind of mode to another.
+/// Indices of the knots just before a change of the slider from one kind of mode to another.
 pub fn changes(h: &History, pick: impl Fn(Mode, Mode) -> bool) -> Vec<usize> {
-    let after = |k: &usize| h.time_s[*k] == h.time_s[k + 1] && pick(h.mode[*k], h.mode[k + 1]);
+    let after = |k: &usize| {
+        h.time_s[*k] == h.time_s[k + 1] && pick(slider_mode(h, *k), slider_mode(h, k + 1))
+    };
     (0..h.len() - 1).filter(after).collect()
+}
+
+/// The slider's mode at a knot.
+pub fn slider_mode(h: &History, knot: usize) -> Mode {
+    h.modes(knot)[0]
+}
+
+/// The first knot from one on at which the slider has another mode than there, or their number.
+pub fn end_of_mode(h: &History, from: usize) -> usize {
+    let mode = slider_mode(h, from);
+    (from..h.len()).find(|&k| slider_mode(h, k) != mode).unwrap_or(h.len())
+}
+
+/// Gives the slider one mode at some knots.
+pub fn set_slider_mode(h: &mut History, knots: core::ops::Range<usize>, mode: Mode) {
+    for k in knots {
+        h.mode[k * h.interfaces] = mode;
+    }
 }
 
 pub fn slips(mode: Mode) -> bool {
@@ -172,6 +194,86 @@ pub fn slips(mode: Mode) -> bool {
 /// Largest |value|.
 pub fn peak(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |p, v| v.abs().max(p))
+}
+
+/// One storey on a slider with each device, and with some together.
+pub fn device_systems() -> Vec<System> {
+    let coarse = |motion: &GroundMotion| {
+        let every = |list: &[f64]| list.iter().step_by(2).take(250).copied().collect::<Vec<f64>>();
+        let vertical = motion.vertical_m_per_s2().map(every);
+        GroundMotion::evenly_spaced(0.02, every(motion.horizontal_m_per_s2()), vertical).unwrap()
+    };
+    let level = coarse(&shaking(3.0, None));
+    let up = coarse(&shaking(3.0, Some(4.0)));
+    let exponential = RateCurve::Exponential { slow: 0.03, fast: 0.06, rate_s_per_m: 25.0 };
+    let pieces = RateCurve::Pieces {
+        speeds_m_per_s: vec![0.0, 0.05, 0.2],
+        coefficients: vec![0.03, 0.05, 0.06],
+    };
+    let rate = |curve: &RateCurve, factors| {
+        let rate = Some(RateLaw::new(curve.clone(), factors).unwrap());
+        Devices { rate, ..Devices::default() }
+    };
+    let surface = |radius_m: f64, friction: f64, travel_m: f64| Surface {
+        radius_m: Some(radius_m),
+        friction,
+        travel_m: Some(travel_m),
+    };
+    let surfaces = vec![surface(1.0, 0.03, 0.012), surface(2.0, 0.05, 0.3)];
+    let series = Some(Series::new(surfaces, 1.1).unwrap());
+    let contents = |floor, mass_kg, static_friction, kinetic_friction| Contents {
+        floor,
+        mass_kg,
+        static_friction,
+        kinetic_friction,
+    };
+    let contents = vec![contents(0, 30.0, 0.05, 0.04), contents(1, 20.0, 0.12, 0.1)];
+    let stop = |kind| Some(Stop { gap_m: [Some(0.006), Some(0.008)], kind });
+    let rigid = stop(StopKind::Rigid { restitution: 0.4 });
+    let elastic = stop(StopKind::Elastic { stiffness_n_per_m: 1e5, damper_n_s_per_m: 900.0 });
+    let none = Devices::default;
+    let all = [
+        ("exponential", rate(&exponential, [1.0; 2]), None, &level),
+        ("pieces", rate(&pieces, [1.0, 0.9]), None, &level),
+        ("surfaces", Devices { series: series.clone(), ..none() }, None, &level),
+        ("contents", Devices { contents: contents.clone(), ..none() }, None, &level),
+        ("elastic stop", none(), elastic, &level),
+        ("rigid stop", none(), rigid, &level),
+        ("pendulum under vertical motion", none(), None, &up),
+        (
+            "pieces, contents, rigid stop",
+            Devices { contents: contents.clone(), ..rate(&pieces, [1.0; 2]) },
+            rigid,
+            &level,
+        ),
+        (
+            "surfaces, contents, elastic stop, vertical motion",
+            Devices { series, contents, ..none() },
+            elastic,
+            &up,
+        ),
+    ];
+    let build =
+        |(name, devices, stop, motion): (&'static str, Devices, Option<Stop>, &GroundMotion)| {
+            let (mass_kg, floor_kg, radius_m) = (325.0, 201.0, 2.0);
+            let in_series = devices.series.is_some();
+            let total_kg = mass_kg + floor_kg + devices.contents_kg();
+            let friction = if devices.rate.is_some() {
+                coulomb([0.035; 2], [0.03; 2])
+            } else {
+                coulomb([0.06; 2], [0.05; 2])
+            };
+            let slider = Slider {
+                stiffness_n_per_m: if in_series { 0.0 } else { total_kg * G / radius_m },
+                stop,
+                ..slider(friction)
+            };
+            let frame = frame(&[floor_kg], &[3.6e4], Damping::Ratio(0.01));
+            let model = Model::new(block(mass_kg), slider, frame, G, InitialState::rest()).unwrap();
+            let devices = Devices { radius_m: (!in_series).then_some(radius_m), ..devices };
+            System { name, model: model.with_devices(devices).unwrap(), motion: motion.clone() }
+        };
+    all.into_iter().map(build).collect()
 }
 
 /// Two systems in which one sample holds many radians of the structure, or many events.

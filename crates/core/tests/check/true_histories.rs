@@ -2,8 +2,8 @@
 
 use crate::systems::*;
 use slipstick::check::check;
-use slipstick::friction::Direction;
-use slipstick::model::{Damping, Frame, InitialState, Model, Slider, Stop, StopKind};
+use slipstick::friction::{Direction, Series, Surface};
+use slipstick::model::{Damping, Devices, Frame, InitialState, Model, Slider, Stop, StopKind};
 use slipstick::motion::GroundMotion;
 use slipstick::response::{
     Contact, Demands, Event, EventKind, History, Method, Mode, Response, StopDemands,
@@ -564,4 +564,54 @@ fn exact_wrong_stops_show() {
     }
     must_show(model, &|r| r.demands.stop = None, "no demands");
     must_show(model, &|r| _ = r.events.remove(2), "no leave");
+}
+
+/// What is judged: a model and its motion's samples `[time, Ü, Üv]`, SI.
+fn certified(name: &'static str, model: Model, samples: &[[f64; 3]]) {
+    let list = |i: usize| samples.iter().map(|sample| sample[i]).collect::<Vec<f64>>();
+    let up = list(2);
+    let up = up.iter().any(|up| *up != 0.0).then_some(up);
+    let motion = GroundMotion::new(list(0), list(1), up).unwrap();
+    let system = System { name, model, motion };
+    let c = check(&system.model, &system.motion, &response_of(&system));
+    assert!(c.holds(), "{name}: {}", figures(&c));
+    assert!(c.demands_error.is_finite(), "{name}: {}", figures(&c));
+}
+
+/// Nothing moves on a slider with any device: 0/0 is 0.
+#[test]
+fn exact_rest_with_devices_passes() {
+    for System { name, model, .. } in device_systems() {
+        certified(name, model, &[[0.0; 3], [1.0, 0.0, 0.0]]);
+    }
+}
+
+/// Released beyond the gap of an elastic stop at rest: its strain is all the energy there is.
+#[test]
+fn exact_release_from_elastic_stop_passes() {
+    for (damper_n_s_per_m, mass_kg) in [(0.0, 100.0), (300.0, 100.0), (1e5, 0.1)] {
+        let kind = StopKind::Elastic { stiffness_n_per_m: 1e5, damper_n_s_per_m };
+        let stop = Some(Stop { gap_m: [Some(0.1), Some(0.1)], kind });
+        let slider = Slider { stop, ..slider(coulomb([0.1; 2], [0.1; 2])) };
+        let initial = InitialState { sliding_displacement_m: 0.12, ..InitialState::rest() };
+        let model = Model::new(block(mass_kg), slider, Frame::none(), G, initial).unwrap();
+        certified("released from a stop", model, &[[0.0; 3], [1.0, 0.0, 0.0]]);
+    }
+}
+
+/// Motions so small that friction gives way only within the rounding of the time at which contact is
+/// lost: there the normal force is rounding, and 0 from there on.
+#[test]
+fn exact_tiny_motion_without_contact_passes() {
+    let wave = |k: i32, rate: f64| libm::sin(rate * f64::from(k));
+    for peak in [1e-14, 1e-7] {
+        let sample = |k: i32| [f64::from(k) / 64.0, peak * wave(k, 0.21), 15.0 * wave(k, 1.7)];
+        let samples: Vec<[f64; 3]> = (0..320).map(sample).collect();
+        let rigid = Model::rigid_block(2.0, coulomb([0.48; 2], [0.37; 2])).unwrap();
+        certified("tiny motion", rigid.clone(), &samples);
+        let flat = Surface { radius_m: None, friction: 0.2, travel_m: None };
+        let series = Some(Series::new(vec![flat], 1.0).unwrap());
+        let model = rigid.with_devices(Devices { series, ..Devices::default() }).unwrap();
+        certified("tiny motion on a surface in series", model, &samples);
+    }
 }

@@ -33,6 +33,8 @@ const LAST_TERMS: f64 = 1e-28;
 const ALIKE: f64 = 1e-20;
 /// Impacts slower than this are not listed.
 const LISTED_IMPACT_M_PER_S: f64 = 1e-3;
+/// How long a jump takes.
+const JUMP_S: f64 = 1e-20;
 /// Bounces that end within this time are over.
 const LAST_BOUNCES_S: f64 = 1e-13;
 
@@ -214,8 +216,10 @@ impl Series {
 enum Hit {
     /// An interface has no velocity.
     Still(usize),
-    /// A stuck one reaches its bound, or friction alone what it can take of a push against a stop.
-    Bound,
+    /// A stuck one reaches its bound, at which it slides with this sign.
+    Bound(usize, i32),
+    /// Friction alone reaches what it can take of a push against a stop.
+    Lean,
     Contact(Contact),
     Impact,
     /// A knot of the rate law: the piece beyond it and the speed.
@@ -650,25 +654,37 @@ pub fn reference(model: &Model, motion: &GroundMotion) -> Option<Reference> {
     }
     out.peaks.contents.resize(count, [0.0; 3]);
     out.peaks.surfaces.resize(surfaces, 0.0);
-    let mut run = Run { still: vec![false; 1 + count], forces: 0.0, turn: None, body, x, out };
+    let mut run = Run {
+        still: vec![false; 1 + count],
+        reached: Vec::new(),
+        jumps: false,
+        forces: 0.0,
+        turn: None,
+        body,
+        x,
+        out,
+    };
     let times = motion.times_s();
+    let slope = run.body.frame.slope;
+    let at_sample = |i: usize| {
+        let vertical = motion.vertical_m_per_s2().map_or(0.0, |v| v[i]);
+        let normal = Dd::from(vertical) + run.body.frame.normal_gravity;
+        [Dd::from(motion.horizontal_m_per_s2()[i]) + slope, normal]
+    };
+    let samples: Vec<[Dd; 2]> = (0..times.len()).map(at_sample).collect();
+    if samples.iter().any(|[_, normal]| normal.sign() <= 0) {
+        return None;
+    }
     run.sample(times[0]);
+    run.walk_jump(Dd::from(times[0]), [slope, run.body.frame.normal_gravity], samples[0]);
     for i in 1..times.len() {
         let [t0, t1] = [i - 1, i].map(|j| Dd::from(times[j]));
         if t0 == t1 {
+            run.walk_jump(t0, samples[i - 1], samples[i]);
+            run.sample(times[i]);
             continue;
         }
-        let b =
-            [i - 1, i].map(|j| Dd::from(motion.horizontal_m_per_s2()[j]) + run.body.frame.slope);
-        let normal = [i - 1, i].map(|j| {
-            let vertical = motion.vertical_m_per_s2().map_or(0.0, |v| v[j]);
-            Dd::from(vertical) + run.body.frame.normal_gravity
-        });
-        if normal.iter().any(|normal| normal.sign() <= 0) {
-            return None;
-        }
-        let change = |pair: [Dd; 2]| [pair[0], pair[1] - pair[0]];
-        run.cross(t0, t1 - t0, Load { b: change(b), normal: change(normal) });
+        run.cross(t0, t1 - t0, Load::between(samples[i - 1], samples[i]));
         if run.out.end_of_travel_s.is_some() {
             break;
         }
@@ -682,6 +698,10 @@ struct Run {
     x: State,
     /// Interfaces that slid and have come to have no velocity.
     still: Vec<bool>,
+    /// Stuck ones that have reached their bounds, and the signs with which they slide there.
+    reached: Vec<(usize, i32)>,
+    /// Whether a jump is walked.
+    jumps: bool,
     /// Largest force so far.
     forces: f64,
     /// The slider's last event, if it is a reversal since the last impact.
@@ -690,6 +710,22 @@ struct Run {
 }
 
 impl Run {
+    /// A jump: a ramp so short that nothing moves, and 100 000 times as long after it, in which what
+    /// was only let go meanwhile stops again. What slides then has reached its bound.
+    fn walk_jump(&mut self, time: Dd, from: [Dd; 2], to: [Dd; 2]) {
+        let (x, still, out) = (self.x.clone(), self.still.clone(), self.out.clone());
+        self.jumps = true;
+        self.cross(time, Dd::from(JUMP_S), Load::between(from, to));
+        self.cross(time, Dd::from(1e5 * JUMP_S), Load::between(to, to));
+        self.jumps = false;
+        let after = std::mem::replace(&mut self.x, x);
+        let slides = |&i: &usize| {
+            (self.x.modes[i] == 0 || still[i]) && after.modes[i] != 0 && !self.still[i]
+        };
+        self.reached = (0..still.len()).filter(slides).map(|i| (i, after.modes[i])).collect();
+        (self.still, self.out) = (still, out);
+    }
+
     /// Goes through the interval between two samples.
     fn cross(&mut self, start: Dd, length: Dd, load: Load) {
         let mut at = ZERO;
@@ -794,14 +830,17 @@ impl Run {
         let b = load.b[0].value().abs();
         let forces = size(&p.ground) + size(&p.shear) + size(&p.friction) + size(&p.stop);
         let gain = h.value() * (forces.max(self.forces) / self.body.frame.block_kg.value() + b);
-        let mut list = vec![NOISE * size(&p.w).max(self.out.peaks.w).max(gain)];
+        // Within a jump velocities are as small as it is short.
+        let largest = |peak: f64| if self.jumps { 0.0 } else { peak };
+        let mut list = vec![NOISE * size(&p.w).max(largest(self.out.peaks.w)).max(gain)];
         for (e, contents) in self.body.contents.iter().enumerate() {
             let floor = match contents.floor {
                 0 => size(&p.block),
                 floor => size(&p.floors[floor - 1]),
             };
             let gain = gain.max(h.value() * floor);
-            list.push(NOISE * size(&p.z[e]).max(self.out.peaks.contents[e][1]).max(gain));
+            let peak = largest(self.out.peaks.contents[e][1]);
+            list.push(NOISE * size(&p.z[e]).max(peak).max(gain));
         }
         list
     }
@@ -861,13 +900,15 @@ impl Run {
                 let velocity = if i == 0 { &p.w } else { &p.z[i - 1] };
                 list.push((signed(velocity, x.modes[i]), noises[i], Hit::Still(i)));
             } else {
-                for (left, noise) in self.bounds(p, load, i).into_iter().flatten() {
-                    list.push((left, noise, Hit::Bound));
+                for (sign, bound) in [-1, 1].into_iter().zip(self.bounds(p, load, i)) {
+                    if let Some((left, noise)) = bound {
+                        list.push((left, noise, Hit::Bound(i, sign)));
+                    }
                 }
             }
         }
         if let Some((_, push, noise)) = self.leaning(p, load) {
-            list.push((push, noise, Hit::Bound));
+            list.push((push, noise, Hit::Lean));
         }
         let sign = x.modes[0];
         if sign == 0 {
@@ -949,7 +990,8 @@ impl Run {
         let sign = self.x.modes[0];
         match hit {
             Hit::Still(interface) => self.stop_at(interface),
-            Hit::Bound => {}
+            Hit::Bound(interface, sign) => self.reached.push((interface, sign)),
+            Hit::Lean => {}
             Hit::Contact(to) => {
                 let from = std::mem::replace(&mut self.x.contact, to);
                 let kind = match (from, to) {
@@ -1085,64 +1127,44 @@ impl Run {
         (demand - hold * self.body.total * load.normal[0] * f64::from(sign)).sign() > 0
     }
 
-    /// Decides which interfaces without velocity stick, and which way the others slide. All are held;
-    /// what friction cannot hold is let go one by one, first what has just come to a stop, the slider
-    /// before contents, and the others are asked again. What starts against its direction is held again.
+    /// Decides which interfaces without velocity stick, and which way the others slide: of all
+    /// combinations the one that is possible in which most stick, the slider first. What has reached its
+    /// bound slides, if that is possible.
     fn decide(&mut self, load: Load, h: Dd, time_s: f64) -> Series {
         let before = self.x.modes.clone();
+        let reached = std::mem::take(&mut self.reached);
         let count = before.len();
-        let decided: Vec<bool> = (0..count).map(|i| before[i] == 0 || self.still[i]).collect();
-        for i in 0..count {
-            if decided[i] {
-                self.x.modes[i] = 0;
-                self.still[i] = false;
-            }
+        let free: Vec<usize> = (0..count).filter(|&i| before[i] == 0 || self.still[i]).collect();
+        let slid = before[0] != 0 && self.still[0];
+        for &i in &free {
+            self.x.modes[i] = 0;
+            self.still[i] = false;
         }
-        let mut order: Vec<usize> = (0..count).collect();
-        order.sort_by_key(|&i| before[i] == 0);
-        let mut held = Vec::new();
-        let mut series = self.body.series(&self.x, load, h);
-        for _ in 0..4 * count {
-            let mut stuck = order.iter().copied().filter(|&i| self.x.modes[i] == 0);
-            let exceeded = stuck.find_map(|i| {
-                let bounds = self.bounds(&series, load, i);
-                [-1, 1].into_iter().zip(bounds).find_map(|(sign, bound)| {
-                    let (left, noise) = bound?;
-                    let gives = leading(&left, noise).is_some_and(|(_, sign)| sign < 0);
-                    (gives && !held.contains(&(i, sign))).then_some((i, sign))
-                })
-            });
-            if let Some((i, sign)) = exceeded {
-                self.x.modes[i] = sign;
-                if i == 0 {
-                    self.x.piece = 0;
-                    self.body.activate(&mut self.x, sign);
-                }
-            } else {
-                let noises = self.velocity_noises(&series, load, h);
-                let opposed = (0..count).find(|&i| {
-                    let velocity = if i == 0 { &series.w } else { &series.z[i - 1] };
-                    let mode = self.x.modes[i];
-                    decided[i]
-                        && mode != 0
-                        && leading(velocity, noises[i]).is_some_and(|(_, sign)| sign == -mode)
-                });
-                let Some(i) = opposed else { break };
-                held.push((i, self.x.modes[i]));
-                self.x.modes[i] = 0;
-            }
-            series = self.body.series(&self.x, load, h);
+        let held = self.x.clone();
+        let series = self.body.series(&held, load, h);
+        let is_due = !reached.is_empty() || held.modes != before;
+        if !is_due && free.iter().all(|&i| self.exceeded(&series, load, i).is_none()) {
+            return series;
         }
-        if self.x.modes[0] == 0 && before[0] != 0 && matches!(self.body.stop, Stop::Rigid { .. }) {
+        let chosen = self.most_sticking(&held, &free, &reached, (load, h));
+        let chosen = chosen.or_else(|| self.most_sticking(&held, &free, &[], (load, h)));
+        self.x = chosen.unwrap_or_else(|| {
+            panic!("nothing is possible at {time_s} s: {before:?} {free:?} {reached:?}")
+        });
+        if self.x.modes[0] == 0 && slid && matches!(self.body.stop, Stop::Rigid { .. }) {
             // Within the rounding of s off the stop the block is at it.
             for place in self.body.places.into_iter().flatten() {
                 if (self.x.s - place).value().abs() <= 8.0 * f64::EPSILON * place.value().abs() {
                     self.x.s = place;
-                    series = self.body.series(&self.x, load, h);
                 }
             }
         }
-        for i in 0..count {
+        self.tell_changes(&before, time_s);
+        self.body.series(&self.x, load, h)
+    }
+
+    fn tell_changes(&mut self, before: &[i32], time_s: f64) {
+        for i in 0..before.len() {
             let kind = match (before[i], self.x.modes[i]) {
                 (a, b) if a == b => continue,
                 (0, _) => EventKind::Slip,
@@ -1151,7 +1173,84 @@ impl Run {
             };
             self.tell(time_s, i, kind);
         }
-        series
+    }
+
+    /// The state with `free` interfaces decided, where some have `reached` their bounds.
+    fn most_sticking(
+        &mut self,
+        held: &State,
+        free: &[usize],
+        reached: &[(usize, i32)],
+        (load, h): (Load, Dd),
+    ) -> Option<State> {
+        let mut best: Option<(usize, State)> = None;
+        for number in 0..3_usize.pow(free.len() as u32) {
+            self.x = held.clone();
+            let mut digits = number;
+            for &i in free {
+                self.x.modes[i] = [0, -1, 1][digits % 3];
+                digits /= 3;
+            }
+            if reached.iter().any(|&(i, sign)| self.x.modes[i] != sign) {
+                continue;
+            }
+            self.set_out();
+            let sticking = self.x.modes.iter().filter(|mode| **mode == 0).count();
+            // The slider sticks first: it is the fastest digit.
+            let larger = best.as_ref().is_none_or(|(most, state)| {
+                (sticking, self.x.modes[0] == 0) > (*most, state.modes[0] == 0)
+            });
+            if larger && self.is_possible(free, reached, (load, h)) {
+                best = Some((sticking, self.x.clone()));
+            }
+        }
+        best.map(|(_, state)| state)
+    }
+
+    /// What slides where the slider starts from rest.
+    fn set_out(&mut self) {
+        let sign = self.x.modes[0];
+        if sign != 0 && self.x.w == ZERO {
+            self.x.piece = 0;
+            self.body.activate(&mut self.x, sign);
+        }
+    }
+
+    /// Whether each `free` interface that sticks is within its bound, and each that slides moves off and
+    /// could not be held.
+    fn is_possible(
+        &mut self,
+        free: &[usize],
+        reached: &[(usize, i32)],
+        (load, h): (Load, Dd),
+    ) -> bool {
+        let series = self.body.series(&self.x, load, h);
+        let noises = self.velocity_noises(&series, load, h);
+        free.iter().all(|&i| {
+            let mode = self.x.modes[i];
+            if mode == 0 {
+                return self.exceeded(&series, load, i).is_none();
+            }
+            let velocity = if i == 0 { &series.w } else { &series.z[i - 1] };
+            if leading(velocity, noises[i]).is_none_or(|(_, sign)| sign != mode) {
+                return false;
+            }
+            if reached.contains(&(i, mode)) {
+                return true;
+            }
+            let mut held = self.x.clone();
+            held.modes[i] = 0;
+            self.exceeded(&self.body.series(&held, load, h), load, i) == Some(mode)
+        })
+    }
+
+    /// The sign with which a stuck interface would slide, where it is beyond its bound.
+    fn exceeded(&self, series: &Series, load: Load, interface: usize) -> Option<i32> {
+        let bounds = self.bounds(series, load, interface);
+        [-1, 1].into_iter().zip(bounds).find_map(|(sign, bound)| {
+            let (left, noise) = bound?;
+            leading(&left, noise).is_some_and(|(_, sign)| sign < 0).then_some(sign)
+        })
     }
 
     fn tell(&mut self, time_s: f64, interface: usize, kind: EventKind) {

@@ -12,6 +12,7 @@ pub mod devices;
 pub mod plain;
 pub mod random;
 pub mod random_devices;
+pub mod sensible;
 pub mod sketch;
 pub mod system;
 pub mod values;

@@ -54,6 +54,11 @@ impl Random {
         low + (self.unit() * (high - low + 1) as f64) as i64
     }
 
+    /// One of a list.
+    pub fn of<T: Copy>(&mut self, list: &[T]) -> T {
+        list[self.integer(0, list.len() as i64 - 1) as usize]
+    }
+
     /// True with a probability.
     pub fn chance(&mut self, probability: f64) -> bool {
         self.unit() < probability

@@ -172,3 +172,81 @@ pub fn motion(system: &System, sign: f64) -> GroundMotion {
     let a = system.horizontal.iter().map(|a| sign * a).collect();
     GroundMotion::new(system.times_s.clone(), a, system.vertical.clone()).expect("a motion")
 }
+
+/// A system of contents and slider in which much coincides: coefficients and masses off a short list,
+/// motions of plateaus, zeros and jumps.
+pub fn coincident(seed: u64) -> System {
+    let r = &mut Random(seed);
+    fn pick(r: &mut Random, list: &[f64]) -> f64 {
+        list[(r.next() * list.len() as f64) as usize]
+    }
+    let n = usize::from(r.chance(0.3));
+    let frame = Frame {
+        masses_kg: vec![50.0; n],
+        stiffnesses_n_per_m: vec![2e4; n],
+        damping: Damping::Dampers(vec![100.0; n]),
+        heights_m: None,
+    };
+    // Binary fractions: what should be equal is so to the last bit of the reference too.
+    let frictions = [0.0625, 0.125, 0.125, 0.1875];
+    let coefficients = |r: &mut Random| {
+        let kinetic = pick(r, &frictions);
+        [kinetic * pick(r, &[1.0, 1.0, 1.25]), kinetic]
+    };
+    let slider_friction = coefficients(r);
+    let contents: Vec<Contents> = (0..1 + (r.next() * 2.5) as usize)
+        .map(|_| {
+            let floor = if r.chance(0.3) { n } else { 0 };
+            let mass_kg = pick(r, &[19.0, 83.0, 101.0, 157.0]);
+            let [static_friction, kinetic_friction] =
+                if r.chance(0.4) { slider_friction } else { coefficients(r) };
+            Contents { floor, mass_kg, static_friction, kinetic_friction }
+        })
+        .collect();
+    // Equal items are one: only the first.
+    let mut different: Vec<Contents> = Vec::new();
+    for item in contents {
+        if !different.iter().any(|c| Contents { mass_kg: item.mass_kg, ..*c } == item) {
+            different.push(item);
+        }
+    }
+    let stop = r.chance(0.15).then(|| Stop {
+        gap_m: [Some(0.02), Some(0.02)],
+        kind: StopKind::Rigid { restitution: pick(r, &[0.0, 0.5]) },
+    });
+    let [fixed, kinetic] = slider_friction;
+    let slider = Slider {
+        friction: Friction::Coulomb(Coulomb::new([fixed; 2], [kinetic; 2]).expect("friction")),
+        stiffness_n_per_m: pick(r, &[0.0, 0.0, 4000.0]),
+        damper_n_s_per_m: 0.0,
+        tilt_rad: 0.0,
+        gap_m: None,
+        stop,
+    };
+    let block = Block { mass_kg: 100.0, width_m: None, height_m: None };
+    let devices = Devices { contents: different, ..Devices::default() };
+    let model = Model::new(block, slider, frame, G, InitialState::rest()).expect("a model");
+    let model = model.with_devices(devices).expect("devices");
+    let (mut times_s, mut horizontal) = (vec![0.0], vec![0.0]);
+    if r.chance(0.5) {
+        horizontal[0] = r.between(-5.0, 5.0);
+    }
+    let mut time_s = 0.0;
+    for _ in 0..24 {
+        let last = horizontal[horizontal.len() - 1];
+        if r.chance(0.2) && time_s > 0.0 {
+            times_s.push(time_s);
+            horizontal.push(r.between(-5.0, 5.0));
+        }
+        time_s += 0.0625;
+        times_s.push(time_s);
+        let kind = r.next();
+        horizontal.push(match kind {
+            x if x < 0.2 => horizontal[horizontal.len() - 1],
+            x if x < 0.35 => 0.0,
+            x if x < 0.45 => -last,
+            _ => r.between(-5.0, 5.0),
+        });
+    }
+    System { mirrored: model.clone(), model, times_s, horizontal, vertical: None }
+}

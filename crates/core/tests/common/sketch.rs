@@ -1,7 +1,9 @@
 //! Random systems: a model and its ground motion as plain numbers that a test can change.
 
-use slipstick::friction::{Coulomb, Friction};
-use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
+use slipstick::friction::{Coulomb, Direction, Friction, RateCurve, RateLaw, Series, Surface};
+use slipstick::model::{
+    Block, Contents, Damping, Devices, Frame, InitialState, Model, Slider, Stop, StopKind,
+};
 use slipstick::motion::GroundMotion;
 
 use super::random::Random;
@@ -19,7 +21,12 @@ pub struct Sketch {
     pub static_friction: [f64; 2],
     pub kinetic_friction: [f64; 2],
     pub tilt: f64,
+    pub stop: Option<Stop>,
+    /// Surfaces in series take the place of friction and spring, a radius that of the spring.
+    pub devices: Devices,
     pub gravity: f64,
+    /// Whether it has a width and heights, so that the overturning moment is an output.
+    pub overturns: bool,
     pub s: f64,
     pub w: f64,
     /// `None`: the model's own default.
@@ -43,7 +50,10 @@ impl Sketch {
             static_friction: [static_friction; 2],
             kinetic_friction: [kinetic_friction; 2],
             tilt: 0.0,
+            stop: None,
+            devices: Devices::default(),
             gravity: 8.0,
+            overturns: false,
             s: 0.0,
             w: 0.0,
             q: None,
@@ -125,9 +135,100 @@ impl Sketch {
         x
     }
 
-    /// Mass of block and floors.
+    /// Devices of every kind, about as often as not: stops, friction by speed, surfaces in series or a
+    /// pendulum, contents.
+    pub fn equip(&mut self, random: &mut Random) {
+        match random.integer(0, 4) {
+            0 => self.set_pieces(random),
+            1 => self.set_exponential(random),
+            2 => self.set_surfaces(random),
+            _ => {}
+        }
+        if self.devices.series.is_none() && random.chance(0.4) {
+            self.devices.radius_m = Some(random.logarithmic(0.3, 4.0));
+        }
+        if random.chance(0.4) {
+            let gap = |r: &mut Random, s: f64| s.abs() + r.logarithmic(0.002, 0.1);
+            let both = [(); 2].map(|()| Some(gap(random, self.s)));
+            let gap_m = if random.chance(0.8) { both } else { [both[0], None] };
+            let kind = if random.chance(0.5) {
+                let restitution = if random.chance(0.2) { 0.0 } else { random.between(0.1, 0.9) };
+                StopKind::Rigid { restitution }
+            } else {
+                let rate = random.logarithmic(10.0, 100.0);
+                let ratio = if random.chance(0.3) { 0.0 } else { random.between(0.01, 0.5) };
+                StopKind::Elastic {
+                    stiffness_n_per_m: self.block * rate * rate,
+                    damper_n_s_per_m: 2.0 * ratio * self.block * rate,
+                }
+            };
+            self.stop = Some(Stop { gap_m, kind });
+        }
+        for _ in 0..[0, 0, 0, 1, 1, 2, 3][random.integer(0, 6) as usize] {
+            let kinetic_friction = random.logarithmic(0.02, 0.4);
+            let over = if random.chance(0.4) { 1.0 } else { random.between(1.0, 1.5) };
+            self.devices.contents.push(Contents {
+                floor: random.integer(0, self.masses.len() as i64) as usize,
+                mass_kg: self.block * random.logarithmic(0.02, 1.0),
+                static_friction: kinetic_friction * over,
+                kinetic_friction,
+            });
+        }
+    }
+
+    /// Kinetic friction by speed, which at rest is the kinetic friction of each direction.
+    pub fn set_curve(&mut self, curve: RateCurve) {
+        let factors = self.kinetic_friction.map(|mu| mu / self.kinetic_friction[0]);
+        self.set_rate(RateLaw::new(curve, factors).expect("a rate law"));
+    }
+
+    /// Makes the coefficients at rest those of the law, to the last bit; those that were equal stay so.
+    fn set_rate(&mut self, rate: RateLaw) {
+        for (i, direction) in [Direction::Positive, Direction::Negative].into_iter().enumerate() {
+            let at_rest = rate.at(0.0, direction);
+            let alike = self.static_friction[i] == self.kinetic_friction[i];
+            self.static_friction[i] =
+                if alike { at_rest } else { self.static_friction[i].max(at_rest) };
+            self.kinetic_friction[i] = at_rest;
+        }
+        self.devices.rate = Some(rate);
+    }
+
+    fn set_pieces(&mut self, random: &mut Random) {
+        let (mut speeds_m_per_s, mut coefficients) = (vec![0.0], vec![self.kinetic_friction[0]]);
+        for i in 0..random.integer(1, 3) as usize {
+            speeds_m_per_s.push(speeds_m_per_s[i] + random.logarithmic(0.02, 0.3));
+            coefficients.push(coefficients[0] * random.between(0.5, 2.0));
+        }
+        self.set_curve(RateCurve::Pieces { speeds_m_per_s, coefficients });
+    }
+
+    fn set_exponential(&mut self, random: &mut Random) {
+        let slow = self.kinetic_friction[0];
+        let fast = slow * random.between(0.6, 2.5);
+        let rate_s_per_m = random.logarithmic(5.0, 100.0);
+        self.set_curve(RateCurve::Exponential { slow, fast, rate_s_per_m });
+    }
+
+    fn set_surfaces(&mut self, random: &mut Random) {
+        let mut surface = || Surface {
+            radius_m: (!random.chance(0.1)).then(|| random.logarithmic(0.3, 3.0)),
+            friction: random.logarithmic(0.01, 0.2),
+            travel_m: random.chance(0.4).then(|| self.s.abs() + random.logarithmic(0.05, 0.5)),
+        };
+        let mut surfaces = vec![surface(), surface(), surface()];
+        surfaces.truncate(random.integer(1, 3) as usize);
+        if surfaces.len() > 1 && random.chance(0.3) {
+            surfaces[1] = surfaces[0];
+        }
+        let static_ratio = if random.chance(0.4) { 1.0 } else { random.between(1.0, 1.5) };
+        self.devices.series = Some(Series::new(surfaces, static_ratio).expect("surfaces"));
+        self.spring = 0.0;
+    }
+
+    /// Mass of block, floors and contents.
     pub fn total(&self) -> f64 {
-        self.block + self.masses.iter().sum::<f64>()
+        self.block + self.masses.iter().sum::<f64>() + self.devices.contents_kg()
     }
 
     /// A spring with which the whole would swing at a rate in rad/s.
@@ -191,24 +292,34 @@ impl Sketch {
         (self.model(), motion.expect("a motion"))
     }
 
+    /// Stiffness of the spring, or of the pendulum under the weight.
+    fn spring(&self) -> f64 {
+        let pressed = self.total() * self.gravity * libm::cos(self.tilt);
+        self.devices.radius_m.map_or(self.spring, |radius_m| pressed / radius_m)
+    }
+
     /// The model alone.
     pub fn model(&self) -> Model {
         let friction = Coulomb::new(self.static_friction, self.kinetic_friction).expect("friction");
         Model::new(
-            Block { mass_kg: self.block, width_m: None, height_m: None },
+            Block {
+                mass_kg: self.block,
+                width_m: self.overturns.then_some(1.0),
+                height_m: self.overturns.then_some(0.5),
+            },
             Slider {
                 friction: Friction::Coulomb(friction),
-                stiffness_n_per_m: self.spring,
+                stiffness_n_per_m: self.spring(),
                 damper_n_s_per_m: self.damper,
                 tilt_rad: self.tilt,
                 gap_m: None,
-                stop: None,
+                stop: self.stop,
             },
             Frame {
                 masses_kg: self.masses.clone(),
                 stiffnesses_n_per_m: self.stiffnesses.clone(),
                 damping: self.damping.clone(),
-                heights_m: None,
+                heights_m: self.overturns.then(|| vec![3.0; self.masses.len()]),
             },
             self.gravity,
             InitialState {
@@ -219,6 +330,132 @@ impl Sketch {
             },
         )
         .expect("a model")
+        .with_devices(self.devices.clone())
+        .expect("devices")
+    }
+
+    /// The same in units of other size: every number times the powers of the three factors that its
+    /// dimension has.
+    pub fn in_units(&self, mass: f64, length: f64, time: f64) -> Self {
+        let acceleration = length / (time * time);
+        let mut twin = self.times_factors(mass, length, time);
+        twin.gravity *= acceleration;
+        twin.vertical.iter_mut().flatten().for_each(|a| *a *= acceleration);
+        twin.devices.radius_m.iter_mut().for_each(|radius_m| *radius_m *= length);
+        if let Some(series) = &self.devices.series {
+            twin.devices.series = Some(of_surfaces(series, |surface| Surface {
+                radius_m: surface.radius_m.map(|radius_m| radius_m * length),
+                friction: surface.friction,
+                travel_m: surface.travel_m.map(|travel_m| travel_m * length),
+            }));
+        }
+        twin
+    }
+
+    /// Motion, start, friction, gaps and speeds times a factor, while the weight stays: the same story,
+    /// so much larger, on a level surface.
+    pub fn louder(&self, factor: f64) -> Self {
+        let mut twin = self.times_factors(1.0, factor, 1.0);
+        let coefficients = twin.static_friction.iter_mut().chain(&mut twin.kinetic_friction);
+        coefficients.for_each(|mu| *mu *= factor);
+        if let Some(rate) = &mut twin.devices.rate {
+            *rate = rate.scaled(factor);
+        }
+        for contents in &mut twin.devices.contents {
+            contents.static_friction *= factor;
+            contents.kinetic_friction *= factor;
+        }
+        if let Some(series) = &self.devices.series {
+            twin.devices.series = Some(of_surfaces(series, |surface| Surface {
+                radius_m: surface.radius_m,
+                friction: surface.friction * factor,
+                travel_m: surface.travel_m.map(|travel_m| travel_m * factor),
+            }));
+        }
+        twin
+    }
+
+    /// The same with all but gravity, vertical motion, radii and surfaces times the powers of the
+    /// three factors that their dimensions have.
+    fn times_factors(&self, mass: f64, length: f64, time: f64) -> Self {
+        let velocity = length / time;
+        let acceleration = velocity / time;
+        let (stiffness, damper) = (mass / (time * time), mass / time);
+        let each = |list: &[f64], factor: f64| list.iter().map(|x| x * factor).collect::<Vec<_>>();
+        let rate = |rate: &RateLaw| {
+            let curve = match rate.curve() {
+                RateCurve::Pieces { speeds_m_per_s, coefficients } => RateCurve::Pieces {
+                    speeds_m_per_s: each(speeds_m_per_s, velocity),
+                    coefficients: coefficients.clone(),
+                },
+                RateCurve::Exponential { slow, fast, rate_s_per_m } => RateCurve::Exponential {
+                    slow: *slow,
+                    fast: *fast,
+                    rate_s_per_m: rate_s_per_m / velocity,
+                },
+            };
+            RateLaw::new(curve, factors(rate)).expect("a rate law")
+        };
+        let stop = |stop: Stop| Stop {
+            gap_m: stop.gap_m.map(|gap_m| gap_m.map(|gap_m| gap_m * length)),
+            kind: match stop.kind {
+                StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } => StopKind::Elastic {
+                    stiffness_n_per_m: stiffness_n_per_m * stiffness,
+                    damper_n_s_per_m: damper_n_s_per_m * damper,
+                },
+                rigid @ StopKind::Rigid { .. } => rigid,
+            },
+        };
+        let contents = |x: &Contents| Contents { mass_kg: x.mass_kg * mass, ..*x };
+        Self {
+            block: self.block * mass,
+            masses: each(&self.masses, mass),
+            stiffnesses: each(&self.stiffnesses, stiffness),
+            damping: match &self.damping {
+                Damping::Ratio(ratio) => Damping::Ratio(*ratio),
+                Damping::Dampers(c) => Damping::Dampers(each(c, damper)),
+            },
+            spring: self.spring * stiffness,
+            damper: self.damper * damper,
+            stop: self.stop.map(stop),
+            devices: Devices {
+                rate: self.devices.rate.as_ref().map(rate),
+                contents: self.devices.contents.iter().map(contents).collect(),
+                ..self.devices.clone()
+            },
+            s: self.s * length,
+            w: self.w * velocity,
+            q: self.q.as_ref().map(|q| each(q, length)),
+            v: each(&self.v, velocity),
+            times: each(&self.times, time),
+            horizontal: each(&self.horizontal, acceleration),
+            ..self.clone()
+        }
+    }
+
+    /// The same seen from the other side.
+    pub fn mirrored(&self) -> Self {
+        let negated = |list: &[f64]| list.iter().map(|x| -x).collect::<Vec<_>>();
+        let [positive, negative] = [self.static_friction, self.kinetic_friction]
+            .map(|[positive, negative]| [negative, positive]);
+        let mut twin = Self {
+            static_friction: positive,
+            kinetic_friction: negative,
+            tilt: -self.tilt,
+            s: -self.s,
+            w: -self.w,
+            q: self.q.as_deref().map(negated),
+            v: negated(&self.v),
+            horizontal: negated(&self.horizontal),
+            ..self.clone()
+        };
+        twin.stop.iter_mut().for_each(|stop| stop.gap_m.reverse());
+        if let Some(rate) = &self.devices.rate {
+            let [positive, negative] = factors(rate);
+            let turned = RateLaw::new(rate.curve().clone(), [negative, positive]);
+            twin.devices.rate = Some(turned.expect("a rate law"));
+        }
+        twin
     }
 
     /// The same with friction larger by a part of it, and with record and start changed by as much
@@ -228,6 +465,16 @@ impl Sketch {
         // The same factor for all: static and kinetic friction that are equal stay so.
         for mu in rougher.static_friction.iter_mut().chain(&mut rougher.kinetic_friction) {
             *mu *= 1.0 + relative;
+        }
+        if let Some(rate) = &self.devices.rate {
+            rougher.set_rate(rate.scaled(1.0 + relative));
+        }
+        if let Some(series) = &mut rougher.devices.series {
+            *series = series.scaled(1.0 + relative);
+        }
+        for contents in &mut rougher.devices.contents {
+            contents.static_friction *= 1.0 + relative;
+            contents.kinetic_friction *= 1.0 + relative;
         }
         let mut random = Random::new(1);
         let mut shaken = self.clone();
@@ -239,4 +486,15 @@ impl Sketch {
         }
         [rougher, shaken]
     }
+}
+
+/// Factors of a rate law for sliding towards +x and −x.
+fn factors(rate: &RateLaw) -> [f64; 2] {
+    [Direction::Positive, Direction::Negative].map(|direction| rate.factor(direction))
+}
+
+/// Surfaces made of others one by one.
+fn of_surfaces(series: &Series, change: impl Fn(&Surface) -> Surface) -> Series {
+    let surfaces = series.surfaces().iter().map(change).collect();
+    Series::new(surfaces, series.static_ratio()).expect("surfaces")
 }

@@ -53,6 +53,14 @@ pub struct Load {
     pub normal: [Dd; 2],
 }
 
+impl Load {
+    /// Over a step between acceleration and normal force over mass at its ends.
+    pub fn between(from: [Dd; 2], to: [Dd; 2]) -> Self {
+        let [b, normal] = [0, 1].map(|i| [from[i], to[i] - from[i]]);
+        Self { b, normal }
+    }
+}
+
 /// Taylor coefficients of one phase over one step, in the unit of the step.
 pub struct Series {
     pub s: Poly<Dd>,

@@ -17,6 +17,7 @@ use crate::load::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
 use crate::read::{read_at_most, read_bytes, resolve, sha256_hex};
 use crate::run::request;
 use crate::table::read_table;
+use crate::unfit::refuse_unfit;
 
 /// A study with all its inputs read.
 #[derive(Debug)]
@@ -184,7 +185,12 @@ fn load_all(
         })
     };
     let all = engine.runs(files.len() + second.len(), load)?;
-    Ok(all.into_iter().collect::<Result<Vec<_>, FileError>>()?)
+    let all = all.into_iter().collect::<Result<Vec<_>, FileError>>()?;
+    let read: Vec<_> =
+        all.iter().map(|one| (one.paths.horizontal.as_path(), &one.loaded)).collect();
+    let pairs = !records.second.is_empty();
+    notices.extend(refuse_unfit(&read, records.channel.is_some(), pairs)?);
+    Ok(all)
 }
 
 /// A target spectrum from a table with the columns `period` and `sa`, each with its unit, and the hash of its

@@ -55,7 +55,7 @@ pub fn has_parts(folder: &Path) -> Result<bool, FileError> {
         return Err(FileError::NotAFolder { path: folder.to_owned() });
     }
     let empty = folder.join(PARTS).is_dir() && names_of_parts(folder)?.is_empty();
-    let counts = |name: &String| leftover(name).is_none() && !(empty && name == PARTS);
+    let counts = |name: &String| half_written(name).is_none() && !(empty && name == PARTS);
     Ok(names(folder)?.iter().any(counts))
 }
 
@@ -98,10 +98,7 @@ pub fn clear(folder: &Path) -> Result<(), FileError> {
         remove(&folder.join(PARTS).join(name))?;
     }
     for name in names(folder)? {
-        let ours = part_of_name(&name).is_some()
-            || leftover(&name).is_some()
-            || [MANIFEST, SUMMARY, REPORT].contains(&name.as_str());
-        if ours {
+        if is_ours(&name) || half_written(&name).is_some() {
             remove(&folder.join(name))?;
         }
     }
@@ -112,16 +109,28 @@ fn remove(path: &Path) -> Result<(), FileError> {
     fs::remove_file(path).map_err(|source| FileError::Write { path: path.to_owned(), source })
 }
 
-/// The part of a file that was left half-written: `.part-00012.parquet.1234-0.tmp`.
-fn leftover(name: &str) -> Option<u64> {
-    let (target, _) = name.strip_prefix('.')?.strip_suffix(".tmp")?.rsplit_once('.')?;
-    part_of_name(target)
+/// Whether a study writes a file of that name.
+fn is_ours(name: &str) -> bool {
+    part_of_name(name).is_some() || [MANIFEST, SUMMARY, REPORT].contains(&name)
 }
 
-/// Removes what a killed study left half-written of some parts.
-pub(super) fn remove_leftovers(folder: &Path, wanted: &Range<u64>) -> Result<(), FileError> {
+/// The file of a study of which this one was left half-written: `.part-00012.parquet.1234-0.tmp`.
+fn half_written(name: &str) -> Option<&str> {
+    let (target, writer) = name.strip_prefix('.')?.strip_suffix(".tmp")?.rsplit_once('.')?;
+    let by_process = writer.chars().all(|c| c.is_ascii_digit() || c == '-');
+    (by_process && is_ours(target)).then_some(target)
+}
+
+/// Removes what a killed study left half-written of some parts, and of the rest where these are all: other
+/// shards may be at work in the folder.
+pub(super) fn remove_leftovers(
+    folder: &Path,
+    wanted: &Range<u64>,
+    is_whole: bool,
+) -> Result<(), FileError> {
     for name in names(folder)? {
-        if leftover(&name).is_some_and(|part| wanted.contains(&part)) {
+        let Some(target) = half_written(&name) else { continue };
+        if part_of_name(target).map_or(is_whole, |part| wanted.contains(&part)) {
             remove(&folder.join(name))?;
         }
     }
@@ -222,8 +231,11 @@ mod tests {
     fn exact_names_of_parts_and_leftovers() {
         assert_eq!(part_of_name("part-00012.parquet"), Some(12));
         assert_eq!(part_of_name("part-x.parquet"), None);
-        assert_eq!(leftover(".part-00012.parquet.4711-3.tmp"), Some(12));
-        assert_eq!(leftover("part-00012.parquet"), None);
-        assert_eq!(leftover(".summary.csv.4711-3.tmp"), None);
+        let part = ".part-00012.parquet.4711-3.tmp";
+        assert_eq!(half_written(part), Some("part-00012.parquet"));
+        assert_eq!(half_written(".manifest.json.4711-3.tmp"), Some("manifest.json"));
+        for other in ["part-00012.parquet", ".mine.csv.4711-3.tmp", ".manifest.json.mine.tmp"] {
+            assert_eq!(half_written(other), None, "{other}");
+        }
     }
 }

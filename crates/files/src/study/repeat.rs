@@ -1,5 +1,6 @@
 //! The command that reproduces a row.
 
+use slipstick::error::is_hidden;
 use slipstick::input::plan::Records;
 
 use super::{OpenStudy, StudyError};
@@ -86,9 +87,17 @@ impl OpenStudy {
     }
 }
 
-/// A word as a shell takes it.
+/// A word as a shell takes it, without characters that steer a terminal.
 #[must_use]
 pub fn quoted(word: &str) -> String {
+    if word.chars().any(is_hidden) {
+        let byte = |byte: &u8| match byte {
+            b'\\' | b'\'' => format!("\\{}", char::from(*byte)),
+            b' '..=b'~' => char::from(*byte).to_string(),
+            other => format!("\\x{other:02x}"),
+        };
+        return format!("$'{}'", word.bytes().map(|b| byte(&b)).collect::<String>());
+    }
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
         return word.to_owned();

@@ -102,7 +102,7 @@ impl OpenStudy {
         output.commit()?;
         let runs = self.study.runs();
         let wanted = shard.parts(part_count(runs));
-        remove_leftovers(folder, &wanted)?;
+        remove_leftovers(folder, &wanted, wanted == (0..part_count(runs)))?;
         let found = find(&folder.join(PARTS))?;
         found.refuse_foreign(&self.id)?;
         let mut outcome = ShardOutcome {

@@ -34,8 +34,15 @@ pub(super) fn of(
         }
         Ok(())
     };
+    let warnings = |take: &mut dyn FnMut(u64, &str)| {
+        for file in files {
+            let Cells::Texts(cells) = file.table.cells(status - 1)? else { continue };
+            (file.notes.first..).zip(&cells).for_each(|(run, kinds)| take(run, kinds));
+        }
+        Ok(())
+    };
     let name = open.plan.name.clone().unwrap_or_else(|| stem(&open.plan_path));
-    study.summary(&name, &Rows { solved: &solved, demand: &demand }, engine)
+    study.summary(&name, &Rows { solved: &solved, demand: &demand, warnings: &warnings }, engine)
 }
 
 fn stem(path: &Path) -> String {

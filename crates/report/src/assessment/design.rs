@@ -11,7 +11,7 @@ use slipstick::assessment::sensitivity::Index;
 use slipstick::response::Warning;
 
 use super::key::title;
-use super::sheet::{Sheet, cell, counted};
+use super::sheet::{Sheet, cell, failed};
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::json::Json;
 use crate::number::compact;
@@ -99,11 +99,15 @@ impl DesignReport<'_> {
             name: self.name.to_owned(),
             first: None,
             line: format!(
-                "{designs} designs, {} records{}; {} runs of {} were needed",
+                "{designs} designs, {} records{}; {} runs of {} were needed{}",
                 self.records,
                 self.scaled,
                 self.found.runs,
-                designs * self.records
+                designs * self.records,
+                match self.failures.len() {
+                    0 => String::new(),
+                    failed => format!(", {failed} of them without an answer"),
+                }
             ),
             display: self.display,
             verdict: self.verdict(),
@@ -152,8 +156,14 @@ impl DesignReport<'_> {
         verdict
     }
 
+    fn failed_runs(&self) -> Option<Warning> {
+        let records = self.records as u64;
+        let bounded = self.bounds.map_or(0, |(_, bounded)| 2 * bounded.len() as u64 * records);
+        failed(self.failures, self.found.runs + bounded, "count as beyond the gap")
+    }
+
     fn all_warnings(&self) -> Vec<Warning> {
-        let mut all: Vec<Warning> = counted("failed_runs", self.failures).into_iter().collect();
+        let mut all: Vec<Warning> = self.failed_runs().into_iter().collect();
         let mut warn = |kind, message| all.push(Warning { kind, time_s: None, message });
         if self.found.front.is_empty() {
             warn(

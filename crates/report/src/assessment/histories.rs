@@ -1,8 +1,8 @@
 //! Models on the records of suites, side by side, and what governs.
 
 use slipstick::assessment::histories::{Histories, ModelHistories, OnRecord, RECORDS_OF_A_MEAN};
-use slipstick::input::Bound;
-use slipstick::response::{DemandColumn, Warning};
+use slipstick::input::{Bound, Names};
+use slipstick::response::{DemandColumn, DemandOf, Warning};
 use slipstick::table::{Cells, Column, Table};
 
 use super::lines::{GROUPS, RECORD, line, panel, stacked};
@@ -29,9 +29,9 @@ pub struct HistoriesReport<'a> {
     pub display: DisplayUnits,
 }
 
-/// A column of a table: its head, the model, its demand, and the bounds of friction whose largest value
-/// is shown.
-type Shown<'a> = (String, &'a ModelHistories, DemandColumn, Vec<usize>);
+/// A column of a table: its head, the model, its demand and the bound of friction; none where no record of
+/// the model has the demand.
+type Shown<'a> = (String, Option<(&'a ModelHistories, DemandColumn, usize)>);
 
 /// Demands that have a table, of those that there are; the last one of models with storeys alone.
 const SHOWN: [&str; 5] = [
@@ -91,6 +91,13 @@ impl HistoriesReport<'_> {
             columns.push(roofs);
             columns.extend([drift].iter().chain(rest).filter_map(named));
         }
+        // What the slider strikes, and what slides on the floors.
+        let met = shape.columns().into_iter().filter(|column| {
+            let of =
+                matches!(column.demand.of, DemandOf::Stop | DemandOf::Surface | DemandOf::Contents);
+            of && column.demand.row.is_some_and(|row| row.governs)
+        });
+        columns.extend(met.map(|column| vec![column; models.len()]));
         let has = |columns: &Vec<DemandColumn>| {
             models.iter().zip(columns).any(|(model, column)| model.governs(column).is_some())
         };
@@ -146,21 +153,28 @@ impl HistoriesReport<'_> {
     }
 
     /// A demand: a row a record, and what governs below. Of one model a column a bound of friction, of
-    /// several a column a model with the largest value over the bounds.
+    /// several a column a model with the bound that governs.
     fn table(&self, demand: &[DemandColumn]) -> (String, Vec<Vec<String>>) {
         let (unit, models) = (self.unit_of(demand), &self.histories.models);
         let columns: Vec<Shown<'_>> = match models.as_slice() {
             [model] => {
                 let bounds = model.bounds.iter().enumerate();
                 let of = |(i, bound): (usize, &Bound)| {
-                    (bound.name.to_owned(), model, demand[0], vec![i])
+                    (bound.name.to_owned(), Some((model, demand[0], i)))
                 };
                 bounds.map(of).collect()
             }
             _ => {
-                let all = |m: &ModelHistories| (0..m.bounds.len()).collect();
-                let models = models.iter().zip(demand);
-                models.map(|(m, column)| (m.name.clone(), m, *column, all(m))).collect()
+                let each = models.iter().zip(demand);
+                let of = each.map(|(m, column)| {
+                    let governs = m.governing_bound(column);
+                    let head = match governs.filter(|_| m.bounds.len() > 1) {
+                        Some(i) => format!("{} ({})", m.name, m.bounds[i].name),
+                        None => m.name.clone(),
+                    };
+                    (head, governs.map(|i| (m, *column, i)))
+                });
+                of.collect()
             }
         };
         let mut names: Vec<&str> = Vec::new();
@@ -169,19 +183,18 @@ impl HistoriesReport<'_> {
                 names.push(&on.record);
             }
         }
-        let largest = |values: &mut dyn Iterator<Item = f64>| {
-            cell(unit.of(values.filter(|value| !value.is_nan()).fold(f64::NAN, f64::max)))
-        };
+        let shown = |value: Option<f64>| cell(unit.of(value.unwrap_or(f64::NAN)));
         let row = |name: &str, cells: &mut dyn Iterator<Item = String>| {
             core::iter::once(name.to_owned()).chain(cells).collect::<Vec<_>>()
         };
         let mut rows = vec![row("Record", &mut columns.iter().map(|(head, ..)| head.clone()))];
         for name in &names {
-            let value = |(_, model, column, bounds): &Shown<'_>| {
-                let on = model.records.iter().find(|on| on.record == **name);
-                let of = |i: &usize| column.value(&on?.demands[*i]).map(f64::abs);
-                largest(&mut bounds.iter().filter_map(of))
+            let of = |(_, of): &Shown<'_>| {
+                let (model, column, bound) = (*of)?;
+                let on = model.records.iter().find(|on| on.record == **name)?;
+                column.value(&on.demands[bound]).map(f64::abs)
             };
+            let value = |column: &Shown<'_>| shown(of(column));
             rows.push(row(name, &mut columns.iter().map(value)));
         }
         if names.len() > 1 {
@@ -194,14 +207,36 @@ impl HistoriesReport<'_> {
             };
             let pairs = models.iter().any(ModelHistories::has_pairs);
             let name = if pairs { format!("{name}, larger of each pair") } else { name.to_owned() };
-            let value = |(_, model, column, bounds): &Shown<'_>| {
-                largest(&mut bounds.iter().map(|i| model.governing(column, *i)))
+            let value = |(_, of): &Shown<'_>| {
+                shown(of.map(|(model, column, bound)| model.governing(&column, bound)))
             };
             rows.push(row(&name, &mut columns.iter().map(value)));
         }
         let alike = demand.iter().all(|column| *column == demand[0]);
-        let title = if alike { demand[0].title() } else { "Roof peak acceleration".to_owned() };
+        let title =
+            if alike { self.title(&demand[0]) } else { "Roof peak acceleration".to_owned() };
         (unit.label(&title), rows)
+    }
+
+    /// A demand's title, with what the block or the storey is called in all models.
+    fn title(&self, column: &DemandColumn) -> String {
+        let title = column.title();
+        let (what, storey) = match column.demand.of {
+            DemandOf::Storey => (format!("Storey {}", column.part), column.part),
+            _ => ("Block".to_owned(), 0),
+        };
+        let name = |names: &Names| match storey {
+            0 => names.block.clone(),
+            storey => names.storeys.get(storey - 1).cloned().flatten(),
+        };
+        let mut names = self.histories.models.iter().map(|model| name(&model.names));
+        let first = names.next().flatten();
+        match (first, title.strip_prefix(&what)) {
+            (Some(first), Some(rest)) if names.all(|other| other.as_ref() == Some(&first)) => {
+                format!("{first}{rest}")
+            }
+            _ => title,
+        }
     }
 
     /// A table a demand, and the factors of pairs that were brought to a spectrum.
@@ -235,8 +270,8 @@ impl HistoriesReport<'_> {
             return Vec::new();
         }
         vec![
-            "Of each record the largest value over lower-bound, nominal and upper-bound friction, and of \
-             these bounds the one that governs; runs.csv has every run."
+            "Each column is of the bound of friction that governs, named in its head; runs.csv has every \
+             run."
                 .to_owned(),
         ]
     }

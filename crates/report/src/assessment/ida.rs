@@ -13,7 +13,7 @@ pub use family::IdaFamily;
 
 use super::key::{of_measure, quantity, title};
 use super::lines::{FRACTILES, RECORD, clipped, line, panel, share_names, single};
-use super::sheet::{Sheet, cell, counted};
+use super::sheet::{Sheet, cell, counted, failed};
 use crate::display::{DisplayUnits, Unit};
 use crate::figures::Drawn;
 use crate::json::Json;
@@ -51,6 +51,9 @@ pub struct IdaReport<'a> {
     /// Units to show results in.
     pub display: DisplayUnits,
 }
+
+/// What a run without an answer is in a curve.
+const BEYOND: &str = "count as above any limit";
 
 impl IdaReport<'_> {
     /// Number of runs.
@@ -192,7 +195,8 @@ impl IdaReport<'_> {
     }
 
     fn all_warnings(&self) -> Vec<Warning> {
-        let mut all: Vec<Warning> = counted("failed_runs", self.failures).into_iter().collect();
+        let mut all: Vec<Warning> =
+            failed(self.failures, self.runs() as u64, BEYOND).into_iter().collect();
         if self.limit.is_some() {
             let back: Vec<String> = self
                 .crossings()

@@ -2,6 +2,7 @@
 
 use std::fmt::Display;
 
+use slipstick::assessment::FailedRun;
 use slipstick::response::Warning;
 
 use crate::display::DisplayUnits;
@@ -151,6 +152,14 @@ fn table_list(out: &mut Markup, tables: &[(String, Vec<Vec<String>>)]) {
 /// A number of a table: four digits, or a dash where there is none.
 pub(crate) fn cell(value: f64) -> String {
     if value.is_finite() { crate::number::significant(value, 4) } else { "—".to_owned() }
+}
+
+/// Runs without an answer, of so many, as one warning; what they count as is the analysis's to say.
+pub(super) fn failed(runs: &[FailedRun], of: u64, count_as: &str) -> Option<Warning> {
+    let first = runs.first()?;
+    let message =
+        format!("{} of {of} runs have no answer and {count_as}; the first: {first}", runs.len());
+    Some(Warning { kind: "failed_runs", time_s: None, message })
 }
 
 /// A heading for a list of warnings from the messages of runs: each message once, with its count.

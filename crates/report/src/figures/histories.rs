@@ -53,13 +53,14 @@ pub fn sliding_displacement(scene: &Scene) -> Drawn {
         peak,
         note,
     };
-    let demands = &report.summary.demands;
+    let ratios = runs.iter().filter_map(|(_, run)| run.demands.gap_ratio);
     let mut caption = format!(
         "Sliding displacement s of the block relative to the ground, positive towards +x. {SHADING}"
     );
-    if let Some(ratio) = demands.gap_ratio {
+    if let Some(ratio) = ratios.reduce(f64::max) {
+        let over = if runs.len() > 1 { " over all bounds of friction" } else { "" };
         caption.push_str(&format!(
-            " Its peak uses {} % of the gap{}.",
+            " Its peak{over} uses {} % of the gap{}.",
             printed(100.0 * ratio, 3),
             if gap_shown.is_some() { "" } else { ", whose lines lie outside the drawing" }
         ));

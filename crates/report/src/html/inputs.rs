@@ -8,6 +8,7 @@ use crate::display::Quantity;
 use crate::markup::Markup;
 use crate::number::{compact, count, printed, significant};
 use crate::report::{FileNote, InputText, Report};
+use crate::table::drifts;
 
 /// Model and record in numbers.
 pub fn section(out: &mut Markup, report: &Report) {
@@ -48,7 +49,10 @@ fn record_rows(report: &Report) -> Vec<(&'static str, String)> {
         ("Duration", format!("{} s", compact(motion.duration_s()))),
         ("PGA (as used)", show(Quantity::Acceleration, record.pga_m_per_s2)),
         ("PGV", show(Quantity::Velocity, record.pgv_m_per_s)),
-        ("PGD", show(Quantity::Length, record.pgd_m)),
+        (
+            if drifts(record) { "PGD (the record drifts)" } else { "PGD" },
+            show(Quantity::Length, record.pgd_m),
+        ),
         (
             "Velocity at the end",
             show_as(Quantity::Velocity, record.pgv_m_per_s, record.end_velocity_m_per_s),
@@ -103,14 +107,16 @@ fn file_table(out: &mut Markup, files: &[FileNote]) {
 
 /// What the model takes for granted, with the ratios that say how far it can be trusted.
 pub fn assumptions(out: &mut Markup, report: &Report) {
-    let (model, demands) = (report.model, &report.summary.demands);
+    let model = report.model;
+    let runs = report.summary.runs();
+    let overturning = runs.iter().filter_map(|(_, run)| run.demands.overturning_ratio);
     let mut list = vec![
         "Motion is in one vertical plane; there is no torsion and no second horizontal direction."
             .to_owned(),
         "Vertically everything is rigid: the normal force is the total mass times g cos θ plus the \
          vertical acceleration of the table, never below 0, spread evenly over the surface."
             .to_owned(),
-        match demands.overturning_ratio {
+        match overturning.reduce(f64::max) {
             Some(ratio) => format!(
                 "No rocking and no uplift of an edge. The largest overturning moment is {} of what \
                  the weight resists{}.",

@@ -22,13 +22,21 @@ pub fn section(out: &mut Markup, report: &Report) {
 
 /// The run with the largest sliding displacement, with its name.
 fn governing(summary: &Summary) -> (&'static str, &Summary) {
-    let slides = |run: &Summary| run.demands.peak_sliding_displacement_m;
+    governing_by(summary, &|run| run.demands.peak_sliding_displacement_m)
+}
+
+/// The run in which a demand is largest in size, with its name.
+fn governing_by<'a>(
+    summary: &'a Summary,
+    demand: &dyn Fn(&Summary) -> f64,
+) -> (&'static str, &'a Summary) {
+    let size = |run: &Summary| demand(run).abs();
     let mut runs = summary.runs();
     // Of equal ones the nominal run.
     sort(&mut runs, |a, b| (a.0 != "nominal").cmp(&(b.0 != "nominal")));
     let mut governing = runs[0];
     for run in &runs[1..] {
-        if slides(run.1) > slides(governing.1) {
+        if size(run.1) > size(governing.1) {
             governing = *run;
         }
     }
@@ -65,21 +73,32 @@ fn sliding(report: &Report) -> String {
     }
     text.push('.');
     if report.summary.bounds.is_some() {
+        let mut friction = of_friction(name).to_owned();
+        friction[..1].make_ascii_uppercase();
         text.push_str(&match name {
-            "nominal" => " Nominal friction governs.".to_owned(),
-            name => format!(
-                " {} friction (× {}) governs.",
-                if name == "lower" { "Lower-bound" } else { "Upper-bound" },
-                compact(run.friction_factor)
-            ),
+            "nominal" => format!(" {friction} governs."),
+            _ => format!(" {friction} (× {}) governs.", compact(run.friction_factor)),
         });
     }
     text
 }
 
+/// The friction of a run, by its name.
+fn of_friction(name: &str) -> &'static str {
+    match name {
+        "lower" => "lower-bound friction",
+        "upper" => "upper-bound friction",
+        _ => "nominal friction",
+    }
+}
+
 fn rest(report: &Report) -> String {
     let (_, run) = governing(report.summary);
     let d = &run.demands;
+    let with = |name: &str| match report.summary.bounds {
+        Some(_) => format!(" ({})", of_friction(name)),
+        None => String::new(),
+    };
     let length = report.display.unit(Quantity::Length, d.peak_sliding_displacement_m);
     let largest = |of: &dyn Fn(&Summary) -> f64| {
         report.summary.runs().into_iter().map(|(_, run)| of(run)).fold(0.0, f64::max)
@@ -99,28 +118,44 @@ fn rest(report: &Report) -> String {
         acceleration(report.summary.record.pga_m_per_s2)
     ));
     if d.sliding_path_m > 0.0 {
-        text.push_str(&if d.sliding_at_end {
-            " The block is still sliding at the end of the analysis.".to_owned()
-        } else {
-            let residual = with_unit(length, d.residual_sliding_displacement_m);
-            format!(" It comes to rest at {residual}.")
+        let runs = report.summary.runs();
+        let sliding = runs.iter().find(|(_, run)| run.demands.sliding_at_end);
+        let left = governing_by(report.summary, &|run| run.demands.residual_sliding_displacement_m);
+        text.push_str(&match sliding {
+            Some((name, _)) => {
+                format!(" The block is still sliding at the end of the analysis{}.", with(name))
+            }
+            None => format!(
+                " It comes to rest at {}{}.",
+                with_unit(length, left.1.demands.residual_sliding_displacement_m),
+                with(left.0)
+            ),
         });
     }
-    if let Some(stop) = &d.stop {
+    let stop_force = |run: &Summary| run.demands.stop.map_or(0.0, |stop| stop.peak_force_n);
+    let stop_speed =
+        |run: &Summary| run.demands.stop.map_or(0.0, |stop| stop.peak_impact_speed_m_per_s);
+    let hit = match governing_by(report.summary, &stop_force) {
+        (_, run) if stop_force(run) == 0.0 => governing_by(report.summary, &stop_speed),
+        hit => hit,
+    };
+    if let Some(stop) = &hit.1.demands.stop {
         let force = report.display.unit(Quantity::Force, stop.peak_force_n);
         text.push_str(&match stop.contact_count {
             0 if stop.peak_impact_speed_m_per_s > 0.0 => {
                 let speed = report.display.unit(Quantity::Velocity, stop.peak_impact_speed_m_per_s);
                 format!(
-                    " The block strikes the rigid stops at {} or slower.",
-                    with_unit(speed, stop.peak_impact_speed_m_per_s)
+                    " The block strikes the rigid stops at {} or slower{}.",
+                    with_unit(speed, stop.peak_impact_speed_m_per_s),
+                    with(hit.0)
                 )
             }
             0 => " The stops are not reached.".to_owned(),
             n => format!(
-                " The stops are reached {} times, with a force of {} at most.",
+                " The stops are reached {} times, with a force of {} at most{}.",
                 count(n),
-                with_unit(force, stop.peak_force_n)
+                with_unit(force, stop.peak_force_n),
+                with(hit.0)
             ),
         });
     }

@@ -1,7 +1,6 @@
 //! A prediction beside a measurement.
 
 use slipstick::input::Channel;
-use slipstick::laboratory::anderson;
 use slipstick::laboratory::compare::{Compared, Comparison, Metrics, Within};
 use slipstick::model::Model;
 use slipstick::response::{Method, Mode};
@@ -130,8 +129,7 @@ impl CompareReport<'_> {
         ];
         if all.iter().any(|c| c.metrics.anderson.is_some()) {
             rows.push(row("Anderson's scores over the whole band (0 to 10)", &|_, m, _| {
-                let mean = m.anderson.map(|a| a.mean());
-                mean.map_or(String::new(), |s| format!("{s:.1} {}", anderson::word(s)))
+                m.anderson.map_or(String::new(), |scores| scores.words())
             }));
         }
         rows

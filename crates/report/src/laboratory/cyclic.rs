@@ -99,18 +99,15 @@ pub fn by_test(tests: &[Test], normal_force_n: Option<f64>) -> Vec<Vec<String>> 
 pub fn table(tests: &[Test], normal_force_n: Option<f64>) -> Vec<Vec<String>> {
     let over = normal_force_n.unwrap_or(1.0);
     let unit = if normal_force_n.is_some() { "" } else { " (N)" };
-    let mut rows = vec![vec![
-        "Cycle".to_owned(),
-        "f (Hz)".to_owned(),
-        "stroke (mm)".to_owned(),
-        format!("kinetic +x{unit}"),
-        format!("kinetic −x{unit}"),
-        format!("static +x{unit}"),
-        format!("static −x{unit}"),
-        "spring (N/m)".to_owned(),
-        "damper (N s/m)".to_owned(),
-        "rms left (N)".to_owned(),
-    ]];
+    // Without the zeros of the sensors the two ways cannot be told apart.
+    let by_way = tests.iter().all(|test| test.fit.zero_known && test.fit.drift.is_none());
+    let ways: &[&str] = if by_way { &[" +x", " −x"] } else { &[""] };
+    let mut heads = ["Cycle", "f (Hz)", "stroke (mm)"].map(str::to_owned).to_vec();
+    for what in ["kinetic", "static"] {
+        heads.extend(ways.iter().map(|way| format!("{what}{way}{unit}")));
+    }
+    heads.extend(["spring (N/m)", "damper (N s/m)", "rms left (N)"].map(str::to_owned));
+    let mut rows = vec![heads];
     for (number, test) in tests.iter().enumerate() {
         for (index, cycle) in test.fit.cycles.iter().enumerate() {
             let label = if tests.len() > 1 {
@@ -118,27 +115,27 @@ pub fn table(tests: &[Test], normal_force_n: Option<f64>) -> Vec<Vec<String>> {
             } else {
                 (index + 1).to_string()
             };
-            rows.push(row(label, cycle, over));
+            rows.push(row(label, cycle, over, by_way));
         }
     }
     rows
 }
 
-fn row(label: String, cycle: &Cycle, over: f64) -> Vec<String> {
+fn row(label: String, cycle: &Cycle, over: f64, by_way: bool) -> Vec<String> {
     let digits = |value: f64| significant(value, 4);
     let maybe = |value: Option<f64>| value.map_or("none".to_owned(), digits);
-    vec![
-        label,
-        digits(cycle.frequency_hz),
-        digits(1e3 * cycle.stroke_m),
-        digits(cycle.kinetic_n[0] / over),
-        digits(cycle.kinetic_n[1] / over),
-        maybe(cycle.static_n[0].map(|f| f / over)),
-        maybe(cycle.static_n[1].map(|f| f / over)),
-        maybe(cycle.spring_n_per_m),
-        maybe(cycle.damper_n_s_per_m),
-        significant(cycle.residual_n, 3),
-    ]
+    let mut row = vec![label, digits(cycle.frequency_hz), digits(1e3 * cycle.stroke_m)];
+    for ways in [cycle.kinetic_n.map(Some), cycle.static_n] {
+        if by_way {
+            row.extend(ways.map(|way| maybe(way.map(|f| f / over))));
+        } else {
+            let both = ways[0].zip(ways[1]).map(|(a, b)| 0.5 * (a + b) / over);
+            row.push(maybe(both));
+        }
+    }
+    row.extend([cycle.spring_n_per_m, cycle.damper_n_s_per_m].map(maybe));
+    row.push(significant(cycle.residual_n, 3));
+    row
 }
 
 /// What only this job has in its JSON object.

@@ -4,7 +4,7 @@ use slipstick::numerics::sort;
 use slipstick::response::{DemandColumn, Warning};
 use slipstick::study::{LevelSummary, Study, StudySummary};
 
-use super::{level, level_number, level_unit, shown};
+use super::{level, level_number, level_unit, said, shown};
 use crate::assessment::lines::{BAND, FRACTILES, GROUPS, band, line, panel, stacked};
 use crate::assessment::pairs;
 use crate::assessment::sheet::{Sheet, cell};
@@ -162,8 +162,9 @@ impl StudyReport<'_> {
             let all = count(self.study.runs());
             warn("incomplete", format!("{} of {all} runs are in the folder", count(rows)))
         });
+        let warned = said(self.summary).into_iter().map(|message| warn("runs", message));
         let noticed = self.notices.iter().map(|notice| warn("inputs", notice.clone()));
-        failed.into_iter().chain(missing).chain(noticed).collect()
+        failed.into_iter().chain(missing).chain(warned).chain(noticed).collect()
     }
 
     fn tables(&self) -> Vec<(String, Vec<Vec<String>>)> {

@@ -2,7 +2,7 @@
 
 use slipstick::check::Certificate;
 use slipstick::numerics::sort;
-use slipstick::response::{Method, Response, Warning};
+use slipstick::response::{Method, Response, Warning, flat_geometry};
 
 use super::{SummaryInputs, exceeds};
 use crate::number::{compact, rounded, significant};
@@ -17,6 +17,7 @@ pub fn assemble(inputs: &SummaryInputs) -> Vec<Warning> {
         gap_exceeded(inputs),
         inputs.certificate.and_then(|certificate| close_call(inputs.response, certificate)),
         nothing_slides(inputs.response),
+        flat_geometry(inputs.model, &inputs.response.demands),
     ];
     let mut all: Vec<Warning> = derived.into_iter().flatten().collect();
     for warning in inputs.response.warnings.iter().chain(inputs.warnings) {

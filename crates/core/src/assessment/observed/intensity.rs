@@ -3,7 +3,7 @@
 use super::FragilityRequest;
 use super::columns::{Columns, any_unit};
 use crate::assessment::{AssessmentError, ChoiceError, refuse};
-use crate::motion::intensity::Measure;
+use crate::motion::intensity::{IntensityMeasures, Measure};
 use crate::units::{Dimension, Unit, parse_unit};
 
 /// The intensities of a table.
@@ -33,11 +33,13 @@ impl Intensity {
                 "level"
             };
         let of_levels = columns.intensity(levels).map(|column| column.name.clone());
-        let said = columns.first_text("measure");
+        let told = |levels: &String| of_equal_column(columns, levels);
+        let said = columns.first_text("measure").or_else(|| of_levels.as_ref().and_then(told));
         let Some(asked) = request.measure else {
             let Some(column) = of_levels else { return Err(columns.lacking("measure", levels)) };
-            let measure = said.unwrap_or_else(|| "level".to_owned());
-            return Self::in_unit(request, columns, measure, column);
+            let measure = said.clone().unwrap_or_default();
+            let found = Self::in_unit(request, columns, measure, column.clone())?;
+            return said.map(|_| found).ok_or_else(|| unsaid(columns, &column));
         };
         let parsed = Measure::parse(asked).ok();
         let same = |said: &String| {
@@ -55,11 +57,22 @@ impl Intensity {
             return Self::in_unit(request, columns, asked.to_owned(), own.unwrap_or(column));
         }
         if let Some(column) = of_levels
-            && said.is_none()
-            && parsed.is_some()
+            && let Some(measure) = parsed
         {
-            // A table of levels that does not say of what: the option does.
-            return Self::in_unit(request, columns, asked.to_owned(), column);
+            return match said {
+                // The levels are of another measure, and the table has no column of this one.
+                Some(said) => {
+                    let expected = format!(
+                        "{said}, of which the levels of {} are, or a measure it has a column of",
+                        columns.source_name
+                    );
+                    Err(refuse("measure", expected, format!("{asked:?}")))
+                }
+                // Runs with factors were scaled to some measure, and whoever wrote them knows it.
+                None if columns.has("scale") => Err(unsaid(columns, &column)),
+                // A table of levels that does not say of what: the option does.
+                None => Self::in_unit(request, columns, measure.to_string(), column),
+            };
         }
         let column = parsed.map_or_else(|| asked.to_owned(), |measure| measure.column());
         Err(columns.lacking("measure", &column))
@@ -126,6 +139,29 @@ impl Intensity {
 /// What an SI unit measures.
 pub(super) fn dimension(unit: &str) -> Option<Dimension> {
     Dimension::ALL.into_iter().find(|dimension| dimension.units()[0].name() == unit)
+}
+
+/// The measure that records were scaled to, where the table has its values beside the levels.
+fn of_equal_column(columns: Columns<'_>, levels: &str) -> Option<String> {
+    let measures = IntensityMeasures::default().columns().map(|(measure, ..)| measure);
+    let equal = |measure: &Measure| {
+        columns.has(&measure.column()) && same_values(columns, levels, &measure.column())
+    };
+    measures.into_iter().find(equal).map(|measure| measure.to_string())
+}
+
+/// The error where nothing says of what measure the levels are.
+fn unsaid(columns: Columns<'_>, levels: &str) -> AssessmentError {
+    let source = columns.source_name;
+    let expected = if columns.has("scale") {
+        format!(
+            "a measure that {source} has a column of, such as PGA, or a column measure beside {levels} \
+             (a study's folder has it in its manifest)"
+        )
+    } else {
+        format!("the measure of {levels}, which {source} does not state, such as PGA")
+    };
+    refuse("measure", expected, "none")
 }
 
 /// Whether records were scaled to levels of a column's measure: its values are those of the levels, but

@@ -311,7 +311,7 @@ fn peer_runs_of_pairs_agree_with_statsmodels_clustered_by_pair() {
             source_name: "runs",
             demand: "peak",
             limit: Some(0.15),
-            measure: None,
+            measure: Some("PGA"),
             units: None,
             fit_to: Some(FitTo::Counts),
             floor: None,

@@ -17,6 +17,7 @@ use crate::error::{SolveError, Stopped};
 use crate::input::{self, Bound};
 use crate::motion::GroundMotion;
 use crate::motion::intensity::Measure;
+use crate::record::Origin;
 use crate::response::demand_values;
 use crate::solver;
 use crate::study::engine::Engine;
@@ -33,7 +34,12 @@ fn suite() -> Suite {
             3.0 * libm::sin((5.0 + f64::from(i)) * t) * libm::sin(19.0 * t) * libm::exp(-0.3 * t)
         };
         let motion = GroundMotion::evenly_spaced(0.01, (0..500).map(wave).collect(), None);
-        SuiteRecord { name: format!("r{i}"), motion: motion.unwrap(), pair: None }
+        SuiteRecord {
+            name: format!("r{i}"),
+            motion: motion.unwrap(),
+            pair: None,
+            origin: Origin::default(),
+        }
     };
     Suite { records: (0..5).map(record).collect(), made: false }
 }

@@ -1,7 +1,7 @@
 //! The laws of the slider as the judge of devices reads them.
 
-use super::super::law::{Law, Push};
-use crate::friction::{Direction, RateCurve, RateLaw, Series, Surface};
+use super::super::law::{Law, Push, index};
+use crate::friction::{Direction, Series, Surface};
 use crate::model::{Model, StopKind};
 use crate::response::{Contact, Mode};
 
@@ -50,10 +50,8 @@ impl Asked {
 }
 
 pub(super) struct Slider<'a> {
-    law: Law,
+    pub(super) law: Law,
     fixed: [f64; 2],
-    kinetic: [f64; 2],
-    rate: Option<&'a RateLaw>,
     radius_m: Option<f64>,
     series: Option<&'a Series>,
     spring: f64,
@@ -90,13 +88,6 @@ impl Sliding {
     }
 }
 
-fn index(direction: Direction) -> usize {
-    match direction {
-        Direction::Positive => 0,
-        Direction::Negative => 1,
-    }
-}
-
 /// Whether a surface has no travel left one way, after a displacement that way.
 fn is_at_end(surface: &Surface, u: f64) -> bool {
     surface.travel_m.is_some_and(|travel_m| u >= travel_m * AT_END)
@@ -115,8 +106,6 @@ impl<'a> Slider<'a> {
         Self {
             law: Law::new(model),
             fixed: model.static_friction(),
-            kinetic: model.kinetic_friction(),
-            rate: model.devices().rate.as_ref(),
             radius_m,
             series: model.devices().series.as_ref(),
             spring: if radius_m.is_some() { 0.0 } else { model.slider().stiffness_n_per_m },
@@ -152,24 +141,7 @@ impl<'a> Slider<'a> {
 
     /// `μ(|ṡ|)`.
     pub(super) fn kinetic(&self, direction: Direction, speed: f64) -> f64 {
-        let Some(rate) = self.rate else { return self.kinetic[index(direction)] };
-        let factor = rate.factor(direction);
-        factor
-            * match rate.curve() {
-                RateCurve::Exponential { slow, fast, rate_s_per_m } => {
-                    let part = -libm::expm1(-rate_s_per_m * speed);
-                    slow + (fast - slow) * part
-                }
-                RateCurve::Pieces { speeds_m_per_s: v, coefficients: mu } => {
-                    let above = v.iter().position(|knot| *knot > speed).unwrap_or(v.len());
-                    if above == v.len() {
-                        mu[v.len() - 1]
-                    } else {
-                        let part = (speed - v[above - 1]) / (v[above] - v[above - 1]);
-                        mu[above - 1] + (mu[above] - mu[above - 1]) * part
-                    }
-                }
-            }
+        self.law.kinetic(direction, speed)
     }
 
     /// What the laws add to the rates of a slip, in 1/s: for a normal force over the block's mass, and
@@ -181,28 +153,12 @@ impl<'a> Slider<'a> {
             let least = radii.fold(f64::INFINITY, f64::min);
             rate += libm::sqrt(normal / least);
         }
-        if let Some(law) = self.rate {
-            let factor = law.factor(Direction::Positive).max(law.factor(Direction::Negative));
-            rate += factor
-                * match law.curve() {
-                    RateCurve::Pieces { speeds_m_per_s: v, coefficients: mu } => {
-                        let steepest = v
-                            .windows(2)
-                            .zip(mu.windows(2))
-                            .map(|(v, mu)| ((mu[1] - mu[0]) / (v[1] - v[0])).abs())
-                            .fold(0.0, f64::max);
-                        steepest * normal
-                    }
-                    RateCurve::Exponential { slow, fast, rate_s_per_m } => {
-                        (fast - slow).abs() * rate_s_per_m * normal
-                    }
-                };
-            if let RateCurve::Exponential { rate_s_per_m, .. } = law.curve() {
-                // e^(−α |w|) changes by its own size while |w| changes by 1/α.
-                rate += rate_s_per_m * (acceleration + normal * self.fixed[0].max(self.fixed[1]));
-            }
-        }
-        rate
+        rate + self.law.added_rate(normal, acceleration)
+    }
+
+    /// The largest coefficient at rest.
+    pub(super) fn most(&self) -> f64 {
+        self.fixed[0].max(self.fixed[1])
     }
 
     /// Largest `μ_s N`, or the weight where that is 0.
@@ -214,7 +170,7 @@ impl<'a> Slider<'a> {
     pub(super) fn drops(&self, direction: Direction) -> bool {
         match self.series {
             Some(series) => series.static_ratio() > 1.0,
-            None => self.kinetic(direction, 0.0) < self.fixed[index(direction)],
+            None => self.law.drops(direction),
         }
     }
 

@@ -137,6 +137,11 @@ impl Own {
         self.jerked[degree]
     }
 
+    /// Largest acceleration of any degree that the history tells.
+    pub(super) fn most_jerked(&self) -> f64 {
+        self.jerked.iter().fold(0.0, |most, a| a.max(most))
+    }
+
     /// Takes the points of a step.
     pub(super) fn see(
         &mut self,
@@ -308,14 +313,11 @@ impl Own {
         let sums = &self.totals.interfaces;
         c.same(d.sliding_at_end == (h.modes(h.len() - 1)[0] != Mode::Stick));
         c.number(d.sliding_time_s, sums[0].sliding_s, instants_s, sums[0].sliding_s);
-        c.number(
-            d.sliding_path_m,
-            sums[0].path_m,
-            near_m * sums[0].path_m / peak_m.max(near_m),
-            sums[0].path_m,
-        );
+        // A path of many strokes is rounded in each.
+        let strokes = if peak_m > near_m { sums[0].path_m / peak_m } else { 1.0 };
+        c.number(d.sliding_path_m, sums[0].path_m, near_m * strokes, sums[0].path_m);
         self.of_peaks(&mut c, model, d, rounding, peak_m);
-        for (e, contents) in d.contents.iter().enumerate() {
+        for (e, contents) in d.contents.iter().enumerate().take(model.devices().contents.len()) {
             let list: Vec<f64> = (0..h.len()).map(|k| h.contents_state(k, e)[0]).collect();
             let (peak_m, _, _, last_m) = extremes(&list);
             let own = sums[1 + e];
@@ -410,14 +412,15 @@ impl Own {
             number(coefficient, own / weight_n, force_n / weight_n);
         }
         let heights_m = model.frame().heights_m.as_ref();
-        for (i, storey) in d.storeys.iter().enumerate() {
+        let n = model.storeys();
+        for (i, storey) in d.storeys.iter().enumerate().take(n) {
             number(storey.peak_displacement_m, p.displacement[i], near_m);
             number(storey.peak_drift_m, p.drift[i], near_m);
             let near = force_n / model.frame().masses_kg[i];
             number(storey.peak_acceleration_m_per_s2, p.acceleration[i], near);
         }
-        c.same(d.storeys.len() == model.storeys());
-        for (i, storey) in d.storeys.iter().enumerate() {
+        c.same(d.storeys.len() == n);
+        for (i, storey) in d.storeys.iter().enumerate().take(n) {
             let height_m = heights_m.map(|heights_m| heights_m[i]);
             let ratio = height_m.map(|height_m| p.drift[i] / height_m);
             c.optional(storey.peak_drift_ratio, ratio, near_m / height_m.unwrap_or(1.0));

@@ -99,6 +99,48 @@ fn exact_deep_nesting_is_refused() {
     assert!(Override::parse(&format!("{}=1", "storey.x.".repeat(20_000))).is_err());
 }
 
+/// Lists longer than anyone models are refused at the first item too many, before anything is made of
+/// them, and the schema says how long they may be.
+#[test]
+fn exact_long_lists_are_refused() {
+    let contents =
+        "[[contents]]\nfloor = 0\nmass = \"1 kg\"\nstatic_friction = 0.2\nkinetic_friction = 0.2\n";
+    let surfaces = "[block]\nmass = \"1 t\"\n[slider]\n";
+    let surface = "[[slider.surface]]\nfriction = 0.1\n";
+    let speeds = |count: usize| {
+        let speeds: Vec<String> = (0..count).map(|i| format!("\"{i} m/s\"")).collect();
+        let coefficients = vec!["0.1"; count].join(", ");
+        let (speeds, kinetic) = (speeds.join(", "), "kinetic_friction.velocity");
+        format!(
+            "[block]\nmass = \"1 t\"\n[slider]\nstatic_friction = 0.1\n{kinetic} = [{speeds}]\n\
+             kinetic_friction.coefficient = [{coefficients}]\n"
+        )
+    };
+    let refused = |text: &str| parse("m.toml", text, &[]).unwrap_err().to_string();
+    assert_eq!(
+        refused(&format!("{SMALLEST}{}", contents.repeat(51))),
+        "m.toml:256:1: contents.51: expected at most 50, found 51"
+    );
+    assert_eq!(
+        refused(&format!("{surfaces}{}", surface.repeat(11))),
+        "m.toml:24:1: slider.surface.11: expected at most 10, found 11"
+    );
+    let long = refused(&speeds(20_000));
+    let expected = "slider.kinetic_friction.velocity.101: expected at most 100, found 20000";
+    assert!(long.starts_with("m.toml:5:") && long.ends_with(expected), "{long}");
+    for text in [
+        format!("{SMALLEST}{}", contents.repeat(50)),
+        format!("{surfaces}{}", surface.repeat(10)),
+        speeds(100),
+    ] {
+        assert!(parse("m.toml", &text, &[]).is_ok());
+    }
+    let schema = crate::input::json_schema();
+    for most in ["\"maxItems\": 200", "\"maxItems\": 50", "\"maxItems\": 10", "\"maxItems\": 100"] {
+        assert!(schema.contains(&format!("{most},")), "{most}");
+    }
+}
+
 /// Thousands of storeys are refused before any matrix of them is made.
 #[test]
 fn exact_too_many_storeys_are_refused() {
@@ -106,7 +148,7 @@ fn exact_too_many_storeys_are_refused() {
     let text = format!("{SMALLEST}{}", storey.repeat(201));
     assert_eq!(
         parse("m.toml", &text, &[]).unwrap_err().to_string(),
-        "m.toml:806:1: storey.201: expected at most 200 storeys, found 201"
+        "m.toml:806:1: storey.201: expected at most 200, found 201"
     );
     let most = format!("{SMALLEST}{}", storey.repeat(200));
     assert_eq!(parse("m.toml", &most, &[]).unwrap().model.storeys(), 200);

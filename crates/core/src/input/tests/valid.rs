@@ -3,11 +3,14 @@
 use core::f64::consts::{PI, TAU};
 
 use super::{FULL, SMALLEST, read, with};
+use crate::friction::{RateCurve, RateLaw, Series, Surface};
 use crate::input::{
     FrictionBounds, MotionSource, RecordSource, Scale, from_bytes, json_schema, parse,
 };
 use crate::linear::shear_frame_frequencies;
-use crate::model::{Block, Damping, Frame, InitialState, Stop, StopKind};
+use crate::model::{
+    Block, Contents, Damping, Frame, InitialState, Model, ModelBuilder, Stop, StopKind,
+};
 use crate::motion::{Pulse, PulseShape, Sine, Sweep, SweepKind};
 use crate::record::Units;
 use crate::response::Method;
@@ -128,7 +131,7 @@ fn exact_each_initial_key_replaces_its_own_default() {
     );
 }
 
-/// K1 = M_tot g / R and C1 = 2 ξ √(K1 M_tot), with the storeys' masses and the model's gravity.
+/// K1 = M_tot g cos θ / R and C1 = 2 ξ √(K1 M_tot), with the storeys' masses and the model's gravity.
 #[test]
 fn exact_pendulum_radius_and_damping_ratio() {
     let text = SMALLEST.replace("[slider]", "[slider]\nradius = \"2 m\"\ndamping_ratio = 0.05");
@@ -140,6 +143,14 @@ fn exact_pendulum_radius_and_damping_ratio() {
     let omega = TAU / 0.5;
     assert_eq!(model.frame().stiffnesses_n_per_m, [75.0 * omega * omega]);
     assert_eq!(model.frame().damping, Damping::Dampers(vec![9.0]));
+}
+
+/// N/R, with the N that a tilted block presses on the surface.
+#[test]
+fn exact_tilted_pendulum_has_the_spring_of_its_normal_force() {
+    let text = SMALLEST.replace("[slider]", "[slider]\nradius = \"2 m\"\ntilt = \"60 mrad\"");
+    let model = read(&text, &[]).unwrap().model;
+    assert_eq!(model.slider().stiffness_n_per_m, model.normal_n() / 2.0);
 }
 
 #[test]
@@ -351,4 +362,82 @@ fn exact_stops_by_side_with_damper_or_ratio() {
         Ok(Stop { gap_m: [Some(0.1), Some(0.2)], kind: elastic(0.1 * (4e7_f64 * 325.0).sqrt()) })
     );
     assert_eq!(with("").unwrap().model.stop(), None);
+}
+
+/// The builder has the words of the file and makes the same bits of them.
+#[test]
+fn exact_builder_makes_the_model_of_the_file() {
+    let file = |slider: &str, rest: &str| {
+        let text = format!("[block]\nmass = \"31 t\"\n[slider]\n{slider}\n{rest}");
+        read(&text, &[]).unwrap().model
+    };
+    let built = |builder: ModelBuilder| builder.block("31 t").build().unwrap();
+    let model = || Model::builder().friction(0.06, 0.05);
+    let friction = "static_friction = 0.06\nkinetic_friction = 0.05";
+
+    let storeys = "[[storey]]\nmass = \"60 t\"\nstiffness = \"9 kN/mm\"\ndamper = \"2 kN s/m\"\n\
+                   height = \"3 m\"\n[[storey]]\nmass = \"47 t\"\nstiffness = \"7 kN/mm\"\n\
+                   damper = \"1 kN s/m\"\nheight = \"10 ft\"\n[analysis]\ngravity = \"9.81 m/s2\"";
+    let pendulum = "radius = \"2.2 m\"\ndamper = \"3 kN s/m\"\ntilt = \"2 mrad\"\ngap = \"150 mm\"";
+    let builder = model().radius("2.2 m").damper("3 kN s/m").tilt("2 mrad").gap("150 mm");
+    let builder = builder.storey("60 t", "9 kN/mm").storey("47 t", "7 kN/mm");
+    let builder = builder.dampers(&["2 kN s/m", "1 kN s/m"]).heights(&["3 m", "10 ft"]);
+    let builder = builder.gravity("9.81 m/s2");
+    assert_eq!(built(builder), file(&format!("{friction}\n{pendulum}"), storeys));
+
+    let oscillator = "[[storey]]\nmass = \"45 t\"\nfrequency = \"1.625 Hz\"\ndamping_ratio = 0.01\n\
+                      [[contents]]\nfloor = 1\nmass = \"2 t\"\nstatic_friction = 0.4\n\
+                      kinetic_friction = 0.3";
+    let contents = Contents { floor: 1, mass_kg: 2e3, static_friction: 0.4, kinetic_friction: 0.3 };
+    let stop = Stop { gap_m: [Some(0.1); 2], kind: StopKind::Rigid { restitution: 0.5 } };
+    let builder = model().radius("1 m").spring("2 MN/m").oscillator("45 t", "1.625 Hz", 0.01);
+    let slider = "spring = \"2 MN/m\"\nstop = { gap = \"100 mm\", restitution = 0.5 }";
+    assert_eq!(
+        built(builder.contents(contents).stop(stop)),
+        file(&format!("{friction}\n{slider}"), oscillator),
+    );
+
+    let law =
+        "static_friction = 0.1\nkinetic_friction = { slow = 0.05, fast = 0.1, rate = \"25 s/m\" }";
+    let curve = RateCurve::Exponential { slow: 0.05, fast: 0.1, rate_s_per_m: 25.0 };
+    let by_speed = RateLaw::new(curve, [1.0; 2]).unwrap();
+    assert_eq!(built(Model::builder().friction_by_speed(0.1, by_speed)), file(law, ""));
+
+    let surface =
+        |friction, radius_m| Surface { radius_m: Some(radius_m), friction, travel_m: None };
+    let series = Series::new(vec![surface(0.05, 2.0), surface(0.1, 3.0)], 1.0).unwrap();
+    let surfaces = "[[slider.surface]]\nradius = \"2 m\"\nfriction = 0.05\n\
+                    [[slider.surface]]\nradius = \"3 m\"\nfriction = 0.1";
+    assert_eq!(built(Model::builder().surfaces(series)), file("", surfaces));
+}
+
+#[test]
+fn exact_builder_says_what_is_wrong_or_missing() {
+    let whole = || Model::builder().block("31 t").friction(0.06, 0.05);
+    for (builder, message) in [
+        (
+            Model::builder().friction(0.06, 0.05),
+            "block mass: expected a mass with its unit, found none",
+        ),
+        (
+            Model::builder().block("31 t"),
+            "friction: expected two coefficients or surfaces, found none",
+        ),
+        (
+            whole().storey("9 t", "1 MN/m"),
+            "storey damping: expected a ratio or dampers, found none",
+        ),
+        (
+            whole().friction(0.05, 0.06),
+            "kinetic_friction (positive): expected at most the static friction of the same \
+             direction, found 0.06",
+        ),
+        (
+            whole().gap("15 cn").radius("2 s"),
+            "gap: expected a unit of length (m, mm, cm, in, ft), found \"cn\"; nearest is \"cm\"",
+        ),
+        (whole().radius("0 m"), "slider radius_m: expected a finite number > 0, found 0"),
+    ] {
+        assert_eq!(builder.build().unwrap_err().to_string(), message);
+    }
 }

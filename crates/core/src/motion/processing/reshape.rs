@@ -87,7 +87,9 @@ pub(super) fn trim(series: &Series, from_s: f64, to_s: f64) -> Result<Series, Mo
     let trimmed = Series::new(times, values, series.quantity())?;
     // Times less the start differ in their last bits from multiples of the step.
     match (series.dt_s(), trimmed.dt_s()) {
-        (Some(dt_s), Some(_)) => Series::evenly_spaced(dt_s, trimmed.values, series.quantity()),
+        (Some(dt_s), Some(_)) => {
+            Series::evenly_spaced(dt_s, trimmed.values.to_vec(), series.quantity())
+        }
         _ => Ok(trimmed),
     }
 }

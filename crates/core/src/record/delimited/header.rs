@@ -4,6 +4,7 @@ use super::style::Separator;
 use crate::error::RecordError;
 use crate::record::text::{Line, Text, number};
 use crate::record::unit::{Units, seconds};
+use crate::units::{Dimension, parse_unit};
 
 /// Most lines of text, comments not counted, before the numbers.
 const TEXT_LINES: usize = 8;
@@ -136,7 +137,10 @@ impl<'a> Header<'a> {
         };
         let bare = |unit: &String| unit.trim_matches(['(', ')', '[', ']']).trim().to_owned();
         let units: Vec<String> = units.iter().map(bare).collect();
-        let known = |unit: &String| Units::parse(unit).is_some() || seconds(unit).is_some();
+        // A force or an angle may stand beside the motion.
+        let other = |unit: &String| Dimension::ALL.iter().any(|of| parse_unit(unit, *of).is_ok());
+        let known =
+            |unit: &String| Units::parse(unit).is_some() || seconds(unit).is_some() || other(unit);
         let nothing = |unit: &String| unit.is_empty() || unit == "-";
         let are_units = units.iter().all(|unit| known(unit) || nothing(unit));
         if names.len() != columns || units.len() != columns || !are_units {

@@ -6,6 +6,9 @@ use crate::linear::polynomial::{DEGREE, Polynomial, ZERO};
 use crate::model::{Contents, Model};
 use crate::response::Mode;
 
+/// Terms of a series below this part of the largest are below rounding.
+const NEGLIGIBLE: f64 = 1e-18;
+
 /// Masses, springs and dampers of block and floors, and what stands on them.
 pub(super) struct Body {
     pub(super) block_kg: f64,
@@ -14,7 +17,11 @@ pub(super) struct Body {
     pub(super) stiffnesses_n_per_m: Vec<f64>,
     /// `C` row by row.
     damping: Vec<f64>,
+    /// What slides as one: items on one floor with the same coefficients, which start from rest and so
+    /// always move alike.
     pub(super) contents: Vec<Contents>,
+    /// Of each item of the model, what it is part of.
+    pub(super) part_of: Vec<usize>,
     /// Bound on the rates of the structure on a block that slides free, in rad/s.
     pub(super) rate_rad_per_s: f64,
 }
@@ -28,6 +35,35 @@ pub(super) struct State {
     pub(super) v: Vec<f64>,
     pub(super) r: Vec<f64>,
     pub(super) p: Vec<f64>,
+}
+
+impl State {
+    /// Number of its components.
+    pub(super) fn count(&self) -> usize {
+        2 + 2 * self.q.len() + 2 * self.r.len()
+    }
+
+    /// Copies its components into a list, in the order in which they are declared.
+    pub(super) fn get(&self, list: &mut [f64]) {
+        let own = [self.s, self.w];
+        let mut rest = list;
+        for part in [&own[..], &self.q, &self.v, &self.r, &self.p] {
+            let (here, after) = rest.split_at_mut(part.len());
+            here.copy_from_slice(part);
+            rest = after;
+        }
+    }
+
+    /// Takes its components from such a list.
+    pub(super) fn set(&mut self, list: &[f64]) {
+        let (own, mut rest) = list.split_at(2);
+        (self.s, self.w) = (own[0], own[1]);
+        for part in [&mut self.q, &mut self.v, &mut self.r, &mut self.p] {
+            let (here, after) = rest.split_at(part.len());
+            part.copy_from_slice(here);
+            rest = after;
+        }
+    }
 }
 
 /// Loads from an instant on, linear in the time after it.
@@ -51,6 +87,8 @@ pub(super) struct Phase<'a> {
 /// The motion from an instant on, by powers of the time over `unit_s`.
 #[derive(Clone, Debug)]
 pub(super) struct Expansion {
+    /// Where it begins in its sample interval, and its unit.
+    pub(super) from_s: f64,
     pub(super) unit_s: f64,
     pub(super) s: Polynomial,
     pub(super) w: Polynomial,
@@ -58,7 +96,8 @@ pub(super) struct Expansion {
     pub(super) v: Vec<Polynomial>,
     pub(super) r: Vec<Polynomial>,
     pub(super) p: Vec<Polynomial>,
-    /// Accelerations with the slope's share: block, floors, contents.
+    /// Accelerations with the slope's share: ground, block, floors, contents.
+    pub(super) ground: Polynomial,
     pub(super) u: Polynomial,
     pub(super) floors: Vec<Polynomial>,
     pub(super) carried: Vec<Polynomial>,
@@ -74,6 +113,9 @@ pub(super) struct Expansion {
     decay: Polynomial,
     /// Restoring forces on the floors, order by order.
     restoring: Vec<f64>,
+    /// Of block and floors: the mass with what is stuck to it, and the force of what slides on it over the
+    /// normal force of a unit of mass.
+    carriers: Vec<[f64; 2]>,
     /// Part of the unit up to which the series is exact to rounding.
     pub(super) part: f64,
 }
@@ -93,13 +135,25 @@ impl Body {
                 damping[i * n + j] = m[i] * column[i];
             }
         }
+        let mut contents: Vec<Contents> = Vec::new();
+        let join = |item: &Contents| {
+            let alike = |c: &Contents| Contents { mass_kg: item.mass_kg, ..*c } == *item;
+            if let Some(part) = contents.iter().position(alike) {
+                contents[part].mass_kg += item.mass_kg;
+                return part;
+            }
+            contents.push(*item);
+            contents.len() - 1
+        };
+        let part_of = model.devices().contents.iter().map(join).collect();
         Self {
             block_kg: model.block().mass_kg,
             total_kg: model.total_mass_kg(),
             masses_kg: m.clone(),
             stiffnesses_n_per_m: frame.stiffnesses_n_per_m.clone(),
             damping,
-            contents: model.devices().contents.clone(),
+            contents,
+            part_of,
             rate_rad_per_s: system.slip_rate_rad_per_s,
         }
     }
@@ -108,23 +162,34 @@ impl Body {
         self.masses_kg.len()
     }
 
-    /// `K q + C v`.
-    fn restoring(&self, q: impl Fn(usize) -> f64, v: impl Fn(usize) -> f64, out: &mut [f64]) {
+    /// `K q + C v`, order by order.
+    #[inline(always)]
+    fn restoring(&self, q: &[Polynomial], v: &[Polynomial], k: usize, out: &mut [f64]) {
         let n = self.storeys();
-        for (i, out) in out.iter_mut().enumerate() {
-            let row = &self.damping[i * n..][..n];
-            *out = row.iter().enumerate().fold(0.0, |sum, (j, c)| sum + c * v(j));
-        }
+        let (q, v, out) = (&q[..n], &v[..n], &mut out[..n]);
         let mut below = 0.0;
         for i in 0..n {
-            let here = q(i);
+            let row = &self.damping[i * n..][..n];
+            let drag = row.iter().zip(v).fold(0.0, |sum, (c, v)| sum + c * v[k]);
+            let here = q[i][k];
             let force = self.stiffnesses_n_per_m[i] * (here - below);
-            out[i] += force;
+            out[i] = drag + force;
             if i > 0 {
                 out[i - 1] -= force;
             }
             below = here;
         }
+    }
+
+    /// Sum of the sizes of the spring and damper forces on a floor, from 1.
+    pub(super) fn restoring_size(&self, x: &State, floor: usize) -> f64 {
+        let (n, k) = (self.storeys(), &self.stiffnesses_n_per_m);
+        let row = &self.damping[(floor - 1) * n..][..n];
+        let dampers = row.iter().zip(&x.v).map(|(c, v)| (c * v).abs()).sum::<f64>();
+        let below = if floor > 1 { x.q[floor - 2] } else { 0.0 };
+        let lower = (k[floor - 1] * (x.q[floor - 1] - below)).abs();
+        let upper = if floor < n { (k[floor] * (x.q[floor] - x.q[floor - 1])).abs() } else { 0.0 };
+        dampers + lower + upper
     }
 
     /// Mass of a floor, or of the block, with the contents stuck to it.
@@ -139,6 +204,7 @@ impl Body {
     pub(super) fn room(&self) -> Expansion {
         let (n, e) = (self.storeys(), self.contents.len());
         Expansion {
+            from_s: 0.0,
             unit_s: 0.0,
             s: ZERO,
             w: ZERO,
@@ -146,6 +212,7 @@ impl Body {
             v: vec![ZERO; n],
             r: vec![ZERO; e],
             p: vec![ZERO; e],
+            ground: ZERO,
             u: ZERO,
             floors: vec![ZERO; n],
             carried: vec![ZERO; e],
@@ -156,6 +223,7 @@ impl Body {
             press: ZERO,
             decay: ZERO,
             restoring: vec![0.0; n],
+            carriers: vec![[0.0; 2]; 1 + n],
             part: 1.0,
         }
     }
@@ -175,55 +243,56 @@ impl Body {
     ) {
         let (n, modes) = (self.storeys(), phase.modes);
         out.unit_s = unit_s;
-        (out.s, out.w) = (ZERO, ZERO);
+        if orders > 0 {
+            out.clear();
+        }
         (out.s[0], out.w[0]) = (x.s, x.w);
         for i in 0..n {
-            (out.q[i], out.v[i]) = (ZERO, ZERO);
             (out.q[i][0], out.v[i][0]) = (x.q[i], x.v[i]);
         }
         for (e, contents) in self.contents.iter().enumerate() {
-            (out.r[e], out.p[e], out.carried[e]) = (ZERO, ZERO, ZERO);
             (out.r[e][0], out.p[e][0]) = (x.r[e], x.p[e]);
             debug_assert!(contents.floor <= n, "contents stand on a floor");
         }
         let mut a = ZERO;
         (a[0], a[1]) = (loads.acceleration[0], loads.acceleration[1] * unit_s);
-        out.normal = ZERO;
+        out.ground = a;
         (out.normal[0], out.normal[1]) = (loads.normal[0], loads.normal[1] * unit_s);
-        out.press = out.normal.map(|normal| normal / self.total_kg);
         let [n0, n1] = [out.normal[0], out.normal[1]];
-        let block_kg = self.joined_kg(0, modes);
-        let floors_kg: Vec<f64> = (1..=n).map(|floor| self.joined_kg(floor, modes)).collect();
+        (out.press[0], out.press[1]) = (n0 / self.total_kg, n1 / self.total_kg);
+        for (floor, carrier) in out.carriers.iter_mut().enumerate() {
+            *carrier = [self.joined_kg(floor, modes), 0.0];
+        }
+        for (contents, mode) in self.contents.iter().zip(&modes[1..]) {
+            let pull = mode.sign() * contents.kinetic_friction * contents.mass_kg;
+            out.carriers[contents.floor][1] += pull;
+        }
+        let block_kg = out.carriers[0][0];
+        let Expansion { s, w, u, press: pressure, shear: base, slider, friction, decay, .. } = out;
+        let Expansion { q, v, floors, r, p, carried, restoring, carriers, .. } = out;
+        // Lengths that the compiler knows to be the same.
+        let (q, v, floors) = (&mut q[..n], &mut v[..n], &mut floors[..n]);
+        let (restoring, carriers) = (&mut restoring[..n], &mut carriers[..=n]);
+        let (mut largest, mut sizes) = (0.0_f64, [0.0; DEGREE + 1]);
         let force = &phase.force;
         let sign = modes[0].sign();
         if let Coefficient::Exponential { rate_s_per_m, .. } = force.coefficient {
-            out.decay = ZERO;
-            out.decay[0] = libm::exp(-rate_s_per_m * x.w.abs());
+            *decay = ZERO;
+            decay[0] = libm::exp(-rate_s_per_m * x.w.abs());
         }
         for k in 0..=orders.min(DEGREE) {
             // The last order of accelerations would need one more of the state.
-            let mut restoring = core::mem::take(&mut out.restoring);
-            self.restoring(|i| out.q[i][k], |i| out.v[i][k], &mut restoring);
+            self.restoring(q, v, k, restoring);
             let shear: f64 = restoring.iter().sum();
-            let press = out.press[k];
-            // What sliding contents do to their floors.
-            let pull = |floor: usize| {
-                self.contents
-                    .iter()
-                    .zip(&modes[1..])
-                    .filter(|(c, _)| c.floor == floor)
-                    .fold(0.0, |sum, (c, mode)| {
-                        sum + mode.sign() * c.kinetic_friction * c.mass_kg * press
-                    })
-            };
-            let on_block = pull(0);
+            let press = pressure[k];
+            let on_block = carriers[0][1] * press;
             for i in 0..n {
-                out.floors[i][k] = (pull(i + 1) - restoring[i]) / floors_kg[i];
+                let [mass_kg, pull] = carriers[i + 1];
+                floors[i][k] = (pull * press - restoring[i]) / mass_kg;
             }
-            out.restoring = restoring;
-            out.shear[k] = shear;
-            let [s_k, w_k] = [out.s[k], out.w[k]];
-            let (s_before, first) = if k > 0 { (out.s[k - 1], 0.0) } else { (0.0, 1.0) };
+            base[k] = shear;
+            let [s_k, w_k] = [s[k], w[k]];
+            let (s_before, first) = if k > 0 { (s[k - 1], 0.0) } else { (0.0, 1.0) };
             // N (p0 + p1 s)
             let [p0, p1] = [force.of_normal, force.of_normal_s];
             let product = n0 * (p0 * first + p1 * s_k)
@@ -232,9 +301,9 @@ impl Body {
                 + force.restraint.damper_n_s_per_m * w_k)
                 + (force.force_n * first + product);
             if modes[0] == Mode::Stick {
-                out.u[k] = a[k];
-                out.slider[k] = block_kg * a[k] - shear - on_block;
-                out.friction[k] = out.slider[k] + spring;
+                u[k] = a[k];
+                slider[k] = block_kg * a[k] - shear - on_block;
+                friction[k] = slider[k] + spring;
             } else {
                 let mu = |k: usize, w_k: f64, decay: &Polynomial| {
                     let first = if k == 0 { 1.0 } else { 0.0 };
@@ -247,78 +316,93 @@ impl Body {
                         }
                     }
                 };
-                let mut resisting = n0 * mu(k, w_k, &out.decay);
+                let mut resisting = n0 * mu(k, w_k, decay);
                 if k > 0 {
-                    resisting += n1 * mu(k - 1, out.w[k - 1], &out.decay);
+                    resisting += n1 * mu(k - 1, w[k - 1], decay);
                 }
-                out.slider[k] = -sign * resisting - spring;
+                slider[k] = -sign * resisting - spring;
                 let rubbing = if force.is_friction { product } else { 0.0 };
-                out.friction[k] = -sign * resisting - rubbing;
-                out.u[k] = (out.slider[k] + shear + on_block) / block_kg;
+                friction[k] = -sign * resisting - rubbing;
+                u[k] = (slider[k] + shear + on_block) / block_kg;
             }
             for (e, contents) in self.contents.iter().enumerate() {
-                let under =
-                    if contents.floor == 0 { out.u[k] } else { out.floors[contents.floor - 1][k] };
+                let under = if contents.floor == 0 { u[k] } else { floors[contents.floor - 1][k] };
                 let mode = modes[1 + e];
-                out.carried[e][k] = match mode {
+                carried[e][k] = match mode {
                     Mode::Stick => under,
                     Mode::Slip(direction) => -direction.sign() * contents.kinetic_friction * press,
                 };
+            }
+            if orders == DEGREE {
+                sizes[k] = self.momentum(w, v, p, k);
+                largest = largest.max(sizes[k]);
+                // What is a hundred-millionth of the motion keeps its digits.
+                let is_linear = matches!(force.coefficient, Coefficient::Linear { .. });
+                if is_linear && k > 4 && sizes[k].max(sizes[k - 1]) <= 1e-6 * NEGLIGIBLE * largest {
+                    break;
+                }
             }
             if k == DEGREE || k == orders {
                 break;
             }
             let step = unit_s / (k + 1) as f64;
             if modes[0] != Mode::Stick {
-                out.w[k + 1] = step * (out.u[k] - a[k]);
-                out.s[k + 1] = step * out.w[k];
+                w[k + 1] = step * (u[k] - a[k]);
+                s[k + 1] = step * w[k];
                 if let Coefficient::Exponential { rate_s_per_m, .. } = force.coefficient {
-                    let sum = (0..=k)
-                        .fold(0.0, |sum, j| sum + (j + 1) as f64 * out.w[j + 1] * out.decay[k - j]);
-                    out.decay[k + 1] = -rate_s_per_m * sign * sum / (k + 1) as f64;
+                    let sum =
+                        (0..=k).fold(0.0, |sum, j| sum + (j + 1) as f64 * w[j + 1] * decay[k - j]);
+                    decay[k + 1] = -rate_s_per_m * sign * sum / (k + 1) as f64;
                 }
             }
             for i in 0..n {
-                out.v[i][k + 1] = step * (out.floors[i][k] - out.u[k]);
-                out.q[i][k + 1] = step * out.v[i][k];
+                v[i][k + 1] = step * (floors[i][k] - u[k]);
+                q[i][k + 1] = step * v[i][k];
             }
             for (e, contents) in self.contents.iter().enumerate() {
                 if modes[1 + e] != Mode::Stick {
                     let floor = contents.floor;
-                    let under = if floor == 0 { out.u[k] } else { out.floors[floor - 1][k] };
-                    out.p[e][k + 1] = step * (out.carried[e][k] - under);
-                    out.r[e][k + 1] = step * out.p[e][k];
+                    let under = if floor == 0 { u[k] } else { floors[floor - 1][k] };
+                    p[e][k + 1] = step * (carried[e][k] - under);
+                    r[e][k + 1] = step * p[e][k];
                 }
             }
         }
         if orders == DEGREE {
-            out.part = self.exact_part(phase, out);
+            out.part = self.exact_part(phase, out, (largest, &sizes));
         }
     }
 
+    /// Size of an order: momenta over √mass, so that all are of one kind.
+    #[inline(always)]
+    fn momentum(&self, w: &Polynomial, v: &[Polynomial], p: &[Polynomial], k: usize) -> f64 {
+        let own = |kg: f64, w: f64| kg * w * w;
+        let mut sum = own(self.block_kg, w[k]);
+        for (kg, v) in self.masses_kg.iter().zip(v) {
+            sum += own(*kg, v[k] + w[k]);
+        }
+        for (contents, p) in self.contents.iter().zip(p) {
+            sum += own(contents.mass_kg, p[k]);
+        }
+        sum.sqrt()
+    }
+
     /// Part of the unit over which the last terms of the series are below rounding, 4 at most.
-    fn exact_part(&self, phase: &Phase<'_>, out: &Expansion) -> f64 {
-        const NEGLIGIBLE: f64 = 1e-18;
-        // Momenta over √mass, so that all are of one kind.
-        let size = |k: usize| {
-            let own = |kg: f64, w: f64| kg * w * w;
-            let floors = (0..self.storeys())
-                .map(|i| own(self.masses_kg[i], out.v[i][k] + out.w[k]))
-                .sum::<f64>();
-            let contents = self.contents.iter().zip(&out.p);
-            let contents = contents.map(|(c, p)| own(c.mass_kg, p[k])).sum::<f64>();
-            (own(self.block_kg, out.w[k]) + floors + contents).sqrt()
-        };
+    fn exact_part(
+        &self,
+        phase: &Phase<'_>,
+        out: &Expansion,
+        (largest, sizes): (f64, &[f64; DEGREE + 1]),
+    ) -> f64 {
         let mut part: f64 = 4.0;
         let mut limit = |largest: f64, k: usize, last: f64| {
             if last > NEGLIGIBLE * largest {
                 part = part.min(libm::pow(NEGLIGIBLE * largest / last, 1.0 / k as f64));
             }
         };
-        let largest = (0..=DEGREE).map(size).fold(0.0, f64::max);
         if largest.is_finite() {
             for k in [DEGREE - 1, DEGREE] {
-                limit(largest, k, size(k));
+                limit(largest, k, sizes[k]);
             }
             if let Coefficient::Exponential { drop, .. } = phase.force.coefficient
                 && phase.modes[0] != Mode::Stick
@@ -336,6 +420,19 @@ impl Body {
 }
 
 impl Expansion {
+    /// Sets to zero what is not written order by order: normal forces, all that stands still, and the
+    /// orders that a series leaves off.
+    pub(super) fn clear(&mut self) {
+        (self.s, self.w, self.u, self.shear) = (ZERO, ZERO, ZERO, ZERO);
+        (self.slider, self.friction, self.normal, self.press) = (ZERO, ZERO, ZERO, ZERO);
+        for list in [&mut self.q, &mut self.v, &mut self.floors] {
+            list.fill(ZERO);
+        }
+        for list in [&mut self.r, &mut self.p, &mut self.carried] {
+            list.fill(ZERO);
+        }
+    }
+
     /// The state at a part of the unit.
     pub(super) fn state_at(&self, part: f64, x: &mut State) {
         use crate::linear::polynomial::value;
@@ -350,6 +447,13 @@ impl Expansion {
         move_to(&mut x.v, &self.v);
         move_to(&mut x.r, &self.r);
         move_to(&mut x.p, &self.p);
+    }
+
+    /// The coefficients of an order of the state's components, in the order of [`State::get`].
+    pub(super) fn order(&self, k: usize, list: &mut [f64]) {
+        let own = [self.s, self.w];
+        let all = [&own[..], &self.q, &self.v, &self.r, &self.p].into_iter().flatten();
+        all.zip(list).for_each(|(c, out)| *out = c[k]);
     }
 
     /// The velocity of an interface, positive along a direction.

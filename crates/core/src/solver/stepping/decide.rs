@@ -1,48 +1,65 @@
 //! What follows an instant at which interfaces have no velocity, and impacts.
 //!
-//! Interfaces without velocity are held; one whose demand is beyond its bound is let go and the others
-//! are asked again, as its start changes what they are asked for: what static friction can hold stays.
+//! Interfaces without velocity are decided together: of the assignments in which each that sticks is
+//! within its bound and each that slides moves off, that in which most of them stick, the slider first.
+//! Contents let go make the acceleration of their floor larger, never smaller: so for each mode of the
+//! slider all contents are held at first and those beyond their bounds let go until none is.
+//! What has reached its bound in motion slides, if it moves off.
+//!
+//! A jump is walked as the steep ramp that it is the limit of; what it lets go has so reached its bound.
 
-use super::super::ground::Stretch;
-use super::super::slider::{Start, first_crossing, leaving_order};
+use super::super::ground::{Stretch, jump};
+use super::super::outputs::output;
+use super::super::slider::{ROUNDING, falls_below, first_crossing};
+use super::body::Expansion;
 use super::{Near, SLOWEST_IMPACT_M_PER_S, Stepping};
-use crate::friction::Direction;
-use crate::linear::polynomial::Polynomial;
+use crate::error::SolveError;
+use crate::friction::{Direction, Memory};
+use crate::linear::polynomial::{DEGREE, Polynomial, derivative, value};
 use crate::response::{EventKind, Mode};
 
 /// Where a bounce is below the rounding of `s`: parts of the stop's distance.
 const LEAST_BOUNCE: f64 = 4.0 * f64::EPSILON;
 
-/// Longest remaining time of infinitely many bounces, in s: it is left out.
-const LONGEST_REST_S: f64 = 1e-13;
+/// Longest remaining time of infinitely many bounces, as a part of the whole time: it is left out.
+const LONGEST_REST: f64 = 8.0 * f64::EPSILON;
 
-/// What friction is asked for and what it holds, over one unit where from is a series.
-#[derive(Clone, Copy)]
-struct Asked {
-    /// Force asked for.
-    demand: f64,
-    /// What holds.
-    low: f64,
-    high: f64,
-    /// Measure of both.
-    scale: f64,
+/// An interface that slides from rest, and where.
+pub(super) type LetGo = (usize, Direction);
+
+/// Modes of all interfaces, with what follows from them.
+struct Assignment {
+    in_force: InForce,
+    start: Vec<Option<usize>>,
+    sticking: usize,
+    /// Whether each that sticks is within its bound and each that slides moves off.
+    holds: bool,
 }
 
-impl Asked {
-    fn gives_way(&self) -> Option<Direction> {
-        if self.demand > self.high {
-            Some(Direction::Negative)
-        } else if self.demand < self.low {
-            Some(Direction::Positive)
-        } else {
-            None
-        }
-    }
+/// What is in force of the modes and of the slider.
+#[derive(Clone)]
+struct InForce {
+    modes: Vec<Mode>,
+    memory: Memory,
+}
 
-    /// How far the demand is beyond what holds.
-    fn beyond(&self) -> f64 {
-        (self.demand - self.high).max(self.low - self.demand) / self.scale
+/// Order of the first coefficient that is more than rounding.
+fn leading(p: &Polynomial, rounding: f64) -> Option<usize> {
+    (0..=DEGREE).find(|&k| p[k].abs() > rounding)
+}
+
+/// What is rounding of a number that changes so over a series: that of its terms, and of the time.
+fn and_of_time(rounding: f64, number: &Polynomial, series: &Expansion) -> f64 {
+    if series.unit_s > 0.0 {
+        rounding + ROUNDING * (series.from_s / series.unit_s) * number[1].abs()
+    } else {
+        rounding
     }
+}
+
+/// Size of the first two coefficients.
+fn size(p: &Polynomial) -> f64 {
+    p[0].abs() + p[1].abs()
 }
 
 impl Stepping<'_> {
@@ -53,224 +70,307 @@ impl Stepping<'_> {
             && self.velocity(interface) == 0.0
     }
 
-    /// What a stuck interface is asked for at the instant last looked at.
-    fn asked(&self, interface: usize) -> Asked {
-        if interface == 0 {
-            let hold = self.held();
-            let normal = self.instant.normal[0];
-            let [low, high] = hold.holds_n(normal);
-            let [a, b] = hold.bounds.map(|bound| (bound * normal).abs());
-            let size = a.max(b).min(f64::MAX);
-            let scale = if size > 0.0 { size } else { self.model.weight_n() };
-            Asked { demand: self.instant.friction[0], low, high, scale }
-        } else {
-            let contents = &self.body.contents[interface - 1];
-            let press = self.instant.press[0];
-            let bound = contents.static_friction * press;
-            let scale = if bound > 0.0 { bound } else { self.model.gravity_m_per_s2() };
-            let demand = self.instant.carried[interface - 1][0];
-            Asked { demand, low: -bound, high: bound, scale }
-        }
-    }
+    // ---- rounding -------------------------------------------------------------------------------
 
-    /// Acceleration of an interface at the instant last looked at.
-    fn acceleration(&self, interface: usize, a: f64) -> f64 {
-        if interface == 0 {
-            return self.instant.u[0] - a;
-        }
-        let floor = self.body.contents[interface - 1].floor;
-        let under = if floor == 0 { self.instant.u[0] } else { self.instant.floors[floor - 1][0] };
-        self.instant.carried[interface - 1][0] - under
-    }
-
-    /// By how much static friction of an interface is above the kinetic one in a direction, over the
-    /// normal force.
-    fn drop(&self, interface: usize, direction: Direction) -> f64 {
+    /// What is rounding of the acceleration of the slider over the ground or of the floor that contents
+    /// stand on, and of the bounds of these: of its terms now, or of the largest so far.
+    fn rounding_m_per_s2(&self, p: &Expansion, interface: usize) -> f64 {
+        let y = &self.peaks.values;
+        let floor = if interface == 0 { 0 } else { self.body.contents[interface - 1].floor };
+        let mass_kg = self.body.joined_kg(floor, &self.modes);
+        let mut terms = size(&p.ground);
         if interface > 0 {
-            let contents = &self.body.contents[interface - 1];
-            return contents.static_friction - contents.kinetic_friction;
+            terms = self.body.contents[interface - 1].static_friction * size(&p.press);
         }
-        self.slider.drop(&self.held(), self.x.s, direction)
+        if floor > 0 {
+            let restoring = self.body.restoring_size(&self.x, floor) / mass_kg;
+            let largest = y[output::acceleration(self.body.storeys(), floor - 1)];
+            terms += restoring.max(largest) + size(&p.floors[floor - 1]);
+        } else if self.modes[0] == Mode::Stick && interface > 0 {
+            terms += size(&p.ground);
+        } else {
+            let shear = size(&p.shear).max(y[output::BASE_SHEAR]);
+            terms += (self.slider_terms_n(p) + shear) / mass_kg + size(&p.u);
+        }
+        ROUNDING * terms
     }
 
-    /// Decides all that is due at an instant; whether something was.
-    pub(super) fn decide(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool {
-        let stopped = (0..self.modes.len()).any(|i| self.has_stopped(i));
-        let mut noted = false;
-        if stopped || self.pending.is_some() {
-            self.note_before(stretch, at_s, at_sample && self.pending.is_none());
-            noted = true;
-            self.decide_stops(stretch, at_s);
-        }
-        if self.modes.contains(&Mode::Stick) {
-            noted |= self.release_if_due(stretch, at_s, at_sample, noted);
-        }
-        noted
+    /// What is rounding of the force that the slider is asked for, in N.
+    fn rounding_n(&self, p: &Expansion) -> f64 {
+        self.rounding_m_per_s2(p, 0) * self.body.joined_kg(0, &self.modes)
     }
 
-    /// Decides about all interfaces that have stopped, or reached a bound.
-    pub(super) fn decide_stops(&mut self, stretch: &Stretch, at_s: f64) {
-        let loads = Self::loads(stretch, at_s);
-        let pending = self.pending.take();
-        let was = self.modes.clone();
-        let stopped: Vec<usize> = (0..was.len()).filter(|&i| self.has_stopped(i)).collect();
-        stopped.iter().for_each(|&i| self.hold(i));
-        if was[0] != self.modes[0] {
-            self.look_at_instant(&loads);
-            let margin = self.held().margin(self.instant.friction[0], self.instant.normal[0]);
-            self.sliding[0].decide(margin);
-        }
-        if let Some((i, direction)) = pending {
-            let drop = self.drop(i, direction);
-            self.let_go(i, direction);
-            self.look_at_instant(&loads);
-            let acceleration = direction.sign() * self.acceleration(i, loads.acceleration[0]);
-            let order = if drop > 0.0 { 1 } else { 2 };
-            self.start[i] = Some(Start { order, acceleration });
-        }
-        self.share_out(stretch, at_s, pending.map(|(i, _)| i), &stopped);
-        self.tell(stretch, at_s, &was);
+    /// Sum of the sizes of the forces in the slider in N.
+    fn slider_terms_n(&self, p: &Expansion) -> f64 {
+        let force = self.force(self.modes[0]);
+        let springs = force.restraint.stiffness_n_per_m * self.x.s;
+        size(&p.slider) + size(&p.friction) + springs.abs() + force.force_n.abs()
     }
 
-    /// Lets interfaces go one by one, until the others are held: first those that have just `stopped`,
-    /// the slider before contents, then the one furthest beyond its bound.
-    fn share_out(
-        &mut self,
-        stretch: &Stretch,
-        at_s: f64,
-        pending: Option<usize>,
-        stopped: &[usize],
-    ) {
-        let loads = Self::loads(stretch, at_s);
-        let mut let_go: Vec<usize> = pending.into_iter().collect();
-        for _ in 0..4 * self.modes.len() {
-            self.look_at_instant(&loads);
-            // A start against its own direction sticks again.
-            let back = let_go.iter().copied().find(|&i| {
-                let Mode::Slip(direction) = self.modes[i] else { return false };
-                let along = direction.sign() * self.acceleration(i, loads.acceleration[0]);
-                let started = self.start[i].is_some_and(|start| start.order == 1);
-                started && along < 0.0 && Some(i) != pending
-            });
-            if let Some(i) = back {
-                let_go.retain(|&other| other != i);
-                self.hold(i);
-                continue;
-            }
-            let worst = (0..self.modes.len())
-                .filter(|&i| self.modes[i] == Mode::Stick)
-                .map(|i| (i, self.asked(i)))
-                .filter_map(|(i, asked)| {
-                    let later = (!stopped.contains(&i), i > 0);
-                    Some((later, asked.beyond(), i, asked.gives_way()?))
-                })
-                .reduce(|a, b| if b.0 < a.0 || (b.0 == a.0 && b.1 > a.1) { b } else { a });
-            let Some((.., i, direction)) = worst else { break };
-            self.let_go(i, direction);
-            self.look_at_instant(&loads);
-            let acceleration = direction.sign() * self.acceleration(i, loads.acceleration[0]);
-            self.start[i] = Some(Start { order: 1, acceleration });
-            let_go.push(i);
-        }
-        // The accelerations of all that started, with the others as they are now.
-        self.look_at_instant(&loads);
-        for i in let_go {
-            if let (Mode::Slip(direction), Some(start)) = (self.modes[i], self.start[i]) {
-                let acceleration = direction.sign() * self.acceleration(i, loads.acceleration[0]);
-                self.start[i] = Some(Start { acceleration, ..start });
-            }
-        }
+    /// What is rounding of the velocity of an interface over a series.
+    fn rounding_m_per_s(&self, interface: usize, velocity: &Polynomial) -> f64 {
+        let largest = self.peaks.values[self.velocity_output(interface)];
+        let terms = velocity.iter().fold(0.0, |terms: f64, c| terms.max(c.abs()));
+        ROUNDING * if self.walks_jump { terms } else { terms.max(largest) }
     }
 
-    /// In stick: lets go what is asked for more than it holds, or as much and about to be more.
-    fn release_if_due(
-        &mut self,
-        stretch: &Stretch,
-        at_s: f64,
-        at_sample: bool,
-        noted: bool,
-    ) -> bool {
-        let loads = Self::loads(stretch, at_s);
-        self.look_at_instant(&loads);
-        let stuck = || (0..self.modes.len()).filter(|&i| self.modes[i] == Mode::Stick);
-        let due = stuck().any(|i| self.asked(i).gives_way().is_some());
-        let level: Vec<(usize, Direction)> = stuck()
-            .filter_map(|i| {
-                let asked = self.asked(i);
-                if asked.demand == asked.high {
-                    Some((i, Direction::Negative))
-                } else if asked.demand == asked.low {
-                    Some((i, Direction::Positive))
-                } else {
-                    None
-                }
-            })
-            .collect();
-        if !due && level.is_empty() {
-            return false;
-        }
-        let was = self.modes.clone();
-        if due {
-            if !noted {
-                self.note_before(stretch, at_s, at_sample);
-            }
-            self.share_out(stretch, at_s, None, &[]);
-            self.tell(stretch, at_s, &was);
-            return true;
-        }
-        for (i, direction) in level {
-            self.expand(stretch, at_s);
-            let distance = self.distance(i, direction);
-            let Some(order) = leaving_order(&distance) else { continue };
-            if !noted {
-                self.note_before(stretch, at_s, at_sample);
-            }
-            let drop = self.drop(i, direction);
-            self.let_go(i, direction);
-            self.look_at_instant(&loads);
-            let acceleration = direction.sign() * self.acceleration(i, loads.acceleration[0]);
-            let order = if drop > 0.0 { 1 } else { order + 1 };
-            self.start[i] = Some(Start { order, acceleration });
-            self.share_out(stretch, at_s, Some(i), &[]);
-            self.tell(stretch, at_s, &was);
-            return true;
-        }
-        false
-    }
+    // ---- bounds ---------------------------------------------------------------------------------
 
-    /// Distance of a stuck interface from the bound at which it slides in a direction, positive where
-    /// it is held.
-    fn distance(&self, interface: usize, direction: Direction) -> Polynomial {
+    /// Distance of a stuck interface from the bound at which it slides in a direction, positive where it
+    /// is held; none where nothing lets it go that way.
+    fn distance(&self, p: &Expansion, interface: usize, to: Direction) -> Option<Polynomial> {
         // Too large a force slides towards −x.
-        let sign = -direction.sign();
-        let side = if direction == Direction::Positive { 0 } else { 1 };
+        let sign = -to.sign();
+        let side = if to == Direction::Positive { 0 } else { 1 };
         let (demand, normal, bound) = if interface == 0 {
             let hold = self.held();
-            let bound = if hold.leans[side] { f64::INFINITY } else { sign * hold.bounds[side] };
-            (&self.series.friction, &self.series.normal, bound)
+            let bound = sign * hold.bounds[side];
+            if hold.leans[side] || !bound.is_finite() {
+                return None;
+            }
+            (&p.friction, &p.normal, bound)
         } else {
             let contents = &self.body.contents[interface - 1];
-            let carried = &self.series.carried[interface - 1];
-            (carried, &self.series.press, contents.static_friction)
+            (&p.carried[interface - 1], &p.press, contents.static_friction)
         };
-        core::array::from_fn(|k| {
-            // Nothing is beyond a stop that leans on it.
-            let held = if normal[k] == 0.0 { 0.0 } else { bound * normal[k] };
-            held - sign * demand[k]
+        Some(core::array::from_fn(|k| bound * normal[k] - sign * demand[k]))
+    }
+
+    /// What is rounding of that distance.
+    fn rounding_of_distance(&self, p: &Expansion, interface: usize, distance: &Polynomial) -> f64 {
+        let of_terms = if interface == 0 {
+            let [low, high] = self.held().bounds.map(f64::abs);
+            let bounds = [low, high].into_iter().filter(|bound| bound.is_finite());
+            self.rounding_n(p) + ROUNDING * bounds.fold(0.0, f64::max) * size(&p.normal)
+        } else {
+            self.rounding_m_per_s2(p, interface)
+        };
+        and_of_time(of_terms, distance, p)
+    }
+
+    /// Where a stuck interface is about to slide by the series: the first derivative of demand − bound
+    /// that does not vanish is positive.
+    fn leaving(&self, interface: usize) -> Option<Direction> {
+        let p = &self.series;
+        [Direction::Negative, Direction::Positive].into_iter().find(|&to| {
+            self.distance(p, interface, to).is_some_and(|distance| {
+                let rounding = self.rounding_of_distance(p, interface, &distance);
+                leading(&distance, rounding).is_some_and(|k| distance[k] < 0.0)
+            })
+        })
+    }
+
+    /// Whether a stuck interface is at its bound or beyond it.
+    fn is_any_at_bound(&mut self, stretch: &Stretch, at_s: f64) -> bool {
+        if !self.modes.contains(&Mode::Stick) {
+            return false;
+        }
+        self.look_at_instant(&Self::loads(stretch, at_s));
+        self.instant.from_s = at_s;
+        let p = &self.instant;
+        let stuck = (0..self.modes.len()).filter(|&i| self.modes[i] == Mode::Stick);
+        let mut sides = stuck.flat_map(|i| [(i, Direction::Negative), (i, Direction::Positive)]);
+        sides.any(|(i, to)| {
+            let distance = self.distance(p, i, to);
+            distance.is_some_and(|d| !(d[0] > self.rounding_of_distance(p, i, &d)))
         })
     }
 
     /// The first part of the series at which a stuck interface is let go.
     pub(super) fn first_release(&self, interface: usize) -> Option<(f64, Direction)> {
-        let of = |direction: Direction| {
-            let distance = self.distance(interface, direction);
-            if !distance[0].is_finite() {
-                return None;
-            }
-            Some((first_crossing(&distance, self.series.part)?, direction))
+        let of = |to: Direction| {
+            let mut distance = self.distance(&self.series, interface, to)?;
+            first_crossing(&distance, self.series.part)?;
+            // What does not go further below zero than rounding is held.
+            let rounding = self.rounding_of_distance(&self.series, interface, &distance);
+            let order = leading(&distance, rounding)?;
+            distance[..order].fill(0.0);
+            let falls = falls_below(&distance, rounding, self.series.part);
+            falls.then_some(())?;
+            Some((first_crossing(&distance, self.series.part)?, to))
         };
         let both = [Direction::Negative, Direction::Positive].map(of);
         both.into_iter().flatten().reduce(|a, b| if b.0 < a.0 { b } else { a })
+    }
+
+    /// All stuck interfaces that reach their bounds at a part of the series.
+    pub(super) fn released(&self, part: f64) -> Vec<LetGo> {
+        let stuck = (0..self.modes.len()).filter(|&i| self.modes[i] == Mode::Stick);
+        let at_part = |i: usize| {
+            let (at, to) = self.first_release(i)?;
+            let distance = self.distance(&self.series, i, to)?;
+            let rounding = self.rounding_of_distance(&self.series, i, &distance);
+            (at <= part || value(&distance, part) <= rounding).then_some((i, to))
+        };
+        stuck.filter_map(at_part).collect()
+    }
+
+    /// Stops what slides, at a part of the series, with no more velocity than rounding and no
+    /// acceleration.
+    pub(super) fn stop_within_rounding(&mut self, part: f64) {
+        for i in 0..self.modes.len() {
+            let Mode::Slip(direction) = self.modes[i] else { continue };
+            let speed = self.series.speed(i, direction);
+            let here = direction.sign() * self.velocity(i);
+            if here <= 0.0
+                || (here <= self.rounding_m_per_s(i, &speed)
+                    && value(&derivative(&speed), part) <= 0.0)
+            {
+                self.stand(i);
+            }
+        }
+    }
+
+    // ---- decisions ------------------------------------------------------------------------------
+
+    /// Decides all that is due at an instant; whether something was.
+    pub(super) fn decide(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool {
+        let stopped = (0..self.modes.len()).any(|i| self.has_stopped(i));
+        let reached = core::mem::take(&mut self.pending);
+        let due = stopped || !reached.is_empty();
+        if !(due || self.is_any_at_bound(stretch, at_s)) {
+            return false;
+        }
+        let was = self.in_force();
+        if self.has_stopped(0) {
+            self.hold(0);
+            self.look_at_instant(&Self::loads(stretch, at_s));
+            let margin = self.held().margin(self.instant.friction[0], self.instant.normal[0]);
+            self.sliding[0].decide(margin);
+        }
+        let chosen = self.choose(stretch, at_s, &reached);
+        self.put_in_force(&was);
+        if chosen.in_force.modes == was.modes {
+            self.events_in_interval += 1;
+            if !due {
+                return false;
+            }
+        }
+        self.note_before(stretch, at_s, at_sample);
+        self.put_in_force(&chosen.in_force);
+        self.start = chosen.start;
+        self.tell(stretch, at_s, &was);
+        true
+    }
+
+    fn in_force(&self) -> InForce {
+        InForce { modes: self.modes.clone(), memory: self.slider.memory.clone() }
+    }
+
+    fn put_in_force(&mut self, what: &InForce) {
+        self.modes.clone_from(&what.modes);
+        self.slider.memory.clone_from(&what.memory);
+    }
+
+    /// Decides about all interfaces without velocity; those that have `reached` their bounds slide, if
+    /// they move off.
+    fn choose(&mut self, stretch: &Stretch, at_s: f64, reached: &[LetGo]) -> Assignment {
+        for i in 0..self.modes.len() {
+            if self.has_stopped(i) {
+                self.hold(i);
+            }
+        }
+        let held = self.in_force();
+        let at = (stretch, at_s);
+        let first = self.assign(at, &held, reached);
+        let is_slider_free = held.modes[0] == Mode::Stick && reached.iter().all(|(i, _)| *i > 0);
+        if !is_slider_free {
+            return if first.holds || reached.is_empty() {
+                first
+            } else {
+                self.choose_anew(at, &held)
+            };
+        }
+        let demand = self.series.friction[0];
+        if first.holds && first.sticking == held.modes.len() - reached.len() {
+            return first;
+        }
+        let against = if demand > 0.0 { Direction::Negative } else { Direction::Positive };
+        let towards = self.leaving(0).unwrap_or(against);
+        // Contents that slide while the slider sticks.
+        let with: Vec<LetGo> = (1..held.modes.len())
+            .filter(|&i| held.modes[i] == Mode::Stick)
+            .filter_map(|i| match first.in_force.modes[i] {
+                Mode::Slip(direction) => Some((i, direction)),
+                Mode::Stick => None,
+            })
+            .collect();
+        let mut best = Some(first).filter(|first| first.holds);
+        for direction in [towards, towards.opposite()] {
+            let slides: Vec<LetGo> = [(0, direction)].iter().chain(reached).copied().collect();
+            let mut next = self.assign(at, &held, &slides);
+            if !next.holds {
+                let slides: Vec<LetGo> = [(0, direction)].iter().chain(&with).copied().collect();
+                next = self.assign(at, &held, &slides);
+            }
+            let better = best.as_ref().is_none_or(|best| next.sticking > best.sticking);
+            if next.holds && better {
+                best = Some(next);
+            }
+        }
+        match best {
+            Some(best) => best,
+            None if !reached.is_empty() => self.choose_anew(at, &held),
+            None => self.assign(at, &held, &[(0, towards)]),
+        }
+    }
+
+    /// The same with nothing that has reached its bound.
+    fn choose_anew(&mut self, (stretch, at_s): (&Stretch, f64), held: &InForce) -> Assignment {
+        self.put_in_force(held);
+        self.choose(stretch, at_s, &[])
+    }
+
+    /// The assignment in which these slide, the slider else sticks, and as many contents as can.
+    fn assign(
+        &mut self,
+        (stretch, at_s): (&Stretch, f64),
+        held: &InForce,
+        slides: &[LetGo],
+    ) -> Assignment {
+        self.put_in_force(held);
+        let mut let_go = slides.to_vec();
+        loop {
+            let_go.drain(..).for_each(|(i, direction)| self.let_go(i, direction));
+            // What is rounding depends on the unit: all decisions of an instant, and the segment after
+            // them, take the same.
+            let unit_s = self.unit_s;
+            self.expand(stretch, at_s);
+            self.unit_s = unit_s;
+            let stuck = (1..self.modes.len()).filter(|&i| self.modes[i] == Mode::Stick);
+            let_go = stuck.filter_map(|i| Some((i, self.leaving(i)?))).collect();
+            if let_go.is_empty() {
+                break;
+            }
+        }
+        let mut holds = self.modes[0] != Mode::Stick || self.leaving(0).is_none();
+        let count = self.modes.len();
+        let mut start = self.start.clone();
+        for i in (0..count).filter(|&i| held.modes[i] == Mode::Stick) {
+            if let Mode::Slip(direction) = self.modes[i] {
+                let acceleration = self.acceleration(i, direction);
+                let of_terms = self.rounding_m_per_s2(&self.series, i);
+                let order =
+                    leading(&acceleration, and_of_time(of_terms, &acceleration, &self.series));
+                holds &= order.is_some_and(|k| acceleration[k] > 0.0);
+                start[i] = Some(1 + order.unwrap_or(0));
+            }
+        }
+        let sticking = self.modes.iter().filter(|mode| **mode == Mode::Stick).count();
+        Assignment { in_force: self.in_force(), start, sticking, holds }
+    }
+
+    /// Acceleration of an interface by the series, positive along a direction.
+    fn acceleration(&self, interface: usize, direction: Direction) -> Polynomial {
+        let (p, sign) = (&self.series, direction.sign());
+        let (own, under) = match interface {
+            0 => (&p.u, &p.ground),
+            contents => match self.body.contents[contents - 1].floor {
+                0 => (&p.carried[contents - 1], &p.u),
+                floor => (&p.carried[contents - 1], &p.floors[floor - 1]),
+            },
+        };
+        core::array::from_fn(|k| sign * (own[k] - under[k]))
     }
 
     /// Holds an interface.
@@ -278,7 +378,6 @@ impl Stepping<'_> {
         self.modes[interface] = Mode::Stick;
         self.start[interface] = None;
         if interface == 0 {
-            self.begun = None;
             let s = self.x.s;
             match self.near {
                 Some(near) if near.offset > 0.0 => self.slider.turn(s, Direction::Positive),
@@ -291,15 +390,63 @@ impl Stepping<'_> {
     /// Lets an interface slide from hold.
     fn let_go(&mut self, interface: usize, direction: Direction) {
         self.modes[interface] = Mode::Slip(direction);
-        if interface == 0 {
-            self.begun = self.slider.begin(self.x.s, direction);
+        if interface == 0
+            && let Some(contact) = self.slider.begin(self.x.s, direction)
+        {
+            self.slider.memory.contact = contact;
         }
     }
 
-    /// Tells of the changes of modes at an instant.
-    fn tell(&mut self, stretch: &Stretch, at_s: f64, was: &[Mode]) {
+    /// Goes through a jump of the loads: what it lets go has reached its bound. Displacements and
+    /// velocities are what they were.
+    pub(super) fn walk_jump(
+        &mut self,
+        sample: usize,
+        from: [f64; 2],
+        to: [f64; 2],
+    ) -> Result<(), SolveError> {
+        let (was, x, near, unit_s) = (self.in_force(), self.x.clone(), self.near, self.unit_s);
+        let start = self.start.clone();
+        let resting: Vec<bool> = (0..was.modes.len())
+            .map(|i| was.modes[i] == Mode::Stick || self.has_stopped(i))
+            .collect();
+        self.walks_jump = true;
+        for stretch in jump(sample, from, to) {
+            let mut at_s = stretch.from_s;
+            self.unit_s = stretch.to_s - at_s;
+            while at_s < stretch.to_s {
+                let due = !self.pending.is_empty()
+                    || (0..resting.len()).any(|i| self.has_stopped(i))
+                    || self.is_any_at_bound(&stretch, at_s);
+                if due {
+                    let reached = core::mem::take(&mut self.pending);
+                    let next = self.choose(&stretch, at_s, &reached);
+                    self.events_in_interval += 1;
+                    self.limit_events(self.ground.times_s[sample])?;
+                    self.put_in_force(&next.in_force);
+                    self.start = next.start;
+                }
+                let (to_s, part, end) = self.walk(&stretch, at_s);
+                self.follow(part, end);
+                at_s = to_s;
+            }
+        }
+        self.walks_jump = false;
+        let slides = |i: usize| match self.modes[i] {
+            Mode::Slip(direction) if resting[i] && !self.has_stopped(i) => Some((i, direction)),
+            _ => None,
+        };
+        self.pending = (0..resting.len()).filter_map(slides).collect();
+        (self.x, self.near, self.unit_s, self.start) = (x, near, unit_s, start);
+        self.put_in_force(&was);
+        Ok(())
+    }
+
+    /// Tells of the changes at an instant.
+    fn tell(&mut self, stretch: &Stretch, at_s: f64, was: &InForce) {
         let time_s = self.ground.times_s[stretch.interval] + at_s;
-        for (i, before) in was.iter().enumerate() {
+        let contact = core::mem::replace(&mut self.slider.memory.contact, was.memory.contact);
+        for (i, before) in was.modes.iter().enumerate() {
             let kind = match (*before, self.modes[i]) {
                 (Mode::Stick, Mode::Stick) => continue,
                 (Mode::Stick, Mode::Slip(_)) => EventKind::Slip,
@@ -320,9 +467,7 @@ impl Stepping<'_> {
                 self.lean(time_s);
             }
         }
-        if let Some(contact) = self.begun.take()
-            && self.modes[0] != Mode::Stick
-        {
+        if contact != was.memory.contact {
             let kind = self.slider.change_contact(time_s, self.x.w.abs(), contact);
             self.push_event(time_s, 0, kind);
         }
@@ -340,7 +485,7 @@ impl Stepping<'_> {
     }
 
     /// Begins or ends the time at rest at a rigid stop.
-    fn lean(&mut self, time_s: f64) {
+    pub(super) fn lean(&mut self, time_s: f64) {
         self.end_leaning(time_s);
         let leans = self.held().leans;
         if self.modes[0] == Mode::Stick && leans != [false; 2] {
@@ -446,11 +591,11 @@ impl Stepping<'_> {
         let speed = self.x.w.abs();
         let (away, memory) = (self.modes[0], self.slider.memory.clone());
         self.look_at_instant(&loads);
-        let q = inward.sign() * self.acceleration(0, loads.acceleration[0]);
+        let q = inward.sign() * (self.instant.u[0] - loads.acceleration[0]);
         self.modes[0] = Mode::Slip(inward);
         self.slider.law.resume(&mut self.slider.memory, 0.0, inward);
         self.look_at_instant(&loads);
-        let p = inward.sign() * self.acceleration(0, loads.acceleration[0]);
+        let p = inward.sign() * (self.instant.u[0] - loads.acceleration[0]);
         (self.modes[0], self.slider.memory) = (away, memory);
         if !(p > 0.0 && q > 0.0) {
             return false;
@@ -458,6 +603,7 @@ impl Stepping<'_> {
         let r = e * (p / q).sqrt();
         let rest_s = speed / q * (1.0 + (q / p).sqrt()) / (1.0 - r);
         let bounce = 0.5 * speed * speed / q;
-        r < 1.0 && bounce < LEAST_BOUNCE * self.x.s.abs() && rest_s < LONGEST_REST_S
+        let end_s = self.ground.times_s[self.ground.times_s.len() - 1];
+        r < 1.0 && bounce < LEAST_BOUNCE * self.x.s.abs() && rest_s < LONGEST_REST * end_s
     }
 }

@@ -1,28 +1,33 @@
 //! Peaks of the series, and the knots of the history.
 
-use super::super::ground::Stretch;
+use core::ops::Range;
+
+use super::super::ground::{Ground, Stretch};
 use super::super::outputs::output;
 use super::Stepping;
-use super::body::Loads;
-use crate::linear::polynomial::{DEGREE, Polynomial, curvature_bound, largest, value};
+use super::body::{Body, Expansion, Loads};
+use crate::linear::polynomial::{
+    DEGREE, Polynomial, ZERO, curvature_bound, largest, size_bound, value,
+};
 use crate::model::Model;
-use crate::response::Mode;
+use crate::response::{History, Mode};
 
 /// Largest sizes so far.
 pub(super) struct Peaks {
-    /// In the order of [`output`].
+    /// In the order of [`Stepping::output`].
     pub(super) values: Vec<f64>,
-    pub(super) contents_velocity: Vec<f64>,
-    pub(super) contents_acceleration: Vec<f64>,
     /// Whether the overturning moment is asked for.
     pub(super) overturns: bool,
     /// Heights of the block and of the floors above the sliding surface in m.
     heights_m: Vec<f64>,
+    /// `g sin θ`, which accelerations are reported without.
+    pub(super) slope_m_per_s2: f64,
 }
 
 impl Peaks {
-    pub(super) fn new(model: &Model) -> Self {
-        let (n, contents) = (model.storeys(), model.devices().contents.len());
+    /// None so far, of so many `contents` that slide each by itself.
+    pub(super) fn new(model: &Model, contents: usize) -> Self {
+        let n = model.storeys();
         let block = model.block();
         let mut above_m = block.height_m.unwrap_or(0.0);
         let mut heights_m = vec![above_m];
@@ -34,13 +39,17 @@ impl Peaks {
         }
         let known = heights_m.len() == n + 1 && (n > 0 || block.height_m.is_some());
         Self {
-            values: vec![0.0; output::STOREYS + (3 * n).saturating_sub(1)],
-            contents_velocity: vec![0.0; contents],
-            contents_acceleration: vec![0.0; contents],
+            values: vec![0.0; contents_outputs(n) + 2 * contents],
             overturns: block.width_m.is_some() && known,
             heights_m,
+            slope_m_per_s2: model.slope_m_per_s2(),
         }
     }
+}
+
+/// Place of the outputs of contents, after all others of `n` storeys.
+fn contents_outputs(n: usize) -> usize {
+    output::STOREYS + (3 * n).saturating_sub(1)
 }
 
 /// Raises a peak to the largest size of a polynomial on [0, `part`].
@@ -53,51 +62,114 @@ fn raise(peak: &mut f64, p: &Polynomial, part: f64) {
     *peak = largest(&p.map(|c| -c), part, largest(p, part, *peak));
 }
 
-fn less(p: &Polynomial, constant: f64) -> Polynomial {
-    let mut p = *p;
-    p[0] -= constant;
-    p
+/// An output as a part of an expansion.
+pub(super) enum Output<'e> {
+    /// Less a constant.
+    Less(&'e Polynomial, f64),
+    Difference([&'e Polynomial; 2]),
+    Made(Polynomial),
 }
 
-fn difference(a: &Polynomial, b: &Polynomial) -> Polynomial {
-    core::array::from_fn(|k| a[k] - b[k])
+impl Output<'_> {
+    /// Its value at the start.
+    pub(super) fn start(&self) -> f64 {
+        match self {
+            Self::Less(p, constant) => p[0] - constant,
+            Self::Difference([a, b]) => a[0] - b[0],
+            Self::Made(p) => p[0],
+        }
+    }
+
+    /// Bound on its size over the unit.
+    fn size_bound(&self) -> f64 {
+        match self {
+            Self::Less(p, constant) => size_bound(p) + constant.abs(),
+            Self::Difference([a, b]) => size_bound(a) + size_bound(b),
+            Self::Made(p) => size_bound(p),
+        }
+    }
+
+    /// Its series.
+    fn series(&self) -> Polynomial {
+        match self {
+            Self::Less(p, constant) => {
+                let mut p = **p;
+                p[0] -= constant;
+                p
+            }
+            Self::Difference([a, b]) => core::array::from_fn(|k| a[k] - b[k]),
+            Self::Made(p) => *p,
+        }
+    }
 }
 
 impl Stepping<'_> {
-    /// Looks for peaks in the part of the series just gone through.
-    pub(super) fn look(&mut self, part: f64) {
-        let (n, slope) = (self.body.storeys(), self.model.slope_m_per_s2());
-        let series = &self.series;
-        let y = &mut self.peaks.values;
-        raise(&mut y[output::VELOCITY], &series.w, part);
-        raise(&mut y[output::BLOCK], &less(&series.u, slope), part);
-        raise(&mut y[output::SLIDER], &series.slider, part);
-        raise(&mut y[output::BASE_SHEAR], &series.shear, part);
-        for i in 0..n {
-            raise(&mut y[output::displacement(i)], &series.q[i], part);
-            let acceleration = less(&series.floors[i], slope);
-            raise(&mut y[output::acceleration(n, i)], &acceleration, part);
-            if i > 0 {
-                let drift = difference(&series.q[i], &series.q[i - 1]);
-                raise(&mut y[output::drift(n, i)], &drift, part);
+    /// Output of the velocity of an interface.
+    pub(super) fn velocity_output(&self, interface: usize) -> usize {
+        let Some(i) = interface.checked_sub(1) else { return output::VELOCITY };
+        contents_outputs(self.body.storeys()) + i
+    }
+
+    /// Output of the acceleration of contents.
+    pub(super) fn contents_acceleration_output(&self, i: usize) -> usize {
+        contents_outputs(self.body.storeys()) + self.body.contents.len() + i
+    }
+
+    /// An output: those of [`output`], then velocities and accelerations of contents.
+    pub(super) fn output<'e>(&self, series: &'e Expansion, j: usize) -> Output<'e> {
+        let (n, slope) = (self.body.storeys(), self.peaks.slope_m_per_s2);
+        match j {
+            output::VELOCITY => Output::Less(&series.w, 0.0),
+            output::BLOCK => Output::Less(&series.u, slope),
+            output::SLIDER => Output::Less(&series.slider, 0.0),
+            output::FRICTION => Output::Less(&series.friction, 0.0),
+            output::BASE_SHEAR => Output::Less(&series.shear, 0.0),
+            output::OVERTURNING => Output::Made(self.moment(series)),
+            j if j < output::acceleration(n, 0) => {
+                Output::Less(&series.q[j - output::displacement(0)], 0.0)
+            }
+            j if j < output::acceleration(n, n) => {
+                Output::Less(&series.floors[j - output::acceleration(n, 0)], slope)
+            }
+            j if j < contents_outputs(n) => {
+                let i = 1 + j - output::acceleration(n, n);
+                Output::Difference([&series.q[i], &series.q[i - 1]])
+            }
+            j => {
+                let (i, contents) = (j - contents_outputs(n), self.body.contents.len());
+                if i < contents {
+                    Output::Less(&series.p[i], 0.0)
+                } else {
+                    Output::Less(&series.carried[i - contents], slope)
+                }
             }
         }
-        for i in 0..self.body.contents.len() {
-            raise(&mut self.peaks.contents_velocity[i], &series.p[i], part);
-            let acceleration = less(&series.carried[i], slope);
-            raise(&mut self.peaks.contents_acceleration[i], &acceleration, part);
+    }
+
+    /// Looks for peaks in the part of the series just gone through.
+    pub(super) fn look(&mut self, part: f64) {
+        for j in 0..self.peaks.values.len() {
+            match j {
+                output::FRICTION => self.look_at_friction(part),
+                output::OVERTURNING if !self.peaks.overturns => {}
+                j => {
+                    let output = self.output(&self.series, j);
+                    if !(output.size_bound() <= self.peaks.values[j]) {
+                        let p = output.series();
+                        raise(&mut self.peaks.values[j], &p, part);
+                    }
+                }
+            }
         }
-        if self.peaks.overturns {
-            let moment = self.moment();
-            raise(&mut self.peaks.values[output::OVERTURNING], &moment, part);
-        }
-        self.look_at_friction(part);
         self.look_at_stop(part);
     }
 
     /// Overturning moment of the inertia of block, floors and contents about the sliding surface.
-    fn moment(&self) -> Polynomial {
-        let (body, series) = (&self.body, &self.series);
+    fn moment(&self, series: &Expansion) -> Polynomial {
+        if !self.peaks.overturns {
+            return ZERO;
+        }
+        let body = &self.body;
         let heights_m = &self.peaks.heights_m;
         core::array::from_fn(|k| {
             let own = 0.5 * heights_m[0] * body.block_kg * series.u[k];
@@ -178,42 +250,125 @@ impl Stepping<'_> {
             return;
         }
         self.look_at_instant(loads);
-        let slope = self.model.slope_m_per_s2();
-        let stuck = self.modes[0] == Mode::Stick;
-        let mut friction_n = self.instant.friction[0];
-        if stuck {
+        let [mut states, mut outputs] = core::mem::take(&mut self.knot);
+        states.resize(self.x.count(), [0.0]);
+        self.x.get(states.as_flattened_mut());
+        outputs.clear();
+        let all = 0..self.peaks.values.len();
+        outputs.extend(all.map(|j| [self.output(&self.instant, j).start()]));
+        if self.modes[0] == Mode::Stick {
+            let [friction_n] = &mut outputs[output::FRICTION];
             let hold = self.held();
             let [low, high] = hold.bounds.map(|bound| bound * loads.normal[0]);
             if hold.leans[0] {
-                friction_n = friction_n.max(low);
+                *friction_n = friction_n.max(low);
             }
             if hold.leans[1] {
-                friction_n = friction_n.min(high);
+                *friction_n = friction_n.min(high);
             }
         }
-        let surfaces = self.slider.law.surfaces(&self.slider.memory, self.x.s);
+        self.store([&[time_s], &[table]], [&states, &outputs], row);
+        self.knot = [states, outputs];
+    }
+
+    /// Stores samples in the present modes as rows of the history, by their states and outputs side by side.
+    pub(super) fn store_samples<const K: usize>(
+        &mut self,
+        samples: Range<usize>,
+        lists: [&[[f64; K]]; 2],
+    ) {
+        let Ground { times_s, table, .. } = self.ground;
+        self.store([&times_s[samples.clone()], &table[samples]], lists, true);
+    }
+
+    /// Stores knots in the present modes: their times, the accelerations of the table, their states and
+    /// outputs side by side.
+    fn store<const K: usize>(
+        &mut self,
+        [times_s, table]: [&[f64]; 2],
+        [states, outputs]: [&[[f64; K]]; 2],
+        are_rows: bool,
+    ) {
+        let (n, parts, count) = (self.body.storeys(), self.body.contents.len(), times_s.len());
+        let items = &self.body.part_of;
         let Some(h) = &mut self.history else { return };
-        if row {
-            h.rows.push(h.time_s.len());
+        let (first, end) = (h.time_s.len(), h.time_s.len() + count);
+        if are_rows {
+            h.rows.extend(first..end);
         }
-        h.time_s.push(time_s);
-        h.mode.extend_from_slice(&self.modes);
+        h.time_s.extend_from_slice(times_s);
+        for k in 0..count {
+            h.mode.push(self.modes[0]);
+            h.mode.extend(items.iter().map(|part| self.modes[1 + part]));
+            if self.slider.law.series.is_some() {
+                let surfaces = self.slider.law.surfaces(&self.slider.memory, states[0][k]);
+                h.surface_displacement_m.extend(surfaces);
+            }
+        }
         if self.slider.law.stop.is_some() {
-            h.contact.push(self.slider.memory.contact);
+            h.contact.resize(end, self.slider.memory.contact);
         }
-        h.table_acceleration_m_per_s2.push(table);
-        h.sliding_displacement_m.push(self.x.s);
-        h.sliding_velocity_m_per_s.push(self.x.w);
-        h.block_acceleration_m_per_s2.push(if stuck { table } else { self.instant.u[0] - slope });
-        h.friction_force_n.push(friction_n);
-        h.storey_displacement_m.extend_from_slice(&self.x.q);
-        h.storey_velocity_m_per_s.extend_from_slice(&self.x.v);
-        h.storey_acceleration_m_per_s2
-            .extend(self.instant.floors.iter().map(|acceleration| acceleration[0] - slope));
-        h.surface_displacement_m.extend(surfaces);
-        h.contents_displacement_m.extend_from_slice(&self.x.r);
-        h.contents_velocity_m_per_s.extend_from_slice(&self.x.p);
-        h.contents_acceleration_m_per_s2
-            .extend(self.instant.carried.iter().map(|acceleration| acceleration[0] - slope));
+        h.table_acceleration_m_per_s2.extend_from_slice(table);
+        side_by_side(count, &mut h.sliding_displacement_m, &states[..1]);
+        side_by_side(count, &mut h.sliding_velocity_m_per_s, &states[1..2]);
+        if self.modes[0] == Mode::Stick {
+            h.block_acceleration_m_per_s2.extend_from_slice(table);
+        } else {
+            side_by_side(count, &mut h.block_acceleration_m_per_s2, &outputs[output::BLOCK..][..1]);
+        }
+        side_by_side(count, &mut h.friction_force_n, &outputs[output::FRICTION..][..1]);
+        let (of_storeys, of_contents) = states[2..].split_at(2 * n);
+        side_by_side(count, &mut h.storey_displacement_m, &of_storeys[..n]);
+        side_by_side(count, &mut h.storey_velocity_m_per_s, &of_storeys[n..]);
+        let accelerations = &outputs[output::acceleration(n, 0)..][..n];
+        side_by_side(count, &mut h.storey_acceleration_m_per_s2, accelerations);
+        let accelerations = &outputs[contents_outputs(n) + parts..][..parts];
+        let (displacements, velocities) = of_contents.split_at(parts);
+        for k in 0..count {
+            for &part in items {
+                h.contents_displacement_m.push(displacements[part][k]);
+                h.contents_velocity_m_per_s.push(velocities[part][k]);
+                h.contents_acceleration_m_per_s2.push(accelerations[part][k]);
+            }
+        }
+    }
+}
+
+/// Adds so many knots to a column, of numbers side by side.
+#[inline(always)]
+fn side_by_side<const K: usize>(count: usize, column: &mut Vec<f64>, lists: &[[f64; K]]) {
+    let end = column.len() + count * lists.len();
+    match lists {
+        // Whole lists are moved faster than parts of them.
+        [list] => column.extend_from_slice(list),
+        lists => (0..count).for_each(|k| column.extend(lists.iter().map(|list| list[k]))),
+    }
+    column.truncate(end);
+}
+
+/// A history with room for the knots of so many samples.
+pub(super) fn history(body: &Body, surfaces: usize, samples: usize) -> History {
+    let (n, contents, room) = (body.storeys(), body.part_of.len(), samples + samples / 4);
+    let column = |width: usize| Vec::with_capacity(width * room);
+    History {
+        storeys: n,
+        interfaces: 1 + contents,
+        surfaces,
+        time_s: column(1),
+        mode: Vec::with_capacity((1 + contents) * room),
+        rows: Vec::with_capacity(samples),
+        table_acceleration_m_per_s2: column(1),
+        sliding_displacement_m: column(1),
+        sliding_velocity_m_per_s: column(1),
+        block_acceleration_m_per_s2: column(1),
+        friction_force_n: column(1),
+        storey_displacement_m: column(n),
+        storey_velocity_m_per_s: column(n),
+        storey_acceleration_m_per_s2: column(n),
+        surface_displacement_m: column(surfaces),
+        contents_displacement_m: column(contents),
+        contents_velocity_m_per_s: column(contents),
+        contents_acceleration_m_per_s2: column(contents),
+        ..History::default()
     }
 }

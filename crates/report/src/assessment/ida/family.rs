@@ -5,10 +5,10 @@ use slipstick::assessment::ida::{IdaGroup, IdaRun, level_fractiles};
 use slipstick::motion::intensity::Measure;
 use slipstick::response::Warning;
 
-use super::IdaReport;
+use super::{BEYOND, IdaReport};
 use crate::assessment::key::title;
 use crate::assessment::lines::{GROUPS, RECORD, clipped, line, panel, share_names, single};
-use crate::assessment::sheet::{Sheet, cell, counted};
+use crate::assessment::sheet::{Sheet, cell, failed};
 use crate::display::DisplayUnits;
 use crate::figures::Drawn;
 use crate::json::Json;
@@ -102,7 +102,7 @@ impl Groups<'_> {
         let averaged = first.map(|report| report.averaged).filter(|averaged| averaged.designs > 1);
         let averaged = averaged.map_or_else(String::new, |averaged| format!("; each {averaged}"));
         let mut warnings: Vec<Warning> =
-            counted("failed_runs", &family.run.failures).into_iter().collect();
+            failed(&family.run.failures, runs as u64, BEYOND).into_iter().collect();
         for (label, report) in self.each() {
             let of_group = |warning: Warning| Warning {
                 message: format!("{} = {label}: {}", self.by, warning.message),

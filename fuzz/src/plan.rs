@@ -6,6 +6,7 @@ use slipstick::study::Design;
 
 const MODEL: &str = include_str!("../../examples/studies/mock-up.toml");
 
+/// Reads a plan; what is accepted makes models, what is refused has a place.
 pub fn check(bytes: &[u8]) {
     match Plan::from_bytes("fuzz.toml", bytes) {
         Ok(plan) => {

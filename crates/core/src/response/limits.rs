@@ -1,0 +1,122 @@
+//! What a response lies beyond.
+
+use super::{Demands, Warning};
+use crate::model::Model;
+
+/// Displacement over radius beyond which flat geometry is said to be one.
+const FLAT: f64 = 0.2;
+
+/// Warning for a pendulum, or a surface of several, that slides beyond 0.2 of its radius: the force `N s/R`
+/// of flat geometry is that of the dish, `N s/√(R² − s²)`, times `√(1 − (s/R)²)`.
+#[must_use]
+pub fn flat_geometry(model: &Model, demands: &Demands) -> Option<Warning> {
+    let devices = model.devices();
+    let series = devices.series.as_ref().map_or(&[][..], |series| series.surfaces());
+    let of_surfaces = series.iter().zip(&demands.surfaces).enumerate();
+    let of_surfaces = of_surfaces.filter_map(|(i, (surface, on))| {
+        let of = format!("surface {}", i + 1);
+        Some((of, on.peak_displacement_m / surface.radius_m?))
+    });
+    let whole = devices.radius_m.map(|radius_m| demands.peak_sliding_displacement_m / radius_m);
+    let all = whole.map(|ratio| ("the block".to_owned(), ratio)).into_iter().chain(of_surfaces);
+    let (what, ratio) = all.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    if !(ratio > FLAT) {
+        return None;
+    }
+    let short = if ratio < 1.0 {
+        let percent = 100.0 * (1.0 - (1.0 - ratio * ratio).sqrt());
+        format!("its restoring force is {percent:.0} % below that of the dish")
+    } else {
+        "a dish of that radius ends before".to_owned()
+    };
+    let message = format!(
+        "{what} slides {ratio:.2} of its radius: flat geometry holds to {FLAT}, and there {short}"
+    );
+    Some(Warning { kind: "flat_geometry", time_s: None, message })
+}
+
+/// What the slider comes to the end of, which a table of sliding displacements does not tell: its gap, its
+/// stop, the travel of a surface.
+#[must_use]
+pub fn struck(model: &Model, demands: &Demands) -> Vec<Warning> {
+    let mut found = Vec::new();
+    let mut say = |kind, message| found.push(Warning { kind, time_s: None, message });
+    if let Some(ratio) = demands.gap_ratio.filter(|ratio| *ratio > 1.0) {
+        say(
+            "gap_exceeded",
+            format!(
+                "the block slides past its gap: {ratio:.2} of it; what it strikes there is not modelled"
+            ),
+        );
+    }
+    if let Some(stop) = demands.stop.filter(|stop| stop.contact_count + stop.impact_count > 0) {
+        let speed = stop.peak_impact_speed_m_per_s;
+        let times = stop.contact_count.max(stop.impact_count);
+        let force = match stop.peak_force_n {
+            0.0 => String::new(),
+            force_n => format!(", with {:.3} of the weight", force_n / model.weight_n()),
+        };
+        say(
+            "stop_struck",
+            format!("the block strikes its stop {times} times, at up to {speed:.3} m/s{force}"),
+        );
+    }
+    let ended = demands.surfaces.iter().enumerate().filter(|(_, surface)| surface.end_reached);
+    let ended: Vec<String> = ended.map(|(i, _)| (i + 1).to_string()).collect();
+    if !ended.is_empty() {
+        let message = format!("the end of its travel is reached by surface {}", ended.join(", "));
+        say("travel_reached", message);
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::friction::{Series, Surface};
+    use crate::response::SurfaceDemands;
+
+    fn slid(peak_m: f64) -> Demands {
+        Demands { peak_sliding_displacement_m: peak_m, ..Demands::default() }
+    }
+
+    /// √(1 − 0.6²) = 0.8.
+    #[test]
+    fn exact_flat_geometry_is_short_of_the_dish() {
+        let block = || Model::builder().block("1 t").friction(0.06, 0.05);
+        let pendulum = block().radius("2 m").build().unwrap();
+        assert_eq!(flat_geometry(&pendulum, &slid(0.4)), None);
+        let found = flat_geometry(&pendulum, &slid(1.2)).unwrap();
+        assert_eq!(found.kind, "flat_geometry");
+        assert_eq!(
+            found.message,
+            "the block slides 0.60 of its radius: flat geometry holds to 0.2, and there its restoring \
+             force is 20 % below that of the dish"
+        );
+        let beyond = flat_geometry(&pendulum, &slid(2.0)).unwrap();
+        assert!(
+            beyond.message.ends_with("a dish of that radius ends before"),
+            "{}",
+            beyond.message
+        );
+        let spring = block().spring("2 kN/m").build().unwrap();
+        assert_eq!(flat_geometry(&spring, &slid(5.0)), None);
+    }
+
+    #[test]
+    fn exact_flat_geometry_of_surfaces_is_that_of_each() {
+        let surface =
+            |friction, radius_m| Surface { friction, radius_m: Some(radius_m), travel_m: None };
+        let series = Series::new(vec![surface(0.03, 0.5), surface(0.06, 2.0)], 1.0).unwrap();
+        let two = Model::builder().block("1 t").surfaces(series).build().unwrap();
+        let surface =
+            |peak_displacement_m| SurfaceDemands { peak_displacement_m, ..Default::default() };
+        let demands = Demands { surfaces: vec![surface(0.15), surface(0.1)], ..slid(0.25) };
+        let found = flat_geometry(&two, &demands).unwrap();
+        assert!(
+            found.message.starts_with("surface 1 slides 0.30 of its radius"),
+            "{}",
+            found.message
+        );
+    }
+}

@@ -1,0 +1,320 @@
+//! An event sample by its Taylor series, with events in it where they are beyond doubt.
+//!
+//! What is ambiguous (two roots near each other, an event on a sample, a demand at its bound) is left to
+//! event stepping, from where it turns up.
+
+use fearless_simd::f64x4;
+use fearless_simd::prelude::*;
+
+use super::ahead::Ahead;
+use super::lanes::{four, least};
+use super::series::Series;
+use crate::friction::Direction;
+use crate::response::Mode;
+use crate::solver::course::Instant;
+use crate::solver::slider::Start;
+
+/// Events nearer to an end of a piece, and decisions of a smaller margin, are ambiguous.
+const AMBIGUOUS: f64 = 1e-9;
+
+/// A slip that starts with less than this part of what friction gives is ambiguous if it ends at once.
+const CLEAR: f64 = 1e-2;
+
+/// Longest correction of a root that is made by derivatives, in pieces: the next term of the state is below
+/// rounding.
+const SHORT: f64 = 2e-5;
+
+/// Events in a sample after which it goes by event stepping.
+const MOST_EVENTS: u32 = 8;
+
+/// From an instant in a piece of a sample to its end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Span {
+    /// Its length in pieces.
+    pub(super) rest: f64,
+    /// Acceleration at its start and its change over a whole piece.
+    pub(super) a: f64,
+    pub(super) change: f64,
+}
+
+/// The motion of one phase over a span.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Segment {
+    pub(super) sample: usize,
+    pub(super) span: Span,
+    pub(super) mode: Mode,
+    /// State at its start.
+    pub(super) x: [f64; 4],
+}
+
+/// How a segment ends.
+enum End {
+    /// With the piece.
+    Piece,
+    /// With an event, so many pieces after its start.
+    Event(f64),
+    /// Nobody knows: what comes is ambiguous.
+    Ambiguous,
+}
+
+impl<S: Simd> Ahead<'_, '_, S> {
+    /// Takes one sample; the time in it from where on it is ambiguous.
+    #[inline(always)]
+    pub(super) fn step(&mut self, sample: usize) -> Option<f64> {
+        if self.is_due() {
+            return Some(0.0);
+        }
+        let (pieces, a) = (self.of.tables.pieces, self.of.ground.acceleration);
+        let [from, to] = [a[sample], a[sample + 1]];
+        let change = if pieces == 1 { to - from } else { (to - from) / pieces as f64 };
+        let mut events = 0;
+        for piece in 0..pieces {
+            let start_a = from + change * piece as f64;
+            let mut at = 0.0;
+            loop {
+                let span = Span { rest: 1.0 - at, a: start_a + change * at, change };
+                let (mode, x) = (self.shared.course.mode, *self.shared.x);
+                let segment = Segment { sample, span, mode, x };
+                let at_sample = piece == 0 && at == 0.0;
+                let end = match mode {
+                    Mode::Stick => self.stick_segment(&segment, at_sample),
+                    Mode::Slip(direction) => self.slip_segment(&segment, direction, at_sample),
+                };
+                match end {
+                    End::Piece => break,
+                    End::Event(t) => at += t,
+                    End::Ambiguous => return Some((piece as f64 + at) * self.of.tables.piece_s),
+                }
+                let at_s = (piece as f64 + at) * self.of.tables.piece_s;
+                events += 1;
+                if events > MOST_EVENTS || !self.decide(&segment, start_a + change * at, at_s) {
+                    return Some(at_s);
+                }
+            }
+        }
+        None
+    }
+
+    /// A segment of stick.
+    #[inline(always)]
+    fn stick_segment(&mut self, segment: &Segment, at_sample: bool) -> End {
+        let (simd, storey, x) = (self.simd, &self.of.tables.storey, segment.x);
+        let Span { rest, a, change } = segment.span;
+        let [low, high] = self.of.bounds_n;
+        let table = &self.of.tables.stick.series;
+        let series = Series::<S>::new::<false>(simd, table, x, &segment.span, 0.0);
+        let end = series.at(simd, rest);
+        let curvature = storey.participation * storey.restoring(series.curvature.as_array());
+        let hidden = 0.125 * curvature * (rest * rest);
+        let demand = storey.demand_n(&x, a);
+        let end_demand = storey.demand_n(end.as_array(), a + change * rest);
+        let above = least(high - demand, high - end_demand) > hidden;
+        let below = least(demand - low, end_demand - low) > hidden;
+        if above && below {
+            return self.through::<false>(segment, at_sample, &series, end, [demand, end_demand]);
+        }
+        // A release is beyond doubt where the distance from one bound falls all the way.
+        let (sign, bound) = if below { (1.0, high) } else { (-1.0, low) };
+        let (m, l) = (sign * storey.block_mass_kg, sign * storey.participation);
+        let distance = sign * (bound - demand);
+        let [c1, c2, c3, c4] = series.leading();
+        let slope = l * storey.restoring(&c1) - m * change;
+        let (c2, c3, c4) =
+            (l * storey.restoring(&c2), l * storey.restoring(&c3), l * storey.restoring(&c4));
+        let is_simple = (above || below)
+            && distance > AMBIGUOUS * bound.abs()
+            && sign * (bound - end_demand) < 0.0
+            && crosses_once(slope, 2.0 * c2, curvature, rest);
+        if !is_simple {
+            return End::Ambiguous;
+        }
+        let mut t = guess([distance, slope, c2, c3, c4]);
+        for _ in 0..4 {
+            if !(t > 0.0 && t < rest) {
+                return End::Ambiguous;
+            }
+            let y = series.at(simd, t);
+            let derivatives = series.derivatives(simd, t);
+            let f1 = l * storey.restoring(derivatives[0].as_array());
+            let f2 = l * storey.restoring(derivatives[1].as_array());
+            let g = sign * bound - sign * storey.demand_n(y.as_array(), a + change * t);
+            let d = halley(g, f1 - m * change, f2);
+            t += d;
+            if d.abs() < SHORT {
+                let y = later(simd, y, derivatives, d);
+                return self.event::<false>(segment, at_sample, &series, (t, y), [demand, bound]);
+            }
+        }
+        End::Ambiguous
+    }
+
+    /// A segment of slip.
+    #[inline(always)]
+    fn slip_segment(&mut self, segment: &Segment, direction: Direction, at_sample: bool) -> End {
+        let (simd, tables, x) = (self.simd, self.of.tables, segment.x);
+        let (sign, rest) = (direction.sign(), segment.span.rest);
+        let force_n = self.force_n(segment.mode);
+        let table = &tables.slip.series;
+        let series = Series::<S>::new::<true>(simd, table, x, &segment.span, force_n);
+        let end = series.at(simd, rest);
+        let curvature = series.curvature.as_array()[1];
+        let [c1, c2, c3, c4] = series.leading();
+        let (c1, c2, c3, c4) = (sign * c1[1], sign * c2[1], sign * c3[1], sign * c4[1]);
+        let (speed, end_speed) = (sign * x[1], sign * end.as_array()[1]);
+        let start = self.shared.course.start;
+        let slides = match start {
+            None => least(speed, end_speed) > 0.125 * curvature * (rest * rest),
+            // The zero at the start is no stop: with D = Σ k (k − 1) |c_k|
+            // |ṡ|/t ≥ c₁ − t D/2, and where c₁ = 0 |ṡ|/t² ≥ c₂ − t (D − 2 c₂)/6.
+            Some(Start { order: 1, acceleration }) => {
+                acceleration * tables.piece_s > 0.5 * curvature * rest
+            }
+            Some(_) => c2 > rest * (curvature - 2.0 * c2) * (1.0 / 6.0),
+        };
+        if slides {
+            self.shared.course.start = None;
+            return self.through::<true>(segment, at_sample, &series, end, [force_n; 2]);
+        }
+        let mut t = match start {
+            None if speed > 0.0 && crosses_once(c1, 2.0 * c2, curvature, rest) => {
+                guess([speed, c1, c2, c3, c4])
+            }
+            // |ṡ|/t = c₁ + c₂ t + …, whose second derivative is at most D − 2 |c₂|; c₁ as computed is a
+            // difference of accelerations of this size.
+            Some(Start { order: 1, acceleration })
+                if acceleration > CLEAR * self.of.bounds_n[1] * tables.storey.per_block_mass
+                    && c2 + rest * (curvature - 2.0 * c2.abs()) < 0.0 =>
+            {
+                guess([c1, c2, c3, c4, 0.0])
+            }
+            _ => return End::Ambiguous,
+        };
+        if !(end_speed < 0.0) {
+            return End::Ambiguous;
+        }
+        for _ in 0..4 {
+            if !(t > 0.0 && t < rest) {
+                return End::Ambiguous;
+            }
+            let y = series.at(simd, t);
+            let derivatives = series.derivatives(simd, t);
+            let (g1, g2) =
+                (sign * derivatives[0].as_array()[1], sign * derivatives[1].as_array()[1]);
+            let d = halley(sign * y.as_array()[1], g1, g2);
+            t += d;
+            if d.abs() < SHORT {
+                let y = later(simd, y, derivatives, d);
+                return self.event::<true>(segment, at_sample, &series, (t, y), [force_n; 2]);
+            }
+        }
+        End::Ambiguous
+    }
+
+    /// Nothing happens up to the end of a segment.
+    #[inline(always)]
+    fn through<const SLIP: bool>(
+        &mut self,
+        segment: &Segment,
+        at_sample: bool,
+        series: &Series<S>,
+        x: f64x4<S>,
+        friction_n: [f64; 2],
+    ) -> End {
+        self.move_to::<SLIP>(segment, at_sample, series, (segment.span.rest, x), friction_n);
+        End::Piece
+    }
+
+    /// An event so many pieces after a segment's start, with the state there.
+    #[inline(always)]
+    fn event<const SLIP: bool>(
+        &mut self,
+        segment: &Segment,
+        at_sample: bool,
+        series: &Series<S>,
+        (t, x): (f64, f64x4<S>),
+        friction_n: [f64; 2],
+    ) -> End {
+        if !(t > AMBIGUOUS && t < segment.span.rest - AMBIGUOUS) {
+            return End::Ambiguous;
+        }
+        self.move_to::<SLIP>(segment, at_sample, series, (t, x), friction_n);
+        if SLIP {
+            (self.shared.x[1], self.shared.course.start) = (0.0, None);
+        }
+        End::Event(t)
+    }
+
+    #[inline(always)]
+    fn move_to<const SLIP: bool>(
+        &mut self,
+        segment: &Segment,
+        at_sample: bool,
+        series: &Series<S>,
+        (t, x): (f64, f64x4<S>),
+        friction_n: [f64; 2],
+    ) {
+        if at_sample {
+            self.record_now(segment.sample, 0.0, segment.mode);
+        }
+        self.look::<SLIP>(segment, series, x, t, friction_n);
+        *self.shared.x = x.to_array();
+    }
+
+    /// What follows the event at the end of a segment, under an acceleration; whether that is beyond doubt.
+    /// If not, nothing has happened.
+    #[inline(always)]
+    fn decide(&mut self, segment: &Segment, a: f64, at_s: f64) -> bool {
+        let (sample, storey) = (segment.sample, &self.of.tables.storey);
+        let at = Instant {
+            time_s: self.of.ground.times_s[sample] + at_s,
+            place_m: self.shared.x[0],
+            normal_n: self.of.normal_n,
+            mass_kg: storey.block_mass_kg,
+        };
+        let hold = self.shared.course.slider.hold(at.place_m);
+        let demand_n = storey.demand_n(self.shared.x, a);
+        if segment.mode == Mode::Stick {
+            let [low, high] = self.of.bounds_n;
+            let is_high = high - demand_n < demand_n - low;
+            let direction = if is_high { Direction::Negative } else { Direction::Positive };
+            self.shared.course.release(&at, &hold, direction, 1);
+        } else if !self.shared.course.stop(&at, &hold, demand_n, Some(AMBIGUOUS)) {
+            return false;
+        }
+        for mode in [segment.mode, self.shared.course.mode] {
+            self.record_now(sample, at_s, mode);
+        }
+        true
+    }
+}
+
+/// Whether a value that is positive at the start and negative at the end, with these derivatives at the
+/// start and a bound on the second, crosses zero once: it falls all the way, or is concave.
+#[inline(always)]
+fn crosses_once(slope: f64, second: f64, curvature: f64, rest: f64) -> bool {
+    slope + curvature * rest < 0.0 || second < -(curvature - second.abs())
+}
+
+/// First falling root by the terms up to the fourth power, or anything: that of the quadratic terms,
+/// where the slope is `−root`, corrected twice by the others.
+#[inline(always)]
+fn guess([c0, c1, c2, c3, c4]: [f64; 5]) -> f64 {
+    let root = (c1 * c1 - 4.0 * c0 * c2).sqrt();
+    let t = 2.0 * c0 / (root - c1);
+    let (per, t2) = (1.0 / root, t * t);
+    let first = (c3 + c4 * t) * (t2 * t) * per;
+    let change = (3.0 * c3 + 4.0 * (c4 * t)) * t2 + c2 * first;
+    t + (first + first * (change * per))
+}
+
+/// Halley's correction of a root.
+#[inline(always)]
+fn halley(g: f64, g1: f64, g2: f64) -> f64 {
+    -g * g1 / (g1 * g1 - 0.5 * (g * g2))
+}
+
+/// State a little later.
+#[inline(always)]
+fn later<S: Simd>(simd: S, y: f64x4<S>, [first, second]: [f64x4<S>; 2], d: f64) -> f64x4<S> {
+    y + (first * four(simd, d) + second * four(simd, 0.5 * (d * d)))
+}

@@ -1,0 +1,300 @@
+//! Screened propagation: batches of samples in which a bound shows that nothing happens.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x4, f64x8};
+
+use super::ahead::Ahead;
+use super::lanes::{BATCH, Four, combine4, eight, four, greatest, larger4, least, times4};
+use super::outputs::{BEHIND, BEHIND_ANY};
+use super::peaks::Samples;
+use crate::friction::Direction;
+use crate::linear::{QUIET, Window};
+use crate::response::Mode;
+use crate::solver::ground::{largest_change, largest_size};
+use crate::solver::outputs::output;
+use crate::solver::screen::clear_steps;
+
+/// A chord over a sample is off by this part of what one over a batch is.
+const PER_SAMPLE: f64 = 1.0 / (BATCH * BATCH) as f64;
+
+impl<S: Simd> Ahead<'_, '_, S> {
+    /// Takes samples of sliding; the first that the bounds leave open.
+    #[inline(always)]
+    pub(super) fn slide(&mut self, mut sample: usize, end: usize, direction: Direction) -> usize {
+        let (simd, tables) = (self.simd, self.of.tables);
+        let (of, mode) = (&tables.slip.gates.slack, Mode::Slip(direction));
+        let (sign, force_n) = (direction.sign(), self.force_n(mode));
+        let by_force = times4(simd, &of.of_force, force_n.abs());
+        let mut x = self.state();
+        let mut gates = self.gates::<true>(x, force_n);
+        while sample + BATCH <= end {
+            let a = self.window(sample);
+            let start = x.to_array();
+            let slack = (times4(simd, &of.of_norm, tables.storey.norm(&start))
+                + times4(simd, &of.of_acceleration, largest_size(simd, a)))
+                + (times4(simd, &of.of_change, largest_change(simd, a)) + by_force);
+            let next = self.after::<true>(BATCH, x, a, force_n);
+            let next_gates = self.gates::<true>(next, force_n);
+            let within = self.within(gates, slack) & self.within(next_gates, slack);
+            // (i) |ṡ| ≥ min of the ends − H²/8 max|g″|: it slides through.
+            let hidden = slack.as_array()[0];
+            let slides = sign * start[1] > hidden && sign * next.as_array()[1] > hidden;
+            let mut open = 0;
+            if self.several {
+                let most = larger4(gates.abs(), next_gates.abs()) + slack;
+                let s = greatest(start[0].abs(), next.as_array()[0].abs());
+                open = self.open_behind_several(most.to_array(), s, force_n);
+                // Only where it slides through is |s| at most that at the ends.
+                open |= u64::from(!slides) << output::SLIDER;
+            }
+            if slides && within.all_true() && open == 0 {
+                self.record::<true>(sample, BATCH, x, force_n);
+                (x, gates) = (next, next_gates);
+                sample += BATCH;
+                continue;
+            }
+            let open_gates = !within.to_bitmask() & 0b1111;
+            let mut steps = BATCH;
+            let mut speed = eight(simd, 0.0);
+            if !slides || open_gates & 1 != 0 {
+                speed = self.row::<true>(&tables.slip.rows[1], start, a, force_n);
+            }
+            if !slides {
+                let hidden = PER_SAMPLE * hidden;
+                let clear = (eight(simd, sign) * speed).simd_gt(eight(simd, hidden)).to_bitmask();
+                steps = clear_steps(clear, sign * start[1] > hidden);
+                if steps == 0 {
+                    break;
+                }
+            }
+            let slack = slack * four(simd, PER_SAMPLE);
+            let samples = Samples { sample, steps, mode, x: start };
+            open |= self.open_in_slip(&samples, a, force_n, open_gates, speed, slack);
+            open |= BEHIND_ANY * u64::from(!self.within(gates, slack).all_true());
+            if open != 0 {
+                self.look_over::<true>(&samples, open, slack);
+            }
+            self.record::<true>(sample, steps, x, force_n);
+            sample += steps;
+            if steps < BATCH {
+                x = self.after::<true>(steps, x, a, force_n);
+                break;
+            }
+            (x, gates) = (next, next_gates);
+        }
+        *self.shared.x = x.to_array();
+        sample
+    }
+
+    /// Outputs behind several gates that may pass their peaks where the gates and `s` are at most so large:
+    /// the slider force `T − K1 s − C1 ṡ`, and the overturning moment.
+    #[inline(always)]
+    fn open_behind_several(&self, gates: [f64; 4], s: f64, force_n: f64) -> u64 {
+        let (storey, [of_f, of_u]) = (&self.of.tables.storey, self.of.tables.shape.arms);
+        let peak = self.peak.as_array();
+        let restraint = storey.stiffness_n_per_m * s + storey.damper_n_s_per_m * gates[0];
+        let slider = force_n.abs() + restraint;
+        let moment = of_f.abs() * gates[2] + of_u.abs() * gates[3];
+        u64::from(!(slider <= peak[output::SLIDER])) << output::SLIDER
+            | u64::from(!(moment <= peak[output::OVERTURNING])) << output::OVERTURNING
+    }
+
+    /// Outputs behind those of the open gates that pass their limits at a sample, of which the speed is
+    /// known.
+    #[inline(always)]
+    fn open_in_slip(
+        &self,
+        samples: &Samples,
+        a: &Window,
+        force_n: f64,
+        open_gates: u64,
+        speed: f64x8<S>,
+        slack: f64x4<S>,
+    ) -> u64 {
+        let (simd, storey, start) = (self.simd, &self.of.tables.storey, samples.x);
+        let (rows, steps) = (&self.of.tables.slip.rows, samples.steps);
+        let (low, high) = ((self.low + slack).to_array(), (self.high - slack).to_array());
+        let limits: [[f64; 2]; 4] = core::array::from_fn(|i| [low[i], high[i]]);
+        let mut open = 0;
+        if open_gates & 0b0001 != 0 && passes(simd, speed, limits[0], steps) {
+            open |= BEHIND[0];
+        }
+        if open_gates & 0b0010 != 0 {
+            let eta = self.row::<true>(&rows[2], start, a, force_n);
+            if passes(simd, eta, limits[1], steps) {
+                open |= BEHIND[1];
+            }
+        }
+        if open_gates & 0b1100 != 0 {
+            let f = self.row::<true>(&rows[3], start, a, force_n);
+            if passes(simd, f, limits[2], steps) {
+                open |= BEHIND[2];
+            }
+            let mut push = eight(simd, storey.participation) * f + eight(simd, force_n);
+            if storey.stiffness_n_per_m != 0.0 {
+                let s = self.row::<true>(&rows[0], start, a, force_n);
+                push -= eight(simd, storey.stiffness_n_per_m) * s;
+            }
+            if storey.damper_n_s_per_m != 0.0 {
+                let w = self.row::<true>(&rows[1], start, a, force_n);
+                push -= eight(simd, storey.damper_n_s_per_m) * w;
+            }
+            let u = push * eight(simd, storey.per_block_mass);
+            if passes(simd, u, limits[3], steps) {
+                open |= BEHIND[3];
+            }
+        }
+        open
+    }
+
+    /// Takes samples of stick; the first that the bounds leave open.
+    #[inline(always)]
+    pub(super) fn rest(&mut self, mut sample: usize, end: usize) -> usize {
+        let (simd, tables) = (self.simd, self.of.tables);
+        let (of, quiet, storey) = (&tables.stick.gates.slack, &tables.quiet, &tables.storey);
+        let [low, high] = self.of.bounds_n;
+        let mut x = self.state();
+        let spring_n = storey.stiffness_n_per_m * self.shared.x[0];
+        let holds = least(high, -low) - spring_n.abs();
+        let mut limit = self.limits_in_stick(spring_n);
+        while sample + BATCH <= end {
+            let a = self.window(sample);
+            let start = x.to_array();
+            let amplitude = storey.amplitude(&start);
+            let size = largest_size(simd, a);
+            let base = times4(simd, &quiet.of_amplitude, amplitude);
+            let most = base + times4(simd, &quiet.of_acceleration[0], size);
+            let within = most.simd_le(limit);
+            let quiet_batch = within.all_true() && self.moment_stays(most);
+            if quiet_batch && most.as_array()[0] <= holds {
+                if sample + QUIET <= end {
+                    let mut far = size;
+                    for from in (sample + BATCH..sample + QUIET).step_by(BATCH) {
+                        far = greatest(far, largest_size(simd, self.window(from)));
+                    }
+                    let most = base + times4(simd, &quiet.of_acceleration[1], far);
+                    let stays = most.simd_le(limit).all_true() && self.moment_stays(most);
+                    if stays && most.as_array()[0] <= holds {
+                        self.record_quiet(sample, x);
+                        x = self.after_quiet(sample, x);
+                        sample += QUIET;
+                        continue;
+                    }
+                }
+                self.record::<false>(sample, BATCH, x, 0.0);
+                x = self.after::<false>(BATCH, x, a, 0.0);
+                sample += BATCH;
+                continue;
+            }
+            let slack = (times4(simd, &of.of_norm, amplitude)
+                + times4(simd, &of.of_acceleration, size))
+                + times4(simd, &of.of_change, largest_change(simd, a));
+            let hidden = storey.participation * slack.as_array()[2];
+            // Of the demand without the spring's part.
+            let demand = self.row::<false>(&tables.stick.rows[0], start, a, 0.0);
+            let clear = demand.simd_gt(eight(simd, (low - spring_n) + hidden))
+                & demand.simd_lt(eight(simd, (high - spring_n) - hidden));
+            let first = storey.demand_n(&start, a[0]);
+            let holds_first = first > low + hidden && first < high - hidden;
+            let steps = clear_steps(clear.to_bitmask(), holds_first);
+            if steps == 0 {
+                break;
+            }
+            if !quiet_batch {
+                let open_gates = !within.to_bitmask() & 0b1111;
+                let first_gates = self.gates::<false>(x, a[0]);
+                let mut open = BEHIND_ANY * u64::from(!self.within(first_gates, slack).all_true());
+                open |= u64::from(!self.moment_stays(most)) << output::OVERTURNING;
+                let (low, high) = ((self.low + slack).to_array(), (self.high - slack).to_array());
+                if open_gates & 0b0001 != 0 {
+                    let most = self.most_friction - hidden;
+                    let friction = demand + eight(simd, spring_n);
+                    if first.abs() > most || passes(simd, friction, [-most, most], steps) {
+                        open |= 1 << output::FRICTION;
+                    }
+                    let most = self.most_slider - hidden;
+                    if (first - spring_n).abs() > most || passes(simd, demand, [-most, most], steps)
+                    {
+                        open |= 1 << output::SLIDER;
+                    }
+                }
+                if open_gates & 0b0010 != 0 {
+                    let eta = self.row::<false>(&tables.stick.rows[2], start, a, 0.0);
+                    if passes(simd, eta, [low[1], high[1]], steps) {
+                        open |= BEHIND[1];
+                    }
+                }
+                if open_gates & 0b0100 != 0 {
+                    let f = self.row::<false>(&tables.stick.rows[3], start, a, 0.0);
+                    if passes(simd, f, [low[2], high[2]], steps) {
+                        open |= BEHIND[2];
+                    }
+                }
+                let u = f64x8::from_slice(simd, &a[1..]);
+                if open_gates & 0b1000 != 0 && passes(simd, u, [low[3], high[3]], steps) {
+                    open |= BEHIND[3];
+                }
+                if open != 0 {
+                    let samples = Samples { sample, steps, mode: Mode::Stick, x: start };
+                    self.look_over::<false>(&samples, open, slack);
+                    limit = self.limits_in_stick(spring_n);
+                }
+            }
+            self.record::<false>(sample, steps, x, 0.0);
+            sample += steps;
+            x = self.after::<false>(steps, x, a, 0.0);
+            if steps < BATCH {
+                break;
+            }
+        }
+        *self.shared.x = x.to_array();
+        sample
+    }
+
+    /// Sizes below which no output of stick passes its peak: of the demand without the spring's part, `η`,
+    /// `f` and `a`.
+    #[inline(always)]
+    fn limits_in_stick(&self, spring_n: f64) -> f64x4<S> {
+        let (low, high) = (self.low.to_array(), self.high.to_array());
+        let limits = [
+            least(self.most_friction - spring_n.abs(), self.most_slider),
+            high[1],
+            least(high[2], -low[2]),
+            least(high[3], -low[3]),
+        ];
+        Four(limits).load(self.simd)
+    }
+
+    /// Whether in stick the overturning moment stays below its peak under such sizes.
+    #[inline(always)]
+    fn moment_stays(&self, most: f64x4<S>) -> bool {
+        if !self.overturns {
+            return true;
+        }
+        let ([of_f, of_u], most) = (self.of.tables.shape.arms, most.to_array());
+        of_f.abs() * most[2] + of_u.abs() * most[3] <= self.peak.as_array()[output::OVERTURNING]
+    }
+
+    /// State after many samples of stick.
+    #[inline(always)]
+    fn after_quiet(&self, sample: usize, x: f64x4<S>) -> f64x4<S> {
+        let (simd, quiet) = (self.simd, &self.of.tables.quiet);
+        let acceleration = &self.of.ground.acceleration[sample..];
+        let Some(a) = acceleration.first_chunk::<{ QUIET + 1 }>() else { return x };
+        let mut sums = [four(simd, 0.0); 4];
+        for m in (0..QUIET).step_by(4) {
+            for i in 0..4 {
+                sums[i] += times4(simd, &quiet.tap[QUIET - 1 - m - i], a[1 + m + i]);
+            }
+        }
+        let load = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+        combine4(simd, &quiet.power, x) + (times4(simd, &quiet.first, a[0]) + load)
+    }
+}
+
+/// Whether one of the first samples of a batch passes some limits.
+#[inline(always)]
+fn passes<S: Simd>(simd: S, values: f64x8<S>, [low, high]: [f64; 2], steps: usize) -> bool {
+    let within = values.simd_ge(eight(simd, low)) & values.simd_le(eight(simd, high));
+    !within.to_bitmask() & ((1 << steps) - 1) != 0
+}

@@ -1,0 +1,375 @@
+//! Runs ahead of event stepping: evenly spaced samples eight at a time, as far as a bound shows that nothing
+//! happens in them. The first sample that this leaves open is handed back by returning.
+//!
+//! Within a sample a number departs from the chord between its values at both ends by no more than
+//! `h²/8` times the bound on its second derivative that [`Number`] names. Where that may exceed the
+//! peak attained so far the sample is kept as a candidate, which is settled by its series.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::super::outputs::output;
+use super::super::peaks::bound_between;
+use super::super::prepared::Job;
+use super::Stepping;
+use super::affine::{Affine, Configuration, Number};
+use crate::friction::Contact;
+use crate::linear::lanes::{eight, larger, largest_lane};
+use crate::linear::{BATCH, Force, Window};
+use crate::response::Mode;
+
+/// Candidates that are kept before they are settled.
+const CANDIDATES: usize = 512;
+
+/// A number at a sample and at the eight after it.
+pub(super) type Nine = [f64; BATCH + 1];
+
+/// What running ahead keeps from one stretch of samples to the next.
+#[derive(Default)]
+pub(super) struct Ahead {
+    pub(super) configurations: Vec<Configuration>,
+    candidates: Vec<Candidate>,
+    /// The states of candidates, one after another.
+    candidate_states: Vec<f64>,
+    /// The state at the first sample of a batch, padded.
+    x: Vec<f64>,
+    /// Components of the state and outputs at the samples of a batch.
+    states: Vec<Nine>,
+    outputs: Vec<Nine>,
+    margins: Vec<Margin>,
+}
+
+/// What is positive while nothing happens: `Σ factor × value + constant` of an output, or of `s` and `ṡ`.
+struct Margin {
+    of: MarginOf,
+    constant: f64,
+}
+
+enum MarginOf {
+    /// An output, by a factor.
+    Output(usize, f64),
+    /// `s`, which is monotone while the block slides: its value at a sample speaks for all before.
+    Level(f64),
+}
+
+/// A sample in which an output may have its peak.
+#[derive(Clone, Copy)]
+struct Candidate {
+    sample: usize,
+    configuration: usize,
+    output: usize,
+    bound: f64,
+    /// Place of the state at its start.
+    state: usize,
+}
+
+struct RunAhead<'r, 'a> {
+    stepping: &'r mut Stepping<'a>,
+    configuration: usize,
+    samples: [usize; 2],
+}
+
+impl Job for RunAhead<'_, '_> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> usize {
+        let Self { stepping, configuration, samples } = self;
+        let mut ahead = core::mem::take(&mut stepping.ahead);
+        let configurations = core::mem::take(&mut ahead.configurations);
+        let mut reached = samples[0];
+        if let Some(affine) = &configurations[configuration].affine {
+            reached = stepping.batches(simd, &mut ahead, (affine, configuration), samples);
+        }
+        ahead.configurations = configurations;
+        stepping.ahead = ahead;
+        reached
+    }
+}
+
+impl Stepping<'_> {
+    /// The first sample from one on that is left open.
+    pub(super) fn run_ahead(&mut self, sample: usize, last: usize) -> usize {
+        let end = self.ground.sampling.regular_end(sample, last);
+        if sample + BATCH > end || !self.may_run_ahead() {
+            return sample;
+        }
+        let Some(configuration) = self.configuration() else { return sample };
+        let instructions = self.instructions;
+        let reached =
+            instructions.run(RunAhead { stepping: self, configuration, samples: [sample, end] });
+        if self.ahead.candidates.len() > CANDIDATES {
+            self.settle_candidates();
+        }
+        reached
+    }
+
+    /// Whether nothing waits to be decided, and the block is at no stop.
+    fn may_run_ahead(&self) -> bool {
+        let waits = !self.pending.is_empty()
+            || self.near.is_some()
+            || matches!(self.slider.memory.contact, Contact::Pressed(_))
+            || self.leant
+            || self.slider.just.is_some()
+            || self.start.iter().any(Option::is_some);
+        !waits
+            && self.modes.iter().enumerate().all(|(i, mode)| match mode {
+                Mode::Slip(direction) => direction.sign() * self.velocity(i) > 0.0,
+                Mode::Stick => i > 0 || self.held().leans == [false; 2],
+            })
+    }
+
+    /// The output that says what a stuck interface is asked for, and between what it is held.
+    fn held_between(&self, interface: usize, normal_n: f64) -> (usize, [f64; 2]) {
+        let Some(i) = interface.checked_sub(1) else {
+            return (output::FRICTION, self.held().holds_n(normal_n));
+        };
+        let (slope, contents) = (self.peaks.slope_m_per_s2, &self.body.contents[i]);
+        let bound = contents.static_friction * (normal_n / self.body.total_kg);
+        (self.contents_acceleration_output(i), [-bound - slope, bound - slope])
+    }
+
+    /// What must stay positive in the present modes; false where that is more than values of the outputs.
+    fn find_margins(&self, margins: &mut Vec<Margin>) -> bool {
+        margins.clear();
+        let normal_n = self.ground.normal_at(0);
+        let mut push = |of, constant| margins.push(Margin { of, constant });
+        for (i, mode) in self.modes.iter().enumerate() {
+            match mode {
+                Mode::Slip(direction) => {
+                    push(MarginOf::Output(self.velocity_output(i), direction.sign()), 0.0);
+                }
+                Mode::Stick => {
+                    let (asked, [low, high]) = self.held_between(i, normal_n);
+                    push(MarginOf::Output(asked, 1.0), -low);
+                    push(MarginOf::Output(asked, -1.0), high);
+                }
+            }
+        }
+        if let Mode::Slip(direction) = self.modes[0] {
+            for exit in self.slider.law.exits(&self.slider.memory, direction).into_iter().flatten()
+            {
+                match [exit.of_s, exit.of_w] {
+                    [of_s, 0.0] => push(MarginOf::Level(of_s), exit.constant),
+                    [0.0, of_w] => push(MarginOf::Output(output::VELOCITY, of_w), exit.constant),
+                    _ => return false,
+                }
+            }
+        }
+        true
+    }
+
+    /// Takes samples up to `end`; the first that is left open.
+    #[inline(always)]
+    fn batches<S: Simd>(
+        &mut self,
+        simd: S,
+        ahead: &mut Ahead,
+        (affine, configuration): (&Affine, usize),
+        [mut sample, end]: [usize; 2],
+    ) -> usize {
+        let mut margins = core::mem::take(&mut ahead.margins);
+        if self.find_margins(&mut margins) {
+            let count = self.x.count();
+            ahead.x.resize(count.next_multiple_of(4), 0.0);
+            self.x.get(&mut ahead.x);
+            ahead.states.clear();
+            ahead.states.extend(ahead.x.iter().map(|x| [*x; BATCH + 1]));
+            let a = self.ground.acceleration[sample];
+            ahead.outputs.clear();
+            let start = affine.outputs.iter().map(|y| [y.at(&ahead.x, a); BATCH + 1]);
+            ahead.outputs.extend(start);
+            while sample + BATCH <= end && self.pulse.beat(self.units).is_ok() {
+                let steps = self.batch(simd, ahead, (affine, configuration), &margins, sample);
+                sample += steps;
+                if steps < BATCH {
+                    break;
+                }
+            }
+            self.x.set(&ahead.x[..count]);
+        }
+        ahead.margins = margins;
+        sample
+    }
+
+    /// Takes the samples of a batch up to the first that is left open; how many.
+    #[inline(always)]
+    fn batch<S: Simd>(
+        &mut self,
+        simd: S,
+        ahead: &mut Ahead,
+        (affine, configuration): (&Affine, usize),
+        margins: &[Margin],
+        sample: usize,
+    ) -> usize {
+        let Some(a) = self.ground.acceleration[sample..].first_chunk::<{ BATCH + 1 }>() else {
+            return 0;
+        };
+        for (i, row) in &affine.moving {
+            let values = row.values(simd, &ahead.x, a, Force::Constant(1.0));
+            values.store_slice(&mut ahead.states[*i][1..]);
+        }
+        for (number, y) in affine.outputs.iter().zip(&mut ahead.outputs) {
+            number.values(simd, &ahead.states, (a, 1), eight(simd, 0.0)).store_slice(&mut y[1..]);
+        }
+        let departure = Departure::new(simd, affine, &ahead.states, a);
+        let mut clear = u64::MAX;
+        for margin in margins {
+            clear &= match margin.of {
+                MarginOf::Output(j, factor) => {
+                    let y = &ahead.outputs[j];
+                    let slack = departure.of(simd, &affine.outputs[j]) * eight(simd, factor.abs());
+                    let slack = slack - eight(simd, margin.constant);
+                    let [first, last] = both_ends(simd, y);
+                    let factor = eight(simd, factor);
+                    let [first, last] = [first * factor, last * factor];
+                    (first.simd_gt(slack) & last.simd_gt(slack)).to_bitmask()
+                }
+                MarginOf::Level(factor) => {
+                    let s = f64x8::from_slice(simd, &ahead.states[0][1..]);
+                    let value = s * eight(simd, factor) + eight(simd, margin.constant);
+                    value.simd_gt(eight(simd, 0.0)).to_bitmask()
+                }
+            };
+        }
+        let steps = ((!clear).trailing_zeros() as usize).min(BATCH);
+        if steps == 0 {
+            return 0;
+        }
+        self.weigh(simd, ahead, (affine, configuration), (sample, steps), &departure);
+        self.store_samples(sample..sample + steps, [&ahead.states, &ahead.outputs]);
+        for list in [&mut ahead.states, &mut ahead.outputs] {
+            list.iter_mut().for_each(|nine| nine[0] = nine[steps]);
+        }
+        for (i, _) in &affine.moving {
+            ahead.x[*i] = ahead.states[*i][0];
+        }
+        steps
+    }
+
+    /// Looks at the outputs over samples, and keeps those as candidates that may hold a peak.
+    #[inline(always)]
+    fn weigh<S: Simd>(
+        &mut self,
+        simd: S,
+        ahead: &mut Ahead,
+        (affine, configuration): (&Affine, usize),
+        (sample, steps): (usize, usize),
+        departure: &Departure<S>,
+    ) {
+        let taken = u64::MAX >> (64 - steps);
+        let mut kept = [None; BATCH];
+        for (j, number) in affine.outputs.iter().enumerate() {
+            let y = &mut ahead.outputs[j];
+            // Samples that are not taken do not count.
+            let end = y[steps];
+            y[steps + 1..].fill(end);
+            let [first, last] = both_ends(simd, y);
+            let slack = departure.of(simd, number);
+            let attained = larger(first.abs(), last.abs());
+            let peak = &mut self.peaks.values[j];
+            let limit = eight(simd, *peak);
+            if (attained + slack).simd_le(limit).all_true() {
+                continue;
+            }
+            *peak = peak.max(largest_lane(simd, attained));
+            let bound = bound_between(simd, [first, last], slack);
+            // A few ulp are no more than the rounding of the values.
+            let open = bound.simd_gt(eight(simd, *peak * (1.0 + 1e-15)));
+            let (mut open, bound) = (open.to_bitmask() & taken, bound.to_array());
+            while open != 0 {
+                let k = open.trailing_zeros() as usize;
+                open &= open - 1;
+                let state = *kept[k].get_or_insert_with(|| {
+                    let place = ahead.candidate_states.len();
+                    ahead.candidate_states.extend(ahead.states.iter().map(|x| x[k]));
+                    place
+                });
+                let (sample, bound) = (sample + k, bound[k]);
+                let kept = Candidate { sample, configuration, output: j, bound, state };
+                ahead.candidates.push(kept);
+            }
+        }
+    }
+
+    /// Settles the candidates that are still in question, those that promise most first.
+    pub(super) fn settle_candidates(&mut self) {
+        let mut candidates = core::mem::take(&mut self.ahead.candidates);
+        let states = core::mem::take(&mut self.ahead.candidate_states);
+        let peaks = &self.peaks.values;
+        candidates.retain(|c| c.bound > peaks[c.output]);
+        let promise = |c: &Candidate| c.bound / peaks[c.output];
+        candidates.sort_by(|a, b| promise(b).total_cmp(&promise(a)));
+        for candidate in &candidates {
+            if candidate.bound > self.peaks.values[candidate.output] {
+                self.settle_candidate(candidate, &states);
+            }
+        }
+        candidates.clear();
+        self.ahead.candidates = candidates;
+        self.ahead.candidate_states = states;
+        self.ahead.candidate_states.clear();
+    }
+
+    /// Looks for peaks in the sample of a candidate by its series.
+    fn settle_candidate(&mut self, candidate: &Candidate, states: &[f64]) {
+        let Configuration { modes, memory, .. } =
+            &self.ahead.configurations[candidate.configuration];
+        let (modes, memory) = (modes.clone(), memory.clone());
+        let here = (
+            self.x.clone(),
+            core::mem::replace(&mut self.modes, modes),
+            core::mem::replace(&mut self.slider.memory, memory),
+            self.near.take(),
+        );
+        self.x.set(&states[candidate.state..][..self.x.count()]);
+        let sample = candidate.sample;
+        let to_s = self.ground.times_s[sample + 1] - self.ground.times_s[sample];
+        let stretch = self.ground.stretch(sample, 0.0, to_s);
+        let mut at_s = 0.0;
+        while at_s < to_s {
+            self.expand(&stretch, at_s);
+            let part = self.series.part;
+            self.move_to(part);
+            self.look(part);
+            at_s += part * self.series.unit_s;
+        }
+        (self.x, self.modes, self.slider.memory, self.near) = here;
+    }
+}
+
+/// The ends of eight intervals.
+#[inline(always)]
+fn both_ends<S: Simd>(simd: S, list: &Nine) -> [f64x8<S>; 2] {
+    [f64x8::from_slice(simd, &list[..BATCH]), f64x8::from_slice(simd, &list[1..])]
+}
+
+/// How far numbers depart from the chords over eight samples.
+struct Departure<S: Simd> {
+    /// `‖ẍ‖` and `|ȧ|`, times `h²/8`.
+    second: f64x8<S>,
+    jerk: f64x8<S>,
+}
+
+impl<S: Simd> Departure<S> {
+    #[inline(always)]
+    fn new(simd: S, affine: &Affine, states: &[Nine], a: &Window) -> Self {
+        let [first, last] = both_ends(simd, a);
+        let jerk = (last - first) * eight(simd, 1.0 / affine.dt_s);
+        let mut square = eight(simd, 0.0);
+        for number in &affine.second {
+            let value = number.values(simd, states, (a, 0), jerk);
+            square += value * value;
+        }
+        let reach = 0.125 * affine.dt_s * affine.dt_s;
+        Self {
+            second: square.sqrt() * eight(simd, affine.growth * reach),
+            jerk: jerk.abs() * eight(simd, reach),
+        }
+    }
+
+    #[inline(always)]
+    fn of(&self, simd: S, number: &Number) -> f64x8<S> {
+        eight(simd, number.norm) * self.second + eight(simd, number.of_jerk) * self.jerk
+    }
+}

@@ -1,0 +1,302 @@
+//! Corners in which several interfaces decide at one instant, or nothing presses.
+
+// Helpers of tests may panic as tests do.
+#![allow(clippy::expect_used)]
+
+mod common;
+
+use common::random_devices::{System, coincident, motion};
+use slipstick::check::check;
+use slipstick::input;
+use slipstick::model::{Contents, Devices, Model};
+use slipstick::motion::GroundMotion;
+use slipstick::numerics::random::Random;
+use slipstick::response::{Demands, Response};
+use slipstick::solver::exact;
+
+/// Part of the peak by which figures of systems that are the same but for rounding may differ.
+const SAME: f64 = 1e-8;
+
+fn model(slider: &str, more: &str) -> Model {
+    let text = format!("[block]\nmass = \"100 kg\"\n[slider]\n{slider}\n{more}");
+    input::parse("m.toml", &text, &[]).expect("a model").model
+}
+
+fn contents(mass_kg: f64, [static_friction, kinetic_friction]: [f64; 2]) -> String {
+    format!(
+        "[[contents]]\nfloor = 0\nmass = \"{mass_kg} kg\"\nstatic_friction = {static_friction}\n\
+         kinetic_friction = {kinetic_friction}\n"
+    )
+}
+
+fn friction([fixed, kinetic]: [f64; 2]) -> String {
+    format!("static_friction = {fixed}\nkinetic_friction = {kinetic}")
+}
+
+fn ground(times_s: &[f64], horizontal: &[f64], vertical: Option<&[f64]>) -> GroundMotion {
+    let vertical = vertical.map(<[f64]>::to_vec);
+    GroundMotion::new(times_s.to_vec(), horizontal.to_vec(), vertical).expect("a motion")
+}
+
+fn response(model: &Model, motion: &GroundMotion) -> Response {
+    exact(model, motion).expect("a response")
+}
+
+/// The first figure in which two answers differ by more than a part of its size, which is that of the
+/// first.
+fn difference(a: &Demands, b: &Demands, part: f64) -> Option<String> {
+    let size_m = a.peak_sliding_displacement_m.max(1e-6);
+    let mut list = vec![
+        ("peak s", a.peak_sliding_displacement_m, b.peak_sliding_displacement_m, size_m),
+        (
+            "residual s",
+            a.residual_sliding_displacement_m,
+            b.residual_sliding_displacement_m,
+            size_m,
+        ),
+        ("path", a.sliding_path_m, b.sliding_path_m, a.sliding_path_m.max(1e-6)),
+    ];
+    for (a, b) in a.contents.iter().zip(&b.contents) {
+        let size_m = a.peak_sliding_displacement_m.max(1e-6);
+        list.extend([
+            ("peak r", a.peak_sliding_displacement_m, b.peak_sliding_displacement_m, size_m),
+            (
+                "residual r",
+                a.residual_sliding_displacement_m,
+                b.residual_sliding_displacement_m,
+                size_m,
+            ),
+        ]);
+    }
+    let off = list.into_iter().find(|(_, a, b, size)| (a - b).abs() > part * size)?;
+    Some(format!("{}: {:e} and {:e}", off.0, off.1, off.2))
+}
+
+/// A model with the first of its contents cut in two.
+fn cut(model: &Model, part: f64) -> Model {
+    let mut list = model.devices().contents.clone();
+    let whole = list[0];
+    list[0].mass_kg = part * whole.mass_kg;
+    list.insert(1, Contents { mass_kg: (1.0 - part) * whole.mass_kg, ..whole });
+    let devices = Devices { contents: list, ..model.devices().clone() };
+    model.clone().with_devices(devices).expect("devices")
+}
+
+fn two_are_one(seeds: std::ops::Range<u64>) {
+    let mut wrong = Vec::new();
+    for seed in seeds {
+        let System { model, .. } = &coincident(seed);
+        let motion = motion(&coincident(seed), 1.0);
+        let (one, two) = (response(model, &motion), response(&cut(model, 0.375), &motion));
+        let mut demands = two.demands.clone();
+        let twin = demands.contents.remove(1);
+        if twin != demands.contents[0] {
+            wrong.push(format!("{seed}: the two part"));
+        }
+        wrong.extend(difference(&one.demands, &demands, SAME).map(|off| format!("{seed}: {off}")));
+    }
+    assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+#[test]
+fn prop_two_equal_items_are_one_of_their_mass() {
+    two_are_one(0..100);
+}
+
+#[test]
+#[ignore = "a minute: cargo test -p slipstick --test corners -- --ignored"]
+fn prop_two_equal_items_are_one_of_their_mass_in_many_models() {
+    two_are_one(0..1000);
+}
+
+/// Block and contents with one coefficient slide as one: neither lets the other go.
+#[test]
+fn exact_contents_with_the_sliders_friction_stay() {
+    for (mu, mass_kg) in [(0.1, 20.0), (0.05, 50.0), (0.15, 160.0)] {
+        for list in [
+            [0.0, -0.2, -3.7, 0.4, 2.9],
+            [0.0, 1.3, -3.1, -2.7, 0.0],
+            [0.0, -2.8, 2.7, -0.1, 2.5],
+            [2.0, 2.7, -2.6, 1.0, 0.0],
+        ] {
+            let motion = ground(&[0.0, 0.5, 1.0, 1.5, 2.0], &list, None);
+            let both = model(&friction([mu; 2]), &contents(mass_kg, [mu; 2]));
+            let found = response(&both, &motion);
+            let alone = response(&model(&friction([mu; 2]), ""), &motion);
+            let (d, e) = (&found.demands, &alone.demands);
+            assert_eq!((d.contents[0].slip_count, d.contents[0].sliding_path_m), (0, 0.0));
+            assert_eq!((d.slip_count, d.stick_count), (e.slip_count, e.stick_count));
+            let off = (d.peak_sliding_displacement_m - e.peak_sliding_displacement_m).abs();
+            assert!(off <= 1e-13 * e.peak_sliding_displacement_m, "{d:?} {e:?}");
+        }
+    }
+}
+
+/// Contents slide at 0.065 g, where the block could still hold them: the block keeps still.
+#[test]
+fn exact_contents_that_let_go_hold_the_block_back() {
+    let slider = friction([0.438, 0.373]);
+    let model = model(&slider, &contents(7.4, [0.066; 2]));
+    let jump = response(&model, &ground(&[0.0, 0.5, 1.0], &[4.3, 4.3, 0.0], None));
+    assert_eq!(jump.demands.slip_count, 0);
+    let later = ground(&[0.0, 0.25, 0.25, 0.5, 1.0], &[0.0, 0.0, 4.3, 4.3, 0.0], None);
+    assert_eq!(response(&model, &later).demands.slip_count, 0);
+}
+
+/// A motion with each jump as a ramp of this length.
+fn ramped(system: &System, ramp_s: f64) -> GroundMotion {
+    let (mut times_s, mut values) = (vec![0.0], vec![0.0]);
+    let mut last_s = f64::NEG_INFINITY;
+    for (time_s, value) in system.times_s.iter().zip(&system.horizontal) {
+        if *time_s == last_s || (*time_s == 0.0 && *value != 0.0) {
+            times_s.push(time_s + ramp_s);
+        } else if *time_s > 0.0 {
+            times_s.push(*time_s);
+        } else {
+            continue;
+        }
+        values.push(*value);
+        last_s = *time_s;
+    }
+    ground(&times_s, &values, None)
+}
+
+/// Whether a sliding block may carry contents with just their own kinetic friction: the velocity that a
+/// ramp gave them then stays. In the limit it is zero, and they stick.
+fn keeps_a_velocity(model: &Model) -> bool {
+    let [kinetic, _] = model.kinetic_friction();
+    let has_drop = |c: &Contents| c.static_friction > c.kinetic_friction;
+    let contents = &model.devices().contents;
+    contents.iter().any(|c| c.kinetic_friction == kinetic)
+        && (model.static_friction()[0] > kinetic || contents.iter().any(has_drop))
+}
+
+fn jumps_are_ramps(seeds: std::ops::Range<u64>) {
+    let (mut wrong, mut compared, mut known) = (Vec::new(), 0, 0);
+    for seed in seeds {
+        let system = coincident(seed);
+        if keeps_a_velocity(&system.model) {
+            continue;
+        }
+        known += 1;
+        let jump = response(&system.model, &motion(&system, 1.0)).demands;
+        let [coarse, fine, finer] = [1e-6, 1e-8, 1e-9]
+            .map(|ramp_s| response(&system.model, &ramped(&system, ramp_s)).demands);
+        // Ramps that do not agree with each other tell nothing of their limit.
+        if difference(&finer, &coarse, 1e-3).or(difference(&finer, &fine, 1e-5)).is_some() {
+            continue;
+        }
+        compared += 1;
+        wrong.extend(difference(&finer, &jump, 1e-5).map(|off| format!("{seed}: {off}")));
+    }
+    assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(10 * compared >= 9 * known, "{compared} of {known} compared");
+}
+
+#[test]
+fn prop_a_jump_is_the_limit_of_steep_ramps() {
+    jumps_are_ramps(0..100);
+}
+
+#[test]
+#[ignore = "minutes: cargo test -p slipstick --test corners -- --ignored"]
+fn prop_a_jump_is_the_limit_of_steep_ramps_in_many_models() {
+    jumps_are_ramps(0..3000);
+}
+
+/// Vertical motion that takes the contact away, and nothing that pushes: nothing slides.
+#[test]
+fn exact_contact_lost_without_horizontal_motion_moves_nothing() {
+    let motion = ground(&[0.0, 1.0, 2.0, 3.0], &[0.0; 4], Some(&[0.0, -30.0, -12.0, 5.0]));
+    let slider = friction([0.2, 0.15]);
+    for (slider, more) in [
+        (slider.clone(), contents(20.0, [0.3, 0.2])),
+        (format!("{slider}\nradius = \"2 m\""), String::new()),
+        (slider.clone(), "[slider.stop]\ngap = \"0.1 m\"\nrestitution = 0.5\n".to_owned()),
+        (slider, String::new()),
+    ] {
+        let found = response(&model(&slider, &more), &motion);
+        assert_eq!(found.demands.sliding_path_m, 0.0, "{slider} {more}");
+        assert!(found.events.is_empty(), "{:?}", found.events);
+    }
+}
+
+/// The same for a block alone, wherever in its interval contact is lost.
+#[test]
+fn exact_contact_lost_anywhere_moves_nothing() {
+    let block = model(&friction([0.2; 2]), "");
+    for depth in 10..60 {
+        let up = [0.0, -f64::from(depth), -f64::from(depth)];
+        let found = response(&block, &ground(&[0.0, 1.0, 2.0], &[0.0; 3], Some(&up)));
+        assert!(found.events.is_empty(), "{depth}: {:?}", found.events);
+    }
+}
+
+/// Motions far below all that friction holds, but for the instants at which contact is lost and regained.
+#[test]
+fn prop_tiny_motions_across_lost_contact_do_not_chatter() {
+    let surface = "[[slider.surface]]\nfriction = 0.2\n".to_owned();
+    for seed in 0..60 {
+        let r = &mut Random::new(seed);
+        let mut draw =
+            |size: f64| -> Vec<f64> { (0..40).map(|_| size * (2.0 * r.uniform() - 1.0)).collect() };
+        let size = [1e-14, 1e-10, 1e-7][seed as usize % 3];
+        let (horizontal, up) = (draw(size), draw(25.0));
+        let times_s: Vec<f64> = (0..40).map(|k| f64::from(k) / 32.0).collect();
+        let motion = ground(&times_s, &horizontal, Some(&up));
+        for (slider, more) in [
+            (friction([0.2, 0.15]), contents(20.0, [0.3, 0.2])),
+            (format!("{}\nradius = \"2 m\"", friction([0.2; 2])), contents(20.0, [0.2; 2])),
+            (String::new(), surface.clone()),
+        ] {
+            let found = response(&model(&slider, &more), &motion);
+            assert!(found.events.len() < 400, "{seed}: {} events", found.events.len());
+        }
+    }
+}
+
+/// Pressed against a rigid stop from the start: in contact all the time.
+#[test]
+fn exact_rest_at_a_rigid_stop_from_the_start_is_contact() {
+    let stop = "[slider.stop]\ngap = { positive = \"0.1 m\", negative = \"0.1 m\" }\n\
+                restitution = 0.5\n[initial]\nsliding_displacement = \"0.1 m\"\n";
+    let model = model(&friction([0.1; 2]), stop);
+    let found = response(&model, &ground(&[0.0, 0.5, 1.0], &[-2.0, -3.0, -2.0], None));
+    let stop = found.demands.stop.expect("a stop");
+    assert_eq!((stop.contact_time_s, found.demands.sliding_path_m), (1.0, 0.0));
+}
+
+/// A vertical record of zeros is none.
+#[test]
+fn exact_vertical_zeros_change_nothing() {
+    let text = format!("{}\nradius = \"2 m\"\ntilt = \"60 mrad\"", friction([0.05, 0.04]));
+    let model = model(&text, "");
+    let times_s: Vec<f64> = (0..200).map(|k| 0.02 * f64::from(k)).collect();
+    let values: Vec<f64> = times_s.iter().map(|t| 3.0 * libm::sin(4.0 * t)).collect();
+    let without = response(&model, &ground(&times_s, &values, None));
+    let with = response(&model, &ground(&times_s, &values, Some(&[0.0; 200])));
+    assert!(difference(&without.demands, &with.demands, 1e-11).is_none());
+}
+
+/// Both sides of a jump count, at the very end too: what is asked of friction there, and what lets go.
+#[test]
+fn exact_a_jump_at_the_end_counts() {
+    let held = friction([0.2, 0.2]);
+    let plain = model(&held, "");
+    let loaded = model(&held, &contents(20.0, [0.5, 0.4]));
+    for (model, mass_kg) in [(plain, 100.0), (loaded, 120.0)] {
+        let jump = |a: f64| response(&model, &ground(&[0.0, 0.5, 0.5], &[0.1, 0.1, a], None));
+        let still = jump(-0.5);
+        assert_eq!(still.demands.peak_friction_force_n, 0.5 * mass_kg);
+        assert_eq!(
+            (still.demands.slip_count, still.demands.peak_block_acceleration_m_per_s2),
+            (0, 0.5)
+        );
+        let gone = jump(-3.0);
+        assert_eq!((gone.demands.slip_count, gone.demands.sliding_path_m), (1, 0.0));
+        for (response, a) in [(still, -0.5), (gone, -3.0)] {
+            let motion = ground(&[0.0, 0.5, 0.5], &[0.1, 0.1, a], None);
+            assert!(check(&model, &motion, &response).holds(), "{a}");
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! Runs as a table that says of which measure their levels are.
+
+use std::path::{Path, PathBuf};
+
+use slipstick::input::plan::{Levels, Plan};
+
+use super::part::part_of_name;
+use super::parts::MANIFEST;
+use crate::error::FileError;
+use crate::read::read_bytes;
+use crate::table::{ReadTable, read_table};
+
+/// The column of that measure.
+const MEASURE: &str = "measure";
+
+/// Runs in CSV or Parquet as one table. A study says in its manifest what its records were scaled to,
+/// and its table is given that as a column.
+///
+/// # Errors
+/// As [`read_table`].
+pub fn read_runs(files: &[PathBuf]) -> Result<ReadTable, FileError> {
+    let mut read = read_table(files)?;
+    if read.table.find(MEASURE).is_none()
+        && read.table.find("level").is_some()
+        && let Some(measure) = measure_of_levels(&read.path)
+    {
+        let rows = read.table.rows();
+        read.table.texts(MEASURE, vec![measure; rows]);
+    }
+    Ok(read)
+}
+
+/// What the records of a study were scaled to, from the manifest that stands beside the folder of a part.
+fn measure_of_levels(part: &Path) -> Option<String> {
+    part_of_name(part.file_name()?.to_str()?)?;
+    let folder = part.parent()?;
+    let beside = [folder.join("..").join(MANIFEST), folder.join(MANIFEST)];
+    let manifest = beside.iter().find_map(|path| read_bytes(path).ok())?;
+    let manifest: serde_json::Value = serde_json::from_slice(&manifest).ok()?;
+    let plan = Plan::parse(MANIFEST, manifest.get("plan")?.as_str()?).ok()?;
+    match plan.records?.levels {
+        Levels::Measure { measure, .. } => Some(measure.to_string()),
+        Levels::Factors(_) => None,
+    }
+}
+
+/// The limit that an incremental dynamic analysis was run for, from the summary in its folder; `None`
+/// where it was another demand's.
+#[must_use]
+pub fn limit_of_ida(folder: &Path, demand: &str) -> Option<f64> {
+    let summary = read_bytes(&folder.join("summary.json")).ok()?;
+    let summary: serde_json::Value = serde_json::from_slice(&summary).ok()?;
+    (summary.get("demand")?.as_str()? == demand).then(|| summary.get("limit")?.as_f64())?
+}
