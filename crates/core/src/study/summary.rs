@@ -112,6 +112,9 @@ pub type Take<'t, V> = &'t mut dyn FnMut(u64, V);
 /// Passes over one of several columns of numbers.
 pub type Passes<'a, E> = dyn Fn(usize, Take<'_, f64>) -> Result<(), E> + Sync + 'a;
 
+/// Passes over a column of texts, in order.
+pub type PassesOfTexts<'a, E> = dyn Fn(&mut dyn FnMut(u64, &str)) -> Result<(), E> + Sync + 'a;
+
 /// Rows of a study, wherever they are kept, column by column; each is passed over several times.
 pub struct Rows<'a, E> {
     /// Whether each run has an answer.
@@ -119,7 +122,7 @@ pub struct Rows<'a, E> {
     /// The values of the demand at an index of [`Study::shape`]'s columns, NaN where there is none.
     pub demand: &'a Passes<'a, E>,
     /// The warnings of each run, joined by `;`.
-    pub warnings: &'a (dyn Fn(&mut dyn FnMut(u64, &str)) -> Result<(), E> + Sync),
+    pub warnings: &'a PassesOfTexts<'a, E>,
 }
 
 impl Study {

@@ -63,7 +63,7 @@ impl Sketch {
 /// devices under a few samples.
 pub fn system(seed: u64) -> Sketch {
     let random = &mut Random::new(3_000_017 + seed);
-    if seed % 2 == 0 {
+    if seed.is_multiple_of(2) {
         return Sketch::sensible(random);
     }
     let mut x = Sketch::shaken(random);
@@ -72,6 +72,10 @@ pub fn system(seed: u64) -> Sketch {
 }
 
 /// The seeds that `SLIPSTICK_SEEDS=0..5000` asks for, else others.
+#[allow(
+    clippy::disallowed_methods,
+    reason = "tests are told which seeds to run by their environment"
+)]
 pub fn seeds(others: Range<u64>) -> Range<u64> {
     let given = std::env::var("SLIPSTICK_SEEDS").unwrap_or_default();
     let range = given.split_once("..");
