@@ -83,7 +83,7 @@ fn given(name: &'static str) -> Vec<(&'static str, Json)> {
 }
 
 fn key(key: &Key) -> Json {
-    let mut entries = vec![("description", description(key))];
+    let mut entries = vec![("description", Json::text(key.doc))];
     match &key.kind {
         Kind::Text(example) => {
             entries.extend([("type", Json::text("string")), ("minLength", Json::Number(1.0))]);
@@ -154,11 +154,6 @@ fn key(key: &Key) -> Json {
         Kind::Special(special) => entries.extend(self::special(*special)),
     }
     Json::Object(entries)
-}
-
-/// What a key means, and what a pattern cannot say of its value.
-fn description(key: &Key) -> Json {
-    Json::text(key.doc)
 }
 
 fn special(special: Special) -> Vec<(&'static str, Json)> {

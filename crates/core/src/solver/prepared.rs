@@ -259,10 +259,9 @@ fn solve(
     {
         let (work, limit) = (rate_s_per_m * absolute_velocity(motion), FADING_LIMIT);
         if !(work <= limit) {
-            let advice =
-                "friction changes within a hair of no speed; take one coefficient, or check \
+            let advice = "friction changes within a hair of rest; take one coefficient, or check \
                           the rate"
-                    .to_owned();
+                .to_owned();
             return Err(SolveError::TooMuchWork { work, limit, advice });
         }
     }
@@ -359,8 +358,6 @@ fn stepped(
     })
 }
 
-/// What makes an analysis long, and what to do: a link that is rigid beside the motion's steps, a gap
-/// in the motion, or the length of both.
 /// `∫|Ü| dt` by the trapezoidal rule, in m/s.
 fn absolute_velocity(motion: &GroundMotion) -> f64 {
     let (times_s, a) = (motion.times_s(), motion.horizontal_m_per_s2());
@@ -368,6 +365,8 @@ fn absolute_velocity(motion: &GroundMotion) -> f64 {
     intervals.map(|(t, a)| 0.5 * (a[0].abs() + a[1].abs()) * (t[1] - t[0])).sum()
 }
 
+/// What makes an analysis long, and what to do: a link that is rigid beside the motion's steps, a gap
+/// in the motion, or the length of both.
 fn advice(model: &Model, motion: &GroundMotion, rate: f64) -> String {
     let steps = || motion.times_s().windows(2).map(|t| t[1] - t[0]).filter(|&h| h > 0.0);
     let usual_s = upper_median(steps()).unwrap_or(0.0);
