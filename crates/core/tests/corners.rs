@@ -7,6 +7,7 @@ mod common;
 
 use common::random_devices::{System, coincident, motion};
 use slipstick::check::check;
+use slipstick::error::SolveError;
 use slipstick::input;
 use slipstick::model::{Contents, Devices, Model};
 use slipstick::motion::GroundMotion;
@@ -298,5 +299,26 @@ fn exact_a_jump_at_the_end_counts() {
             let motion = ground(&[0.0, 0.5, 0.5], &[0.1, 0.1, a], None);
             assert!(check(&model, &motion, &response).holds(), "{a}");
         }
+    }
+}
+
+/// Friction that changes within a hair of rest is refused, whatever units make the rate a large number.
+#[test]
+fn a_rate_of_friction_is_limited_by_the_fading_of_the_motion() {
+    let answer = |rate_s_per_m: f64, velocity_m_per_s: f64| {
+        let slider = format!(
+            "static_friction = 0.05\nkinetic_friction = {{ slow = 0.04, fast = 0.08, rate = \"{rate_s_per_m} s/m\" }}"
+        );
+        let a = velocity_m_per_s / 0.5;
+        let pulse = ground(&[0.0, 0.25, 0.5, 1.0], &[0.0, a, -a, 0.0], None);
+        exact(&model(&slider, ""), &pulse)
+    };
+    for (rate_s_per_m, velocity_m_per_s) in [(1e8, 1.0), (1e12, 1e-4), (1e30, 1.0)] {
+        let found = answer(rate_s_per_m, velocity_m_per_s);
+        let refused = matches!(&found, Err(SolveError::TooMuchWork { limit, .. }) if *limit == 1e5);
+        assert!(refused, "{rate_s_per_m} s/m: {found:?}");
+    }
+    for (rate_s_per_m, velocity_m_per_s) in [(100.0, 1.0), (1e8, 1e-6)] {
+        assert!(answer(rate_s_per_m, velocity_m_per_s).is_ok(), "{rate_s_per_m} s/m");
     }
 }

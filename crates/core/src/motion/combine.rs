@@ -144,21 +144,18 @@ impl GroundMotion {
         let mut along = Vec::with_capacity(capacity);
         let mut normal = Vec::with_capacity(capacity);
         while let Some(t) = earlier(horizontal.next_s(), vertical.next_s(), slack_s) {
-            let [left, right] = [horizontal.limits(t), vertical.limits(t)];
-            let jumps = left[0] != left[1] || right[0] != right[1];
-            let last = horizontal.next_s().is_none() && vertical.next_s().is_none();
-            let first = times_s.is_empty();
-            // Before the first sample and after the last both are 0 without being told.
-            let sides = match (first, last) {
-                (true, _) => 1..2,
-                (_, true) => 0..1,
-                _ if jumps => 0..2,
-                _ => 0..1,
-            };
-            for side in sides {
+            let mut limits = [horizontal.limits(t), vertical.limits(t)];
+            let has_ended = [&horizontal, &vertical].map(|reader| reader.next_s().is_none());
+            if has_ended != [true; 2] {
+                for (limits, has_ended) in limits.iter_mut().zip(has_ended) {
+                    limits[1] = if has_ended { 0.0 } else { limits[1] };
+                }
+            }
+            let jumps = limits.iter().any(|[left, right]| left != right);
+            for side in 0..1 + usize::from(jumps) {
                 times_s.push(t);
-                along.push(left[side]);
-                normal.push(right[side]);
+                along.push(limits[0][side]);
+                normal.push(limits[1][side]);
             }
         }
         Ok((Self::new(times_s, along, Some(normal))?, differ))
@@ -226,7 +223,8 @@ impl<'a> Reader<'a> {
         self.times_s.get(self.next).copied()
     }
 
-    /// Limits from the left and the right at `t`, which may be no later than the next sample.
+    /// Limits from the left and the right at `t`, which may be no later than the next sample; after
+    /// the last 0.
     fn limits(&mut self, t: f64) -> [f64; 2] {
         let i = self.next;
         let at = |k: usize| self.times_s.get(k).is_some_and(|s| (s - t).abs() <= self.slack_s);
@@ -242,9 +240,7 @@ impl<'a> Reader<'a> {
         }
         let last = (i..).take_while(|&k| at(k)).last().unwrap_or(i);
         self.next = last + 1;
-        let left = if i == 0 { 0.0 } else { self.values[i] };
-        let right = if self.next == self.values.len() { 0.0 } else { self.values[last] };
-        [left, right]
+        [self.values[i], self.values[last]]
     }
 }
 
@@ -370,6 +366,18 @@ mod tests {
         assert_eq!(both.vertical_m_per_s2().unwrap(), [0.0, 1.0, 1.0, 2.0]);
         let (both, _) = v.with_vertical(&h, 1.0).unwrap();
         assert_eq!(both.vertical_m_per_s2().unwrap(), [1.0, 1.0, -1.0, -1.0]);
+    }
+
+    /// What a jump at either end leaves stays, as without a vertical component.
+    #[test]
+    fn jumps_at_both_ends_stay() {
+        let h = motion(&[0.0, 0.0, 1.0, 1.0], &[1.0, 2.0, 2.0, 3.0]);
+        let zeros = motion(&[0.0, 1.0], &[0.0, 0.0]);
+        let (both, _) = h.with_vertical(&zeros, 1.0).unwrap();
+        assert_eq!(both.times_s(), h.times_s());
+        assert_eq!(both.horizontal_m_per_s2(), h.horizontal_m_per_s2());
+        let (both, _) = zeros.with_vertical(&h, 1.0).unwrap();
+        assert_eq!(both.vertical_m_per_s2().unwrap(), h.horizontal_m_per_s2());
     }
 
     /// Times that differ by rounding alone are one time: no interval of 1e-17 s.
