@@ -27,7 +27,7 @@ use crate::friction::Direction;
 use crate::model::{Model, Stop, StopKind};
 use crate::motion::GroundMotion;
 use crate::progress::{GoOn, Pulse, UNWATCHED};
-use crate::response::{History, Response};
+use crate::response::{History, Response, interface_name};
 
 /// Radians beyond which the phase of the fastest mode says nothing: every interval is divided into
 /// steps of half a radian, so this also bounds the work.
@@ -42,8 +42,28 @@ pub struct ClosestCall {
     pub time_s: f64,
     /// `stop`: the demand where the block came to rest, `||demand| − bound|/bound`; `stick`: a maximum
     /// of the demand while it held, `1 − |demand|/bound`; `slip`: a minimum of `|ṡ|` over its peak in
-    /// that slip, where `μ_k < μ_s`.
+    /// that slip, where `μ_k < μ_s`; `impact`, `miss`: of a rigid stop, the speed over the largest and
+    /// the way left over the gap; `join`: of surfaces in series, the force left to the next one.
     pub kind: &'static str,
+    /// What decided: the slider (0) or contents counted from 1.
+    pub interface: usize,
+}
+
+impl ClosestCall {
+    /// What decided, as files name it: `slider`, `contents.1`.
+    #[must_use]
+    pub fn interface_name(&self) -> String {
+        interface_name(self.interface)
+    }
+
+    /// Its kind, with the item if it is not the slider's: `stop`, `stop of contents.1`.
+    #[must_use]
+    pub fn decision(&self) -> String {
+        match self.interface {
+            0 => self.kind.to_owned(),
+            _ => format!("{} of {}", self.kind, self.interface_name()),
+        }
+    }
 }
 
 /// Figures that certify a response.

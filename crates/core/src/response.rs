@@ -107,10 +107,15 @@ impl Event {
     /// Where it happened, as files name it: `slider`, `contents.1`.
     #[must_use]
     pub fn interface_name(&self) -> String {
-        match self.interface {
-            0 => "slider".to_owned(),
-            contents => format!("contents.{contents}"),
-        }
+        interface_name(self.interface)
+    }
+}
+
+/// What an interface is called in files: `slider`, `contents.1`.
+pub(crate) fn interface_name(interface: usize) -> String {
+    match interface {
+        0 => "slider".to_owned(),
+        contents => format!("contents.{contents}"),
     }
 }
 

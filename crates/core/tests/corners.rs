@@ -43,6 +43,14 @@ fn response(model: &Model, motion: &GroundMotion) -> Response {
     exact(model, motion).expect("a response")
 }
 
+/// The figures of a certificate that does not hold.
+fn alarm(model: &Model, motion: &GroundMotion, response: &Response) -> Option<String> {
+    let c = check(model, motion, response);
+    let figures =
+        [c.equilibrium_residual, c.friction_excess, c.energy_balance_error, c.demands_error];
+    (!c.holds()).then(|| format!("{figures:?}"))
+}
+
 /// The first figure in which two answers differ by more than a part of its size, which is that of the
 /// first.
 fn difference(a: &Demands, b: &Demands, part: f64) -> Option<String> {
@@ -174,6 +182,7 @@ fn keeps_a_velocity(model: &Model) -> bool {
 
 fn jumps_are_ramps(seeds: std::ops::Range<u64>) {
     let (mut wrong, mut compared, mut known) = (Vec::new(), 0, 0);
+    let mut alarms = Vec::new();
     for seed in seeds {
         let system = coincident(seed);
         if keeps_a_velocity(&system.model) {
@@ -181,8 +190,13 @@ fn jumps_are_ramps(seeds: std::ops::Range<u64>) {
         }
         known += 1;
         let jump = response(&system.model, &motion(&system, 1.0)).demands;
-        let [coarse, fine, finer] = [1e-6, 1e-8, 1e-9]
-            .map(|ramp_s| response(&system.model, &ramped(&system, ramp_s)).demands);
+        let [coarse, fine, finer] = [1e-6, 1e-8, 1e-9].map(|ramp_s| {
+            let motion = ramped(&system, ramp_s);
+            let found = response(&system.model, &motion);
+            let alarm = alarm(&system.model, &motion, &found);
+            alarms.extend(alarm.map(|c| format!("{seed}, a ramp of {ramp_s} s: {c}")));
+            found.demands
+        });
         // Ramps that do not agree with each other tell nothing of their limit.
         if difference(&finer, &coarse, 1e-3).or(difference(&finer, &fine, 1e-5)).is_some() {
             continue;
@@ -192,6 +206,7 @@ fn jumps_are_ramps(seeds: std::ops::Range<u64>) {
     }
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
     assert!(10 * compared >= 9 * known, "{compared} of {known} compared");
+    assert!(alarms.is_empty(), "{} alarms:\n{}", alarms.len(), alarms.join("\n"));
 }
 
 #[test]
@@ -236,6 +251,7 @@ fn exact_contact_lost_anywhere_moves_nothing() {
 /// Motions far below all that friction holds, but for the instants at which contact is lost and regained.
 #[test]
 fn prop_tiny_motions_across_lost_contact_do_not_chatter() {
+    let mut alarms = Vec::new();
     let surface = "[[slider.surface]]\nfriction = 0.2\n".to_owned();
     for seed in 0..60 {
         let r = &mut Random::new(seed);
@@ -250,10 +266,13 @@ fn prop_tiny_motions_across_lost_contact_do_not_chatter() {
             (format!("{}\nradius = \"2 m\"", friction([0.2; 2])), contents(20.0, [0.2; 2])),
             (String::new(), surface.clone()),
         ] {
-            let found = response(&model(&slider, &more), &motion);
+            let model = model(&slider, &more);
+            let found = response(&model, &motion);
             assert!(found.events.len() < 400, "{seed}: {} events", found.events.len());
+            alarms.extend(alarm(&model, &motion, &found).map(|c| format!("{seed}: {c}")));
         }
     }
+    assert!(alarms.is_empty(), "{} alarms:\n{}", alarms.len(), alarms.join("\n"));
 }
 
 /// Pressed against a rigid stop from the start: in contact all the time.

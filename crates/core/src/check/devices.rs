@@ -91,6 +91,12 @@ pub(super) struct Judge<'a> {
     still: f64,
     /// Largest `N`.
     normal: f64,
+    /// Rounding of a time, and the largest `N`.
+    blur: (f64, f64),
+    /// What the rounding of times makes of a force at an event at most.
+    unsure_n: f64,
+    /// What the rounding of `N` makes of places and velocities in an interval at most.
+    drift: [f64; 2],
     displacement: [f64; 2],
     velocity: [f64; 2],
     force: [f64; 2],
@@ -98,7 +104,8 @@ pub(super) struct Judge<'a> {
     excess: f64,
     energy: Energy,
     closest: Option<ClosestCall>,
-    dips: Dips,
+    /// Near decisions of the phases under way, by interface.
+    dips: Vec<Dips>,
     /// How the slip went that has led to the present knot, and `s` where it began.
     arriving: Option<(Sliding, f64)>,
     own: Own,
@@ -132,6 +139,9 @@ pub(super) fn certificate(
         jolt: 0.0,
         still: 0.0,
         normal,
+        blur: (8.0 * f64::EPSILON * end_s, normal),
+        unsure_n: 0.0,
+        drift: [0.0; 2],
         displacement: [0.0; 2],
         velocity: [0.0; 2],
         force: [0.0; 2],
@@ -139,7 +149,7 @@ pub(super) fn certificate(
         excess: 0.0,
         energy: Energy::default(),
         closest: None,
-        dips: Dips::new(0.0),
+        dips: vec![Dips::new(0.0); 1 + model.devices().contents.len()],
         arriving: None,
         own: Own::new(model, history),
         room: Room::default(),
@@ -164,7 +174,8 @@ pub(super) fn near_misses(model: &Model, h: &History) -> Vec<ClosestCall> {
         let turns = halts.map(|k| (side.sign() * h.sliding_displacement_m[k], k));
         let turns = turns.filter(|(s, _)| *s < gap_m);
         if let Some((s, k)) = turns.reduce(|a, b| if b.0 > a.0 { b } else { a }) {
-            calls.push(ClosestCall { margin: 1.0 - s / gap_m, time_s: h.time_s[k], kind: "miss" });
+            let margin = 1.0 - s / gap_m;
+            calls.push(ClosestCall { margin, time_s: h.time_s[k], kind: "miss", interface: 0 });
         }
     }
     calls
@@ -314,7 +325,9 @@ impl<'a> Judge<'a> {
         let initial_j = self.kinetic(&v) + self.strain(&x) + stop_j;
         let rounding_j = self.structure.total_kg * self.jolt * self.jolt;
         self.energy.start(initial_j, stop_j, rounding_j, knots);
-        self.dips = self.fresh_dips(0);
+        for i in 0..self.dips.len() {
+            self.dips[i] = self.fresh_dips(0, i);
+        }
         let mut arrives = false;
         for k in 0..knots {
             if k > 0 {
@@ -334,7 +347,9 @@ impl<'a> Judge<'a> {
         if knots > 1 && !arrives && self.h.time_s[knots - 1] == self.h.time_s[knots - 2] {
             self.after_last_jump(knots - 1);
         }
-        self.close(self.modes(knots - 1)[0]);
+        for (i, mode) in self.modes(knots - 1).iter().enumerate() {
+            self.close(i, *mode);
+        }
         Ok(Some(self.finish(bound)))
     }
 
@@ -343,9 +358,10 @@ impl<'a> Judge<'a> {
         let near = |scale: f64| 64.0 * f64::EPSILON * scale;
         let rounding = own::Rounding {
             instant_s: self.instant_s,
-            displacement_m: near(self.displacement[1]),
-            velocity_m_per_s: near(self.velocity[1]),
+            displacement_m: near(self.displacement[1]) + self.drift[0],
+            velocity_m_per_s: near(self.velocity[1]) + self.jolt + self.drift[1],
             force_n: near(self.force[1])
+                + self.unsure_n
                 + self.slider.law.rounding(&self.ground, self.instant_s, self.normal),
         };
         let demands_error = self.own.error(self.model, self.response, self.h, &rounding);
@@ -448,9 +464,11 @@ impl<'a> Judge<'a> {
                 self.displacement[0] = larger(self.displacement[0], a - b);
             }
         }
-        if before[0] != after[0] {
-            self.close(before[0]);
-            self.dips = self.fresh_dips(k);
+        for i in 0..after.len() {
+            if before[i] != after[i] {
+                self.close(i, before[i]);
+                self.dips[i] = self.fresh_dips(k, i);
+            }
         }
         if !struck {
             for i in 0..after.len() {
@@ -491,7 +509,8 @@ impl<'a> Judge<'a> {
         let peak = self.velocity[1];
         if before.abs() >= own::SLOWEST_IMPACT_M_PER_S {
             let margin = before.abs() / peak;
-            self.nearest(ClosestCall { margin, time_s: self.h.time_s[k], kind: "impact" });
+            let time_s = self.h.time_s[k];
+            self.nearest(ClosestCall { margin, time_s, kind: "impact", interface: 0 });
         }
     }
 
@@ -531,12 +550,12 @@ impl<'a> Judge<'a> {
                     modes[i] = Mode::Stick;
                     // A bounce below the rounding of s turns back to the stop: that does not hold it.
                     let leans = after[i] == Mode::Stick;
-                    let asked = self.asked((k, &surfaces), &modes, (i, leans), load);
+                    let (asked, rounding) = self.asked((k, &surfaces), &modes, (i, leans), load);
                     let beyond = match after[i] {
                         Mode::Stick => asked.beyond(),
                         Mode::Slip(Direction::Positive) => asked.demand - asked.low,
                         Mode::Slip(Direction::Negative) => asked.high - asked.demand,
-                    };
+                    } - rounding;
                     if core::ptr::eq(others, before) && excess(beyond) <= nearest_beyond {
                         nearest_beyond = excess(beyond);
                         margin = asked.margin();
@@ -545,37 +564,41 @@ impl<'a> Judge<'a> {
                 }
             }
             self.excess = larger(self.excess, least);
-            if i == 0
-                && before[0] != Mode::Stick
+            if before[i] != Mode::Stick
                 && let Some(margin) = margin
             {
-                let load = &loads[0];
-                let drift = self.structure.block_kg * load.slope.abs() * self.instant_s
-                    / self.slider.scale(load.normal, self.model.weight_n());
-                self.own.decided(margin, drift);
-                self.nearest(ClosestCall { margin, time_s: self.h.time_s[k], kind: "stop" });
+                if i == 0 {
+                    let load = &loads[0];
+                    let drift = self.structure.block_kg * load.slope.abs() * self.instant_s
+                        / self.slider.scale(load.normal, self.model.weight_n());
+                    self.own.decided(margin, drift);
+                }
+                let time_s = self.h.time_s[k];
+                self.nearest(ClosestCall { margin, time_s, kind: "stop", interface: i });
             }
         }
         if before[0] != Mode::Stick
             && before[0] != after[0]
             && let Some(margin) = self.slider.next_join(self.h.surface_displacements(k), before[0])
         {
-            self.nearest(ClosestCall { margin, time_s: self.h.time_s[k], kind: "join" });
+            let time_s = self.h.time_s[k];
+            self.nearest(ClosestCall { margin, time_s, kind: "join", interface: 0 });
         }
     }
 
-    /// What a stuck interface is asked for and what holds it, in N.
+    /// What a stuck interface is asked for and what holds it, with the rounding of the two, in N.
     fn asked(
         &self,
         (k, surfaces): (usize, &[f64]),
         modes: &[Mode],
         (i, leans): (usize, bool),
         load: &Load,
-    ) -> law::Asked {
+    ) -> (law::Asked, f64) {
         let (x, v) = self.stored(k);
         let b = self.between_knots(k, modes);
         let now = self.at(&b, load, &x, &v);
-        self.holds(&now, (x[0], surfaces), (i, leans), load)
+        let asked = self.holds(&now, (x[0], surfaces), (i, leans), load);
+        (asked, self.asked_rounding(&now, i, load))
     }
 
     /// The same from forces known; `leans` where rigid stops hold too.
@@ -630,7 +653,7 @@ impl<'a> Judge<'a> {
         let b = self.between_knots(k, modes);
         let slope = self.model.slope_m_per_s2();
         let mut best = [f64::INFINITY; 2];
-        let mut scale = 0.0;
+        let (mut scale, mut unsure_n) = (0.0, 0.0);
         let led = self.arriving.take().filter(|_| modes[0] != Mode::Stick);
         let led = led.map(|(sliding, from_m)| Between {
             modes,
@@ -658,18 +681,20 @@ impl<'a> Judge<'a> {
             let asked = self.holds(&now, (x[0], h.surface_displacements(k)), (0, true), load);
             let friction = if modes[0] == Mode::Stick { asked.taken() } else { now.friction };
             force = force.max((friction - h.friction_force_n[k]).abs());
-            let drift = load.slope.abs() * self.instant_s * self.structure.total_kg;
-            let normal = load.normal_slope.abs() * self.instant_s
-                + 8.0 * f64::EPSILON * if load.normal_slope == 0.0 { 0.0 } else { self.normal };
-            force = excess(force - drift - self.slider.most() * normal);
+            let rounding = load.rounding(self.blur, self.structure.total_kg, self.slider.most());
+            force = excess(force - rounding);
             if table + force / self.structure.total_kg < best[0] + best[1] / self.structure.total_kg
             {
                 best = [table, force];
+                unsure_n = rounding;
                 let terms = [now.slider, now.friction, now.shear, now.stop];
                 let own = terms.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
                 let floors = now.floors.iter().zip(&self.structure.masses_kg);
                 scale = floors.fold(own, |most, (a, m)| most.max((a * m).abs()));
             }
+        }
+        if !self.ground.has_sample(h.time_s[k]) {
+            self.unsure_n = larger(self.unsure_n, unsure_n);
         }
         self.table[0] = larger(self.table[0], best[0]);
         self.force[0] = larger(self.force[0], best[1]);
@@ -688,6 +713,25 @@ impl<'a> Judge<'a> {
         }
     }
 
+    /// What the rounding of times makes of what a stuck interface is asked for, less what holds it, in N.
+    fn asked_rounding(&self, now: &Now, i: usize, load: &Load) -> f64 {
+        let Some(contents) = i.checked_sub(1).map(|e| &self.contents[e]) else {
+            return load.rounding(self.blur, now.mass[0], self.slider.most());
+        };
+        let mu = contents.static_friction * contents.mass_kg / self.structure.total_kg;
+        load.rounding(self.blur, contents.mass_kg, mu)
+    }
+
+    /// Coefficients of friction of what slides from the knot `k` on, and 0 of what sticks.
+    fn sliding_friction(&self, k: usize) -> impl Iterator<Item = f64> {
+        let (most, contents) = (self.slider.most(), self.contents);
+        self.modes(k).iter().enumerate().map(move |(i, mode)| match (mode, i.checked_sub(1)) {
+            (Mode::Stick, _) => 0.0,
+            (Mode::Slip(_), None) => most,
+            (Mode::Slip(_), Some(e)) => contents[e].kinetic_friction,
+        })
+    }
+
     /// Judges the last knot by the load after a jump there, which no interval follows.
     fn after_last_jump(&mut self, k: usize) {
         let modes = self.modes(k);
@@ -699,7 +743,8 @@ impl<'a> Judge<'a> {
         for (i, mode) in modes.iter().enumerate() {
             if *mode == Mode::Stick {
                 let asked = self.holds(&now, (x[0], surfaces), (i, true), &load);
-                self.excess = larger(self.excess, excess(asked.beyond()));
+                let beyond = asked.beyond() - self.asked_rounding(&now, i, &load);
+                self.excess = larger(self.excess, excess(beyond));
             }
         }
         let asked = if modes[0] == Mode::Stick { vec![asked; POINTS] } else { Vec::new() };
@@ -726,6 +771,7 @@ impl<'a> Judge<'a> {
         let (mut from_s, end_s) = (self.h.time_s[k], self.h.time_s[k + 1]);
         let rate = self.rate(k);
         let mut fastest = vec![0.0; self.degrees()];
+        let mut normal = 0.0_f64;
         self.own.totals.add(&modes, b.contact, end_s - from_s, self.leans(k));
         if let Some(sliding) = &b.sliding {
             self.own.slides_on(self.h, k, sliding.active());
@@ -734,6 +780,7 @@ impl<'a> Judge<'a> {
             let piece = self.ground.piece(from_s, end_s);
             let steps = (rate * (piece.to_s - from_s) / MAX_TURN).ceil().clamp(1.0, MOST_STEPS);
             let step_s = (piece.to_s - from_s) / steps;
+            normal = normal.max(piece.loads[0].normal_rounding(self.blur));
             for j in 0..steps as usize {
                 self.pulse.beat(self.units)?;
                 let loads = [j, j + 1].map(|j| between(piece.loads, j as f64 / steps));
@@ -746,16 +793,17 @@ impl<'a> Judge<'a> {
             }
         }
         let (to_x, to_v) = self.stored(k + 1);
+        let [drift_m, drift] = self.drift(k, normal, (&x, &fastest));
         for i in 0..self.degrees() {
-            let off = (x[i] - to_x[i]).abs() - self.instant_s * fastest[i];
+            let off = (x[i] - to_x[i]).abs() - self.instant_s * fastest[i] - drift_m;
             self.displacement[0] = larger(self.displacement[0], excess(off));
-            let off = (v[i] - to_v[i]).abs() - self.instant_s * self.own.jerked(i);
+            let off = (v[i] - to_v[i]).abs() - self.instant_s * self.own.jerked(i) - drift;
             self.velocity[0] = larger(self.velocity[0], excess(off));
         }
         if let Some(sliding) = &b.sliding {
             let own = sliding.displacements(self.h.surface_displacements(k), x[0] - b.from_m);
             for (own, stored) in own.iter().zip(self.h.surface_displacements(k + 1)) {
-                let off = (own - stored).abs() - self.instant_s * fastest[0];
+                let off = (own - stored).abs() - self.instant_s * fastest[0] - drift_m;
                 self.displacement[0] = larger(self.displacement[0], excess(off));
             }
             let normal = self.ground.instant(end_s)[0].normal;
@@ -769,6 +817,30 @@ impl<'a> Judge<'a> {
             }
         }
         Ok(())
+    }
+
+    /// What the rounding of `N` by so much makes of places and velocities in the interval from the knot
+    /// `k` to a place, and of its energies.
+    fn drift(&mut self, k: usize, normal: f64, (x, fastest): (&[f64], &[f64])) -> [f64; 2] {
+        if normal == 0.0 {
+            return [0.0; 2];
+        }
+        let length_s = self.h.time_s[k + 1] - self.h.time_s[k];
+        let least_kg =
+            self.structure.masses_kg.iter().fold(self.structure.block_kg, |a, b| a.min(*b));
+        let (from, n) = (self.stored(k).0, self.floors());
+        let (mut force, mut work) = (0.0, 0.0);
+        for (i, mu) in self.sliding_friction(k).enumerate() {
+            let at = if i == 0 { 0 } else { n + i };
+            force += mu * normal;
+            work += mu * normal * (x[at] - from[at]).abs();
+        }
+        let drift = force / least_kg * length_s;
+        let speed: f64 = fastest.iter().sum();
+        self.energy.blur(work + self.structure.total_kg * speed * drift);
+        let drift_m = 0.5 * length_s * drift;
+        self.drift = [larger(self.drift[0], drift_m), larger(self.drift[1], drift)];
+        [drift_m, drift]
     }
 
     /// Whether the block rests against a rigid stop.
@@ -891,7 +963,8 @@ impl<'a> Judge<'a> {
                 match mode {
                     Mode::Stick => {
                         let asked = self.holds(now, (x[0], surfaces), (i, true), &load);
-                        self.excess = larger(self.excess, excess(asked.beyond()));
+                        let beyond = asked.beyond() - self.asked_rounding(now, i, &load);
+                        self.excess = larger(self.excess, excess(beyond));
                         near[point] = asked.margin().unwrap_or(f64::NAN);
                     }
                     Mode::Slip(direction) => {
@@ -916,12 +989,10 @@ impl<'a> Judge<'a> {
                     }
                 }
             }
-            if i == 0 {
-                if near.iter().any(|value| value.is_nan()) {
-                    self.dips.interrupt();
-                } else {
-                    self.dips.feed_points(self.rule, (from_s, step_s), &near);
-                }
+            if near.iter().any(|value| value.is_nan()) {
+                self.dips[i].interrupt();
+            } else {
+                self.dips[i].feed_points(self.rule, (from_s, step_s), &near);
             }
         }
     }
@@ -986,15 +1057,19 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn fresh_dips(&self, k: usize) -> Dips {
-        Dips::new(if self.modes(k)[0] == Mode::Stick { 1e-12 } else { self.still })
+    fn fresh_dips(&self, k: usize, i: usize) -> Dips {
+        Dips::new(if self.modes(k)[i] == Mode::Stick { 1e-12 } else { self.still })
     }
 
-    /// Ends a phase of the slider: its near decisions are known.
-    fn close(&mut self, mode: Mode) {
+    /// Ends a phase of an interface: its near decisions are known.
+    fn close(&mut self, i: usize, mode: Mode) {
+        let drops = |direction| match i.checked_sub(1) {
+            None => self.slider.drops(direction),
+            Some(e) => self.contents[e].static_friction > self.contents[e].kinetic_friction,
+        };
         let call = match mode {
-            Mode::Stick => self.dips.least(),
-            Mode::Slip(direction) if self.slider.drops(direction) => self.dips.least_of_peak(),
+            Mode::Stick => self.dips[i].least(i),
+            Mode::Slip(direction) if drops(direction) => self.dips[i].least_of_peak(i),
             Mode::Slip(_) => None,
         };
         if let Some(call) = call {

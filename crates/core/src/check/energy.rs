@@ -1,7 +1,7 @@
 //! The balance of energy in the frame of the table.
 
 use super::EnergyHistory;
-use super::structure::larger;
+use super::structure::{excess, larger};
 
 /// A sum that keeps what rounding drops, so that a long record costs no digits.
 #[derive(Clone, Copy, Default)]
@@ -31,6 +31,8 @@ pub(super) struct Energy {
     size: Sum,
     damping: Sum,
     friction: Sum,
+    /// What rounding of the loads makes of them so far.
+    blur: f64,
     difference: f64,
     scale: f64,
     pub(super) history: EnergyHistory,
@@ -58,11 +60,16 @@ impl Energy {
         self.friction.add(friction);
     }
 
+    /// Adds what rounding of the loads makes of work and losses, in J.
+    pub(super) fn blur(&mut self, energy_j: f64) {
+        self.blur += energy_j;
+    }
+
     /// Balances the books at a knot with this kinetic and strain energy in J.
     pub(super) fn knot(&mut self, kinetic: f64, strain: f64) {
         let [input, damping, friction] = [self.input, self.damping, self.friction].map(Sum::value);
         let difference = input - kinetic - strain - damping - friction;
-        self.difference = larger(self.difference, difference);
+        self.difference = larger(self.difference, excess(difference.abs() - self.blur));
         self.scale = larger(
             self.scale,
             self.size.value() + kinetic + strain + damping.abs() + friction.abs(),

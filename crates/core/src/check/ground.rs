@@ -18,6 +18,21 @@ pub(super) struct Load {
     pub(super) normal_slope: f64,
 }
 
+impl Load {
+    /// What the rounding of times makes of `N`, in N: `δt |dN/dt| + 8 ε N` under vertical motion, with the
+    /// largest `N`.
+    pub(super) fn normal_rounding(&self, (instant_s, normal): (f64, f64)) -> f64 {
+        let normal = if self.normal_slope == 0.0 { 0.0 } else { normal };
+        instant_s * self.normal_slope.abs() + 8.0 * f64::EPSILON * normal
+    }
+
+    /// The same of a force on a mass and of a bound `μ N`, in N: `m |dÜ/dt| δt + μ δN`.
+    pub(super) fn rounding(&self, (instant_s, normal): (f64, f64), mass_kg: f64, mu: f64) -> f64 {
+        let of_mass = instant_s * mass_kg * self.slope.abs();
+        of_mass + mu * self.normal_rounding((instant_s, normal))
+    }
+}
+
 /// A stretch in which `a` and `N` are linear.
 pub(super) struct Piece {
     pub(super) to_s: f64,
@@ -102,6 +117,11 @@ impl<'a> Ground<'a> {
             return [left, left, right, right];
         }
         [left, sample(first), sample(after - 1), right]
+    }
+
+    /// Whether there is a sample at a time.
+    pub(super) fn has_sample(&self, t: f64) -> bool {
+        self.times_s.binary_search_by(|s| s.total_cmp(&t)).is_ok()
     }
 
     /// Largest `N` and largest `|Ü|` up to a time.

@@ -66,6 +66,8 @@ pub(super) struct Judge<'a> {
     pub(super) still: f64,
     /// Rounding of a time.
     pub(super) instant_s: f64,
+    /// What it makes of a force at an event at most.
+    unsure_n: f64,
     /// Velocity that the largest acceleration gives in that time.
     pub(super) jolt: f64,
     /// Within an interval: the largest velocity of the wrong sign, the largest excess by such.
@@ -133,6 +135,7 @@ impl<'a> Judge<'a> {
             scheme: Scheme::new((structure, law), 2.0 * instant_s, added_rate),
             still: 0.0,
             instant_s,
+            unsure_n: 0.0,
             jolt: 0.0,
             astray: [0.0; 2],
             fastest: vec![0.0; d],
@@ -483,8 +486,10 @@ impl<'a> Judge<'a> {
         let rounding = Rounding {
             instant_s: self.instant_s,
             displacement_m: near(f.displacement[1]),
-            velocity_m_per_s: near(f.velocity[1]),
-            force_n: near(f.force[1]) + self.law.rounding(&self.ground, self.instant_s, normal),
+            velocity_m_per_s: near(f.velocity[1]) + self.jolt,
+            force_n: near(f.force[1])
+                + self.unsure_n
+                + self.law.rounding(&self.ground, self.instant_s, normal),
         };
         let own = (&self.peaks, &self.totals);
         let demands_error = demands::error(self.model, self.response, self.history, own, &rounding);
@@ -584,6 +589,12 @@ impl<'a> Judge<'a> {
         }
     }
 
+    /// What the rounding of times makes of the demand on a block at rest, less what holds it, in N.
+    pub(super) fn rounding(&self, load: &Load) -> f64 {
+        let most = self.law.fixed()[0].max(self.law.fixed()[1]);
+        load.rounding((self.instant_s, self.largest.0), self.structure.block_kg, most)
+    }
+
     /// Judges the decision between two modes at the knot `k`, where the block has no velocity.
     ///
     /// The knot's own side of a jump decides.
@@ -602,19 +613,25 @@ impl<'a> Judge<'a> {
             let bound = self.law.bound(demand, load.normal);
             let drift = self.model.block().mass_kg * load.slope.abs() * self.instant_s / bound;
             let margin = self.law.margin(demand, load.normal).map(|margin| (margin, drift));
-            (self.law.forbids(after, demand, load.normal), margin)
+            let rounding = self.rounding(load);
+            let forbidden = excess(self.law.forbids(after, demand, load.normal) - rounding);
+            (forbidden, margin, rounding)
         };
         let candidates = loads.iter().filter(|load| (load.table - table).abs() <= nearest);
         let best = candidates.map(judged).reduce(|a, b| if b.0 < a.0 { b } else { a });
         // Distances that are not numbers leave no candidate.
-        let (excess, margin) = best.unwrap_or((f64::INFINITY, None));
+        let (excess, margin, rounding) = best.unwrap_or((f64::INFINITY, None, 0.0));
         self.figures.excess = larger(self.figures.excess, excess);
+        if !self.ground.has_sample(h.time_s[k]) {
+            self.unsure_n = larger(self.unsure_n, rounding);
+        }
         if let (true, Some((margin, drift))) = (before != Mode::Stick, margin) {
             if self.totals.closest_stop.is_none_or(|least| margin.abs() < least) {
                 self.totals.closest_stop = Some(margin.abs());
                 self.totals.stop_rounding = drift + 1e3 * f64::EPSILON;
             }
-            self.nearest(ClosestCall { margin, time_s: h.time_s[k], kind: "stop" });
+            let time_s = h.time_s[k];
+            self.nearest(ClosestCall { margin, time_s, kind: "stop", interface: 0 });
         }
     }
 
@@ -633,8 +650,8 @@ impl<'a> Judge<'a> {
     /// Ends a phase: its near decisions are known.
     fn close(&mut self, mode: Mode) {
         let call = match mode {
-            Mode::Stick => self.dips.least(),
-            Mode::Slip(direction) if self.law.drops(direction) => self.dips.least_of_peak(),
+            Mode::Stick => self.dips.least(0),
+            Mode::Slip(direction) if self.law.drops(direction) => self.dips.least_of_peak(0),
             Mode::Slip(_) => None,
         };
         if let Some(call) = call {

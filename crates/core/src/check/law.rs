@@ -290,15 +290,16 @@ impl Dips {
         (self.falling, self.turn) = (false, f64::NAN);
     }
 
-    /// The least minimum of a margin in stick.
-    pub(super) fn least(&self) -> Option<ClosestCall> {
+    /// The least minimum of an interface's margin in stick.
+    pub(super) fn least(&self, interface: usize) -> Option<ClosestCall> {
         let (margin, time_s) = self.least?;
-        Some(ClosestCall { margin, time_s, kind: "stick" })
+        Some(ClosestCall { margin, time_s, kind: "stick", interface })
     }
 
-    /// The least minimum of a speed in slip over its largest value.
-    pub(super) fn least_of_peak(&self) -> Option<ClosestCall> {
+    /// The least minimum of an interface's speed in slip over its largest value.
+    pub(super) fn least_of_peak(&self, interface: usize) -> Option<ClosestCall> {
         let (least, time_s) = self.least?;
-        (self.peak > 0.0).then(|| ClosestCall { margin: least / self.peak, time_s, kind: "slip" })
+        let margin = least / self.peak;
+        (self.peak > 0.0).then_some(ClosestCall { margin, time_s, kind: "slip", interface })
     }
 }

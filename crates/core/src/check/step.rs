@@ -291,9 +291,10 @@ impl Judge<'_> {
         let rule = self.scheme.rule;
         let normal = |t: f64| between(loads, t).normal;
         let mut margins = [f64::NAN; POINTS];
+        let rounding = self.rounding(&loads[0]);
         for i in 0..POINTS {
             let n = normal(rule.points[i]);
-            let beyond = self.law.beyond(demands[i], n);
+            let beyond = self.law.beyond(demands[i], n) - rounding;
             self.figures.excess = larger(self.figures.excess, excess(beyond));
             margins[i] = self.law.margin(demands[i], n).unwrap_or(f64::NAN);
         }
@@ -310,7 +311,7 @@ impl Judge<'_> {
                 let cost =
                     |t: f64, demand: f64| law.margin(demand, normal(t)).unwrap_or(f64::INFINITY);
                 (t, margin) = rule.least(demands, i, cost);
-                let beyond = -margin * self.law.bound(demands[i], normal(t));
+                let beyond = -margin * self.law.bound(demands[i], normal(t)) - rounding;
                 self.figures.excess = larger(self.figures.excess, excess(beyond));
             }
             self.dips.feed(from_s + t * step_s, margin);

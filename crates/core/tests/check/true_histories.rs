@@ -3,11 +3,15 @@
 use crate::systems::*;
 use slipstick::check::check;
 use slipstick::friction::{Direction, Series, Surface};
-use slipstick::model::{Damping, Devices, Frame, InitialState, Model, Slider, Stop, StopKind};
+use slipstick::model::{
+    Contents, Damping, Devices, Frame, InitialState, Model, Slider, Stop, StopKind,
+};
+
 use slipstick::motion::GroundMotion;
 use slipstick::response::{
     Contact, Demands, Event, EventKind, History, Method, Mode, Response, StopDemands,
 };
+use slipstick::solver::exact;
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2 as G;
 
 #[test]
@@ -613,5 +617,72 @@ fn exact_tiny_motion_without_contact_passes() {
         let series = Some(Series::new(vec![flat], 1.0).unwrap());
         let model = rigid.with_devices(Devices { series, ..Devices::default() }).unwrap();
         certified("tiny motion on a surface in series", model, &samples);
+        let springs = |slider: &mut Slider, _: &mut Frame| slider.stiffness_n_per_m = 40.0;
+        for (mu, carried) in [(0.31, 0.25), (0.09, 0.13)] {
+            let block = Model::rigid_block(2.0, coulomb([1.3 * mu; 2], [mu; 2])).unwrap();
+            certified(
+                "tiny motion of contents",
+                carrying(with(&block, springs), carried),
+                &samples,
+            );
+        }
+    }
+}
+
+/// A ramp so steep that the rounding of the time of a release within it moves the demand there.
+#[test]
+fn exact_steep_ramp_passes() {
+    let samples = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0 + 1e-9, 3.0, 0.0], [2.0, 3.0, 0.0]];
+    for mu in [0.031, 0.17, 0.293] {
+        let block = Model::rigid_block(2.0, coulomb([1.2 * mu; 2], [mu; 2])).unwrap();
+        certified("steep ramp", block.clone(), &samples);
+        certified("steep ramp under contents", carrying(block, 0.05), &samples);
+    }
+}
+
+/// A model with contents of two thirds of the block's mass on it, of one coefficient.
+fn carrying(model: Model, friction: f64) -> Model {
+    let contents = vec![Contents {
+        floor: 0,
+        mass_kg: model.block().mass_kg / 1.5,
+        static_friction: friction,
+        kinetic_friction: friction,
+    }];
+    model.with_devices(Devices { contents, ..Devices::default() }).unwrap()
+}
+
+/// Contents that nearly let go, nearly stay, and nearly come to a halt in a slip: the closest call is theirs.
+#[test]
+fn exact_close_decisions_of_contents_count() {
+    let [fixed, kinetic] = [0.2, 0.15];
+    let carrier = Model::rigid_block(2.0, coulomb([1.0; 2], [0.9; 2])).unwrap();
+    let contents = vec![Contents {
+        floor: 0,
+        mass_kg: 1.0,
+        static_friction: fixed,
+        kinetic_friction: kinetic,
+    }];
+    let model = carrier.with_devices(Devices { contents, ..Devices::default() }).unwrap();
+    let near = fixed * G * (1.0 - 1e-8);
+    // The table stands still until 1e-8 of the velocity is left.
+    let peak = 0.5 * (3.0 - kinetic * G);
+    let back_s = (1.0 - 1e-8) * peak / (kinetic * G);
+    for (kind, times_s, values) in [
+        ("stick", vec![0.0, 1.0, 2.0, 3.0], vec![0.0, near, 0.0, 0.0]),
+        ("stop", vec![0.0, 0.5, 0.5, 2.0, 3.0], vec![3.0, 3.0, -near, -near, 0.0]),
+        (
+            "slip",
+            vec![0.0, 0.5, 0.5, 0.5 + back_s, 0.5 + back_s, 1.0 + back_s],
+            vec![3.0, 3.0, 0.0, 0.0, 3.0, 3.0],
+        ),
+    ] {
+        let motion = GroundMotion::new(times_s, values, None).unwrap();
+        let response = exact(&model, &motion).unwrap();
+        let c = check(&model, &motion, &response);
+        assert!(c.holds(), "{kind}: {}", figures(&c));
+        let call = c.closest_call.unwrap();
+        assert_eq!((call.kind, call.interface), (kind, 1), "{call:?}");
+        assert!((call.margin - 1e-8).abs() < 1e-11, "{call:?}");
+        assert_eq!(call.decision(), format!("{kind} of contents.1"));
     }
 }

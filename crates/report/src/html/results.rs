@@ -225,7 +225,7 @@ pub fn certificate(out: &mut Markup, report: &Report) {
                  forces or velocities been different by {} of their bound or peak. Below 10⁻⁶ a \
                  slightly different record would tell another story.",
                 typeset(&compact(call.time_s)),
-                call.kind,
+                call.decision(),
                 printed(call.margin, 2)
             ),
         ),

@@ -116,7 +116,7 @@ fn close_call(response: &Response, certificate: &Certificate) -> Option<Warning>
         message: format!(
             "a decision between sticking and sliding ({}) had a margin of only {}: a slightly \
              different record would tell another story",
-            call.kind,
+            call.decision(),
             significant(call.margin, 2)
         ),
     })

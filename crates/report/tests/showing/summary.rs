@@ -124,7 +124,8 @@ fn exact_warnings_come_from_figures_solver_and_record() {
     assert_eq!(kinds(&case.summary.warnings), ["gap_exceeded"]);
 
     case.certificate.energy_balance_error = f64::NAN;
-    case.certificate.closest_call = Some(ClosestCall { margin: 9e-7, time_s: 2.5, kind: "slip" });
+    case.certificate.closest_call =
+        Some(ClosestCall { margin: 9e-7, time_s: 2.5, kind: "slip", interface: 0 });
     let solver = Warning { kind: "slips_at_start", time_s: Some(0.0), message: "it slips".into() };
     let record = Warning { kind: "first_sample", time_s: None, message: "it jumps".into() };
     case.response.warnings = vec![solver.clone(), solver];
