@@ -11,6 +11,8 @@ use std::ops::Range;
 use common::sensible::{seeds, system};
 use slipstick::check::check;
 use slipstick::error::SolveError;
+use slipstick::input;
+use slipstick::motion::GroundMotion;
 use slipstick::solver::exact;
 
 /// Why a seed's answer does not stand, if it does not.
@@ -41,6 +43,26 @@ fn no_alarm(seeds: Range<u64>) {
         seeds.filter_map(|seed| Some(format!("{seed}: {}", alarm(seed)?))).collect();
     println!("{} of {count} alarmed", failures.len());
     assert!(failures.is_empty(), "{} of {count}:\n{}", failures.len(), failures.join("\n"));
+}
+
+/// A slip that fills one interval has a velocity between its knots, and none at them.
+#[test]
+fn a_slip_between_two_knots_raises_no_alarm() {
+    let surface = |radius: &str, friction: &str| {
+        format!("[[slider.surface]]\nradius = \"{radius}\"\nfriction = {friction}\n")
+    };
+    let slider = surface("0.84 m", "0.074") + &surface("0.91 m", "0.07");
+    let text = format!(
+        "[block]\nmass = \"100 kg\"\n[slider]\n{slider}[initial]\nsliding_displacement = \"0.12 m\"\n"
+    );
+    let model = input::parse("m.toml", &text, &[]).expect("a model").model;
+    for a in [0.0, 1e-3] {
+        let times_s = vec![0.0, 1.0, 2.0];
+        let motion = GroundMotion::new(times_s, vec![0.0, a, 0.0], None).expect("a motion");
+        let response = exact(&model, &motion).expect("a response");
+        assert_eq!(response.demands.slip_count, 1);
+        assert!(check(&model, &motion, &response).holds(), "{a} m/s²");
+    }
 }
 
 #[test]

@@ -88,7 +88,8 @@ pub(super) struct Judge<'a> {
     rule: &'static Rule,
     instant_s: f64,
     jolt: f64,
-    still: f64,
+    /// Largest sliding velocity so far.
+    sliding_m_per_s: f64,
     /// Largest `N`.
     normal: f64,
     /// Rounding of a time, and the largest `N`.
@@ -137,7 +138,7 @@ pub(super) fn certificate(
         rule: Rule::get(),
         instant_s: 8.0 * f64::EPSILON * end_s,
         jolt: 0.0,
-        still: 0.0,
+        sliding_m_per_s: 0.0,
         normal,
         blur: (8.0 * f64::EPSILON * end_s, normal),
         unsure_n: 0.0,
@@ -414,7 +415,7 @@ impl<'a> Judge<'a> {
         self.displacement[1] =
             place.max(most(&h.contents_displacement_m)).max(self.instant_s * jolt);
         self.velocity[1] = speed.max(most(&h.contents_velocity_m_per_s)).max(rest).max(jolt);
-        self.still = STILL * sliding + 64.0 * f64::EPSILON * self.velocity[1];
+        self.sliding_m_per_s = sliding;
         Some(())
     }
 
@@ -918,6 +919,9 @@ impl<'a> Judge<'a> {
             let all = nodes.iter().map(|node| node.v[i].abs());
             *fastest = all.fold(fastest.max(first.v[i].abs()).max(v[i].abs()), f64::max);
         }
+        // A slip may have no velocity at any knot.
+        self.sliding_m_per_s = self.sliding_m_per_s.max(fastest[0]);
+        self.velocity[1] = fastest.iter().fold(self.velocity[1], |most, v| most.max(*v));
         let all: [(&Now, &[f64], &[f64]); POINTS] = core::array::from_fn(|i| {
             let node = match i {
                 0 => &*first,
@@ -969,7 +973,7 @@ impl<'a> Judge<'a> {
                     }
                     Mode::Slip(direction) => {
                         near[point] = direction.sign() * v[at];
-                        let blur = self.still + self.instant_s * self.own.jerked(at);
+                        let blur = self.still() + self.instant_s * self.own.jerked(at);
                         if near[point] < -blur {
                             let force = self.slider.scale(load.normal, self.model.weight_n());
                             self.excess = larger(self.excess, force);
@@ -1023,9 +1027,11 @@ impl<'a> Judge<'a> {
             size += weight * power.abs();
             damping += weight * (self.structure.dissipation(&v[..=n]) + now.stop * v[0]);
             if b.modes[0] != Mode::Stick {
-                // The spring of a pendulum follows the normal force: its work counts as friction's.
-                friction +=
-                    weight * (self.slider.pendulum(x[0], load.normal) - now.friction) * v[0];
+                // The spring of a pendulum follows the normal force: its work counts as friction's, and
+                // what it gives back is work put in.
+                let loss = (self.slider.pendulum(x[0], load.normal) - now.friction) * v[0];
+                friction += weight * loss;
+                size += weight * excess(-loss);
             }
         }
         self.energy.spend(work, size, damping, friction);
@@ -1057,8 +1063,13 @@ impl<'a> Judge<'a> {
         }
     }
 
+    /// A sliding velocity without a sign, in m/s.
+    fn still(&self) -> f64 {
+        STILL * self.sliding_m_per_s + 64.0 * f64::EPSILON * self.velocity[1]
+    }
+
     fn fresh_dips(&self, k: usize, i: usize) -> Dips {
-        Dips::new(if self.modes(k)[i] == Mode::Stick { 1e-12 } else { self.still })
+        Dips::new(if self.modes(k)[i] == Mode::Stick { 1e-12 } else { self.still() })
     }
 
     /// Ends a phase of an interface: its near decisions are known.
