@@ -70,10 +70,11 @@ pub(super) fn warnings(
     contact_loss_s: &[[f64; 2]],
 ) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    if let Some(first) = events.first().filter(|e| e.time_s == 0.0 && e.kind == EventKind::Slip) {
+    let first = events.iter().find(|e| e.interface == 0);
+    if let Some(start) = first.filter(|e| e.time_s == 0.0 && e.kind == EventKind::Slip) {
         warnings.push(Warning {
             kind: "slips_at_start",
-            time_s: Some(first.time_s),
+            time_s: Some(start.time_s),
             message: "friction cannot hold the block at t = 0: it slips at once".into(),
         });
     }
