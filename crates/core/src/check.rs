@@ -43,7 +43,8 @@ pub struct ClosestCall {
     /// `stop`: the demand where the block came to rest, `||demand| − bound|/bound`; `stick`: a maximum
     /// of the demand while it held, `1 − |demand|/bound`; `slip`: a minimum of `|ṡ|` over its peak in
     /// that slip, where `μ_k < μ_s`; `impact`, `miss`: of a rigid stop, the speed over the largest and
-    /// the way left over the gap; `join`: of surfaces in series, the force left to the next one.
+    /// the way left over the gap; `join`: of surfaces in series, the force left to the next one;
+    /// `release`: how far apart two let go of which one alone would have held the other back.
     pub kind: &'static str,
     /// What decided: the slider (0) or contents counted from 1.
     pub interface: usize,

@@ -11,7 +11,7 @@ use self::law::{Slider, Sliding};
 use self::own::Own;
 use super::collocation::{NODES, POINTS, ROUNDING, Rule};
 use super::energy::Energy;
-use super::ground::{Ground, Load};
+use super::ground::{Ground, Load, of_side};
 use super::judge::{STILL, between};
 use super::law::Dips;
 use super::structure::{Phase, Structure, excess, larger};
@@ -523,10 +523,7 @@ impl<'a> Judge<'a> {
         }
         let table = self.h.table_acceleration_m_per_s2[k];
         let all = self.ground.instant(self.h.time_s[k]);
-        let nearest =
-            all.iter().map(|load| (load.table - table).abs()).fold(f64::INFINITY, f64::min);
-        let loads: Vec<Load> =
-            all.into_iter().filter(|load| (load.table - table).abs() <= nearest).collect();
+        let loads = of_side(&all, table);
         let (_, v) = self.stored(k);
         let surfaces = match before[0] {
             Mode::Slip(slid) => self.slider.off_ends(self.h.surface_displacements(k), slid),
@@ -545,7 +542,9 @@ impl<'a> Judge<'a> {
             // The others may have changed before it or after it, or been held meanwhile.
             let (mut least, mut nearest_beyond) = (f64::INFINITY, f64::INFINITY);
             let mut margin = None;
-            for load in &loads {
+            // What a jump passes on its way lets go too.
+            let passed = if before[i] == Mode::Stick { &all[..] } else { &loads[..] };
+            for load in passed {
                 for others in [before, after, &held[..]] {
                     let mut modes = others.to_vec();
                     modes[i] = Mode::Stick;
@@ -578,12 +577,69 @@ impl<'a> Judge<'a> {
                 self.nearest(ClosestCall { margin, time_s, kind: "stop", interface: i });
             }
         }
+        self.releases(k, before, &surfaces, loads[0]);
         if before[0] != Mode::Stick
             && before[0] != after[0]
             && let Some(margin) = self.slider.next_join(self.h.surface_displacements(k), before[0])
         {
             let time_s = self.h.time_s[k];
             self.nearest(ClosestCall { margin, time_s, kind: "join", interface: 0 });
+        }
+    }
+
+    /// Interfaces that let go at the knot `k` together: a close call where one of them, had it let go
+    /// first, would have held the other back. Along a jump from `Load` to `Load` each reaches its bound
+    /// at a part of the way.
+    fn releases(&mut self, k: usize, before: &[Mode], surfaces: &[f64], to: Load) {
+        let after = self.modes(k);
+        let gone: Vec<usize> = (0..after.len())
+            .filter(|&i| before[i] == Mode::Stick && after[i] != Mode::Stick)
+            .collect();
+        if gone.len() < 2 {
+            return;
+        }
+        let all = self.ground.instant(self.h.time_s[k]);
+        let from = match k.checked_sub(1).filter(|&j| self.h.time_s[j] == self.h.time_s[k]) {
+            Some(j) => {
+                let off = |load: &Load| (load.table - self.h.table_acceleration_m_per_s2[j]).abs();
+                all.into_iter().reduce(|a, b| if off(&b) < off(&a) { b } else { a }).unwrap_or(to)
+            }
+            None => all[0],
+        };
+        let jumps = (from.table, from.normal) != (to.table, to.normal);
+        let at =
+            |load: &Load, modes: &[Mode], i| self.asked((k, surfaces), modes, (i, false), load).0;
+        let reached: Vec<f64> = gone
+            .iter()
+            .map(|&i| {
+                let [first, last] = [&from, &to].map(|load| at(load, before, i));
+                if !jumps {
+                    return last.margin().unwrap_or(f64::INFINITY);
+                }
+                let part = |from: f64, to: f64| if to > from { -from / (to - from) } else { 1.0 };
+                let above = part(first.demand - first.high, last.demand - last.high);
+                let below = part(first.low - first.demand, last.low - last.demand);
+                above.clamp(0.0, 1.0).min(below.clamp(0.0, 1.0))
+            })
+            .collect();
+        let mut calls = Vec::new();
+        for (a, &i) in gone.iter().enumerate() {
+            let mut modes = before.to_vec();
+            modes[i] = after[i];
+            for (b, &j) in gone.iter().enumerate().filter(|&(b, _)| b != a) {
+                if at(&to, &modes, j).beyond() <= 0.0 {
+                    let margin = if jumps {
+                        (reached[a] - reached[b]).abs()
+                    } else {
+                        reached[a].max(reached[b])
+                    };
+                    let time_s = self.h.time_s[k];
+                    calls.push(ClosestCall { margin, time_s, kind: "release", interface: j });
+                }
+            }
+        }
+        for call in calls {
+            self.nearest(call);
         }
     }
 

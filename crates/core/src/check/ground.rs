@@ -39,6 +39,13 @@ pub(super) struct Piece {
     pub(super) loads: [Load; 2],
 }
 
+/// Of the loads at an instant those with the table acceleration nearest to one.
+pub(super) fn of_side(all: &[Load; 4], table: f64) -> Vec<Load> {
+    let off = |load: &Load| (load.table - table).abs();
+    let nearest = all.iter().map(off).fold(f64::INFINITY, f64::min);
+    all.iter().filter(|load| off(load) <= nearest).copied().collect()
+}
+
 /// A motion under a model: its accelerations with the slope, and the normal force.
 pub(super) struct Ground<'a> {
     times_s: &'a [f64],

@@ -5,7 +5,7 @@ use fearless_simd::{Level, dispatch};
 use super::collocation::{MAX_TURN, Scheme};
 use super::demands::{self, Outputs, Peaks, Rounding, Totals};
 use super::energy::Energy;
-use super::ground::{Ground, Load};
+use super::ground::{Ground, Load, of_side};
 use super::lanes::{Bench, Group, Interval, Knots, Map, Reach, Sizes, Told, Work, Worst};
 use super::law::{Dips, Law};
 use super::step::{Look, Spread, Unit};
@@ -605,8 +605,6 @@ impl<'a> Judge<'a> {
         let h = self.history;
         let table = h.table_acceleration_m_per_s2[k];
         let loads = self.ground.instant(h.time_s[k]);
-        let nearest =
-            loads.iter().map(|load| (load.table - table).abs()).fold(f64::INFINITY, f64::min);
         let stop = self.law.push(self.contact(k)).force(self.x()[0], 0.0);
         let judged = |load: &Load| {
             let demand = self.structure.demand(self.x(), self.v(), load.a) + stop;
@@ -617,8 +615,10 @@ impl<'a> Judge<'a> {
             let forbidden = excess(self.law.forbids(after, demand, load.normal) - rounding);
             (forbidden, margin, rounding)
         };
-        let candidates = loads.iter().filter(|load| (load.table - table).abs() <= nearest);
-        let best = candidates.map(judged).reduce(|a, b| if b.0 < a.0 { b } else { a });
+        // What a jump passes on its way lets go too.
+        let side = of_side(&loads, table);
+        let passed = if before == Mode::Stick { &loads[..] } else { &side[..] };
+        let best = passed.iter().map(judged).reduce(|a, b| if b.0 < a.0 { b } else { a });
         // Distances that are not numbers leave no candidate.
         let (excess, margin, rounding) = best.unwrap_or((f64::INFINITY, None, 0.0));
         self.figures.excess = larger(self.figures.excess, excess);

@@ -640,6 +640,32 @@ fn exact_steep_ramp_passes() {
     }
 }
 
+/// A jump that goes beyond what friction holds and comes back lets go on its way.
+#[test]
+fn exact_release_within_a_jump_passes() {
+    let samples = [[0.0, -3.0, 0.0], [0.0, -1.0, 0.0], [1.0, 2.0, 0.0], [2.0, 0.0, 0.0]];
+    let firm = Model::rigid_block(2.0, coulomb([0.9; 2], [0.9; 2])).unwrap();
+    certified("a jump and back under contents", carrying(firm, 0.2), &samples);
+}
+
+/// Block and contents reach their bounds together; either alone would have held the other back.
+#[test]
+fn exact_which_lets_go_first_is_a_close_call() {
+    let contents =
+        vec![Contents { floor: 0, mass_kg: 1.0, static_friction: 0.2, kinetic_friction: 0.15 }];
+    let block = Model::rigid_block(2.0, coulomb([0.2; 2], [0.15; 2])).unwrap();
+    let model = block.with_devices(Devices { contents, ..Devices::default() }).unwrap();
+    for (times_s, values) in [
+        (vec![0.0, 1.0, 2.0, 3.0], vec![0.0, 3.0, -3.0, 0.0]),
+        (vec![0.0, 1.0, 1.0, 2.0, 3.0], vec![0.0, 0.0, 3.0, -3.0, 0.0]),
+    ] {
+        let motion = GroundMotion::new(times_s, values, None).unwrap();
+        let response = exact(&model, &motion).unwrap();
+        let call = check(&model, &motion, &response).closest_call.unwrap();
+        assert!(call.margin < 1e-12, "{call:?}");
+    }
+}
+
 /// A model with contents of two thirds of the block's mass on it, of one coefficient.
 fn carrying(model: Model, friction: f64) -> Model {
     let contents = vec![Contents {
