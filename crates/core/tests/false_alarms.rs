@@ -65,6 +65,14 @@ fn a_slip_between_two_knots_raises_no_alarm() {
     }
 }
 
+/// A jump that asks less after it than before, and series of which the last pass changed a rate by 1e-10.
+#[test]
+fn systems_that_once_raised_an_alarm_raise_none() {
+    for seed in [453, 979, 5731] {
+        assert_eq!(alarm(seed), None, "{seed}");
+    }
+}
+
 #[test]
 fn prop_sensible_models_raise_no_alarm() {
     no_alarm(0..300);

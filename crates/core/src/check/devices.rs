@@ -182,6 +182,19 @@ pub(super) fn near_misses(model: &Model, h: &History) -> Vec<ClosestCall> {
     calls
 }
 
+/// Takes the state of a node from the start of a step and the rates at all nodes.
+fn follow(rule: &Rule, (i, step_s): (usize, f64), nodes: &mut [Node], (x, v): (&[f64], &[f64])) {
+    for c in 0..x.len() {
+        let (mut along, mut twice) = (0.0, 0.0);
+        for (j, node) in nodes.iter().enumerate() {
+            along += rule.a[i][j] * node.now.rate[c];
+            twice += rule.aa[i][j] * node.now.rate[c];
+        }
+        nodes[i].v[c] = v[c] + step_s * along;
+        nodes[i].x[c] = x[c] + step_s * (rule.c[i] * v[c] + step_s * twice);
+    }
+}
+
 fn relative(pair: [f64; 2]) -> f64 {
     if pair[0] == 0.0 { 0.0 } else { pair[0] / pair[1] }
 }
@@ -933,15 +946,7 @@ impl<'a> Judge<'a> {
             let mut change: f64 = 0.0;
             // Each node takes what those before it have found in this pass.
             for i in 0..NODES {
-                for c in 0..d {
-                    let (mut along, mut twice) = (0.0, 0.0);
-                    for (j, node) in nodes.iter().enumerate() {
-                        along += rule.a[i][j] * node.now.rate[c];
-                        twice += rule.aa[i][j] * node.now.rate[c];
-                    }
-                    nodes[i].v[c] = v[c] + step_s * along;
-                    nodes[i].x[c] = x[c] + step_s * (rule.c[i] * v[c] + step_s * twice);
-                }
+                follow(rule, (i, step_s), nodes, (x, v));
                 let Node { now, x, v } = &mut nodes[i];
                 before.clone_from(&now.rate);
                 self.find(b, &between(loads, rule.c[i]), (x, v), now);
@@ -958,6 +963,10 @@ impl<'a> Judge<'a> {
                 break;
             }
             last = change;
+        }
+        // The last pass has changed the rates that the first nodes were placed by.
+        for i in 0..NODES {
+            follow(rule, (i, step_s), nodes, (x, v));
         }
         for c in 0..d {
             let (mut along, mut twice) = (0.0, 0.0);
