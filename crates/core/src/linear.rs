@@ -15,6 +15,6 @@ mod system;
 
 pub use frame::{FrameModes, shear_frame_frequencies, shear_frame_modes};
 pub use maps::{BATCH, Force, Maps, QUIET, Row, Units, Window};
-pub use series::{Load, MAX_RATE_STEP, Series, advance, orders};
+pub use series::{Load, MAX_RATE_STEP, Series, advance, fading_part, orders};
 pub use solution::Solution;
 pub use system::{StoreyDamping, System};

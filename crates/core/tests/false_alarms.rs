@@ -65,10 +65,11 @@ fn a_slip_between_two_knots_raises_no_alarm() {
     }
 }
 
-/// A jump that asks less after it than before, and series of which the last pass changed a rate by 1e-10.
+/// A jump that asks less after it than before, a last pass that changed a rate by 1e-10, and friction
+/// that had faded and came back within a series.
 #[test]
 fn systems_that_once_raised_an_alarm_raise_none() {
-    for seed in [453, 979, 5731] {
+    for seed in [453, 979, 5731, 7650, 18775, 28686, 33625] {
         assert_eq!(alarm(seed), None, "{seed}");
     }
 }

@@ -13,6 +13,27 @@ pub const MAX_RATE_STEP: f64 = 1.4;
 /// Terms of a series below this part of the largest are left out.
 const NEGLIGIBLE: f64 = 1e-18;
 
+/// `(5e-18 · 21!)^(1/21)`.
+const NEAR: f64 = 1.302;
+
+/// The part of the length, at most `part`, over which the orders that the series of `e^(−rate |w|)`
+/// leaves off are rounding of 1, by the orders of `w`. Where it has faded the orders kept do not tell
+/// that it comes back.
+///
+/// With `x = rate |w|` at the start and `Δ` its largest change, what is left off is at most
+/// `e^(Δ − x)`, and `2 e^(−x) Δ²¹ / 21!` where `Δ ≤ 10`.
+#[must_use]
+pub fn fading_part(velocity: &Polynomial, rate_s_per_m: f64, part: f64) -> f64 {
+    let x = rate_s_per_m * velocity[0].abs();
+    let faded = x + libm::log(10.0 * NEGLIGIBLE);
+    let near = NEAR * libm::exp(x / (DEGREE + 1) as f64);
+    let most = greatest(faded, least(near, 0.5 * DEGREE as f64));
+    let orders = velocity[1..=DEGREE].iter().rev();
+    let change = rate_s_per_m * orders.fold(0.0, |sum, c| part * (sum + c.abs()));
+    // Without a constant order Δ(p t) ≤ p Δ(t).
+    if change > most { part * (most / change) } else { part }
+}
+
 /// Loads over an interval, linear in time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Load {
@@ -285,7 +306,11 @@ impl Series {
                 part = part.min(libm::pow(room, 1.0 / k as f64));
             }
         }
-        part
+        let mut velocity = ZERO;
+        for (w, c) in velocity.iter_mut().zip(self.c.chunks_exact(stride)).take(DEGREE + 1) {
+            *w = c[1];
+        }
+        fading_part(&velocity, rate_s_per_m.abs(), part)
     }
 
     /// Bound on the norm of `ẍ` over that length, times its square: `Σ k (k − 1) ‖c_k‖`.

@@ -1,8 +1,8 @@
 //! The structure with its contents in physical coordinates, and the Taylor series of its motion.
 
 use crate::friction::{Coefficient, Direction, SlipForce};
-use crate::linear::System;
 use crate::linear::polynomial::{DEGREE, Polynomial, ZERO};
+use crate::linear::{System, fading_part};
 use crate::model::{Contents, Model};
 use crate::response::Mode;
 
@@ -404,13 +404,14 @@ impl Body {
             for k in [DEGREE - 1, DEGREE] {
                 limit(largest, k, sizes[k]);
             }
-            if let Coefficient::Exponential { drop, .. } = phase.force.coefficient
+            if let Coefficient::Exponential { drop, rate_s_per_m, .. } = phase.force.coefficient
                 && phase.modes[0] != Mode::Stick
                 && drop != 0.0
             {
                 for k in [DEGREE - 1, DEGREE] {
                     limit(1.0, k, 0.1 * out.decay[k].abs());
                 }
+                part = fading_part(&out.w, rate_s_per_m, part);
             }
             part
         } else {
