@@ -1,7 +1,8 @@
 //! What follows an instant at which interfaces have no velocity, and impacts.
 //!
 //! Interfaces without velocity are decided together: of the assignments in which each that sticks is
-//! within its bound and each that slides moves off, that in which most of them stick, the slider first.
+//! within its bound and each that slides moves off and could not be held, that in which most of them
+//! stick, the slider first.
 //! Contents let go make the acceleration of their floor larger, never smaller: so for each mode of the
 //! slider all contents are held at first and those beyond their bounds let go until none is.
 //! What has reached its bound in motion slides, if it moves off.
@@ -304,7 +305,7 @@ impl Stepping<'_> {
                 next = self.assign(at, &held, &slides);
             }
             let better = best.as_ref().is_none_or(|best| next.sticking > best.sticking);
-            if next.holds && better {
+            if next.holds && better && self.must_slide(at, &next, direction) {
                 best = Some(next);
             }
         }
@@ -313,6 +314,21 @@ impl Stepping<'_> {
             None if !reached.is_empty() => self.choose_anew(at, &held),
             None => self.assign(at, &held, &[(0, towards)]),
         }
+    }
+
+    /// Whether friction could not hold the slider, with all else as assigned.
+    fn must_slide(
+        &mut self,
+        (stretch, at_s): (&Stretch, f64),
+        assignment: &Assignment,
+        direction: Direction,
+    ) -> bool {
+        self.put_in_force(&assignment.in_force);
+        self.hold(0);
+        let unit_s = self.unit_s;
+        self.expand(stretch, at_s);
+        self.unit_s = unit_s;
+        self.leaving(0) == Some(direction)
     }
 
     /// The same with nothing that has reached its bound.
