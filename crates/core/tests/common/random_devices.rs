@@ -117,14 +117,8 @@ pub fn system(seed: u64) -> System {
         };
         Stop { gap_m, kind }
     });
-    let total_kg = frame.masses_kg.iter().sum::<f64>()
-        + mass_kg
-        + contents.iter().map(|contents| contents.mass_kg).sum::<f64>();
-    let spring = match radius_m {
-        Some(radius_m) => total_kg * G / radius_m,
-        None if in_series || r.chance(0.4) => 0.0,
-        None => r.between(500.0, 2e4),
-    };
+    let spring =
+        if radius_m.is_some() || in_series || r.chance(0.4) { 0.0 } else { r.between(500.0, 2e4) };
     let friction = Coulomb::new([fixed; 2], [at_rest; 2]).expect("friction");
     let tilt_rad = if r.chance(0.2) { r.between(-0.01, 0.01) } else { 0.0 };
     let slider = Slider {
@@ -153,6 +147,14 @@ pub fn system(seed: u64) -> System {
             contents: contents.clone(),
         })
         .expect("devices")
+    };
+    let build = |slider: Slider, w: f64| match radius_m {
+        Some(radius_m) => {
+            // K1 = M_tot g cos θ / R
+            let stiffness_n_per_m = build(slider, w).normal_n() / radius_m;
+            build(Slider { stiffness_n_per_m, ..slider }, w)
+        }
+        None => build(slider, w),
     };
     let turned = stop.map(|stop| Stop { gap_m: [stop.gap_m[1], stop.gap_m[0]], ..stop });
     let mirror = Slider { tilt_rad: -tilt_rad, stop: turned, ..slider };

@@ -292,14 +292,16 @@ impl Sketch {
         (self.model(), motion.expect("a motion"))
     }
 
-    /// Stiffness of the spring, or of the pendulum under the weight.
-    fn spring(&self) -> f64 {
-        let pressed = self.total() * self.gravity * libm::cos(self.tilt);
-        self.devices.radius_m.map_or(self.spring, |radius_m| pressed / radius_m)
-    }
-
     /// The model alone.
     pub fn model(&self) -> Model {
+        match self.devices.radius_m {
+            // K1 = M_tot g cos θ / R
+            Some(radius_m) => self.on_spring(self.on_spring(0.0).normal_n() / radius_m),
+            None => self.on_spring(self.spring),
+        }
+    }
+
+    fn on_spring(&self, stiffness_n_per_m: f64) -> Model {
         let friction = Coulomb::new(self.static_friction, self.kinetic_friction).expect("friction");
         Model::new(
             Block {
@@ -309,7 +311,7 @@ impl Sketch {
             },
             Slider {
                 friction: Friction::Coulomb(friction),
-                stiffness_n_per_m: self.spring(),
+                stiffness_n_per_m,
                 damper_n_s_per_m: self.damper,
                 tilt_rad: self.tilt,
                 gap_m: None,
