@@ -6,7 +6,7 @@
 
 // The seed and what became of the systems, for people who look with --nocapture; a seed from
 // outside to look for more.
-#![allow(clippy::disallowed_macros, clippy::disallowed_methods)]
+#![allow(clippy::disallowed_macros, clippy::disallowed_methods, clippy::expect_used)]
 
 mod common;
 

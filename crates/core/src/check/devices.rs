@@ -17,11 +17,11 @@ use super::law::Dips;
 use super::structure::{Phase, Structure, excess, larger};
 use super::{Certificate, ClosestCall};
 use crate::error::Stopped;
-use crate::friction::Direction;
 use crate::model::{Contents, Model};
 use crate::motion::GroundMotion;
 use crate::progress::Pulse;
 use crate::response::{Contact, History, Mode, Response};
+use crate::slider::Direction;
 
 /// Largest rate times step.
 const MAX_TURN: f64 = 0.5;
@@ -124,7 +124,7 @@ pub(super) fn certificate(
         response,
         h: history,
         structure,
-        contents: &model.devices().contents,
+        contents: model.contents(),
         ground,
         slider: Slider::new(model, motion.vertical_m_per_s2().is_some()),
         rule: Rule::get(),
@@ -144,7 +144,7 @@ pub(super) fn certificate(
         own: Own::new(model, history),
         room: Room::default(),
         pulse,
-        units: 64 * (1 + model.storeys() + model.devices().contents.len()) as u32,
+        units: 64 * (1 + model.storeys() + model.contents().len()) as u32,
     };
     judge.run(bound)
 }

@@ -24,12 +24,12 @@ use super::fit::{Interval, Minimum, Problem, Profile, global, profile, refine};
 use super::measured::{Measured, Series};
 use super::metrics::rms;
 use crate::error::{RecordError, Stopped};
-use crate::friction::{Coulomb, Friction};
 use crate::input::Channel;
 use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::numerics::distribution::student_quantile;
 use crate::response::{Method, Warning};
+use crate::slider::Friction;
 use crate::solver;
 use crate::study::engine::Engine;
 
@@ -424,8 +424,8 @@ fn intervals(problem: &Problem, data: &Data, minimum: Minimum) -> Found {
 /// How much better the fit is than a block that cannot slide.
 fn evidence(data: &Data, model: &Model, scales: &[f64], found: &Found) -> f64 {
     const HOLDS: f64 = 1e6;
-    let Ok(friction) = Coulomb::new([HOLDS; 2], [HOLDS; 2]) else { return 0.0 };
-    let stuck = data.of_model(&model.with_friction(Friction::Coulomb(friction)));
+    let Ok(friction) = Friction::new(HOLDS, HOLDS) else { return 0.0 };
+    let stuck = data.of_model(&model.with_friction(friction));
     let sse: f64 = match stuck {
         Some(lists) => weighed(&lists, scales).iter().map(|r| r * r).sum(),
         None => return f64::INFINITY,

@@ -2,8 +2,8 @@
 
 use super::run::Sliding;
 use super::slider::{Slider, Start};
-use crate::friction::{Direction, Hold};
 use crate::response::{Event, EventKind, Mode};
+use crate::slider::{Direction, Hold};
 
 /// Mode and law of a lone slider, and what its events have left behind.
 pub(super) struct Course<'a> {
@@ -93,8 +93,8 @@ impl<'a> Course<'a> {
         direction: Direction,
         order: usize,
     ) {
-        let drop = self.slider.drop(hold, at.place_m, direction);
-        let acceleration = drop * at.normal_n / at.mass_kg;
+        let drop_n = self.slider.drop_n(hold, at.place_m, direction, at.normal_n);
+        let acceleration = drop_n / at.mass_kg;
         let order = if acceleration > 0.0 { 1 } else { order + 1 };
         self.start = Some(Start { order, acceleration });
         self.begin_slip(at, direction, EventKind::Slip);
@@ -108,7 +108,7 @@ impl<'a> Course<'a> {
 
     /// How a slip starts under a force beyond what holds: `|s̈| = (|T| − μ_k N) / M1`.
     fn start_beyond(&self, at: &Instant, demand_n: f64, direction: Direction) -> Start {
-        let kinetic_n = self.slider.resistance(at.place_m, direction) * at.normal_n;
+        let kinetic_n = self.slider.resistance_n(at.place_m, direction, at.normal_n);
         let asked_n = -direction.sign() * demand_n;
         Start { order: 1, acceleration: (asked_n - kinetic_n) / at.mass_kg }
     }

@@ -301,9 +301,9 @@ pub(super) fn warnings(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::friction::{Coulomb, Friction};
     use crate::input::plan::Plan;
     use crate::motion::target::maximum_direction;
+    use crate::slider::Friction;
     use crate::solver;
     use crate::study::Record;
 
@@ -312,7 +312,7 @@ mod tests {
     #[test]
     fn exact_closest_stop_is_the_share_that_is_left() {
         let g = crate::units::STANDARD_GRAVITY_M_PER_S2;
-        let friction = Friction::Coulomb(Coulomb::new([0.2; 2], [0.2; 2]).unwrap());
+        let friction = Friction::new(0.2, 0.2).unwrap();
         let model = Model::rigid_block(10.0, friction).unwrap();
         let values = [0.4, 0.4, -0.1, -0.1].map(|a| a * g).to_vec();
         let motion = GroundMotion::new(vec![0.0, 0.5, 0.5, 4.0], values, None).unwrap();

@@ -8,8 +8,11 @@ use super::random::Random;
 use super::sketch::Sketch;
 use super::system::System;
 
+/// What a class draws.
+pub type Draw = fn(&mut Random) -> Sketch;
+
 /// The classes by name.
-pub const CLASSES: [(&str, fn(&mut Random) -> Sketch); 13] = [
+pub const CLASSES: [(&str, Draw); 13] = [
     ("grazing stops", grazing),
     ("two roots in a sample", two_roots),
     ("over twenty events in a sample", over_twenty_events),

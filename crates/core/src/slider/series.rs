@@ -34,7 +34,7 @@ pub struct Series {
 
 /// Displacements of the surfaces where a branch began, and which of them slide.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct SeriesState {
+pub(crate) struct SeriesState {
     /// `s` at the beginning of the branch.
     pub from_m: f64,
     /// `u` of each surface there.
@@ -90,10 +90,12 @@ impl Series {
     }
 
     /// The same with all coefficients times `factor`.
-    #[must_use]
-    pub fn scaled(&self, factor: f64) -> Self {
+    ///
+    /// # Errors
+    /// [`ModelError::OutOfRange`] unless the factor is finite and > 0.
+    pub fn scaled(&self, factor: f64) -> Result<Self, ModelError> {
         let scaled = |s: &Surface| Surface { friction: factor * s.friction, ..*s };
-        Self { surfaces: self.surfaces.iter().map(scaled).collect(), ..*self }
+        Self::new(self.surfaces.iter().map(scaled).collect(), self.static_ratio)
     }
 
     /// Largest `|s|`, where all surfaces have an end.
