@@ -16,7 +16,7 @@ use slipstick::check::check;
 use slipstick::error::SolveError;
 use slipstick::model::{Block, Contents, Damping, Frame, InitialState, Model, Slider, Stop};
 use slipstick::motion::GroundMotion;
-use slipstick::slider::{Friction, RateCurve, RateLaw, Series, Surface};
+use slipstick::slider::{Friction, RateCurve, RateLaw, Surface, SurfacesInSeries};
 use slipstick::solver::{Prepared, PreparedMotion, Workspace};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 use std::error::Error;
@@ -154,7 +154,8 @@ fn with_devices() -> Result<Vec<(&'static str, Model)>, Box<dyn Error>> {
         friction,
         travel_m: Some(travel_m),
     };
-    let double = Series::new(vec![surface(0.4, 0.03, 0.05), surface(1.6, 0.055, 0.6)], 1.1)?;
+    let double =
+        SurfacesInSeries::new(vec![surface(0.4, 0.03, 0.05), surface(1.6, 0.055, 0.6)], 1.1)?;
     let with = |change: &dyn Fn(Slider) -> Slider| -> Result<Model, Box<dyn Error>> {
         let plain = plain()?;
         let (block, frame) = (*plain.block(), plain.frame().clone());

@@ -1,9 +1,9 @@
 //! The slider: the one force between ground and block.
 //!
 //! A [`Slider`] is one surface with its [`Friction`] and what draws the block back, or surfaces in
-//! [`Series`]; beside them a damper, and at the ends of the travel nothing or a [`Stop`]. It cannot hold
-//! what no slider has. Its [`Law`] says what is in force, where that ends, what holds at rest and what
-//! follows; nothing else knows one kind of slider from another.
+//! series ([`SurfacesInSeries`]); beside them a damper, and at the ends of the travel nothing or a
+//! [`Stop`]. It cannot hold what no slider has. Its law (`law`) says what is in force, where that ends,
+//! what holds at rest and what follows; nothing else knows one kind of slider from another.
 
 mod friction;
 mod law;
@@ -16,7 +16,7 @@ pub(crate) use law::{Affine, EXITS, Exit, Fading, Hold, Law, Memory, Reached, Tw
 pub(crate) use law::{Restraint, Restraints, SlipForce};
 pub(crate) use rate::Coefficient;
 pub use rate::{RateCurve, RateLaw};
-pub use series::{Series, Surface};
+pub use series::{Surface, SurfacesInSeries};
 pub use stop::{Contact, Stop, StopKind};
 
 /// Direction of sliding along x.
@@ -96,7 +96,30 @@ pub enum Bearing {
         restoring: Restoring,
     },
     /// Surfaces in series, with friction and radii of their own.
-    InSeries(Series),
+    InSeries(SurfacesInSeries),
+}
+
+impl Bearing {
+    #[inline(always)]
+    fn friction(&self) -> Option<&Friction> {
+        match self {
+            Self::Surface { friction, .. } => Some(friction),
+            Self::InSeries(_) => None,
+        }
+    }
+
+    #[inline(always)]
+    fn rate(&self) -> Option<&RateLaw> {
+        self.friction().and_then(Friction::rate)
+    }
+
+    #[inline(always)]
+    fn series(&self) -> Option<&SurfacesInSeries> {
+        match self {
+            Self::Surface { .. } => None,
+            Self::InSeries(series) => Some(series),
+        }
+    }
 }
 
 /// What draws a block on one surface back to `s = 0`.
@@ -167,32 +190,26 @@ impl Slider {
 
     /// Surfaces in series.
     #[must_use]
-    pub fn in_series(series: Series) -> Self {
+    pub fn in_series(series: SurfacesInSeries) -> Self {
         Self::on(Bearing::InSeries(series))
     }
 
     /// The friction of one surface.
     #[must_use]
     pub fn friction(&self) -> Option<&Friction> {
-        match &self.bearing {
-            Bearing::Surface { friction, .. } => Some(friction),
-            Bearing::InSeries(_) => None,
-        }
+        self.bearing.friction()
     }
 
     /// The law of kinetic friction that follows the speed, where it does.
     #[must_use]
     pub fn rate(&self) -> Option<&RateLaw> {
-        self.friction().and_then(Friction::rate)
+        self.bearing.rate()
     }
 
     /// The surfaces in series, where there are such.
     #[must_use]
-    pub fn series(&self) -> Option<&Series> {
-        match &self.bearing {
-            Bearing::Surface { .. } => None,
-            Bearing::InSeries(series) => Some(series),
-        }
+    pub fn series(&self) -> Option<&SurfacesInSeries> {
+        self.bearing.series()
     }
 
     /// Static and kinetic coefficients towards +x and −x: of friction by the speed that at rest, of

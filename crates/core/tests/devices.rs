@@ -11,7 +11,7 @@ use serde_json::Value;
 use slipstick::model::{Block, Contents, Damping, Frame, InitialState, Model, Slider, Stop};
 use slipstick::motion::GroundMotion;
 use slipstick::response::{EventKind, Mode, Response};
-use slipstick::slider::{Friction, RateCurve, RateLaw, Series, Surface};
+use slipstick::slider::{Friction, RateCurve, RateLaw, Surface, SurfacesInSeries};
 use slipstick::solver::{exact, exact_demands};
 
 /// The model; nothing here is told which solver takes it.
@@ -56,7 +56,8 @@ fn model(case: &Value) -> Model {
             friction: number(&s["mu"]),
             travel_m: optional(&s["d"]),
         };
-        Series::new(surfaces.iter().map(surface).collect(), p("static_ratio")).expect("surfaces")
+        SurfacesInSeries::new(surfaces.iter().map(surface).collect(), p("static_ratio"))
+            .expect("surfaces")
     });
     let bearing = || {
         let friction = match rate {

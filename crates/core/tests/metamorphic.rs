@@ -20,7 +20,7 @@ use slipstick::check::{Certificate, check};
 use slipstick::error::SolveError;
 use slipstick::model::{Contents, Stop, StopKind};
 use slipstick::response::{Contact, DemandColumn, Event, EventKind, Mode, Response};
-use slipstick::slider::{RateCurve, Series, Surface};
+use slipstick::slider::{RateCurve, Surface, SurfacesInSeries};
 use slipstick::solver::exact;
 use slipstick::units::Dimension;
 
@@ -507,7 +507,7 @@ fn prop_collinear_samples_change_nothing() {
 fn prop_a_far_stop_changes_nothing() {
     twins(|x, random| {
         x.stop = None;
-        let far_m = 1e3 * x.series.as_ref().and_then(Series::travel_m).unwrap_or(1.0);
+        let far_m = 1e3 * x.series.as_ref().and_then(SurfacesInSeries::travel_m).unwrap_or(1.0);
         let kind = if random.chance(0.5) {
             StopKind::Rigid { restitution: 0.5 }
         } else {
@@ -552,7 +552,7 @@ fn prop_equal_surfaces_are_one_pendulum() {
         twin.radius_m = None;
         twin.spring = 0.0;
         let surfaces = vec![surface; count as usize];
-        twin.series = Some(Series::new(surfaces, static_ratio).expect("surfaces"));
+        twin.series = Some(SurfacesInSeries::new(surfaces, static_ratio).expect("surfaces"));
         Some(twin)
     });
 }

@@ -6,7 +6,7 @@ use slipstick::error::ChoiceError;
 use slipstick::linear::shear_frame_modes;
 use slipstick::model::{Damping, Frame, InitialState, Model, StopKind};
 use slipstick::motion::GroundMotion;
-use slipstick::slider::{Direction, RateCurve, Series, Surface};
+use slipstick::slider::{Direction, RateCurve, Surface, SurfacesInSeries};
 
 // Functions of the script, below the model's numbers: those of the slider, of what presses it down, of
 // stops and contents, and of the analysis.
@@ -209,8 +209,8 @@ fn bearing(model: &Model, vertical: bool, line: &mut impl FnMut(core::fmt::Argum
 ///
 /// The element's effective lengths are `L1 = R/2` of the first and `R + L1` of the others, and its ends
 /// of travel `2 (d1 + d3 L1/L3)`, `d2 (1 − L1/L2)` and `d3 (1 − L1/L3)`.
-fn triple(series: Option<&Series>, line: &mut impl FnMut(core::fmt::Arguments<'_>)) {
-    let surfaces = series.map_or(&[][..], Series::surfaces);
+fn triple(series: Option<&SurfacesInSeries>, line: &mut impl FnMut(core::fmt::Arguments<'_>)) {
+    let surfaces = series.map_or(&[][..], SurfacesInSeries::surfaces);
     let of =
         |s: &Surface| [s.friction, s.radius_m.unwrap_or(ENDLESS), s.travel_m.unwrap_or(ENDLESS)];
     let mut all: Vec<[f64; 3]> = surfaces.iter().map(of).collect();
@@ -372,7 +372,7 @@ fn expressible(model: &Model, motion: &GroundMotion) -> Result<SliderElement, Ch
 
 /// # Errors
 /// [`ChoiceError`] for surfaces that `TripleFrictionPendulum` does not have.
-fn in_series(series: &Series) -> Result<(), ChoiceError> {
+fn in_series(series: &SurfacesInSeries) -> Result<(), ChoiceError> {
     let no = |what: &str, expected: &str, found: &str| Err(refused(what, expected, found));
     if series.static_ratio() != 1.0 {
         let expected = "1: OpenSees' friction models have no static friction";

@@ -10,7 +10,7 @@ use crate::error::{InputError, ModelError};
 use crate::model::{Block, Contents, InitialState, Model, Slider, Stop};
 use crate::response::Method;
 use crate::slider::{
-    Bearing, Direction, Ends, Friction, RateCurve, RateLaw, Restoring, Series, Surface,
+    Bearing, Direction, Ends, Friction, RateCurve, RateLaw, Restoring, Surface, SurfacesInSeries,
 };
 use crate::units::{LARGEST, STANDARD_GRAVITY_M_PER_S2};
 
@@ -249,7 +249,7 @@ fn rate(values: &Values) -> Result<Option<RateLaw>, InputError> {
 }
 
 /// Surfaces in series.
-fn series(values: &Values) -> Result<Option<Series>, InputError> {
+fn series(values: &Values) -> Result<Option<SurfacesInSeries>, InputError> {
     let surfaces = if values.has("slider.triple") {
         triple(values)?
     } else if values.has("slider.surface") {
@@ -281,7 +281,9 @@ fn series(values: &Values) -> Result<Option<Series>, InputError> {
     if static_ratio < 1.0 {
         return Err(values.wrong("slider.static_ratio", "a number of at least 1"));
     }
-    Series::new(surfaces, static_ratio).map(Some).map_err(|error| model_error(values, &error))
+    SurfacesInSeries::new(surfaces, static_ratio)
+        .map(Some)
+        .map_err(|error| model_error(values, &error))
 }
 
 /// A triple pendulum as three elements in series (Fenz and Constantinou 2008).

@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use super::{Block, Contents, Damping, Frame, InitialState, Model, Slider, Stop};
 use crate::error::ModelError;
-use crate::slider::{Bearing, Direction, Ends, Friction, RateLaw, Restoring, Series};
+use crate::slider::{Bearing, Direction, Ends, Friction, RateLaw, Restoring, SurfacesInSeries};
 use crate::units::{Dimension, STANDARD_GRAVITY_M_PER_S2, parse_quantity};
 
 /// Builds a [`Model`] from quantities with units, all that [`crate::units`] knows.
@@ -47,7 +47,7 @@ pub struct ModelBuilder {
     damping: Option<Damping>,
     gravity_m_per_s2: f64,
     initial: InitialState,
-    series: Option<Series>,
+    series: Option<SurfacesInSeries>,
     contents: Vec<Contents>,
     /// The first that could not be read.
     refused: Option<ModelError>,
@@ -119,7 +119,7 @@ impl ModelBuilder {
 
     /// Surfaces in series, which have friction and radii of their own: they exclude
     /// others, and a spring.
-    pub fn surfaces(mut self, series: Series) -> Self {
+    pub fn surfaces(mut self, series: SurfacesInSeries) -> Self {
         self.series = Some(series);
         self
     }

@@ -74,7 +74,7 @@ pub fn struck(model: &Model, demands: &Demands) -> Vec<Warning> {
 mod tests {
     use super::*;
     use crate::response::SurfaceDemands;
-    use crate::slider::{Series, Surface};
+    use crate::slider::{Surface, SurfacesInSeries};
 
     fn slid(peak_m: f64) -> Demands {
         Demands { peak_sliding_displacement_m: peak_m, ..Demands::default() }
@@ -107,7 +107,8 @@ mod tests {
     fn exact_flat_geometry_of_surfaces_is_that_of_each() {
         let surface =
             |friction, radius_m| Surface { friction, radius_m: Some(radius_m), travel_m: None };
-        let series = Series::new(vec![surface(0.03, 0.5), surface(0.06, 2.0)], 1.0).unwrap();
+        let series =
+            SurfacesInSeries::new(vec![surface(0.03, 0.5), surface(0.06, 2.0)], 1.0).unwrap();
         let two = Model::builder().block("1 t").surfaces(series).build().unwrap();
         let surface =
             |peak_displacement_m| SurfaceDemands { peak_displacement_m, ..Default::default() };

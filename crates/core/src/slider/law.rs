@@ -10,7 +10,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::rate::{Coefficient, RateCurve, RateLaw};
-use super::series::{Series, SeriesState};
+use super::series::{SeriesState, SurfacesInSeries};
 use super::stop::{Pads, Walls};
 use super::{Bearing, Contact, Direction, Friction, Slider, StopKind};
 use crate::linear::lanes::{eight, least};
@@ -395,13 +395,13 @@ impl<'a> Law<'a> {
 
     /// Whether branches come again as they were, each affine under a constant normal force.
     pub(crate) fn repeats(&self) -> bool {
-        self.series().is_none() && self.fading_rate_s_per_m().is_none()
+        self.bearing.series().is_none() && self.fading_rate_s_per_m().is_none()
     }
 
     /// The forces of a block that has but two branches, each with a constant friction force over the
     /// normal force.
     pub(crate) fn two_branches(&self, normal_n: f64) -> Option<TwoBranches> {
-        let friction = self.friction().filter(|friction| friction.rate().is_none())?;
+        let friction = self.bearing.friction().filter(|friction| friction.rate().is_none())?;
         let [fixed, kinetic] = [Friction::static_coefficient, Friction::kinetic_coefficient]
             .map(|mu| Direction::BOTH.map(|d| -d.sign() * mu(friction, d) * normal_n));
         (!self.has_pads()).then_some(TwoBranches { bounds_n: fixed, kinetic_n: kinetic })
@@ -409,7 +409,7 @@ impl<'a> Law<'a> {
 
     /// Rate in s/m at which friction fades with the speed, where it does.
     pub(crate) fn fading_rate_s_per_m(&self) -> Option<f64> {
-        match self.rate()?.curve() {
+        match self.bearing.rate()?.curve() {
             RateCurve::Exponential { rate_s_per_m, .. } => Some(*rate_s_per_m),
             RateCurve::Pieces { .. } => None,
         }
@@ -464,28 +464,7 @@ impl<'a> Law<'a> {
     /// Number of surfaces whose displacements it tells.
     #[inline(always)]
     pub(crate) fn surface_count(&self) -> usize {
-        self.series().map_or(0, |series| series.surfaces().len())
-    }
-
-    #[inline(always)]
-    fn friction(&self) -> Option<&'a Friction> {
-        match self.bearing {
-            Bearing::Surface { friction, .. } => Some(friction),
-            Bearing::InSeries(_) => None,
-        }
-    }
-
-    #[inline(always)]
-    fn rate(&self) -> Option<&'a RateLaw> {
-        self.friction().and_then(Friction::rate)
-    }
-
-    #[inline(always)]
-    fn series(&self) -> Option<&'a Series> {
-        match self.bearing {
-            Bearing::Surface { .. } => None,
-            Bearing::InSeries(series) => Some(series),
-        }
+        self.bearing.series().map_or(0, |series| series.surfaces().len())
     }
 
     #[inline(always)]
@@ -515,7 +494,7 @@ impl<'a> Law<'a> {
     pub(crate) fn restraints(&self, normal_n: f64) -> Vec<Restraints> {
         let mut all = Vec::with_capacity(2);
         let contacts = [Contact::Free, Contact::Pressed(Direction::Positive)];
-        let pieces = self.rate().map_or(1, RateLaw::pieces);
+        let pieces = self.bearing.rate().map_or(1, RateLaw::pieces);
         let sets = 1_usize << self.surface_count();
         for contact in contacts.into_iter().take(if self.has_pads() { 2 } else { 1 }) {
             for piece in 0..pieces {
@@ -540,7 +519,7 @@ impl<'a> Law<'a> {
     /// What is in force in a state before anything has happened.
     pub(crate) fn initial(&self, s: f64, w: f64) -> Memory {
         let contact = self.pads().map_or(Contact::Free, |pads| pads.initial(s, w));
-        let series = self.series().map_or_else(SeriesState::default, |all| all.initial(s));
+        let series = self.bearing.series().map_or_else(SeriesState::default, |all| all.initial(s));
         let mut memory = Memory { contact, piece: 0, series };
         if w != 0.0 {
             let direction = if w > 0.0 { Direction::Positive } else { Direction::Negative };
@@ -555,7 +534,7 @@ impl<'a> Law<'a> {
         if let Some(pads) = self.pads() {
             memory.contact = pads.begin(memory.contact, s, direction);
         }
-        if let Some(series) = self.series() {
+        if let Some(series) = self.bearing.series() {
             series.settle(&mut memory.series, s);
         }
         self.resume(memory, 0.0, direction);
@@ -564,15 +543,15 @@ impl<'a> Law<'a> {
     /// What is in force at a speed that the block has been given.
     #[inline(always)]
     pub(crate) fn resume(&self, memory: &mut Memory, speed: f64, direction: Direction) {
-        memory.piece = self.rate().map_or(0, |rate| rate.piece_of(speed));
-        if let Some(series) = self.series() {
+        memory.piece = self.bearing.rate().map_or(0, |rate| rate.piece_of(speed));
+        if let Some(series) = self.bearing.series() {
             series.begin(&mut memory.series, direction);
         }
     }
 
     /// Whether no surface can slide on in a direction.
     pub(crate) fn at_end(&self, memory: &Memory) -> bool {
-        self.series().is_some() && !memory.series.active.contains(&true)
+        self.bearing.series().is_some() && !memory.series.active.contains(&true)
     }
 
     /// The force while the block slides in a direction.
@@ -584,7 +563,7 @@ impl<'a> Law<'a> {
             force_n: 0.0,
             of_normal: 0.0,
             of_normal_s: self.radius_m.map_or(0.0, |radius_m| 1.0 / radius_m),
-            is_friction: self.series().is_some(),
+            is_friction: self.bearing.series().is_some(),
             sign: direction.sign(),
             coefficient: self.coefficient(memory, direction),
         };
@@ -592,7 +571,7 @@ impl<'a> Law<'a> {
             (force.restraint, force.is_pressed) = (pads.beside(self.restraint), true);
             force.force_n = pads.constant_n(side);
         }
-        if let Some(series) = self.series() {
+        if let Some(series) = self.bearing.series() {
             let [phi, slope] = series.force(&memory.series, direction);
             force.of_normal = phi - slope * memory.series.from_m;
             force.of_normal_s = slope;
@@ -619,7 +598,10 @@ impl<'a> Law<'a> {
         if let Some(pads) = self.pads() {
             [all[0], all[1]] = pads.exits(memory.contact, direction);
         }
-        if self.walls().is_none() && self.series().is_none() && self.rate().is_none() {
+        if self.walls().is_none()
+            && self.bearing.series().is_none()
+            && self.bearing.rate().is_none()
+        {
             return all;
         }
         let sign = direction.sign();
@@ -633,13 +615,13 @@ impl<'a> Law<'a> {
         // Bounces lead the surfaces back to where they were at the stop: what joins there does not.
         let before_wall =
             |place: f64| wall.is_none_or(|wall| sign * (wall - place) > AT_WALL * wall.abs());
-        if let Some(series) = self.series()
+        if let Some(series) = self.bearing.series()
             && let Some(place) = series.next_level(&memory.series, direction)
             && before_wall(place)
         {
             all[2] = level(place, Reached::Surface(place));
         }
-        if let Some(rate) = self.rate() {
+        if let Some(rate) = self.bearing.rate() {
             let [below, above] = rate.ends(memory.piece);
             if let Some(speed) = below {
                 let reached = Reached::Knot(speed, memory.piece - 1);
@@ -710,7 +692,7 @@ impl<'a> Law<'a> {
 
     /// Size of the friction force while the block slides in a direction at a speed.
     pub(crate) fn kinetic_n(&self, direction: Direction, speed: f64, normal_n: f64) -> f64 {
-        let of_surface = self.friction().map_or(0.0, |friction| match friction.rate() {
+        let of_surface = self.bearing.friction().map_or(0.0, |friction| match friction.rate() {
             Some(rate) => rate.at(speed, direction),
             None => friction.kinetic_coefficient(direction),
         });
@@ -734,7 +716,7 @@ impl<'a> Law<'a> {
             Reached::Contact(to, _) => memory.contact = to,
             Reached::Knot(_, piece) => memory.piece = piece,
             Reached::Surface(place) => {
-                if let Some(series) = self.series() {
+                if let Some(series) = self.bearing.series() {
                     series.reach(&mut memory.series, place, direction);
                 }
             }
@@ -745,7 +727,7 @@ impl<'a> Law<'a> {
     /// Ends a branch at rest at `s`.
     #[inline(always)]
     pub(crate) fn settle(&self, memory: &mut Memory, s: f64) {
-        if let Some(series) = self.series() {
+        if let Some(series) = self.bearing.series() {
             series.settle(&mut memory.series, s);
             memory.series.active.fill(false);
         }
@@ -753,7 +735,7 @@ impl<'a> Law<'a> {
 
     /// The same where the block strikes a rigid stop in a direction.
     pub(crate) fn strike(&self, memory: &mut Memory, s: f64, direction: Direction) {
-        if let Some(series) = self.series() {
+        if let Some(series) = self.bearing.series() {
             series.arrive(&mut memory.series, s, direction);
         }
         self.settle(memory, s);
@@ -761,7 +743,7 @@ impl<'a> Law<'a> {
 
     /// The same where a bounce in a direction ends, however short it was.
     pub(crate) fn turn(&self, memory: &mut Memory, s: f64, direction: Direction) {
-        if let Some(series) = self.series() {
+        if let Some(series) = self.bearing.series() {
             series.turn(&mut memory.series, s, direction);
         }
         self.settle(memory, s);
@@ -772,8 +754,8 @@ impl<'a> Law<'a> {
     /// Displacements of surfaces in series at `s` in a branch.
     #[inline(always)]
     pub(crate) fn surfaces(&self, memory: &Memory, s: f64) -> Vec<f64> {
-        let of = |series: &Series| series.displacements(&memory.series, s);
-        self.series().map_or_else(Vec::new, of)
+        let of = |series: &SurfacesInSeries| series.displacements(&memory.series, s);
+        self.bearing.series().map_or_else(Vec::new, of)
     }
 
     /// Whether surfaces with these displacements are at their ends.
@@ -781,7 +763,7 @@ impl<'a> Law<'a> {
         &self,
         displacements_m: &'d [f64],
     ) -> impl Iterator<Item = bool> + use<'a, 'd> {
-        let surfaces = self.series().map_or(&[][..], Series::surfaces);
+        let surfaces = self.bearing.series().map_or(&[][..], SurfacesInSeries::surfaces);
         let at_end = |(surface, u): (&super::Surface, &f64)| {
             surface.travel_m.is_some_and(|travel_m| u.abs() >= travel_m)
         };
@@ -805,7 +787,7 @@ impl<'a> Law<'a> {
     /// Largest force that friction can hold; infinite where the springs of surfaces in series add to it.
     #[inline(always)]
     pub(crate) fn largest_static_n(&self, normal_n: f64) -> f64 {
-        let Some(friction) = self.friction() else { return f64::INFINITY };
+        let Some(friction) = self.bearing.friction() else { return f64::INFINITY };
         let [positive, negative] = Direction::BOTH.map(|d| friction.static_coefficient(d));
         positive.max(negative) * normal_n
     }

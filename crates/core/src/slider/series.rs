@@ -27,7 +27,7 @@ impl Surface {
 
 /// Surfaces in series.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Series {
+pub struct SurfacesInSeries {
     surfaces: Vec<Surface>,
     static_ratio: f64,
 }
@@ -46,7 +46,7 @@ pub(crate) struct SeriesState {
 /// Differences of `φ` below this, over the largest, are none: what slides together stays together.
 const ALIKE: f64 = 1e-13;
 
-impl Series {
+impl SurfacesInSeries {
     /// Surfaces of which the static friction is `static_ratio` times the kinetic one.
     ///
     /// # Errors

@@ -1,13 +1,13 @@
 //! What the events of a lone slider change: the one place that decides what follows a stop or a release.
 
 use super::run::Sliding;
-use super::slider::{Slider, Start};
+use super::slider::{SliderState, Start};
 use crate::response::{Event, EventKind, Mode};
 use crate::slider::{Direction, Hold};
 
 /// Mode and law of a lone slider, and what its events have left behind.
 pub(super) struct Course<'a> {
-    pub(super) slider: Slider<'a>,
+    pub(super) slider: SliderState<'a>,
     pub(super) mode: Mode,
     /// Set while a slip has just started.
     pub(super) start: Option<Start>,
@@ -30,7 +30,7 @@ pub(super) struct Instant {
 
 impl<'a> Course<'a> {
     /// Before anything has happened, in a list that is empty.
-    pub(super) fn new(slider: Slider<'a>, [s, w]: [f64; 2], events: Vec<Event>) -> Self {
+    pub(super) fn new(slider: SliderState<'a>, [s, w]: [f64; 2], events: Vec<Event>) -> Self {
         let mode = match w {
             w if w > 0.0 => Mode::Slip(Direction::Positive),
             w if w < 0.0 => Mode::Slip(Direction::Negative),

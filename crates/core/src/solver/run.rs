@@ -16,7 +16,7 @@ use super::ground::{Ground, Normal, Roughness};
 use super::outputs::{Group, output};
 use super::peaks::Peaks;
 use super::recorder::{Knot, Recorder};
-use super::slider::Slider;
+use super::slider::SliderState;
 use super::tables::{Batch, LazyPhase, Phase, Tables};
 use super::workspace::Workspace;
 use crate::error::SolveError;
@@ -232,7 +232,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         peaks.serve(groups, outputs, stride);
         let mut events = take(&mut room.events);
         events.clear();
-        let course = Course::new(Slider::new(law, s, w), [s, w], events);
+        let course = Course::new(SliderState::new(law, s, w), [s, w], events);
         let now = InForce {
             mode: course.mode,
             phase: &tables.stick,

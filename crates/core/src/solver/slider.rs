@@ -80,7 +80,7 @@ impl Surfaces {
 }
 
 /// A law with what is in force of it.
-pub(super) struct Slider<'a> {
+pub(super) struct SliderState<'a> {
     pub(super) law: &'a Law<'a>,
     pub(super) memory: Memory,
     /// What has just been reached: an exit that waits for the same starts at its zero.
@@ -89,7 +89,7 @@ pub(super) struct Slider<'a> {
     pub(super) surfaces: Surfaces,
 }
 
-impl<'a> Slider<'a> {
+impl<'a> SliderState<'a> {
     /// Before anything has happened.
     pub(super) fn new(law: &'a Law<'a>, s: f64, w: f64) -> Self {
         let mut slider = Self {

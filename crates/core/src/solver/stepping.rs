@@ -20,7 +20,7 @@ use super::event::{EVENTS_PER_INTERVAL_LIMIT, fitting};
 use super::ground::{Ground, Stretch};
 use super::prepared::InstructionSet;
 use super::run::{Outcome, Sliding};
-use super::slider::Slider;
+use super::slider::SliderState;
 use super::tables::system_of;
 use crate::error::SolveError;
 use crate::linear::polynomial::{DEGREE, Polynomial, deflated, first_root, value};
@@ -80,7 +80,7 @@ struct Near {
 
 struct Stepping<'a> {
     model: &'a Model,
-    slider: Slider<'a>,
+    slider: SliderState<'a>,
     ground: Ground<'a>,
     instructions: InstructionSet,
     ahead: Ahead,
@@ -140,7 +140,7 @@ impl<'a> Stepping<'a> {
         if w != 0.0 {
             modes[0] = Mode::Slip(if w > 0.0 { Direction::Positive } else { Direction::Negative });
         }
-        let slider = Slider::new(law, s, w);
+        let slider = SliderState::new(law, s, w);
         let surfaces = law.surfaces(&slider.memory, s).len();
         let history = with_history.then(|| history(&body, surfaces, ground.times_s.len()));
         let mut sliding = vec![Sliding::new(s)];

@@ -73,7 +73,7 @@ impl LazyPhase {
     #[cold]
     #[inline(never)]
     fn make(&self) -> &Phase {
-        InstructionSet::best().run(Made(self))
+        InstructionSet::best().run(MakePhase(self))
     }
 }
 
@@ -86,9 +86,9 @@ impl Deref for LazyPhase {
     }
 }
 
-struct Made<'a>(&'a LazyPhase);
+struct MakePhase<'a>(&'a LazyPhase);
 
-impl<'a> Job for Made<'a> {
+impl<'a> Job for MakePhase<'a> {
     type Output = &'a Phase;
 
     #[inline(always)]
@@ -102,9 +102,9 @@ impl<'a> Job for Made<'a> {
     }
 }
 
-struct MadeBatch<'a>(&'a Phase, f64);
+struct MakeBatch<'a>(&'a Phase, f64);
 
-impl<'a> Job for MadeBatch<'a> {
+impl<'a> Job for MakeBatch<'a> {
     type Output = &'a Batch;
 
     #[inline(always)]
@@ -327,7 +327,7 @@ impl Phase {
     #[cold]
     #[inline(never)]
     fn make_batch(&self) -> Option<&Batch> {
-        Some(InstructionSet::best().run(MadeBatch(self, self.batch_s?)))
+        Some(InstructionSet::best().run(MakeBatch(self, self.batch_s?)))
     }
 }
 

@@ -52,7 +52,7 @@ struct Shaking {
 
 /// What a prepared motion was made from: it serves for all samples that agree on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Made<'a> {
+struct MotionOrigin<'a> {
     source: Option<&'a MotionSource>,
     tail_s: f64,
 }
@@ -157,7 +157,7 @@ impl Study {
     ) -> Vec<Row> {
         let made = |parts: &'s Parts| {
             let source = if scaled.is_some() { None } else { parts.motion.as_ref() };
-            Made { source, tail_s: parts.tail_s }
+            MotionOrigin { source, tail_s: parts.tail_s }
         };
         let made = |sample: &'s Sample| sample.parts.as_ref().ok().map(made);
         let none = Err(RunError::NoMotion);
@@ -166,7 +166,7 @@ impl Study {
             let alike = made(sample);
             let own;
             let motion = match (scaled, &alike) {
-                (Some(scaled), None | Some(Made { tail_s: 0.0, .. })) => scaled,
+                (Some(scaled), None | Some(MotionOrigin { tail_s: 0.0, .. })) => scaled,
                 (None, None) => &none,
                 (_, Some(made)) => {
                     own = self.with_tail(*made, scaled);
@@ -235,7 +235,7 @@ impl Study {
 
     fn with_tail(
         &self,
-        made: Made<'_>,
+        made: MotionOrigin<'_>,
         scaled: Option<&Result<Shaking, RunError>>,
     ) -> Result<Shaking, RunError> {
         let bare = match scaled {

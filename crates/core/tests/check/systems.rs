@@ -4,7 +4,7 @@ use slipstick::check::{Certificate, check};
 use slipstick::model::{Block, Contents, Damping, Frame, InitialState, Model, Slider, Stop};
 use slipstick::motion::GroundMotion;
 use slipstick::response::{Demands, History, Method, Mode, Response};
-use slipstick::slider::{Friction, RateCurve, RateLaw, Series, Surface};
+use slipstick::slider::{Friction, RateCurve, RateLaw, Surface, SurfacesInSeries};
 use slipstick::solver;
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2 as G;
 
@@ -219,7 +219,7 @@ pub fn device_systems() -> Vec<System> {
         travel_m: Some(travel_m),
     };
     let surfaces = vec![surface(1.0, 0.03, 0.012), surface(2.0, 0.05, 0.3)];
-    let in_series = Slider::in_series(Series::new(surfaces, 1.1).unwrap());
+    let in_series = Slider::in_series(SurfacesInSeries::new(surfaces, 1.1).unwrap());
     let contents = |floor, mass_kg, static_friction, kinetic_friction| Contents {
         floor,
         mass_kg,

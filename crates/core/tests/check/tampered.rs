@@ -5,7 +5,7 @@ use slipstick::check::check;
 use slipstick::model::{Block, Contents, Damping, Frame, Model};
 use slipstick::motion::GroundMotion;
 use slipstick::response::{Demands, EventKind, History, Mode, Response};
-use slipstick::slider::{Bearing, Direction, Ends, Friction, RateCurve, RateLaw, Series};
+use slipstick::slider::{Bearing, Direction, Ends, Friction, RateCurve, RateLaw, SurfacesInSeries};
 
 /// A tampered figure must stand above this.
 const SHOWS: f64 = 1e-9;
@@ -97,7 +97,7 @@ fn exact_changed_device_shows() {
                 for i in 0..series.surfaces().len() {
                     let mut surfaces = series.surfaces().to_vec();
                     surfaces[i].radius_m = surfaces[i].radius_m.map(|radius_m| radius_m * part);
-                    let series = Series::new(surfaces, series.static_ratio()).unwrap();
+                    let series = SurfacesInSeries::new(surfaces, series.static_ratio()).unwrap();
                     let bearing = Bearing::InSeries(series);
                     let model = with(&system.model, |slider, _| slider.bearing = bearing);
                     must_show(model, "a radius in series");

@@ -7,7 +7,7 @@ use slipstick::motion::GroundMotion;
 use slipstick::response::{
     Contact, Demands, Event, EventKind, History, Method, Mode, Response, StopDemands,
 };
-use slipstick::slider::{Bearing, Direction, Series, Surface};
+use slipstick::slider::{Bearing, Direction, Surface, SurfacesInSeries};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2 as G;
 
 #[test]
@@ -609,7 +609,7 @@ fn exact_tiny_motion_without_contact_passes() {
         let rigid = Model::rigid_block(2.0, coulomb([0.48; 2], [0.37; 2])).unwrap();
         certified("tiny motion", rigid.clone(), &samples);
         let flat = Surface { radius_m: None, friction: 0.2, travel_m: None };
-        let bearing = Bearing::InSeries(Series::new(vec![flat], 1.0).unwrap());
+        let bearing = Bearing::InSeries(SurfacesInSeries::new(vec![flat], 1.0).unwrap());
         let model = with(&rigid, |slider, _| slider.bearing = bearing);
         certified("tiny motion on a surface in series", model, &samples);
     }

@@ -5,7 +5,7 @@ use slipstick::model::{
     Block, Contents, Damping, Frame, InitialState, Model, Slider, Stop, StopKind,
 };
 use slipstick::motion::GroundMotion;
-use slipstick::slider::{Friction, RateCurve, RateLaw, Series, Surface};
+use slipstick::slider::{Friction, RateCurve, RateLaw, Surface, SurfacesInSeries};
 
 const G: f64 = 9.80665;
 
@@ -87,7 +87,7 @@ pub fn system(seed: u64) -> System {
         if r.chance(0.3) {
             surfaces[1] = surfaces[0];
         }
-        Series::new(surfaces, if r.chance(0.5) { 1.0 } else { r.between(1.0, 1.5) })
+        SurfacesInSeries::new(surfaces, if r.chance(0.5) { 1.0 } else { r.between(1.0, 1.5) })
             .expect("surfaces")
     });
     let vertical = r.chance(0.4);

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use slipstick::model::{Contents, Damping, Stop, StopKind};
 use slipstick::motion::{GroundMotion, Pulse, PulseShape, Sine, Sweep, SweepKind};
-use slipstick::slider::{RateCurve, Series, Surface};
+use slipstick::slider::{RateCurve, Surface, SurfacesInSeries};
 
 use super::random::Random;
 use super::sketch::Sketch;
@@ -208,7 +208,7 @@ fn bearing(random: &mut Random, x: &mut Sketch) {
             ]
         };
         let ratio = random.of(&[1.0, 1.0, 1.2]);
-        x.series = Some(Series::new(surfaces, ratio).expect("surfaces"));
+        x.series = Some(SurfacesInSeries::new(surfaces, ratio).expect("surfaces"));
         // Nothing else ends its travel.
         x.stop = Some(Stop { gap_m: [Some(0.5); 2], kind: StopKind::Rigid { restitution: 0.3 } });
         return;

@@ -4,7 +4,7 @@ use slipstick::model::{
     Block, Contents, Damping, Frame, InitialState, Model, Slider, Stop, StopKind,
 };
 use slipstick::motion::GroundMotion;
-use slipstick::slider::{Direction, Friction, RateCurve, RateLaw, Series, Surface};
+use slipstick::slider::{Direction, Friction, RateCurve, RateLaw, Surface, SurfacesInSeries};
 
 use super::random::Random;
 
@@ -27,7 +27,7 @@ pub struct Sketch {
     /// Of a pendulum, in the place of the spring.
     pub radius_m: Option<f64>,
     /// In the place of friction and spring.
-    pub series: Option<Series>,
+    pub series: Option<SurfacesInSeries>,
     pub contents: Vec<Contents>,
     pub gravity: f64,
     /// Whether it has a width and heights, so that the overturning moment is an output.
@@ -230,7 +230,7 @@ impl Sketch {
             surfaces[1] = surfaces[0];
         }
         let static_ratio = if random.chance(0.4) { 1.0 } else { random.between(1.0, 1.5) };
-        self.series = Some(Series::new(surfaces, static_ratio).expect("surfaces"));
+        self.series = Some(SurfacesInSeries::new(surfaces, static_ratio).expect("surfaces"));
         self.spring = 0.0;
     }
 
@@ -503,7 +503,10 @@ fn factors(rate: &RateLaw) -> [f64; 2] {
 }
 
 /// Surfaces made of others one by one.
-fn of_surfaces(series: &Series, change: impl Fn(&Surface) -> Surface) -> Series {
+fn of_surfaces(
+    series: &SurfacesInSeries,
+    change: impl Fn(&Surface) -> Surface,
+) -> SurfacesInSeries {
     let surfaces = series.surfaces().iter().map(change).collect();
-    Series::new(surfaces, series.static_ratio()).expect("surfaces")
+    SurfacesInSeries::new(surfaces, series.static_ratio()).expect("surfaces")
 }

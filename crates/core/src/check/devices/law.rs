@@ -3,7 +3,7 @@
 use super::super::law::{Law, Push, index};
 use crate::model::{Model, StopKind};
 use crate::response::{Contact, Mode};
-use crate::slider::{Direction, Series, Surface};
+use crate::slider::{Direction, Surface, SurfacesInSeries};
 
 /// Thresholds closer than this part of the largest are the same.
 const SAME: f64 = 1e-13;
@@ -53,7 +53,7 @@ pub(super) struct Slider<'a> {
     pub(super) law: Law,
     fixed: [f64; 2],
     radius_m: Option<f64>,
-    series: Option<&'a Series>,
+    series: Option<&'a SurfacesInSeries>,
     spring: f64,
     damper: f64,
     /// Restitution of rigid stops and where they stand.

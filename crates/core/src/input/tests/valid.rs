@@ -13,7 +13,7 @@ use crate::model::{
 use crate::motion::{Pulse, PulseShape, Sine, Sweep, SweepKind};
 use crate::record::Units;
 use crate::response::Method;
-use crate::slider::{RateCurve, RateLaw, Series, Surface};
+use crate::slider::{RateCurve, RateLaw, Surface, SurfacesInSeries};
 use crate::units::Dimension;
 
 #[test]
@@ -405,7 +405,7 @@ fn exact_builder_makes_the_model_of_the_file() {
 
     let surface =
         |friction, radius_m| Surface { radius_m: Some(radius_m), friction, travel_m: None };
-    let series = Series::new(vec![surface(0.05, 2.0), surface(0.1, 3.0)], 1.0).unwrap();
+    let series = SurfacesInSeries::new(vec![surface(0.05, 2.0), surface(0.1, 3.0)], 1.0).unwrap();
     let surfaces = "[[slider.surface]]\nradius = \"2 m\"\nfriction = 0.05\n\
                     [[slider.surface]]\nradius = \"3 m\"\nfriction = 0.1";
     assert_eq!(built(Model::builder().surfaces(series)), file("", surfaces));
