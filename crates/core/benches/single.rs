@@ -9,9 +9,9 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use slipstick::check::check;
-use slipstick::friction::{Coulomb, Friction};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::GroundMotion;
+use slipstick::slider::Friction;
 use slipstick::solver::{self, Prepared, PreparedMotion};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 use std::hint::black_box;
@@ -89,14 +89,7 @@ fn model(mu_static: f64, mu_kinetic: f64, stiffness_n_per_m: f64) -> Model {
     let rate = core::f64::consts::TAU * 2.687;
     Model::new(
         Block { mass_kg: 325.0, width_m: None, height_m: None },
-        Slider {
-            friction: Friction::Coulomb(Coulomb::new([mu_static; 2], [mu_kinetic; 2]).unwrap()),
-            stiffness_n_per_m,
-            damper_n_s_per_m: 0.0,
-            tilt_rad: 0.0,
-            gap_m: None,
-            stop: None,
-        },
+        Slider::sprung(Friction::new(mu_static, mu_kinetic).unwrap(), stiffness_n_per_m),
         Frame {
             masses_kg: vec![201.0],
             stiffnesses_n_per_m: vec![201.0 * rate * rate],

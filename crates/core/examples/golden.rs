@@ -6,12 +6,12 @@
 
 #![allow(clippy::disallowed_macros, reason = "a program may print")]
 
-use slipstick::friction::{Coulomb, Friction};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::intensity::{IntensityMeasures, Measure};
 use slipstick::motion::processing::Step;
 use slipstick::motion::{GroundMotion, logarithmic_periods, spectrum};
 use slipstick::response::Response;
+use slipstick::slider::Friction;
 use slipstick::solver;
 use std::process::ExitCode;
 
@@ -105,12 +105,11 @@ fn model(storeys: usize, stiffness_n_per_m: f64) -> Result<Model, Box<dyn std::e
     Ok(Model::new(
         Block { mass_kg: 325.0, width_m: None, height_m: None },
         Slider {
-            friction: Friction::Coulomb(Coulomb::new([0.06, 0.05], [0.045, 0.04])?),
-            stiffness_n_per_m,
-            damper_n_s_per_m: 0.0,
             tilt_rad: 0.001,
-            gap_m: None,
-            stop: None,
+            ..Slider::sprung(
+                Friction::by_direction([0.06, 0.05], [0.045, 0.04])?,
+                stiffness_n_per_m,
+            )
         },
         frame,
         9.81,

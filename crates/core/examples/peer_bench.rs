@@ -15,9 +15,9 @@
 )]
 
 use slipstick::check::check;
-use slipstick::friction::{Coulomb, Friction};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::GroundMotion;
+use slipstick::slider::Friction;
 use slipstick::solver::{self, Prepared, PreparedMotion, Workspace};
 use std::error::Error;
 use std::hint::black_box;
@@ -54,7 +54,7 @@ struct Case {
 
 impl Case {
     fn model(&self) -> Result<Model, Box<dyn Error>> {
-        let (slider, frame) = (self.slider, self.frame.clone());
+        let (slider, frame) = (self.slider.clone(), self.frame.clone());
         Ok(Model::new(self.block, slider, frame, self.gravity_m_per_s2, InitialState::rest())?)
     }
 }
@@ -89,10 +89,7 @@ fn load(bytes: &[u8]) -> Result<Case, Box<dyn Error>> {
     };
     Ok(Case {
         block: Block { mass_kg: *mass_kg, width_m: None, height_m: None },
-        slider: Slider {
-            stiffness_n_per_m: *spring,
-            ..Slider::new(Friction::Coulomb(Coulomb::new([*mu_s; 2], [*mu_k; 2])?))
-        },
+        slider: Slider::sprung(Friction::new(*mu_s, *mu_k)?, *spring),
         frame,
         gravity_m_per_s2: *gravity,
         motion: GroundMotion::evenly_spaced(*dt_s, ground.to_vec(), None)?,

@@ -14,11 +14,9 @@
 
 use slipstick::check::check;
 use slipstick::error::SolveError;
-use slipstick::friction::{Coulomb, Friction, RateCurve, RateLaw, Series, Surface};
-use slipstick::model::{
-    Block, Contents, Damping, Devices, Frame, InitialState, Model, Slider, Stop, StopKind,
-};
+use slipstick::model::{Block, Contents, Damping, Frame, InitialState, Model, Slider, Stop};
 use slipstick::motion::GroundMotion;
+use slipstick::slider::{Friction, RateCurve, RateLaw, Surface, SurfacesInSeries};
 use slipstick::solver::{Prepared, PreparedMotion, Workspace};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 use std::error::Error;
@@ -146,7 +144,6 @@ fn taft() -> Result<[GroundMotion; 2], Box<dyn Error>> {
 /// One storey with devices, each beside the same friction without.
 fn with_devices() -> Result<Vec<(&'static str, Model)>, Box<dyn Error>> {
     let plain = || model(1, 0.5, [0.06, 0.05]);
-    let rate = |curve| RateLaw::new(curve, [1.0; 2]);
     let pieces = RateCurve::Pieces {
         speeds_m_per_s: vec![0.0, 0.02, 0.1, 0.3],
         coefficients: vec![0.03, 0.04, 0.05, 0.055],
@@ -157,42 +154,30 @@ fn with_devices() -> Result<Vec<(&'static str, Model)>, Box<dyn Error>> {
         friction,
         travel_m: Some(travel_m),
     };
-    let double = Series::new(vec![surface(0.4, 0.03, 0.05), surface(1.6, 0.055, 0.6)], 1.1)?;
-    let rigid = |gap_m| -> Result<Model, Box<dyn Error>> {
-        let (plain, kind) = (plain()?, StopKind::Rigid { restitution: 0.5 });
-        let stop = Some(Stop { gap_m: [Some(gap_m); 2], kind });
-        let slider = Slider { stop, ..*plain.slider() };
+    let double =
+        SurfacesInSeries::new(vec![surface(0.4, 0.03, 0.05), surface(1.6, 0.055, 0.6)], 1.1)?;
+    let with = |change: &dyn Fn(Slider) -> Slider| -> Result<Model, Box<dyn Error>> {
+        let plain = plain()?;
         let (block, frame) = (*plain.block(), plain.frame().clone());
+        let slider = change(plain.slider().clone());
         Ok(Model::new(block, slider, frame, STANDARD_GRAVITY_M_PER_S2, InitialState::rest())?)
+    };
+    let rigid = |gap_m| {
+        let stop = Stop::rigid([Some(gap_m); 2], 0.5);
+        with(&|slider| Slider { ends: stop.into(), ..slider })
     };
     let contents = |static_friction, kinetic_friction| -> Result<Model, Box<dyn Error>> {
         let contents = Contents { floor: 1, mass_kg: 50.0, static_friction, kinetic_friction };
-        Ok(plain()?.with_devices(Devices { contents: vec![contents], ..Devices::default() })?)
+        Ok(plain()?.with_contents(vec![contents])?)
     };
-    let without = |slider: Slider| {
-        let slider = Slider { stiffness_n_per_m: 0.0, ..slider };
-        let plain = plain()?;
-        let (block, frame) = (*plain.block(), plain.frame().clone());
-        Model::new(block, slider, frame, STANDARD_GRAVITY_M_PER_S2, InitialState::rest())
-            .map_err(Box::<dyn Error>::from)
+    let by_speed = |curve| -> Result<Model, Box<dyn Error>> {
+        let rate = RateLaw::new(curve, [1.0; 2])?;
+        Ok(plain()?.with_friction(Friction::by_speed([0.06; 2], rate)?))
     };
-    let slider = *plain()?.slider();
-    let plain_with =
-        |devices| -> Result<Model, Box<dyn Error>> { Ok(plain()?.with_devices(devices)?) };
     Ok(vec![
-        (
-            "n = 1, friction in pieces",
-            plain_with(Devices { rate: Some(rate(pieces)?), ..Devices::default() })?,
-        ),
-        (
-            "n = 1, exponential friction",
-            plain_with(Devices { rate: Some(rate(exponential)?), ..Devices::default() })?,
-        ),
-        (
-            "n = 1, double pendulum",
-            without(slider)?
-                .with_devices(Devices { series: Some(double), ..Devices::default() })?,
-        ),
+        ("n = 1, friction in pieces", by_speed(pieces)?),
+        ("n = 1, exponential friction", by_speed(exponential)?),
+        ("n = 1, double pendulum", with(&|_| Slider::in_series(double.clone()))?),
         ("n = 1, rigid stop not reached", rigid(1.0)?),
         ("n = 1, rigid stop struck", rigid(0.03)?),
         ("n = 1, contents", contents(0.4, 0.3)?),
@@ -203,10 +188,8 @@ fn with_devices() -> Result<Vec<(&'static str, Model)>, Box<dyn Error>> {
 /// A shear frame of equal floors and storeys with a first period, on a pendulum slider of 2 m.
 fn model(n: usize, period_s: f64, [mu_s, mu_k]: [f64; 2]) -> Result<Model, Box<dyn Error>> {
     let total_kg = MASS_KG * (n + 1) as f64;
-    let slider = Slider {
-        stiffness_n_per_m: total_kg * STANDARD_GRAVITY_M_PER_S2 / 2.0,
-        ..Slider::new(Friction::Coulomb(Coulomb::new([mu_s; 2], [mu_k; 2])?))
-    };
+    let spring = total_kg * STANDARD_GRAVITY_M_PER_S2 / 2.0;
+    let slider = Slider::sprung(Friction::new(mu_s, mu_k)?, spring);
     let frame = if n == 0 {
         Frame::none()
     } else {

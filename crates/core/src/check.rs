@@ -23,11 +23,11 @@ use self::judge::Judge;
 use self::law::Law;
 use self::structure::{Phase, Structure};
 use crate::error::Stopped;
-use crate::friction::Direction;
 use crate::model::{Model, Stop, StopKind};
 use crate::motion::GroundMotion;
 use crate::progress::{GoOn, Pulse, UNWATCHED};
 use crate::response::{History, Response, interface_name};
+use crate::slider::Direction;
 
 /// Radians beyond which the phase of the fastest mode says nothing: every interval is divided into
 /// steps of half a radian, so this also bounds the work.
@@ -207,13 +207,13 @@ fn unjudged(bound: f64) -> Certificate {
 
 /// Whether [`Judge`] knows all that is in force between stops.
 fn is_plain(model: &Model, vertical: bool) -> bool {
-    let (devices, slider) = (model.devices(), model.slider());
-    let elastic = matches!(slider.stop, Some(Stop { kind: StopKind::Elastic { .. }, .. }));
-    let rate = devices.rate.is_none() || !elastic;
+    let slider = model.slider();
+    let elastic = matches!(slider.stop(), Some(Stop { kind: StopKind::Elastic { .. }, .. }));
+    let rate = slider.rate().is_none() || !elastic;
     // The spring of a pendulum is constant: N = M g cos θ.
-    let spring = devices.radius_m.is_none()
-        || !vertical && (devices.rate.is_none() || slider.tilt_rad == 0.0);
-    rate && spring && devices.series.is_none() && devices.contents.is_empty()
+    let spring = slider.radius_m().is_none()
+        || !vertical && (slider.rate().is_none() || slider.tilt_rad == 0.0);
+    rate && spring && slider.series().is_none() && model.contents().is_empty()
 }
 
 /// Whether a history comes to a rigid stop, of a model that has one: `s` is monotone between knots.
@@ -245,8 +245,8 @@ fn well_formed(model: &Model, motion: &GroundMotion, history: &History) -> bool 
     ];
     let elastic = matches!(model.stop(), Some(Stop { kind: StopKind::Elastic { .. }, .. }));
     let contacts = if elastic { knots } else { 0 };
-    let contents = model.devices().contents.len();
-    let surfaces = model.devices().series.as_ref().map_or(0, |series| series.surfaces().len());
+    let contents = model.contents().len();
+    let surfaces = model.slider().series().map_or(0, |series| series.surfaces().len());
     let contents_lists = [
         &history.contents_displacement_m,
         &history.contents_velocity_m_per_s,

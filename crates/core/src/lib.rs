@@ -47,7 +47,7 @@
 //! | one model over many records, levels and designs | [`study`] |
 //! | incremental dynamic analysis, fragility, design, suites | [`assessment`] |
 //! | measured tests: comparison and identification | [`laboratory`] |
-//! | laws of friction, stops, surfaces in series | [`friction`] |
+//! | the slider: friction, springs and pendulums, stops, surfaces in series | [`slider`] |
 //! | units, tables, errors, stopping long work | [`units`], [`table`], [`error`], [`progress`] |
 //!
 //! # Conventions
@@ -64,7 +64,6 @@
 pub mod assessment;
 pub mod check;
 pub mod error;
-pub mod friction;
 pub mod input;
 pub mod laboratory;
 // Not for users: what the workspace's other crates and the tests of the bounds need of them.
@@ -77,6 +76,7 @@ pub mod numerics;
 pub mod progress;
 pub mod record;
 pub mod response;
+pub mod slider;
 pub mod solver;
 pub mod study;
 pub mod table;

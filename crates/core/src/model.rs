@@ -1,14 +1,14 @@
 //! Masses, springs, dampers, storeys: inert, checked data without an algorithm.
 
 mod builder;
-mod devices;
 
 pub use builder::ModelBuilder;
-pub use devices::{Contents, Devices};
 
 use crate::error::ModelError;
-use crate::friction::{Coulomb, Direction, ElasticStop, Friction, Law, Restraint, RigidStop};
+use crate::slider::{Bearing, Ends, Friction, Law, Restoring};
 use crate::units::STANDARD_GRAVITY_M_PER_S2;
+
+pub use crate::slider::{Slider, Stop, StopKind};
 
 /// The rigid block that slides, `M1`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,77 +19,6 @@ pub struct Block {
     pub width_m: Option<f64>,
     /// Height in m, where the block's own inertia counts for overturning; a thin block has none.
     pub height_m: Option<f64>,
-}
-
-/// The bearing between table and block.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slider {
-    /// The friction law.
-    pub friction: Friction,
-    /// Stiffness `K1` of the spring between table and block in N/m, 0 without one.
-    pub stiffness_n_per_m: f64,
-    /// Damper `C1` between table and block in N s/m, 0 without one.
-    pub damper_n_s_per_m: f64,
-    /// Tilt θ of the surface in rad, positive uphill towards +x.
-    pub tilt_rad: f64,
-    /// Sliding displacement that the detailing allows, in m; reported only, nothing is struck.
-    pub gap_m: Option<f64>,
-    /// What the block strikes at the end of its travel; excludes `gap_m`.
-    pub stop: Option<Stop>,
-}
-
-impl Slider {
-    /// Friction alone on a level surface: no spring, damper, gap or stop.
-    #[must_use]
-    pub fn new(friction: Friction) -> Self {
-        Self {
-            friction,
-            stiffness_n_per_m: 0.0,
-            damper_n_s_per_m: 0.0,
-            tilt_rad: 0.0,
-            gap_m: None,
-            stop: None,
-        }
-    }
-}
-
-/// A stop at the end of the slider's travel, on one side or on both.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stop {
-    /// Distance from `s = 0` towards +x and −x in m; `None`: no stop on that side.
-    pub gap_m: [Option<f64>; 2],
-    /// How it pushes back.
-    pub kind: StopKind,
-}
-
-/// How a stop pushes back.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum StopKind {
-    /// A spring and a damper side by side, which cannot pull: at a penetration δ > 0 the force
-    /// `max(0, k δ + c δ̇)` on the block against δ, for δ ≤ 0 none.
-    Elastic {
-        /// `k` in N/m.
-        stiffness_n_per_m: f64,
-        /// `c` in N s/m.
-        damper_n_s_per_m: f64,
-    },
-    /// Nothing gives way: at an impact `ṡ⁺ = −e ṡ⁻`, and floors keep their absolute velocities.
-    Rigid {
-        /// `e`, from 0 to 1.
-        restitution: f64,
-    },
-}
-
-impl Stop {
-    /// Distance from `s = 0` to the stop on a side, in m.
-    #[must_use]
-    pub fn gap_towards(&self, side: Direction) -> Option<f64> {
-        let [positive, negative] = self.gap_m;
-        match side {
-            Direction::Positive => positive,
-            Direction::Negative => negative,
-        }
-    }
 }
 
 /// Damping of the storeys.
@@ -154,6 +83,39 @@ impl InitialState {
     }
 }
 
+/// Something that stands unfastened on the block or on a floor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contents {
+    /// 0 on the block, else the storey on whose floor it stands, from the block up.
+    pub floor: usize,
+    /// Mass in kg.
+    pub mass_kg: f64,
+    /// Static coefficient of friction.
+    pub static_friction: f64,
+    /// Kinetic coefficient of friction.
+    pub kinetic_friction: f64,
+}
+
+impl Contents {
+    fn check(&self, storeys: usize) -> Result<(), ModelError> {
+        positive("contents mass_kg", self.mass_kg)?;
+        finite("contents static_friction", self.static_friction)?;
+        not_negative("contents kinetic_friction", self.kinetic_friction)?;
+        in_range(
+            "contents kinetic_friction",
+            "at most the static friction",
+            self.kinetic_friction,
+            self.kinetic_friction <= self.static_friction,
+        )?;
+        in_range(
+            "contents floor",
+            "0 for the block, or the number of a storey",
+            self.floor as f64,
+            self.floor <= storeys,
+        )
+    }
+}
+
 /// A checked model: block, slider, structure, gravity and initial state.
 ///
 /// [`Model::builder`] takes quantities with units, [`Model::new`] numbers in SI, and
@@ -165,7 +127,7 @@ pub struct Model {
     frame: Frame,
     gravity_m_per_s2: f64,
     initial: InitialState,
-    devices: Devices,
+    contents: Vec<Contents>,
 }
 
 impl Model {
@@ -174,8 +136,8 @@ impl Model {
     /// # Errors
     /// [`ModelError`] names the first quantity that is not finite or out of range: masses and
     /// storey stiffnesses must be > 0, `K1`, `C1`, dampers and damping ratios ≥ 0, |θ| < π/2,
-    /// gravity, gap, width and heights > 0, one value a storey. A stop needs a gap on one side at
-    /// least and a stiffness > 0, and excludes the slider's `gap_m`.
+    /// gravity, gap, radius, width and heights > 0, one value a storey. A stop needs a gap on one side
+    /// at least and a stiffness > 0; the start is between rigid stops, and within the travel of surfaces.
     pub fn new(
         block: Block,
         slider: Slider,
@@ -187,11 +149,12 @@ impl Model {
         positive("block mass_kg", block.mass_kg)?;
         optional_positive("block width_m", block.width_m)?;
         optional_positive("block height_m", block.height_m)?;
-        not_negative("slider stiffness_n_per_m", slider.stiffness_n_per_m)?;
+        let start_m = initial.sliding_displacement_m;
+        check_bearing(&slider.bearing, start_m)?;
         not_negative("slider damper_n_s_per_m", slider.damper_n_s_per_m)?;
-        optional_positive("slider gap_m", slider.gap_m)?;
-        if let Some(stop) = &slider.stop {
-            check_stop(stop, slider.gap_m)?;
+        match &slider.ends {
+            Ends::Open { gap_m } => optional_positive("slider gap_m", *gap_m)?,
+            Ends::Stop(stop) => check_stop(stop)?,
         }
         if !(slider.tilt_rad.abs() < core::f64::consts::FRAC_PI_2) {
             return Err(ModelError::OutOfRange {
@@ -213,13 +176,12 @@ impl Model {
         finite("initial sliding_displacement_m", initial.sliding_displacement_m)?;
         finite("initial sliding_velocity_m_per_s", initial.sliding_velocity_m_per_s)?;
         if let Some(Stop { gap_m: [positive, negative], kind: StopKind::Rigid { .. } }) =
-            slider.stop
+            slider.stop()
         {
-            let found = initial.sliding_displacement_m;
-            let within = positive.is_none_or(|gap_m| found <= gap_m)
-                && negative.is_none_or(|gap_m| -found <= gap_m);
+            let within = positive.is_none_or(|gap_m| start_m <= gap_m)
+                && negative.is_none_or(|gap_m| -start_m <= gap_m);
             let expected = "a place between the rigid stops";
-            in_range("initial sliding_displacement_m", expected, found, within)?;
+            in_range("initial sliding_displacement_m", expected, start_m, within)?;
         }
         if let Some(q) = &initial.storey_displacement_m {
             each("initial storey_displacement_m", n, q, finite)?;
@@ -227,57 +189,35 @@ impl Model {
         if let Some(v) = &initial.storey_velocity_m_per_s {
             each("initial storey_velocity_m_per_s", n, v, finite)?;
         }
-        let devices = Devices::default();
-        Ok(Self { block, slider, frame, gravity_m_per_s2, initial, devices })
+        let model = Self { block, slider, frame, gravity_m_per_s2, initial, contents: Vec::new() };
+        model.with_contents(Vec::new())
     }
 
-    /// The same model with devices.
+    /// The same model with contents, in the place of those that it had.
     ///
     /// # Errors
-    /// [`ModelError`] names the first quantity out of range: kinetic friction at rest above the static
-    /// one, contents without mass, with more kinetic than static friction, or on a floor that is not
-    /// there.
-    pub fn with_devices(mut self, devices: Devices) -> Result<Self, ModelError> {
-        let friction = self.slider.friction;
-        devices.check(|direction| friction.static_coefficient(direction), self.storeys())?;
-        if let Some(series) = &devices.series {
-            let start_m = self.initial.sliding_displacement_m;
-            if series.travel_m().is_some_and(|travel_m| !(start_m.abs() < travel_m)) {
-                return Err(ModelError::OutOfRange {
-                    quantity: "initial sliding_displacement_m",
-                    expected: "less than the travel of all surfaces",
-                    found: start_m,
-                });
-            }
-            let least = series.least_friction();
-            let fixed = series.static_ratio() * least;
-            self.slider.friction = Friction::Coulomb(Coulomb::new([fixed; 2], [least; 2])?);
-        }
-        self.devices = devices;
+    /// [`ModelError`] for contents without mass, with more kinetic than static friction, or on a floor
+    /// that is not there.
+    pub fn with_contents(mut self, contents: Vec<Contents>) -> Result<Self, ModelError> {
+        contents.iter().try_for_each(|contents| contents.check(self.storeys()))?;
+        self.contents = contents;
+        // That of a pendulum may have grown beyond all numbers.
+        not_negative("slider stiffness_n_per_m", self.slider_stiffness_n_per_m())?;
         Ok(self)
     }
 
-    /// What it has beyond one surface of constant friction, and what stands on the floors.
+    /// What slides on the floors, in the order of the file.
     #[must_use]
-    pub fn devices(&self) -> &Devices {
-        &self.devices
+    pub fn contents(&self) -> &[Contents] {
+        &self.contents
     }
 
-    /// Whether it has no devices but stops.
+    /// Whether it has nothing beyond one surface of constant friction but stops.
     #[must_use]
     pub fn is_plain_between_stops(&self, vertical: bool) -> bool {
-        let devices = &self.devices;
-        devices.rate.is_none()
-            && devices.series.is_none()
-            && devices.contents.is_empty()
-            && !(devices.radius_m.is_some() && vertical)
-    }
-
-    /// Radius of a pendulum whose spring follows the normal force: under vertical motion, and where
-    /// friction follows the speed.
-    #[must_use]
-    pub fn pendulum_radius_m(&self, vertical: bool) -> Option<f64> {
-        self.devices.radius_m.filter(|_| vertical || self.devices.rate.is_some())
+        self.slider.friction().is_some_and(|friction| friction.rate().is_none())
+            && self.contents.is_empty()
+            && self.slider.pendulum_radius_m(vertical).is_none()
     }
 
     /// The rigid block alone on a level surface at rest, under standard gravity.
@@ -287,7 +227,7 @@ impl Model {
     ///
     /// # Examples
     /// ```
-    /// use slipstick::friction::Friction;
+    /// use slipstick::slider::Friction;
     /// use slipstick::model::Model;
     ///
     /// let model = Model::rigid_block(124.0, Friction::new(0.2, 0.15)?)?;
@@ -319,7 +259,7 @@ impl Model {
     /// The stop at the end of the slider's travel.
     #[must_use]
     pub fn stop(&self) -> Option<&Stop> {
-        self.slider.stop.as_ref()
+        self.slider.stop()
     }
 
     /// The structure on the block.
@@ -350,7 +290,7 @@ impl Model {
     #[must_use]
     pub fn total_mass_kg(&self) -> f64 {
         let frame = self.frame.masses_kg.iter().fold(self.block.mass_kg, |sum, m| sum + m);
-        self.devices.contents.iter().fold(frame, |sum, contents| sum + contents.mass_kg)
+        self.contents.iter().fold(frame, |sum, contents| sum + contents.mass_kg)
     }
 
     /// `M_tot g` in N.
@@ -377,25 +317,17 @@ impl Model {
         self.total_mass_kg() * self.normal_gravity_m_per_s2()
     }
 
-    /// The same model with another friction law (lower- and upper-bound friction).
+    /// Stiffness in N/m of the slider's spring, of a pendulum that under the weight: `M_tot g cos θ/R`.
     #[must_use]
-    pub fn with_friction(&self, friction: Friction) -> Self {
-        let mut model = self.clone();
-        model.slider.friction = friction;
-        model
+    pub fn slider_stiffness_n_per_m(&self) -> f64 {
+        self.slider.stiffness_n_per_m(self.normal_n())
     }
 
-    /// Whether another model has the same linear system, start and devices: whether the two differ in the
-    /// slider's coefficients of friction and its gap alone.
+    /// The same model with other friction; surfaces in series keep theirs.
     #[must_use]
-    pub fn has_system_of(&self, other: &Self) -> bool {
-        let Slider { friction, gap_m, .. } = other.slider;
-        Slider { friction, gap_m, ..self.slider } == other.slider
-            && self.gravity_m_per_s2 == other.gravity_m_per_s2
-            && self.block == other.block
-            && self.frame == other.frame
-            && self.initial == other.initial
-            && self.devices == other.devices
+    pub fn with_friction(&self, friction: Friction) -> Self {
+        let model = self.clone();
+        Self { slider: model.slider.with_friction(friction), ..model }
     }
 
     /// The same model with all coefficients of the slider times `factor`.
@@ -403,55 +335,38 @@ impl Model {
     /// # Errors
     /// [`ModelError::OutOfRange`] unless the factor is finite and ≥ 0, and for surfaces in series > 0.
     pub fn with_friction_times(&self, factor: f64) -> Result<Self, ModelError> {
-        let mut model = self.with_friction(self.slider.friction.scaled(factor)?);
-        model.devices = self.devices.scaled(factor);
-        Ok(model)
+        Ok(Self { slider: self.slider.with_friction_times(factor)?, ..self.clone() })
     }
 
-    /// The law of the one force between ground and block, under a motion with or without a vertical
-    /// component.
+    /// Whether another model has the same linear system, start and contents: whether the two differ in the
+    /// slider's constant coefficients of friction and its gap alone.
     #[must_use]
-    pub fn law(&self, vertical: bool) -> Law {
-        let slider = &self.slider;
-        let radius_m = self.pendulum_radius_m(vertical);
-        let rigid = |stop: &Stop| match stop.kind {
-            StopKind::Elastic { .. } => None,
-            StopKind::Rigid { restitution } => Some(RigidStop { gap_m: stop.gap_m, restitution }),
-        };
-        Law {
-            friction: slider.friction,
-            rate: self.devices.rate.clone(),
-            radius_m,
-            series: self.devices.series.clone(),
-            restraint: Restraint {
-                stiffness_n_per_m: if radius_m.is_some() { 0.0 } else { slider.stiffness_n_per_m },
-                damper_n_s_per_m: slider.damper_n_s_per_m,
-            },
-            stop: self.elastic_stop(),
-            rigid: slider.stop.as_ref().and_then(rigid),
-        }
+    pub fn has_system_of(&self, other: &Self) -> bool {
+        self.slider.has_system_of(&other.slider)
+            && self.gravity_m_per_s2 == other.gravity_m_per_s2
+            && self.block == other.block
+            && self.frame == other.frame
+            && self.initial == other.initial
+            && self.contents == other.contents
     }
 
-    fn elastic_stop(&self) -> Option<ElasticStop> {
-        let stop = self.slider.stop?;
-        let StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } = stop.kind else {
-            return None;
-        };
-        Some(ElasticStop { gap_m: stop.gap_m, stiffness_n_per_m, damper_n_s_per_m })
+    /// The law of the slider, under a normal force that is constant or varies.
+    pub(crate) fn law(&self, varying: bool) -> Law<'_> {
+        self.slider.law(self.normal_n(), varying)
     }
 
-    /// Static friction coefficients for sliding towards +x and −x.
+    /// Static friction coefficients for sliding towards +x and −x; of surfaces in series those of the
+    /// first to slide.
     #[must_use]
     pub fn static_friction(&self) -> [f64; 2] {
-        [Direction::Positive, Direction::Negative]
-            .map(|d| self.slider.friction.static_coefficient(d))
+        self.slider.coefficients()[0]
     }
 
-    /// Kinetic friction coefficients while sliding towards +x and −x.
+    /// Kinetic friction coefficients while sliding towards +x and −x, at rest where they follow the
+    /// speed; of surfaces in series those of the first to slide.
     #[must_use]
     pub fn kinetic_friction(&self) -> [f64; 2] {
-        [Direction::Positive, Direction::Negative]
-            .map(|d| self.slider.friction.kinetic_coefficient(d))
+        self.slider.coefficients()[1]
     }
 
     /// Storey displacements at t = 0 in m: as given, else `−K⁻¹ M 1 g sin θ`.
@@ -467,7 +382,7 @@ impl Model {
         for i in 0..m.len() {
             // Storey i carries the slope's pull on all floors from i up.
             let floors_kg: f64 = m[i..].iter().sum();
-            let contents = self.devices.contents.iter().filter(|contents| contents.floor > i);
+            let contents = self.contents.iter().filter(|contents| contents.floor > i);
             let carried_kg = contents.fold(floors_kg, |sum, contents| sum + contents.mass_kg);
             below_m -= carried_kg * slope / k[i];
             q[i] = below_m;
@@ -483,11 +398,25 @@ impl Model {
     }
 }
 
-fn check_stop(stop: &Stop, reported_gap_m: Option<f64>) -> Result<(), ModelError> {
-    if let Some(found) = reported_gap_m {
-        let expected = "no gap beside a stop, which has its own";
-        return Err(ModelError::OutOfRange { quantity: "slider gap_m", expected, found });
+fn check_bearing(bearing: &Bearing, start_m: f64) -> Result<(), ModelError> {
+    match bearing {
+        Bearing::Surface { restoring, .. } => match *restoring {
+            Restoring::None => Ok(()),
+            Restoring::Spring { stiffness_n_per_m } => {
+                not_negative("slider stiffness_n_per_m", stiffness_n_per_m)
+            }
+            Restoring::Pendulum { radius_m } => positive("slider radius_m", radius_m),
+        },
+        Bearing::InSeries(series) => in_range(
+            "initial sliding_displacement_m",
+            "less than the travel of all surfaces",
+            start_m,
+            series.travel_m().is_none_or(|travel_m| start_m.abs() < travel_m),
+        ),
     }
+}
+
+fn check_stop(stop: &Stop) -> Result<(), ModelError> {
     if stop.gap_m == [None; 2] {
         let expected = "a gap on one side at least";
         return Err(ModelError::Missing { quantity: "stop gap_m", expected });
@@ -547,35 +476,31 @@ fn each(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::friction::Coulomb;
+    use crate::slider::Direction;
 
-    fn with(gap_m: Option<f64>, stop: Stop) -> Result<Model, ModelError> {
-        let friction = Friction::Coulomb(Coulomb::new([0.2; 2], [0.1; 2]).unwrap());
-        let plain = Model::rigid_block(10.0, friction).unwrap();
-        let slider = Slider { gap_m, stop: Some(stop), ..*plain.slider() };
+    fn with(stop: Stop) -> Result<Model, ModelError> {
+        let friction = Friction::new(0.2, 0.1).unwrap();
+        let plain = Model::rigid_block(10.0, friction.clone()).unwrap();
+        let slider = Slider { ends: stop.into(), ..Slider::new(friction) };
         Model::new(*plain.block(), slider, Frame::none(), 9.81, InitialState::rest())
     }
 
     #[test]
     fn exact_stops_are_checked() {
-        let stop = |gap_m, stiffness_n_per_m, damper_n_s_per_m| Stop {
-            gap_m,
-            kind: StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m },
-        };
+        let stop = Stop::elastic;
         let good = stop([Some(0.1), None], 1e5, 0.0);
-        let model = with(None, good).unwrap();
+        let model = with(good).unwrap();
         assert_eq!(model.stop(), Some(&good));
         assert_eq!(good.gap_towards(Direction::Positive), Some(0.1));
         assert_eq!(good.gap_towards(Direction::Negative), None);
-        for (gap_m, stop, quantity) in [
-            (Some(0.1), good, "slider gap_m"),
-            (None, stop([None; 2], 1e5, 0.0), "stop gap_m"),
-            (None, stop([Some(0.1), Some(0.0)], 1e5, 0.0), "stop gap_m"),
-            (None, stop([Some(f64::NAN), None], 1e5, 0.0), "stop gap_m"),
-            (None, stop([Some(0.1); 2], 0.0, 0.0), "stop stiffness_n_per_m"),
-            (None, stop([Some(0.1); 2], 1e5, -1.0), "stop damper_n_s_per_m"),
+        for (stop, quantity) in [
+            (stop([None; 2], 1e5, 0.0), "stop gap_m"),
+            (stop([Some(0.1), Some(0.0)], 1e5, 0.0), "stop gap_m"),
+            (stop([Some(f64::NAN), None], 1e5, 0.0), "stop gap_m"),
+            (stop([Some(0.1); 2], 0.0, 0.0), "stop stiffness_n_per_m"),
+            (stop([Some(0.1); 2], 1e5, -1.0), "stop damper_n_s_per_m"),
         ] {
-            let error = with(gap_m, stop).unwrap_err().to_string();
+            let error = with(stop).unwrap_err().to_string();
             assert!(error.starts_with(quantity), "{error}");
         }
     }

@@ -10,10 +10,10 @@ pub use registry::{
     DEMANDS, Demand, DemandColumn, DemandKind, DemandOf, DemandShape, PrintedRow, demand_values,
 };
 
-use crate::friction::Direction;
 use crate::record;
+use crate::slider::Direction;
 
-pub use crate::friction::Contact;
+pub use crate::slider::Contact;
 
 /// Whether the block is held by friction or slides, and which way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,13 +4,13 @@
 #![allow(clippy::unwrap_used)]
 
 use allocation_counter::measure;
-use slipstick::friction::{Coulomb, Friction};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::GroundMotion;
+use slipstick::slider::Friction;
 use slipstick::solver::{Prepared, PreparedMotion, Workspace};
 
 fn model(storeys: usize, tilt_rad: f64) -> Model {
-    let friction = Friction::Coulomb(Coulomb::new([0.06; 2], [0.05; 2]).unwrap());
+    let friction = Friction::new(0.06, 0.05).unwrap();
     let frame = Frame {
         masses_kg: vec![1000.0; storeys],
         stiffnesses_n_per_m: vec![4e5; storeys],
@@ -18,7 +18,7 @@ fn model(storeys: usize, tilt_rad: f64) -> Model {
         heights_m: None,
     };
     let block = Block { mass_kg: 1000.0, width_m: None, height_m: None };
-    let slider = Slider { stiffness_n_per_m: 2e4, tilt_rad, ..Slider::new(friction) };
+    let slider = Slider { tilt_rad, ..Slider::sprung(friction, 2e4) };
     Model::new(block, slider, frame, 9.81, InitialState::rest()).unwrap()
 }
 

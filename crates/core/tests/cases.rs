@@ -10,10 +10,10 @@ mod common;
 use common::cases::{Case, all, case, cycles};
 use common::compare::{Outcome, Report, judged, of_response};
 use common::values::judge;
-use slipstick::friction::{Coulomb, Friction};
 use slipstick::model::Model;
 use slipstick::motion::GroundMotion;
 use slipstick::response::EventKind;
+use slipstick::slider::Friction;
 use slipstick::solver::exact;
 
 fn by_exact_method(model: &Model, motion: &GroundMotion) -> Outcome {
@@ -45,7 +45,7 @@ fn run(case: &Case) {
 fn exact_critical_ratio_separates_stops_from_none() {
     let formula = case("HARM-CRIT").list("expect")[0]["value"].as_f64().expect("a number");
     let sticks = |eta: f64| {
-        let friction = Friction::Coulomb(Coulomb::new([eta; 2], [eta; 2]).expect("friction"));
+        let friction = Friction::new(eta, eta).expect("friction");
         let model = Model::rigid_block(124.0, friction).expect("a model");
         let motion = cycles([model.gravity_m_per_s2(), 9.0, 0.0], None, 1000, 0, 40);
         let events = exact(&model, &motion).expect("a response").events;

@@ -9,7 +9,7 @@ use common::random_devices::{System, coincident, motion};
 use slipstick::check::check;
 use slipstick::error::SolveError;
 use slipstick::input;
-use slipstick::model::{Contents, Devices, Model};
+use slipstick::model::{Contents, Model};
 use slipstick::motion::GroundMotion;
 use slipstick::numerics::random::Random;
 use slipstick::response::{Demands, Response};
@@ -83,12 +83,11 @@ fn difference(a: &Demands, b: &Demands, part: f64) -> Option<String> {
 
 /// A model with the first of its contents cut in two.
 fn cut(model: &Model, part: f64) -> Model {
-    let mut list = model.devices().contents.clone();
+    let mut list = model.contents().to_vec();
     let whole = list[0];
     list[0].mass_kg = part * whole.mass_kg;
     list.insert(1, Contents { mass_kg: (1.0 - part) * whole.mass_kg, ..whole });
-    let devices = Devices { contents: list, ..model.devices().clone() };
-    model.clone().with_devices(devices).expect("devices")
+    model.clone().with_contents(list).expect("contents")
 }
 
 fn two_are_one(seeds: std::ops::Range<u64>) {
@@ -176,7 +175,7 @@ fn ramped(system: &System, ramp_s: f64) -> GroundMotion {
 fn keeps_a_velocity(model: &Model) -> bool {
     let [kinetic, _] = model.kinetic_friction();
     let has_drop = |c: &Contents| c.static_friction > c.kinetic_friction;
-    let contents = &model.devices().contents;
+    let contents = model.contents();
     contents.iter().any(|c| c.kinetic_friction == kinetic)
         && (model.static_friction()[0] > kinetic || contents.iter().any(has_drop))
 }

@@ -8,12 +8,10 @@ mod common;
 
 use common::cases::{number, numbers, text_of};
 use serde_json::Value;
-use slipstick::friction::{Coulomb, Direction, Friction, RateCurve, RateLaw, Series, Surface};
-use slipstick::model::{
-    Block, Contents, Damping, Devices, Frame, InitialState, Model, Slider, Stop, StopKind,
-};
+use slipstick::model::{Block, Contents, Damping, Frame, InitialState, Model, Slider, Stop};
 use slipstick::motion::GroundMotion;
 use slipstick::response::{EventKind, Mode, Response};
+use slipstick::slider::{Friction, RateCurve, RateLaw, Surface, SurfacesInSeries};
 use slipstick::solver::{exact, exact_demands};
 
 /// The model; nothing here is told which solver takes it.
@@ -33,9 +31,6 @@ fn model(case: &Value) -> Model {
         })
         .into_iter()
         .collect();
-    let total_kg = masses_kg.iter().sum::<f64>()
-        + p("M1")
-        + contents.iter().map(|contents| contents.mass_kg).sum::<f64>();
     let curve = if let Some(knots) = params.get("mu_v") {
         let speeds_m_per_s = numbers(&knots["v"]);
         Some(RateCurve::Pieces { speeds_m_per_s, coefficients: numbers(&knots["mu"]) })
@@ -47,19 +42,13 @@ fn model(case: &Value) -> Model {
         })
     };
     let rate = curve.map(|curve| RateLaw::new(curve, [1.0; 2]).expect("a rate law"));
-    let kinetic = rate.as_ref().map_or(p("mu_d"), |rate| rate.at(0.0, Direction::Positive));
-    let friction = Coulomb::new([p("mu_s"); 2], [kinetic; 2]).expect("friction");
     let radius_m = params.get("R").map(number);
-    let spring = radius_m.map_or(p("K1"), |radius_m| total_kg * p("g") / radius_m);
-    let stop = params.get("stop").map(|stop| Stop {
-        gap_m: ["gap_pos", "gap_neg"].map(|side| optional(&stop[side])),
-        kind: match text_of(&stop["type"]).as_str() {
-            "elastic" => StopKind::Elastic {
-                stiffness_n_per_m: number(&stop["k"]),
-                damper_n_s_per_m: number(&stop["c"]),
-            },
-            _ => StopKind::Rigid { restitution: number(&stop["e"]) },
-        },
+    let stop = params.get("stop").map(|stop| {
+        let gap_m = ["gap_pos", "gap_neg"].map(|side| optional(&stop[side]));
+        match text_of(&stop["type"]).as_str() {
+            "elastic" => Stop::elastic(gap_m, number(&stop["k"]), number(&stop["c"])),
+            _ => Stop::rigid(gap_m, number(&stop["e"])),
+        }
     });
     let surfaces = params["surfaces"].as_array().map(|surfaces| {
         let surface = |s: &Value| Surface {
@@ -67,17 +56,27 @@ fn model(case: &Value) -> Model {
             friction: number(&s["mu"]),
             travel_m: optional(&s["d"]),
         };
-        Series::new(surfaces.iter().map(surface).collect(), p("static_ratio")).expect("surfaces")
+        SurfacesInSeries::new(surfaces.iter().map(surface).collect(), p("static_ratio"))
+            .expect("surfaces")
     });
+    let bearing = || {
+        let friction = match rate {
+            Some(rate) => Friction::by_speed([p("mu_s"); 2], rate),
+            None => Friction::new(p("mu_s"), p("mu_d")),
+        };
+        let friction = friction.expect("friction");
+        match radius_m {
+            Some(radius_m) => Slider::pendulum(friction, radius_m),
+            None => Slider::sprung(friction, p("K1")),
+        }
+    };
     Model::new(
         Block { mass_kg: p("M1"), width_m: None, height_m: None },
         Slider {
-            friction: Friction::Coulomb(friction),
-            stiffness_n_per_m: spring,
             damper_n_s_per_m: p("C1"),
             tilt_rad: p("tilt"),
-            gap_m: None,
-            stop,
+            ends: stop.into(),
+            ..surfaces.map_or_else(bearing, Slider::in_series)
         },
         Frame {
             masses_kg,
@@ -94,8 +93,8 @@ fn model(case: &Value) -> Model {
         },
     )
     .expect("a model")
-    .with_devices(Devices { rate, radius_m, series: surfaces, contents })
-    .expect("devices")
+    .with_contents(contents)
+    .expect("contents")
 }
 
 /// The motion up to the end of the case, with the times of the states as collinear samples.

@@ -8,10 +8,10 @@ mod common;
 use common::devices::{Event, Reference, reference};
 use common::random_devices::{System, coincident, motion, system};
 use slipstick::error::SolveError;
-use slipstick::friction::RateCurve;
 use slipstick::model::{Model, StopKind};
 use slipstick::motion::GroundMotion;
 use slipstick::response::{EventKind, Response};
+use slipstick::slider::RateCurve;
 use slipstick::solver::exact;
 
 /// Largest difference, over the peak of each quantity.
@@ -271,25 +271,25 @@ fn judge(system: &System) -> Verdict {
 
 /// The devices of a model, in words.
 fn devices(system: &System) -> String {
-    let (model, devices) = (&system.model, system.model.devices());
+    let (model, slider) = (&system.model, system.model.slider());
     let mut words = Vec::new();
     match model.stop().map(|stop| stop.kind) {
         Some(StopKind::Elastic { .. }) => words.push("elastic stop"),
         Some(StopKind::Rigid { .. }) => words.push("rigid stop"),
         None => {}
     }
-    match devices.rate.as_ref().map(|rate| rate.curve()) {
+    match slider.rate().map(|rate| rate.curve()) {
         Some(RateCurve::Pieces { .. }) => words.push("pieces"),
         Some(RateCurve::Exponential { .. }) => words.push("exponential"),
         None => {}
     }
-    if devices.series.is_some() {
+    if slider.series().is_some() {
         words.push("surfaces");
     }
-    if devices.radius_m.is_some() {
+    if slider.radius_m().is_some() {
         words.push("pendulum");
     }
-    if !devices.contents.is_empty() {
+    if !model.contents().is_empty() {
         words.push("contents");
     }
     if system.vertical.is_some() {

@@ -17,7 +17,7 @@ const ORDER: [&str; 17] = [
     "linear",
     "motion",
     "record",
-    "friction",
+    "slider",
     "model",
     "response",
     "check",
@@ -127,6 +127,44 @@ fn every_module_uses_only_those_to_its_left() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     assert!(uses > 20, "only {uses} uses between modules found: the sources are read wrongly");
+}
+
+/// What the kinds of sliders are called, and how one is told from another.
+const LAWS: [&str; 12] = [
+    "Bearing",
+    "Restoring",
+    "Ends",
+    "StopKind",
+    "Friction",
+    "RateLaw",
+    "RateCurve",
+    "friction()",
+    "rate()",
+    "slider().series()",
+    "radius_m()",
+    "stop()",
+];
+
+#[test]
+fn the_solver_knows_no_law() {
+    let mut files = Vec::new();
+    sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src/solver"), &mut files);
+    let mut wrong = Vec::new();
+    for file in &files {
+        let text = std::fs::read_to_string(file).expect("a source");
+        // Tests may build a model.
+        let solver = code(text.split("#[cfg(test)]").next().unwrap_or_default());
+        let is_word = |i: usize| !solver[..i].ends_with(|c: char| c.is_alphanumeric() || c == '_');
+        for law in LAWS {
+            let named = solver
+                .match_indices(law)
+                .any(|(i, _)| is_word(i) && (law.ends_with(')') || word(&solver[i..]) == law));
+            if named {
+                wrong.push(format!("{}: {law}", file.display()));
+            }
+        }
+    }
+    assert!(files.len() > 30 && wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]

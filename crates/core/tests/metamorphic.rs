@@ -18,9 +18,9 @@ use common::sensible::{self, system};
 use common::sketch::Sketch;
 use slipstick::check::{Certificate, check};
 use slipstick::error::SolveError;
-use slipstick::friction::{RateCurve, Series, Surface};
 use slipstick::model::{Contents, Stop, StopKind};
 use slipstick::response::{Contact, DemandColumn, Event, EventKind, Mode, Response};
+use slipstick::slider::{RateCurve, Surface, SurfacesInSeries};
 use slipstick::solver::exact;
 use slipstick::units::Dimension;
 
@@ -507,7 +507,7 @@ fn prop_collinear_samples_change_nothing() {
 fn prop_a_far_stop_changes_nothing() {
     twins(|x, random| {
         x.stop = None;
-        let far_m = 1e3 * x.devices.series.as_ref().and_then(Series::travel_m).unwrap_or(1.0);
+        let far_m = 1e3 * x.series.as_ref().and_then(SurfacesInSeries::travel_m).unwrap_or(1.0);
         let kind = if random.chance(0.5) {
             StopKind::Rigid { restitution: 0.5 }
         } else {
@@ -521,8 +521,8 @@ fn prop_a_far_stop_changes_nothing() {
 #[test]
 fn prop_constant_pieces_are_constant_friction() {
     twins(|x, random| {
-        x.devices.rate = None;
-        x.devices.series.is_none().then(|| {
+        x.rate = None;
+        x.series.is_none().then(|| {
             let mut twin = x.clone();
             let coefficients = vec![x.kinetic_friction[0]; 3];
             let speeds_m_per_s = vec![0.0, random.between(0.01, 0.1), random.between(0.2, 0.5)];
@@ -540,19 +540,19 @@ fn prop_equal_surfaces_are_one_pendulum() {
     twins_but_for(&["friction"], |x, random| {
         let radius_m = random.of(&[0.5, 1.0, 2.0]);
         let (friction, static_ratio) = (x.kinetic_friction[0], random.of(&[1.0, 1.25]));
-        x.devices.rate = None;
-        x.devices.series = None;
-        x.devices.radius_m = Some(radius_m);
+        x.rate = None;
+        x.series = None;
+        x.radius_m = Some(radius_m);
         x.kinetic_friction = [friction; 2];
         x.static_friction = [friction * static_ratio; 2];
         let count = random.of(&[1, 1, 2]);
         let surface =
             Surface { radius_m: Some(radius_m / f64::from(count)), friction, travel_m: None };
         let mut twin = x.clone();
-        twin.devices.radius_m = None;
+        twin.radius_m = None;
         twin.spring = 0.0;
         let surfaces = vec![surface; count as usize];
-        twin.devices.series = Some(Series::new(surfaces, static_ratio).expect("surfaces"));
+        twin.series = Some(SurfacesInSeries::new(surfaces, static_ratio).expect("surfaces"));
         Some(twin)
     });
 }
@@ -602,17 +602,16 @@ fn prop_tilt_is_an_acceleration() {
 #[test]
 fn prop_equal_contents_are_one_of_their_mass() {
     let ill = twins_but_for(&[], |x, random| {
-        if x.devices.contents.is_empty() {
+        if x.contents.is_empty() {
             let friction = random.of(&[0.02, 0.05, 0.1, 0.2, 0.3]);
             let static_friction = friction * random.of(&[1.0, 1.0, 1.25]);
             let floor = random.integer(0, x.masses.len() as i64) as usize;
             let mass_kg = x.block * random.of(&[0.05, 0.2, 1.0]);
             let kinetic_friction = friction;
-            x.devices.contents =
-                vec![Contents { floor, mass_kg, static_friction, kinetic_friction }];
+            x.contents = vec![Contents { floor, mass_kg, static_friction, kinetic_friction }];
         }
         let mut twin = x.clone();
-        let contents = &mut twin.devices.contents;
+        let contents = &mut twin.contents;
         contents[0].mass_kg *= 0.5;
         // Behind the others: their numbers stay.
         contents.push(contents[0]);

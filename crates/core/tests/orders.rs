@@ -10,9 +10,9 @@ use common::compare::{by_reference, of_response};
 use common::random::Random;
 use common::sketch::Sketch;
 use common::values::values;
-use slipstick::friction::{RateCurve, RateLaw};
-use slipstick::model::{Devices, Model, Slider, Stop, StopKind};
+use slipstick::model::{Model, Slider, Stop};
 use slipstick::motion::GroundMotion;
+use slipstick::slider::{Direction, Friction, RateCurve, RateLaw};
 use slipstick::solver::{exact, stepwise};
 
 /// The same straight lines with every interval divided into `parts`.
@@ -112,32 +112,35 @@ fn order_stepwise_with_devices_is_one() {
         coefficients: vec![0.04, 0.06, 0.08],
     };
     let exponential = RateCurve::Exponential { slow: 0.04, fast: 0.09, rate_s_per_m: 20.0 };
-    let rate = |curve: &RateCurve| Devices {
-        rate: RateLaw::new(curve.clone(), [1.0; 2]).ok(),
-        ..Devices::default()
+    let by_speed = |slider: Slider, curve: &RateCurve| {
+        let fixed = slider.friction().expect("friction").clone();
+        let fixed = Direction::BOTH.map(|direction| fixed.static_coefficient(direction));
+        let rate = RateLaw::new(curve.clone(), [1.0; 2]).expect("a rate law");
+        slider.with_friction(Friction::by_speed(fixed, rate).expect("friction"))
     };
-    let pendulum = Devices { radius_m: Some(1.5), ..Devices::default() };
-    let kind = StopKind::Elastic { stiffness_n_per_m: 2e4, damper_n_s_per_m: 100.0 };
-    let stop = Stop { gap_m: [Some(0.01); 2], kind };
-    for (what, devices, stop) in [
-        ("friction in pieces", rate(&pieces), None),
-        ("exponential friction", rate(&exponential), None),
-        ("a pendulum", pendulum, None),
-        ("an elastic stop", Devices::default(), Some(stop)),
-    ] {
+    let stop = Stop::elastic([Some(0.01); 2], 2e4, 100.0);
+    let changes: [(&str, &dyn Fn(Slider) -> Slider); 4] = [
+        ("friction in pieces", &|slider| by_speed(slider, &pieces)),
+        ("exponential friction", &|slider| by_speed(slider, &exponential)),
+        ("a pendulum", &|slider| {
+            let friction = slider.friction().expect("friction").clone();
+            Slider { bearing: Slider::pendulum(friction, 1.5).bearing, ..slider }
+        }),
+        ("an elastic stop", &|slider| Slider { ends: stop.into(), ..slider }),
+    ];
+    for (what, change) in changes {
         let parts = [16, 32, 64, 128, 256];
         let errors = errors_of(&parts, true, |index| {
             let random = &mut Random::new(index);
             let mut x = mock_up(random, true);
-            if devices.radius_m.is_some() {
+            if what == "a pendulum" {
                 x.lift(random, 4.0);
                 x.set_spring((x.gravity / 1.5).sqrt());
             }
             let (model, motion) = x.build();
-            let slider = Slider { stop, ..*model.slider() };
+            let slider = change(model.slider().clone());
             let (block, frame) = (*model.block(), model.frame().clone());
             let model = Model::new(block, slider, frame, x.gravity, model.initial().clone())
-                .and_then(|model| model.with_devices(devices.clone()))
                 .expect("a model");
             (model, motion)
         });

@@ -436,7 +436,7 @@ fn exact_sharing_and_foreign_steps_change_no_bit() {
         let (model, motion) = shaken(&mut Random::new(seed)).build();
         let fresh = bits(&solver::exact_demands(&model, &motion).expect("a response"));
         let prepared = PreparedMotion::new(motion);
-        let rougher = model.with_friction(model.slider().friction.scaled(1.7).expect("friction"));
+        let rougher = model.with_friction_times(1.7).expect("friction");
         let shared = Prepared::new(rougher, prepared.dt_s()).with_model(model.clone());
         assert_eq!(bits(&shared.demands(&prepared).expect("a response")), fresh);
         // Prepared for another step.

@@ -2,12 +2,12 @@
 
 use crate::PaperError;
 use slipstick::error::{ModelError, MotionError};
-use slipstick::friction::{Coulomb, Friction};
 use slipstick::input::{self, MotionSource, Scale};
 use slipstick::model::{Block, Frame, InitialState, Model, Slider};
 use slipstick::motion::{GroundMotion, Sine};
 use slipstick::record::{self, Options};
 use slipstick::response::Demands;
+use slipstick::slider::Friction;
 use slipstick::solver;
 
 /// Friction that holds any mock-up on any table: the fixed base.
@@ -196,7 +196,7 @@ pub(crate) fn with_slider(
     model: &Model,
     change: impl FnOnce(&mut Slider),
 ) -> Result<Model, ModelError> {
-    let mut slider = *model.slider();
+    let mut slider = model.slider().clone();
     change(&mut slider);
     let (block, frame) = (*model.block(), model.frame().clone());
     Model::new(block, slider, frame, model.gravity_m_per_s2(), model.initial().clone())
@@ -219,7 +219,7 @@ pub(crate) fn with_asymmetry(model: &Model, alpha: f64) -> Result<Model, ModelEr
 }
 
 fn coulomb(statics: [f64; 2], kinetics: [f64; 2]) -> Result<Friction, ModelError> {
-    Ok(Friction::Coulomb(Coulomb::new(statics, kinetics)?))
+    Friction::by_direction(statics, kinetics)
 }
 
 /// The same mock-up on a surface that rises towards +x.
@@ -240,7 +240,7 @@ pub(crate) fn with_frame(
     let mut frame = model.frame().clone();
     change(&mut frame);
     let gravity = model.gravity_m_per_s2();
-    Model::new(*model.block(), *model.slider(), frame, gravity, model.initial().clone())
+    Model::new(*model.block(), model.slider().clone(), frame, gravity, model.initial().clone())
 }
 
 /// The same mock-up with its one storey tuned to a fixed-base frequency in Hz.
@@ -255,13 +255,19 @@ pub(crate) fn with_frequency(model: &Model, frequency_hz: f64) -> Result<Model, 
 pub(crate) fn with_block_mass(model: &Model, mass_kg: f64) -> Result<Model, ModelError> {
     let block = Block { mass_kg, ..*model.block() };
     let gravity = model.gravity_m_per_s2();
-    Model::new(block, *model.slider(), model.frame().clone(), gravity, model.initial().clone())
+    Model::new(
+        block,
+        model.slider().clone(),
+        model.frame().clone(),
+        gravity,
+        model.initial().clone(),
+    )
 }
 
 /// The same mock-up from another state.
 pub(crate) fn with_initial(model: &Model, initial: InitialState) -> Result<Model, ModelError> {
     let gravity = model.gravity_m_per_s2();
-    Model::new(*model.block(), *model.slider(), model.frame().clone(), gravity, initial)
+    Model::new(*model.block(), model.slider().clone(), model.frame().clone(), gravity, initial)
 }
 
 /// Mass `M2` in kg and fixed-base frequency in Hz of a one-storey mock-up.

@@ -104,7 +104,7 @@ pub(crate) fn studied(library: &Library) -> Result<Vec<Experiment>, PaperError> 
 
 /// Stiffness of an experiment's spring in kN/m.
 pub(crate) fn spring_kn_per_m(experiment: &Experiment) -> f64 {
-    1e-3 * experiment.model.slider().stiffness_n_per_m
+    1e-3 * experiment.model.slider_stiffness_n_per_m()
 }
 
 /// The table record of a test with white noise and a constant error, in m/s².

@@ -3,9 +3,9 @@
 use crate::curves::logspace;
 use crate::library::Library;
 use crate::{Grid, PaperError};
-use slipstick::friction::{Coulomb, Friction};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::GroundMotion;
+use slipstick::slider::Friction;
 use slipstick::solver;
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
@@ -71,7 +71,7 @@ pub fn over_friction(name: &str, motion: &GroundMotion) -> Result<Vec<SuiteRow>,
     let mut rows = Vec::new();
     for ratio in [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9] {
         let friction = ratio * SUITE_PEAK_M_PER_S2 / STANDARD_GRAVITY_M_PER_S2;
-        let law = Friction::Coulomb(Coulomb::new([friction; 2], [friction; 2])?);
+        let law = Friction::new(friction, friction)?;
         // Without a spring the mass is of no account.
         let model = Model::rigid_block(1.0, law)?;
         let demands = solver::exact_demands(&model, &motion)?.demands;
@@ -109,7 +109,7 @@ fn structure(mass_ratio: f64, friction: f64, period_s: f64) -> Result<Model, Pap
     // Any friction far above the demand holds the block.
     let friction = if friction.is_finite() { friction } else { 1e3 };
     let rate = core::f64::consts::TAU / period_s;
-    let slider = Slider::new(Friction::Coulomb(Coulomb::new([friction; 2], [friction; 2])?));
+    let slider = Slider::new(Friction::new(friction, friction)?);
     let frame = Frame {
         masses_kg: vec![mass_ratio],
         stiffnesses_n_per_m: vec![mass_ratio * rate * rate],

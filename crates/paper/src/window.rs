@@ -417,15 +417,15 @@ fn slightly_higher(of_mock_up: &[&Window]) -> Claim {
 mod tests {
     use super::*;
     use crate::library::with_frequency;
-    use slipstick::friction::{Coulomb, Friction};
     use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
+    use slipstick::slider::Friction;
 
     /// Peaks and edges that another program found, event by event in 50 digits' company (see
     /// `data/reference/ORIGIN.md`).
     const REFERENCE: &str = include_str!("../../../data/reference/ampwindow.csv");
 
     fn mock_up(mass_kg: f64, frequency_hz: f64) -> Model {
-        let friction = Friction::Coulomb(Coulomb::new([0.020; 2], [0.012; 2]).unwrap());
+        let friction = Friction::new(0.020, 0.012).unwrap();
         let slider = Slider::new(friction);
         let frame = Frame {
             masses_kg: vec![mass_kg],

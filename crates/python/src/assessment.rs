@@ -277,7 +277,7 @@ pub(crate) fn ida(
         (Some(_), Some(_)) => return Err(of_argument(py, "levels", "levels or between", "both")),
     };
     let fixed_levels = matches!(at, IdaLevels::Fixed(_));
-    let gap_m = model.analysis.model.slider().gap_m;
+    let gap_m = model.analysis.model.slider().gap_m();
     let limit = match limit {
         Some(text) => Some(self::limit(py, text, demand)?),
         None => gap_m.filter(|_| demand == "peak_sliding_displacement_m"),
@@ -350,7 +350,7 @@ pub(crate) fn design(
     }
     let models = models(py, model, &varied, coupled)?;
     let (scaling, scaled) = scaling(py, measure, level)?;
-    let own_gap_m = model.analysis.model.slider().gap_m;
+    let own_gap_m = model.analysis.model.slider().gap_m();
     let gap_m = match (gap, own_gap_m) {
         (Some(text), _) => limit(py, text, "peak_sliding_displacement_m")?,
         (None, Some(gap_m)) => gap_m,

@@ -2,9 +2,9 @@
 
 use core::f64::consts::TAU;
 
-use slipstick::friction::{Direction, RateCurve};
 use slipstick::model::{Damping, Model, Stop, StopKind};
 use slipstick::response::{Event, Mode};
+use slipstick::slider::{Direction, RateCurve};
 
 use crate::display::{DisplayUnits, Quantity};
 use crate::number::{compact, significant};
@@ -31,7 +31,7 @@ pub fn model_line(model: &Model, display: DisplayUnits) -> String {
             format!("{n} storeys of {} in all", value(display, Quantity::Mass, above))
         }
     });
-    parts.push(match (&model.devices().series, &model.devices().rate) {
+    parts.push(match (slider.series(), slider.rate()) {
         (Some(series), _) => format!("{} surfaces in series", series.surfaces().len()),
         (None, rate) => format!(
             "friction {} static, {} kinetic{}",
@@ -41,7 +41,7 @@ pub fn model_line(model: &Model, display: DisplayUnits) -> String {
         ),
     });
     for (name, quantity, si) in [
-        ("spring", Quantity::Stiffness, slider.stiffness_n_per_m),
+        ("spring", Quantity::Stiffness, model.slider_stiffness_n_per_m()),
         ("damper", Quantity::Damping, slider.damper_n_s_per_m),
     ] {
         if si > 0.0 {
@@ -51,13 +51,13 @@ pub fn model_line(model: &Model, display: DisplayUnits) -> String {
     if slider.tilt_rad != 0.0 {
         parts.push(format!("tilt {} mrad", compact(1e3 * slider.tilt_rad)));
     }
-    if let Some(gap_m) = slider.gap_m {
+    if let Some(gap_m) = slider.gap_m() {
         parts.push(format!("gap {}", value(display, Quantity::Length, gap_m)));
     }
-    if let Some(stop) = &slider.stop {
+    if let Some(stop) = slider.stop() {
         parts.push(format!("stop {}", stop_gap(stop, display)));
     }
-    match model.devices().contents.len() {
+    match model.contents().len() {
         0 => {}
         n => parts.push(format!("{n} contents")),
     }
@@ -91,8 +91,8 @@ fn by_direction([positive, negative]: [f64; 2]) -> String {
 
 /// Friction, by speed or on surfaces in series where the model has such.
 fn friction_rows(model: &Model, display: DisplayUnits, rows: &mut Vec<(&'static str, String)>) {
-    let devices = model.devices();
-    if let Some(series) = &devices.series {
+    let slider = model.slider();
+    if let Some(series) = slider.series() {
         for surface in series.surfaces() {
             let length = |si: f64| value(display, Quantity::Length, si);
             let radius = surface.radius_m.map_or("flat".to_owned(), |r| format!("R {}", length(r)));
@@ -107,7 +107,7 @@ fn friction_rows(model: &Model, display: DisplayUnits, rows: &mut Vec<(&'static 
         return;
     }
     rows.push(("Static friction μₛ", by_direction(model.static_friction())));
-    let Some(rate) = &devices.rate else {
+    let Some(rate) = slider.rate() else {
         rows.push(("Kinetic friction μₖ", by_direction(model.kinetic_friction())));
         return;
     };
@@ -146,7 +146,7 @@ pub fn model_rows(model: &Model, display: DisplayUnits) -> Vec<(&'static str, St
     }
     rows.push(("Weight", derived(Quantity::Force, model.weight_n())));
     friction_rows(model, display, &mut rows);
-    let k1 = slider.stiffness_n_per_m;
+    let k1 = model.slider_stiffness_n_per_m();
     if k1 > 0.0 {
         let total = model.total_mass_kg();
         rows.push(("Spring K₁ of the slider", show(Quantity::Stiffness, k1)));
@@ -173,9 +173,9 @@ pub fn model_rows(model: &Model, display: DisplayUnits) -> Vec<(&'static str, St
             tilt_rad => format!("{} mrad", compact(1e3 * tilt_rad)),
         },
     ));
-    match &slider.stop {
+    match slider.stop() {
         None => {
-            let gap = slider.gap_m.map_or("not given".into(), |gap| show(Quantity::Length, gap));
+            let gap = slider.gap_m().map_or("not given".into(), |gap| show(Quantity::Length, gap));
             rows.push(("Gap", gap));
         }
         Some(stop) => {
@@ -193,7 +193,7 @@ pub fn model_rows(model: &Model, display: DisplayUnits) -> Vec<(&'static str, St
             }
         }
     }
-    for contents in &model.devices().contents {
+    for contents in model.contents() {
         let place = match contents.floor {
             0 => "on the block".to_owned(),
             floor => format!("on storey {floor}"),

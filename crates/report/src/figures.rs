@@ -127,7 +127,7 @@ fn drawn(figure: &Figure, caption: String) -> Drawn {
 
 #[cfg(test)]
 mod tests {
-    use slipstick::friction::Direction;
+    use slipstick::slider::Direction;
 
     use super::*;
 

@@ -5,11 +5,11 @@
 //! into HTML and SVG by the types in [`markup`]: only text of this crate can be markup.
 //!
 //! ```
-//! use slipstick::friction::{Coulomb, Friction};
+//! use slipstick::slider::Friction;
 //! use slipstick::{check::check, model::Model, motion::GroundMotion, solver};
 //! use slipstick_report::{DisplayUnits, Summary, SummaryInputs, table::table};
 //!
-//! let friction = Friction::Coulomb(Coulomb::new([0.3; 2], [0.2; 2])?);
+//! let friction = Friction::new(0.3, 0.2)?;
 //! let model = Model::rigid_block(124.0, friction)?;
 //! let motion = GroundMotion::evenly_spaced(0.5, vec![0.0, 4.0, -4.0, 0.0, 0.0], None)?;
 //! let response = solver::exact(&model, &motion)?;

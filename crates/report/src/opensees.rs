@@ -3,10 +3,10 @@
 use core::fmt::Write;
 
 use slipstick::error::ChoiceError;
-use slipstick::friction::{Direction, RateCurve, Series, Surface};
 use slipstick::linear::shear_frame_modes;
 use slipstick::model::{Damping, Frame, InitialState, Model, StopKind};
 use slipstick::motion::GroundMotion;
+use slipstick::slider::{Direction, RateCurve, Surface, SurfacesInSeries};
 
 // Functions of the script, below the model's numbers: those of the slider, of what presses it down, of
 // stops and contents, and of the analysis.
@@ -66,7 +66,7 @@ pub fn script(
     if !(k_init_n_per_m.is_finite() && k_init_n_per_m > 0.0) {
         return Err(refused("k_init", "a stiffness > 0 N/m", &format!("{k_init_n_per_m} N/m")));
     }
-    let (slider, devices, frame) = (model.slider(), model.devices(), model.frame());
+    let (slider, frame) = (model.slider(), model.frame());
     let vertical = motion.vertical_m_per_s2();
     let (times_s, values) = right_sides(motion, motion.horizontal_m_per_s2());
     let mut text = String::new();
@@ -86,10 +86,10 @@ pub fn script(
     match element {
         SliderElement::Constant => constant(model, &mut line),
         SliderElement::Bearing => bearing(model, vertical.is_some(), &mut line),
-        SliderElement::Triple => triple(devices.series.as_ref(), &mut line),
+        SliderElement::Triple => triple(slider.series(), &mut line),
     }
-    let pendulum = model.pendulum_radius_m(vertical.is_some()).is_some();
-    let stiffness_n_per_m = if pendulum { 0.0 } else { slider.stiffness_n_per_m };
+    let pendulum = slider.pendulum_radius_m(vertical.is_some()).is_some();
+    let stiffness_n_per_m = if pendulum { 0.0 } else { model.slider_stiffness_n_per_m() };
     line(format_args!(
         "SPRING, DAMPER = {stiffness_n_per_m:?}, {:?}  # of the slider, N/m and N s/m",
         slider.damper_n_s_per_m
@@ -121,9 +121,9 @@ pub fn script(
         });
         parts.push("stops");
     }
-    if !devices.contents.is_empty() {
+    if !model.contents().is_empty() {
         line(format_args!("CONTENTS = [  # floor, kg, friction"));
-        for contents in &devices.contents {
+        for contents in model.contents() {
             let (floor, mass_kg) = (contents.floor, contents.mass_kg);
             line(format_args!("    ({floor}, {mass_kg:?}, {:?}),", contents.kinetic_friction));
         }
@@ -141,7 +141,7 @@ pub fn script(
     line(format_args!("]"));
     if !matches!(element, SliderElement::Constant) {
         // The weight of contents without vertical motion is the block's to carry.
-        let own = devices.contents.iter().filter(|_| vertical.is_some());
+        let own = model.contents().iter().filter(|_| vertical.is_some());
         let own: Vec<f64> = own.map(|contents| contents.mass_kg).collect();
         let first = 2 + masses(model).len();
         let mut pressed = vec![(2, model.total_mass_kg())];
@@ -175,8 +175,7 @@ fn constant(model: &Model, line: &mut impl FnMut(core::fmt::Arguments<'_>)) {
 /// Numbers of a bearing.
 fn bearing(model: &Model, vertical: bool, line: &mut impl FnMut(core::fmt::Arguments<'_>)) {
     line(format_args!("NDM, NDF, TOLERANCE = 2, 3, 1e-11"));
-    match model.devices().rate.as_ref().map(|rate| (rate.curve(), rate.factor(Direction::Positive)))
-    {
+    match model.slider().rate().map(|rate| (rate.curve(), rate.factor(Direction::Positive))) {
         None => line(format_args!("FRICTION = \"Coulomb\", 1, {:?}", model.kinetic_friction()[0])),
         Some((RateCurve::Exponential { slow, fast, rate_s_per_m }, factor)) => {
             let [slow, fast] = [slow, fast].map(|mu| factor * mu);
@@ -197,7 +196,7 @@ fn bearing(model: &Model, vertical: bool, line: &mut impl FnMut(core::fmt::Argum
             ));
         }
     }
-    match model.pendulum_radius_m(vertical) {
+    match model.slider().pendulum_radius_m(vertical) {
         Some(radius_m) => line(format_args!(
             "BEARING = \"singleFPBearing\", 1, 1, 2, 1, {radius_m:?}  # radius in m"
         )),
@@ -210,8 +209,8 @@ fn bearing(model: &Model, vertical: bool, line: &mut impl FnMut(core::fmt::Argum
 ///
 /// The element's effective lengths are `L1 = R/2` of the first and `R + L1` of the others, and its ends
 /// of travel `2 (d1 + d3 L1/L3)`, `d2 (1 − L1/L2)` and `d3 (1 − L1/L3)`.
-fn triple(series: Option<&Series>, line: &mut impl FnMut(core::fmt::Arguments<'_>)) {
-    let surfaces = series.map_or(&[][..], Series::surfaces);
+fn triple(series: Option<&SurfacesInSeries>, line: &mut impl FnMut(core::fmt::Arguments<'_>)) {
+    let surfaces = series.map_or(&[][..], SurfacesInSeries::surfaces);
     let of =
         |s: &Surface| [s.friction, s.radius_m.unwrap_or(ENDLESS), s.travel_m.unwrap_or(ENDLESS)];
     let mut all: Vec<[f64; 3]> = surfaces.iter().map(of).collect();
@@ -307,17 +306,17 @@ fn refused(what: &str, expected: &str, found: &str) -> ChoiceError {
 /// # Errors
 /// [`ChoiceError`] for the first thing that the script's model does not have.
 fn expressible(model: &Model, motion: &GroundMotion) -> Result<SliderElement, ChoiceError> {
-    let (slider, devices) = (model.slider(), model.devices());
+    let slider = model.slider();
     let vertical = motion.vertical_m_per_s2();
     let no = |what: &str, expected: &str, found: &str| Err(refused(what, expected, found));
-    let element = if let Some(series) = &devices.series {
+    let element = if let Some(series) = slider.series() {
         in_series(series)?;
         SliderElement::Triple
     } else {
         one_coefficient(model)?;
-        if devices.rate.is_some() || vertical.is_some() {
+        if slider.rate().is_some() || vertical.is_some() {
             let [positive, negative] = model.kinetic_friction();
-            let rate = devices.rate.as_ref();
+            let rate = slider.rate();
             let sides = [Direction::Positive, Direction::Negative];
             let [one, other] =
                 rate.map_or([positive, negative], |rate| sides.map(|d| rate.factor(d)));
@@ -340,7 +339,7 @@ fn expressible(model: &Model, motion: &GroundMotion) -> Result<SliderElement, Ch
             &format!("{damper_n_s_per_m} N s/m"),
         );
     }
-    for (i, contents) in devices.contents.iter().enumerate() {
+    for (i, contents) in model.contents().iter().enumerate() {
         let (fixed, kinetic) = (contents.static_friction, contents.kinetic_friction);
         if fixed != kinetic {
             let expected = "as much as kinetic_friction: OpenSees' material has one coefficient";
@@ -352,7 +351,7 @@ fn expressible(model: &Model, motion: &GroundMotion) -> Result<SliderElement, Ch
             return no(&what, "more than 0", &kinetic.to_string());
         }
     }
-    if !devices.contents.is_empty() && vertical.is_some() && devices.series.is_some() {
+    if !model.contents().is_empty() && vertical.is_some() && slider.series().is_some() {
         let expected = "none beside surfaces in series under vertical motion";
         return no("contents", expected, "contents");
     }
@@ -373,7 +372,7 @@ fn expressible(model: &Model, motion: &GroundMotion) -> Result<SliderElement, Ch
 
 /// # Errors
 /// [`ChoiceError`] for surfaces that `TripleFrictionPendulum` does not have.
-fn in_series(series: &Series) -> Result<(), ChoiceError> {
+fn in_series(series: &SurfacesInSeries) -> Result<(), ChoiceError> {
     let no = |what: &str, expected: &str, found: &str| Err(refused(what, expected, found));
     if series.static_ratio() != 1.0 {
         let expected = "1: OpenSees' friction models have no static friction";
@@ -398,7 +397,7 @@ fn in_series(series: &Series) -> Result<(), ChoiceError> {
 fn one_coefficient(model: &Model) -> Result<(), ChoiceError> {
     let no = |what: &str, expected: &str, found: &str| Err(refused(what, expected, found));
     let (fixed, kinetic) = (model.static_friction(), model.kinetic_friction());
-    let rate = model.devices().rate.as_ref();
+    let rate = model.slider().rate();
     let at_rest = rate.map_or(kinetic, |rate| {
         [Direction::Positive, Direction::Negative].map(|direction| rate.at(0.0, direction))
     });

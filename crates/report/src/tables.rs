@@ -56,8 +56,8 @@ pub fn events_csv(events: &[Event], to: &mut impl Write) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use slipstick::friction::Direction;
     use slipstick::response::{EventKind, Mode};
+    use slipstick::slider::Direction;
 
     #[test]
     fn exact_history_has_its_rows_and_columns() {

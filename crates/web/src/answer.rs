@@ -317,7 +317,7 @@ fn state(job: &Job, words: &str, summary: &Summary, display: DisplayUnits) -> Js
     let numbers = |values: &[f64]| Json::List(values.iter().map(|v| (*v).into()).collect());
     let frame = model.frame();
     let heights = frame.heights_m.as_deref().unwrap_or(&[]);
-    let stop_m = slider.stop.as_ref().map(|stop| numbers(&stop_gaps(&stop.gap_m)));
+    let stop_m = slider.stop().map(|stop| numbers(&stop_gaps(&stop.gap_m)));
     let names = (1..=model.storeys()).map(|i| Json::Text(analysis.names.storey(i)));
     let demands = &summary.demands;
     Json::Object(vec![
@@ -341,10 +341,10 @@ fn state(job: &Job, words: &str, summary: &Summary, display: DisplayUnits) -> Js
                 ("storeyMasses_kg", numbers(&frame.masses_kg)),
                 ("heights_m", numbers(heights)),
                 ("width_m", model.block().width_m.into()),
-                ("gap_m", slider.gap_m.into()),
+                ("gap_m", slider.gap_m().into()),
                 ("stop_m", stop_m.unwrap_or(Json::Null)),
-                ("radius_m", model.pendulum_radius_m(false).into()),
-                ("springs", (slider.stiffness_n_per_m > 0.0).into()),
+                ("radius_m", slider.pendulum_radius_m(false).into()),
+                ("springs", (model.slider_stiffness_n_per_m() > 0.0).into()),
                 ("weight_n", model.weight_n().into()),
                 ("tilt_rad", slider.tilt_rad.into()),
                 ("contents", (demands.contents.len() as u64).into()),

@@ -333,7 +333,7 @@ impl Work<'_> {
 
     fn limit(&self, name: &str, demand: &str) -> Result<Option<f64>, Failure> {
         let given = self.asked.one(name);
-        let gap = self.analysis.model.slider().gap_m;
+        let gap = self.analysis.model.slider().gap_m();
         let slides = demand == "peak_sliding_displacement_m";
         match given {
             Some(text) => key::limit(name, text, demand).map(Some).map_err(Failure::of),

@@ -70,7 +70,7 @@ pub fn design(args: &DesignArgs) -> Result<ExitCode, Failure> {
 }
 
 fn gap(args: &DesignArgs, opened: &Opened) -> Result<f64, Failure> {
-    match (&args.gap, opened.analysis.model.slider().gap_m) {
+    match (&args.gap, opened.analysis.model.slider().gap_m()) {
         (Some(text), _) => limit("--gap", text, "peak_sliding_displacement_m"),
         (None, Some(gap_m)) => Ok(gap_m),
         (None, None) => Err(message("--gap", "a length (or slider.gap in the model)", "nothing")),

@@ -58,7 +58,7 @@ pub fn ida(args: &IdaArgs) -> Result<ExitCode, Failure> {
 
 /// The limit: as given, else the model's gap where that is what is measured.
 fn the_limit(args: &IdaArgs, opened: &Opened) -> Result<Option<f64>, Failure> {
-    let gap = opened.analysis.model.slider().gap_m;
+    let gap = opened.analysis.model.slider().gap_m();
     let slides = args.demand == "peak_sliding_displacement_m";
     match args.to.as_deref().map(str::trim) {
         Some("slider.gap") => {

@@ -177,7 +177,7 @@ pub fn run_histories(
         done.push(ModelHistories {
             name: model.name.to_owned(),
             names: model.analysis.names.clone(),
-            gap_m: model.analysis.model.slider().gap_m,
+            gap_m: model.analysis.model.slider().gap_m(),
             bounds: bounds(model.analysis),
             records,
         });

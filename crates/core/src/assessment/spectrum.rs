@@ -5,12 +5,12 @@ use super::models::Models;
 use super::suite::{Scaling, Suite};
 use super::{AssessmentError, FailedRun, refuse};
 use crate::error::{ModelError, MotionError, RunError, Stopped};
-use crate::friction::{Coulomb, Friction};
 use crate::input::{Bound, Parts};
-use crate::model::{InitialState, Model};
+use crate::model::{InitialState, Model, Slider};
 use crate::motion::GroundMotion;
 use crate::numerics::fractile::fractiles;
 use crate::response::{DemandColumn, demand_values};
+use crate::slider::{Ends, Friction};
 use crate::solver::{PreparedMotion, Workspace};
 use crate::study::engine::{Engine, Running};
 use crate::table::Table;
@@ -26,13 +26,19 @@ const HELD: f64 = 1e9;
 /// # Errors
 /// [`ModelError`] never, of a model that was checked.
 pub fn fixed_base(model: &Model) -> Result<Model, ModelError> {
-    let friction = Friction::Coulomb(Coulomb::new([HELD; 2], [HELD; 2])?);
+    let held = Friction::new(HELD, HELD)?;
     let initial = InitialState {
         sliding_displacement_m: 0.0,
         sliding_velocity_m_per_s: 0.0,
         ..model.initial().clone()
     };
-    let slider = crate::model::Slider { friction, gap_m: None, ..*model.slider() };
+    let ends = match model.slider().ends {
+        Ends::Open { .. } => Ends::Open { gap_m: None },
+        stop @ Ends::Stop(_) => stop,
+    };
+    let spring = Slider::sprung(held, model.slider_stiffness_n_per_m());
+    let Slider { damper_n_s_per_m, tilt_rad, .. } = *model.slider();
+    let slider = Slider { damper_n_s_per_m, tilt_rad, ends, ..spring };
     Model::new(*model.block(), slider, model.frame().clone(), model.gravity_m_per_s2(), initial)
 }
 

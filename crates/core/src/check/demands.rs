@@ -337,7 +337,7 @@ fn of_peaks(
         c.optional(storey.peak_drift_ratio, ratio, near_m / height_m.unwrap_or(1.0));
     }
     c.same(d.storeys.len() == n);
-    let gap_m = model.slider().gap_m;
+    let gap_m = model.slider().gap_m();
     c.optional(d.gap_ratio, gap_m.map(|gap_m| peak_m / gap_m), near_m / gap_m.unwrap_or(1.0));
     let arm = arm(model);
     let width_m = model.block().width_m.filter(|_| arm.is_some());

@@ -17,11 +17,11 @@ use super::law::Dips;
 use super::structure::{Phase, Structure, excess, larger};
 use super::{Certificate, ClosestCall};
 use crate::error::Stopped;
-use crate::friction::Direction;
 use crate::model::{Contents, Model};
 use crate::motion::GroundMotion;
 use crate::progress::Pulse;
 use crate::response::{Contact, History, Mode, Response};
+use crate::slider::Direction;
 
 /// Largest rate times step.
 const MAX_TURN: f64 = 0.5;
@@ -132,7 +132,7 @@ pub(super) fn certificate(
         response,
         h: history,
         structure,
-        contents: &model.devices().contents,
+        contents: model.contents(),
         ground,
         slider: Slider::new(model, motion.vertical_m_per_s2().is_some()),
         rule: Rule::get(),
@@ -150,12 +150,12 @@ pub(super) fn certificate(
         excess: 0.0,
         energy: Energy::default(),
         closest: None,
-        dips: vec![Dips::new(0.0); 1 + model.devices().contents.len()],
+        dips: vec![Dips::new(0.0); 1 + model.contents().len()],
         arriving: None,
         own: Own::new(model, history),
         room: Room::default(),
         pulse,
-        units: 64 * (1 + model.storeys() + model.devices().contents.len()) as u32,
+        units: 64 * (1 + model.storeys() + model.contents().len()) as u32,
     };
     judge.run(bound)
 }

@@ -12,11 +12,11 @@ use super::step::{Look, Spread, Unit};
 use super::structure::{Phase, Structure, excess, larger};
 use super::{Certificate, ClosestCall};
 use crate::error::Stopped;
-use crate::friction::Direction;
 use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::progress::{Pulse, UNWATCHED};
 use crate::response::{Contact, History, Mode, Response};
+use crate::slider::Direction;
 
 /// A sliding velocity below this part of its peak has no sign: the depth of a dip through zero that
 /// the exact method may miss.
@@ -798,22 +798,22 @@ pub(super) fn between([from, to]: [Load; 2], t: f64) -> Load {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::friction::{Coulomb, Friction};
     use crate::model::{Block, Damping, Frame, InitialState, Slider};
     use crate::response::{Demands, Method};
+    use crate::slider::Friction;
 
     /// A motion that is none of the model's, with its figures of every size, under a motion of so many
     /// samples that does not end at 0, and a tail.
     fn wrong(n: usize, samples: usize, tail_s: f64) -> (Model, GroundMotion, Response) {
-        let friction = Friction::Coulomb(Coulomb::new([0.1; 2], [0.08; 2]).unwrap());
-        let rigid = Model::rigid_block(300.0, friction).unwrap();
+        let friction = Friction::new(0.1, 0.08).unwrap();
+        let rigid = Model::rigid_block(300.0, friction.clone()).unwrap();
         let frame = Frame {
             masses_kg: vec![200.0; n],
             stiffnesses_n_per_m: vec![4e4; n],
             damping: Damping::Ratio(0.02),
             heights_m: Some(vec![3.0; n]),
         };
-        let slider = Slider { stiffness_n_per_m: 5e3, ..*rigid.slider() };
+        let slider = Slider::sprung(friction, 5e3);
         let block = Block { width_m: Some(1.0), ..*rigid.block() };
         let model = Model::new(block, slider, frame, 9.81, InitialState::rest()).unwrap();
         let wave = |k: usize, rate: f64| libm::sin(rate * k as f64);

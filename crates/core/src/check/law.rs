@@ -5,9 +5,9 @@ use super::collocation::{POINTS, Rule};
 use super::ground::Ground;
 use super::rate::RateFriction;
 use super::structure::{excess, larger};
-use crate::friction::Direction;
 use crate::model::{Model, Stop, StopKind};
 use crate::response::{Contact, EventKind, Mode};
+use crate::slider::Direction;
 
 /// Bounds and kinetic forces from the coefficients, for each direction.
 pub(super) struct Law {

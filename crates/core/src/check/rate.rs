@@ -1,7 +1,7 @@
 //! Kinetic friction by sliding speed.
 
-use crate::friction::{Direction, RateCurve};
 use crate::model::Model;
+use crate::slider::{Direction, RateCurve};
 
 /// `μ_k(|ṡ|)` for a factor of 1:
 ///
@@ -25,7 +25,7 @@ pub(super) struct RateFriction {
 impl RateFriction {
     /// The law of a model that has one.
     pub(super) fn new(model: &Model) -> Option<Self> {
-        let law = model.devices().rate.as_ref()?;
+        let law = model.slider().rate()?;
         let factors = [Direction::Positive, Direction::Negative].map(|way| law.factor(way));
         Some(match law.curve() {
             RateCurve::Pieces { speeds_m_per_s: v, coefficients: mu } => {
@@ -83,8 +83,8 @@ impl RateFriction {
 #[cfg(test)]
 mod tests {
     use super::RateFriction;
-    use crate::friction::{Coulomb, Direction, Friction, RateCurve, RateLaw};
-    use crate::model::{Devices, Model};
+    use crate::model::Model;
+    use crate::slider::{Direction, Friction, RateCurve, RateLaw};
 
     /// As the definition of the law has it, alone and in lanes.
     #[test]
@@ -95,10 +95,9 @@ mod tests {
         };
         let exponential = RateCurve::Exponential { slow: 0.03, fast: 0.06, rate_s_per_m: 25.0 };
         for curve in [pieces, exponential] {
-            let friction = Friction::Coulomb(Coulomb::new([0.2; 2], [0.1; 2]).unwrap());
             let law = RateLaw::new(curve, [1.0, 0.9]).unwrap();
-            let devices = Devices { rate: Some(law.clone()), ..Devices::default() };
-            let model = Model::rigid_block(9.0, friction).unwrap().with_devices(devices).unwrap();
+            let friction = Friction::by_speed([0.2; 2], law.clone()).unwrap();
+            let model = Model::rigid_block(9.0, friction).unwrap();
             let own = RateFriction::new(&model).unwrap();
             for i in 0..200 {
                 let speed = 0.0017 * f64::from(i);

@@ -7,8 +7,8 @@ use super::judge::{Judge, STILL, between};
 use super::lanes::{LANES, Work};
 use super::law::{Push, dip};
 use super::structure::{Phase, excess, larger};
-use crate::friction::Direction;
 use crate::response::{Contact, Mode};
+use crate::slider::Direction;
 
 /// What a step is looked at for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

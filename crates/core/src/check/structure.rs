@@ -63,7 +63,7 @@ impl Structure {
             block_kg: model.block().mass_kg,
             total_kg: model.total_mass_kg(),
             masses_kg: m.clone(),
-            spring: model.slider().stiffness_n_per_m,
+            spring: model.slider_stiffness_n_per_m(),
             damper: model.slider().damper_n_s_per_m,
             stop: model.stop().map_or([0.0; 2], |stop| match stop.kind {
                 StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } => {

@@ -7,9 +7,11 @@ use super::motion::{self, MotionSource};
 use super::reader::Values;
 use super::{Analysis, FrictionBounds, Names};
 use crate::error::{InputError, ModelError};
-use crate::friction::{Coulomb, Direction, Friction, RateCurve, RateLaw, Series, Surface};
-use crate::model::{Block, Contents, Devices, Frame, InitialState, Model, Slider, Stop, StopKind};
+use crate::model::{Block, Contents, InitialState, Model, Slider, Stop};
 use crate::response::Method;
+use crate::slider::{
+    Bearing, Direction, Ends, Friction, RateCurve, RateLaw, Restoring, Surface, SurfacesInSeries,
+};
 use crate::units::{LARGEST, STANDARD_GRAVITY_M_PER_S2};
 
 /// What an analysis needs of the values, and what a study draws anew for each of its samples.
@@ -32,17 +34,12 @@ pub(super) fn parts(values: &Values) -> Result<Parts, InputError> {
     };
     let frame = frame::frame(values, gravity_m_per_s2)?;
     let contents = contents(values, frame.masses_kg.len(), gravity_m_per_s2)?;
-    let carried_kg = contents.iter().map(|contents| contents.mass_kg).sum::<f64>();
-    let slider = slider(values, &block, (&frame, carried_kg), gravity_m_per_s2)?;
+    let floors_kg = frame.masses_kg.iter().fold(block.mass_kg, |sum, m| sum + m);
+    let total_kg = contents.iter().fold(floors_kg, |sum, contents| sum + contents.mass_kg);
+    let slider = slider(values, &block, total_kg, gravity_m_per_s2)?;
     let initial = initial(values, frame.masses_kg.len())?;
-    let devices = Devices {
-        rate: rate(values)?,
-        radius_m: values.number("slider.radius"),
-        series: series(values)?,
-        contents,
-    };
     let model = Model::new(block, slider, frame, gravity_m_per_s2, initial)
-        .and_then(|model| model.with_devices(devices))
+        .and_then(|model| model.with_contents(contents))
         .map_err(|error| model_error(values, &error))?;
     let tail_s = values.number("analysis.tail").unwrap_or(0.0);
     Ok(Parts { model, motion: motion::motion(values)?, tail_s })
@@ -88,22 +85,27 @@ pub(super) fn mass_kg(
 fn slider(
     values: &Values,
     block: &Block,
-    (frame, carried_kg): (&Frame, f64),
+    total_mass_kg: f64,
     gravity_m_per_s2: f64,
 ) -> Result<Slider, InputError> {
-    let frame_kg = frame.masses_kg.iter().fold(block.mass_kg, |sum, m| sum + m);
-    let total_mass_kg = frame_kg + carried_kg;
     let tilt_rad = values.number("slider.tilt").unwrap_or(0.0);
-    let (radius_m, period_s) = (values.number("slider.radius"), values.number("slider.period"));
-    let stiffness_n_per_m = if let Some(radius_m) = radius_m {
-        let normal_n = total_mass_kg * (gravity_m_per_s2 * libm::cos(tilt_rad));
-        derived(values, "slider.radius", "stiffness M_tot g cos θ / R", normal_n / radius_m)?
-    } else if let Some(period_s) = period_s {
-        let stiffness = total_mass_kg * (TAU / period_s) * (TAU / period_s);
-        derived(values, "slider.period", "stiffness M_tot (2 π / T)²", stiffness)?
-    } else {
-        values.number("slider.spring").unwrap_or(0.0)
+    let bearing = match series(values)? {
+        Some(series) => Bearing::InSeries(series),
+        None => Bearing::Surface {
+            friction: friction(values)?,
+            restoring: restoring(values, total_mass_kg)?,
+        },
     };
+    let ends = match stop(values, block)? {
+        Some(stop) => Ends::Stop(stop),
+        None => Ends::Open { gap_m: values.number("slider.gap") },
+    };
+    let slider = Slider { bearing, damper_n_s_per_m: 0.0, tilt_rad, ends };
+    let normal_n = total_mass_kg * (gravity_m_per_s2 * libm::cos(tilt_rad));
+    let stiffness_n_per_m = slider.stiffness_n_per_m(normal_n);
+    if slider.radius_m().is_some() {
+        derived(values, "slider.radius", "stiffness M_tot g cos θ / R", stiffness_n_per_m)?;
+    }
     let damper_n_s_per_m = match values.number("slider.damping_ratio") {
         Some(_) if stiffness_n_per_m == 0.0 => {
             let expected = "a spring, radius or period > 0 of which to take the critical damping";
@@ -115,14 +117,21 @@ fn slider(
         }
         None => values.number("slider.damper").unwrap_or(0.0),
     };
-    Ok(Slider {
-        friction: friction(values)?,
-        stiffness_n_per_m,
-        damper_n_s_per_m,
-        tilt_rad,
-        gap_m: values.number("slider.gap"),
-        stop: stop(values, block)?,
-    })
+    Ok(Slider { damper_n_s_per_m, ..slider })
+}
+
+fn restoring(values: &Values, total_mass_kg: f64) -> Result<Restoring, InputError> {
+    if let Some(radius_m) = values.number("slider.radius") {
+        return Ok(Restoring::Pendulum { radius_m });
+    }
+    if let Some(period_s) = values.number("slider.period") {
+        let stiffness = total_mass_kg * (TAU / period_s) * (TAU / period_s);
+        let what = "stiffness M_tot (2 π / T)²";
+        let stiffness_n_per_m = derived(values, "slider.period", what, stiffness)?;
+        return Ok(Restoring::Spring { stiffness_n_per_m });
+    }
+    let spring = values.number("slider.spring");
+    Ok(spring.map_or(Restoring::None, |stiffness_n_per_m| Restoring::Spring { stiffness_n_per_m }))
 }
 
 fn stop(values: &Values, block: &Block) -> Result<Option<Stop>, InputError> {
@@ -138,7 +147,7 @@ fn stop(values: &Values, block: &Block) -> Result<Option<Stop>, InputError> {
         if restitution > 1.0 {
             return Err(values.wrong("slider.stop.restitution", "a number from 0 to 1"));
         }
-        return Ok(Some(Stop { gap_m, kind: StopKind::Rigid { restitution } }));
+        return Ok(Some(Stop::rigid(gap_m, restitution)));
     }
     let stiffness_n_per_m = values.required("slider.stop.stiffness")?;
     let damper_n_s_per_m = match values.number("slider.stop.damping_ratio") {
@@ -148,7 +157,7 @@ fn stop(values: &Values, block: &Block) -> Result<Option<Stop>, InputError> {
         }
         None => values.number("slider.stop.damper").unwrap_or(0.0),
     };
-    Ok(Some(Stop { gap_m, kind: StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } }))
+    Ok(Some(Stop::elastic(gap_m, stiffness_n_per_m, damper_n_s_per_m)))
 }
 
 /// A number computed from keys, which rounding may have driven out of range.
@@ -168,25 +177,20 @@ pub(super) fn derived(
 const FRICTION: &str = "a finite number ≥ 0 or a table of positive and negative";
 
 fn friction(values: &Values) -> Result<Friction, InputError> {
-    if values.has("slider.surface") || values.has("slider.triple") {
-        // The surfaces tell; this is the first to slide.
-        return Coulomb::new([0.0; 2], [0.0; 2])
-            .map(Friction::Coulomb)
-            .map_err(|error| model_error(values, &error));
-    }
     for path in ["slider.static_friction", "slider.kinetic_friction"] {
         if !values.has(path) {
             return Err(values.error(path, FRICTION, "nothing"));
         }
     }
     let statics = both_directions(values, "slider.static_friction")?;
-    let kinetics = match rate(values)? {
+    let by_speed = rate(values)?;
+    let kinetics = match &by_speed {
         Some(law) => {
             let path = match law.curve() {
                 RateCurve::Exponential { .. } => "slider.kinetic_friction.slow",
                 RateCurve::Pieces { .. } => "slider.kinetic_friction.coefficient.1",
             };
-            [Direction::Positive, Direction::Negative].map(|direction| Coefficient {
+            Direction::BOTH.map(|direction| Coefficient {
                 coefficient: law.at(0.0, direction),
                 path: path.to_owned(),
             })
@@ -199,9 +203,12 @@ fn friction(values: &Values) -> Result<Friction, InputError> {
             return Err(values.wrong(&kinetic.path, expected));
         }
     }
-    Coulomb::new(statics.map(|s| s.coefficient), kinetics.map(|k| k.coefficient))
-        .map(Friction::Coulomb)
-        .map_err(|error| model_error(values, &error))
+    let fixed = statics.map(|s| s.coefficient);
+    match by_speed {
+        Some(law) => Friction::by_speed(fixed, law),
+        None => Friction::by_direction(fixed, kinetics.map(|k| k.coefficient)),
+    }
+    .map_err(|error| model_error(values, &error))
 }
 
 /// Kinetic friction by sliding speed.
@@ -242,7 +249,7 @@ fn rate(values: &Values) -> Result<Option<RateLaw>, InputError> {
 }
 
 /// Surfaces in series.
-fn series(values: &Values) -> Result<Option<Series>, InputError> {
+fn series(values: &Values) -> Result<Option<SurfacesInSeries>, InputError> {
     let surfaces = if values.has("slider.triple") {
         triple(values)?
     } else if values.has("slider.surface") {
@@ -274,7 +281,9 @@ fn series(values: &Values) -> Result<Option<Series>, InputError> {
     if static_ratio < 1.0 {
         return Err(values.wrong("slider.static_ratio", "a number of at least 1"));
     }
-    Series::new(surfaces, static_ratio).map(Some).map_err(|error| model_error(values, &error))
+    SurfacesInSeries::new(surfaces, static_ratio)
+        .map(Some)
+        .map_err(|error| model_error(values, &error))
 }
 
 /// A triple pendulum as three elements in series (Fenz and Constantinou 2008).

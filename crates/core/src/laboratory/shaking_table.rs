@@ -24,12 +24,12 @@ use super::fit::{Interval, Minimum, Problem, Profile, global, profile, refine};
 use super::measured::{Measured, Series};
 use super::metrics::rms;
 use crate::error::{RecordError, Stopped};
-use crate::friction::{Coulomb, Friction};
 use crate::input::Channel;
 use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::numerics::distribution::student_quantile;
 use crate::response::{Method, Warning};
+use crate::slider::Friction;
 use crate::solver;
 use crate::study::engine::Engine;
 
@@ -379,7 +379,7 @@ fn weighed(lists: &[Vec<f64>], scales: &[f64]) -> Vec<f64> {
     lists.iter().zip(scales).flat_map(weigh).collect()
 }
 
-struct Found {
+struct Fitted {
     minimum: Minimum,
     intervals: Vec<Option<Interval>>,
     length: f64,
@@ -387,7 +387,7 @@ struct Found {
 }
 
 /// Intervals of all parameters, from the best minimum that turns up on the way.
-fn intervals(problem: &Problem, data: &Data, minimum: Minimum) -> Found {
+fn intervals(problem: &Problem, data: &Data, minimum: Minimum) -> Fitted {
     let mut minimum = minimum;
     let count = problem.bounds.len();
     let mut found = Vec::new();
@@ -418,14 +418,14 @@ fn intervals(problem: &Problem, data: &Data, minimum: Minimum) -> Found {
         }
     }
     found.resize(count, None);
-    Found { minimum, intervals: found, length, variance }
+    Fitted { minimum, intervals: found, length, variance }
 }
 
 /// How much better the fit is than a block that cannot slide.
-fn evidence(data: &Data, model: &Model, scales: &[f64], found: &Found) -> f64 {
+fn evidence(data: &Data, model: &Model, scales: &[f64], found: &Fitted) -> f64 {
     const HOLDS: f64 = 1e6;
-    let Ok(friction) = Coulomb::new([HOLDS; 2], [HOLDS; 2]) else { return 0.0 };
-    let stuck = data.of_model(&model.with_friction(Friction::Coulomb(friction)));
+    let Ok(friction) = Friction::new(HOLDS, HOLDS) else { return 0.0 };
+    let stuck = data.of_model(&model.with_friction(friction));
     let sse: f64 = match stuck {
         Some(lists) => weighed(&lists, scales).iter().map(|r| r * r).sum(),
         None => return f64::INFINITY,

@@ -2,11 +2,9 @@
 
 use core::f64::consts::TAU;
 
-use super::{
-    Block, Contents, Damping, Devices, Frame, InitialState, Model, Slider, Stop, not_negative,
-};
+use super::{Block, Contents, Damping, Frame, InitialState, Model, Slider, Stop};
 use crate::error::ModelError;
-use crate::friction::{Coulomb, Direction, Friction, RateLaw, Series};
+use crate::slider::{Bearing, Direction, Ends, Friction, RateLaw, Restoring, SurfacesInSeries};
 use crate::units::{Dimension, STANDARD_GRAVITY_M_PER_S2, parse_quantity};
 
 /// Builds a [`Model`] from quantities with units, all that [`crate::units`] knows.
@@ -49,17 +47,10 @@ pub struct ModelBuilder {
     damping: Option<Damping>,
     gravity_m_per_s2: f64,
     initial: InitialState,
-    devices: Devices,
+    series: Option<SurfacesInSeries>,
+    contents: Vec<Contents>,
     /// The first that could not be read.
     refused: Option<ModelError>,
-}
-
-/// What draws the block back to `s = 0`.
-#[derive(Clone, Copy, Debug)]
-enum Restoring {
-    None,
-    Spring { stiffness_n_per_m: f64 },
-    Pendulum { radius_m: f64 },
 }
 
 impl Model {
@@ -79,7 +70,8 @@ impl Model {
             damping: None,
             gravity_m_per_s2: STANDARD_GRAVITY_M_PER_S2,
             initial: InitialState::rest(),
-            devices: Devices::default(),
+            series: None,
+            contents: Vec::new(),
             refused: None,
         }
     }
@@ -111,7 +103,7 @@ impl ModelBuilder {
         self
     }
 
-    /// Friction that differs by direction.
+    /// Friction that differs by direction or follows the speed.
     pub fn friction_law(mut self, friction: Friction) -> Self {
         self.friction = Some(friction);
         self
@@ -120,16 +112,15 @@ impl ModelBuilder {
     /// Kinetic friction that follows the sliding speed, under a static coefficient that is at least
     /// that at rest.
     pub fn friction_by_speed(mut self, fixed: f64, law: RateLaw) -> Self {
-        let at_rest = [Direction::Positive, Direction::Negative].map(|side| law.at(0.0, side));
-        let friction = Coulomb::new([fixed; 2], at_rest).map_err(|error| self.refuse(error));
-        self.friction = friction.ok().map(Friction::Coulomb);
-        self.devices.rate = Some(law);
+        let friction = Friction::by_speed([fixed; 2], law).map_err(|error| self.refuse(error));
+        self.friction = friction.ok();
         self
     }
 
-    /// Surfaces in series, which have friction and radii of their own.
-    pub fn surfaces(mut self, series: Series) -> Self {
-        self.devices.series = Some(series);
+    /// Surfaces in series, which have friction and radii of their own: they exclude
+    /// others, and a spring.
+    pub fn surfaces(mut self, series: SurfacesInSeries) -> Self {
+        self.series = Some(series);
         self
     }
 
@@ -213,7 +204,7 @@ impl ModelBuilder {
 
     /// Something that stands unfastened on the block or on a floor.
     pub fn contents(mut self, contents: Contents) -> Self {
-        self.devices.contents.push(contents);
+        self.contents.push(contents);
         self
     }
 
@@ -233,19 +224,40 @@ impl ModelBuilder {
     ///
     /// # Errors
     /// [`ModelError::Quantity`] for the first quantity that cannot be read, [`ModelError::Missing`] for
-    /// a block, friction or damping that is not said, otherwise as [`Model::new`] and
-    /// [`Model::with_devices`].
+    /// a block, friction or damping that is not said, [`ModelError::OutOfRange`] for a gap beside a stop,
+    /// otherwise as [`Model::new`] and [`Model::with_contents`].
     pub fn build(self) -> Result<Model, ModelError> {
         if let Some(error) = self.refused {
             return Err(error);
         }
         let missing = |quantity, expected| ModelError::Missing { quantity, expected };
         let mass_kg = self.block_kg.ok_or(missing("block mass", "a mass with its unit"))?;
-        let friction = match (self.friction, &self.devices.series) {
-            (Some(friction), _) => friction,
-            // `with_devices` takes that of the first surface to slide.
-            (None, Some(_)) => Friction::new(0.0, 0.0)?,
+        let bearing = match (self.series, self.friction) {
+            (Some(series), None) if self.restoring == Restoring::None => Bearing::InSeries(series),
+            (Some(_), friction) => {
+                let (quantity, found) = match (self.restoring, friction) {
+                    (Restoring::Spring { stiffness_n_per_m }, _) => ("spring", stiffness_n_per_m),
+                    (Restoring::Pendulum { radius_m }, _) => ("radius", radius_m),
+                    (Restoring::None, friction) => {
+                        let fixed =
+                            |friction: Friction| friction.static_coefficient(Direction::Positive);
+                        ("friction", friction.map_or(0.0, fixed))
+                    }
+                };
+                let expected = "none beside surfaces in series, which have their own";
+                return Err(ModelError::OutOfRange { quantity, expected, found });
+            }
+            (None, Some(friction)) => Bearing::Surface { friction, restoring: self.restoring },
             (None, None) => return Err(missing("friction", "two coefficients or surfaces")),
+        };
+        let ends = match (self.stop, self.gap_m) {
+            (Some(_), Some(found)) => {
+                let (quantity, expected) =
+                    ("slider gap_m", "no gap beside a stop, which has its own");
+                return Err(ModelError::OutOfRange { quantity, expected, found });
+            }
+            (Some(stop), None) => Ends::Stop(stop),
+            (None, gap_m) => Ends::Open { gap_m },
         };
         let damping = match self.damping {
             Some(damping) => damping,
@@ -253,30 +265,11 @@ impl ModelBuilder {
             None => return Err(missing("storey damping", "a ratio or dampers")),
         };
         let block = Block { mass_kg, width_m: self.block_width_m, height_m: self.block_height_m };
-        let (stiffness_n_per_m, radius_m) = match self.restoring {
-            Restoring::None => (0.0, None),
-            Restoring::Spring { stiffness_n_per_m } => (stiffness_n_per_m, None),
-            Restoring::Pendulum { radius_m } => (0.0, Some(radius_m)),
-        };
-        let slider = Slider {
-            friction,
-            stiffness_n_per_m,
-            damper_n_s_per_m: self.damper_n_s_per_m,
-            tilt_rad: self.tilt_rad,
-            gap_m: self.gap_m,
-            stop: self.stop,
-        };
+        let (damper_n_s_per_m, tilt_rad) = (self.damper_n_s_per_m, self.tilt_rad);
+        let slider = Slider { bearing, damper_n_s_per_m, tilt_rad, ends };
         let frame = Frame { damping, ..self.frame };
-        let devices = Devices { radius_m, ..self.devices };
-        let mut model = Model::new(block, slider, frame, self.gravity_m_per_s2, self.initial)?
-            .with_devices(devices)?;
-        if let Some(radius_m) = radius_m {
-            // K1 = M_tot g cos θ / R
-            let stiffness_n_per_m = model.normal_n() / radius_m;
-            not_negative("slider stiffness_n_per_m", stiffness_n_per_m)?;
-            model.slider.stiffness_n_per_m = stiffness_n_per_m;
-        }
-        Ok(model)
+        Model::new(block, slider, frame, self.gravity_m_per_s2, self.initial)?
+            .with_contents(self.contents)
     }
 
     /// A quantity in SI; 0 where it cannot be read, which [`build`](Self::build) then tells.

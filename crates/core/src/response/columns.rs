@@ -10,7 +10,7 @@ impl History {
     pub fn slider_force_n(&self, model: &Model, knot: usize) -> f64 {
         // −(M₁ (Ẍ₁ + g sinθ) + Σ mᵢ (Ẍᵢ + g sinθ)) over block, floors and contents
         let floors = model.frame().masses_kg.iter().zip(self.storey_accelerations(knot));
-        let contents = model.devices().contents.iter().enumerate();
+        let contents = model.contents().iter().enumerate();
         let inertia = model.block().mass_kg * self.block_acceleration_m_per_s2[knot]
             + floors.map(|(m, a)| m * a).sum::<f64>()
             + contents.map(|(i, c)| c.mass_kg * self.contents_state(knot, i)[2]).sum::<f64>();

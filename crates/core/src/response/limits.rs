@@ -10,14 +10,14 @@ const FLAT: f64 = 0.2;
 /// of flat geometry is that of the dish, `N s/√(R² − s²)`, times `√(1 − (s/R)²)`.
 #[must_use]
 pub fn flat_geometry(model: &Model, demands: &Demands) -> Option<Warning> {
-    let devices = model.devices();
-    let series = devices.series.as_ref().map_or(&[][..], |series| series.surfaces());
+    let slider = model.slider();
+    let series = slider.series().map_or(&[][..], |series| series.surfaces());
     let of_surfaces = series.iter().zip(&demands.surfaces).enumerate();
     let of_surfaces = of_surfaces.filter_map(|(i, (surface, on))| {
         let of = format!("surface {}", i + 1);
         Some((of, on.peak_displacement_m / surface.radius_m?))
     });
-    let whole = devices.radius_m.map(|radius_m| demands.peak_sliding_displacement_m / radius_m);
+    let whole = slider.radius_m().map(|radius_m| demands.peak_sliding_displacement_m / radius_m);
     let all = whole.map(|ratio| ("the block".to_owned(), ratio)).into_iter().chain(of_surfaces);
     let (what, ratio) = all.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
     if !(ratio > FLAT) {
@@ -73,8 +73,8 @@ pub fn struck(model: &Model, demands: &Demands) -> Vec<Warning> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::friction::{Series, Surface};
     use crate::response::SurfaceDemands;
+    use crate::slider::{Surface, SurfacesInSeries};
 
     fn slid(peak_m: f64) -> Demands {
         Demands { peak_sliding_displacement_m: peak_m, ..Demands::default() }
@@ -107,7 +107,8 @@ mod tests {
     fn exact_flat_geometry_of_surfaces_is_that_of_each() {
         let surface =
             |friction, radius_m| Surface { friction, radius_m: Some(radius_m), travel_m: None };
-        let series = Series::new(vec![surface(0.03, 0.5), surface(0.06, 2.0)], 1.0).unwrap();
+        let series =
+            SurfacesInSeries::new(vec![surface(0.03, 0.5), surface(0.06, 2.0)], 1.0).unwrap();
         let two = Model::builder().block("1 t").surfaces(series).build().unwrap();
         let surface =
             |peak_displacement_m| SurfaceDemands { peak_displacement_m, ..Default::default() };

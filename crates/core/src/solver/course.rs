@@ -1,13 +1,13 @@
 //! What the events of a lone slider change: the one place that decides what follows a stop or a release.
 
 use super::run::Sliding;
-use super::slider::{Slider, Start};
-use crate::friction::{Direction, Hold};
+use super::slider::{SliderState, Start};
 use crate::response::{Event, EventKind, Mode};
+use crate::slider::{Direction, Hold};
 
 /// Mode and law of a lone slider, and what its events have left behind.
 pub(super) struct Course<'a> {
-    pub(super) slider: Slider<'a>,
+    pub(super) slider: SliderState<'a>,
     pub(super) mode: Mode,
     /// Set while a slip has just started.
     pub(super) start: Option<Start>,
@@ -30,7 +30,7 @@ pub(super) struct Instant {
 
 impl<'a> Course<'a> {
     /// Before anything has happened, in a list that is empty.
-    pub(super) fn new(slider: Slider<'a>, [s, w]: [f64; 2], events: Vec<Event>) -> Self {
+    pub(super) fn new(slider: SliderState<'a>, [s, w]: [f64; 2], events: Vec<Event>) -> Self {
         let mode = match w {
             w if w > 0.0 => Mode::Slip(Direction::Positive),
             w if w < 0.0 => Mode::Slip(Direction::Negative),
@@ -93,8 +93,8 @@ impl<'a> Course<'a> {
         direction: Direction,
         order: usize,
     ) {
-        let drop = self.slider.drop(hold, at.place_m, direction);
-        let acceleration = drop * at.normal_n / at.mass_kg;
+        let drop_n = self.slider.drop_n(hold, at.place_m, direction, at.normal_n);
+        let acceleration = drop_n / at.mass_kg;
         let order = if acceleration > 0.0 { 1 } else { order + 1 };
         self.start = Some(Start { order, acceleration });
         self.begin_slip(at, direction, EventKind::Slip);
@@ -108,7 +108,7 @@ impl<'a> Course<'a> {
 
     /// How a slip starts under a force beyond what holds: `|s̈| = (|T| − μ_k N) / M1`.
     fn start_beyond(&self, at: &Instant, demand_n: f64, direction: Direction) -> Start {
-        let kinetic_n = self.slider.resistance(at.place_m, direction) * at.normal_n;
+        let kinetic_n = self.slider.resistance_n(at.place_m, direction, at.normal_n);
         let asked_n = -direction.sign() * demand_n;
         Start { order: 1, acceleration: (asked_n - kinetic_n) / at.mass_kg }
     }

@@ -26,9 +26,9 @@ use super::course::Course;
 use super::ground::{Ground, Normal};
 use super::recorder::Recorder;
 use crate::error::SolveError;
-use crate::friction::{Direction, Law};
 use crate::linear::System;
 use crate::progress::Pulse;
+use crate::slider::{Law, TwoBranches};
 
 pub(super) use self::outputs::Shape;
 pub(super) use self::peaks::Candidate;
@@ -70,17 +70,15 @@ impl<'a> Dense<'a> {
     /// Where a law and a normal force allow it.
     pub(super) fn new(
         (tables, system): (&'a Tables, &'a System),
-        law: &Law,
+        law: &Law<'_>,
         ground: Ground<'a>,
     ) -> Option<Self> {
         let Normal::Constant(normal_n) = ground.normal else { return None };
-        if !(law.is_plain() && normal_n > 0.0) {
+        if !(normal_n > 0.0) {
             return None;
         }
-        let both = [Direction::Positive, Direction::Negative];
-        let of_static = both.map(|d| -d.sign() * law.friction.static_coefficient(d) * normal_n);
-        let of_kinetic = both.map(|d| -d.sign() * law.friction.kinetic_coefficient(d) * normal_n);
-        Some(Self { tables, system, ground, normal_n, bounds_n: of_static, kinetic_n: of_kinetic })
+        let TwoBranches { bounds_n, kinetic_n } = law.two_branches(normal_n)?;
+        Some(Self { tables, system, ground, normal_n, bounds_n, kinetic_n })
     }
 
     /// Goes on from the first of two samples towards the second, as far as nothing is in doubt.

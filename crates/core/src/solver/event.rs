@@ -13,13 +13,13 @@ use super::run::{InForce, Run};
 use super::slider::{ROUNDING, falls_below, first_crossing, leaving_order};
 use super::tables::Phase;
 use crate::error::SolveError;
-use crate::friction::{Direction, Exit, Fading};
 use crate::linear::lanes::{Width, least};
 use crate::linear::polynomial::{
     DEGREE, Polynomial, ZERO, curvature_bound, first_root, first_root_after_zero, value,
 };
 use crate::linear::{Load, Series};
 use crate::response::Mode;
+use crate::slider::{Direction, Exit, Fading};
 
 /// Most events in one sample interval before an analysis is given up.
 pub const EVENTS_PER_INTERVAL_LIMIT: u32 = 1_000_000;
@@ -152,15 +152,17 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         let (normal, rise) = (stretch.normal_at(from_s), stretch.normal_rate * phase.unit_s);
         let mut release: Option<(f64, Direction)> = None;
         for direction in [Direction::Negative, Direction::Positive] {
-            let (sign, size) = (direction.sign(), self.hold.size(direction));
+            let (sign, hold) = (direction.sign(), &self.hold);
             // Distance from the bound, positive where friction holds.
-            let start = size * normal + sign * demand[0];
-            let end = size * (normal + rise * segment.part) + sign * demand_end;
+            let start = hold.against_n(direction, normal) + sign * demand[0];
+            let last = normal + rise * segment.part;
+            let end = hold.against_n(direction, last) + sign * demand_end;
             if start.min(end) > 0.125 * curvature {
                 continue;
             }
-            let distance = self.hold.distance(&demand, [normal, rise], direction);
-            let rounding = ROUNDING * (size * (normal + rise.abs() * segment.part));
+            let distance = hold.distance(&demand, [normal, rise], direction);
+            let most = normal + rise.abs() * segment.part;
+            let rounding = ROUNDING * hold.against_n(direction, most);
             if let Some(part) = first_crossing(&distance, segment.part)
                 && falls_below(&distance, rounding, segment.part)
                 && release.is_none_or(|(first, _)| part < first)
@@ -173,7 +175,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
             None => segment,
         };
         self.move_to(phase, &load, segment.part);
-        if self.course.slider.law.stop.is_some() {
+        if self.course.slider.law.has_pads() {
             self.look_at_stop(None, segment.part);
         }
         self.look(phase, stretch, &segment, &load);
@@ -219,7 +221,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
             }
         }
         .map(|part| (part, None));
-        let asks = self.exits.iter().any(Option::is_some) || self.course.slider.law.stop.is_some();
+        let asks = self.exits.iter().any(Option::is_some) || self.course.slider.law.has_pads();
         let displacement = asks.then(|| integral(&speed, sign * segment.unit_s, self.x[0]));
         if let Some(displacement) = &displacement {
             for exit in self.exits.iter().flatten() {
@@ -251,7 +253,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
                 [self.x[0], self.x[1]] = exit.reached.place(direction, [self.x[0], self.x[1]]);
             }
         }
-        if self.course.slider.law.stop.is_some() {
+        if self.course.slider.law.has_pads() {
             let sliding = displacement.as_ref().map(|s| (s, &speed, sign));
             self.look_at_stop(sliding, segment.part);
         }
@@ -324,7 +326,7 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         let hold = self.hold;
         let demand = self.demand(&hold, stretch.acceleration_at(at_s));
         let normal = stretch.normal_at(at_s);
-        let [low, high] = hold.bounds.map(|bound| bound * normal);
+        let [low, high] = hold.friction_n(normal);
         if low < demand && demand < high {
             return;
         }

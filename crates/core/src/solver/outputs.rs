@@ -8,10 +8,10 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use crate::friction::Restraint;
 use crate::linear::System;
 use crate::linear::lanes::{Eight, combine8, dot, eight};
 use crate::model::Model;
+use crate::slider::Restraint;
 
 /// Places of the outputs of the block; those of the storeys follow.
 pub(super) mod output {

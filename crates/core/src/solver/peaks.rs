@@ -11,7 +11,7 @@ use fearless_simd::prelude::*;
 use super::event::{Segment, of_sliding, output_series};
 use super::ground::Stretch;
 use super::run::{Curvature, InForce, Run};
-use super::settle::Room;
+use super::settle::Scratch;
 use super::tables::Phase;
 use crate::linear::Load;
 use crate::linear::lanes::{Eight, Width, eight, greatest, larger};
@@ -39,7 +39,7 @@ pub(super) struct Peaks {
     pub(super) outputs: usize,
     /// Numbers of a state.
     pub(super) stride: usize,
-    pub(super) room: Room,
+    pub(super) scratch: Scratch,
 }
 
 /// A place that may hold a peak.
@@ -65,7 +65,7 @@ pub(super) enum Extent {
 }
 
 impl Peaks {
-    /// Makes the room serve so many outputs of states of so many numbers, none attained.
+    /// Makes them serve so many outputs of states of so many numbers, none attained.
     pub(super) fn serve(&mut self, groups: usize, outputs: usize, stride: usize) {
         for list in [&mut self.peak, &mut self.limit, &mut self.above] {
             list.clear();
@@ -75,7 +75,7 @@ impl Peaks {
         self.between.resize(groups, [Eight::ZERO; 2]);
         self.outputs = outputs;
         self.stride = stride;
-        self.room.serve(stride);
+        self.scratch.serve(stride);
         self.forget_from(0);
     }
 

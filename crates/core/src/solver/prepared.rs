@@ -12,13 +12,13 @@ use super::tables::{self, Tables};
 use super::workspace::Workspace;
 use super::{stepping, summary};
 use crate::error::SolveError;
-use crate::friction::{Law, RateCurve, RateLaw};
 use crate::linear::lanes::{Many, One, Width};
-use crate::model::{Model, Stop, StopKind};
+use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::numerics::fractile::upper_median;
 use crate::progress::{GoOn, Pulse, UNWATCHED};
 use crate::response::{Method, Response, StopDemands};
+use crate::slider::Law;
 
 /// Most work of an analysis: radians that the fastest mode turns, times the square of the number of
 /// masses. That is some minutes; at ten times as many radians of one mode its phase is lost to rounding.
@@ -254,9 +254,7 @@ fn solve(
     if !(work <= limit) {
         return Err(SolveError::TooMuchWork { work, limit, advice: advice(model, motion, rate) });
     }
-    if let Some(RateCurve::Exponential { rate_s_per_m, .. }) =
-        model.devices().rate.as_ref().map(RateLaw::curve)
-    {
+    if let Some(rate_s_per_m) = model.law(false).fading_rate_s_per_m() {
         let (work, limit) = (rate_s_per_m * absolute_velocity(motion), FADING_LIMIT);
         if !(work <= limit) {
             let advice = "friction changes within a hair of rest; take one coefficient, or check \
@@ -291,7 +289,7 @@ fn solve(
         return stepped(model, &law, (motion, ground), instructions, (with_history, go_on));
     }
     // Away from rigid stops they change nothing.
-    let away = Law { rigid: None, ..law.clone().under(model.normal_n()) };
+    let away = law.under(model.normal_n()).without_walls();
     let recorder =
         with_history.then(|| Recorder::new(&tables.stick.system, &away, motion.len(), slope));
     let solved = instructions.run(Analysis {
@@ -305,13 +303,13 @@ fn solve(
     });
     let (mut outcome, recorder) = match solved {
         // What would happen beyond a rigid stop says nothing.
-        Err(error) if law.rigid.is_some() && !matches!(error, SolveError::Stopped(_)) => {
+        Err(error) if law.walls_m().is_some() && !matches!(error, SolveError::Stopped(_)) => {
             return stepped(model, &law, (motion, ground), instructions, (with_history, go_on));
         }
         solved => solved?,
     };
-    if let Some(Stop { gap_m: [positive, negative], kind: StopKind::Rigid { .. } }) = model.stop() {
-        let within = |gap_m: &Option<f64>, s: f64| gap_m.is_none_or(|gap_m| s < gap_m);
+    if let Some([positive, negative]) = law.walls_m() {
+        let within = |gap_m: Option<f64>, s: f64| gap_m.is_none_or(|gap_m| s < gap_m);
         let Sliding { max_m, min_m, .. } = outcome.sliding;
         if !(within(positive, max_m) && within(negative, -min_m)) {
             return stepped(model, &law, (motion, ground), instructions, (with_history, go_on));
@@ -336,7 +334,7 @@ fn solve(
 /// Response of a model with devices.
 fn stepped(
     model: &Model,
-    law: &Law,
+    law: &Law<'_>,
     (motion, ground): (&GroundMotion, Ground<'_>),
     instructions: InstructionSet,
     (with_history, go_on): (bool, GoOn<'_>),
@@ -387,7 +385,7 @@ fn advice(model: &Model, motion: &GroundMotion, rate: f64) -> String {
             "storey {} is a rigid link; leave it out and add its mass to the one below",
             storey + 1
         ),
-        _ if model.slider().stiffness_n_per_m > 0.25 * rate * rate * model.block().mass_kg => {
+        _ if model.slider_stiffness_n_per_m() > 0.25 * rate * rate * model.block().mass_kg => {
             "the slider's spring is a rigid link; check its stiffness".to_owned()
         }
         _ => "a damper or a stop acts within a millionth of a step; check damping and stiffnesses"
@@ -398,7 +396,7 @@ fn advice(model: &Model, motion: &GroundMotion, rate: f64) -> String {
 struct Analysis<'a> {
     model: &'a Model,
     tables: &'a Tables,
-    law: &'a Law,
+    law: &'a Law<'a>,
     ground: Ground<'a>,
     recorder: Option<Recorder>,
     pulse: Pulse<'a>,

@@ -1,11 +1,11 @@
 //! Keeps the history of a response.
 
 use crate::error::SolveError;
-use crate::friction::{Contact, Law};
 use crate::linear::lanes::dot;
 use crate::linear::{BATCH, System};
 use crate::model::Model;
 use crate::response::{History, Mode};
+use crate::slider::{Contact, Law};
 
 /// Memory of an analysis with history and certificate: so many bytes a sample and number kept, and the
 /// most in all.
@@ -18,10 +18,9 @@ const MEMORY_LIMIT: u64 = 4 << 30;
 /// # Errors
 /// [`SolveError::TooMuchMemory`] where they do not.
 pub(super) fn fits(model: &Model, samples: usize) -> Result<(), SolveError> {
-    let devices = model.devices();
-    let surfaces = devices.series.as_ref().map_or(0, |series| series.surfaces().len());
+    let surfaces = model.law(false).surface_count();
     // t, Ü, s, ṡ, block, T, five energies; q, q̇ and acceleration; r, ṙ and acceleration; u.
-    let numbers = 11 + 3 * model.storeys() + 3 * devices.contents.len() + surfaces;
+    let numbers = 11 + 3 * model.storeys() + 3 * model.contents().len() + surfaces;
     let (bytes, limit) = (BYTES_A_NUMBER * samples as u64 * numbers as u64, MEMORY_LIMIT);
     if bytes <= limit {
         return Ok(());
@@ -57,9 +56,9 @@ pub(super) struct Recorder {
 }
 
 impl Recorder {
-    pub(super) fn new(system: &System, law: &Law, samples: usize, slope_m_per_s2: f64) -> Self {
-        let (storeys, stop) = (system.storeys, law.stop.is_some());
-        let surfaces = law.series.as_ref().map_or(0, |series| series.surfaces().len());
+    pub(super) fn new(system: &System, law: &Law<'_>, samples: usize, slope_m_per_s2: f64) -> Self {
+        let (storeys, surfaces) = (system.storeys, law.surface_count());
+        let stop = law.has_pads();
         let mut history = History { storeys, surfaces, ..History::default() };
         let room = samples + samples / 8;
         for column in [
@@ -236,12 +235,12 @@ impl Recorder {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::friction::{Coulomb, Friction};
+    use crate::slider::Friction;
 
     /// 40 bytes × 11 numbers × 9e7 samples.
     #[test]
     fn exact_histories_that_do_not_fit_are_refused() {
-        let friction = Friction::Coulomb(Coulomb::new([0.1; 2], [0.1; 2]).unwrap());
+        let friction = Friction::new(0.1, 0.1).unwrap();
         let model = Model::rigid_block(100.0, friction).unwrap();
         assert_eq!(fits(&model, 9_000_000), Ok(()));
         assert_eq!(

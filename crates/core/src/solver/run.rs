@@ -16,15 +16,15 @@ use super::ground::{Ground, Normal, Roughness};
 use super::outputs::{Group, output};
 use super::peaks::Peaks;
 use super::recorder::{Knot, Recorder};
-use super::slider::Slider;
+use super::slider::SliderState;
 use super::tables::{Batch, LazyPhase, Phase, Tables};
 use super::workspace::Workspace;
 use crate::error::SolveError;
-use crate::friction::{Affine, Contact, EXITS, Exit, Fading, Hold, Law, Restraint};
 use crate::linear::lanes::{Eight, Width, combine8, dot, eight};
 use crate::linear::{BATCH, Force, Series};
 use crate::progress::Pulse;
 use crate::response::{Event, Mode, StopDemands, SurfaceDemands};
+use crate::slider::{Affine, Contact, EXITS, Exit, Fading, Hold, Law, Restraint};
 
 /// Extremes, path and duration of sliding; `s` is monotone between two events.
 #[derive(Clone, Copy)]
@@ -210,7 +210,7 @@ pub(super) struct Run<'a, S, W> {
 impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     pub(super) fn new(
         (simd, width): (S, W),
-        (tables, law): (&'a Tables, &'a Law),
+        (tables, law): (&'a Tables, &'a Law<'a>),
         ground: Ground<'a>,
         (recorder, pulse): (Option<Recorder>, Pulse<'a>),
         room: &mut Workspace,
@@ -232,7 +232,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         peaks.serve(groups, outputs, stride);
         let mut events = take(&mut room.events);
         events.clear();
-        let course = Course::new(Slider::new(law, s, w), [s, w], events);
+        let course = Course::new(SliderState::new(law, s, w), [s, w], events);
         let now = InForce {
             mode: course.mode,
             phase: &tables.stick,
@@ -336,7 +336,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         if matches!(self.course.mode, Mode::Slip(_)) {
             self.course.sliding.end(end_s, self.x[0]);
         }
-        if self.course.slider.law.stop.is_some() {
+        if self.course.slider.law.has_pads() {
             self.course.slider.stopping.change(
                 end_s,
                 0.0,
@@ -359,7 +359,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             events: self.course.events.clone(),
             overturns: self.tables.overturns(),
             sliding: self.course.sliding,
-            stop: self.course.slider.law.stop.map(|_| self.course.slider.stopping.demands),
+            stop: self.course.slider.law.has_pads().then_some(self.course.slider.stopping.demands),
             surfaces: self.course.slider.surfaces.demands(),
             residual_m: self.x[0],
             sliding_at_end: matches!(self.course.mode, Mode::Slip(_)),
@@ -388,14 +388,14 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         match mode {
             Mode::Stick => {
                 self.hold = self.course.slider.law.hold(&self.course.slider.memory, s);
-                if self.course.slider.law.stop.is_some() {
+                if self.course.slider.law.has_pads() {
                     self.now.stop = self.hold.force_n - stick.system.stiffness_n_per_m * s;
                 }
             }
             Mode::Slip(direction) => {
                 self.exits = self.course.slider.law.exits(&self.course.slider.memory, direction);
                 let force = self.course.slider.law.force(&self.course.slider.memory, direction);
-                let Affine { restraints, force_n, coefficient, fading } = force.under(normal_n);
+                let Affine { restraints, force_n, coefficient, fading } = force.affine(normal_n);
                 let phase = self.tables.under(restraints);
                 let (friction, stop) = (-coefficient, force_n);
                 self.now = InForce { mode, phase, friction, stop, fading };
@@ -545,8 +545,10 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             Knot { time_s, mode, contact, table, acceleration, state: x, friction_n, force_n };
         if let Some(recorder) = &mut self.recorder {
             recorder.knot(&phase.system, &knot, row);
-            let surfaces = self.course.slider.law.surfaces(&self.course.slider.memory, x[0]);
-            recorder.history.surface_displacement_m.extend(surfaces);
+            if recorder.history.surfaces > 0 {
+                let surfaces = self.course.slider.law.surfaces(&self.course.slider.memory, x[0]);
+                recorder.history.surface_displacement_m.extend(surfaces);
+            }
         }
     }
 
@@ -558,13 +560,13 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             peak.load(self.simd).store_slice(&mut limit.0);
         }
         if let (Mode::Stick, Normal::Constant(normal)) = (self.course.mode, self.ground.normal) {
-            let bound = self.course.slider.law.largest_static() * normal * (1.0 - 1e-14);
+            let bound = self.course.slider.law.largest_static_n(normal) * (1.0 - 1e-14);
             let first = &mut self.peaks.limit[0].0;
             if first[output::FRICTION] >= bound {
                 first[output::FRICTION] = f64::INFINITY;
             }
             let free = self.tables.stick.system.stiffness_n_per_m == 0.0
-                && self.course.slider.law.stop.is_none();
+                && !self.course.slider.law.has_pads();
             if free && first[output::SLIDER] >= bound {
                 first[output::SLIDER] = f64::INFINITY;
             }

@@ -14,10 +14,10 @@ use super::peaks::Extent;
 use super::recorder::Knot;
 use super::run::{Curvature, InForce, Run};
 use super::tables::{Batch, Phase};
-use crate::friction::Direction;
 use crate::linear::lanes::{Eight, Width, eight, greatest, least};
 use crate::linear::{BATCH, Force, QUIET, Window};
 use crate::response::Mode;
+use crate::slider::{Direction, Hold};
 
 /// A chord over a sample is off by this part of what one over a batch is.
 const PER_SAMPLE: f64 = 1.0 / (BATCH * BATCH) as f64;
@@ -142,7 +142,6 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     ) -> usize {
         let (simd, stride) = (self.simd, 4 * self.width.fours());
         let hold = self.hold;
-        let [low, high] = hold.bounds;
         let stop = self.now.stop;
         let near = 0.125 * batch.dt_s * batch.dt_s;
         let far = (BATCH * BATCH) as f64 * near;
@@ -159,7 +158,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             let count = self.amplitude_count(phase);
             let amplitudes = &mut self.amplitudes[..count];
             phase.system.amplitudes(simd, &self.x[..stride], amplitudes);
-            let holds = least(high, -low) * normal - hold.force_n.abs();
+            let holds = hold.least_n(normal) - hold.force_n.abs();
             let size = largest_size(simd, a);
             let by_batch = self.coarse(phase, size, BATCH as f64 * batch.dt_s);
             if self.is_quiet(phase, &by_batch, stop, holds) {
@@ -194,8 +193,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             let hidden = slack.as_array()[output::FRICTION];
             let steps = match self.ground.normal {
                 Normal::Constant(normal)
-                    if least(first, last) > low * normal + hidden
-                        && greatest(first, last) < high * normal - hidden =>
+                    if let [low, high] = hold.friction_n(normal)
+                        && least(first, last) > low + hidden
+                        && greatest(first, last) < high - hidden =>
                 {
                     BATCH
                 }
@@ -205,13 +205,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                     let x = &self.x[..stride];
                     let demand = batch.rows[output::FRICTION].values(simd, x, a, force)
                         + eight(simd, constant);
-                    held_steps(
-                        simd,
-                        (demand, first),
-                        normal.values(simd, sample),
-                        [low, high],
-                        hidden,
-                    )
+                    let normal = normal.values(simd, sample);
+                    held_steps(simd, (demand, first), normal, &hold, hidden)
                 }
             };
             if steps == 0 {
@@ -414,7 +409,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             let knot =
                 Knot { time_s, mode, contact, table, acceleration, state, friction_n, force_n };
             recorder.motion(&phase.system, &knot);
-            if self.course.slider.law.series.is_some() {
+            if recorder.history.surfaces > 0 {
                 let surfaces = self.course.slider.law.surfaces(&self.course.slider.memory, x[0]);
                 recorder.history.surface_displacement_m.extend(surfaces);
             }
@@ -429,13 +424,15 @@ fn held_steps<S: Simd>(
     simd: S,
     (demand, first): (f64x8<S>, f64),
     (n, n0): (f64x8<S>, f64),
-    [low, high]: [f64; 2],
+    hold: &Hold,
     hidden: f64,
 ) -> usize {
-    let clear = demand.simd_gt(n * eight(simd, low) + eight(simd, hidden))
-        & demand.simd_lt(n * eight(simd, high) - eight(simd, hidden))
+    let [low, high] = hold.friction_of_eight(simd, n);
+    let clear = demand.simd_gt(low + eight(simd, hidden))
+        & demand.simd_lt(high - eight(simd, hidden))
         & n.simd_gt(eight(simd, 0.0));
-    let holds = n0 > 0.0 && first > low * n0 + hidden && first < high * n0 - hidden;
+    let [low, high] = hold.friction_n(n0);
+    let holds = n0 > 0.0 && first > low + hidden && first < high - hidden;
     clear_steps(clear.to_bitmask(), holds)
 }
 

@@ -21,9 +21,9 @@ use crate::response::Mode;
 /// Chords over two, four and eight samples.
 const CHORDS: usize = 3;
 
-/// Room for settling.
+/// Scratch for settling.
 #[derive(Debug, Default)]
-pub(super) struct Room {
+pub(super) struct Scratch {
     /// The samples that may hold a peak, candidate by candidate.
     places: Vec<Place>,
     /// For each output the one of them with the largest bound.
@@ -61,8 +61,8 @@ struct Samples<'a> {
     by_mode: bool,
 }
 
-impl Room {
-    /// Makes the room serve states of so many numbers.
+impl Scratch {
+    /// Makes it serve states of so many numbers.
     pub(super) fn serve(&mut self, stride: usize) {
         let lists = [
             (&mut self.x, stride),
@@ -123,11 +123,11 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                         self.look_at_samples(i);
                     }
                 }
-                self.peaks.room.find_highest(self.peaks.outputs);
+                self.peaks.scratch.find_highest(self.peaks.outputs);
                 for only_highest in [true, false] {
                     self.settle_places(only_highest);
                 }
-                self.peaks.room.places.clear();
+                self.peaks.scratch.places.clear();
                 for i in 0..self.peaks.candidates.len() {
                     if let Extent::Segment(segment) = self.peaks.candidates[i].extent
                         && self.peaks.in_question(simd, i)
@@ -158,13 +158,13 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let by_mode = self.width.modes() > 1 && phase.system.has_modes(phase.slip);
         let samples = Samples { phase, batch, a, force, stop, count, curvature, near, by_mode };
         let start = &self.peaks.states[i * stride..][..stride];
-        self.peaks.room.states[..stride].copy_from_slice(start);
+        self.peaks.scratch.states[..stride].copy_from_slice(start);
         if by_mode {
             let kinks = Roughness::new(simd, a).kinks * batch.per_dt;
             let impulse = largest_size(simd, a) * (BATCH as f64 * batch.dt_s);
             let load = [a[0], (a[1] - a[0]) * batch.per_dt];
             let reaches = [4.0 * near, 16.0 * near, 64.0 * near];
-            let out = &mut self.peaks.room.departures;
+            let out = &mut self.peaks.scratch.departures;
             phase.system.departures(simd, start, load, [kinks, impulse], reaches, out);
         }
         let mut known = 1;
@@ -214,7 +214,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                     let chord = (to - from - 1).ilog2() as usize;
                     if by_modes_known & (1 << chord) == 0 {
                         let modes = phase.system.padded_modes();
-                        let departures = &self.peaks.room.departures[chord * modes..][..modes];
+                        let departures = &self.peaks.scratch.departures[chord * modes..][..modes];
                         by_modes[chord] = phase.outputs.of_amplitudes(simd, g, departures);
                         by_modes_known |= 1 << chord;
                     }
@@ -234,7 +234,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                         let lane = open.trailing_zeros() as usize;
                         let (output, bound) = (8 * g + lane, bound[lane]);
                         let place = Place { candidate: i, sample: from, output, bound };
-                        self.peaks.room.places.push(place);
+                        self.peaks.scratch.places.push(place);
                         open &= open - 1;
                     }
                     continue;
@@ -242,7 +242,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             }
             let middle = from + (to - from).next_power_of_two() / 2;
             let inputs = [force.at(middle), a[middle], stop];
-            let x = self.peaks.room.state(simd, known, samples, middle, stride);
+            let x = self.peaks.scratch.state(simd, known, samples, middle, stride);
             let between = Self::group_at(simd, phase, g, x, inputs);
             let attained = between.abs();
             peak = (attained.simd_gt(peak) & asked).select(attained, peak);
@@ -258,12 +258,12 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     fn sample_slack(&mut self, samples: &Samples<'_>, g: usize, k: usize) -> f64x8<S> {
         let (simd, stride) = (self.simd, 4 * self.width.fours());
         let Samples { phase, batch, a, force, near, by_mode, .. } = *samples;
-        let (system, room) = (&phase.system, &mut self.peaks.room);
-        let x = &room.states[k * stride..][..stride];
+        let (system, scratch) = (&phase.system, &mut self.peaks.scratch);
+        let x = &scratch.states[k * stride..][..stride];
         let load = [a[k], (a[k + 1] - a[k]) * batch.per_dt];
         if by_mode {
             let impulse = greatest(a[k].abs(), a[k + 1].abs()) * batch.dt_s;
-            let departures = &mut room.near_departures[..system.padded_modes()];
+            let departures = &mut scratch.near_departures[..system.padded_modes()];
             system.departures(simd, x, load, [0.0, impulse], [near], departures);
             return phase.outputs.of_amplitudes(simd, g, departures);
         }
@@ -287,10 +287,10 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     #[inline(always)]
     fn settle_places(&mut self, only_highest: bool) {
         let mut from = 0;
-        while from < self.peaks.room.places.len() {
-            let i = self.peaks.room.places[from].candidate;
+        while from < self.peaks.scratch.places.len() {
+            let i = self.peaks.scratch.places[from].candidate;
             let mut to = from + 1;
-            while self.peaks.room.places.get(to).is_some_and(|place| place.candidate == i) {
+            while self.peaks.scratch.places.get(to).is_some_and(|place| place.candidate == i) {
                 to += 1;
             }
             for k in 0..BATCH {
@@ -306,10 +306,10 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     /// output.
     #[inline(always)]
     fn is_due(&self, at: usize, sample: usize, only_highest: bool) -> bool {
-        let place = &self.peaks.room.places[at];
+        let place = &self.peaks.scratch.places[at];
         place.sample == sample
             && place.bound > self.peaks.attained(place.output)
-            && (!only_highest || self.peaks.room.highest[place.output] == at)
+            && (!only_highest || self.peaks.scratch.highest[place.output] == at)
     }
 
     /// State at a sample of a candidate.
@@ -333,7 +333,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let Candidate { sample, mode, phase, stop, .. } = self.peaks.candidates[i];
         let phase = self.tables.phase(phase);
         let Some(batch) = phase.batch() else { return };
-        let mut x = core::mem::take(&mut self.peaks.room.x);
+        let mut x = core::mem::take(&mut self.peaks.scratch.x);
         self.state_of(i, k, batch, &mut x);
         let stretch = self.ground.stretch(sample + k, 0.0, batch.dt_s);
         let units = (batch.dt_s / phase.unit_s).round().max(1.0) as usize;
@@ -344,7 +344,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             let load = self.expand_candidate(i, phase, (&stretch, &segment), &x);
             for at in places.clone() {
                 if self.is_due(at, k, only_highest) {
-                    let place = &mut self.peaks.room.places[at];
+                    let place = &mut self.peaks.scratch.places[at];
                     let j = place.output;
                     if unit + 1 == units {
                         place.bound = 0.0;
@@ -362,7 +362,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 }
             }
         }
-        self.peaks.room.x = x;
+        self.peaks.scratch.x = x;
     }
 
     /// Settles a candidate that is one segment by its series.
@@ -370,7 +370,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     fn settle_segment(&mut self, i: usize, segment: &Segment) {
         let Candidate { sample, phase, stop, .. } = self.peaks.candidates[i];
         let phase = self.tables.phase(phase);
-        let mut x = core::mem::take(&mut self.peaks.room.x);
+        let mut x = core::mem::take(&mut self.peaks.scratch.x);
         let stride = x.len();
         x.copy_from_slice(&self.peaks.states[i * stride..][..stride]);
         let stretch = self.ground.stretch(sample, segment.from_s, segment.to_s);
@@ -381,7 +381,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 self.peaks.raise(j, &p, segment.part);
             }
         }
-        self.peaks.room.x = x;
+        self.peaks.scratch.x = x;
     }
 
     /// Expands a candidate's motion from `x` over one segment; its load, as the outputs take it.

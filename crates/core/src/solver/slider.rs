@@ -3,9 +3,9 @@
 //! Event stepping of a lone slider ([`event`](super::event)) and of several interfaces
 //! ([`stepping`](super::stepping)) find where something happens; both ask here what it does.
 
-use crate::friction::{Contact, Direction, Exit, Hold, Law, Memory, Reached};
 use crate::linear::polynomial::{DEGREE, Polynomial, deflated, first_root};
 use crate::response::{EventKind, StopDemands, SurfaceDemands};
+use crate::slider::{Contact, Direction, Exit, Hold, Law, Memory, Reached};
 
 /// What the block does at the stops.
 #[derive(Clone, Copy, Default)]
@@ -58,14 +58,18 @@ pub(super) struct Surfaces(Vec<SurfaceDemands>);
 
 impl Surfaces {
     /// Notes where they are, and whether at their ends.
-    pub(super) fn note(&mut self, law: &Law, memory: &Memory, s: f64) {
-        let Some(series) = &law.series else { return };
-        self.0.resize(series.surfaces().len(), SurfaceDemands::default());
+    pub(super) fn note(&mut self, law: &Law<'_>, memory: &Memory, s: f64) {
+        let count = law.surface_count();
+        if count == 0 {
+            return;
+        }
+        self.0.resize(count, SurfaceDemands::default());
         let now = law.surfaces(memory, s);
-        for ((demands, u), surface) in self.0.iter_mut().zip(now).zip(series.surfaces()) {
+        let at_ends = law.surfaces_at_ends(&now);
+        for ((demands, u), at_end) in self.0.iter_mut().zip(&now).zip(at_ends) {
             demands.peak_displacement_m = demands.peak_displacement_m.max(u.abs());
-            demands.residual_displacement_m = u;
-            demands.end_reached |= surface.travel_m.is_some_and(|travel_m| u.abs() >= travel_m);
+            demands.residual_displacement_m = *u;
+            demands.end_reached |= at_end;
         }
     }
 
@@ -76,8 +80,8 @@ impl Surfaces {
 }
 
 /// A law with what is in force of it.
-pub(super) struct Slider<'a> {
-    pub(super) law: &'a Law,
+pub(super) struct SliderState<'a> {
+    pub(super) law: &'a Law<'a>,
     pub(super) memory: Memory,
     /// What has just been reached: an exit that waits for the same starts at its zero.
     pub(super) just: Option<Reached>,
@@ -85,9 +89,9 @@ pub(super) struct Slider<'a> {
     pub(super) surfaces: Surfaces,
 }
 
-impl<'a> Slider<'a> {
+impl<'a> SliderState<'a> {
     /// Before anything has happened.
-    pub(super) fn new(law: &'a Law, s: f64, w: f64) -> Self {
+    pub(super) fn new(law: &'a Law<'a>, s: f64, w: f64) -> Self {
         let mut slider = Self {
             law,
             memory: law.initial(s, w),
@@ -127,16 +131,20 @@ impl<'a> Slider<'a> {
         (begun != contact).then_some(begun)
     }
 
-    /// Friction over the normal force with which it would begin to slide, as the size of what resists.
-    pub(super) fn resistance(&self, s: f64, direction: Direction) -> f64 {
-        let mut memory = self.memory.clone();
-        self.law.begin(&mut memory, s, direction);
-        self.law.resistance(&memory, direction)
+    /// Friction with which it would begin to slide, as the size of what resists.
+    pub(super) fn resistance_n(&self, s: f64, direction: Direction, normal_n: f64) -> f64 {
+        self.law.resistance_n(&self.begun(s, direction), direction, normal_n)
     }
 
     /// By how much that is below what holds.
-    pub(super) fn drop(&self, hold: &Hold, s: f64, direction: Direction) -> f64 {
-        hold.size(direction) - self.resistance(s, direction)
+    pub(super) fn drop_n(&self, hold: &Hold, s: f64, direction: Direction, normal_n: f64) -> f64 {
+        self.law.drop_n(hold, &self.begun(s, direction), direction, normal_n)
+    }
+
+    fn begun(&self, s: f64, direction: Direction) -> Memory {
+        let mut memory = self.memory.clone();
+        self.law.begin(&mut memory, s, direction);
+        memory
     }
 
     /// Changes the contact with an elastic stop at a speed.

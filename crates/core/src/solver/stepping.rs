@@ -20,16 +20,16 @@ use super::event::{EVENTS_PER_INTERVAL_LIMIT, fitting};
 use super::ground::{Ground, Stretch};
 use super::prepared::InstructionSet;
 use super::run::{Outcome, Sliding};
-use super::slider::Slider;
+use super::slider::SliderState;
 use super::tables::system_of;
 use crate::error::SolveError;
-use crate::friction::{Coefficient, Direction, Exit, Hold, Law, Reached, Restraint, SlipForce};
 use crate::linear::polynomial::{DEGREE, Polynomial, deflated, first_root, value};
 use crate::model::Model;
 use crate::progress::{GoOn, Pulse};
 use crate::response::{
     Contact, ContentsDemands, Event, EventKind, History, Mode, StopDemands, Warning,
 };
+use crate::slider::{Coefficient, Direction, Exit, Hold, Law, Reached, Restraint, SlipForce};
 
 /// Impacts slower than this are neither listed nor counted, in m/s.
 pub(super) const SLOWEST_IMPACT_M_PER_S: f64 = 1e-3;
@@ -47,7 +47,7 @@ pub(super) struct Stepped {
 /// Solves a model with devices.
 pub(super) fn solve(
     model: &Model,
-    law: &Law,
+    law: &Law<'_>,
     ground: Ground<'_>,
     instructions: InstructionSet,
     (with_history, go_on): (bool, GoOn<'_>),
@@ -80,7 +80,7 @@ struct Near {
 
 struct Stepping<'a> {
     model: &'a Model,
-    slider: Slider<'a>,
+    slider: SliderState<'a>,
     ground: Ground<'a>,
     instructions: InstructionSet,
     ahead: Ahead,
@@ -119,7 +119,7 @@ struct Stepping<'a> {
 impl<'a> Stepping<'a> {
     fn new(
         model: &'a Model,
-        law: &'a Law,
+        law: &'a Law<'a>,
         ground: Ground<'a>,
         instructions: InstructionSet,
         (with_history, pulse): (bool, Pulse<'a>),
@@ -140,7 +140,7 @@ impl<'a> Stepping<'a> {
         if w != 0.0 {
             modes[0] = Mode::Slip(if w > 0.0 { Direction::Positive } else { Direction::Negative });
         }
-        let slider = Slider::new(law, s, w);
+        let slider = SliderState::new(law, s, w);
         let surfaces = law.surfaces(&slider.memory, s).len();
         let history = with_history.then(|| history(&body, surfaces, ground.times_s.len()));
         let mut sliding = vec![Sliding::new(s)];
@@ -247,7 +247,7 @@ impl<'a> Stepping<'a> {
                 self.sliding[i].end(end_s, place);
             }
         }
-        if self.slider.law.stop.is_some() {
+        if self.slider.law.has_pads() {
             self.slider.stopping.change(end_s, 0.0, self.slider.memory.contact, Contact::Free);
         }
         self.end_leaning(end_s);
@@ -285,7 +285,7 @@ impl<'a> Stepping<'a> {
                       motion between impacts, without the impulses"
                     .to_owned(),
         });
-        let has_stop = self.slider.law.stop.is_some() || self.slider.law.rigid.is_some();
+        let has_stop = self.slider.law.has_stop();
         let demands = StopDemands {
             impact_count: count(0, EventKind::Impact),
             ..self.slider.stopping.demands
@@ -338,7 +338,7 @@ impl<'a> Stepping<'a> {
     fn held(&self) -> Hold {
         let hold = self.slider.hold(self.x.s);
         match self.near {
-            Some(near) if near.offset != 0.0 => Hold { leans: [false; 2], ..hold },
+            Some(near) if near.offset != 0.0 => hold.off_stops(),
             _ => hold,
         }
     }
@@ -549,12 +549,7 @@ impl<'a> Stepping<'a> {
         if self.modes[0] != Mode::Stick {
             return None;
         }
-        let hold = self.held();
-        let side = hold.leans.iter().position(|leans| *leans)?;
-        let sign = if side == 0 { -1.0 } else { 1.0 };
-        let (asked, normal) = (&self.series.friction, &self.series.normal);
-        let beyond = core::array::from_fn(|k| sign * (asked[k] - hold.bounds[side] * normal[k]));
-        Some((sign, beyond))
+        self.held().beyond_friction(&self.series.friction, &self.series.normal)
     }
 
     /// Moves to a part of the series.

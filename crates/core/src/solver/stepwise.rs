@@ -11,13 +11,13 @@ use super::slider::Stopping;
 use super::summary;
 use super::tables::system_of;
 use crate::error::SolveError;
-use crate::friction::{Contact, Direction, Law, Restraint};
 use crate::linear::System;
 use crate::linear::lanes::{dot, greatest};
 use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::progress::{GoOn, Pulse};
 use crate::response::{Event, EventKind, Iterations, Method, Mode, Response};
+use crate::slider::{Contact, Direction, Law};
 
 /// Largest change of an acceleration in the last iteration, `δ` of eqs (17), (18), in m/s².
 pub(super) const TOLERANCE_M_PER_S2: f64 = 1e-5;
@@ -47,15 +47,8 @@ pub(super) fn solve(
 ) -> Result<Response, SolveError> {
     let law = model.law(motion.vertical_m_per_s2().is_some());
     // What jumps, what remembers, and what slides besides the block.
-    let what = if law.rigid.is_some() {
-        Some("a rigid stop")
-    } else if law.series.is_some() {
-        Some("surfaces in series")
-    } else if !model.devices().contents.is_empty() {
-        Some("contents")
-    } else {
-        None
-    };
+    let contents = (!model.contents().is_empty()).then_some("contents");
+    let what = law.beyond_samples().or(contents);
     if let Some(what) = what {
         return Err(SolveError::NotTaken { method: "stepwise method", what });
     }
@@ -163,7 +156,7 @@ pub(super) fn solve(
         events,
         overturns: overturning.is_some(),
         sliding,
-        stop: law.stop.map(|_| stopping.demands),
+        stop: law.has_stop().then_some(stopping.demands),
         surfaces: Vec::new(),
         residual_m: step.s,
         sliding_at_end: step.mode != Mode::Stick,
@@ -194,7 +187,7 @@ impl Step {
 
 struct Program<'a> {
     system: &'a System,
-    law: &'a Law,
+    law: &'a Law<'a>,
     times_s: &'a [f64],
     /// `a = Ü + g sin θ` at the samples.
     acceleration: Vec<f64>,
@@ -287,10 +280,7 @@ impl Program<'_> {
 
     /// Force of spring, damper, pendulum and elastic stop against the block.
     fn restoring_n(&self, s: f64, w: f64, sample: usize) -> f64 {
-        let Restraint { stiffness_n_per_m, damper_n_s_per_m } = self.law.restraint;
-        let pendulum = self.law.radius_m.map_or(0.0, |radius_m| self.normal_n[sample] / radius_m);
-        let stop_n = self.law.stop.map_or(0.0, |stop| stop.force_n(self.contact(s, w), s, w));
-        stiffness_n_per_m * s + damper_n_s_per_m * w + pendulum * s + stop_n
+        self.law.restoring_n(self.contact(s, w), [s, w], self.normal_n[sample])
     }
 
     fn demand_n(&self, step: &Step, sample: usize) -> f64 {
@@ -301,11 +291,7 @@ impl Program<'_> {
 
     fn friction_n(&self, step: &Step, sample: usize) -> f64 {
         let Mode::Slip(direction) = step.mode else { return self.demand_n(step, sample) };
-        let kinetic = match &self.law.rate {
-            Some(rate) => rate.at(step.w.abs(), direction),
-            None => self.law.friction.kinetic_coefficient(direction),
-        };
-        -(direction.sign() * kinetic) * self.normal_n[sample]
+        -direction.sign() * self.law.kinetic_n(direction, step.w.abs(), self.normal_n[sample])
     }
 
     /// Eq. (11), or the table's acceleration in stick.

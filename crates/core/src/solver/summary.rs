@@ -2,9 +2,9 @@
 
 use super::outputs::output;
 use super::run::Outcome;
-use crate::friction::Direction;
 use crate::model::Model;
 use crate::response::{Demands, Event, EventKind, StoreyDemands, Warning};
+use crate::slider::Direction;
 
 /// What the response asks of the structure, from the peaks of the [`outputs`](super::outputs::rows).
 pub(super) fn demands(model: &Model, outcome: &Outcome, peak: impl Fn(usize) -> f64) -> Demands {
@@ -51,7 +51,7 @@ pub(super) fn demands(model: &Model, outcome: &Outcome, peak: impl Fn(usize) -> 
         friction_coefficient_used: peak(output::FRICTION) / weight_n,
         slider_force_coefficient: peak(output::SLIDER) / weight_n,
         closest_stop: Some(sliding.closest_stop).filter(|margin| margin.is_finite()),
-        gap_ratio: model.slider().gap_m.map(|gap_m| peak_sliding_displacement_m / gap_m),
+        gap_ratio: model.slider().gap_m().map(|gap_m| peak_sliding_displacement_m / gap_m),
         overturning_ratio: model
             .block()
             .width_m
@@ -80,8 +80,8 @@ pub(super) fn warnings(
     }
     let tilt_rad = model.slider().tilt_rad;
     let downhill = if tilt_rad > 0.0 { Direction::Negative } else { Direction::Positive };
-    let kinetic = model.slider().friction.kinetic_coefficient(downhill);
-    if libm::tan(tilt_rad).abs() > kinetic && model.slider().stiffness_n_per_m == 0.0 {
+    let kinetic = downhill.of(model.kinetic_friction());
+    if libm::tan(tilt_rad).abs() > kinetic && model.slider_stiffness_n_per_m() == 0.0 {
         warnings.push(Warning {
             kind: "slide_need_not_stop",
             time_s: None,

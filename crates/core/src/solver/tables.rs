@@ -8,12 +8,12 @@ use fearless_simd::prelude::*;
 use super::dense;
 use super::outputs::{self, Outputs, Overturning, output};
 use super::prepared::{InstructionSet, Job};
-use crate::friction::{Law, Restraint, Restraints};
 use crate::linear::polynomial::DEGREE;
 use crate::linear::{
     BATCH, MAX_RATE_STEP, Maps, Row, Solution, StoreyDamping, System, Units, orders,
 };
 use crate::model::{Damping, Model};
+use crate::slider::{Law, Restraint, Restraints};
 
 /// Most storeys for which samples go in batches: beyond, the maps are larger than the work.
 const BATCH_STOREYS: usize = 32;
@@ -73,7 +73,7 @@ impl LazyPhase {
     #[cold]
     #[inline(never)]
     fn make(&self) -> &Phase {
-        InstructionSet::best().run(Made(self))
+        InstructionSet::best().run(MakePhase(self))
     }
 }
 
@@ -86,9 +86,9 @@ impl Deref for LazyPhase {
     }
 }
 
-struct Made<'a>(&'a LazyPhase);
+struct MakePhase<'a>(&'a LazyPhase);
 
-impl<'a> Job for Made<'a> {
+impl<'a> Job for MakePhase<'a> {
     type Output = &'a Phase;
 
     #[inline(always)]
@@ -102,9 +102,9 @@ impl<'a> Job for Made<'a> {
     }
 }
 
-struct MadeBatch<'a>(&'a Phase, f64);
+struct MakeBatch<'a>(&'a Phase, f64);
 
-impl<'a> Job for MadeBatch<'a> {
+impl<'a> Job for MakeBatch<'a> {
     type Output = &'a Batch;
 
     #[inline(always)]
@@ -157,7 +157,7 @@ pub(super) fn system_of(model: &Model) -> System {
     };
     System::new(
         model.block().mass_kg,
-        model.slider().stiffness_n_per_m,
+        model.slider_stiffness_n_per_m(),
         model.slider().damper_n_s_per_m,
         &frame.masses_kg,
         &frame.stiffnesses_n_per_m,
@@ -166,8 +166,8 @@ pub(super) fn system_of(model: &Model) -> System {
 }
 
 /// Whether tables serve a model with its law, under a normal force that is constant or varies.
-pub(super) fn serve(model: &Model, law: &Law, varying: bool) -> bool {
-    model.devices().contents.is_empty() && law.is_tabled(varying)
+pub(super) fn serve(model: &Model, law: &Law<'_>, varying: bool) -> bool {
+    model.contents().is_empty() && law.is_tabled(varying)
 }
 
 impl Tables {
@@ -180,7 +180,7 @@ impl Tables {
         let is_tabled = serve(model, &law, false);
         let law = law.under(normal_n);
         let free = system_of(model);
-        let Restraint { stiffness_n_per_m, damper_n_s_per_m } = law.restraint;
+        let Restraint { stiffness_n_per_m, damper_n_s_per_m } = law.restraint();
         let free = if stiffness_n_per_m == free.stiffness_n_per_m {
             free
         } else {
@@ -216,7 +216,7 @@ impl Tables {
                 ..stick
             });
         }
-        if !law.fades() {
+        if law.fading_rate_s_per_m().is_none() {
             let rates = slip.iter().map(|slip| slip.system.slip_rate_rad_per_s);
             let rate_step = |rate: f64| rate * unit_s(rate, dt_s);
             let first = rate_step(free.stick_rate_rad_per_s);
@@ -226,7 +226,8 @@ impl Tables {
             }
         }
         let start = start(model, &free);
-        let plain_s = dt_s.filter(|_| free.storeys <= 1 && is_tabled && law.is_plain());
+        let plain_s =
+            dt_s.filter(|_| free.storeys <= 1 && is_tabled && law.two_branches(normal_n).is_some());
         let dense = plain_s.and_then(|dt_s| {
             let moment = stick.overturning.as_deref();
             let rows = [None, Some(&Restraint::default())]
@@ -326,7 +327,7 @@ impl Phase {
     #[cold]
     #[inline(never)]
     fn make_batch(&self) -> Option<&Batch> {
-        Some(InstructionSet::best().run(MadeBatch(self, self.batch_s?)))
+        Some(InstructionSet::best().run(MakeBatch(self, self.batch_s?)))
     }
 }
 

@@ -1,6 +1,5 @@
 //! What is noticed of a model and the motion under it, before anything is run.
 
-use crate::friction::Direction;
 use crate::linear::shear_frame_frequencies;
 use crate::model::{Damping, Model};
 use crate::motion::GroundMotion;
@@ -20,11 +19,7 @@ const HIGH_DAMPING: f64 = 0.3;
 
 /// Values that are possible and hardly meant.
 pub(crate) fn suspicious(model: &Model) -> Vec<Warning> {
-    let friction = &model.slider().friction;
-    let both = [Direction::Positive, Direction::Negative];
-    let coefficient = both
-        .iter()
-        .fold(0.0, |largest: f64, direction| largest.max(friction.static_coefficient(*direction)));
+    let coefficient = model.static_friction().into_iter().fold(0.0, f64::max);
     let ratio = match model.frame().damping {
         Damping::Ratio(ratio) if model.storeys() > 0 => ratio,
         _ => 0.0,
@@ -53,9 +48,9 @@ pub(crate) fn suspicious(model: &Model) -> Vec<Warning> {
 
 /// A radius that no slider has.
 fn small_radius(model: &Model) -> Option<Warning> {
-    let devices = model.devices();
-    let surfaces = devices.series.as_ref().map_or(&[][..], |series| series.surfaces());
-    let radii = surfaces.iter().filter_map(|surface| surface.radius_m).chain(devices.radius_m);
+    let slider = model.slider();
+    let surfaces = slider.series().map_or(&[][..], |series| series.surfaces());
+    let radii = surfaces.iter().filter_map(|surface| surface.radius_m).chain(slider.radius_m());
     let least_m = radii.fold(f64::INFINITY, f64::min);
     (least_m < SMALL_RADIUS_M).then(|| Warning {
         kind: "small_radius",
@@ -69,7 +64,7 @@ fn small_radius(model: &Model) -> Option<Warning> {
 /// A surface of a smaller radius that holds longer than one of a larger: inner surfaces are made to slide
 /// first.
 fn inner_friction(model: &Model) -> Option<Warning> {
-    let surfaces = model.devices().series.as_ref()?.surfaces();
+    let surfaces = model.slider().series()?.surfaces();
     let curved = || surfaces.iter().filter_map(|on| Some((on.radius_m?, on.friction)));
     let (inner, outer) = curved().find_map(|inner| {
         let outer = curved().find(|outer| inner.0 < outer.0 && inner.1 > outer.1)?;
@@ -90,7 +85,7 @@ fn inner_friction(model: &Model) -> Option<Warning> {
 pub(crate) fn highest_hz(model: &Model) -> f64 {
     let frame = model.frame();
     let of_frame = shear_frame_frequencies(&frame.masses_kg, &frame.stiffnesses_n_per_m);
-    let of_slider = (model.slider().stiffness_n_per_m / model.total_mass_kg()).sqrt();
+    let of_slider = (model.slider_stiffness_n_per_m() / model.total_mass_kg()).sqrt();
     of_frame.into_iter().fold(of_slider, f64::max) / (2.0 * core::f64::consts::PI)
 }
 

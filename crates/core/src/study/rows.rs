@@ -52,7 +52,7 @@ struct Shaking {
 
 /// What a prepared motion was made from: it serves for all samples that agree on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Made<'a> {
+struct MotionOrigin<'a> {
     source: Option<&'a MotionSource>,
     tail_s: f64,
 }
@@ -157,7 +157,7 @@ impl Study {
     ) -> Vec<Row> {
         let made = |parts: &'s Parts| {
             let source = if scaled.is_some() { None } else { parts.motion.as_ref() };
-            Made { source, tail_s: parts.tail_s }
+            MotionOrigin { source, tail_s: parts.tail_s }
         };
         let made = |sample: &'s Sample| sample.parts.as_ref().ok().map(made);
         let none = Err(RunError::NoMotion);
@@ -166,7 +166,7 @@ impl Study {
             let alike = made(sample);
             let own;
             let motion = match (scaled, &alike) {
-                (Some(scaled), None | Some(Made { tail_s: 0.0, .. })) => scaled,
+                (Some(scaled), None | Some(MotionOrigin { tail_s: 0.0, .. })) => scaled,
                 (None, None) => &none,
                 (_, Some(made)) => {
                     own = self.with_tail(*made, scaled);
@@ -235,7 +235,7 @@ impl Study {
 
     fn with_tail(
         &self,
-        made: Made<'_>,
+        made: MotionOrigin<'_>,
         scaled: Option<&Result<Shaking, RunError>>,
     ) -> Result<Shaking, RunError> {
         let bare = match scaled {
@@ -301,9 +301,9 @@ pub(super) fn warnings(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::friction::{Coulomb, Friction};
     use crate::input::plan::Plan;
     use crate::motion::target::maximum_direction;
+    use crate::slider::Friction;
     use crate::solver;
     use crate::study::Record;
 
@@ -312,7 +312,7 @@ mod tests {
     #[test]
     fn exact_closest_stop_is_the_share_that_is_left() {
         let g = crate::units::STANDARD_GRAVITY_M_PER_S2;
-        let friction = Friction::Coulomb(Coulomb::new([0.2; 2], [0.2; 2]).unwrap());
+        let friction = Friction::new(0.2, 0.2).unwrap();
         let model = Model::rigid_block(10.0, friction).unwrap();
         let values = [0.4, 0.4, -0.1, -0.1].map(|a| a * g).to_vec();
         let motion = GroundMotion::new(vec![0.0, 0.5, 0.5, 4.0], values, None).unwrap();

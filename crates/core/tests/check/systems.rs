@@ -1,17 +1,15 @@
 //! Systems, and what is done with their histories.
 
 use slipstick::check::{Certificate, check};
-use slipstick::friction::{Coulomb, Friction, RateCurve, RateLaw, Series, Surface};
-use slipstick::model::{
-    Block, Contents, Damping, Devices, Frame, InitialState, Model, Slider, Stop, StopKind,
-};
+use slipstick::model::{Block, Contents, Damping, Frame, InitialState, Model, Slider, Stop};
 use slipstick::motion::GroundMotion;
 use slipstick::response::{Demands, History, Method, Mode, Response};
+use slipstick::slider::{Friction, RateCurve, RateLaw, Surface, SurfacesInSeries};
 use slipstick::solver;
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2 as G;
 
 pub fn coulomb(fixed: [f64; 2], kinetic: [f64; 2]) -> Friction {
-    Friction::Coulomb(Coulomb::new(fixed, kinetic).unwrap())
+    Friction::by_direction(fixed, kinetic).unwrap()
 }
 
 pub fn block(mass_kg: f64) -> Block {
@@ -33,10 +31,11 @@ pub fn frame(masses_kg: &[f64], stiffnesses_n_per_m: &[f64], damping: Damping) -
 
 /// The same model with another slider or frame.
 pub fn with(model: &Model, change: impl FnOnce(&mut Slider, &mut Frame)) -> Model {
-    let (mut slider, mut frame) = (*model.slider(), model.frame().clone());
+    let (mut slider, mut frame) = (model.slider().clone(), model.frame().clone());
     change(&mut slider, &mut frame);
     let g = model.gravity_m_per_s2();
-    Model::new(*model.block(), slider, frame, g, model.initial().clone()).unwrap()
+    let with = Model::new(*model.block(), slider, frame, g, model.initial().clone());
+    with.and_then(|with| with.with_contents(model.contents().to_vec())).unwrap()
 }
 
 /// A shaking that wanders between several frequencies, with or without a vertical companion.
@@ -78,9 +77,8 @@ pub fn systems() -> Vec<System> {
             model: model(
                 248.0,
                 Slider {
-                    stiffness_n_per_m: 143e3,
                     damper_n_s_per_m: 400.0,
-                    ..slider(coulomb([0.158; 2], [0.136; 2]))
+                    ..Slider::sprung(coulomb([0.158; 2], [0.136; 2]), 143e3)
                 },
                 Frame::none(),
             ),
@@ -100,9 +98,8 @@ pub fn systems() -> Vec<System> {
             model: model(
                 325.0,
                 Slider {
-                    stiffness_n_per_m: 8e3,
                     tilt_rad: 0.004,
-                    ..slider(coulomb([0.05, 0.06], [0.05, 0.03]))
+                    ..Slider::sprung(coulomb([0.05, 0.06], [0.05, 0.03]), 8e3)
                 },
                 frame(&[90.0], &[1.09e4], Damping::Dampers(vec![30.0])),
             ),
@@ -121,7 +118,7 @@ pub fn systems() -> Vec<System> {
             name: "three storeys",
             model: model(
                 800.0,
-                Slider { stiffness_n_per_m: 2e4, ..slider(coulomb([0.06; 2], [0.05; 2])) },
+                Slider::sprung(coulomb([0.06; 2], [0.05; 2]), 2e4),
                 frame(&[500.0, 400.0, 300.0], &[6e5, 5e5, 3e5], Damping::Ratio(0.02)),
             ),
             motion: shaking(2.5, None),
@@ -210,17 +207,19 @@ pub fn device_systems() -> Vec<System> {
         speeds_m_per_s: vec![0.0, 0.05, 0.2],
         coefficients: vec![0.03, 0.05, 0.06],
     };
-    let rate = |curve: &RateCurve, factors| {
-        let rate = Some(RateLaw::new(curve.clone(), factors).unwrap());
-        Devices { rate, ..Devices::default() }
+    let pendulum = |friction| Slider::pendulum(friction, 2.0);
+    let by_speed = |curve: &RateCurve, factors| {
+        let rate = RateLaw::new(curve.clone(), factors).unwrap();
+        pendulum(Friction::by_speed([0.035; 2], rate).unwrap())
     };
+    let plain = || pendulum(coulomb([0.06; 2], [0.05; 2]));
     let surface = |radius_m: f64, friction: f64, travel_m: f64| Surface {
         radius_m: Some(radius_m),
         friction,
         travel_m: Some(travel_m),
     };
     let surfaces = vec![surface(1.0, 0.03, 0.012), surface(2.0, 0.05, 0.3)];
-    let series = Some(Series::new(surfaces, 1.1).unwrap());
+    let in_series = Slider::in_series(SurfacesInSeries::new(surfaces, 1.1).unwrap());
     let contents = |floor, mass_kg, static_friction, kinetic_friction| Contents {
         floor,
         mass_kg,
@@ -228,51 +227,40 @@ pub fn device_systems() -> Vec<System> {
         kinetic_friction,
     };
     let contents = vec![contents(0, 30.0, 0.05, 0.04), contents(1, 20.0, 0.12, 0.1)];
-    let stop = |kind| Some(Stop { gap_m: [Some(0.006), Some(0.008)], kind });
-    let rigid = stop(StopKind::Rigid { restitution: 0.4 });
-    let elastic = stop(StopKind::Elastic { stiffness_n_per_m: 1e5, damper_n_s_per_m: 900.0 });
-    let none = Devices::default;
+    let gap_m = [Some(0.006), Some(0.008)];
+    let rigid = Some(Stop::rigid(gap_m, 0.4));
+    let elastic = Some(Stop::elastic(gap_m, 1e5, 900.0));
+    let none = Vec::new;
     let all = [
-        ("exponential", rate(&exponential, [1.0; 2]), None, &level),
-        ("pieces", rate(&pieces, [1.0, 0.9]), None, &level),
-        ("surfaces", Devices { series: series.clone(), ..none() }, None, &level),
-        ("contents", Devices { contents: contents.clone(), ..none() }, None, &level),
-        ("elastic stop", none(), elastic, &level),
-        ("rigid stop", none(), rigid, &level),
-        ("pendulum under vertical motion", none(), None, &up),
+        ("exponential", by_speed(&exponential, [1.0; 2]), none(), None, &level),
+        ("pieces", by_speed(&pieces, [1.0, 0.9]), none(), None, &level),
+        ("surfaces", in_series.clone(), none(), None, &level),
+        ("contents", plain(), contents.clone(), None, &level),
+        ("elastic stop", plain(), none(), elastic, &level),
+        ("rigid stop", plain(), none(), rigid, &level),
+        ("pendulum under vertical motion", plain(), none(), None, &up),
         (
             "pieces, contents, rigid stop",
-            Devices { contents: contents.clone(), ..rate(&pieces, [1.0; 2]) },
+            by_speed(&pieces, [1.0; 2]),
+            contents.clone(),
             rigid,
             &level,
         ),
-        (
-            "surfaces, contents, elastic stop, vertical motion",
-            Devices { series, contents, ..none() },
-            elastic,
-            &up,
-        ),
+        ("surfaces, contents, elastic stop, vertical motion", in_series, contents, elastic, &up),
     ];
-    let build =
-        |(name, devices, stop, motion): (&'static str, Devices, Option<Stop>, &GroundMotion)| {
-            let (mass_kg, floor_kg, radius_m) = (325.0, 201.0, 2.0);
-            let in_series = devices.series.is_some();
-            let total_kg = mass_kg + floor_kg + devices.contents_kg();
-            let friction = if devices.rate.is_some() {
-                coulomb([0.035; 2], [0.03; 2])
-            } else {
-                coulomb([0.06; 2], [0.05; 2])
-            };
-            let slider = Slider {
-                stiffness_n_per_m: if in_series { 0.0 } else { total_kg * G / radius_m },
-                stop,
-                ..slider(friction)
-            };
-            let frame = frame(&[floor_kg], &[3.6e4], Damping::Ratio(0.01));
-            let model = Model::new(block(mass_kg), slider, frame, G, InitialState::rest()).unwrap();
-            let devices = Devices { radius_m: (!in_series).then_some(radius_m), ..devices };
-            System { name, model: model.with_devices(devices).unwrap(), motion: motion.clone() }
-        };
+    let build = |(name, slider, contents, stop, motion): (
+        &'static str,
+        Slider,
+        Vec<Contents>,
+        Option<Stop>,
+        &GroundMotion,
+    )| {
+        let slider = Slider { ends: stop.into(), ..slider };
+        let frame = frame(&[201.0], &[3.6e4], Damping::Ratio(0.01));
+        let model = Model::new(block(325.0), slider, frame, G, InitialState::rest());
+        let model = model.and_then(|model| model.with_contents(contents)).unwrap();
+        System { name, model, motion: motion.clone() }
+    };
     all.into_iter().map(build).collect()
 }
 

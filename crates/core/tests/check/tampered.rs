@@ -2,10 +2,10 @@
 
 use crate::systems::*;
 use slipstick::check::check;
-use slipstick::friction::{Direction, RateCurve, RateLaw, Series};
-use slipstick::model::{Block, Damping, Devices, Frame, Model, Slider};
+use slipstick::model::{Block, Contents, Damping, Frame, Model};
 use slipstick::motion::GroundMotion;
 use slipstick::response::{Demands, EventKind, History, Mode, Response};
+use slipstick::slider::{Bearing, Direction, Ends, Friction, RateCurve, RateLaw, SurfacesInSeries};
 
 /// A tampered figure must stand above this.
 const SHOWS: f64 = 1e-9;
@@ -69,15 +69,15 @@ fn exact_changed_device_shows() {
             let c = judge(&System { model, ..system.clone() }, &history);
             assert!(worst(&c) > SHOWS, "{}: {what} went unnoticed: {}", system.name, figures(&c));
         };
-        let devices = system.model.devices();
-        let with = |change: &dyn Fn(&mut Devices)| {
-            let mut devices = devices.clone();
-            change(&mut devices);
-            system.model.clone().with_devices(devices).unwrap()
+        let (slider, contents) = (system.model.slider(), system.model.contents());
+        let with_contents = |e: usize, change: &dyn Fn(&mut Contents)| {
+            let mut contents = contents.to_vec();
+            change(&mut contents[e]);
+            system.model.clone().with_contents(contents).unwrap()
         };
         for part in [1.0 + 1e-6, 1.0 - 1e-6] {
             must_show(system.model.with_friction_times(part).unwrap(), "friction");
-            if let Some(rate) = &devices.rate {
+            if let Some(rate) = slider.rate() {
                 let curve = match rate.curve().clone() {
                     RateCurve::Exponential { slow, fast, rate_s_per_m } => {
                         RateCurve::Exponential { slow, fast, rate_s_per_m: rate_s_per_m * part }
@@ -90,19 +90,22 @@ fn exact_changed_device_shows() {
                 let factors =
                     [Direction::Positive, Direction::Negative].map(|way| rate.factor(way));
                 let rate = RateLaw::new(curve, factors).unwrap();
-                must_show(with(&|d| d.rate = Some(rate.clone())), "the rate of friction");
+                let friction = Friction::by_speed(system.model.static_friction(), rate).unwrap();
+                must_show(system.model.with_friction(friction), "the rate of friction");
             }
-            if let Some(series) = &devices.series {
+            if let Some(series) = slider.series() {
                 for i in 0..series.surfaces().len() {
                     let mut surfaces = series.surfaces().to_vec();
                     surfaces[i].radius_m = surfaces[i].radius_m.map(|radius_m| radius_m * part);
-                    let series = Series::new(surfaces, series.static_ratio()).unwrap();
-                    must_show(with(&|d| d.series = Some(series.clone())), "a radius in series");
+                    let series = SurfacesInSeries::new(surfaces, series.static_ratio()).unwrap();
+                    let bearing = Bearing::InSeries(series);
+                    let model = with(&system.model, |slider, _| slider.bearing = bearing);
+                    must_show(model, "a radius in series");
                 }
             }
-            for e in 0..devices.contents.len() {
-                must_show(with(&|d| d.contents[e].kinetic_friction *= part), "contents");
-                must_show(with(&|d| d.contents[e].mass_kg *= part), "the mass of contents");
+            for e in 0..contents.len() {
+                must_show(with_contents(e, &|c| c.kinetic_friction *= part), "contents");
+                must_show(with_contents(e, &|c| c.mass_kg *= part), "the mass of contents");
             }
         }
     }
@@ -326,11 +329,13 @@ fn complete_systems() -> Vec<System> {
     let complete = |system: System| {
         let (m, n) = (&system.model, system.model.storeys());
         let block = Block { width_m: Some(0.5), height_m: Some(0.3), ..*m.block() };
-        let gap_m = m.stop().is_none().then_some(0.1);
-        let slider = Slider { gap_m, ..*m.slider() };
+        let mut slider = m.slider().clone();
+        if let Ends::Open { gap_m } = &mut slider.ends {
+            *gap_m = Some(0.1);
+        }
         let frame = Frame { heights_m: Some(vec![0.7; n]), ..m.frame().clone() };
         let model = Model::new(block, slider, frame, m.gravity_m_per_s2(), m.initial().clone());
-        let model = model.unwrap().with_devices(m.devices().clone()).unwrap();
+        let model = model.unwrap().with_contents(m.contents().to_vec()).unwrap();
         System { model, ..system }
     };
     all_systems().into_iter().map(complete).collect()

@@ -2,15 +2,12 @@
 
 use crate::systems::*;
 use slipstick::check::check;
-use slipstick::friction::{Direction, Series, Surface};
-use slipstick::model::{
-    Contents, Damping, Devices, Frame, InitialState, Model, Slider, Stop, StopKind,
-};
-
+use slipstick::model::{Contents, Damping, Frame, InitialState, Model, Slider, Stop, StopKind};
 use slipstick::motion::GroundMotion;
 use slipstick::response::{
     Contact, Demands, Event, EventKind, History, Method, Mode, Response, StopDemands,
 };
+use slipstick::slider::{Bearing, Direction, Restoring, Surface, SurfacesInSeries};
 use slipstick::solver::exact;
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2 as G;
 
@@ -130,7 +127,7 @@ fn exact_free_vibration_with_friction_passes() {
     let omega = libm::sqrt(k / m);
     let (half_s, shift) = (core::f64::consts::PI / omega, mu * m * G / k);
     let start = 5.5 * shift;
-    let slider = Slider { stiffness_n_per_m: k, ..slider(coulomb([mu; 2], [mu; 2])) };
+    let slider = Slider::sprung(coulomb([mu; 2], [mu; 2]), k);
     let rest = InitialState { sliding_displacement_m: start, ..InitialState::rest() };
     let system = System {
         name: "Den Hartog's block",
@@ -363,7 +360,8 @@ fn exact_dip_of_velocity_between_knots_counts() {
         let table = [c, -c].map(|a| a - kinetic * G);
         let system = System {
             name: "almost stopped",
-            model: Model::new(block(m), slider(friction), Frame::none(), G, initial).unwrap(),
+            model: Model::new(block(m), slider(friction.clone()), Frame::none(), G, initial)
+                .unwrap(),
             motion: GroundMotion::new(vec![0.0, end_s], table.to_vec(), None).unwrap(),
         };
         let s = v * end_s - c * end_s * end_s / 6.0;
@@ -394,10 +392,9 @@ fn exact_dip_of_velocity_between_knots_counts() {
 fn struck() -> (System, Response) {
     let (m, mu, w0, d, k) = (1000.0, 0.04, 0.8, 0.1, 2e5);
     let friction = coulomb([0.05; 2], [mu; 2]);
-    let kind = StopKind::Elastic { stiffness_n_per_m: k, damper_n_s_per_m: 0.0 };
-    let stop = Some(Stop { gap_m: [Some(d), None], kind });
+    let stop = Stop::elastic([Some(d), None], k, 0.0);
     let initial = InitialState { sliding_velocity_m_per_s: w0, ..InitialState::rest() };
-    let slider = Slider { stop, ..slider(friction) };
+    let slider = Slider { ends: stop.into(), ..slider(friction) };
     let model = Model::new(block(m), slider, Frame::none(), G, initial).unwrap();
     let motion = GroundMotion::evenly_spaced(4.0, vec![0.0; 2], None).unwrap();
     let (drag, rate) = (mu * G, (k / m).sqrt());
@@ -541,7 +538,7 @@ fn exact_wrong_stops_show() {
         Stop { gap_m: [Some(0.1); 2], ..right },
     ];
     for (i, stop) in stops.into_iter().enumerate() {
-        let model = with(&system.model, |slider, _| slider.stop = Some(stop));
+        let model = with(&system.model, |slider, _| slider.ends = stop.into());
         must_show(&model, &|_| (), &format!("stop {i}"));
     }
     let contact = |from: usize, to: usize, contact: Contact| {
@@ -594,9 +591,8 @@ fn exact_rest_with_devices_passes() {
 #[test]
 fn exact_release_from_elastic_stop_passes() {
     for (damper_n_s_per_m, mass_kg) in [(0.0, 100.0), (300.0, 100.0), (1e5, 0.1)] {
-        let kind = StopKind::Elastic { stiffness_n_per_m: 1e5, damper_n_s_per_m };
-        let stop = Some(Stop { gap_m: [Some(0.1), Some(0.1)], kind });
-        let slider = Slider { stop, ..slider(coulomb([0.1; 2], [0.1; 2])) };
+        let stop = Stop::elastic([Some(0.1); 2], 1e5, damper_n_s_per_m);
+        let slider = Slider { ends: stop.into(), ..slider(coulomb([0.1; 2], [0.1; 2])) };
         let initial = InitialState { sliding_displacement_m: 0.12, ..InitialState::rest() };
         let model = Model::new(block(mass_kg), slider, Frame::none(), G, initial).unwrap();
         certified("released from a stop", model, &[[0.0; 3], [1.0, 0.0, 0.0]]);
@@ -614,17 +610,16 @@ fn exact_tiny_motion_without_contact_passes() {
         let rigid = Model::rigid_block(2.0, coulomb([0.48; 2], [0.37; 2])).unwrap();
         certified("tiny motion", rigid.clone(), &samples);
         let flat = Surface { radius_m: None, friction: 0.2, travel_m: None };
-        let series = Some(Series::new(vec![flat], 1.0).unwrap());
-        let model = rigid.with_devices(Devices { series, ..Devices::default() }).unwrap();
+        let bearing = Bearing::InSeries(SurfacesInSeries::new(vec![flat], 1.0).unwrap());
+        let model = with(&rigid, |slider, _| slider.bearing = bearing);
         certified("tiny motion on a surface in series", model, &samples);
-        let springs = |slider: &mut Slider, _: &mut Frame| slider.stiffness_n_per_m = 40.0;
         for (mu, carried) in [(0.31, 0.25), (0.09, 0.13)] {
-            let block = Model::rigid_block(2.0, coulomb([1.3 * mu; 2], [mu; 2])).unwrap();
-            certified(
-                "tiny motion of contents",
-                carrying(with(&block, springs), carried),
-                &samples,
-            );
+            let friction = coulomb([1.3 * mu; 2], [mu; 2]);
+            let restoring = Restoring::Spring { stiffness_n_per_m: 40.0 };
+            let block = Model::rigid_block(2.0, friction.clone()).unwrap();
+            let bearing = Bearing::Surface { friction, restoring };
+            let sprung = with(&block, |slider, _| slider.bearing = bearing);
+            certified("tiny motion of contents", carrying(sprung, carried), &samples);
         }
     }
 }
@@ -654,7 +649,7 @@ fn exact_which_lets_go_first_is_a_close_call() {
     let contents =
         vec![Contents { floor: 0, mass_kg: 1.0, static_friction: 0.2, kinetic_friction: 0.15 }];
     let block = Model::rigid_block(2.0, coulomb([0.2; 2], [0.15; 2])).unwrap();
-    let model = block.with_devices(Devices { contents, ..Devices::default() }).unwrap();
+    let model = block.with_contents(contents).unwrap();
     for (times_s, values) in [
         (vec![0.0, 1.0, 2.0, 3.0], vec![0.0, 3.0, -3.0, 0.0]),
         (vec![0.0, 1.0, 1.0, 2.0, 3.0], vec![0.0, 0.0, 3.0, -3.0, 0.0]),
@@ -674,7 +669,7 @@ fn carrying(model: Model, friction: f64) -> Model {
         static_friction: friction,
         kinetic_friction: friction,
     }];
-    model.with_devices(Devices { contents, ..Devices::default() }).unwrap()
+    model.with_contents(contents).unwrap()
 }
 
 /// Contents that nearly let go, nearly stay, and nearly come to a halt in a slip: the closest call is theirs.
@@ -688,7 +683,7 @@ fn exact_close_decisions_of_contents_count() {
         static_friction: fixed,
         kinetic_friction: kinetic,
     }];
-    let model = carrier.with_devices(Devices { contents, ..Devices::default() }).unwrap();
+    let model = carrier.with_contents(contents).unwrap();
     let near = fixed * G * (1.0 - 1e-8);
     // The table stands still until 1e-8 of the velocity is left.
     let peak = 0.5 * (3.0 - kinetic * G);

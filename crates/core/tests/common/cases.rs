@@ -1,9 +1,9 @@
 //! The verification cases of `data/reference/cases.json` as models and ground motions.
 
 use serde_json::Value;
-use slipstick::friction::{Coulomb, Friction};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::GroundMotion;
+use slipstick::slider::Friction;
 
 /// One case.
 pub struct Case {
@@ -85,7 +85,7 @@ impl Case {
         let both = |name: &str| {
             [("pos"), ("neg")].map(|side| self.parameter(&format!("{name}_{side}"), p(name)))
         };
-        let friction = Coulomb::new(both("mu_s"), both("mu_d")).expect("friction");
+        let friction = Friction::by_direction(both("mu_s"), both("mu_d")).expect("friction");
         let initial = &self.json["initial"];
         let start = |name: &str| initial.get(name).map_or(0.0, number);
         let (masses, stiffnesses, damping) = if let Some(m) = self.json["params"].get("m") {
@@ -105,12 +105,9 @@ impl Case {
         Model::new(
             Block { mass_kg: p("M1"), width_m: None, height_m: None },
             Slider {
-                friction: Friction::Coulomb(friction),
-                stiffness_n_per_m: p("K1"),
                 damper_n_s_per_m: p("C1"),
                 tilt_rad: p("tilt"),
-                gap_m: None,
-                stop: None,
+                ..Slider::sprung(friction, p("K1"))
             },
             Frame { masses_kg: masses, stiffnesses_n_per_m: stiffnesses, damping, heights_m: None },
             self.parameter("g", 9.81),

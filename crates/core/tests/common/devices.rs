@@ -12,10 +12,10 @@
 //! contents   sliding α_e = −σ_e μ_e ν,    stuck α_e = α_i, joined to m_i
 //! ```
 
-use slipstick::friction::{Direction, RateCurve};
 use slipstick::model::{Model, StopKind};
 use slipstick::motion::GroundMotion;
 use slipstick::response::EventKind;
+use slipstick::slider::{Direction, RateCurve};
 
 use super::bernstein::{DEGREE, Poly, first_root, largest, leading, rounded, value};
 use super::dd::{Dd, ONE, ZERO};
@@ -261,14 +261,13 @@ fn smaller(a: Dd, b: Dd) -> Dd {
 
 impl Body {
     fn new(model: &Model, motion: &GroundMotion) -> Self {
-        let devices = model.devices();
         let frame = System::new(model);
         let both = |f: &dyn Fn(Direction) -> f64| {
             [Direction::Positive, Direction::Negative].map(|d| Dd::from(f(d)))
         };
-        let friction = match (&devices.series, &devices.rate) {
+        let friction = match (model.slider().series(), model.slider().rate()) {
             (Some(series), _) => {
-                let surface = |surface: &slipstick::friction::Surface| Surface {
+                let surface = |surface: &slipstick::slider::Surface| Surface {
                     radius: surface.radius_m.map(Dd::from),
                     curvature: surface.radius_m.map_or(ZERO, |radius_m| ONE / Dd::from(radius_m)),
                     friction: Dd::from(surface.friction),
@@ -302,9 +301,10 @@ impl Body {
                 StopKind::Rigid { restitution } => Stop::Rigid { e: Dd::from(restitution) },
             };
         }
-        let radius_m = model.pendulum_radius_m(motion.vertical_m_per_s2().is_some());
-        let contents: Vec<Contents> = devices
-            .contents
+        let varying = motion.vertical_m_per_s2().is_some();
+        let radius_m = model.slider().pendulum_radius_m(varying);
+        let contents: Vec<Contents> = model
+            .contents()
             .iter()
             .map(|contents| Contents {
                 floor: contents.floor,

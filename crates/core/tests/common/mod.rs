@@ -9,6 +9,7 @@ pub mod cases;
 pub mod compare;
 pub mod dd;
 pub mod devices;
+pub mod nasty;
 pub mod plain;
 pub mod random;
 pub mod random_devices;

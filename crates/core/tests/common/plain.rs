@@ -5,10 +5,10 @@
 //! bisection with Bernstein bounds. At 32 digits the reference needs no tolerance of its own: what
 //! is below 1e-26 of its terms is zero, and a difference of doubles never is.
 
-use slipstick::friction::Direction;
 use slipstick::model::Model;
 use slipstick::motion::GroundMotion;
 use slipstick::response::{EventKind, Mode};
+use slipstick::slider::Direction;
 
 use super::bernstein::{DEGREE, Poly, first_root, largest, leading, rounded, value};
 use super::dd::{Dd, ONE, ZERO};

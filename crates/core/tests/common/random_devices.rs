@@ -1,11 +1,11 @@
 //! Random systems with all devices: stops, friction by speed, surfaces in series, pendulums under
 //! vertical motion, contents.
 
-use slipstick::friction::{Coulomb, Friction, RateCurve, RateLaw, Series, Surface};
 use slipstick::model::{
-    Block, Contents, Damping, Devices, Frame, InitialState, Model, Slider, Stop, StopKind,
+    Block, Contents, Damping, Frame, InitialState, Model, Slider, Stop, StopKind,
 };
 use slipstick::motion::GroundMotion;
+use slipstick::slider::{Friction, RateCurve, RateLaw, Surface, SurfacesInSeries};
 
 const G: f64 = 9.80665;
 
@@ -87,7 +87,7 @@ pub fn system(seed: u64) -> System {
         if r.chance(0.3) {
             surfaces[1] = surfaces[0];
         }
-        Series::new(surfaces, if r.chance(0.5) { 1.0 } else { r.between(1.0, 1.5) })
+        SurfacesInSeries::new(surfaces, if r.chance(0.5) { 1.0 } else { r.between(1.0, 1.5) })
             .expect("surfaces")
     });
     let vertical = r.chance(0.4);
@@ -117,45 +117,35 @@ pub fn system(seed: u64) -> System {
         };
         Stop { gap_m, kind }
     });
-    let total_kg = frame.masses_kg.iter().sum::<f64>()
-        + mass_kg
-        + contents.iter().map(|contents| contents.mass_kg).sum::<f64>();
-    let spring = match radius_m {
-        Some(radius_m) => total_kg * G / radius_m,
-        None if in_series || r.chance(0.4) => 0.0,
-        None => r.between(500.0, 2e4),
-    };
-    let friction = Coulomb::new([fixed; 2], [at_rest; 2]).expect("friction");
+    let spring =
+        if radius_m.is_some() || in_series || r.chance(0.4) { 0.0 } else { r.between(500.0, 2e4) };
     let tilt_rad = if r.chance(0.2) { r.between(-0.01, 0.01) } else { 0.0 };
-    let slider = Slider {
-        friction: Friction::Coulomb(friction),
-        stiffness_n_per_m: spring,
-        damper_n_s_per_m: if r.chance(0.2) { r.between(0.0, 500.0) } else { 0.0 },
-        tilt_rad,
-        gap_m: None,
-        stop,
+    let slider = match series {
+        Some(series) => Slider::in_series(series),
+        None => {
+            let friction = match rate {
+                Some(rate) => Friction::by_speed([fixed; 2], rate),
+                None => Friction::new(fixed, at_rest),
+            };
+            let friction = friction.expect("friction");
+            match radius_m {
+                Some(radius_m) => Slider::pendulum(friction, radius_m),
+                None => Slider::sprung(friction, spring),
+            }
+        }
     };
+    let damper_n_s_per_m = if r.chance(0.2) { r.between(0.0, 500.0) } else { 0.0 };
+    let slider = Slider { damper_n_s_per_m, tilt_rad, ends: stop.into(), ..slider };
     let w = if r.chance(0.2) { r.between(-0.4, 0.4) } else { 0.0 };
     let build = |slider: Slider, w: f64| {
         let initial = InitialState { sliding_velocity_m_per_s: w, ..InitialState::rest() };
-        Model::new(
-            Block { mass_kg, width_m: None, height_m: None },
-            slider,
-            frame.clone(),
-            G,
-            initial,
-        )
-        .expect("a model")
-        .with_devices(Devices {
-            rate: rate.clone(),
-            radius_m,
-            series: series.clone(),
-            contents: contents.clone(),
-        })
-        .expect("devices")
+        let block = Block { mass_kg, width_m: None, height_m: None };
+        Model::new(block, slider, frame.clone(), G, initial)
+            .and_then(|model| model.with_contents(contents.clone()))
+            .expect("a model")
     };
     let turned = stop.map(|stop| Stop { gap_m: [stop.gap_m[1], stop.gap_m[0]], ..stop });
-    let mirror = Slider { tilt_rad: -tilt_rad, stop: turned, ..slider };
+    let mirror = Slider { tilt_rad: -tilt_rad, ends: turned.into(), ..slider.clone() };
     let (model, mirrored) = (build(slider, w), build(mirror, -w));
     let (f1, f2) = (r.between(0.4, 2.0), r.between(1.0, 5.0));
     let (a1, a2) = (r.between(0.5, 3.0), r.between(0.0, 2.0));
@@ -215,18 +205,13 @@ pub fn coincident(seed: u64) -> System {
         kind: StopKind::Rigid { restitution: pick(r, &[0.0, 0.5]) },
     });
     let [fixed, kinetic] = slider_friction;
-    let slider = Slider {
-        friction: Friction::Coulomb(Coulomb::new([fixed; 2], [kinetic; 2]).expect("friction")),
-        stiffness_n_per_m: pick(r, &[0.0, 0.0, 4000.0]),
-        damper_n_s_per_m: 0.0,
-        tilt_rad: 0.0,
-        gap_m: None,
-        stop,
-    };
+    let friction = Friction::new(fixed, kinetic).expect("friction");
+    let spring = pick(r, &[0.0, 0.0, 4000.0]);
+    let slider = Slider { ends: stop.into(), ..Slider::sprung(friction, spring) };
     let block = Block { mass_kg: 100.0, width_m: None, height_m: None };
-    let devices = Devices { contents: different, ..Devices::default() };
-    let model = Model::new(block, slider, frame, G, InitialState::rest()).expect("a model");
-    let model = model.with_devices(devices).expect("devices");
+    let model = Model::new(block, slider, frame, G, InitialState::rest())
+        .and_then(|model| model.with_contents(different))
+        .expect("a model");
     let (mut times_s, mut horizontal) = (vec![0.0], vec![0.0]);
     if r.chance(0.5) {
         horizontal[0] = r.between(-5.0, 5.0);

@@ -4,9 +4,9 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use slipstick::friction::{RateCurve, Series, Surface};
 use slipstick::model::{Contents, Damping, Stop, StopKind};
 use slipstick::motion::{GroundMotion, Pulse, PulseShape, Sine, Sweep, SweepKind};
+use slipstick::slider::{RateCurve, Surface, SurfacesInSeries};
 
 use super::random::Random;
 use super::sketch::Sketch;
@@ -208,13 +208,13 @@ fn bearing(random: &mut Random, x: &mut Sketch) {
             ]
         };
         let ratio = random.of(&[1.0, 1.0, 1.2]);
-        x.devices.series = Some(Series::new(surfaces, ratio).expect("surfaces"));
+        x.series = Some(SurfacesInSeries::new(surfaces, ratio).expect("surfaces"));
         // Nothing else ends its travel.
         x.stop = Some(Stop { gap_m: [Some(0.5); 2], kind: StopKind::Rigid { restitution: 0.3 } });
         return;
     }
     if random.chance(0.7) {
-        x.devices.radius_m = Some(random.of(&[0.5, 1.0, 1.5, 2.0, 2.2, 4.0]));
+        x.radius_m = Some(random.of(&[0.5, 1.0, 1.5, 2.0, 2.2, 4.0]));
     } else if random.chance(0.7) {
         let rate = std::f64::consts::TAU / random.even(1.5, 4.0);
         x.spring = round(x.total() * rate * rate, 3);
@@ -259,7 +259,7 @@ fn contents(random: &mut Random, x: &mut Sketch) {
         let own = x.kinetic_friction[0];
         let kinetic_friction = if random.chance(0.2) { own } else { random.written(0.05, 0.6) };
         let over = random.of(&[1.0, 1.1, 1.25]);
-        x.devices.contents.push(Contents {
+        x.contents.push(Contents {
             floor: random.integer(0, x.masses.len() as i64) as usize,
             mass_kg: round(x.block * random.logarithmic(0.01, 0.5), 2),
             static_friction: round(kinetic_friction * over, 3),

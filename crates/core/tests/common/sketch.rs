@@ -1,10 +1,10 @@
 //! Random systems: a model and its ground motion as plain numbers that a test can change.
 
-use slipstick::friction::{Coulomb, Direction, Friction, RateCurve, RateLaw, Series, Surface};
 use slipstick::model::{
-    Block, Contents, Damping, Devices, Frame, InitialState, Model, Slider, Stop, StopKind,
+    Block, Contents, Damping, Frame, InitialState, Model, Slider, Stop, StopKind,
 };
 use slipstick::motion::GroundMotion;
+use slipstick::slider::{Direction, Friction, RateCurve, RateLaw, Surface, SurfacesInSeries};
 
 use super::random::Random;
 
@@ -22,8 +22,13 @@ pub struct Sketch {
     pub kinetic_friction: [f64; 2],
     pub tilt: f64,
     pub stop: Option<Stop>,
-    /// Surfaces in series take the place of friction and spring, a radius that of the spring.
-    pub devices: Devices,
+    /// Kinetic friction by speed, which at rest is the kinetic friction above.
+    pub rate: Option<RateLaw>,
+    /// Of a pendulum, in the place of the spring.
+    pub radius_m: Option<f64>,
+    /// In the place of friction and spring.
+    pub series: Option<SurfacesInSeries>,
+    pub contents: Vec<Contents>,
     pub gravity: f64,
     /// Whether it has a width and heights, so that the overturning moment is an output.
     pub overturns: bool,
@@ -51,7 +56,10 @@ impl Sketch {
             kinetic_friction: [kinetic_friction; 2],
             tilt: 0.0,
             stop: None,
-            devices: Devices::default(),
+            rate: None,
+            radius_m: None,
+            series: None,
+            contents: vec![],
             gravity: 8.0,
             overturns: false,
             s: 0.0,
@@ -144,8 +152,8 @@ impl Sketch {
             2 => self.set_surfaces(random),
             _ => {}
         }
-        if self.devices.series.is_none() && random.chance(0.4) {
-            self.devices.radius_m = Some(random.logarithmic(0.3, 4.0));
+        if self.series.is_none() && random.chance(0.4) {
+            self.radius_m = Some(random.logarithmic(0.3, 4.0));
         }
         if random.chance(0.4) {
             let gap = |r: &mut Random, s: f64| s.abs() + r.logarithmic(0.002, 0.1);
@@ -167,7 +175,7 @@ impl Sketch {
         for _ in 0..[0, 0, 0, 1, 1, 2, 3][random.integer(0, 6) as usize] {
             let kinetic_friction = random.logarithmic(0.02, 0.4);
             let over = if random.chance(0.4) { 1.0 } else { random.between(1.0, 1.5) };
-            self.devices.contents.push(Contents {
+            self.contents.push(Contents {
                 floor: random.integer(0, self.masses.len() as i64) as usize,
                 mass_kg: self.block * random.logarithmic(0.02, 1.0),
                 static_friction: kinetic_friction * over,
@@ -191,7 +199,7 @@ impl Sketch {
                 if alike { at_rest } else { self.static_friction[i].max(at_rest) };
             self.kinetic_friction[i] = at_rest;
         }
-        self.devices.rate = Some(rate);
+        self.rate = Some(rate);
     }
 
     fn set_pieces(&mut self, random: &mut Random) {
@@ -222,13 +230,15 @@ impl Sketch {
             surfaces[1] = surfaces[0];
         }
         let static_ratio = if random.chance(0.4) { 1.0 } else { random.between(1.0, 1.5) };
-        self.devices.series = Some(Series::new(surfaces, static_ratio).expect("surfaces"));
+        self.series = Some(SurfacesInSeries::new(surfaces, static_ratio).expect("surfaces"));
         self.spring = 0.0;
     }
 
     /// Mass of block, floors and contents.
     pub fn total(&self) -> f64 {
-        self.block + self.masses.iter().sum::<f64>() + self.devices.contents_kg()
+        self.block
+            + self.masses.iter().sum::<f64>()
+            + self.contents.iter().map(|contents| contents.mass_kg).sum::<f64>()
     }
 
     /// A spring with which the whole would swing at a rate in rad/s.
@@ -292,29 +302,32 @@ impl Sketch {
         (self.model(), motion.expect("a motion"))
     }
 
-    /// Stiffness of the spring, or of the pendulum under the weight.
-    fn spring(&self) -> f64 {
-        let pressed = self.total() * self.gravity * libm::cos(self.tilt);
-        self.devices.radius_m.map_or(self.spring, |radius_m| pressed / radius_m)
+    /// The slider.
+    fn slider(&self) -> Slider {
+        let fixed = self.static_friction;
+        let friction = match &self.rate {
+            Some(rate) => Friction::by_speed(fixed, rate.clone()),
+            None => Friction::by_direction(fixed, self.kinetic_friction),
+        };
+        let friction = friction.expect("friction");
+        let slider = match (&self.series, self.radius_m) {
+            (Some(series), _) => Slider::in_series(series.clone()),
+            (None, Some(radius_m)) => Slider::pendulum(friction, radius_m),
+            (None, None) => Slider::sprung(friction, self.spring),
+        };
+        let (damper_n_s_per_m, tilt_rad) = (self.damper, self.tilt);
+        Slider { damper_n_s_per_m, tilt_rad, ends: self.stop.into(), ..slider }
     }
 
     /// The model alone.
     pub fn model(&self) -> Model {
-        let friction = Coulomb::new(self.static_friction, self.kinetic_friction).expect("friction");
         Model::new(
             Block {
                 mass_kg: self.block,
                 width_m: self.overturns.then_some(1.0),
                 height_m: self.overturns.then_some(0.5),
             },
-            Slider {
-                friction: Friction::Coulomb(friction),
-                stiffness_n_per_m: self.spring(),
-                damper_n_s_per_m: self.damper,
-                tilt_rad: self.tilt,
-                gap_m: None,
-                stop: self.stop,
-            },
+            self.slider(),
             Frame {
                 masses_kg: self.masses.clone(),
                 stiffnesses_n_per_m: self.stiffnesses.clone(),
@@ -329,9 +342,8 @@ impl Sketch {
                 storey_velocity_m_per_s: Some(self.v.clone()),
             },
         )
+        .and_then(|model| model.with_contents(self.contents.clone()))
         .expect("a model")
-        .with_devices(self.devices.clone())
-        .expect("devices")
     }
 
     /// The same in units of other size: every number times the powers of the three factors that its
@@ -341,9 +353,9 @@ impl Sketch {
         let mut twin = self.times_factors(mass, length, time);
         twin.gravity *= acceleration;
         twin.vertical.iter_mut().flatten().for_each(|a| *a *= acceleration);
-        twin.devices.radius_m.iter_mut().for_each(|radius_m| *radius_m *= length);
-        if let Some(series) = &self.devices.series {
-            twin.devices.series = Some(of_surfaces(series, |surface| Surface {
+        twin.radius_m.iter_mut().for_each(|radius_m| *radius_m *= length);
+        if let Some(series) = &self.series {
+            twin.series = Some(of_surfaces(series, |surface| Surface {
                 radius_m: surface.radius_m.map(|radius_m| radius_m * length),
                 friction: surface.friction,
                 travel_m: surface.travel_m.map(|travel_m| travel_m * length),
@@ -358,15 +370,15 @@ impl Sketch {
         let mut twin = self.times_factors(1.0, factor, 1.0);
         let coefficients = twin.static_friction.iter_mut().chain(&mut twin.kinetic_friction);
         coefficients.for_each(|mu| *mu *= factor);
-        if let Some(rate) = &mut twin.devices.rate {
+        if let Some(rate) = &mut twin.rate {
             *rate = rate.scaled(factor);
         }
-        for contents in &mut twin.devices.contents {
+        for contents in &mut twin.contents {
             contents.static_friction *= factor;
             contents.kinetic_friction *= factor;
         }
-        if let Some(series) = &self.devices.series {
-            twin.devices.series = Some(of_surfaces(series, |surface| Surface {
+        if let Some(series) = &self.series {
+            twin.series = Some(of_surfaces(series, |surface| Surface {
                 radius_m: surface.radius_m,
                 friction: surface.friction * factor,
                 travel_m: surface.travel_m.map(|travel_m| travel_m * factor),
@@ -418,11 +430,8 @@ impl Sketch {
             spring: self.spring * stiffness,
             damper: self.damper * damper,
             stop: self.stop.map(stop),
-            devices: Devices {
-                rate: self.devices.rate.as_ref().map(rate),
-                contents: self.devices.contents.iter().map(contents).collect(),
-                ..self.devices.clone()
-            },
+            rate: self.rate.as_ref().map(rate),
+            contents: self.contents.iter().map(contents).collect(),
             s: self.s * length,
             w: self.w * velocity,
             q: self.q.as_ref().map(|q| each(q, length)),
@@ -450,10 +459,10 @@ impl Sketch {
             ..self.clone()
         };
         twin.stop.iter_mut().for_each(|stop| stop.gap_m.reverse());
-        if let Some(rate) = &self.devices.rate {
+        if let Some(rate) = &self.rate {
             let [positive, negative] = factors(rate);
             let turned = RateLaw::new(rate.curve().clone(), [negative, positive]);
-            twin.devices.rate = Some(turned.expect("a rate law"));
+            twin.rate = Some(turned.expect("a rate law"));
         }
         twin
     }
@@ -466,13 +475,13 @@ impl Sketch {
         for mu in rougher.static_friction.iter_mut().chain(&mut rougher.kinetic_friction) {
             *mu *= 1.0 + relative;
         }
-        if let Some(rate) = &self.devices.rate {
+        if let Some(rate) = &self.rate {
             rougher.set_rate(rate.scaled(1.0 + relative));
         }
-        if let Some(series) = &mut rougher.devices.series {
-            *series = series.scaled(1.0 + relative);
+        if let Some(series) = &mut rougher.series {
+            *series = series.scaled(1.0 + relative).expect("surfaces");
         }
-        for contents in &mut rougher.devices.contents {
+        for contents in &mut rougher.contents {
             contents.static_friction *= 1.0 + relative;
             contents.kinetic_friction *= 1.0 + relative;
         }
@@ -494,7 +503,10 @@ fn factors(rate: &RateLaw) -> [f64; 2] {
 }
 
 /// Surfaces made of others one by one.
-fn of_surfaces(series: &Series, change: impl Fn(&Surface) -> Surface) -> Series {
+fn of_surfaces(
+    series: &SurfacesInSeries,
+    change: impl Fn(&Surface) -> Surface,
+) -> SurfacesInSeries {
     let surfaces = series.surfaces().iter().map(change).collect();
-    Series::new(surfaces, series.static_ratio()).expect("surfaces")
+    SurfacesInSeries::new(surfaces, series.static_ratio()).expect("surfaces")
 }

@@ -113,7 +113,7 @@ impl System {
             masses,
             stiffness,
             damping,
-            spring: Dd::from(slider.stiffness_n_per_m),
+            spring: Dd::from(model.slider_stiffness_n_per_m()),
             damper: Dd::from(slider.damper_n_s_per_m),
             static_friction: model.static_friction().map(Dd::from),
             kinetic_friction: model.kinetic_friction().map(Dd::from),

@@ -4,9 +4,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use slipstick::friction::{Coulomb, Friction};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::response::{Event, EventKind, Mode};
+use slipstick::slider::Friction;
 
 use super::cases::{Case, cycles, number, text_of};
 use super::compare::{Numbers, Outcome, Report, Solve};
@@ -63,19 +63,18 @@ fn window(case: &Case, model: &Model, solve: Solve, n: usize, from: usize, to: u
         storey_displacement_m: Some(y.into_iter().copied().collect()),
         storey_velocity_m_per_s: Some(v.into_iter().copied().collect()),
     };
-    let going_on = with(model, model.slider().friction, state);
+    let going_on = with(model.slider().clone(), model, state);
     Window { outcome: solve(&going_on, &case.cycles(n, from, to)), start }
 }
 
-fn with(model: &Model, friction: Friction, initial: InitialState) -> Model {
-    let slider = Slider { friction, ..*model.slider() };
+fn with(slider: Slider, model: &Model, initial: InitialState) -> Model {
     Model::new(*model.block(), slider, model.frame().clone(), model.gravity_m_per_s2(), initial)
         .expect("a model")
 }
 
 fn fixed(model: &Model) -> Model {
-    let held = Friction::Coulomb(Coulomb::new([1e3; 2], [1e3; 2]).expect("friction"));
-    with(model, held, model.initial().clone())
+    let held = Friction::new(1e3, 1e3).expect("friction");
+    with(model.slider().clone().with_friction(held), model, model.initial().clone())
 }
 
 fn square(x: f64) -> f64 {
@@ -220,8 +219,7 @@ fn fixed_base(case: &Case, solve: Solve, n: usize) -> Numbers {
         damping: Damping::Ratio(p("xi")),
         heights_m: None,
     };
-    let friction = Coulomb::new([p("mu_s"); 2], [p("mu_d"); 2]).expect("friction");
-    let slider = Slider::new(Friction::Coulomb(friction));
+    let slider = Slider::new(Friction::new(p("mu_s"), p("mu_d")).expect("friction"));
     let block = Block { mass_kg: p("M1"), width_m: None, height_m: None };
     // The steady state of the undisturbed sine, H = q/Ü; what sampling leaves of a transient is of
     // the order of what it takes off the sine, and goes with it in the extrapolation.

@@ -1,8 +1,8 @@
 //! What devices do: friction over the sliding speed, surfaces in series, contents.
 
-use slipstick::friction::{Direction, Surface};
 use slipstick::model::Contents;
 use slipstick::response::Mode;
+use slipstick::slider::{Direction, Surface};
 
 use super::force::vertical_at_knots;
 use super::histories::{SHADING, history_panel, over_time};
@@ -18,7 +18,7 @@ const MARKS: usize = 240;
 /// The kinetic coefficient over the sliding speed, and `|T|/N` of the run on it.
 pub fn friction_by_speed(scene: &Scene) -> Option<Drawn> {
     let (report, history) = (scene.report, scene.history);
-    let rate = report.model.devices().rate.as_ref()?;
+    let rate = report.model.slider().rate()?;
     let peak_m_per_s = report.summary.demands.peak_sliding_velocity_m_per_s;
     if !(peak_m_per_s > 0.0) {
         return None;
@@ -95,7 +95,7 @@ pub fn friction_by_speed(scene: &Scene) -> Option<Drawn> {
 /// Displacement of each surface in series over time, with the end of its travel.
 pub fn surfaces(scene: &Scene) -> Option<Drawn> {
     let (report, history) = (scene.report, scene.history);
-    let series = report.model.devices().series.as_ref()?;
+    let series = report.model.slider().series()?;
     let peaks = report.summary.demands.surfaces.iter();
     let peak_m = peaks.map(|surface| surface.peak_displacement_m).fold(0.0, f64::max);
     let unit = report.display.unit(Quantity::Length, peak_m);
@@ -130,7 +130,7 @@ pub fn surfaces(scene: &Scene) -> Option<Drawn> {
 /// Displacement of the contents over their floors.
 pub fn contents(scene: &Scene) -> Option<Drawn> {
     let (report, history) = (scene.report, scene.history);
-    let contents = &report.model.devices().contents;
+    let contents = report.model.contents();
     if contents.is_empty() {
         return None;
     }

@@ -1,8 +1,8 @@
 //! Friction force against sliding displacement, and the demand against its bound.
 
-use slipstick::friction::Contact;
 use slipstick::motion::GroundMotion;
 use slipstick::response::History;
+use slipstick::slider::Contact;
 
 use super::{Drawn, Scene, drawn};
 use crate::display::Quantity;
@@ -20,18 +20,18 @@ pub fn loops(scene: &Scene) -> Drawn {
     let (report, history) = (scene.report, scene.history);
     let (model, slider) = (report.model, report.model.slider());
     let demands = &report.summary.demands;
-    let restrained =
-        slider.stiffness_n_per_m > 0.0 || slider.damper_n_s_per_m > 0.0 || slider.stop.is_some();
+    let restrained = model.slider_stiffness_n_per_m() > 0.0
+        || slider.damper_n_s_per_m > 0.0
+        || slider.stop().is_some();
     let length = report.display.unit(Quantity::Length, demands.peak_sliding_displacement_m);
     let whole = |knot: usize| history.slider_force_n(model, knot);
     let friction = |knot: usize| -history.friction_force_n[knot];
-    let law = model.law(report.motion.vertical_m_per_s2().is_some());
     // Of an elastic stop, rising with the displacement.
     let stop_n = |knot: usize| match history.contact.get(knot) {
         Some(&contact @ Contact::Pressed(side)) => {
             let (s, w) =
                 (history.sliding_displacement_m[knot], history.sliding_velocity_m_per_s[knot]);
-            side.sign() * law.stop_force_n(contact, s, w)
+            side.sign() * slider.stop_force_n(contact, s, w)
         }
         _ => 0.0,
     };
@@ -129,7 +129,7 @@ fn at_stop(history: &History, points: &[[f64; 2]]) -> Vec<Series> {
 /// surfaces in series, whose bounds move with their displacements.
 pub fn demand(scene: &Scene) -> Option<Drawn> {
     let (report, history, model) = (scene.report, scene.history, scene.report.model);
-    if model.devices().series.is_some() {
+    if model.slider().series().is_some() {
         return None;
     }
     let [static_positive, static_negative] = model.static_friction();
@@ -139,7 +139,7 @@ pub fn demand(scene: &Scene) -> Option<Drawn> {
     let unit = report
         .display
         .unit(Quantity::Force, largest.max(report.summary.demands.peak_friction_force_n));
-    let by_speed = model.devices().rate.is_some();
+    let by_speed = model.slider().rate().is_some();
     let bounds = [
         (static_negative, "static bound", Style::DASHED),
         (-static_positive, "", Style::DASHED),

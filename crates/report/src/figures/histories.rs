@@ -17,7 +17,7 @@ pub fn sliding_displacement(scene: &Scene) -> Drawn {
     let runs = report.summary.runs();
     let largest = runs.iter().map(|(_, run)| run.demands.peak_sliding_displacement_m);
     let peak_m = largest.fold(0.0, f64::max);
-    let gap_m = report.model.slider().gap_m;
+    let gap_m = report.model.slider().gap_m();
     let gap_shown = gap_m.filter(|gap| *gap <= 4.0 * peak_m);
     let unit = report.display.unit(Quantity::Length, gap_shown.map_or(peak_m, |g| g.max(peak_m)));
 

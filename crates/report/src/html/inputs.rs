@@ -130,7 +130,7 @@ pub fn assumptions(out: &mut Markup, report: &Report) {
         "Displacements and angles are small: geometry does not change, and the structure is linear \
          (no yielding, no second-order effects)."
             .to_owned(),
-        if model.devices().rate.is_some() {
+        if model.slider().rate().is_some() {
             "Friction depends on whether, which way and how fast the block slides, not on pressure, \
              temperature, wear or time at rest."
                 .to_owned()
@@ -139,7 +139,7 @@ pub fn assumptions(out: &mut Markup, report: &Report) {
              velocity, pressure, temperature, wear or time at rest."
                 .to_owned()
         },
-        if model.devices().series.is_some() {
+        if model.slider().series().is_some() {
             "Each surface has its own radius and friction; displacements are small beside the radii."
                 .to_owned()
         } else {
@@ -150,12 +150,12 @@ pub fn assumptions(out: &mut Markup, report: &Report) {
          accelerations are total (absolute)."
             .to_owned(),
     ];
-    if model.slider().gap_m.is_some() && model.stop().is_none() {
+    if model.slider().gap_m().is_some() && model.stop().is_none() {
         list.push("Nothing is struck: where the gap is passed, the block slides on.".to_owned());
     }
     let vertical = report.motion.vertical_m_per_s2().is_some();
-    let constant = model.pendulum_radius_m(vertical).is_none();
-    if vertical && constant && model.slider().stiffness_n_per_m > 0.0 {
+    let constant = model.slider().pendulum_radius_m(vertical).is_none();
+    if vertical && constant && model.slider_stiffness_n_per_m() > 0.0 {
         list.push(
             "The spring keeps its stiffness under vertical motion; that of a real pendulum slider \
              follows N(t)."

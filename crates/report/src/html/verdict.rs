@@ -61,7 +61,7 @@ fn sliding(report: &Report) -> String {
         with_unit(length, peak_m),
         printed(d.peak_sliding_displacement_time_s, 4)
     );
-    if let (Some(gap_m), Some(ratio)) = (report.model.slider().gap_m, d.gap_ratio) {
+    if let (Some(gap_m), Some(ratio)) = (report.model.slider().gap_m(), d.gap_ratio) {
         let gap = report.display.unit(Quantity::Length, gap_m);
         let gap = format!("{} {}", compact(gap.of(gap_m)), gap.symbol);
         let percent = printed(100.0 * ratio, 3);

@@ -75,7 +75,7 @@ fn check_failed(response: &Response, certificate: &Certificate) -> Option<Warnin
 
 /// Passing the gap, at the first instant known to be beyond it.
 fn gap_exceeded(inputs: &SummaryInputs) -> Option<Warning> {
-    let gap_m = inputs.model.slider().gap_m?;
+    let gap_m = inputs.model.slider().gap_m()?;
     let demands = &inputs.response.demands;
     let peak_m = demands.peak_sliding_displacement_m;
     if peak_m.is_nan() || peak_m <= gap_m {

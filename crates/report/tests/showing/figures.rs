@@ -2,7 +2,7 @@
 
 use crate::support::{Case, floor_spectra, frame_model, report, rough_motion, run};
 use slipstick::assessment::single::FloorSpectra;
-use slipstick::model::{InitialState, Model, Slider, Stop, StopKind};
+use slipstick::model::{InitialState, Model, Slider, Stop};
 use slipstick::motion::GroundMotion;
 use slipstick_report::DisplayUnits;
 use slipstick_report::figures::{self, Drawn};
@@ -260,14 +260,11 @@ fn exact_bounds_of_friction_follow_the_vertical_motion() {
 
 #[test]
 fn exact_the_loop_is_red_only_where_a_stop_is_pressed() {
-    let elastic = StopKind::Elastic { stiffness_n_per_m: 2e5, damper_n_s_per_m: 0.0 };
-    let rigid = StopKind::Rigid { restitution: 0.4 };
-    for (gap_m, kind, is_red) in
-        [(0.005, elastic, true), (10.0, elastic, false), (0.005, rigid, false)]
-    {
+    let elastic = |gap_m| Stop::elastic([Some(gap_m); 2], 2e5, 0.0);
+    let rigid = Stop::rigid([Some(0.005); 2], 0.4);
+    for (stop, is_red) in [(elastic(0.005), true), (elastic(10.0), false), (rigid, false)] {
         let plain = frame_model(0, 1.0);
-        let stop = Some(Stop { gap_m: [Some(gap_m); 2], kind });
-        let slider = Slider { gap_m: None, stop, ..*plain.slider() };
+        let slider = Slider { ends: stop.into(), ..plain.slider().clone() };
         let model = Model::new(
             *plain.block(),
             slider,
@@ -279,8 +276,8 @@ fn exact_the_loop_is_red_only_where_a_stop_is_pressed() {
         let summary = case.summary.clone();
         let all = figures::all(&report(&case, &summary));
         let drawn = all.iter().find(|drawn| drawn.id == "hysteresis").expect("a loop");
-        assert_eq!(drawn.caption.contains("Red:"), is_red, "{gap_m} m, {kind:?}");
-        assert_eq!(drawn.svg.as_str().contains("against the stop"), is_red, "{gap_m} m, {kind:?}");
+        assert_eq!(drawn.caption.contains("Red:"), is_red, "{stop:?}");
+        assert_eq!(drawn.svg.as_str().contains("against the stop"), is_red, "{stop:?}");
     }
 }
 
@@ -288,9 +285,8 @@ fn exact_the_loop_is_red_only_where_a_stop_is_pressed() {
 fn exact_a_stiff_stop_does_not_flatten_the_loop() {
     for (stiffness_n_per_m, leaves) in [(2e8, true), (2e4, false)] {
         let plain = frame_model(0, 1.0);
-        let kind = StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m: 0.0 };
-        let stop = Some(Stop { gap_m: [Some(0.005); 2], kind });
-        let slider = Slider { gap_m: None, stop, ..*plain.slider() };
+        let stop = Stop::elastic([Some(0.005); 2], stiffness_n_per_m, 0.0);
+        let slider = Slider { ends: stop.into(), ..plain.slider().clone() };
         let (block, frame) = (*plain.block(), plain.frame().clone());
         let model = Model::new(block, slider, frame, 9.80665, InitialState::rest());
         let case = run("stop", model.expect("a model"), rough_motion(8.0, 0.01));

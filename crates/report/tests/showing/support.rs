@@ -2,10 +2,10 @@
 
 use slipstick::assessment::single::FloorSpectra;
 use slipstick::check::{Certificate, check};
-use slipstick::friction::{Coulomb, Friction};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::{GroundMotion, spectrum};
 use slipstick::response::{Response, Warning};
+use slipstick::slider::{Ends, Friction};
 use slipstick::solver;
 use slipstick_report::{DisplayUnits, FileNote, InputText, Report, Summary, SummaryInputs};
 
@@ -20,17 +20,11 @@ pub struct Case {
 
 /// 45 kg storeys on a 325 kg block with a spring and a gap of 60 mm.
 pub fn frame_model(storeys: usize, friction_factor: f64) -> Model {
-    let coulomb = Coulomb::new([0.06; 2], [0.04; 2]).expect("coefficients of friction");
+    let friction = Friction::new(0.06, 0.04).expect("coefficients of friction");
+    let friction = friction.scaled(friction_factor).expect("a factor");
     Model::new(
         Block { mass_kg: 325.0, width_m: Some(0.53), height_m: None },
-        Slider {
-            friction: Friction::Coulomb(coulomb).scaled(friction_factor).expect("a factor"),
-            stiffness_n_per_m: 8e3,
-            damper_n_s_per_m: 0.0,
-            tilt_rad: 0.0,
-            gap_m: Some(0.06),
-            stop: None,
-        },
+        Slider { ends: Ends::Open { gap_m: Some(0.06) }, ..Slider::sprung(friction, 8e3) },
         Frame {
             masses_kg: vec![45.0; storeys],
             stiffnesses_n_per_m: vec![20e3; storeys],

@@ -6,9 +6,9 @@ use crate::assessment::design::{Demand, Found, Target, records_needed, search};
 use crate::assessment::sensitivity::{design, indices};
 use crate::assessment::spectrum::{fixed_base, intervals_above};
 use crate::error::FitError;
-use crate::friction::{Coulomb, Friction};
 use crate::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use crate::motion::{GroundMotion, Sine, spectrum};
+use crate::slider::{Ends, Friction};
 use crate::solver;
 
 /// The front by the definition: every design in full, each against each.
@@ -219,15 +219,9 @@ fn exact_fixed_base_is_the_elastic_spectrum() {
         damping: Damping::Ratio(0.03),
         heights_m: None,
     };
-    let friction = Friction::Coulomb(Coulomb::new([0.05; 2], [0.04; 2]).unwrap());
-    let slider = Slider {
-        friction,
-        stiffness_n_per_m: 50.0,
-        damper_n_s_per_m: 3.0,
-        tilt_rad: 0.0,
-        gap_m: Some(0.1),
-        stop: None,
-    };
+    let friction = Friction::new(0.05, 0.04).unwrap();
+    let ends = Ends::Open { gap_m: Some(0.1) };
+    let slider = Slider { damper_n_s_per_m: 3.0, ends, ..Slider::sprung(friction, 50.0) };
     let block = Block { mass_kg: 3.0, width_m: None, height_m: None };
     let model = Model::new(block, slider, frame, 9.81, InitialState::rest()).unwrap();
     let sine = Sine {

@@ -1,9 +1,9 @@
 //! The laws of the slider as the judge of devices reads them.
 
 use super::super::law::{Law, Push, index};
-use crate::friction::{Direction, Series, Surface};
 use crate::model::{Model, StopKind};
 use crate::response::{Contact, Mode};
+use crate::slider::{Direction, Surface, SurfacesInSeries};
 
 /// Thresholds closer than this part of the largest are the same.
 const SAME: f64 = 1e-13;
@@ -53,7 +53,7 @@ pub(super) struct Slider<'a> {
     pub(super) law: Law,
     fixed: [f64; 2],
     radius_m: Option<f64>,
-    series: Option<&'a Series>,
+    series: Option<&'a SurfacesInSeries>,
     spring: f64,
     damper: f64,
     /// Restitution of rigid stops and where they stand.
@@ -95,7 +95,7 @@ fn is_at_end(surface: &Surface, u: f64) -> bool {
 
 impl<'a> Slider<'a> {
     pub(super) fn new(model: &'a Model, vertical: bool) -> Self {
-        let radius_m = model.pendulum_radius_m(vertical);
+        let radius_m = model.slider().pendulum_radius_m(vertical);
         let (e, gap_m) = match model.stop() {
             Some(stop) => match stop.kind {
                 StopKind::Rigid { restitution } => (Some(restitution), stop.gap_m),
@@ -107,8 +107,8 @@ impl<'a> Slider<'a> {
             law: Law::new(model),
             fixed: model.static_friction(),
             radius_m,
-            series: model.devices().series.as_ref(),
-            spring: if radius_m.is_some() { 0.0 } else { model.slider().stiffness_n_per_m },
+            series: model.slider().series(),
+            spring: if radius_m.is_some() { 0.0 } else { model.slider_stiffness_n_per_m() },
             damper: model.slider().damper_n_s_per_m,
             e,
             gap_m,

@@ -93,7 +93,7 @@ pub(super) struct Own {
 
 impl Own {
     pub(super) fn new(model: &Model, h: &History) -> Self {
-        let (n, e) = (model.storeys(), model.devices().contents.len());
+        let (n, e) = (model.storeys(), model.contents().len());
         let mut above_m = model.block().height_m.unwrap_or(0.0);
         let mut heights_m = vec![above_m];
         for height_m in model.frame().heights_m.iter().flatten() {
@@ -170,7 +170,7 @@ impl Own {
             raise(rule, &mut p.contents_acceleration[e], &of(&|i| all[i].0.contents[e] - slope));
         }
         let (heights_m, half) = (&self.heights_m, self.half);
-        let contents = &model.devices().contents;
+        let contents = model.contents();
         let masses_kg = &model.frame().masses_kg;
         raise(
             rule,
@@ -317,13 +317,13 @@ impl Own {
         let strokes = if peak_m > near_m { sums[0].path_m / peak_m } else { 1.0 };
         c.number(d.sliding_path_m, sums[0].path_m, near_m * strokes, sums[0].path_m);
         self.of_peaks(&mut c, model, d, rounding, peak_m);
-        for (e, contents) in d.contents.iter().enumerate().take(model.devices().contents.len()) {
+        for (e, contents) in d.contents.iter().enumerate().take(model.contents().len()) {
             let list: Vec<f64> = (0..h.len()).map(|k| h.contents_state(k, e)[0]).collect();
             let (peak_m, _, _, last_m) = extremes(&list);
             let own = sums[1 + e];
             let fast = self.peaks.contents_velocity[e];
             let rough = self.peaks.contents_acceleration[e];
-            let per_kg = rounding.force_n / model.devices().contents[e].mass_kg;
+            let per_kg = rounding.force_n / model.contents()[e].mass_kg;
             c.number(contents.peak_sliding_displacement_m, peak_m, near_m, peak_m);
             c.number(contents.residual_sliding_displacement_m, last_m, near_m, peak_m);
             c.number(contents.sliding_path_m, own.path_m, near_m, own.path_m);
@@ -332,7 +332,7 @@ impl Own {
             c.number(contents.peak_sliding_velocity_m_per_s, fast, near, fast);
             c.number(contents.peak_acceleration_m_per_s2, rough, per_kg, rough);
         }
-        c.same(d.contents.len() == model.devices().contents.len());
+        c.same(d.contents.len() == model.contents().len());
         self.of_surfaces(&mut c, model, &d.surfaces, h, near_m);
         self.of_events(&mut c, response, peak_m.max(near_m), rounding);
         let closest = if response.method == Method::Exact { self.closest_stop } else { None };
@@ -353,7 +353,7 @@ impl Own {
         near_m: f64,
     ) {
         c.same(printed.len() == h.surfaces);
-        let Some(series) = &model.devices().series else { return };
+        let Some(series) = model.slider().series() else { return };
         for (i, (printed, surface)) in printed.iter().zip(series.surfaces()).enumerate() {
             let all = (0..h.len()).map(|k| h.surface_displacements(k)[i]);
             let peak_m = all.fold(0.0, |peak: f64, u| peak.max(u.abs()));
@@ -425,7 +425,7 @@ impl Own {
             let ratio = height_m.map(|height_m| p.drift[i] / height_m);
             c.optional(storey.peak_drift_ratio, ratio, near_m / height_m.unwrap_or(1.0));
         }
-        let gap_m = model.slider().gap_m;
+        let gap_m = model.slider().gap_m();
         c.optional(d.gap_ratio, gap_m.map(|gap_m| peak_m / gap_m), near_m / gap_m.unwrap_or(1.0));
         let block = model.block();
         let known = heights_m.is_some() || (model.storeys() == 0 && block.height_m.is_some());

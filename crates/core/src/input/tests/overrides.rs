@@ -141,13 +141,13 @@ fn exact_stops_are_set_by_path() {
             .contains("slider.stop: expected one of the keys stiffness")
     );
     let analysis = read(FULL, &stop).unwrap();
-    assert_eq!((analysis.model.slider().gap_m, analysis.value("slider.gap")), (None, None));
+    assert_eq!((analysis.model.slider().gap_m(), analysis.value("slider.gap")), (None, None));
     let gap_m = |set: &[&str]| read(FULL, set).unwrap().model.stop().unwrap().gap_m;
     let side = "slider.stop.gap.negative=0.1 m";
     assert_eq!(gap_m(&[stop[0], stop[1], side]), [Some(0.15), Some(0.1)]);
     assert_eq!(gap_m(&[side, stop[1]]), [None, Some(0.1)]);
     let back = read(FULL, &[stop[0], stop[1], "slider.gap=1 m"]).unwrap();
-    assert_eq!((back.model.stop(), back.model.slider().gap_m), (None, Some(1.0)));
+    assert_eq!((back.model.stop(), back.model.slider().gap_m()), (None, Some(1.0)));
     let damped = [stop[0], stop[1], "slider.stop.damper=1 kN s/m", "slider.stop.damping_ratio=0"];
     assert_eq!(read(FULL, &damped).unwrap().value("slider.stop.damper"), None);
     let written = read(FULL, &[stop[1], side]).unwrap().to_toml(None);
@@ -224,11 +224,11 @@ fn exact_the_first_of_a_list_is_added() {
     assert!(refused.contains("contents.1.kinetic_friction: expected"), "{refused}");
     let one = [&first[..], &["contents.1.kinetic_friction=0.25"]].concat();
     let found = with(&one).unwrap().model;
-    assert_eq!(found.devices().contents.len(), 1);
+    assert_eq!(found.contents().len(), 1);
     let second = one.iter().map(|key| key.replace("contents.1", "contents.2"));
     let both: Vec<String> = one.iter().map(|key| (*key).to_owned()).chain(second).collect();
     let both: Vec<&str> = both.iter().map(String::as_str).collect();
-    assert_eq!(with(&both).unwrap().model.devices().contents.len(), 2);
+    assert_eq!(with(&both).unwrap().model.contents().len(), 2);
     let refused = with(&both[4..]).unwrap_err().to_string();
     assert_eq!(
         refused,

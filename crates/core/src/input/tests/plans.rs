@@ -312,7 +312,7 @@ fn exact_variation_is_what_set_does() {
     let analysis = variation.analysis(&[0.1, 1.5]).unwrap();
     assert_eq!(parts.model, analysis.model);
     // The radius has taken the place of the spring.
-    assert!((parts.model.slider().stiffness_n_per_m - 325.0 * 9.80665 / 1.5).abs() < 1e-10);
+    assert!((parts.model.slider_stiffness_n_per_m() - 325.0 * 9.80665 / 1.5).abs() < 1e-10);
     let error = variation.parts(&[0.25, 1.5]).unwrap_err().to_string();
     assert!(error.contains("expected at most the static friction 0.2, found 0.25"), "{error}");
     let error = variation.parts(&[0.1, -1.5]).unwrap_err().to_string();

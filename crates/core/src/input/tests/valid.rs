@@ -3,7 +3,6 @@
 use core::f64::consts::{PI, TAU};
 
 use super::{FULL, SMALLEST, read, with};
-use crate::friction::{RateCurve, RateLaw, Series, Surface};
 use crate::input::{
     FrictionBounds, MotionSource, RecordSource, Scale, from_bytes, json_schema, parse,
 };
@@ -14,6 +13,7 @@ use crate::model::{
 use crate::motion::{Pulse, PulseShape, Sine, Sweep, SweepKind};
 use crate::record::Units;
 use crate::response::Method;
+use crate::slider::{RateCurve, RateLaw, Surface, SurfacesInSeries};
 use crate::units::Dimension;
 
 #[test]
@@ -26,10 +26,10 @@ fn exact_full_example() {
     assert_eq!(model.static_friction(), [0.020; 2]);
     assert_eq!(model.kinetic_friction(), [0.012; 2]);
     let slider = model.slider();
-    assert_eq!(slider.stiffness_n_per_m, 143e3);
+    assert_eq!(model.slider_stiffness_n_per_m(), 143e3);
     assert_eq!(slider.damper_n_s_per_m, 0.0);
     assert_eq!(slider.tilt_rad, 0.001);
-    assert_eq!(slider.gap_m, Some(0.15));
+    assert_eq!(slider.gap_m(), Some(0.15));
     let omega = TAU * 1.625;
     let frame = Frame {
         masses_kg: vec![45.0],
@@ -74,7 +74,7 @@ fn exact_weights_and_periods_stand_for_masses_and_springs() {
     assert!((model.block().mass_kg / block_kg - 1.0).abs() < 1e-15);
     assert!((model.frame().masses_kg[0] / 100e3 - 1.0).abs() < 1e-15);
     let spring = (block_kg + 100e3) * (TAU / 3.0) * (TAU / 3.0);
-    assert!((model.slider().stiffness_n_per_m / spring - 1.0).abs() < 1e-14);
+    assert!((model.slider_stiffness_n_per_m() / spring - 1.0).abs() < 1e-14);
     assert_eq!(analysis.names.block(), "Base mat");
     assert_eq!([analysis.names.storey(1), analysis.names.storey(2)], ["Roof", "Storey 2"]);
     assert_eq!(read(FULL, &[]).unwrap().names.block(), "Block");
@@ -109,7 +109,7 @@ fn exact_defaults() {
     let analysis = read(SMALLEST, &[]).unwrap();
     assert_eq!(analysis.name, None);
     assert_eq!(analysis.model.storeys(), 0);
-    assert_eq!(analysis.model.slider().stiffness_n_per_m, 0.0);
+    assert_eq!(analysis.model.slider_stiffness_n_per_m(), 0.0);
     assert_eq!(analysis.model.gravity_m_per_s2(), 9.80665);
     assert_eq!(analysis.model.initial(), &InitialState::rest());
     assert_eq!(analysis.friction_bounds, None);
@@ -138,7 +138,7 @@ fn exact_pendulum_radius_and_damping_ratio() {
     let more = "[[storey]]\nmass = \"75 kg\"\nperiod = \"0.5 s\"\ndamper = \"9 N s/m\"\n\
                 [analysis]\ngravity = \"10 m/s2\"\n";
     let model = read(&(text + more), &[]).unwrap().model;
-    assert_eq!(model.slider().stiffness_n_per_m, 400.0 * 10.0 / 2.0);
+    assert_eq!(model.slider_stiffness_n_per_m(), 400.0 * 10.0 / 2.0);
     assert_eq!(model.slider().damper_n_s_per_m, 0.1 * (2000.0_f64 * 400.0).sqrt());
     let omega = TAU / 0.5;
     assert_eq!(model.frame().stiffnesses_n_per_m, [75.0 * omega * omega]);
@@ -150,7 +150,7 @@ fn exact_pendulum_radius_and_damping_ratio() {
 fn exact_tilted_pendulum_has_the_spring_of_its_normal_force() {
     let text = SMALLEST.replace("[slider]", "[slider]\nradius = \"2 m\"\ntilt = \"60 mrad\"");
     let model = read(&text, &[]).unwrap().model;
-    assert_eq!(model.slider().stiffness_n_per_m, model.normal_n() / 2.0);
+    assert_eq!(model.slider_stiffness_n_per_m(), model.normal_n() / 2.0);
 }
 
 #[test]
@@ -405,7 +405,7 @@ fn exact_builder_makes_the_model_of_the_file() {
 
     let surface =
         |friction, radius_m| Surface { radius_m: Some(radius_m), friction, travel_m: None };
-    let series = Series::new(vec![surface(0.05, 2.0), surface(0.1, 3.0)], 1.0).unwrap();
+    let series = SurfacesInSeries::new(vec![surface(0.05, 2.0), surface(0.1, 3.0)], 1.0).unwrap();
     let surfaces = "[[slider.surface]]\nradius = \"2 m\"\nfriction = 0.05\n\
                     [[slider.surface]]\nradius = \"3 m\"\nfriction = 0.1";
     assert_eq!(built(Model::builder().surfaces(series)), file("", surfaces));

@@ -1,16 +1,15 @@
 use core::f64::consts::{PI, TAU};
 
 use super::*;
-use crate::friction::{Coulomb, Friction};
 use crate::input::Mapping;
 use crate::model::Model;
+use crate::slider::Friction;
 use crate::solver;
 
 const G: f64 = 9.80665;
 
 fn model() -> Model {
-    Model::rigid_block(124.0, Friction::Coulomb(Coulomb::new([0.1; 2], [0.08; 2]).unwrap()))
-        .unwrap()
+    Model::rigid_block(124.0, Friction::new(0.1, 0.08).unwrap()).unwrap()
 }
 
 fn table(n: usize) -> Vec<f64> {

@@ -136,13 +136,13 @@ fn points(cycles: &[&Cycle], over_n: f64) -> (Vec<Point>, Vec<Range<usize>>) {
 }
 
 /// A value with the ends of its interval, or why there is none.
-type Told = Result<(f64, [f64; 2]), String>;
+type SpeedEstimate = Result<(f64, [f64; 2]), String>;
 
 /// Slow, fast, rate and the curve; else why none of them.
 fn fitted(
     points: &[Point],
     cycles: &[Range<usize>],
-) -> Result<([Told; 3], Vec<CurvePoint>), String> {
+) -> Result<([SpeedEstimate; 3], Vec<CurvePoint>), String> {
     let mut speeds: Vec<f64> = points.iter().map(|point| point.speed).collect();
     speeds.sort_by(f64::total_cmp);
     let mut different: Vec<f64> = Vec::new();

@@ -24,7 +24,7 @@
 //! derivatives tell. Where the noise counts at all, the response of the best values is therefore fitted
 //! anew under each draw.
 
-use super::{Data, Found, centred, weighed};
+use super::{Data, Fitted, centred, weighed};
 use crate::laboratory::fit::{Interval, Problem, refine};
 use crate::model::Model;
 use crate::motion::GroundMotion;
@@ -71,7 +71,7 @@ struct Moves {
 /// Widens intervals by what moves the estimates through the table motion: the noise by its square, the
 /// motion between the samples as a shift of which only the two limits are known.
 pub(super) fn widen(
-    found: &mut Found,
+    found: &mut Fitted,
     problem: &Problem,
     data: &Data,
     scales: &[f64],
@@ -90,7 +90,7 @@ pub(super) fn widen(
 
 /// What is not known of the table motion; `None` where the derivatives tell nothing.
 fn moves(
-    found: &Found,
+    found: &Fitted,
     problem: &Problem,
     data: &Data,
     scales: &[f64],
@@ -133,7 +133,7 @@ fn moves(
 
 /// How far the best values move when their own response is fitted under another table motion.
 fn fitted_anew(
-    found: &Found,
+    found: &Fitted,
     problem: &Problem,
     data: &Data,
     scales: &[f64],
@@ -167,7 +167,7 @@ struct Derivatives<'a> {
 impl<'a> Derivatives<'a> {
     /// Over half of each interval: closer by, single events would count for too much.
     fn new(
-        found: &Found,
+        found: &Fitted,
         problem: &Problem,
         data: &'a Data<'a>,
         scales: &'a [f64],

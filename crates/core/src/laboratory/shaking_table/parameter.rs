@@ -148,7 +148,7 @@ fn default_range(path: &str, analysis: &Analysis) -> Option<[f64; 2]> {
         "frequency" | "period" => times(0.5, 2.0),
         "damper" if path == "slider.damper" => {
             let mass_kg = model.total_mass_kg();
-            let spring = model.slider().stiffness_n_per_m;
+            let spring = model.slider_stiffness_n_per_m();
             let most = if spring > 0.0 { 2.0 * (spring * mass_kg).sqrt() } else { 5.0 * mass_kg };
             Some([0.0, most])
         }

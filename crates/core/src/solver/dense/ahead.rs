@@ -8,9 +8,9 @@ use super::outputs::{ACCELERATION, DISPLACEMENT};
 use super::tables::{Phase, Row};
 use super::{Dense, Reached, Shared};
 use crate::error::SolveError;
-use crate::friction::Direction;
 use crate::linear::Window;
 use crate::response::Mode;
+use crate::slider::Direction;
 use crate::solver::outputs::output;
 
 /// A run ahead of event stepping.

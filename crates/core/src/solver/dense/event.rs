@@ -9,8 +9,8 @@ use fearless_simd::prelude::*;
 use super::ahead::Ahead;
 use super::lanes::{four, least};
 use super::series::Series;
-use crate::friction::Direction;
 use crate::response::Mode;
+use crate::slider::Direction;
 use crate::solver::course::Instant;
 use crate::solver::slider::Start;
 

@@ -5,9 +5,9 @@ use fearless_simd::{f64x4, f64x8};
 
 use super::ahead::Ahead;
 use super::lanes::{BATCH, eight};
-use crate::friction::Contact;
 use crate::linear::{QUIET, Window};
 use crate::response::Mode;
+use crate::slider::Contact;
 use crate::solver::recorder::Knot;
 
 impl<S: Simd> Ahead<'_, '_, S> {

@@ -20,10 +20,10 @@ use super::super::prepared::Job;
 use super::Stepping;
 use super::ahead::Nine;
 use super::body::Loads;
-use crate::friction::Memory;
 use crate::linear::lanes::eight;
 use crate::linear::{BATCH, MAX_RATE_STEP, Row, Units, Window};
 use crate::response::Mode;
+use crate::slider::Memory;
 
 /// Most series to a step: beyond, samples are as well stepped through one by one.
 const MOST_PARTS: f64 = 16.0;
@@ -143,8 +143,8 @@ impl Stepping<'_> {
     pub(super) fn configuration(&mut self) -> Option<usize> {
         let dt_s = self.ground.sampling.dt_s?;
         let Normal::Constant(normal_n) = self.ground.normal else { return None };
-        let (law, count) = (self.slider.law, self.x.count());
-        if !(normal_n > 0.0) || law.series.is_some() || law.fades() || count > MOST_COMPONENTS {
+        let count = self.x.count();
+        if !(normal_n > 0.0 && self.slider.law.repeats()) || count > MOST_COMPONENTS {
             return None;
         }
         let (all, memory) = (&self.ahead.configurations, &self.slider.memory);
@@ -171,7 +171,7 @@ impl Stepping<'_> {
     }
 
     fn affine(&mut self, dt_s: f64, normal_n: f64) -> Option<Affine> {
-        let restraint = self.force(self.modes[0]).under(normal_n).restraints.all;
+        let restraint = self.force(self.modes[0]).affine(normal_n).restraints.all;
         let (k, c) = (restraint.stiffness_n_per_m, restraint.damper_n_s_per_m);
         let block_kg = self.body.joined_kg(0, &self.modes);
         let rate = self.body.rate_rad_per_s + (k / block_kg).sqrt() + c.abs() / block_kg;
@@ -326,19 +326,15 @@ mod tests {
     use super::super::super::ground::{Ground, Sampling};
     use super::super::super::prepared::InstructionSet;
     use super::*;
-    use crate::friction::{Coulomb, Direction, Friction};
-    use crate::model::{Block, Contents, Damping, Devices, Frame, InitialState, Model, Slider};
+    use crate::model::{Block, Contents, Damping, Frame, InitialState, Model, Slider};
     use crate::motion::GroundMotion;
     use crate::progress::{Pulse, UNWATCHED};
+    use crate::slider::{Direction, Friction};
 
     /// Two storeys with contents on the block, and two on the floors.
     fn model(damper_n_s_per_m: f64) -> Model {
-        let friction = Coulomb::new([0.06; 2], [0.05; 2]).expect("friction");
-        let slider = Slider {
-            stiffness_n_per_m: 3e3,
-            damper_n_s_per_m,
-            ..Slider::new(Friction::Coulomb(friction))
-        };
+        let friction = Friction::new(0.06, 0.05).expect("friction");
+        let slider = Slider { damper_n_s_per_m, ..Slider::sprung(friction, 3e3) };
         let frame = Frame {
             masses_kg: vec![200.0, 150.0],
             stiffnesses_n_per_m: vec![5e4, 3e4],
@@ -350,7 +346,7 @@ mod tests {
             |floor| Contents { floor, mass_kg: 60.0, static_friction: 0.2, kinetic_friction: 0.1 };
         let contents = vec![item(0), item(1), item(2)];
         Model::new(block, slider, frame, 9.81, InitialState::rest())
-            .and_then(|model| model.with_devices(Devices { contents, ..Devices::default() }))
+            .and_then(|model| model.with_contents(contents))
             .expect("a model")
     }
 
@@ -396,7 +392,7 @@ mod tests {
     fn exact_energy_norm_does_not_grow_in_any_assignment() {
         for damper in [0.0, 300.0] {
             let model = model(damper);
-            let k = model.slider().stiffness_n_per_m;
+            let k = model.slider_stiffness_n_per_m();
             each(&model, |run| {
                 let (matrices, _) = run.units(model.normal_n());
                 let rows = run.momenta(k);
@@ -421,7 +417,7 @@ mod tests {
     #[test]
     fn exact_dual_norms_of_outputs_hold_and_are_reached() {
         let model = model(50.0);
-        let k = model.slider().stiffness_n_per_m;
+        let k = model.slider_stiffness_n_per_m();
         each(&model, |run| {
             let (n, slides) = (run.body.storeys(), run.modes[0] != Mode::Stick);
             let (_, rows) = run.units(model.normal_n());

@@ -13,10 +13,10 @@ use super::super::peaks::bound_between;
 use super::super::prepared::Job;
 use super::Stepping;
 use super::affine::{Affine, Configuration, Number};
-use crate::friction::Contact;
 use crate::linear::lanes::{eight, larger, largest_lane};
 use crate::linear::{BATCH, Force, Window};
 use crate::response::Mode;
+use crate::slider::Contact;
 
 /// Candidates that are kept before they are settled.
 const CANDIDATES: usize = 512;

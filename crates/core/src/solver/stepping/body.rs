@@ -1,10 +1,10 @@
 //! The structure with its contents in physical coordinates, and the Taylor series of its motion.
 
-use crate::friction::{Coefficient, Direction, SlipForce};
 use crate::linear::polynomial::{DEGREE, Polynomial, ZERO};
 use crate::linear::{System, fading_part};
 use crate::model::{Contents, Model};
 use crate::response::Mode;
+use crate::slider::{Coefficient, Direction, SlipForce};
 
 /// Terms of a series below this part of the largest are below rounding.
 const NEGLIGIBLE: f64 = 1e-18;
@@ -145,7 +145,7 @@ impl Body {
             contents.push(*item);
             contents.len() - 1
         };
-        let part_of = model.devices().contents.iter().map(join).collect();
+        let part_of = model.contents().iter().map(join).collect();
         Self {
             block_kg: model.block().mass_kg,
             total_kg: model.total_mass_kg(),

@@ -15,9 +15,9 @@ use super::super::slider::{ROUNDING, falls_below, first_crossing};
 use super::body::Expansion;
 use super::{Near, SLOWEST_IMPACT_M_PER_S, Stepping};
 use crate::error::SolveError;
-use crate::friction::{Direction, Memory};
 use crate::linear::polynomial::{DEGREE, Polynomial, derivative, value};
 use crate::response::{EventKind, Mode};
+use crate::slider::{Direction, Memory};
 
 /// Where a bounce is below the rounding of `s`: parts of the stop's distance.
 const LEAST_BOUNCE: f64 = 4.0 * f64::EPSILON;
@@ -122,27 +122,19 @@ impl Stepping<'_> {
     fn distance(&self, p: &Expansion, interface: usize, to: Direction) -> Option<Polynomial> {
         // Too large a force slides towards −x.
         let sign = -to.sign();
-        let side = if to == Direction::Positive { 0 } else { 1 };
-        let (demand, normal, bound) = if interface == 0 {
-            let hold = self.held();
-            let bound = sign * hold.bounds[side];
-            if hold.leans[side] || !bound.is_finite() {
-                return None;
-            }
-            (&p.friction, &p.normal, bound)
+        let (demand, bound) = if interface == 0 {
+            (&p.friction, self.held().series_against(to, &p.normal)?)
         } else {
-            let contents = &self.body.contents[interface - 1];
-            (&p.carried[interface - 1], &p.press, contents.static_friction)
+            let mu = self.body.contents[interface - 1].static_friction;
+            (&p.carried[interface - 1], p.press.map(|n| mu * n))
         };
-        Some(core::array::from_fn(|k| bound * normal[k] - sign * demand[k]))
+        Some(core::array::from_fn(|k| bound[k] - sign * demand[k]))
     }
 
     /// What is rounding of that distance.
     fn rounding_of_distance(&self, p: &Expansion, interface: usize, distance: &Polynomial) -> f64 {
         let of_terms = if interface == 0 {
-            let [low, high] = self.held().bounds.map(f64::abs);
-            let bounds = [low, high].into_iter().filter(|bound| bound.is_finite());
-            self.rounding_n(p) + ROUNDING * bounds.fold(0.0, f64::max) * size(&p.normal)
+            self.rounding_n(p) + ROUNDING * self.held().largest_n(size(&p.normal))
         } else {
             self.rounding_m_per_s2(p, interface)
         };
@@ -519,8 +511,8 @@ impl Stepping<'_> {
     /// stop keeps its absolute velocity.
     pub(super) fn strike(&mut self, stretch: &Stretch, at_s: f64, direction: Direction) {
         let time_s = self.ground.times_s[stretch.interval] + at_s;
-        let Some(rigid) = self.slider.law.rigid else { return };
-        let (place, before, e) = (self.x.s, self.x.w, rigid.restitution);
+        let Some(e) = self.slider.law.restitution() else { return };
+        let (place, before) = (self.x.s, self.x.w);
         let fast = before.abs() >= SLOWEST_IMPACT_M_PER_S;
         let turn = self.turn.take();
         if !fast && let Some(turn) = turn {

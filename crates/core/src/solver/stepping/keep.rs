@@ -197,7 +197,7 @@ impl Stepping<'_> {
     }
 
     fn look_at_stop(&mut self, part: f64) {
-        if self.slider.law.stop.is_none() {
+        if !self.slider.law.has_pads() {
             return;
         }
         let mut force_n =
@@ -259,7 +259,7 @@ impl Stepping<'_> {
         if self.modes[0] == Mode::Stick {
             let [friction_n] = &mut outputs[output::FRICTION];
             let hold = self.held();
-            let [low, high] = hold.bounds.map(|bound| bound * loads.normal[0]);
+            let [low, high] = hold.friction_n(loads.normal[0]);
             if hold.leans[0] {
                 *friction_n = friction_n.max(low);
             }
@@ -300,12 +300,12 @@ impl Stepping<'_> {
         for k in 0..count {
             h.mode.push(self.modes[0]);
             h.mode.extend(items.iter().map(|part| self.modes[1 + part]));
-            if self.slider.law.series.is_some() {
+            if h.surfaces > 0 {
                 let surfaces = self.slider.law.surfaces(&self.slider.memory, states[0][k]);
                 h.surface_displacement_m.extend(surfaces);
             }
         }
-        if self.slider.law.stop.is_some() {
+        if self.slider.law.has_pads() {
             h.contact.resize(end, self.slider.memory.contact);
         }
         h.table_acceleration_m_per_s2.extend_from_slice(table);

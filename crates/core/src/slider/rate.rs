@@ -33,7 +33,7 @@ pub struct RateLaw {
 
 /// A coefficient of friction in one piece of a [`RateLaw`], by `v = |ṡ|`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Coefficient {
+pub(crate) enum Coefficient {
     /// `at_rest + slope v`.
     Linear {
         /// Value of the line at `v = 0`.
@@ -54,8 +54,7 @@ pub enum Coefficient {
 
 impl Coefficient {
     /// Its value at a speed in m/s.
-    #[must_use]
-    pub fn at(&self, speed_m_per_s: f64) -> f64 {
+    fn at(&self, speed_m_per_s: f64) -> f64 {
         match *self {
             Self::Linear { at_rest, slope_s_per_m } => at_rest + slope_s_per_m * speed_m_per_s,
             Self::Exponential { fast, drop, rate_s_per_m } => {
@@ -123,10 +122,7 @@ impl RateLaw {
     /// Factor on the curve in a direction.
     #[must_use]
     pub fn factor(&self, direction: Direction) -> f64 {
-        match direction {
-            Direction::Positive => self.factors[0],
-            Direction::Negative => self.factors[1],
-        }
+        direction.of(self.factors)
     }
 
     /// Coefficient at a speed in m/s.

@@ -27,14 +27,14 @@ impl Surface {
 
 /// Surfaces in series.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Series {
+pub struct SurfacesInSeries {
     surfaces: Vec<Surface>,
     static_ratio: f64,
 }
 
 /// Displacements of the surfaces where a branch began, and which of them slide.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct SeriesState {
+pub(crate) struct SeriesState {
     /// `s` at the beginning of the branch.
     pub from_m: f64,
     /// `u` of each surface there.
@@ -46,7 +46,7 @@ pub struct SeriesState {
 /// Differences of `φ` below this, over the largest, are none: what slides together stays together.
 const ALIKE: f64 = 1e-13;
 
-impl Series {
+impl SurfacesInSeries {
     /// Surfaces of which the static friction is `static_ratio` times the kinetic one.
     ///
     /// # Errors
@@ -90,10 +90,12 @@ impl Series {
     }
 
     /// The same with all coefficients times `factor`.
-    #[must_use]
-    pub fn scaled(&self, factor: f64) -> Self {
+    ///
+    /// # Errors
+    /// [`ModelError::OutOfRange`] unless the factor is finite and > 0.
+    pub fn scaled(&self, factor: f64) -> Result<Self, ModelError> {
         let scaled = |s: &Surface| Surface { friction: factor * s.friction, ..*s };
-        Self { surfaces: self.surfaces.iter().map(scaled).collect(), ..*self }
+        Self::new(self.surfaces.iter().map(scaled).collect(), self.static_ratio)
     }
 
     /// Largest `|s|`, where all surfaces have an end.

@@ -4,26 +4,83 @@
 //! pulls; left behind, it has recovered. Mirrored on the other side.
 
 use super::Direction;
-use super::law::{Contact, Exit, Reached, Restraint};
+use super::law::{Exit, Reached, Restraint};
+
+/// A stop at the end of the slider's travel, on one side or on both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stop {
+    /// Distance from `s = 0` towards +x and −x in m; `None`: no stop on that side.
+    pub gap_m: [Option<f64>; 2],
+    /// How it pushes back.
+    pub kind: StopKind,
+}
+
+/// How a stop pushes back.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StopKind {
+    /// A spring and a damper side by side, which cannot pull: at a penetration δ > 0 the force
+    /// `max(0, k δ + c δ̇)` on the block against δ, for δ ≤ 0 none.
+    Elastic {
+        /// `k` in N/m.
+        stiffness_n_per_m: f64,
+        /// `c` in N s/m.
+        damper_n_s_per_m: f64,
+    },
+    /// Nothing gives way: at an impact `ṡ⁺ = −e ṡ⁻`, and floors keep their absolute velocities.
+    Rigid {
+        /// `e`, from 0 to 1.
+        restitution: f64,
+    },
+}
+
+impl Stop {
+    /// Pads at distances from `s = 0` towards +x and −x in m, with `k` in N/m and `c` in N s/m.
+    #[must_use]
+    pub fn elastic(gap_m: [Option<f64>; 2], stiffness_n_per_m: f64, damper_n_s_per_m: f64) -> Self {
+        Self { gap_m, kind: StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } }
+    }
+
+    /// Walls at distances from `s = 0` towards +x and −x in m, with their restitution.
+    #[must_use]
+    pub fn rigid(gap_m: [Option<f64>; 2], restitution: f64) -> Self {
+        Self { gap_m, kind: StopKind::Rigid { restitution } }
+    }
+
+    /// Distance from `s = 0` to the stop on a side, in m.
+    #[must_use]
+    pub fn gap_towards(&self, side: Direction) -> Option<f64> {
+        side.of(self.gap_m)
+    }
+}
+
+/// Where the block stands to the elastic stops.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Contact {
+    /// Within the gap.
+    #[default]
+    Free,
+    /// Pressed against the stop on this side: `δ ≥ 0`, the stop pushes.
+    Pressed(Direction),
+    /// Beyond the gap, but faster on its way back than the stop follows: `δ > 0`, no force.
+    Separated(Direction),
+}
 
 /// Pads at the ends of the gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ElasticStop {
+pub(super) struct Pads {
     /// Distances from `s = 0` to the pads towards +x and −x in m; none where there is no pad.
-    pub gap_m: [Option<f64>; 2],
-    /// `k` of a pad in N/m.
-    pub stiffness_n_per_m: f64,
-    /// `c` of a pad in N s/m.
-    pub damper_n_s_per_m: f64,
+    pub(super) gap_m: [Option<f64>; 2],
+    /// `k` and `c` of a pad.
+    pub(super) restraint: Restraint,
 }
 
 /// Stops that do not give way: `ṡ⁺ = −e ṡ⁻` at the end of the gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RigidStop {
+pub(super) struct Walls {
     /// Distances from `s = 0` to the stops towards +x and −x in m; none where there is no stop.
-    pub gap_m: [Option<f64>; 2],
+    pub(super) gap_m: [Option<f64>; 2],
     /// `e`, from 0 to 1.
-    pub restitution: f64,
+    pub(super) restitution: f64,
 }
 
 /// `s` at the end of the gap on a side.
@@ -34,14 +91,14 @@ fn place([positive, negative]: [Option<f64>; 2], side: Direction) -> Option<f64>
     }
 }
 
-impl RigidStop {
+impl Walls {
     /// `s` at the stop on a side.
     pub(super) fn place(&self, side: Direction) -> Option<f64> {
         place(self.gap_m, side)
     }
 }
 
-impl ElasticStop {
+impl Pads {
     /// `s` at the pad on a side.
     fn place(&self, side: Direction) -> Option<f64> {
         place(self.gap_m, side)
@@ -50,21 +107,21 @@ impl ElasticStop {
     /// Spring and damper of slider and pad.
     pub(super) fn beside(&self, restraint: Restraint) -> Restraint {
         Restraint {
-            stiffness_n_per_m: restraint.stiffness_n_per_m + self.stiffness_n_per_m,
-            damper_n_s_per_m: restraint.damper_n_s_per_m + self.damper_n_s_per_m,
+            stiffness_n_per_m: restraint.stiffness_n_per_m + self.restraint.stiffness_n_per_m,
+            damper_n_s_per_m: restraint.damper_n_s_per_m + self.restraint.damper_n_s_per_m,
         }
     }
 
     /// `−k d`: what a pressed pad adds to `k s + c ṡ`.
     pub(super) fn constant_n(&self, side: Direction) -> f64 {
-        -self.stiffness_n_per_m * self.place(side).unwrap_or(0.0)
+        -self.restraint.stiffness_n_per_m * self.place(side).unwrap_or(0.0)
     }
 
     /// Force of the ground's pad against the block, positive against sliding towards +x, in N.
-    pub(crate) fn force_n(&self, contact: Contact, s: f64, w: f64) -> f64 {
+    pub(super) fn force_n(&self, contact: Contact, s: f64, w: f64) -> f64 {
         let Contact::Pressed(side) = contact else { return 0.0 };
         let depth = s - self.place(side).unwrap_or(s);
-        self.stiffness_n_per_m * depth + self.damper_n_s_per_m * w
+        self.restraint.stiffness_n_per_m * depth + self.restraint.damper_n_s_per_m * w
     }
 
     /// Free: `s = ±d`. Pressed and moving out: `k δ + c ṡ = 0`, which without a damper is `s = d`.
@@ -79,7 +136,7 @@ impl ElasticStop {
         };
         // ±(k δ + c ṡ)
         let force = |side: Direction, sign: f64, to: Contact| {
-            let (k, c) = (self.stiffness_n_per_m, self.damper_n_s_per_m);
+            let Restraint { stiffness_n_per_m: k, damper_n_s_per_m: c } = self.restraint;
             let sign = sign * side.sign();
             Some(Exit {
                 of_s: sign * k,
@@ -91,7 +148,7 @@ impl ElasticStop {
         match contact {
             Contact::Free => [level(direction, true, Contact::Pressed(direction)), None],
             Contact::Pressed(side) if side == direction => [None; 2],
-            Contact::Pressed(side) if self.damper_n_s_per_m == 0.0 => {
+            Contact::Pressed(side) if self.restraint.damper_n_s_per_m == 0.0 => {
                 [level(side, false, Contact::Free), None]
             }
             Contact::Pressed(side) => [force(side, 1.0, Contact::Separated(side)), None],
@@ -122,7 +179,8 @@ impl ElasticStop {
         for side in [Direction::Positive, Direction::Negative] {
             let Some(place) = self.place(side) else { continue };
             let (depth, speed) = (side.sign() * (s - place), side.sign() * w);
-            let force = self.stiffness_n_per_m * depth + self.damper_n_s_per_m * speed;
+            let force =
+                self.restraint.stiffness_n_per_m * depth + self.restraint.damper_n_s_per_m * speed;
             if depth > 0.0 {
                 let pressed = force >= 0.0;
                 return if pressed { Contact::Pressed(side) } else { Contact::Separated(side) };

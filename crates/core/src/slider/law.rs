@@ -1,0 +1,794 @@
+//! The law of a slider, as the solver asks for it.
+//!
+//! The linear structure never changes; everything else is the one force between ground and block. A law
+//! answers four questions: the [`SlipForce`] in force while the block slides, the [`Exit`]s from that
+//! branch besides the stop at `ṡ = 0`, the [`Hold`] at rest, and what follows an exit ([`Law::follow`],
+//! [`Law::begin`]). Friction is a function of the normal force; where a branch is affine under one, it is
+//! so by one [`Affine`] force.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::rate::{Coefficient, RateCurve, RateLaw};
+use super::series::{SeriesState, SurfacesInSeries};
+use super::stop::{Pads, Walls};
+use super::{Bearing, Contact, Direction, Friction, Slider, StopKind};
+use crate::linear::lanes::{eight, least};
+use crate::linear::polynomial::Polynomial;
+
+/// Levels nearer to a rigid stop than this part of its distance are at it.
+const AT_WALL: f64 = 1e-12;
+
+/// Most surfaces in series of which every set that can slide together has its own tables.
+const TABLED_SURFACES: usize = 4;
+
+/// A stiffness and a damper between ground and block.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Restraint {
+    /// `k` in N/m.
+    pub(crate) stiffness_n_per_m: f64,
+    /// `c` in N s/m.
+    pub(crate) damper_n_s_per_m: f64,
+}
+
+/// What a slider is under a normal force that stays or varies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Law<'a> {
+    bearing: &'a Bearing,
+    /// Spring and damper.
+    restraint: Restraint,
+    /// Radius of a pendulum whose spring follows the normal force, in m.
+    radius_m: Option<f64>,
+    ends: Stopping,
+}
+
+/// What stops the block.
+#[derive(Clone, Copy, Debug)]
+enum Stopping {
+    Nothing,
+    Pads(Pads),
+    Walls(Walls),
+}
+
+/// What the force depends on besides `s`, `ṡ` and `N`.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Memory {
+    /// With an elastic stop.
+    pub(crate) contact: Contact,
+    /// Piece of a piecewise rate law.
+    pub(crate) piece: usize,
+    /// Surfaces in series.
+    pub(crate) series: SeriesState,
+}
+
+/// The force on the ground while the block slides:
+/// `F = force + k s + c ṡ + N (of_normal + of_normal_s s) + σ μ(|ṡ|) N`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SlipForce {
+    /// `k` and `c`.
+    pub(crate) restraint: Restraint,
+    /// Whether a stop is pressed.
+    pub(crate) is_pressed: bool,
+    /// Constant part in N.
+    pub(crate) force_n: f64,
+    /// Constant part over the normal force.
+    pub(crate) of_normal: f64,
+    /// Stiffness over the normal force in 1/m.
+    pub(crate) of_normal_s: f64,
+    /// Whether these two count as friction: of surfaces in series, whose springs memory mixes with it.
+    pub(crate) is_friction: bool,
+    /// `σ`.
+    pub(crate) sign: f64,
+    /// `μ`.
+    pub(crate) coefficient: Coefficient,
+}
+
+/// What a branch adds to the linear system, by which its tables are found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Restraints {
+    /// `k` and `c` of all.
+    pub(crate) all: Restraint,
+    /// What of them counts as friction.
+    pub(crate) of_friction: Restraint,
+    /// Whether a stop is pressed.
+    pub(crate) is_pressed: bool,
+}
+
+/// The same under a constant normal force, affine but perhaps for what fades:
+/// `F = force + k s + c ṡ + coefficient N − fading`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Affine {
+    /// `k` and `c`.
+    pub(crate) restraints: Restraints,
+    /// Constant part in N.
+    pub(crate) force_n: f64,
+    /// Constant part over the normal force, which is friction.
+    pub(crate) coefficient: f64,
+    /// What exponential friction lacks of that at high speed.
+    pub(crate) fading: Option<Fading>,
+}
+
+/// A force that fades with the speed: `force e^(−rate σ ṡ)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Fading {
+    /// At rest in N, positive towards +x.
+    pub(crate) force_n: f64,
+    /// Rate in s/m, with the sign `σ` of the velocity.
+    pub(crate) rate_s_per_m: f64,
+}
+
+impl Fading {
+    /// The force at a velocity, in N.
+    #[inline(always)]
+    pub(crate) fn at(&self, w: f64) -> f64 {
+        self.force_n * libm::exp(-self.rate_s_per_m * w)
+    }
+}
+
+/// The end of a branch other than `ṡ = 0`: where `of_s s + of_w ṡ + constant`, positive within the
+/// branch, reaches zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Exit {
+    /// Factor of `s`.
+    pub(crate) of_s: f64,
+    /// Factor of `ṡ`; 0 where the exit is a level of `s`, which is monotone while the block slides.
+    pub(crate) of_w: f64,
+    /// Constant part.
+    pub(crate) constant: f64,
+    /// What is reached there.
+    pub(crate) reached: Reached,
+}
+
+/// Most exits of a branch.
+pub(crate) const EXITS: usize = 4;
+
+/// What is reached where a branch ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Reached {
+    /// The elastic stop changes its contact; at this `s`, where that is a level.
+    Contact(Contact, Option<f64>),
+    /// A rigid stop on a side, at this `s`.
+    Wall(Direction, f64),
+    /// Another surface joins or one leaves, at this `s`.
+    Surface(f64),
+    /// A knot of the rate law, this speed, and the piece beyond.
+    Knot(f64, usize),
+}
+
+/// What holds the block at rest: friction carries `low N ≤ T ≤ high N`, where
+/// `T = demand + force + of_normal N`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Hold {
+    /// Force of springs and elastic stop in N.
+    pub(crate) force_n: f64,
+    /// Force over the normal force.
+    pub(crate) of_normal: f64,
+    /// What friction holds, over the normal force: `−μ_s⁺` and `μ_s⁻`.
+    friction: [f64; 2],
+    /// Whether a rigid stop holds what friction cannot: a push of the ground towards −x (the block
+    /// leans on the stop towards +x), and one towards +x.
+    pub(crate) leans: [bool; 2],
+}
+
+impl Reached {
+    /// `s` and `ṡ` where it is reached in a direction, of which one is known, from both as computed.
+    #[inline(always)]
+    pub(crate) fn place(&self, direction: Direction, [s, w]: [f64; 2]) -> [f64; 2] {
+        match *self {
+            Self::Contact(_, level_m) => [level_m.unwrap_or(s), w],
+            Self::Wall(_, level_m) | Self::Surface(level_m) => [level_m, w],
+            Self::Knot(speed, _) => [s, direction.sign() * speed],
+        }
+    }
+}
+
+impl Exit {
+    /// Its value in a state; the branch lasts while it is positive.
+    #[inline(always)]
+    pub(crate) fn value(&self, s: f64, w: f64) -> f64 {
+        (self.of_s * s + self.of_w * w) + self.constant
+    }
+}
+
+impl Hold {
+    /// What holds off rigid stops.
+    pub(crate) fn off_stops(self) -> Self {
+        Self { leans: [false; 2], ..self }
+    }
+
+    /// The forces that friction alone holds under a normal force.
+    #[inline(always)]
+    pub(crate) fn friction_n(&self, normal_n: f64) -> [f64; 2] {
+        self.friction.map(|bound| bound * normal_n)
+    }
+
+    /// The same under eight normal forces.
+    #[inline(always)]
+    pub(crate) fn friction_of_eight<S: Simd>(&self, simd: S, normal_n: f64x8<S>) -> [f64x8<S>; 2] {
+        let [low, high] = self.friction;
+        [normal_n * eight(simd, low), normal_n * eight(simd, high)]
+    }
+
+    /// The forces between which the block stays under a normal force.
+    #[inline(always)]
+    pub(crate) fn holds_n(&self, normal_n: f64) -> [f64; 2] {
+        let [low, high] = self.friction_n(normal_n);
+        [
+            if self.leans[0] { f64::NEG_INFINITY } else { low },
+            if self.leans[1] { f64::INFINITY } else { high },
+        ]
+    }
+
+    /// The force that friction alone holds against any direction, from the least normal force.
+    #[inline(always)]
+    pub(crate) fn least_n(&self, normal_n: f64) -> f64 {
+        let [low, high] = self.friction;
+        least(high, -low) * normal_n
+    }
+
+    /// The largest force that friction alone holds; none where springs of surfaces hold any.
+    pub(crate) fn largest_n(&self, normal_n: f64) -> f64 {
+        let finite =
+            self.friction.iter().map(|bound| bound.abs()).filter(|bound| bound.is_finite());
+        finite.fold(0.0, f64::max) * normal_n
+    }
+
+    /// What friction holds against sliding in a direction, over the normal force.
+    #[inline(always)]
+    fn size(&self, direction: Direction) -> f64 {
+        direction.of([-self.friction[0], self.friction[1]])
+    }
+
+    /// What friction holds against sliding in a direction.
+    #[inline(always)]
+    pub(crate) fn against_n(&self, direction: Direction, normal_n: f64) -> f64 {
+        self.size(direction) * normal_n
+    }
+
+    /// The same under a normal force that is a series; none where nothing lets the block go that way.
+    pub(crate) fn series_against(
+        &self,
+        direction: Direction,
+        normal: &Polynomial,
+    ) -> Option<Polynomial> {
+        let size = self.size(direction);
+        (size.is_finite() && !direction.of(self.leans)).then(|| normal.map(|n| size * n))
+    }
+
+    /// How far a demand and a normal force, linear in time, leave the block from sliding in a direction:
+    /// positive where friction holds.
+    #[inline(always)]
+    pub(crate) fn distance(
+        &self,
+        demand: &Polynomial,
+        [normal_n, rise_n]: [f64; 2],
+        direction: Direction,
+    ) -> Polynomial {
+        let (sign, size) = (direction.sign(), self.size(direction));
+        let mut distance = demand.map(|c| sign * c);
+        distance[0] += size * normal_n;
+        distance[1] += size * rise_n;
+        distance
+    }
+
+    /// Where the block rests against a rigid stop: how much of its push friction cannot take, positive
+    /// where the stop takes some; and the sign of that push.
+    pub(crate) fn beyond_friction(
+        &self,
+        asked: &Polynomial,
+        normal: &Polynomial,
+    ) -> Option<(f64, Polynomial)> {
+        let side = self.leans.iter().position(|leans| *leans)?;
+        let (sign, bound) = (if side == 0 { -1.0 } else { 1.0 }, self.friction[side]);
+        Some((sign, core::array::from_fn(|k| sign * (asked[k] - bound * normal[k]))))
+    }
+
+    /// Whether friction holds a force that it is asked for, eq. (4); at the bound it does. Else the
+    /// direction in which the block slides, against the force, eq. (3).
+    #[inline(always)]
+    pub(crate) fn gives_way(&self, force_n: f64, normal_n: f64) -> Option<Direction> {
+        let [low, high] = self.holds_n(normal_n);
+        if force_n > high {
+            Some(Direction::Negative)
+        } else if force_n < low {
+            Some(Direction::Positive)
+        } else {
+            None
+        }
+    }
+
+    /// How near a decision about a force was, over what friction holds; none where it holds nothing,
+    /// or a stop holds.
+    pub(crate) fn margin(&self, force_n: f64, normal_n: f64) -> Option<f64> {
+        let [low, high] = self.holds_n(normal_n);
+        let margin = if low <= 0.0 && high >= 0.0 {
+            let bound = if force_n < 0.0 { -low } else { high };
+            if bound <= 0.0 {
+                return None;
+            }
+            (1.0 - force_n.abs() / bound).abs()
+        } else {
+            // The springs of surfaces push the block back.
+            let [a, b] = self.friction_n(normal_n).map(f64::abs);
+            ((force_n - high).max(low - force_n) / a.max(b)).abs()
+        };
+        Some(margin).filter(|margin| margin.is_finite())
+    }
+}
+
+impl SlipForce {
+    /// The force under a constant normal force, as tables take it.
+    #[inline(always)]
+    pub(crate) fn affine(&self, normal_n: f64) -> Affine {
+        let (at_rest, slope_s_per_m, fading) = match self.coefficient {
+            Coefficient::Linear { at_rest, slope_s_per_m } => (at_rest, slope_s_per_m, None),
+            Coefficient::Exponential { fast, drop, rate_s_per_m } => {
+                let force_n = self.sign * drop * normal_n;
+                let rate_s_per_m = self.sign * rate_s_per_m;
+                (fast, 0.0, Some(Fading { force_n, rate_s_per_m }))
+            }
+        };
+        let (mut all, mut of_friction) = (self.restraint, Restraint::default());
+        let mut coefficient = self.sign * at_rest;
+        if self.is_friction {
+            coefficient = self.of_normal;
+            of_friction.stiffness_n_per_m = self.of_normal_s * normal_n;
+            all.stiffness_n_per_m += of_friction.stiffness_n_per_m;
+        } else {
+            all.stiffness_n_per_m += self.of_normal_s * normal_n;
+        }
+        if slope_s_per_m != 0.0 {
+            of_friction.damper_n_s_per_m = slope_s_per_m * normal_n;
+            all.damper_n_s_per_m += of_friction.damper_n_s_per_m;
+        }
+        let restraints = Restraints { all, of_friction, is_pressed: self.is_pressed };
+        Affine { restraints, force_n: self.force_n, coefficient, fading }
+    }
+}
+
+/// The forces of a law that has but two branches, towards +x and −x, in N.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TwoBranches {
+    /// `−μ_s⁺ N` and `μ_s⁻ N`.
+    pub(crate) bounds_n: [f64; 2],
+    /// `−μ_k⁺ N` and `μ_k⁻ N`.
+    pub(crate) kinetic_n: [f64; 2],
+}
+
+impl Slider {
+    /// Its law: a pendulum's spring follows a normal force that varies, and that of friction by the
+    /// speed, else it is that of a normal force that stays.
+    pub(crate) fn law(&self, normal_n: f64, varying: bool) -> Law<'_> {
+        let radius_m = self.pendulum_radius_m(varying);
+        let stiffness_n_per_m =
+            if radius_m.is_some() { 0.0 } else { self.stiffness_n_per_m(normal_n) };
+        let ends = match self.stop() {
+            None => Stopping::Nothing,
+            Some(stop) => match stop.kind {
+                StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } => {
+                    let restraint = Restraint { stiffness_n_per_m, damper_n_s_per_m };
+                    Stopping::Pads(Pads { gap_m: stop.gap_m, restraint })
+                }
+                StopKind::Rigid { restitution } => {
+                    Stopping::Walls(Walls { gap_m: stop.gap_m, restitution })
+                }
+            },
+        };
+        let restraint = Restraint { stiffness_n_per_m, damper_n_s_per_m: self.damper_n_s_per_m };
+        Law { bearing: &self.bearing, restraint, radius_m, ends }
+    }
+}
+
+impl<'a> Law<'a> {
+    // ---- what kind it is ------------------------------------------------------------------------
+
+    /// Whether every branch between rigid stops goes by tables, under a normal force that is constant
+    /// or varies: affine but for what fades.
+    pub(crate) fn is_tabled(&self, varying: bool) -> bool {
+        match self.bearing {
+            Bearing::Surface { friction, .. } => {
+                !varying || (friction.rate().is_none() && self.radius_m.is_none())
+            }
+            Bearing::InSeries(series) => !varying && series.surfaces().len() <= TABLED_SURFACES,
+        }
+    }
+
+    /// Whether branches come again as they were, each affine under a constant normal force.
+    pub(crate) fn repeats(&self) -> bool {
+        self.bearing.series().is_none() && self.fading_rate_s_per_m().is_none()
+    }
+
+    /// The forces of a block that has but two branches, each with a constant friction force over the
+    /// normal force.
+    pub(crate) fn two_branches(&self, normal_n: f64) -> Option<TwoBranches> {
+        let friction = self.bearing.friction().filter(|friction| friction.rate().is_none())?;
+        let [fixed, kinetic] = [Friction::static_coefficient, Friction::kinetic_coefficient]
+            .map(|mu| Direction::BOTH.map(|d| -d.sign() * mu(friction, d) * normal_n));
+        (!self.has_pads()).then_some(TwoBranches { bounds_n: fixed, kinetic_n: kinetic })
+    }
+
+    /// Rate in s/m at which friction fades with the speed, where it does.
+    pub(crate) fn fading_rate_s_per_m(&self) -> Option<f64> {
+        match self.bearing.rate()?.curve() {
+            RateCurve::Exponential { rate_s_per_m, .. } => Some(*rate_s_per_m),
+            RateCurve::Pieces { .. } => None,
+        }
+    }
+
+    /// What a method that sees the block at samples alone cannot follow: what jumps, and what remembers.
+    pub(crate) fn beyond_samples(&self) -> Option<&'static str> {
+        match (self.ends, self.bearing) {
+            (Stopping::Walls(_), _) => Some("a rigid stop"),
+            (_, Bearing::InSeries(_)) => Some("surfaces in series"),
+            (_, Bearing::Surface { .. }) => None,
+        }
+    }
+
+    /// Whether the block is stopped at an end of its travel.
+    pub(crate) fn has_stop(&self) -> bool {
+        !matches!(self.ends, Stopping::Nothing)
+    }
+
+    /// Whether it presses against what gives way there: contact is part of a knot.
+    #[inline(always)]
+    pub(crate) fn has_pads(&self) -> bool {
+        matches!(self.ends, Stopping::Pads(_))
+    }
+
+    /// Distances from `s = 0` towards +x and −x in m at which it is struck and rebounds.
+    pub(crate) fn walls_m(&self) -> Option<[Option<f64>; 2]> {
+        self.walls().map(|walls| walls.gap_m)
+    }
+
+    /// What is left there of the speed, `e`.
+    pub(crate) fn restitution(&self) -> Option<f64> {
+        self.walls().map(|walls| walls.restitution)
+    }
+
+    /// The law away from such walls, where they change nothing.
+    pub(crate) fn without_walls(mut self) -> Self {
+        if self.walls().is_some() {
+            self.ends = Stopping::Nothing;
+        }
+        self
+    }
+
+    /// The law under a constant normal force, by which a pendulum has a spring like any other.
+    pub(crate) fn under(mut self, normal_n: f64) -> Self {
+        if let Some(radius_m) = self.radius_m.take() {
+            self.restraint.stiffness_n_per_m += normal_n / radius_m;
+        }
+        self
+    }
+
+    /// Number of surfaces whose displacements it tells.
+    #[inline(always)]
+    pub(crate) fn surface_count(&self) -> usize {
+        self.bearing.series().map_or(0, |series| series.surfaces().len())
+    }
+
+    #[inline(always)]
+    fn pads(&self) -> Option<&Pads> {
+        match &self.ends {
+            Stopping::Pads(pads) => Some(pads),
+            _ => None,
+        }
+    }
+
+    #[inline(always)]
+    fn walls(&self) -> Option<&Walls> {
+        match &self.ends {
+            Stopping::Walls(walls) => Some(walls),
+            _ => None,
+        }
+    }
+
+    // ---- what is in force -----------------------------------------------------------------------
+
+    /// Spring and damper of a block free of stops.
+    pub(crate) fn restraint(&self) -> Restraint {
+        self.restraint
+    }
+
+    /// The distinct restraints of the branches of such a law; the first is that of a block free of stops.
+    pub(crate) fn restraints(&self, normal_n: f64) -> Vec<Restraints> {
+        let mut all = Vec::with_capacity(2);
+        let contacts = [Contact::Free, Contact::Pressed(Direction::Positive)];
+        let pieces = self.bearing.rate().map_or(1, RateLaw::pieces);
+        let sets = 1_usize << self.surface_count();
+        for contact in contacts.into_iter().take(if self.has_pads() { 2 } else { 1 }) {
+            for piece in 0..pieces {
+                for set in usize::from(sets > 1)..sets {
+                    let mut series = SeriesState::default();
+                    let count = self.surface_count();
+                    series.displacements_m = vec![0.0; count];
+                    series.active = (0..count).map(|i| set & (1 << i) != 0).collect();
+                    let memory = Memory { contact, piece, series };
+                    for direction in [Direction::Positive, Direction::Negative] {
+                        let force = self.force(&memory, direction).affine(normal_n);
+                        if !all.contains(&force.restraints) {
+                            all.push(force.restraints);
+                        }
+                    }
+                }
+            }
+        }
+        all
+    }
+
+    /// What is in force in a state before anything has happened.
+    pub(crate) fn initial(&self, s: f64, w: f64) -> Memory {
+        let contact = self.pads().map_or(Contact::Free, |pads| pads.initial(s, w));
+        let series = self.bearing.series().map_or_else(SeriesState::default, |all| all.initial(s));
+        let mut memory = Memory { contact, piece: 0, series };
+        if w != 0.0 {
+            let direction = if w > 0.0 { Direction::Positive } else { Direction::Negative };
+            self.resume(&mut memory, w.abs(), direction);
+        }
+        memory
+    }
+
+    /// What is in force once the block leaves rest at `s` in a direction.
+    #[inline(always)]
+    pub(crate) fn begin(&self, memory: &mut Memory, s: f64, direction: Direction) {
+        if let Some(pads) = self.pads() {
+            memory.contact = pads.begin(memory.contact, s, direction);
+        }
+        if let Some(series) = self.bearing.series() {
+            series.settle(&mut memory.series, s);
+        }
+        self.resume(memory, 0.0, direction);
+    }
+
+    /// What is in force at a speed that the block has been given.
+    #[inline(always)]
+    pub(crate) fn resume(&self, memory: &mut Memory, speed: f64, direction: Direction) {
+        memory.piece = self.bearing.rate().map_or(0, |rate| rate.piece_of(speed));
+        if let Some(series) = self.bearing.series() {
+            series.begin(&mut memory.series, direction);
+        }
+    }
+
+    /// Whether no surface can slide on in a direction.
+    pub(crate) fn at_end(&self, memory: &Memory) -> bool {
+        self.bearing.series().is_some() && !memory.series.active.contains(&true)
+    }
+
+    /// The force while the block slides in a direction.
+    #[inline(always)]
+    pub(crate) fn force(&self, memory: &Memory, direction: Direction) -> SlipForce {
+        let mut force = SlipForce {
+            restraint: self.restraint,
+            is_pressed: false,
+            force_n: 0.0,
+            of_normal: 0.0,
+            of_normal_s: self.radius_m.map_or(0.0, |radius_m| 1.0 / radius_m),
+            is_friction: self.bearing.series().is_some(),
+            sign: direction.sign(),
+            coefficient: self.coefficient(memory, direction),
+        };
+        if let (Contact::Pressed(side), Some(pads)) = (memory.contact, self.pads()) {
+            (force.restraint, force.is_pressed) = (pads.beside(self.restraint), true);
+            force.force_n = pads.constant_n(side);
+        }
+        if let Some(series) = self.bearing.series() {
+            let [phi, slope] = series.force(&memory.series, direction);
+            force.of_normal = phi - slope * memory.series.from_m;
+            force.of_normal_s = slope;
+        }
+        force
+    }
+
+    #[inline(always)]
+    fn coefficient(&self, memory: &Memory, direction: Direction) -> Coefficient {
+        let (at_rest, slope_s_per_m) = match self.bearing {
+            Bearing::InSeries(_) => (0.0, 0.0),
+            Bearing::Surface { friction, .. } => match friction.rate() {
+                Some(rate) => return rate.piece(memory.piece, direction),
+                None => (friction.kinetic_coefficient(direction), 0.0),
+            },
+        };
+        Coefficient::Linear { at_rest, slope_s_per_m }
+    }
+
+    /// How a branch can end besides a stop at `ṡ = 0`.
+    #[inline(always)]
+    pub(crate) fn exits(&self, memory: &Memory, direction: Direction) -> [Option<Exit>; EXITS] {
+        let mut all = [None; EXITS];
+        if let Some(pads) = self.pads() {
+            [all[0], all[1]] = pads.exits(memory.contact, direction);
+        }
+        if self.walls().is_none()
+            && self.bearing.series().is_none()
+            && self.bearing.rate().is_none()
+        {
+            return all;
+        }
+        let sign = direction.sign();
+        let level = |place: f64, reached| {
+            Some(Exit { of_s: -sign, of_w: 0.0, constant: sign * place, reached })
+        };
+        let wall = self.walls().and_then(|walls| walls.place(direction));
+        if let Some(place) = wall {
+            all[0] = level(place, Reached::Wall(direction, place));
+        }
+        // Bounces lead the surfaces back to where they were at the stop: what joins there does not.
+        let before_wall =
+            |place: f64| wall.is_none_or(|wall| sign * (wall - place) > AT_WALL * wall.abs());
+        if let Some(series) = self.bearing.series()
+            && let Some(place) = series.next_level(&memory.series, direction)
+            && before_wall(place)
+        {
+            all[2] = level(place, Reached::Surface(place));
+        }
+        if let Some(rate) = self.bearing.rate() {
+            let [below, above] = rate.ends(memory.piece);
+            if let Some(speed) = below {
+                let reached = Reached::Knot(speed, memory.piece - 1);
+                all[2] = Some(Exit { of_s: 0.0, of_w: sign, constant: -speed, reached });
+            }
+            if let Some(speed) = above {
+                let reached = Reached::Knot(speed, memory.piece + 1);
+                all[3] = Some(Exit { of_s: 0.0, of_w: -sign, constant: speed, reached });
+            }
+        }
+        all
+    }
+
+    /// What holds the block at rest at `s`.
+    #[inline(always)]
+    pub(crate) fn hold(&self, memory: &Memory, s: f64) -> Hold {
+        let stop_n = self.pads().map_or(0.0, |pads| pads.force_n(memory.contact, s, 0.0));
+        let force_n = self.restraint.stiffness_n_per_m * s + stop_n;
+        let leans = match self.walls() {
+            Some(walls) => Direction::BOTH.map(|side| {
+                walls.place(side).is_some_and(|place| side.sign() * (s - place) >= 0.0)
+            }),
+            None => [false; 2],
+        };
+        let (of_normal, friction) = match self.bearing {
+            Bearing::InSeries(series) => {
+                let [low, high] = series.hold(&memory.series);
+                (0.0, [-high, -low])
+            }
+            Bearing::Surface { friction, .. } => {
+                let bound = |direction| friction.static_coefficient(direction);
+                let of_normal = self.radius_m.map_or(0.0, |radius_m| s / radius_m);
+                (of_normal, [-bound(Direction::Positive), bound(Direction::Negative)])
+            }
+        };
+        Hold { force_n, of_normal, friction, leans }
+    }
+
+    /// Friction over the normal force at the start of a branch: the size of what resists sliding,
+    /// negative where the surfaces pull the block along.
+    #[inline(always)]
+    fn resistance(&self, begun: &Memory, direction: Direction) -> f64 {
+        match self.bearing {
+            Bearing::InSeries(series) => {
+                direction.sign() * series.force(&begun.series, direction)[0]
+            }
+            Bearing::Surface { friction, .. } => friction.kinetic_coefficient(direction),
+        }
+    }
+
+    /// The same under a normal force.
+    #[inline(always)]
+    pub(crate) fn resistance_n(&self, begun: &Memory, direction: Direction, normal_n: f64) -> f64 {
+        self.resistance(begun, direction) * normal_n
+    }
+
+    /// By how much that is below what holds.
+    #[inline(always)]
+    pub(crate) fn drop_n(
+        &self,
+        hold: &Hold,
+        begun: &Memory,
+        direction: Direction,
+        normal_n: f64,
+    ) -> f64 {
+        (hold.size(direction) - self.resistance(begun, direction)) * normal_n
+    }
+
+    /// Size of the friction force while the block slides in a direction at a speed.
+    pub(crate) fn kinetic_n(&self, direction: Direction, speed: f64, normal_n: f64) -> f64 {
+        let of_surface = self.bearing.friction().map_or(0.0, |friction| match friction.rate() {
+            Some(rate) => rate.at(speed, direction),
+            None => friction.kinetic_coefficient(direction),
+        });
+        of_surface * normal_n
+    }
+
+    /// Force of spring, damper, pendulum and elastic stop against the block.
+    pub(crate) fn restoring_n(&self, contact: Contact, [s, w]: [f64; 2], normal_n: f64) -> f64 {
+        let Restraint { stiffness_n_per_m, damper_n_s_per_m } = self.restraint;
+        let pendulum = self.radius_m.map_or(0.0, |radius_m| normal_n / radius_m);
+        let stop_n = self.pads().map_or(0.0, |pads| pads.force_n(contact, s, w));
+        stiffness_n_per_m * s + damper_n_s_per_m * w + pendulum * s + stop_n
+    }
+
+    // ---- what follows ---------------------------------------------------------------------------
+
+    /// Follows the end of a branch other than a wall; what slides must be decided at the end of all
+    /// travel.
+    pub(crate) fn follow(&self, memory: &mut Memory, reached: Reached, direction: Direction) {
+        match reached {
+            Reached::Contact(to, _) => memory.contact = to,
+            Reached::Knot(_, piece) => memory.piece = piece,
+            Reached::Surface(place) => {
+                if let Some(series) = self.bearing.series() {
+                    series.reach(&mut memory.series, place, direction);
+                }
+            }
+            Reached::Wall(..) => {}
+        }
+    }
+
+    /// Ends a branch at rest at `s`.
+    #[inline(always)]
+    pub(crate) fn settle(&self, memory: &mut Memory, s: f64) {
+        if let Some(series) = self.bearing.series() {
+            series.settle(&mut memory.series, s);
+            memory.series.active.fill(false);
+        }
+    }
+
+    /// The same where the block strikes a rigid stop in a direction.
+    pub(crate) fn strike(&self, memory: &mut Memory, s: f64, direction: Direction) {
+        if let Some(series) = self.bearing.series() {
+            series.arrive(&mut memory.series, s, direction);
+        }
+        self.settle(memory, s);
+    }
+
+    /// The same where a bounce in a direction ends, however short it was.
+    pub(crate) fn turn(&self, memory: &mut Memory, s: f64, direction: Direction) {
+        if let Some(series) = self.bearing.series() {
+            series.turn(&mut memory.series, s, direction);
+        }
+        self.settle(memory, s);
+    }
+
+    // ---- what is told ---------------------------------------------------------------------------
+
+    /// Displacements of surfaces in series at `s` in a branch.
+    #[inline(always)]
+    pub(crate) fn surfaces(&self, memory: &Memory, s: f64) -> Vec<f64> {
+        let of = |series: &SurfacesInSeries| series.displacements(&memory.series, s);
+        self.bearing.series().map_or_else(Vec::new, of)
+    }
+
+    /// Whether surfaces with these displacements are at their ends.
+    pub(crate) fn surfaces_at_ends<'d>(
+        &self,
+        displacements_m: &'d [f64],
+    ) -> impl Iterator<Item = bool> + use<'a, 'd> {
+        let surfaces = self.bearing.series().map_or(&[][..], SurfacesInSeries::surfaces);
+        let at_end = |(surface, u): (&super::Surface, &f64)| {
+            surface.travel_m.is_some_and(|travel_m| u.abs() >= travel_m)
+        };
+        surfaces.iter().zip(displacements_m).map(at_end)
+    }
+
+    /// Force of the elastic stop on the block, as a size in N.
+    pub(crate) fn stop_force_n(&self, contact: Contact, s: f64, w: f64) -> f64 {
+        self.pads().map_or(0.0, |pads| pads.force_n(contact, s, w).abs())
+    }
+
+    /// The force of the elastic stop as factors of `s` and `ṡ` and a constant part, positive as it
+    /// presses; none without contact.
+    pub(crate) fn stop_row(&self, contact: Contact) -> Option<[f64; 3]> {
+        let (Contact::Pressed(side), Some(pads)) = (contact, self.pads()) else { return None };
+        let Restraint { stiffness_n_per_m, damper_n_s_per_m } = pads.restraint;
+        let of = [stiffness_n_per_m, damper_n_s_per_m, pads.constant_n(side)];
+        Some(of.map(|x| side.sign() * x))
+    }
+
+    /// Largest force that friction can hold; infinite where the springs of surfaces in series add to it.
+    #[inline(always)]
+    pub(crate) fn largest_static_n(&self, normal_n: f64) -> f64 {
+        let Some(friction) = self.bearing.friction() else { return f64::INFINITY };
+        let [positive, negative] = Direction::BOTH.map(|d| friction.static_coefficient(d));
+        positive.max(negative) * normal_n
+    }
+}
