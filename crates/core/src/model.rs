@@ -333,7 +333,7 @@ impl Model {
     /// The same model with all coefficients of the slider times `factor`.
     ///
     /// # Errors
-    /// [`ModelError::OutOfRange`] unless the factor is finite and ≥ 0, and for surfaces in series > 0.
+    /// [`ModelError::OutOfRange`] unless the factor is finite and ≥ 0.
     pub fn with_friction_times(&self, factor: f64) -> Result<Self, ModelError> {
         Ok(Self { slider: self.slider.with_friction_times(factor)?, ..self.clone() })
     }

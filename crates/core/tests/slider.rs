@@ -50,6 +50,10 @@ fn exact_coefficients_are_those_at_rest_and_of_the_first_surface_to_slide() {
     assert_eq!([model.static_friction(), model.kinetic_friction()], [[1.5 * 0.03; 2], [0.03; 2]]);
     let twice = model.with_friction_times(2.0).expect("a model");
     assert_eq!(twice.kinetic_friction(), [0.06; 2]);
+    // A lower bound of friction may be none.
+    let none = model.with_friction_times(0.0).expect("a model");
+    assert_eq!(none.kinetic_friction(), [0.0; 2]);
+    assert!(model.with_friction_times(-1.0).is_err());
     let kept = model.with_friction(Friction::new(0.2, 0.2).expect("friction"));
     assert_eq!(kept, model);
 }

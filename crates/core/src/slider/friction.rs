@@ -96,19 +96,22 @@ impl Friction {
     /// # Errors
     /// [`ModelError::OutOfRange`] unless the factor is finite and ≥ 0.
     pub fn scaled(&self, factor: f64) -> Result<Self, ModelError> {
-        if !(factor.is_finite() && factor >= 0.0) {
-            return Err(ModelError::OutOfRange {
-                quantity: "factor on friction",
-                expected: "a finite factor ≥ 0",
-                found: factor,
-            });
-        }
+        check_factor(factor)?;
         let kinetic = match &self.kinetic {
             Kinetic::Constant(kinetic) => Kinetic::Constant(kinetic.map(|mu| factor * mu)),
             Kinetic::BySpeed(rate) => Kinetic::BySpeed(rate.scaled(factor)),
         };
         Ok(Self { fixed: self.fixed.map(|mu| factor * mu), kinetic })
     }
+}
+
+/// Whether all coefficients may be multiplied by a factor.
+pub(super) fn check_factor(found: f64) -> Result<(), ModelError> {
+    if found.is_finite() && found >= 0.0 {
+        return Ok(());
+    }
+    let (quantity, expected) = ("factor on friction", "a finite factor ≥ 0");
+    Err(ModelError::OutOfRange { quantity, expected, found })
 }
 
 fn check(fixed: [f64; 2], kinetic: [f64; 2]) -> Result<(), ModelError> {

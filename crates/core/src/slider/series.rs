@@ -5,6 +5,7 @@
 //! those, at which the force needed is least.
 
 use super::Direction;
+use super::friction::check_factor;
 use crate::error::ModelError;
 
 /// One of the surfaces.
@@ -92,10 +93,11 @@ impl SurfacesInSeries {
     /// The same with all coefficients times `factor`.
     ///
     /// # Errors
-    /// [`ModelError::OutOfRange`] unless the factor is finite and > 0.
+    /// [`ModelError::OutOfRange`] unless the factor is finite and ≥ 0.
     pub fn scaled(&self, factor: f64) -> Result<Self, ModelError> {
+        check_factor(factor)?;
         let scaled = |s: &Surface| Surface { friction: factor * s.friction, ..*s };
-        Self::new(self.surfaces.iter().map(scaled).collect(), self.static_ratio)
+        Ok(Self { surfaces: self.surfaces.iter().map(scaled).collect(), ..*self })
     }
 
     /// Largest `|s|`, where all surfaces have an end.
