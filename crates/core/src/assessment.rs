@@ -6,6 +6,7 @@
 //! which a callback follows and may stop. Nothing here opens a file. Results are demands in SI;
 //! intensities are in the SI unit of their measure.
 
+pub mod cases;
 pub mod censored;
 pub mod design;
 pub mod fragility;
@@ -52,18 +53,9 @@ pub enum AssessmentError {
     /// A motion that cannot be made or scaled.
     #[error(transparent)]
     Motion(#[from] MotionError),
-    /// A run without an answer, where every one is needed.
-    #[error("{0}")]
-    Run(Box<FailedRun>),
     /// The callback that followed it stopped it.
     #[error(transparent)]
     Stopped(#[from] Stopped),
-}
-
-impl From<Box<FailedRun>> for AssessmentError {
-    fn from(run: Box<FailedRun>) -> Self {
-        Self::Run(run)
-    }
 }
 
 /// A run without an answer.
@@ -71,13 +63,30 @@ impl From<Box<FailedRun>> for AssessmentError {
 pub struct FailedRun {
     /// Name of the record.
     pub record: String,
+    /// Factor on the record.
+    pub scale: f64,
+    /// Its design in words, to stand after them; empty where there is one design.
+    pub design: String,
     /// Why.
     pub error: RunError,
 }
 
 impl core::fmt::Display for FailedRun {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "{}: {}", self.record, self.error)
+        write!(f, "{}{}: {}", times(&self.record, self.scale), self.design, self.error)
+    }
+}
+
+/// A record times its factor, in words.
+fn times(record: &str, scale: f64) -> String {
+    if scale == 1.0 {
+        return record.to_owned();
+    }
+    // Four digits name a factor.
+    let short: f64 = format!("{scale:.3e}").parse().unwrap_or(scale);
+    match short.abs() {
+        1e-3..1e6 => format!("{record} × {short}"),
+        _ => format!("{record} × {short:e}"),
     }
 }
 

@@ -21,7 +21,7 @@ use slipstick_report::assessment::design::DesignReport;
 use slipstick_report::assessment::fragility::FragilityReport;
 use slipstick_report::assessment::ida::IdaFamily;
 use slipstick_report::assessment::key;
-use slipstick_report::assessment::spectrum::{SpectrumReport, group_names};
+use slipstick_report::assessment::spectrum::SpectrumReport;
 use slipstick_report::assessment::{Sheet, Went};
 
 use crate::errors::{of_argument, of_assessment, of_file};
@@ -29,8 +29,6 @@ use crate::model::Model;
 use crate::motion::Motion;
 use crate::table::Table;
 use crate::work::followed;
-
-const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// A result as people and programs read it.
 #[pyclass(module = "slipstick._core", frozen)]
@@ -82,7 +80,7 @@ impl Assessment {
     }
 
     fn _report_html(&self) -> String {
-        let went = Went { version: VERSION, command_line: self.call, files: &[], inputs: &[] };
+        let went = Went { command_line: self.call, files: &[], inputs: &[] };
         self.sheet.to_html(&went)
     }
 }
@@ -214,18 +212,10 @@ pub(crate) fn spectrum(
     let run = followed(py, jobs, progress, |engine| run_spectrum(&request, engine))?;
     let run = run.map_err(|error| of_assessment(py, &error))?;
     let sheet = SpectrumReport {
-        version: VERSION,
         name: model.name(),
-        over: &run.over,
-        unit: &run.unit,
-        values: &run.values,
-        groups: &group_names(&run),
+        run: &run,
         records: &suite.names(),
         scaled: &scaled,
-        curves: &run.curves,
-        windows: Some((&run.window_key, &run.windows)),
-        failures: &run.failures,
-        runs: run.runs,
         warnings: &[],
         display: DisplayUnits::Si,
     }
@@ -297,7 +287,6 @@ pub(crate) fn ida(
     let run = followed(py, jobs, progress, |engine| run_ida(&request, engine))?;
     let run = run.map_err(|error| of_assessment(py, &error))?;
     let sheet = IdaFamily {
-        version: VERSION,
         name: model.name(),
         measure: &of,
         demand,
@@ -377,19 +366,14 @@ pub(crate) fn design(
     let run = followed(py, jobs, progress, |engine| run_design(&request, engine))?;
     let run = run.map_err(|error| of_assessment(py, &error))?;
     let sheet = DesignReport {
-        version: VERSION,
         name: model.name(),
         records: suite.records.len(),
         scaled: &scaled,
         target,
-        variables: &run.variables,
+        run: &run,
         acceleration: &acceleration,
-        found: &run.found,
-        bounds: bounds.zip(run.bounded.as_deref()),
-        map: run.map.as_ref(),
-        sensitivity: run.sensitivity.as_ref(),
+        bounds,
         confidence,
-        failures: &run.failures,
         warnings: &[],
         display: DisplayUnits::Si,
     }
@@ -447,7 +431,6 @@ pub(crate) fn fragility(
     let run = followed(py, jobs, progress, |engine| run_fragility(&request, engine))?;
     let run = run.map_err(|error| of_assessment(py, &error))?;
     let report = FragilityReport {
-        version: VERSION,
         name: "table",
         demand,
         limit,

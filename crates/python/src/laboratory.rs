@@ -134,7 +134,6 @@ pub struct Comparison {
 impl Comparison {
     fn report<T>(&self, display: DisplayUnits, tell: impl FnOnce(&CompareReport<'_>) -> T) -> T {
         tell(&CompareReport {
-            version: VERSION,
             name: &self.model.title(),
             measured: &self.measured,
             model: &self.model.analysis.model,

@@ -26,7 +26,7 @@ use slipstick_report::DisplayUnits;
 use slipstick_report::assessment::design::DesignReport;
 use slipstick_report::assessment::fragility::{FragilityFamily, FragilityReport};
 use slipstick_report::assessment::ida::IdaFamily;
-use slipstick_report::assessment::spectrum::{SpectrumReport, group_names};
+use slipstick_report::assessment::spectrum::SpectrumReport;
 use slipstick_report::assessment::{Sheet, Went, key};
 use slipstick_report::json::Json;
 use slipstick_report::study::StudyReport;
@@ -105,8 +105,7 @@ impl Page {
             ("method", list(&sheet.method)),
             ("figures", drawings(&sheet.figures)),
         ]);
-        let version = env!("CARGO_PKG_VERSION");
-        let went = Went { version, command_line: command, files, inputs };
+        let went = Went { command_line: command, files, inputs };
         Self { state: state.to_pretty(), html: sheet.to_html(&went), json: sheet.to_json() }
     }
 }
@@ -294,8 +293,6 @@ struct Work<'a> {
     display: DisplayUnits,
 }
 
-const VERSION: &str = env!("CARGO_PKG_VERSION");
-
 impl Work<'_> {
     fn failed(&self) -> impl Fn(slipstick::assessment::AssessmentError) -> Failure + '_ {
         |error| Failure::assessment(&error, self.text)
@@ -356,18 +353,10 @@ impl Work<'_> {
         })
         .map_err(self.failed())?;
         Ok(SpectrumReport {
-            version: VERSION,
             name: &self.name,
-            over: &run.over,
-            unit: &run.unit,
-            values: &run.values,
-            groups: &group_names(&run),
+            run: &run,
             records: &self.suite.names(),
             scaled: if self.suite.made { "" } else { &scaled },
-            curves: &run.curves,
-            windows: Some((&run.window_key, &run.windows)),
-            failures: &run.failures,
-            runs: run.runs,
             warnings: &[],
             display: self.display,
         }
@@ -414,7 +403,6 @@ impl Work<'_> {
         let (models, measure) = (self.models(None)?, self.measure()?);
         let run = self.ida_of(measure, &models, &self.bounds()?)?;
         Ok(IdaFamily {
-            version: VERSION,
             name: &self.name,
             measure: &measure,
             demand: self.demand(),
@@ -456,7 +444,6 @@ impl Work<'_> {
             let (groups, by_unit) =
                 run_fragility_by(&request, by, &engine).map_err(self.failed())?;
             let family = FragilityFamily {
-                version: VERSION,
                 name,
                 by,
                 by_unit: &by_unit,
@@ -472,16 +459,8 @@ impl Work<'_> {
             });
         }
         let fit = run_fragility(&request, &engine).map_err(self.failed())?;
-        Ok(FragilityReport {
-            version: VERSION,
-            name,
-            demand,
-            limit: Some(limit),
-            run: &fit,
-            confidence,
-            display,
-        }
-        .sheet())
+        Ok(FragilityReport { name, demand, limit: Some(limit), run: &fit, confidence, display }
+            .sheet())
     }
 
     fn design(&self) -> Result<Sheet, Failure> {
@@ -518,19 +497,14 @@ impl Work<'_> {
         })
         .map_err(self.failed())?;
         Ok(DesignReport {
-            version: VERSION,
             name: &self.name,
             records: self.suite.records.len(),
             scaled: if self.suite.made { "" } else { &scaled },
             target,
-            variables: &run.variables,
+            run: &run,
             acceleration: &acceleration,
-            found: &run.found,
-            bounds: bounds.zip(run.bounded.as_deref()),
-            map: run.map.as_ref(),
-            sensitivity: run.sensitivity.as_ref(),
+            bounds,
             confidence: 0.9,
-            failures: &run.failures,
             warnings: &[],
             display: self.display,
         }
@@ -609,7 +583,6 @@ impl Planned {
         let passes = Rows { solved: &solved, demand: &demand, warnings: &warnings };
         let summary = self.study.summary(&self.name, &passes, &Engine::unwatched());
         let report = StudyReport {
-            version: VERSION,
             study: &self.study,
             summary: &summary.map_err(Failure::of)?,
             checked: 0,

@@ -1,6 +1,7 @@
 //! What spectrum, ida, fragility and design share: model and records in, sheets and tables out.
 
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 use slipstick::assessment::models::Models;
 use slipstick::assessment::suite::{Scaling, Suite};
@@ -236,7 +237,7 @@ pub fn message(option: &str, expected: &str, found: &str) -> Failure {
     Failure::Message(format!("{option}: expected {expected}, found {found:?}"))
 }
 
-/// Writes tables, figures, summary and report, and prints the result.
+/// Writes tables, figures, summary and report, and prints the result; status 1 where it is not complete.
 pub fn conclude(
     args: &ResultArgs,
     folder: Option<OutputFolder>,
@@ -244,7 +245,7 @@ pub fn conclude(
     tables: &[(&str, &Table)],
     sources: &[(String, String, String)],
     inputs: &[(String, String)],
-) -> Result<(), Failure> {
+) -> Result<ExitCode, Failure> {
     if let Some(mut folder) = folder {
         folder.replaces(&["history.csv", "events.csv"]);
         for (name, table) in tables {
@@ -262,19 +263,15 @@ pub fn conclude(
             .collect();
         let inputs: Vec<InputText> =
             inputs.iter().map(|(path, text)| InputText { path, text }).collect();
-        let went = Went {
-            version: env!("CARGO_PKG_VERSION"),
-            command_line: &command_line(),
-            files: &files,
-            inputs: &inputs,
-        };
+        let went = Went { command_line: &command_line(), files: &files, inputs: &inputs };
         folder.write("summary.json", sheet.to_json().as_bytes())?;
         folder.write("report.html", sheet.to_html(&went).as_bytes())?;
         folder.commit()?;
     }
     print(&if args.json { sheet.to_json() } else { sheet.to_text() })?;
+    let status = ExitCode::from(u8::from(!sheet.complete));
     if args.quiet {
-        return Ok(());
+        return Ok(status);
     }
     if args.json {
         for warning in &sheet.warnings {
@@ -284,5 +281,5 @@ pub fn conclude(
     if let Some(out) = &args.out {
         say(format_args!("wrote {}", out.join("report.html").display()));
     }
-    Ok(())
+    Ok(status)
 }

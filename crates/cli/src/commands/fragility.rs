@@ -58,7 +58,6 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
         other => failure(other),
     };
     let inputs: Vec<PathBuf> = sources.iter().map(|(path, ..)| path.into()).collect();
-    let version = env!("CARGO_PKG_VERSION");
     let display = args.result.display_units.into();
     let by = match &args.by {
         Some(by) => Some(by.as_str()),
@@ -69,7 +68,6 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
         let (groups, by_unit) = counted("fitting", args.result.quiet, fit).map_err(failed)?;
         let folder = folder(&args.result, &inputs)?;
         let family = FragilityFamily {
-            version,
             name: &name,
             by,
             by_unit: &by_unit,
@@ -103,7 +101,6 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
     }
     let folder = folder(&args.result, &inputs)?;
     let report = FragilityReport {
-        version,
         name: &name,
         demand: &args.demand,
         limit: bound,
@@ -134,8 +131,7 @@ fn finish(
     sources: &[Source],
 ) -> Result<ExitCode, Failure> {
     let tables = [("fragility.csv", table), ("fragility.parquet", table)];
-    conclude(&args.result, folder, sheet, &tables, sources, &[])?;
-    Ok(ExitCode::SUCCESS)
+    conclude(&args.result, folder, sheet, &tables, sources, &[])
 }
 
 /// A file that was read: its path, its hash, what it is.

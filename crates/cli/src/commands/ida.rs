@@ -39,7 +39,6 @@ pub fn ida(args: &IdaArgs) -> Result<ExitCode, Failure> {
     };
     let run = opened.compute(&args.suite, |engine| run_ida(&request, engine))?;
     let sheet = IdaFamily {
-        version: env!("CARGO_PKG_VERSION"),
         name: &opened.name,
         measure: &measure,
         demand: &args.demand,
@@ -52,8 +51,7 @@ pub fn ida(args: &IdaArgs) -> Result<ExitCode, Failure> {
     .sheet();
     let mut tables = vec![("ida.csv", &run.rows), ("ida.parquet", &run.rows)];
     tables.extend(run.capacities.as_ref().map(|table| ("capacities.csv", table)));
-    conclude(&args.suite.result, folder, &sheet, &tables, &opened.sources(), &opened.inputs())?;
-    Ok(ExitCode::SUCCESS)
+    conclude(&args.suite.result, folder, &sheet, &tables, &opened.sources(), &opened.inputs())
 }
 
 /// The limit: as given, else the model's gap where that is what is measured.

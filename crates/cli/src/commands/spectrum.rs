@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use slipstick::assessment::spectrum::{SpectrumRequest, run_spectrum};
-use slipstick_report::assessment::spectrum::{SpectrumReport, group_names};
+use slipstick_report::assessment::spectrum::SpectrumReport;
 
 use super::assessment::{Opened, conclude, scaling};
 use crate::args::SpectrumArgs;
@@ -33,18 +33,10 @@ pub fn spectrum(args: &SpectrumArgs) -> Result<ExitCode, Failure> {
     let scaled = if opened.suite.made { "" } else { &scaled };
     let names = opened.suite.names();
     let sheet = SpectrumReport {
-        version: env!("CARGO_PKG_VERSION"),
         name: &opened.name,
-        over: &run.over,
-        unit: &run.unit,
-        values: &run.values,
-        groups: &group_names(&run),
+        run: &run,
         records: &names,
         scaled,
-        curves: &run.curves,
-        windows: Some((&run.window_key, &run.windows)),
-        failures: &run.failures,
-        runs: run.runs,
         warnings: &opened.warnings,
         display: args.suite.result.display_units.into(),
     }
@@ -54,6 +46,5 @@ pub fn spectrum(args: &SpectrumArgs) -> Result<ExitCode, Failure> {
         ("spectrum.parquet", &run.table),
         ("runs.parquet", &run.rows),
     ];
-    conclude(&args.suite.result, folder, &sheet, &tables, &opened.sources(), &opened.inputs())?;
-    Ok(ExitCode::SUCCESS)
+    conclude(&args.suite.result, folder, &sheet, &tables, &opened.sources(), &opened.inputs())
 }

@@ -142,7 +142,6 @@ fn report(
     out: &Path,
 ) -> Result<(), Failure> {
     let page = StudyReport {
-        version: env!("CARGO_PKG_VERSION"),
         study: &study.study,
         summary,
         checked,
@@ -160,12 +159,7 @@ fn report(
         .zip(&study.inputs)
         .map(|(text, (path, _))| InputText { path, text })
         .collect();
-    let went = Went {
-        version: env!("CARGO_PKG_VERSION"),
-        command_line: &command_line(),
-        files: &files,
-        inputs: &inputs,
-    };
+    let went = Went { command_line: &command_line(), files: &files, inputs: &inputs };
     let mut folder = OutputFolder::create(out, &[])?;
     folder.write(STUDY_REPORT, page.sheet().to_html(&went).as_bytes())?;
     Ok(folder.commit()?)

@@ -613,7 +613,10 @@ fn exact_design_counts_the_runs_that_fail() {
     let words = shown.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("of 20 were needed, 4 of them without an answer"), "{shown}");
     assert!(
-        words.contains("runs have no answer and count as beyond the gap; the first: r0: "),
+        words.contains(
+            "runs have no answer and count as beyond the gap; the first: r0, \
+             slider.kinetic_friction = 0.07: "
+        ),
         "{shown}"
     );
 }
@@ -662,4 +665,114 @@ fn exact_ida_clusters_pairs() {
     assert_eq!((&stated["clustered_by"], &stated["records"]), (&"pair".into(), &4.into()));
     assert!((number(&stated["median"]) / number(&alone["median"]) - 1.0).abs() < 1e-3);
     assert!(stated["se_ln_median"] != alone["se_ln_median"]);
+}
+
+/// One run that fails is one row with its error, named with its factor; the others are what they are alone,
+/// and the status says that not all is answered.
+#[test]
+fn exact_a_run_that_fails_is_a_row_and_the_status_says_so() {
+    let folder = suite("one-fails", 3);
+    // Three times this is more than any motion may be.
+    folder.write("records/strong.csv", "time_s,acceleration_m_per_s2\n0,0\n0.1,5e29\n0.2,0\n");
+    let tail = ["--records", "records/*.csv", "--scale", "3", "--out", "out"];
+    let answered = |head: &[&str], runs: usize| {
+        let arguments = [head, &tail[..]].concat();
+        let output = folder.output(&arguments);
+        assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+        let said: String = text(&output.stdout).split_whitespace().collect::<Vec<_>>().join(" ");
+        let expected = format!("1 of {runs} runs have no answer and ");
+        assert!(said.contains(&expected), "{said}");
+        let reason = ": sample 1: expected a horizontal acceleration of at most 1e30";
+        assert!(said.contains("strong × 3") && said.contains(reason), "{said}");
+        let summary: Value = serde_json::from_str(&folder.read("out/summary.json")).unwrap();
+        assert_eq!(summary["warnings"][0]["kind"], "failed_runs");
+        said
+    };
+    answered(&["spectrum", "model.toml", "--over", "storey.1.period=0.5 s"], 4);
+    let said = answered(&["run", "model.toml"], 4);
+    assert!(said.contains("no maximum: 1 of 4 records have no answer"), "{said}");
+    let runs = folder.read("out/runs.csv");
+    let status = cells(&runs, "status");
+    assert_eq!(status[..3], ["ok"; 3]);
+    assert!(status[3].contains("sample 1: expected"), "{status:?}");
+    let alone = run(&folder, "r1", 3.0, &[]);
+    let peaks = cells(&runs, "peak_sliding_displacement_m");
+    assert_eq!(peaks[1].parse::<f64>().unwrap(), number(&alone["peak_sliding_displacement_m"]));
+    assert_eq!(peaks[3], "");
+    assert_eq!(cells(&folder.read("out/governing.csv"), "peak_sliding_displacement_m"), [""]);
+}
+
+/// The level of one record would make it stronger than any motion may be.
+#[test]
+fn exact_ida_with_runs_that_fail_says_so_in_its_status() {
+    let folder = suite("ida-fails", 2);
+    let mut ripple = "time_s,acceleration_m_per_s2\n".to_owned();
+    for i in 0..200 {
+        ripple.push_str(&format!(
+            "{:.3},{}\n",
+            0.005 * f64::from(i),
+            if i % 2 == 0 { 9 } else { -9 }
+        ));
+    }
+    folder.write("records/ripple.csv", ripple);
+    let arguments = [
+        "ida",
+        "model.toml",
+        "--records",
+        "records",
+        "--measure",
+        "Sa(2 s)",
+        "--levels",
+        "1, 1e29 m/s2",
+    ];
+    let output = folder.output(&arguments);
+    let said: String = text(&output.stdout).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("1 of 6 runs have no answer and count as above any limit"), "{said}");
+    assert!(said.contains("the first: ripple × "), "{said}");
+    assert_eq!(output.status.code(), Some(1));
+}
+
+/// Flat geometry is said wherever runs leave it, with how many and which first.
+#[test]
+fn exact_runs_beyond_flat_geometry_are_counted_in_every_analysis() {
+    let folder = suite("flat", 3);
+    for head in [
+        &["ida", "model.toml", "--levels", "1, 40 m/s2"][..],
+        &["spectrum", "model.toml", "--over", "storey.1.period=0.5 s", "--scale", "20"],
+        &["design", "model.toml", "--friction", "0.05", "--scale", "20", "--sensitivity", "0"],
+    ] {
+        let output =
+            folder.output(&[head, &["--records", "records/*.csv", "--json", "-q"]].concat());
+        let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let warnings = summary["warnings"].as_array().unwrap();
+        let flat = warnings.iter().find(|warning| warning["kind"] == "flat_geometry");
+        let message =
+            flat.unwrap_or_else(|| panic!("{head:?}: {summary}"))["message"].as_str().unwrap();
+        assert!(
+            message.starts_with("3 of ") && message.contains("the first of them r0"),
+            "{message}"
+        );
+    }
+}
+
+/// The limit of the analysis is known beside its tables, as in its folder.
+#[test]
+fn exact_fragility_knows_the_limit_of_the_analysis() {
+    let folder = suite("limit-known", 6);
+    let ida = [
+        "--records",
+        "records",
+        "--levels",
+        "0.5..6 m/s2:12",
+        "--to",
+        "50 mm",
+        "--out",
+        "ida",
+        "-q",
+    ];
+    folder.stdout(&[&["ida", "model.toml"], &ida[..]].concat());
+    let of = |source: &str| json(&folder, &["fragility", source]);
+    for source in ["ida", "ida/ida.csv", "ida/ida.parquet", "ida/capacities.csv"] {
+        assert_eq!(of(source)["limit"], 0.05, "{source}");
+    }
 }

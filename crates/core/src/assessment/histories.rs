@@ -2,7 +2,7 @@
 //! upper-bound friction, and what governs.
 
 use super::single::{Job, Judged};
-use super::suite::{PairScaling, Scaled, Suite};
+use super::suite::{PairScaling, Scaled, Suite, SuiteRecord};
 use super::{AssessmentError, FailedRun};
 use crate::error::RunError;
 use crate::input::{Analysis, Bound, Names};
@@ -36,14 +36,25 @@ pub struct OnRecord {
     pub scale: f64,
     /// Peak of the horizontal acceleration as it was run, in m/s².
     pub pga_m_per_s2: f64,
-    /// Demands with each bound of friction, in the order of [`ModelHistories::bounds`].
+    /// Why it has no answer, where it has none.
+    pub failed: Option<FailedRun>,
+    /// Demands with each bound of friction, in the order of [`ModelHistories::bounds`]; none where it failed.
     pub demands: Vec<Demands>,
-    /// Whether the certificate of each holds.
+    /// Whether the certificate of each holds; none where it failed.
     pub holds: Vec<bool>,
     /// Times in s and sliding displacements in m with nominal friction.
     pub sliding: [Vec<f64>; 2],
     /// What was noticed of it.
     pub warnings: Vec<Warning>,
+}
+
+impl OnRecord {
+    /// The size of a demand with a bound of friction; NaN where there is none.
+    #[must_use]
+    pub fn size(&self, column: &DemandColumn, bound: usize) -> f64 {
+        let value = self.demands.get(bound).and_then(|demands| column.value(demands));
+        value.map_or(f64::NAN, f64::abs)
+    }
 }
 
 /// A model on all its records.
@@ -80,13 +91,18 @@ impl ModelHistories {
     /// What the model has that demands are asked of.
     #[must_use]
     pub fn shape(&self) -> DemandShape {
-        let first = self.records.first().and_then(|on| on.demands.first());
+        let first = self.records.iter().find_map(|on| on.demands.first());
         first.map_or_else(DemandShape::default, Demands::shape)
     }
 
     /// The records of each earthquake: both components of a pair, or a record alone.
     fn earthquakes(&self) -> impl Iterator<Item = &[OnRecord]> {
         self.records.chunk_by(|a, b| !a.pair.is_empty() && a.pair == b.pair)
+    }
+
+    /// The runs without an answer.
+    pub fn failures(&self) -> impl Iterator<Item = &FailedRun> {
+        self.records.iter().filter_map(|on| on.failed.as_ref())
     }
 
     /// Whether the records are pairs of components.
@@ -111,8 +127,7 @@ impl ModelHistories {
     /// The sizes of a demand with a bound of friction, record by record; NaN where there is none.
     #[must_use]
     pub fn sizes(&self, column: &DemandColumn, bound: usize) -> Vec<f64> {
-        let size = |on: &OnRecord| column.value(&on.demands[bound]).map_or(f64::NAN, f64::abs);
-        self.records.iter().map(size).collect()
+        self.records.iter().map(|on| on.size(column, bound)).collect()
     }
 
     /// The mean of these sizes, or their maximum; of a pair the larger of both components counts. NaN where
@@ -155,7 +170,8 @@ impl ModelHistories {
 /// Runs every model on every one of its records, each component of a pair by itself, and with the bounds of friction that it gives.
 ///
 /// # Errors
-/// [`AssessmentError`] for records that cannot be scaled so, and for the first run without an answer.
+/// [`AssessmentError`] for records that cannot be scaled so. A record without an answer is one with its reason,
+/// and with it there is no mean or maximum.
 pub fn run_histories(
     models: &[ModelOn<'_>],
     scaling: &PairScaling,
@@ -167,13 +183,8 @@ pub fn run_histories(
         let Scaled { factors, matched: of_target } = model.suite.scaled(scaling, engine)?;
         let pairs = (0..factors.len()).step_by(2).map(|i| model.suite.pair_name(i).to_owned());
         matched = matched.or(of_target.map(|matched| (matched, pairs.collect())));
-        let run = |i: usize| {
-            let record = &model.suite.records[i].name;
-            let failed = |error| Box::new(FailedRun { record: record.clone(), error });
-            on_record(model, i, factors[i]).map_err(failed)
-        };
+        let run = |i: usize| on_record(model, i, factors[i]);
         let records = engine.runs(model.suite.records.len(), run)?;
-        let records = records.into_iter().collect::<Result<Vec<_>, Box<FailedRun>>>()?;
         done.push(ModelHistories {
             name: model.name.to_owned(),
             names: model.analysis.names.clone(),
@@ -198,44 +209,55 @@ fn bounds(analysis: &Analysis) -> Vec<Bound> {
     analysis.friction_bounds.map_or_else(|| vec![Bound::NOMINAL], |bounds| bounds.all().to_vec())
 }
 
-fn on_record(model: &ModelOn<'_>, record: usize, scale: f64) -> Result<OnRecord, RunError> {
-    let motion = model.suite.motion(record, scale, 0.0)?;
-    let pga_m_per_s2 = motion.figures().pga_m_per_s2;
+fn on_record(model: &ModelOn<'_>, record: usize, scale: f64) -> OnRecord {
+    let SuiteRecord { name, .. } = &model.suite.records[record];
+    let mut on = OnRecord {
+        record: name.clone(),
+        pair: model.suite.pair_name(record).to_owned(),
+        scale,
+        pga_m_per_s2: f64::NAN,
+        failed: None,
+        demands: Vec::new(),
+        holds: Vec::new(),
+        sliding: [Vec::new(), Vec::new()],
+        warnings: Vec::new(),
+    };
+    if let Err(error) = run_on(model, record, &mut on) {
+        on.failed = Some(FailedRun { record: name.clone(), scale, design: String::new(), error });
+    }
+    on
+}
+
+/// Runs the model on a record and keeps what the table tells.
+fn run_on(model: &ModelOn<'_>, record: usize, on: &mut OnRecord) -> Result<(), RunError> {
+    let motion = model.suite.motion(record, on.scale, 0.0)?;
+    on.pga_m_per_s2 = motion.figures().pga_m_per_s2;
     let job = Job::new(model.analysis.clone(), motion, Vec::new())?;
+    on.warnings.clone_from(&job.warnings);
     let outcome = job.run(false)?;
     let mut nominal = outcome.nominal;
     let history = nominal.response.history.take().unwrap_or_default();
+    on.sliding = [history.time_s, history.sliding_displacement_m];
     let judged = match outcome.bounds {
         None => vec![nominal],
         Some([lower, upper]) => vec![lower, nominal, upper],
     };
     let bounds = bounds(model.analysis);
-    let noticed = judged.iter().zip(&bounds).flat_map(|(judged, bound)| {
-        let friction = if bounds.len() > 1 { Some(bound.name) } else { None };
-        let of_bound = |warning: Warning| match friction {
-            Some(name) => {
-                let message = format!("{name} friction: {}", warning.message);
+    for (Judged { model, response, certificate, .. }, bound) in judged.into_iter().zip(&bounds) {
+        let of_bound = |warning: Warning| match bounds.len() {
+            1 => warning,
+            _ => {
+                let message = format!("{} friction: {}", bound.name, warning.message);
                 Warning { message, ..warning }
             }
-            None => warning,
         };
-        let Judged { model, response, .. } = judged;
-        let met = struck(model, &response.demands).into_iter();
-        let met = met.chain(flat_geometry(model, &response.demands)).map(of_bound);
-        response.warnings.iter().cloned().chain(met).collect::<Vec<_>>()
-    });
-    let holds =
-        |judged: &Judged| judged.response.method == Method::Stepwise || judged.certificate.holds();
-    Ok(OnRecord {
-        record: model.suite.records[record].name.clone(),
-        pair: model.suite.pair_name(record).to_owned(),
-        scale,
-        pga_m_per_s2,
-        holds: judged.iter().map(holds).collect(),
-        sliding: [history.time_s, history.sliding_displacement_m],
-        warnings: job.warnings.iter().cloned().chain(noticed).collect(),
-        demands: judged.into_iter().map(|judged| judged.response.demands).collect(),
-    })
+        let met = struck(&model, &response.demands).into_iter();
+        let met = met.chain(flat_geometry(&model, &response.demands)).map(of_bound);
+        on.warnings.extend(response.warnings.into_iter().chain(met));
+        on.holds.push(response.method == Method::Stepwise || certificate.holds());
+        on.demands.push(response.demands);
+    }
+    Ok(())
 }
 
 /// Every run as a row.
@@ -259,17 +281,22 @@ fn table_of_runs(models: &[ModelHistories], shape: DemandShape) -> Table {
         "m/s2",
         rows.iter().map(|(_, on, _)| on.pga_m_per_s2).collect(),
     );
-    let holds = rows.iter().map(|(_, on, i)| Some(on.holds[*i])).collect();
+    let holds = rows.iter().map(|(_, on, i)| on.holds.get(*i).copied()).collect();
     table.columns.push(Column {
         name: "holds".to_owned(),
         unit: String::new(),
         cells: Cells::Flags(holds),
     });
     for column in shape.columns() {
-        let value =
-            |(_, on, i): &(_, &OnRecord, usize)| column.value(&on.demands[*i]).unwrap_or(f64::NAN);
+        let value = |(_, on, i): &(_, &OnRecord, usize)| {
+            on.demands.get(*i).and_then(|demands| column.value(demands)).unwrap_or(f64::NAN)
+        };
         table.numbers(&column.name(), column.unit(), rows.iter().map(value).collect());
     }
+    let status = |on: &OnRecord| {
+        on.failed.as_ref().map_or_else(|| "ok".to_owned(), |failed| failed.error.to_string())
+    };
+    table.texts("status", rows.iter().map(|(_, on, _)| status(on)).collect());
     table
 }
 

@@ -44,10 +44,14 @@ fn measure_of_levels(part: &Path) -> Option<String> {
     }
 }
 
-/// The limit that an incremental dynamic analysis was run for, from the summary in its folder; `None`
-/// where it was another demand's.
+/// The limit that an incremental dynamic analysis was run for, from the summary in its folder or beside its
+/// table; `None` where it was another demand's.
 #[must_use]
-pub fn limit_of_ida(folder: &Path, demand: &str) -> Option<f64> {
+pub fn limit_of_ida(source: &Path, demand: &str) -> Option<f64> {
+    let folder = match source.file_stem()?.to_str()? {
+        "ida" | "capacities" if source.is_file() => source.parent()?,
+        _ => source,
+    };
     let summary = read_bytes(&folder.join("summary.json")).ok()?;
     let summary: serde_json::Value = serde_json::from_slice(&summary).ok()?;
     (summary.get("demand")?.as_str()? == demand).then(|| summary.get("limit")?.as_f64())?

@@ -1,5 +1,6 @@
 //! Models on the records of suites, side by side, and what governs.
 
+use slipstick::assessment::FailedRun;
 use slipstick::assessment::histories::{Histories, ModelHistories, OnRecord, RECORDS_OF_A_MEAN};
 use slipstick::input::{Bound, Names};
 use slipstick::response::{DemandColumn, DemandOf, Warning};
@@ -7,7 +8,7 @@ use slipstick::table::{Cells, Column, Table};
 
 use super::lines::{GROUPS, RECORD, line, panel, stacked};
 use super::pairs;
-use super::sheet::{Sheet, cell};
+use super::sheet::{Sheet, cell, failed};
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::figures::Drawn;
 use crate::json::Json;
@@ -17,8 +18,6 @@ use crate::plot::{Axis, Limit, Panel, Series, Shape, Style};
 /// What the histories of a suite are told from.
 #[derive(Clone, Debug)]
 pub struct HistoriesReport<'a> {
-    /// Version of this program.
-    pub version: &'static str,
     /// The runs.
     pub histories: &'a Histories,
     /// How the records were scaled, in words.
@@ -57,10 +56,16 @@ impl HistoriesReport<'_> {
                 (n, false) => format!("{n} records"),
                 (n, true) => format!("{n} pairs of components"),
             });
-        let failed = models.iter().flat_map(|m| &m.records).flat_map(|on| &on.holds);
-        let certificate = match failed.filter(|holds| !**holds).count() {
+        let mut holds = models.iter().flat_map(|m| &m.records).flat_map(|on| &on.holds);
+        let certificate = match holds.clone().filter(|holds| !**holds).count() {
             0 => "every certificate holds".to_owned(),
             n => format!("{n} certificates do not hold"),
+        };
+        let unanswered = models.iter().flat_map(ModelHistories::failures).count();
+        let complete = unanswered == 0 && holds.all(|holds| *holds);
+        let certificate = match unanswered {
+            0 => certificate,
+            n => format!("{n} without an answer; {certificate}"),
         };
         Sheet {
             kind: "Response histories",
@@ -68,6 +73,7 @@ impl HistoriesReport<'_> {
             first: Some(("Governs", self.governing())),
             line: format!("{runs} runs: {records}{}; {certificate}", self.scaled),
             verdict: Vec::new(),
+            complete,
             display: self.display,
             warnings: self.warnings(),
             tables: self.tables(),
@@ -99,7 +105,9 @@ impl HistoriesReport<'_> {
         });
         columns.extend(met.map(|column| vec![column; models.len()]));
         let has = |columns: &Vec<DemandColumn>| {
-            models.iter().zip(columns).any(|(model, column)| model.governs(column).is_some())
+            models.iter().zip(columns).any(|(model, column)| {
+                (0..model.bounds.len()).any(|i| model.sizes(column, i).iter().any(|s| !s.is_nan()))
+            })
         };
         columns.retain(has);
         columns
@@ -123,12 +131,19 @@ impl HistoriesReport<'_> {
         let peaks = self.peaks();
         let unit = self.unit_of(&peaks);
         let of = |model: &ModelHistories| {
-            let (bound, value) = model.governs(peaks.first()?)?;
             let name = if self.histories.models.len() > 1 {
                 format!("{}: ", model.name)
             } else {
                 String::new()
             };
+            if let Some(failed) = model.failures().next() {
+                let (count, statistic) = (model.failures().count(), model.statistic());
+                let of = model.records.len();
+                return Some(format!(
+                    "{name}no {statistic}: {count} of {of} records have no answer, the first {failed}"
+                ));
+            }
+            let (bound, value) = model.governs(peaks.first()?)?;
             let friction = match model.bounds.len() {
                 1 => String::new(),
                 _ => format!("{} friction, ", bound.name),
@@ -167,7 +182,9 @@ impl HistoriesReport<'_> {
             _ => {
                 let each = models.iter().zip(demand);
                 let of = each.map(|(m, column)| {
-                    let governs = m.governing_bound(column);
+                    // Of records without an answer none governs: all are shown as they stand.
+                    let nominal = m.bounds.iter().position(|bound| *bound == Bound::NOMINAL);
+                    let governs = m.governing_bound(column).or(nominal);
                     let head = match governs.filter(|_| m.bounds.len() > 1) {
                         Some(i) => format!("{} ({})", m.name, m.bounds[i].name),
                         None => m.name.clone(),
@@ -192,7 +209,7 @@ impl HistoriesReport<'_> {
             let of = |(_, of): &Shown<'_>| {
                 let (model, column, bound) = (*of)?;
                 let on = model.records.iter().find(|on| on.record == **name)?;
-                column.value(&on.demands[bound]).map(f64::abs)
+                Some(on.size(&column, bound))
             };
             let value = |column: &Shown<'_>| shown(of(column));
             rows.push(row(name, &mut columns.iter().map(value)));
@@ -278,8 +295,16 @@ impl HistoriesReport<'_> {
 
     /// Warnings of reading and of the runs, each kind once with the record that gave it first.
     fn warnings(&self) -> Vec<Warning> {
+        let models = &self.histories.models;
+        let runs =
+            models.iter().map(|model| model.records.len() * model.bounds.len()).sum::<usize>();
+        let unanswered: Vec<FailedRun> =
+            models.iter().flat_map(ModelHistories::failures).cloned().collect();
+        let count_as = "leave their model without a mean or maximum";
+        let unanswered = failed(&unanswered, runs as u64, count_as);
+        let of_reading = unanswered.iter().chain(self.warnings);
         let mut all: Vec<(Warning, usize)> =
-            self.warnings.iter().map(|warning| (warning.clone(), 0)).collect();
+            of_reading.map(|warning| (warning.clone(), 0)).collect();
         for on in self.histories.models.iter().flat_map(|model| &model.records) {
             for warning in &on.warnings {
                 match all.iter_mut().find(|(seen, _)| seen.kind == warning.kind) {
@@ -369,6 +394,7 @@ impl HistoriesReport<'_> {
             for (i, bound) in model.bounds.iter().enumerate() {
                 let mut sizes: Vec<f64> =
                     model.sizes(column, i).iter().map(|size| unit.of(*size)).collect();
+                sizes.retain(|size| !size.is_nan());
                 sizes.sort_by(f64::total_cmp);
                 largest.extend(sizes.last().copied());
                 let mut points = vec![[0.0, 0.0]];
@@ -399,12 +425,13 @@ impl HistoriesReport<'_> {
         stacked("shares", "Peaks over the suite", caption, vec![panel(x, y, 190.0, series)])
     }
 
-    fn json(&self) -> Json {
-        Json::Object(vec![
-            ("slipstick", self.version.into()),
+    fn json(&self) -> Vec<(&'static str, Json)> {
+        let names = self.histories.models.iter().map(|model| model.name.as_str().into());
+        vec![
+            ("models", Json::List(names.collect())),
             ("runs", columns(&self.histories.runs)),
             ("governing", columns(&self.histories.governing)),
-        ])
+        ]
     }
 }
 

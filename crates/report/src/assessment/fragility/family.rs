@@ -14,8 +14,6 @@ use crate::plot::Axis;
 /// What several fragilities are told from.
 #[derive(Clone, Debug)]
 pub struct FragilityFamily<'a> {
-    /// Version of this program.
-    pub version: &'static str,
     /// Where the data came from, as a person calls it.
     pub name: &'a str,
     /// The path by which the rows were taken apart.
@@ -37,7 +35,6 @@ pub struct FragilityFamily<'a> {
 impl FragilityFamily<'_> {
     fn report<'b>(&'b self, run: &'b FragilityRun) -> FragilityReport<'b> {
         FragilityReport {
-            version: self.version,
             name: self.name,
             demand: self.demand,
             limit: self.limit,
@@ -125,6 +122,7 @@ impl FragilityFamily<'_> {
             notes: Vec::new(),
             figures: vec![self.figure(&reports, unit)],
             method: first.method(),
+            complete: true,
             json: self.json(),
         })
     }
@@ -203,7 +201,7 @@ impl FragilityFamily<'_> {
         single("fragility", "Fragility curves", caption, panel(x, y, 300.0, series))
     }
 
-    fn json(&self) -> Json {
+    fn json(&self) -> Vec<(&'static str, Json)> {
         let of = |group: &FragilityGroup| {
             let value = if group.value.is_nan() {
                 Json::from(group.text.as_str())
@@ -211,19 +209,18 @@ impl FragilityFamily<'_> {
                 Json::from(group.value)
             };
             let found = match &group.run {
-                Ok(run) => ("fragility", self.report(run).json()),
+                Ok(run) => ("fragility", Json::Object(self.report(run).json())),
                 Err(error) => ("error", Json::from(error.to_string().as_str())),
             };
             Json::Object(vec![("value", value), found])
         };
-        Json::Object(vec![
-            ("slipstick", self.version.into()),
+        vec![
             ("name", self.name.into()),
             ("by", self.by.into()),
             ("by_unit", self.by_unit.into()),
             ("demand", self.demand.into()),
             ("limit", self.limit.into()),
             ("curves", Json::List(self.groups.iter().map(of).collect())),
-        ])
+        ]
     }
 }
