@@ -3,10 +3,7 @@
 mod assessment;
 mod laboratory;
 
-pub use assessment::{
-    BoundsArgs, BoundsName, DesignArgs, FitToName, FragilityArgs, IdaArgs, ScaleArgs, SpectrumArgs,
-    SuiteArgs,
-};
+pub use assessment::{AssessArgs, FragilityArgs, SuiteArgs};
 pub use laboratory::{
     CompareArgs, CyclicArgs, FreeVibrationArgs, IdentifyCommand, Part, ResultArgs, ShakingTableArgs,
 };
@@ -113,16 +110,16 @@ pub enum Command {
     Compare(CompareArgs),
     /// Compute sliding spectra over a suite of records, or response over excitation frequency
     #[command(after_help = assessment::SPECTRUM_EXAMPLES)]
-    Spectrum(SpectrumArgs),
+    Spectrum(AssessArgs<{ assessment::SPECTRUM }>),
     /// Raise the intensity of every record of a suite until a demand reaches its limit
     #[command(after_help = assessment::IDA_EXAMPLES)]
-    Ida(IdaArgs),
+    Ida(AssessArgs<{ assessment::IDA }>),
     /// Fit fragility curves, the probability of exceeding a limit, with confidence intervals
     #[command(after_help = assessment::FRAGILITY_EXAMPLES)]
     Fragility(FragilityArgs),
     /// Find the friction and stiffness that stay within a gap with a given probability
     #[command(after_help = assessment::DESIGN_EXAMPLES)]
-    Design(DesignArgs),
+    Design(AssessArgs<{ assessment::DESIGN }>),
     /// Inspect, convert, process and plot records
     #[command(subcommand, after_help = crate::record_args::EXAMPLES)]
     Record(crate::record_args::RecordCommand),

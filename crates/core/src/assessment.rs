@@ -95,7 +95,11 @@ fn in_unit(unit: &str) -> String {
 }
 
 /// The error of a choice: what was chosen wrongly, what was expected, what was found.
-fn refuse(what: &str, expected: impl Into<String>, found: impl Into<String>) -> AssessmentError {
+pub(crate) fn refuse(
+    what: &str,
+    expected: impl Into<String>,
+    found: impl Into<String>,
+) -> AssessmentError {
     let (expected, found) = (expected.into(), found.into());
     AssessmentError::Choice(ChoiceError { what: what.to_owned(), expected, found, nearest: None })
 }

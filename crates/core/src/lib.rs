@@ -76,6 +76,7 @@ pub mod motion;
 pub mod numerics;
 pub mod progress;
 pub mod record;
+pub mod requests;
 pub mod response;
 pub mod solver;
 pub mod study;

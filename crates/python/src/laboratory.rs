@@ -29,8 +29,6 @@ use crate::response::display_units;
 use crate::table::Table;
 use crate::work::followed;
 
-const VERSION: &str = env!("CARGO_PKG_VERSION");
-
 /// A measured file, or its columns by name.
 #[derive(FromPyObject)]
 pub(crate) enum Given<'py> {
@@ -256,7 +254,7 @@ impl Identified {
             inputs: &self.went_in.inputs(),
             files: &self.went_in.files(),
             command_line: self.call,
-            ..IdentifyReport::of(VERSION, &self.measured, &self.found, display)
+            ..IdentifyReport::of(&self.measured, &self.found, display)
         })
     }
 }

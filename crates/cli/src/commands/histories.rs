@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use slipstick::assessment::histories::{ModelOn, run_histories};
-use slipstick::assessment::suite::{PairScaling, Scaling};
+use slipstick::assessment::suite::{PairScaling, times};
 use slipstick::input;
 use slipstick::motion::intensity::LevelMeasure;
 use slipstick::motion::target::TargetSpectrum;
@@ -12,7 +12,7 @@ use slipstick::units::Dimension;
 use slipstick_files::{read_target, stems_or_paths};
 use slipstick_report::assessment::histories::HistoriesReport;
 
-use super::assessment::{Opened, conclude, failure, folder, message, open_pairs, scaling_by};
+use super::assessment::{Opened, conclude, failure, folder, message, open_records};
 use super::run::{read_model, scale_factor};
 use crate::args::{MethodName, RunArgs, SuiteArgs, quantity};
 use crate::failure::Failure;
@@ -43,7 +43,7 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
     for suite in &suites {
         let read = || match &records {
             Some(read) => Ok(Clone::clone(read)),
-            None => Ok(records.insert(open_pairs(suite, &args.second)?).clone()),
+            None => Ok(records.insert(open_records(suite)?).clone()),
         };
         opened.push(Opened::open_with(suite, read)?);
     }
@@ -118,11 +118,11 @@ fn scaling(
                 return Err(message("--periods", expected, text));
             }
             let Some(level) = &args.scale_to else {
-                let (scaling, words) = scaling_by("scale-to", name, None, factor)?;
-                let Scaling::Factor(factor) = scaling else {
-                    return Err(message("--scale", "a factor", &words));
-                };
-                return Ok((PairScaling::Factor(factor), words, None));
+                let factor = factor.unwrap_or(1.0);
+                if !(factor.is_finite() && factor != 0.0) {
+                    return Err(message("--scale", "a factor other than 0", &factor.to_string()));
+                }
+                return Ok((PairScaling::Factor(factor), times(factor), None));
             };
             let measure = LevelMeasure::parse(name)
                 .map_err(|error| Failure::Message(format!("--measure: {error}")))?;
@@ -162,6 +162,7 @@ fn suite_of(args: &RunArgs, model: &Path) -> SuiteArgs {
         model: model.to_owned(),
         records: args.records.iter().cloned().chain(motion).collect(),
         vertical: args.vertical.clone(),
+        second: args.second.clone(),
         record: args.record.clone(),
         set: args.set.clone(),
         jobs: None,

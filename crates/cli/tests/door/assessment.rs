@@ -142,7 +142,7 @@ fn exact_isolator_period_sets_the_radius() {
                 "records",
                 "--over",
                 over,
-                "--level",
+                "--scale-to",
                 "3 m/s2",
             ],
         )
@@ -187,7 +187,7 @@ fn exact_ida_at_levels_is_that_of_its_runs() {
         "model.toml",
         "--records",
         "records/*.csv",
-        "--levels",
+        "--scale-to",
         "1..7 m/s2:4",
         "--out",
         "out",
@@ -217,7 +217,7 @@ fn exact_ida_at_levels_is_that_of_its_runs() {
 #[test]
 fn exact_hunt_brackets_the_gap_to_one_percent() {
     let folder = suite("hunt", 3);
-    folder.stdout(&["ida", "model.toml", "--records", "records", "--hunt", "--out", "out", "-q"]);
+    folder.stdout(&["ida", "model.toml", "--records", "records", "--out", "out", "-q"]);
     let csv = folder.read("out/capacities.csv");
     let records = cells(&csv, "record");
     let (below, above) = (column(&csv, "below"), column(&csv, "above"));
@@ -275,11 +275,10 @@ fn exact_hunt_brackets_the_gap_to_one_percent() {
         "model.toml",
         "--records",
         "records",
-        "--hunt",
         "--demand",
         "storey1_peak_drift_m",
     ]);
-    assert!(refused.starts_with("--to: expected a limit to hunt for"), "{refused}");
+    assert!(refused.starts_with("--limit: expected a limit to hunt for"), "{refused}");
     let drift = json(
         &folder,
         &[
@@ -287,10 +286,9 @@ fn exact_hunt_brackets_the_gap_to_one_percent() {
             "model.toml",
             "--records",
             "records",
-            "--hunt",
             "--demand",
             "storey1_peak_drift_m",
-            "--to",
+            "--limit",
             "4 mm",
         ],
     );
@@ -302,7 +300,7 @@ fn exact_hunt_brackets_the_gap_to_one_percent() {
 fn exact_design_front_is_that_of_all_designs() {
     let folder = bounded("design", 1);
     let (friction, radius) = ("0.02..0.10:9", "slider.radius=0.5..4m:8");
-    let scale = ["--level", "2 m/s2"];
+    let scale = ["--scale-to", "2 m/s2"];
     let arguments = |command: &'static str| {
         let common = [command, "model.toml", "--records", "records", "--friction", friction, "-q"];
         [&common[..], &scale[..]].concat()
@@ -373,7 +371,7 @@ fn exact_design_that_cannot_be_is_status_1_with_the_nearest() {
         "0.02,0.03",
         "--gap",
         "0.1 mm",
-        "--level",
+        "--scale-to",
         "6 m/s2",
         "--sensitivity",
         "0",
@@ -391,7 +389,7 @@ fn exact_results_are_the_same_on_any_number_of_threads() {
     let folder = suite("threads", 3);
     let commands: [&[&str]; 3] = [
         &["spectrum", "model.toml", "--records", "records", "--over", "storey.1.period=0.2..1s:5"],
-        &["ida", "model.toml", "--records", "records", "--hunt"],
+        &["ida", "model.toml", "--records", "records"],
         &[
             "design",
             "model.toml",
@@ -453,28 +451,35 @@ fn exact_what_is_wrong_is_said() {
              \"peak_sliding_displacement\"; nearest is \"peak_sliding_displacement_m\"",
         ),
         (
-            with(&["spectrum", "model.toml", "--over", "slider.radius=1,2 m", "--level", "0.3 m"]),
-            "--level: expected an acceleration, such as \"0.3 g\", found a length, \"0.3 m\"",
+            with(&[
+                "spectrum",
+                "model.toml",
+                "--over",
+                "slider.radius=1,2 m",
+                "--scale-to",
+                "0.3 m",
+            ]),
+            "--scale-to: expected an acceleration, such as \"0.3 g\", found a length, \"0.3 m\"",
         ),
         (
-            with(&["ida", "model.toml", "--levels", "1 m/s2", "--measure", "PGAA"]),
+            with(&["ida", "model.toml", "--scale-to", "1 m/s2", "--measure", "PGAA"]),
             "--measure: expected",
         ),
         (
-            with(&["ida", "model.toml", "--levels", "1 m/s2", "--measure", "Arias"]),
+            with(&["ida", "model.toml", "--scale-to", "1 m/s2", "--measure", "Arias"]),
             "--measure: expected a measure that grows as the motion does, such as PGA or Sa(1.2 s), found Arias",
         ),
         (
-            with(&["ida", "model.toml", "--levels", "2, 1 m/s2"]),
-            "--levels: expected levels > 0 that rise",
+            with(&["ida", "model.toml", "--scale-to", "2, 1 m/s2"]),
+            "--scale-to: expected levels > 0 that rise",
         ),
         (
-            vec!["ida", "model.toml", "--records", "records/*.AT2", "--levels", "1 m/s2"],
+            vec!["ida", "model.toml", "--records", "records/*.AT2", "--scale-to", "1 m/s2"],
             "records/*.AT2: ",
         ),
         (
             with(&["design", "model.toml", "--gap", "1 mm"]),
-            "--vary: expected something to vary, --friction or --vary slider.radius=1..5m:50",
+            "--vary: expected something to vary, friction or slider.radius=1..5m:50",
         ),
         (
             vec!["fragility", "none.csv", "--measure", "PGA"],
@@ -515,7 +520,7 @@ fn exact_what_is_wrong_is_said() {
     let output = folder.output(&with(&[
         "ida",
         "model.toml",
-        "--levels",
+        "--scale-to",
         "1 m/s2",
         "--set",
         "analysis.method=stepwise",
@@ -541,8 +546,16 @@ fn exact_help_of_the_suite_teaches_in_a_hundred_columns() {
 #[test]
 fn exact_ida_of_designs_and_bounds() {
     let folder = bounded("ida-designs", 4);
-    let ida =
-        ["ida", "model.toml", "--records", "records", "--levels", "1, 2, 4 m/s2", "--to", "20 mm"];
+    let ida = [
+        "ida",
+        "model.toml",
+        "--records",
+        "records",
+        "--scale-to",
+        "1, 2, 4 m/s2",
+        "--limit",
+        "20 mm",
+    ];
     let with = |more: &[&'static str]| [&ida[..], more].concat();
     let by_bound = json(&folder, &with(&["--out", "out"]));
     assert_eq!(by_bound["by"], "friction");
@@ -625,7 +638,7 @@ fn exact_design_counts_the_runs_that_fail() {
 #[test]
 fn exact_ida_clusters_pairs() {
     let folder = suite("ida-pairs", 8);
-    let levels = ["--levels", "1..6 m/s2:21", "--to", "40 mm", "-q"];
+    let levels = ["--scale-to", "1..6 m/s2:21", "--limit", "40 mm", "-q"];
     let files: Vec<String> = (0..8).map(|i| format!("records/r{i}.csv")).collect();
     let file = |i: usize| files[i].as_str();
     let (first, second) = ([0, 2, 4, 6].map(file), [1, 3, 5, 7].map(file));
@@ -722,7 +735,7 @@ fn exact_ida_with_runs_that_fail_says_so_in_its_status() {
         "records",
         "--measure",
         "Sa(2 s)",
-        "--levels",
+        "--scale-to",
         "1, 1e29 m/s2",
     ];
     let output = folder.output(&arguments);
@@ -737,7 +750,7 @@ fn exact_ida_with_runs_that_fail_says_so_in_its_status() {
 fn exact_runs_beyond_flat_geometry_are_counted_in_every_analysis() {
     let folder = suite("flat", 3);
     for head in [
-        &["ida", "model.toml", "--levels", "1, 40 m/s2"][..],
+        &["ida", "model.toml", "--scale-to", "1, 40 m/s2"][..],
         &["spectrum", "model.toml", "--over", "storey.1.period=0.5 s", "--scale", "20"],
         &["design", "model.toml", "--friction", "0.05", "--scale", "20", "--sensitivity", "0"],
     ] {
@@ -762,9 +775,9 @@ fn exact_fragility_knows_the_limit_of_the_analysis() {
     let ida = [
         "--records",
         "records",
-        "--levels",
+        "--scale-to",
         "0.5..6 m/s2:12",
-        "--to",
+        "--limit",
         "50 mm",
         "--out",
         "ida",

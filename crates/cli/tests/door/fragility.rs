@@ -46,7 +46,7 @@ fn exact_fragility_of_a_study_counts_its_rows() {
         "model.toml",
         "--records",
         "records/*.csv",
-        "--levels",
+        "--scale-to",
         "1..3 m/s2:5",
         "--out",
         "ida",
@@ -242,7 +242,7 @@ fn exact_folders_of_design_and_spectrum_are_read() {
     assert_eq!((&spectrum["designs"], &spectrum["certainty"]), (&4.into(), &"clustered".into()));
     folder.write("empty/readme.txt", "nothing");
     let found = folder.refused(&["fragility", "empty", "--limit", "40 mm"]);
-    assert!(found.starts_with("SOURCE: expected a table, or a folder that ida"), "{found}");
+    assert!(found.contains(": expected a table, or a folder that ida"), "{found}");
 }
 
 /// A table that does not state the unit of its levels is refused: read as SI, levels in g would be wrong

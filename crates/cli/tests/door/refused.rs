@@ -409,7 +409,7 @@ fn exact_messages_say_what_was_meant() {
                 "model.toml",
                 "--records",
                 "record.csv",
-                "--levels",
+                "--scale-to",
                 "1, 2 m/s2",
                 "--demand",
                 "force",

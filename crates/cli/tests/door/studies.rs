@@ -724,7 +724,7 @@ fn exact_what_is_named_twice_is_said() {
         "--records",
         "records/b.csv",
         "records",
-        "--levels",
+        "--scale-to",
         "1, 2 m/s2",
     ]);
     let said = text(&output.stdout);

@@ -295,13 +295,13 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
         IdaLevels::Fixed(levels) => {
             let rise = levels.windows(2).all(|pair| pair[0] < pair[1]);
             if levels.is_empty() || !rise || !(levels[0] > 0.0) {
-                return Err(refuse("levels", "levels > 0 that rise", format!("{levels:?}")));
+                return Err(refuse("scale-to", "levels > 0 that rise", format!("{levels:?}")));
             }
             None
         }
         IdaLevels::Hunt { start, top } => {
             let Some(limit) = request.limit else {
-                return Err(refuse("to", "the limit to hunt for, or slider.gap", "nothing"));
+                return Err(refuse("limit", "the limit to hunt for, or slider.gap", "nothing"));
             };
             Some(Hunt::new(limit, *start, *top)?)
         }

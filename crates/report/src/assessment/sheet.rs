@@ -17,7 +17,7 @@ use crate::report::{FileNote, InputText};
 use crate::summary::keys::listed;
 
 /// A result as people and programs read it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sheet {
     /// What it is, above the name: `Incremental dynamic analysis`.
     pub kind: &'static str,

@@ -67,11 +67,11 @@ impl FragilityFamily<'_> {
         self.reports().into_iter().flat_map(of).collect()
     }
 
-    /// The result laid out; `None` where no value has a fragility.
+    /// The result laid out; empty where no value has a fragility.
     #[must_use]
-    pub fn sheet(&self) -> Option<Sheet> {
+    pub fn sheet(&self) -> Sheet {
         let reports = self.reports();
-        let (_, first) = reports.first()?;
+        let Some((_, first)) = reports.first() else { return Sheet::default() };
         let unit = first.unit();
         let fitted = first.fitted();
         let fitted = fitted.split("; averaged").next().unwrap_or(&fitted);
@@ -95,7 +95,7 @@ impl FragilityFamily<'_> {
             0 | 1 => String::new(),
             _ => format!("; each {averaged}"),
         };
-        Some(Sheet {
+        Sheet {
             kind: "Fragility",
             name: self.name.to_owned(),
             first: Some((
@@ -124,7 +124,7 @@ impl FragilityFamily<'_> {
             method: first.method(),
             complete: true,
             json: self.json(),
-        })
+        }
     }
 
     fn table(
