@@ -182,6 +182,9 @@ pub struct RunArgs {
     /// First and last period of the range in which pairs are scaled to the spectrum: "0.6 s..3.8 s"
     #[arg(long, value_name = "FROM..TO", requires = "second", help_heading = "Ground motion")]
     pub periods: Option<String>,
+    /// Number of threads of a suite; default: one per processor
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
     /// What the file does not state
     #[command(flatten)]
     pub record: RecordArgs,
@@ -372,6 +375,9 @@ pub struct SchemaArgs {
     /// Print the schema of a study plan, instead of that of a model
     #[arg(long, conflicts_with = "units")]
     pub plan: bool,
+    /// Print what may be asked of spectrum, ida, fragility and design, with the defaults
+    #[arg(long, conflicts_with_all = ["units", "plan"])]
+    pub requests: bool,
 }
 
 /// Methods by their names in the model file.

@@ -13,6 +13,7 @@ pub mod fragility;
 pub mod grid;
 pub mod histories;
 pub mod ida;
+pub mod lateral;
 pub mod models;
 pub mod observed;
 pub mod proportion;

@@ -6,7 +6,7 @@
 
 mod fields;
 
-pub use fields::{Asked, Field, Kind, Takes};
+pub use fields::{Asked, Field, Kind, Takes, table};
 
 use crate::assessment::design::{DesignRequest, DesignRun, Target, run_design};
 use crate::assessment::grid::levels;

@@ -165,7 +165,7 @@ fn suite_of(args: &RunArgs, model: &Path) -> SuiteArgs {
         second: args.second.clone(),
         record: args.record.clone(),
         set: args.set.clone(),
-        jobs: None,
+        jobs: args.jobs,
         result: args.result.clone(),
     }
 }

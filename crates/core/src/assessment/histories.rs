@@ -1,12 +1,14 @@
 //! Response-history analyses side by side: models on the records of suites, with lower- and
 //! upper-bound friction, and what governs.
 
+use super::lateral::LateralForce;
 use super::single::{Job, Judged};
 use super::suite::{PairScaling, Scaled, Suite, SuiteRecord};
 use super::{AssessmentError, FailedRun};
 use crate::error::RunError;
 use crate::input::{Analysis, Bound, Names};
 use crate::motion::target::Matched;
+use crate::record::Origin;
 use crate::response::{DemandColumn, DemandShape, Demands, Method, Warning, flat_geometry, struck};
 use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
@@ -32,6 +34,8 @@ pub struct OnRecord {
     pub record: String,
     /// Name of its pair, that of the first component; empty where it is in none.
     pub pair: String,
+    /// What its file says of where it was recorded.
+    pub origin: Origin,
     /// Factor on it.
     pub scale: f64,
     /// Peak of the horizontal acceleration as it was run, in m/s².
@@ -70,6 +74,9 @@ pub struct ModelHistories {
     pub bounds: Vec<Bound>,
     /// Its records in their order.
     pub records: Vec<OnRecord>,
+    /// Of each bound the displacement of the equivalent-lateral-force procedure under the target spectrum,
+    /// where there is one of both.
+    pub lateral: Vec<Option<LateralForce>>,
 }
 
 /// What came of all models.
@@ -189,6 +196,7 @@ pub fn run_histories(
             name: model.name.to_owned(),
             names: model.analysis.names.clone(),
             gap_m: model.analysis.model.slider().gap_m,
+            lateral: lateral(model.analysis, scaling),
             bounds: bounds(model.analysis),
             records,
         });
@@ -209,11 +217,19 @@ fn bounds(analysis: &Analysis) -> Vec<Bound> {
     analysis.friction_bounds.map_or_else(|| vec![Bound::NOMINAL], |bounds| bounds.all().to_vec())
 }
 
+/// The procedure's displacement with each bound under the spectrum that the records are brought to.
+fn lateral(analysis: &Analysis, scaling: &PairScaling) -> Vec<Option<LateralForce>> {
+    let PairScaling::Target(spectrum, _) = scaling else { return Vec::new() };
+    let of = |bound: &Bound| LateralForce::of(&bound.of(&analysis.model), spectrum);
+    bounds(analysis).iter().map(of).collect()
+}
+
 fn on_record(model: &ModelOn<'_>, record: usize, scale: f64) -> OnRecord {
-    let SuiteRecord { name, .. } = &model.suite.records[record];
+    let SuiteRecord { name, origin, .. } = &model.suite.records[record];
     let mut on = OnRecord {
         record: name.clone(),
         pair: model.suite.pair_name(record).to_owned(),
+        origin: origin.clone(),
         scale,
         pga_m_per_s2: f64::NAN,
         failed: None,

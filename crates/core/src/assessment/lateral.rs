@@ -46,13 +46,8 @@ impl LateralForce {
             let damping_factor = damping_factor(damping_ratio);
             let rate = core::f64::consts::TAU / period_s;
             let of_spectrum = spectrum.at(period_s)? / (rate * rate * damping_factor);
-            let found = Self {
-                displacement_m,
-                stiffness_n_per_m,
-                damping_ratio,
-                damping_factor,
-                period_s,
-            };
+            let found =
+                Self { displacement_m, stiffness_n_per_m, damping_ratio, damping_factor, period_s };
             Some((found, of_spectrum - displacement_m))
         };
         // The first fall through 0 of what the spectrum asks for beyond what is there, halved to rounding.
@@ -168,7 +163,8 @@ mod tests {
     /// A pendulum of R = 2.2 m with μ = 0.06: `k = W (1/R + μ/D)`, `β = 2/π μ/(μ + D/R)`, iterated by hand.
     #[test]
     fn exact_pendulum_is_the_textbooks() {
-        let pendulum = model("static_friction = 0.06\nkinetic_friction = 0.06\nradius = \"2.2 m\"\n");
+        let pendulum =
+            model("static_friction = 0.06\nkinetic_friction = 0.06\nradius = \"2.2 m\"\n");
         let found = LateralForce::of(&pendulum, &SPECTRUM).unwrap();
         let mut d = 0.3;
         for _ in 0..500 {

@@ -261,6 +261,26 @@ impl Kind {
     }
 }
 
+/// All fields of all analyses as text, a line each: name, what it takes, its default, what it is.
+#[must_use]
+pub fn table() -> String {
+    let mut text = String::new();
+    for kind in Kind::ALL {
+        let rule = if text.is_empty() { "" } else { "\n" };
+        text.push_str(&format!("{rule}{}\n", kind.name()));
+        for Field { name, value, takes, default, about } in kind.fields() {
+            let value = match takes {
+                Takes::Choice(words) => words.join("|"),
+                Takes::One | Takes::Many => (*value).to_owned(),
+            };
+            let default =
+                if default.is_empty() { String::new() } else { format!(" [default: {default}]") };
+            text.push_str(&format!("  {name:<12}{value:<21} {about}{default}\n"));
+        }
+    }
+    text
+}
+
 /// What is asked of an analysis: texts by the names of its fields.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Asked {
@@ -332,5 +352,39 @@ impl Asked {
     pub(super) fn one(&self, name: &str) -> &str {
         let field = self.kind.fields().iter().find(|field| field.name == name);
         self.given(name).or(field.map(|field| field.default)).unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_fields_have_one_name_each_and_defaults_that_may_be_given() {
+        for kind in Kind::ALL {
+            let fields = kind.fields();
+            for (i, field) in fields.iter().enumerate() {
+                assert!(fields[..i].iter().all(|other| other.name != field.name), "{}", field.name);
+                let given = (field.name, field.default.to_owned());
+                let asked = Asked::new(kind, [given]).unwrap();
+                assert_eq!(asked.one(field.name), field.default, "{}", field.name);
+            }
+        }
+        assert!(table().contains("  scale-to    LEVELS                Levels for all records"));
+    }
+
+    #[test]
+    fn exact_what_is_no_field_is_said_with_the_nearest() {
+        let error = |kind, name, text: &str| {
+            Asked::new(kind, [(name, text.to_owned())]).unwrap_err().to_string()
+        };
+        assert_eq!(
+            error(Kind::Ida, "limits", "1 mm"),
+            "ida: expected one of its fields, found \"limits\"; nearest is \"limit\""
+        );
+        assert_eq!(
+            error(Kind::Ida, "bounds", "uper"),
+            "bounds: expected one of all, lower, nominal, upper, found \"uper\"; nearest is \"upper\""
+        );
     }
 }

@@ -2,9 +2,12 @@
 
 use slipstick::assessment::FailedRun;
 use slipstick::assessment::histories::{Histories, ModelHistories, OnRecord, RECORDS_OF_A_MEAN};
+use slipstick::assessment::lateral::{LEAST_TOTAL, LateralForce};
 use slipstick::input::{Bound, Names};
+use slipstick::record::Origin;
 use slipstick::response::{DemandColumn, DemandOf, Warning};
 use slipstick::table::{Cells, Column, Table};
+use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
 use super::lines::{GROUPS, RECORD, line, panel, stacked};
 use super::pairs;
@@ -12,6 +15,7 @@ use super::sheet::{Sheet, cell, failed};
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::figures::Drawn;
 use crate::json::Json;
+use crate::markup::shortened;
 use crate::number::compact;
 use crate::plot::{Axis, Limit, Panel, Series, Shape, Style};
 
@@ -31,6 +35,9 @@ pub struct HistoriesReport<'a> {
 /// A column of a table: its head, the model, its demand and the bound of friction; none where no record of
 /// the model has the demand.
 type Shown<'a> = (String, Option<(&'a ModelHistories, DemandColumn, usize)>);
+
+/// Factors on records beyond which it is said: FEMA P-1050 and the guidance on ground motions to ASCE/SEI 7.
+const FACTORS: core::ops::RangeInclusive<f64> = 0.25..=4.0;
 
 /// Demands that have a table, of those that there are; the last one of models with storeys alone.
 const SHOWN: [&str; 5] = [
@@ -225,7 +232,11 @@ impl HistoriesReport<'_> {
             let pairs = models.iter().any(ModelHistories::has_pairs);
             let name = if pairs { format!("{name}, larger of each pair") } else { name.to_owned() };
             let value = |(_, of): &Shown<'_>| {
-                shown(of.map(|(model, column, bound)| model.governing(&column, bound)))
+                let value = shown(of.map(|(model, column, bound)| model.governing(&column, bound)));
+                let governs = of.is_some_and(|(model, column, bound)| {
+                    model.bounds.len() > 1 && model.governing_bound(&column) == Some(bound)
+                });
+                if governs { format!("{value}*") } else { value }
             };
             rows.push(row(&name, &mut columns.iter().map(value)));
         }
@@ -256,13 +267,115 @@ impl HistoriesReport<'_> {
         }
     }
 
-    /// A table a demand, and the factors of pairs that were brought to a spectrum.
+    /// What was run, what governs beside the hand's calculation, a table a demand, and how pairs were brought
+    /// to a spectrum.
     fn tables(&self) -> Vec<(String, Vec<Vec<String>>)> {
         let demands = self.columns();
         let demands = demands.iter().map(|columns| self.table(columns));
         let matched = self.histories.matched.iter();
         let of_pairs = matched.map(|(m, names)| pairs::table(names.iter().map(String::as_str), m));
-        demands.chain(of_pairs).collect()
+        let lateral = self.histories.models.iter().filter_map(|model| self.lateral(model));
+        self.records().into_iter().chain(lateral).chain(demands).chain(of_pairs).collect()
+    }
+
+    /// The records: what their files say of them, their factors and peaks; none of a made motion.
+    fn records(&self) -> Option<(String, Vec<Vec<String>>)> {
+        let model = self.histories.models.first().filter(|_| !self.scaled.is_empty())?;
+        let said: [(&str, fn(&Origin) -> &Option<String>); 3] = [
+            ("Earthquake", |origin| &origin.event),
+            ("Station", |origin| &origin.station),
+            ("Component", |origin| &origin.component),
+        ];
+        let known = |of: fn(&Origin) -> &Option<String>| {
+            model.records.iter().any(|on| of(&on.origin).is_some())
+        };
+        let said: Vec<_> = said.into_iter().filter(|(_, of)| known(*of)).collect();
+        let heads = said.iter().map(|(head, _)| (*head).to_owned());
+        let heads = core::iter::once("Record".to_owned()).chain(heads);
+        let row = |on: &OnRecord| -> Vec<String> {
+            let origin = said.iter().map(|(_, of)| {
+                of(&on.origin).as_ref().map_or("—".to_owned(), |text| shortened(text, 28))
+            });
+            let pga = on.pga_m_per_s2 / STANDARD_GRAVITY_M_PER_S2;
+            let name = core::iter::once(on.record.clone());
+            name.chain(origin).chain([cell(on.scale), cell(pga)]).collect()
+        };
+        let heads = heads.chain(["Factor".to_owned(), "PGA (g)".to_owned()]).collect();
+        let rows = core::iter::once(heads).chain(model.records.iter().map(row));
+        Some(("Records".to_owned(), rows.collect()))
+    }
+
+    /// The equivalent-lateral-force displacement with each bound, beside that of the runs.
+    fn lateral(&self, model: &ModelHistories) -> Option<(String, Vec<Vec<String>>)> {
+        let found = model.lateral.iter().flatten();
+        let largest = found.clone().map(|found| found.displacement_m).reduce(f64::max)?;
+        let stiffest = found.map(|found| found.stiffness_n_per_m).fold(0.0, f64::max);
+        let (length, stiffness) = (
+            self.display.unit(Quantity::Length, largest),
+            self.display.unit(Quantity::Stiffness, stiffest),
+        );
+        let peak = model.shape().find(SHOWN[0])?.1;
+        let runs = |bound: usize| model.governing(&peak, bound);
+        type Value<'b> = Box<dyn Fn(&LateralForce, usize) -> f64 + 'b>;
+        let rows: [(String, Value<'_>); 8] = [
+            (
+                stiffness.label("Effective stiffness k_M"),
+                Box::new(|found, _| stiffness.of(found.stiffness_n_per_m)),
+            ),
+            (
+                "Effective damping β_M (%)".to_owned(),
+                Box::new(|found, _| 100.0 * found.damping_ratio),
+            ),
+            ("Damping factor B_M".to_owned(), Box::new(|found, _| found.damping_factor)),
+            ("Effective period T_M (s)".to_owned(), Box::new(|found, _| found.period_s)),
+            (
+                length.label("Displacement D_M"),
+                Box::new(|found, _| length.of(found.displacement_m)),
+            ),
+            (
+                length.label("1.15 D_M, the least D_TM"),
+                Box::new(|found, _| length.of(LEAST_TOTAL * found.displacement_m)),
+            ),
+            (
+                length.label(&format!("Runs, {}", model.statistic())),
+                Box::new(|_, bound| length.of(runs(bound))),
+            ),
+            ("  over D_M".to_owned(), Box::new(|found, bound| runs(bound) / found.displacement_m)),
+        ];
+        let heads = model.bounds.iter().map(|bound| bound.name.to_owned());
+        let heads = core::iter::once(String::new()).chain(heads).collect();
+        let row = |(name, value): &(String, Value<'_>)| {
+            let of = |(bound, found): (usize, &Option<LateralForce>)| {
+                cell(found.map_or(f64::NAN, |found| value(&found, bound)))
+            };
+            let cells = model.lateral.iter().enumerate().map(of);
+            core::iter::once(name.clone()).chain(cells).collect()
+        };
+        let mut heading = "Equivalent lateral force beside the runs".to_owned();
+        if self.histories.models.len() > 1 {
+            heading.push_str(&format!(", {}", model.name));
+        }
+        Some((heading, core::iter::once(heads).chain(rows.iter().map(row)).collect()))
+    }
+
+    /// Factors that no longer make another earthquake of a record.
+    fn far_factors(&self) -> Option<Warning> {
+        let records = &self.histories.models.first()?.records;
+        let far = |on: &&OnRecord| !FACTORS.contains(&on.scale.abs());
+        let count = records.iter().filter(far).count();
+        let distance = |on: &OnRecord| libm::log(on.scale.abs()).abs();
+        let farthest =
+            records.iter().filter(far).max_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        let message = format!(
+            "{count} of {} factors are outside {} to {}, {} × {} farthest: records so much weaker or \
+             stronger have other durations and frequencies than the motion that is meant",
+            records.len(),
+            FACTORS.start(),
+            FACTORS.end(),
+            farthest.record,
+            cell(farthest.scale)
+        );
+        Some(Warning { kind: "factor_far", time_s: None, message })
     }
 
     /// How it was computed.
@@ -277,14 +390,26 @@ impl HistoriesReport<'_> {
             );
         }
         method.extend(self.histories.matched.iter().map(|(matched, _)| pairs::method(matched)));
+        if self.histories.models.iter().any(|model| model.lateral.iter().any(Option::is_some)) {
+            method.push(
+                "The equivalent-lateral-force displacement is that of ASCE/SEI 7, section 17.5, worked out for \
+                 each bound: D_M = Sa(T_M) (T_M/2π)²/B_M under the target spectrum, with the stiffness and the \
+                 damping of the friction loop at D_M, all mass moving together and B_M of table 17.5-1. The \
+                 ends of travel and the difference of static and kinetic friction are not in it."
+                    .to_owned(),
+            );
+        }
         method
     }
 
     /// What the tables leave out.
     fn notes(&self) -> Vec<String> {
         let models = &self.histories.models;
-        if models.len() < 2 || models.iter().all(|model| model.bounds.len() == 1) {
+        if models.iter().all(|model| model.bounds.len() == 1) {
             return Vec::new();
+        }
+        if models.len() == 1 {
+            return vec!["* governs: the bound of friction with the larger value.".to_owned()];
         }
         vec![
             "Each column is of the bound of friction that governs, named in its head; runs.csv has every \
@@ -302,7 +427,8 @@ impl HistoriesReport<'_> {
             models.iter().flat_map(ModelHistories::failures).cloned().collect();
         let count_as = "leave their model without a mean or maximum";
         let unanswered = failed(&unanswered, runs as u64, count_as);
-        let of_reading = unanswered.iter().chain(self.warnings);
+        let far = self.far_factors().filter(|_| !self.scaled.is_empty());
+        let of_reading = unanswered.iter().chain(&far).chain(self.warnings);
         let mut all: Vec<(Warning, usize)> =
             of_reading.map(|warning| (warning.clone(), 0)).collect();
         for on in self.histories.models.iter().flat_map(|model| &model.records) {
@@ -344,16 +470,17 @@ impl HistoriesReport<'_> {
         } else {
             "Sliding displacement with nominal friction."
         };
-        let mut figures = vec![stacked(
+        let target = self.histories.matched.iter().map(|(matched, _)| pairs::figure(matched));
+        let mut figures: Vec<Drawn> = target.collect();
+        figures.push(stacked(
             "histories",
             "Sliding displacement",
             caption.to_owned(),
             panels.collect(),
-        )];
+        ));
         if models.iter().any(|model| model.records.len() > 1) {
             figures.extend(peaks.first().map(|peak| self.shares(peak, &unit)));
         }
-        figures.extend(self.histories.matched.iter().map(|(matched, _)| pairs::figure(matched)));
         figures
     }
 
@@ -427,10 +554,40 @@ impl HistoriesReport<'_> {
 
     fn json(&self) -> Vec<(&'static str, Json)> {
         let names = self.histories.models.iter().map(|model| model.name.as_str().into());
+        let text = |text: &Option<String>| text.as_deref().map_or(Json::Null, Json::from);
+        let record = |on: &OnRecord| {
+            Json::Object(vec![
+                ("record", on.record.as_str().into()),
+                ("event", text(&on.origin.event)),
+                ("station", text(&on.origin.station)),
+                ("component", text(&on.origin.component)),
+                ("scale", on.scale.into()),
+                ("pga_m_per_s2", on.pga_m_per_s2.into()),
+            ])
+        };
+        let records = self.histories.models.first().map_or(&[][..], |model| &model.records);
+        let records = records.iter().map(record).collect();
+        let of_bounds = self.histories.models.iter().flat_map(|model| {
+            let each = model.bounds.iter().zip(&model.lateral);
+            each.filter_map(|(bound, found)| Some((&model.name, bound, found.as_ref()?)))
+        });
+        let lateral = of_bounds.map(|(model, bound, found)| {
+            Json::Object(vec![
+                ("model", model.as_str().into()),
+                ("friction", bound.name.into()),
+                ("displacement_m", found.displacement_m.into()),
+                ("stiffness_n_per_m", found.stiffness_n_per_m.into()),
+                ("damping_ratio", found.damping_ratio.into()),
+                ("damping_factor", found.damping_factor.into()),
+                ("period_s", found.period_s.into()),
+            ])
+        });
         vec![
             ("models", Json::List(names.collect())),
+            ("records", Json::List(records)),
             ("runs", columns(&self.histories.runs)),
             ("governing", columns(&self.histories.governing)),
+            ("lateral_force", Json::List(lateral.collect())),
         ]
     }
 }

@@ -468,7 +468,14 @@ pub(crate) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
                     .text(cell.trim_start())
                     .raw("</th>");
             } else {
-                out.raw("<td class=\"number\">").text(typeset_cell(cell)).raw("</td>");
+                let governs = cell.strip_suffix('*');
+                out.raw(if governs.is_some() {
+                    "<td class=\"number governs\">"
+                } else {
+                    "<td class=\"number\">"
+                })
+                .text(typeset_cell(governs.unwrap_or(cell)))
+                .raw(if governs.is_some() { "*</td>" } else { "</td>" });
             }
         }
         out.raw("</tr>\n");
