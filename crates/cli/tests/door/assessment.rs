@@ -703,7 +703,7 @@ fn exact_a_run_that_fails_is_a_row_and_the_status_says_so() {
     };
     answered(&["spectrum", "model.toml", "--over", "storey.1.period=0.5 s"], 4);
     let said = answered(&["run", "model.toml"], 4);
-    assert!(said.contains("no maximum: 1 of 4 records have no answer"), "{said}");
+    assert!(said.contains("no maximum: 1 of 4 runs have no answer"), "{said}");
     let runs = folder.read("out/runs.csv");
     let status = cells(&runs, "status");
     assert_eq!(status[..3], ["ok"; 3]);

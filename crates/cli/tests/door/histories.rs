@@ -101,7 +101,7 @@ fn exact_models_side_by_side_in_one_report() {
     assert!(text.contains("model: peak sliding displacement"), "{text}");
     assert!(text.contains("plain: peak sliding displacement"), "{text}");
     let page = folder.read("out/report.html");
-    assert!(page.contains("largest peak bold") && page.contains("Share of the records"));
+    assert!(page.contains("bold the largest") && page.contains("Share of the records"));
     assert_eq!(
         folder.names("out"),
         ["governing.csv", "histories.svg", "report.html", "runs.csv", "shares.svg", "summary.json",]

@@ -63,13 +63,14 @@ impl HistoriesReport<'_> {
                 (n, false) => format!("{n} records"),
                 (n, true) => format!("{n} pairs of components"),
             });
-        let mut holds = models.iter().flat_map(|m| &m.records).flat_map(|on| &on.holds);
-        let certificate = match holds.clone().filter(|holds| !**holds).count() {
+        let broken = |run: &&Result<_, FailedRun>| matches!(run, Ok((_, false)));
+        let broken = models.iter().flat_map(ModelHistories::runs).filter(broken).count();
+        let certificate = match broken {
             0 => "every certificate holds".to_owned(),
             n => format!("{n} certificates do not hold"),
         };
         let unanswered = models.iter().flat_map(ModelHistories::failures).count();
-        let complete = unanswered == 0 && holds.all(|holds| *holds);
+        let complete = unanswered == 0 && broken == 0;
         let certificate = match unanswered {
             0 => certificate,
             n => format!("{n} without an answer; {certificate}"),
@@ -145,9 +146,9 @@ impl HistoriesReport<'_> {
             };
             if let Some(failed) = model.failures().next() {
                 let (count, statistic) = (model.failures().count(), model.statistic());
-                let of = model.records.len();
+                let of = model.runs().count();
                 return Some(format!(
-                    "{name}no {statistic}: {count} of {of} records have no answer, the first {failed}"
+                    "{name}no {statistic}: {count} of {of} runs have no answer, the first {failed}"
                 ));
             }
             let (bound, value) = model.governs(peaks.first()?)?;
@@ -234,7 +235,9 @@ impl HistoriesReport<'_> {
             let value = |(_, of): &Shown<'_>| {
                 let value = shown(of.map(|(model, column, bound)| model.governing(&column, bound)));
                 let governs = of.is_some_and(|(model, column, bound)| {
-                    model.bounds.len() > 1 && model.governing_bound(&column) == Some(bound)
+                    models.len() == 1
+                        && model.bounds.len() > 1
+                        && model.governing_bound(&column) == Some(bound)
                 });
                 if governs { format!("{value}*") } else { value }
             };
@@ -458,17 +461,27 @@ impl HistoriesReport<'_> {
         let end_s = models.iter().flat_map(|model| &model.records);
         let end_s = end_s.filter_map(|on| on.sliding[0].last()).fold(0.0, |a: f64, b| a.max(*b));
         let all = models.iter().flat_map(|model| &model.records);
-        let all: Vec<f64> = all.flat_map(|on| on.sliding[1].iter().map(|s| unit.of(*s))).collect();
+        let nominal = all.map(|on| &on.sliding);
+        let governing =
+            models.iter().filter_map(|model| Some(&model.governing_history.as_ref()?.2));
+        let all: Vec<f64> = nominal
+            .chain(governing)
+            .flat_map(|[_, sliding]| sliding.iter().map(|s| unit.of(*s)))
+            .collect();
         // A gap far away would flatten every curve.
         let largest = all.iter().fold(0.0, |largest: f64, s| largest.max(s.abs()));
-        let gaps = models.iter().filter_map(|model| model.gap_m).map(|gap_m| unit.of(gap_m));
+        let gaps = models
+            .iter()
+            .flat_map(|model| model.gap_m.into_iter().chain(model.stop_m.into_iter().flatten()));
+        let gaps = gaps.map(|gap_m| unit.of(gap_m));
         let y =
             Axis::symmetric(label, all.into_iter().chain(gaps.filter(|gap| *gap < 2.0 * largest)));
         let panels = models.iter().map(|model| self.history_panel(model, &y, end_s, &unit));
         let caption = if models.iter().any(|model| model.records.len() > 1) {
-            "Sliding displacement with nominal friction: every record thin, that of the largest peak bold."
+            "Sliding displacement: every record with nominal friction thin; bold the largest with the bound of \
+             friction that governs."
         } else {
-            "Sliding displacement with nominal friction."
+            "Sliding displacement: thin with nominal friction, bold with the bound that governs."
         };
         let target = self.histories.matched.iter().map(|(matched, _)| pairs::figure(matched));
         let mut figures: Vec<Drawn> = target.collect();
@@ -485,31 +498,40 @@ impl HistoriesReport<'_> {
     }
 
     fn history_panel(&self, model: &ModelHistories, y: &Axis, end_s: f64, unit: &Unit) -> Panel {
-        let peak =
-            |on: &&OnRecord| on.sliding[1].iter().fold(0.0, |peak: f64, s| peak.max(s.abs()));
-        let largest = model.records.iter().max_by(|a, b| peak(a).total_cmp(&peak(b)));
-        let curve = |on: &OnRecord, label: String, style: Style| {
-            let [times_s, s] = &on.sliding;
+        let curve = |[times_s, s]: &[Vec<f64>; 2], label: String, style: Style| {
             let points = times_s.iter().zip(s).map(|(t, s)| [*t, unit.of(*s)]).collect();
             Series { label, style, shape: Shape::History, points }
         };
-        let mut series: Vec<Series> = Vec::new();
-        for on in &model.records {
-            if largest.is_none_or(|largest| !core::ptr::eq(on, largest)) {
-                series.push(curve(on, String::new(), RECORD));
-            }
-        }
-        series.extend(largest.map(|on| curve(on, on.record.clone(), GROUPS[0])));
-        let limit = |value: f64| Limit { value, label: "gap".to_owned(), style: Style::LIMIT };
-        let near = model.gap_m.filter(|gap_m| unit.of(*gap_m) < y.max);
-        let limits = near.into_iter().flat_map(|gap_m| {
-            [limit(unit.of(gap_m)), Limit { label: String::new(), ..limit(-unit.of(gap_m)) }]
+        let nominal = model.records.iter().map(|on| curve(&on.sliding, String::new(), RECORD));
+        let governs = model.governing_history.as_ref().map(|(record, bound, history)| {
+            let name = &model.records[*record].record;
+            let label = match model.bounds.len() {
+                1 => name.clone(),
+                _ => format!("{name}, {} friction", model.bounds[*bound].name),
+            };
+            curve(history, label, GROUPS[0])
         });
+        let limit = |value: f64, label: &str| Limit {
+            value: unit.of(value),
+            label: label.to_owned(),
+            style: Style::LIMIT,
+        };
+        let of_gap =
+            model.gap_m.into_iter().flat_map(|gap_m| [limit(gap_m, "gap"), limit(-gap_m, "")]);
+        let [ahead, behind] = model.stop_m;
+        let of_stop = ahead.map(|stop_m| limit(stop_m, "stop"));
+        let of_stop = of_stop.into_iter().chain(behind.map(|stop_m| limit(-stop_m, "")));
+        let near = |limit: &Limit| limit.value.abs() < y.max;
         let note = if self.histories.models.len() > 1 { model.name.clone() } else { String::new() };
         Panel {
-            limits: limits.collect(),
+            limits: of_gap.chain(of_stop).filter(near).collect(),
             note,
-            ..panel(Axis::linear("Time (s)", 0.0, end_s), y.clone(), 150.0, series)
+            ..panel(
+                Axis::linear("Time (s)", 0.0, end_s),
+                y.clone(),
+                150.0,
+                nominal.chain(governs).collect(),
+            )
         }
     }
 

@@ -21,7 +21,7 @@ use crate::summary::keys::listed;
 use crate::summary::method_name;
 
 /// The table's own acceleration: there to be seen, not to hide the others.
-const TABLE: Style = Style { colour: "#8a9a86", width: 0.8, dashes: "" };
+const TABLE: Style = Style { colour: "#5f7358", width: 0.8, dashes: "" };
 
 /// What a comparison is told from.
 #[derive(Clone, Copy, Debug)]
@@ -457,7 +457,16 @@ pub(crate) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
     let Some((heads, rows)) = rows.split_first() else { return };
     let wide = heads.len() > 6;
     out.raw(if wide { "<div class=\"small\">\n" } else { "" });
-    let heads: Vec<_> = heads.iter().enumerate().map(|(i, head)| (head.clone(), i > 0)).collect();
+    // A column with words is set as words.
+    let number = |cell: &str| {
+        cell == "—"
+            || cell.starts_with(['<', '−', '-', '+'])
+            || cell.starts_with(|c: char| c.is_ascii_digit())
+    };
+    let numbers: Vec<bool> = (0..heads.len())
+        .map(|i| i > 0 && rows.iter().filter_map(|row| row.get(i)).all(|cell| number(cell)))
+        .collect();
+    let heads: Vec<_> = heads.iter().cloned().zip(numbers.iter().copied()).collect();
     table_head(out, &heads);
     for row in rows {
         for (i, cell) in row.iter().enumerate() {
@@ -469,6 +478,10 @@ pub(crate) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
                     .raw("</th>");
             } else {
                 let governs = cell.strip_suffix('*');
+                if !numbers.get(i).is_some_and(|number| *number) {
+                    out.raw("<td class=\"words\">").text(cell).raw("</td>");
+                    continue;
+                }
                 out.raw(if governs.is_some() {
                     "<td class=\"number governs\">"
                 } else {

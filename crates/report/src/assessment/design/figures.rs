@@ -29,7 +29,7 @@ impl DesignReport<'_> {
         if let Some((_, bounded)) = self.bounded() {
             for (label, fill, pick) in [
                 ("lower friction", "#fff", (|b| &b.lower) as fn(&Bounded) -> &Figures),
-                ("upper friction", "#b0b0b0", |b| &b.upper),
+                ("upper friction", "#767676", |b| &b.upper),
             ] {
                 let points: Vec<[f64; 2]> = bounded.iter().map(|b| at(pick(b))).collect();
                 series.push(Series {
