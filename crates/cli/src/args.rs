@@ -26,7 +26,8 @@ Start here:
   slipstick run tank.toml --out out      print the result, write out/report.html
   slipstick schema --units               the units that values may have
 
-Exit status: 0 done, 1 a check or comparison failed, 2 bad input, 130 after Ctrl-C.";
+Exit status: 0 done, 1 a check or comparison failed or a run has no answer, 2 bad input, 130 after
+Ctrl-C.";
 
 const RUN_EXAMPLES: &str = "\
 Examples:

@@ -128,7 +128,7 @@ pub enum Found {
 #[derive(Clone, Debug)]
 pub enum Curves {
     /// One.
-    One(FragilityRun),
+    One(Box<FragilityRun>),
     /// One for each value of a path, which has a unit.
     By {
         /// The path.
@@ -197,7 +197,7 @@ impl Asked {
             None => usual_by(&request)?,
         };
         let curves = match by {
-            None => Curves::One(run_fragility(&request, engine)?),
+            None => Curves::One(Box::new(run_fragility(&request, engine)?)),
             Some(by) => {
                 let (groups, unit) = run_fragility_by(&request, by, engine)?;
                 if groups.iter().all(|group| group.run.is_err()) {

@@ -128,9 +128,11 @@ fn run(args: &StudyArgs, study: &OpenStudy, shard: Shard, out: &Path) -> Result<
             checks.equilibrium_residual,
         ));
         let page = if args.report { STUDY_REPORT } else { "summary.csv" };
-        say(format_args!("wrote {}", out.join(page).display()));
+        let (page, table) = (out.join(page), out.join("parts"));
+        say(format_args!("wrote {}; the table is {}", page.display(), table.display()));
     }
-    Ok(ExitCode::SUCCESS)
+    // Rows without an answer are no answer to all that was asked.
+    Ok(ExitCode::from(u8::from(outcome.failures > 0)))
 }
 
 /// Writes the page of a study.

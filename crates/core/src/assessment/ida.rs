@@ -321,7 +321,7 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
     kept.sort_unstable();
     let unscaled = suite.measure_of_pairs(measure, engine)?;
     let clusters = suite.clusters();
-    let parts = kept.iter().map(|&design| Ok(designs.parts(design)?));
+    let parts = kept.iter().map(|&design| designs.parts(design));
     let parts = parts.collect::<Result<Vec<_>, AssessmentError>>()?;
     let parts: Vec<Result<Parts, RunError>> = parts.into_iter().map(Ok).collect();
     let cases = Cases::new(suite, &[], 0.0, engine)?;

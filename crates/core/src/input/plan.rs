@@ -168,7 +168,7 @@ pub enum List {
 /// numbers up to `size`: 0.03 + 3 (0.07 − 0.03) / 4 is 0.06, not 0.060000000000000005.
 fn as_written(value: f64, size: f64) -> f64 {
     let short = format!("{value:.14e}").parse().unwrap_or(value);
-    if (short - value).abs() <= 2.0 * f64::EPSILON * size { short } else { value }
+    if (short - value).abs() <= f64::EPSILON * size { short } else { value }
 }
 
 impl List {

@@ -526,8 +526,8 @@ mod tests {
         let record = include_bytes!("../../../../data/records/nga-west2.AT2");
         let mapping = Mapping::parse(None, &[]).unwrap();
         let error = Measured::read("r.AT2", record, &mapping).unwrap_err().to_string();
-        let expected = "r.AT2:1:1: expected a table with a column a sensor, found a record of ground \
-                        motion, PEER";
+        let expected = "r.AT2:1:1: expected a table with a column a sensor, found \"a record of ground \
+                        motion, PEER AT2\"";
         assert!(error.starts_with(expected), "{error}");
         assert!(read("time_s,b\n1,2\n0,4\n", &[]).unwrap_err().contains("a time after 1 s"));
     }

@@ -122,7 +122,7 @@ pub fn tables(answer: Answer) -> Vec<Tabled> {
                 }
             };
             let unit = match &curves {
-                Curves::One(run) => Some(run),
+                Curves::One(run) => Some(&**run),
                 Curves::By { groups, .. } => {
                     groups.iter().find_map(|group| group.run.as_ref().ok())
                 }

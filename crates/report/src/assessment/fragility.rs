@@ -121,9 +121,14 @@ impl FragilityReport<'_> {
             notes: self.goodness().1,
             figures,
             method: self.method(),
-            complete: true,
+            complete: self.complete(),
             json: self.json(),
         }
+    }
+
+    /// Whether every run has a demand.
+    fn complete(&self) -> bool {
+        !self.run.warnings.iter().any(|warning| warning.kind == "failed_runs")
     }
 
     /// Median with its interval, and dispersion.

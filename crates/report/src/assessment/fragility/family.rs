@@ -122,7 +122,7 @@ impl FragilityFamily<'_> {
             notes: Vec::new(),
             figures: vec![self.figure(&reports, unit)],
             method: first.method(),
-            complete: true,
+            complete: reports.iter().all(|(_, report)| report.complete()),
             json: self.json(),
         }
     }
