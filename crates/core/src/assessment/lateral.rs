@@ -173,7 +173,8 @@ mod tests {
             let beta = 2.0 / core::f64::consts::PI * 0.06 / (0.06 + d / 2.2);
             // 10 to 20 % or 20 to 30 %, as it comes out.
             let b = if beta < 0.2 { 1.2 + 3.0 * (beta - 0.1) } else { 1.5 + 2.0 * (beta - 0.2) };
-            d = 0.5 * (d + 0.8 * G / t * t * t / (4.0 * core::f64::consts::PI.powi(2) * b));
+            let rate = core::f64::consts::TAU / t;
+            d = 0.5 * (d + 0.8 * G / t / (rate * rate * b));
         }
         assert!((found.displacement_m - d).abs() < 1e-12, "{found:?} {d}");
         assert!((0.1..0.3).contains(&found.damping_ratio), "{found:?}");

@@ -36,6 +36,9 @@ pub struct HistoriesReport<'a> {
 /// the model has the demand.
 type Shown<'a> = (String, Option<(&'a ModelHistories, DemandColumn, usize)>);
 
+/// What a file may say of where it was recorded.
+type Said = fn(&Origin) -> &Option<String>;
+
 /// Factors on records beyond which it is said: FEMA P-1050 and the guidance on ground motions to ASCE/SEI 7.
 const FACTORS: core::ops::RangeInclusive<f64> = 0.25..=4.0;
 
@@ -284,14 +287,12 @@ impl HistoriesReport<'_> {
     /// The records: what their files say of them, their factors and peaks; none of a made motion.
     fn records(&self) -> Option<(String, Vec<Vec<String>>)> {
         let model = self.histories.models.first().filter(|_| !self.scaled.is_empty())?;
-        let said: [(&str, fn(&Origin) -> &Option<String>); 3] = [
+        let said: [(&str, Said); 3] = [
             ("Earthquake", |origin| &origin.event),
             ("Station", |origin| &origin.station),
             ("Component", |origin| &origin.component),
         ];
-        let known = |of: fn(&Origin) -> &Option<String>| {
-            model.records.iter().any(|on| of(&on.origin).is_some())
-        };
+        let known = |of: Said| model.records.iter().any(|on| of(&on.origin).is_some());
         let said: Vec<_> = said.into_iter().filter(|(_, of)| known(*of)).collect();
         let heads = said.iter().map(|(head, _)| (*head).to_owned());
         let heads = core::iter::once("Record".to_owned()).chain(heads);
