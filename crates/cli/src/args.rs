@@ -3,10 +3,7 @@
 mod assessment;
 mod laboratory;
 
-pub use assessment::{
-    BoundsArgs, BoundsName, DesignArgs, FitToName, FragilityArgs, IdaArgs, ScaleArgs, SpectrumArgs,
-    SuiteArgs,
-};
+pub use assessment::{AssessArgs, FragilityArgs, SuiteArgs};
 pub use laboratory::{
     CompareArgs, CyclicArgs, FreeVibrationArgs, IdentifyCommand, Part, ResultArgs, ShakingTableArgs,
 };
@@ -29,7 +26,8 @@ Start here:
   slipstick run tank.toml --out out      print the result, write out/report.html
   slipstick schema --units               the units that values may have
 
-Exit status: 0 done, 1 a check or comparison failed, 2 bad input, 130 after Ctrl-C.";
+Exit status: 0 done, 1 a check or comparison failed or a run has no answer, 2 bad input, 130 after
+Ctrl-C.";
 
 const RUN_EXAMPLES: &str = "\
 Examples:
@@ -113,16 +111,16 @@ pub enum Command {
     Compare(CompareArgs),
     /// Compute sliding spectra over a suite of records, or response over excitation frequency
     #[command(after_help = assessment::SPECTRUM_EXAMPLES)]
-    Spectrum(SpectrumArgs),
+    Spectrum(AssessArgs<{ assessment::SPECTRUM }>),
     /// Raise the intensity of every record of a suite until a demand reaches its limit
     #[command(after_help = assessment::IDA_EXAMPLES)]
-    Ida(IdaArgs),
+    Ida(AssessArgs<{ assessment::IDA }>),
     /// Fit fragility curves, the probability of exceeding a limit, with confidence intervals
     #[command(after_help = assessment::FRAGILITY_EXAMPLES)]
     Fragility(FragilityArgs),
     /// Find the friction and stiffness that stay within a gap with a given probability
     #[command(after_help = assessment::DESIGN_EXAMPLES)]
-    Design(DesignArgs),
+    Design(AssessArgs<{ assessment::DESIGN }>),
     /// Inspect, convert, process and plot records
     #[command(subcommand, after_help = crate::record_args::EXAMPLES)]
     Record(crate::record_args::RecordCommand),
@@ -185,6 +183,9 @@ pub struct RunArgs {
     /// First and last period of the range in which pairs are scaled to the spectrum: "0.6 s..3.8 s"
     #[arg(long, value_name = "FROM..TO", requires = "second", help_heading = "Ground motion")]
     pub periods: Option<String>,
+    /// Number of threads of a suite; default: one per processor
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
     /// What the file does not state
     #[command(flatten)]
     pub record: RecordArgs,
@@ -375,6 +376,9 @@ pub struct SchemaArgs {
     /// Print the schema of a study plan, instead of that of a model
     #[arg(long, conflicts_with = "units")]
     pub plan: bool,
+    /// Print what may be asked of spectrum, ida, fragility and design, with the defaults
+    #[arg(long, conflicts_with_all = ["units", "plan"])]
+    pub requests: bool,
 }
 
 /// Methods by their names in the model file.

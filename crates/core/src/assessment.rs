@@ -6,12 +6,14 @@
 //! which a callback follows and may stop. Nothing here opens a file. Results are demands in SI;
 //! intensities are in the SI unit of their measure.
 
+pub mod cases;
 pub mod censored;
 pub mod design;
 pub mod fragility;
 pub mod grid;
 pub mod histories;
 pub mod ida;
+pub mod lateral;
 pub mod models;
 pub mod observed;
 pub mod proportion;
@@ -52,18 +54,9 @@ pub enum AssessmentError {
     /// A motion that cannot be made or scaled.
     #[error(transparent)]
     Motion(#[from] MotionError),
-    /// A run without an answer, where every one is needed.
-    #[error("{0}")]
-    Run(Box<FailedRun>),
     /// The callback that followed it stopped it.
     #[error(transparent)]
     Stopped(#[from] Stopped),
-}
-
-impl From<Box<FailedRun>> for AssessmentError {
-    fn from(run: Box<FailedRun>) -> Self {
-        Self::Run(run)
-    }
 }
 
 /// A run without an answer.
@@ -71,13 +64,30 @@ impl From<Box<FailedRun>> for AssessmentError {
 pub struct FailedRun {
     /// Name of the record.
     pub record: String,
+    /// Factor on the record.
+    pub scale: f64,
+    /// Its design in words, to stand after them; empty where there is one design.
+    pub design: String,
     /// Why.
     pub error: RunError,
 }
 
 impl core::fmt::Display for FailedRun {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "{}: {}", self.record, self.error)
+        write!(f, "{}{}: {}", times(&self.record, self.scale), self.design, self.error)
+    }
+}
+
+/// A record times its factor, in words.
+fn times(record: &str, scale: f64) -> String {
+    if scale == 1.0 {
+        return record.to_owned();
+    }
+    // Four digits name a factor.
+    let short: f64 = format!("{scale:.3e}").parse().unwrap_or(scale);
+    match short.abs() {
+        1e-3..1e6 => format!("{record} × {short}"),
+        _ => format!("{record} × {short:e}"),
     }
 }
 
@@ -86,7 +96,11 @@ fn in_unit(unit: &str) -> String {
 }
 
 /// The error of a choice: what was chosen wrongly, what was expected, what was found.
-fn refuse(what: &str, expected: impl Into<String>, found: impl Into<String>) -> AssessmentError {
+pub(crate) fn refuse(
+    what: &str,
+    expected: impl Into<String>,
+    found: impl Into<String>,
+) -> AssessmentError {
     let (expected, found) = (expected.into(), found.into());
     AssessmentError::Choice(ChoiceError { what: what.to_owned(), expected, found, nearest: None })
 }

@@ -75,6 +75,7 @@ pub mod motion;
 pub mod numerics;
 pub mod progress;
 pub mod record;
+pub mod requests;
 pub mod response;
 pub mod slider;
 pub mod solver;

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// From left to right.
-const ORDER: [&str; 17] = [
+const ORDER: [&str; 18] = [
     "error",
     "progress",
     "units",
@@ -26,6 +26,7 @@ const ORDER: [&str; 17] = [
     "study",
     "laboratory",
     "assessment",
+    "requests",
 ];
 
 /// Uses that the order would allow and the design does not: the judge shares no matrices with the

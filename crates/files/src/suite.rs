@@ -2,9 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use slipstick::assessment::suite::{Suite, SuiteRecord};
+use slipstick::assessment::suite::Suite;
 use slipstick::error::{ChoiceError, Stopped};
-use slipstick::input::loaded::Loaded;
 use slipstick::record::Units;
 use slipstick::response::Warning;
 use slipstick::study::engine::Engine;
@@ -124,37 +123,15 @@ impl OpenSuite {
     }
 
     fn of(names: &[String], loaded: Vec<LoadedMotion>, made: bool) -> Self {
-        let mut open = Self { suite: Suite { records: Vec::new(), made }, ..Self::default() };
-        let mut noticed: Vec<(&'static str, Vec<String>)> = Vec::new();
-        for (name, loaded) in names.iter().zip(loaded) {
-            for (source, description) in loaded.sources.iter().zip(&loaded.description) {
-                open.sources.push((
-                    source.path.display().to_string(),
-                    source.sha256.clone(),
-                    description.clone(),
-                ));
-            }
-            for warning in &loaded.warnings {
-                let message = format!("{name}: {}", warning.message);
-                match noticed.iter_mut().find(|(kind, _)| *kind == warning.kind) {
-                    Some((_, messages)) => messages.push(message),
-                    None => noticed.push((warning.kind, vec![message])),
-                }
-            }
-            let name = name.clone();
-            let Loaded { motion, origin, .. } = loaded.loaded;
-            open.suite.records.push(SuiteRecord { name, motion, pair: None, origin });
+        let mut sources = Vec::new();
+        for loaded in &loaded {
+            sources.extend(loaded.sources.iter().zip(&loaded.description).map(|(file, what)| {
+                (file.path.display().to_string(), file.sha256.clone(), what.clone())
+            }));
         }
-        let one = |(kind, messages): (&'static str, Vec<String>)| {
-            let more = match messages.len() {
-                1 => String::new(),
-                n => format!(" (and {} of the other records)", n - 1),
-            };
-            let message = format!("{}{more}", messages[0]);
-            Warning { kind, time_s: None, message }
-        };
-        open.warnings = noticed.into_iter().map(one).collect();
-        open
+        let read = names.iter().cloned().zip(loaded.into_iter().map(|loaded| loaded.loaded));
+        let (suite, warnings) = Suite::of(read, made);
+        Self { suite, sources, warnings }
     }
 }
 

@@ -184,8 +184,9 @@ pub(crate) fn of_assessment(py: Python<'_>, error: &AssessmentError) -> PyErr {
     match error {
         AssessmentError::Input(error) => of_input(py, error),
         AssessmentError::Choice(error) => {
-            let nearest = error.nearest.as_deref();
-            of_choice(py, &error.what, &error.expected, &error.found, nearest)
+            // A field is a keyword here.
+            let path = error.what.replace('-', "_");
+            of_choice(py, &path, &error.expected, &error.found, error.nearest.as_deref())
         }
         AssessmentError::Motion(error) => of_motion(py, error),
         AssessmentError::Stopped(_) => PyKeyboardInterrupt::new_err(()),

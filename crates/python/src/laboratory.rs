@@ -29,8 +29,6 @@ use crate::response::display_units;
 use crate::table::Table;
 use crate::work::followed;
 
-const VERSION: &str = env!("CARGO_PKG_VERSION");
-
 /// A measured file, or its columns by name.
 #[derive(FromPyObject)]
 pub(crate) enum Given<'py> {
@@ -134,7 +132,6 @@ pub struct Comparison {
 impl Comparison {
     fn report<T>(&self, display: DisplayUnits, tell: impl FnOnce(&CompareReport<'_>) -> T) -> T {
         tell(&CompareReport {
-            version: VERSION,
             name: &self.model.title(),
             measured: &self.measured,
             model: &self.model.analysis.model,
@@ -257,7 +254,7 @@ impl Identified {
             inputs: &self.went_in.inputs(),
             files: &self.went_in.files(),
             command_line: self.call,
-            ..IdentifyReport::of(VERSION, &self.measured, &self.found, display)
+            ..IdentifyReport::of(&self.measured, &self.found, display)
         })
     }
 }

@@ -16,9 +16,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use super::assessment::{
-        Assessment, design, fragility, ida, read_suite, spectrum, table_of_files,
-    };
+    use super::assessment::{Assessment, assess, fields, fit, read_suite, runs_of};
     #[pymodule_export]
     use super::laboratory::{
         Comparison, Identified, compare_with, identify_cyclic, identify_free_vibration,

@@ -1,5 +1,7 @@
 """The package as its users meet it."""
 
+import inspect
+import json
 import multiprocessing
 import os
 import pickle
@@ -16,6 +18,7 @@ import numpy as np
 import pytest
 
 import slipstick as ss
+from slipstick import _core
 from support import EXAMPLES, block, command, pulse, suite
 
 MODELS = ["taft.toml", "el-centro.toml", "frame-pendulum.toml"]
@@ -425,9 +428,9 @@ def test_ida_and_fragility_are_those_of_the_command(tmp_path: Path) -> None:
     model = ss.Model.read(EXAMPLES / "taft.toml")
     records = suite()
     assert list(records) == ["taft-021", "taft-111", "el-centro-180"]
-    ida = ss.ida(model, records, levels="0.1..0.8 g:8", limit="40 mm")
+    ida = ss.ida(model, records, scale_to="0.1..0.8 g:8", limit="40 mm")
     assert len(ida.table) == 72 and len(ida.tables["capacities"]) == 9
-    ida = ss.ida(model, records, levels="0.1..0.8 g:8", limit="40 mm", bounds="nominal")
+    ida = ss.ida(model, records, scale_to="0.1..0.8 g:8", limit="40 mm", bounds="nominal")
     assert len(ida.table) == 24
     curve = ss.fragility(ida)
     assert "fragility" in curve.tables and "<svg" in next(iter(curve.figures.values()))
@@ -438,7 +441,7 @@ def test_ida_and_fragility_are_those_of_the_command(tmp_path: Path) -> None:
     names = [str(EXAMPLES / "records" / name) for name in ["taft-*.txt", "el-centro-180.txt"]]
     subprocess.run(
         [command, "ida", path, "--records", names[0], "--records", names[1], "--units", "g"]
-        + ["--dt", "0.01 s", "--levels", "0.1..0.8 g:8", "--to", "40 mm", "-q"]
+        + ["--dt", "0.01 s", "--scale-to", "0.1..0.8 g:8", "--limit", "40 mm", "-q"]
         + ["--bounds", "nominal", "--out", tmp_path / "out"],
         check=True,
         capture_output=True,
@@ -446,10 +449,34 @@ def test_ida_and_fragility_are_those_of_the_command(tmp_path: Path) -> None:
     assert ida.table.to_csv() == (tmp_path / "out" / "ida.csv").read_text()
 
 
+def test_keywords_are_the_fields_of_the_request() -> None:
+    functions = [("spectrum", ss.spectrum), ("ida", ss.ida), ("fragility", ss.fragility)]
+    for kind, function in [*functions, ("design", ss.design)]:
+        keywords = set(inspect.signature(function).parameters)
+        keywords -= {"model", "records", "source", "jobs", "progress"}
+        assert keywords == {name for name, *_ in _core.fields(kind)}, kind
+
+
+def test_a_folder_is_a_source_and_knows_its_limit(tmp_path: Path) -> None:
+    path = tmp_path / "ida.csv"
+    model = ss.Model.read(EXAMPLES / "taft.toml")
+    ida = ss.ida(model, suite(), scale_to="0.2..0.27 g:29", limit="40 mm", bounds="nominal")
+    path.write_text(ida.table.to_csv())
+    (tmp_path / "summary.json").write_text(json.dumps(ida.summary))
+    curve = ss.fragility(path)
+    assert curve.summary["limit"] == 0.04
+    assert curve.summary["median"] == ss.fragility(ida, limit="40 mm").summary["median"]
+    ida = ss.ida(model, suite(), scale_to="0.2..0.27 g:8", limit="40 mm")
+    by = ss.fragility(ida, by="friction", where=["friction=upper"], floor="1 mm", fit_to="cloud")
+    assert by.summary["by"] == "friction" and len(by.summary["curves"]) == 1
+    with pytest.raises(ss.RecordError, match="a folder without runs"):
+        ss.fragility(tmp_path)
+
+
 def test_spectra_over_a_suite(tmp_path: Path) -> None:
     model = ss.Model.read(EXAMPLES / "taft.toml")
     found = ss.spectrum(
-        model, suite(), {"slider.radius": ["1 m", "2 m"]}, friction=[0.03, 0.05], level="0.3 g"
+        model, suite(), {"slider.radius": ["1 m", "2 m"]}, friction=[0.03, 0.05], scale_to="0.3 g"
     )
     assert len(found.tables["runs"]) == 36
     page = found.report(tmp_path / "report.html").read_text(encoding="utf-8")
@@ -471,11 +498,11 @@ def test_a_design_keeps_the_gap() -> None:
 @pytest.mark.parametrize(
     ("call", "told"),
     [
-        (lambda m, r: ss.ida(m, r), "levels"),
-        (lambda m, r: ss.ida(m, r, levels="0.1 m"), "levels"),
-        (lambda m, r: ss.ida(m, r, levels="0.1 g", demand="peak_sliding"), "demand"),
-        (lambda m, r: ss.ida(m, r, levels="0.1 g", limit="3 kg"), "limit"),
-        (lambda m, r: ss.ida(m, r, levels="0.1 g", measure="Sb(1 s)"), "measure"),
+        (lambda m, r: ss.ida(m, r, demand="sliding_path_m"), "limit"),
+        (lambda m, r: ss.ida(m, r, scale_to="0.1 m"), "scale_to"),
+        (lambda m, r: ss.ida(m, r, scale_to="0.1 g", demand="peak_sliding"), "demand"),
+        (lambda m, r: ss.ida(m, r, scale_to="0.1 g", limit="3 kg"), "limit"),
+        (lambda m, r: ss.ida(m, r, scale_to="0.1 g", measure="Sb(1 s)"), "measure"),
         (lambda m, r: ss.spectrum(m, r, {"slider.radus": "1..2 m:3"}), "slider.radus"),
         (lambda m, r: ss.spectrum(m, r, {"slider.radius": "1..2 kg:3"}), "kg"),
     ],

@@ -3,6 +3,7 @@
 //! Each result is laid out once, as a [`Sheet`]: tables, figures, notes and JSON, from which the
 //! printed text, `result.json` and `report.html` come.
 
+pub mod answer;
 pub mod design;
 pub mod fragility;
 pub mod histories;

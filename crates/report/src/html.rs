@@ -6,6 +6,7 @@ mod verdict;
 
 use slipstick::response::Warning;
 
+use crate::VERSION;
 use crate::display::DisplayUnits;
 use crate::figures::{self, Drawn};
 use crate::markup::Markup;
@@ -41,7 +42,6 @@ pub fn page(report: &Report) -> String {
             method_name(summary.method),
             report.record
         ),
-        version: summary.slipstick,
         command_line: report.command_line,
         body: &body,
     })
@@ -57,8 +57,6 @@ pub(crate) struct Frame<'a> {
     pub name: &'a str,
     /// Below the name.
     pub line: &'a str,
-    /// Version of this program.
-    pub version: &'a str,
     /// The command as it was typed.
     pub command_line: &'a str,
     /// All between header and footer.
@@ -84,7 +82,7 @@ pub(crate) fn document(frame: &Frame) -> String {
         .raw("</p>\n</header>\n<main>\n")
         .append(frame.body)
         .raw("</main>\n<footer>\n<p>")
-        .text(format!("Slipstick {}: ", frame.version))
+        .text(format!("Slipstick {}: ", VERSION))
         .raw("<code>")
         .text(frame.command_line)
         .raw("</code></p>\n</footer>\n</body>\n</html>\n");
@@ -98,7 +96,7 @@ fn page_margins(out: &mut Markup, frame: &Frame) {
         .raw("  @top-left { content: ")
         .css_string(frame.name, 90)
         .raw("; }\n  @bottom-left { content: ")
-        .css_string(&format!("Slipstick {} · {}", frame.version, frame.command_line), 105)
+        .css_string(&format!("Slipstick {} · {}", VERSION, frame.command_line), 105)
         .raw("; }\n  @bottom-right { content: counter(page) \" / \" counter(pages); }\n}\n");
 }
 

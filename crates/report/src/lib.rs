@@ -55,6 +55,9 @@ pub mod summary;
 pub mod table;
 pub mod tables;
 
+/// Version of this program, as every answer states it.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
 pub use display::DisplayUnits;
 pub use laboratory::{CompareReport, IdentifyReport};
 pub use report::{FileNote, InputText, Report};

@@ -77,7 +77,7 @@ impl Style {
     /// The main line of a panel.
     pub const MAIN: Self = Self { colour: "#0b3c6f", width: 1.0, dashes: "" };
     /// Another beside it: wide and light, drawn below.
-    pub const WIDE: Self = Self { colour: "#d08b3e", width: 2.4, dashes: "" };
+    pub const WIDE: Self = Self { colour: "#a0620e", width: 2.4, dashes: "" };
     /// A third: dashed.
     pub const DASHED: Self = Self { colour: "#1a1a1a", width: 1.0, dashes: "6 3" };
     /// A fourth: dotted.

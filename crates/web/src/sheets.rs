@@ -1,33 +1,21 @@
 //! Analyses over a suite and studies, laid out as the command lays them out.
 
-use std::cell::Cell;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use slipstick::assessment::design::{DesignRequest, Target, run_design};
-use slipstick::assessment::grid::levels;
-use slipstick::assessment::ida::{IdaLevels, IdaRequest, run_ida};
-use slipstick::assessment::models::Models;
-use slipstick::assessment::observed::{
-    FragilityRequest, run_fragility, run_fragility_by, usual_by,
-};
-use slipstick::assessment::spectrum::{SpectrumRequest, run_spectrum};
-use slipstick::assessment::suite::{Scaling, Suite, SuiteRecord};
+use slipstick::assessment::suite::Suite;
 use slipstick::input::loaded::{Loaded, Wanted};
 use slipstick::input::plan::Plan;
-use slipstick::input::{Analysis, FrictionBounds, MotionSource};
-use slipstick::motion::intensity::Measure;
+use slipstick::input::{Analysis, MotionSource};
 use slipstick::record::Options;
+use slipstick::requests::{Asked, Found, Kind, On, Runs};
 use slipstick::response::{Method, Warning};
 use slipstick::study::engine::Engine;
 use slipstick::study::summary::{Rows, Take};
 use slipstick::study::{Record, Study};
 use slipstick_report::DisplayUnits;
-use slipstick_report::assessment::design::DesignReport;
-use slipstick_report::assessment::fragility::{FragilityFamily, FragilityReport};
-use slipstick_report::assessment::ida::IdaFamily;
-use slipstick_report::assessment::spectrum::{SpectrumReport, group_names};
-use slipstick_report::assessment::{Sheet, Went, key};
+use slipstick_report::assessment::{Sheet, Went, answer};
 use slipstick_report::json::Json;
 use slipstick_report::study::StudyReport;
 use slipstick_report::{FileNote, InputText};
@@ -105,8 +93,7 @@ impl Page {
             ("method", list(&sheet.method)),
             ("figures", drawings(&sheet.figures)),
         ]);
-        let version = env!("CARGO_PKG_VERSION");
-        let went = Went { version, command_line: command, files, inputs };
+        let went = Went { command_line: command, files, inputs };
         Self { state: state.to_pretty(), html: sheet.to_html(&went), json: sheet.to_json() }
     }
 }
@@ -120,62 +107,53 @@ struct Asks<'a> {
 }
 
 /// Options of a command: names and values.
-struct Asked<'a>(&'a [String]);
+struct Settings<'a>(&'a [String]);
 
-impl Asked<'_> {
-    fn all(&self, name: &str) -> impl Iterator<Item = &str> {
-        let pairs = self.0.chunks_exact(2).filter(move |pair| pair[0] == name);
-        pairs.map(|pair| pair[1].as_str()).filter(|value| !value.trim().is_empty())
-    }
-
-    fn one(&self, name: &str) -> Option<&str> {
-        self.all(name).last()
+impl Settings<'_> {
+    fn pairs(&self) -> impl Iterator<Item = (&str, &str)> {
+        let pairs = self.0.chunks_exact(2).map(|pair| (pair[0].as_str(), pair[1].as_str()));
+        pairs.filter(|(_, text)| !text.trim().is_empty())
     }
 
     /// The records, each with what its file does not say: `NAME`, units, step and channel, by line ends.
     fn records(&self) -> impl Iterator<Item = Asks<'_>> {
-        self.all("records").map(|text| {
+        self.pairs().filter(|(name, _)| *name == "records").map(|(_, text)| {
             let mut parts = text.split('\n');
             let mut next = || parts.next().unwrap_or("");
             Asks { name: next(), units: next(), dt: next(), channel: next() }
         })
     }
 
-    fn number(&self, name: &str, default: f64) -> Result<f64, Failure> {
-        let Some(text) = self.one(name) else { return Ok(default) };
-        let number = text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-        number.ok_or_else(|| Failure::of(format!("--{name}: expected a number, found {text:?}")))
+    /// What is asked of an analysis, of all its fields.
+    fn asked(&self, kind: Kind) -> Result<Asked, Failure> {
+        let field = |name: &str| kind.fields().iter().any(|field| field.name == name);
+        let given = self.pairs().filter(|(name, _)| field(name));
+        Asked::new(kind, given.map(|(name, text)| (name, text.to_owned()))).map_err(Failure::of)
     }
 
     /// What was asked, as the command takes it.
     fn command(&self, what: &str) -> String {
-        let pairs = self.0.chunks_exact(2).filter(|pair| !pair[1].trim().is_empty());
-        let options: String = pairs
-            .map(|pair| format!(" --{} {:?}", pair[0], pair[1].split('\n').next().unwrap_or("")))
-            .collect();
+        let option = |(name, text): (&str, &str)| {
+            format!(" --{name} {:?}", text.split('\n').next().unwrap_or(""))
+        };
+        let options: String = self.pairs().map(option).collect();
         format!("slipstick {what} {MODEL}{options}")
     }
 }
 
-thread_local! {
-    /// The runs planned by the engine at work.
-    static PLANNED: Cell<u64> = const { Cell::new(0) };
-}
-
 /// Runs something with an engine that tells the page of its progress.
 fn followed<T>(work: impl FnOnce(&Engine<'_>) -> T) -> T {
-    let done = AtomicU64::new(0);
-    PLANNED.set(0);
-    let follow = |runs: u64| {
+    let (done, planned) = (AtomicU64::new(0), Arc::new(AtomicU64::new(0)));
+    let known = planned.clone();
+    let follow = move |runs: u64| {
         let all = done.fetch_add(runs, Ordering::Relaxed) + runs;
         // A message costs more than a run.
         if all.is_multiple_of(16) {
-            progress(all as f64, PLANNED.get() as f64);
+            progress(all as f64, known.load(Ordering::Relaxed) as f64);
         }
         ControlFlow::Continue(())
     };
-    let engine = Engine::new(&follow);
-    work(&engine)
+    work(&Engine::planning(&follow, planned))
 }
 
 /// An analysis over a suite.
@@ -186,31 +164,42 @@ pub fn assess(
     options: &[String],
     display: DisplayUnits,
 ) -> Result<Page, Failure> {
-    let asked = Asked(options);
+    let settings = Settings(options);
+    let Some(kind) = Kind::ALL.into_iter().find(|kind| kind.name() == what) else {
+        return Err(Failure::of(format!("expected an analysis over a suite, found {what:?}")));
+    };
     let analysis = parse(text)?;
     if analysis.method != Method::Exact {
         let expected = "the exact method, which is the only one over a suite";
         let error = analysis.error_at("analysis.method", expected, "\"stepwise\"");
         return Err(Failure::input(&error, text));
     }
-    let work = Work {
-        name: analysis.name.clone().unwrap_or_else(|| "Model".to_owned()),
-        suite: suite(records, &asked, &analysis, text)?,
-        analysis,
-        asked,
+    let (suite, warnings) = suite(records, &settings, &analysis, text)?;
+    let name = analysis.name.clone().unwrap_or_else(|| "Model".to_owned());
+    let on = On {
+        name: &name,
+        source: MODEL,
         text,
-        display,
+        set: &[],
+        analysis: &analysis,
+        suite: &suite,
+        warnings: &warnings,
     };
-    let sheet = match what {
-        "spectrum" => work.spectrum(),
-        "ida" => work.ida(),
-        "fragility" => work.fragility(),
-        "design" => work.design(),
-        other => Err(Failure::of(format!("expected an analysis over a suite, found {other:?}"))),
-    }?;
+    let failed = |error| Failure::assessment(&error, text);
+    let answer = followed(|engine| match kind {
+        // The incremental dynamic analysis, and the curve that fits it.
+        Kind::Fragility => {
+            let ida = settings.asked(Kind::Ida)?.run(&on, engine).map_err(failed)?;
+            let Found::Ida { limit, run, .. } = &ida.found else { return Ok(ida) };
+            let source = "the incremental dynamic analysis";
+            let runs = Runs { name: &name, source, table: &run.rows, limit: *limit };
+            settings.asked(kind)?.fit(&runs, engine).map_err(failed)
+        }
+        kind => settings.asked(kind)?.run(&on, engine).map_err(failed),
+    })?;
+    let sheet = answer::sheet(&answer, display);
     let inputs = [InputText { path: MODEL, text }];
-    let hashes: Vec<(String, String)> = work
-        .asked
+    let hashes: Vec<(String, String)> = settings
         .records()
         .filter_map(|asks| Some((asks.name.to_owned(), crate::sha256(records.bytes(asks.name)?))))
         .collect();
@@ -218,42 +207,31 @@ pub fn assess(
         .iter()
         .map(|(path, sha256)| FileNote { path, sha256, description: "record" })
         .collect();
-    Ok(Page::new(&sheet, &inputs, &files, &work.asked.command(what)))
+    Ok(Page::new(&sheet, &inputs, &files, &settings.command(what)))
 }
 
-/// The records that were asked for, else the model's own motion.
+/// The records that were asked for, else the model's own motion; and what reading them gave notice of.
 fn suite(
     records: &mut Records,
-    asked: &Asked<'_>,
+    settings: &Settings<'_>,
     analysis: &Analysis,
     text: &str,
-) -> Result<Suite, Failure> {
-    let mut suite = Suite::default();
-    for Asks { name, units, dt, channel } in asked.records() {
+) -> Result<(Suite, Vec<Warning>), Failure> {
+    let mut read = Vec::new();
+    for Asks { name, units, dt, channel } in settings.records() {
         let options = crate::records::options(units, dt)?;
         let channel = Some(channel).filter(|channel| !channel.is_empty());
         let loaded = recorded(records, name, &options, (channel, None))?;
         let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
         let stem = stem.rsplit('/').next().unwrap_or(stem);
-        suite.records.push(SuiteRecord {
-            name: stem.to_owned(),
-            motion: loaded.motion,
-            pair: None,
-            origin: loaded.origin,
-        });
+        read.push((stem.to_owned(), loaded));
     }
-    if suite.records.is_empty() {
-        suite.made = !matches!(analysis.motion, Some(MotionSource::Record(_)));
+    let made = read.is_empty() && !matches!(analysis.motion, Some(MotionSource::Record(_)));
+    if read.is_empty() {
         let loaded = records.motion(analysis, text)?;
-        let name = loaded.description.join("; ");
-        suite.records.push(SuiteRecord {
-            name,
-            motion: loaded.motion,
-            pair: None,
-            origin: loaded.origin,
-        });
+        read.push((loaded.description.join("; "), loaded));
     }
-    Ok(suite)
+    Ok(Suite::of(read, made))
 }
 
 /// A record as it is, perhaps with a vertical motion and its factor; what files state themselves needs no
@@ -283,259 +261,6 @@ fn read<'a>(
     let options = if stated { Options::default() } else { options.clone() };
     let missing = || Failure::of(format!("{name}: expected a record, dropped on the page"));
     records.read(name, &options).ok_or_else(missing)?.map_err(Failure::of)
-}
-
-struct Work<'a> {
-    name: String,
-    analysis: Analysis,
-    suite: Suite,
-    asked: Asked<'a>,
-    text: &'a str,
-    display: DisplayUnits,
-}
-
-const VERSION: &str = env!("CARGO_PKG_VERSION");
-
-impl Work<'_> {
-    fn failed(&self) -> impl Fn(slipstick::assessment::AssessmentError) -> Failure + '_ {
-        |error| Failure::assessment(&error, self.text)
-    }
-
-    fn models(&self, over: Option<&str>) -> Result<Models, Failure> {
-        let mut options: Vec<(&str, String)> =
-            self.asked.all("vary").map(|text| ("vary", text.to_owned())).collect();
-        if let Some(values) = self.asked.one("friction") {
-            options.push(("friction", format!("slider.kinetic_friction={values}")));
-        }
-        options.extend(over.map(|over| ("over", over.to_owned())));
-        let coupled = options.iter().any(|(_, text)| text.starts_with("slider.kinetic_friction"));
-        Models::new(MODEL, self.text, &[], &options, coupled).map_err(self.failed())
-    }
-
-    fn measure(&self) -> Result<Measure, Failure> {
-        let name = self.asked.one("measure").unwrap_or("PGA");
-        Measure::parse(name).map_err(|error| Failure::of(format!("--measure: {error}")))
-    }
-
-    fn scaling(&self) -> Result<(Scaling, String), Failure> {
-        match self.asked.one("level") {
-            Some(level) => {
-                Scaling::to_level("level", self.measure()?, level).map_err(self.failed())
-            }
-            None => Ok((Scaling::Factor(1.0), " as recorded".to_owned())),
-        }
-    }
-
-    fn bounds(&self) -> Result<Vec<slipstick::input::Bound>, Failure> {
-        let wanted = self.asked.one("bounds").filter(|name| *name != "all");
-        FrictionBounds::chosen(self.analysis.friction_bounds, wanted).map_err(Failure::of)
-    }
-
-    fn limit(&self, name: &str, demand: &str) -> Result<Option<f64>, Failure> {
-        let given = self.asked.one(name);
-        let gap = self.analysis.model.slider().gap_m();
-        let slides = demand == "peak_sliding_displacement_m";
-        match given {
-            Some(text) => key::limit(name, text, demand).map(Some).map_err(Failure::of),
-            None => Ok(gap.filter(|_| slides)),
-        }
-    }
-
-    fn spectrum(&self) -> Result<Sheet, Failure> {
-        let over = self.asked.one("over").unwrap_or("isolator.period=1..5s:40");
-        let models = self.models(Some(over))?;
-        let (scaling, scaled) = self.scaling()?;
-        let bounds = self.bounds()?;
-        let suite = &self.suite;
-        let request =
-            SpectrumRequest { models: &models, suite, scaling, demands: &[], bounds: &bounds };
-        PLANNED.set(request.runs());
-        let run = followed(|engine| {
-            PLANNED.set(request.runs());
-            run_spectrum(&request, engine)
-        })
-        .map_err(self.failed())?;
-        Ok(SpectrumReport {
-            version: VERSION,
-            name: &self.name,
-            over: &run.over,
-            unit: &run.unit,
-            values: &run.values,
-            groups: &group_names(&run),
-            records: &self.suite.names(),
-            scaled: if self.suite.made { "" } else { &scaled },
-            curves: &run.curves,
-            windows: Some((&run.window_key, &run.windows)),
-            failures: &run.failures,
-            runs: run.runs,
-            warnings: &[],
-            display: self.display,
-        }
-        .sheet())
-    }
-
-    fn demand(&self) -> &str {
-        self.asked.one("demand").unwrap_or("peak_sliding_displacement_m")
-    }
-
-    fn levels(&self, measure: &Measure) -> Result<Vec<f64>, Failure> {
-        let text = self.asked.one("levels").unwrap_or("0.1..1.5 g:15");
-        levels("levels", text, measure).map_err(self.failed())
-    }
-
-    fn ida_of(
-        &self,
-        measure: Measure,
-        models: &Models,
-        bounds: &[slipstick::input::Bound],
-    ) -> Result<slipstick::assessment::ida::IdaRun, Failure> {
-        let levels = self.levels(&measure)?;
-        let runs =
-            levels.len() * self.suite.records.len() * bounds.len().max(1) * models.grid().len();
-        let request = IdaRequest {
-            models,
-            bounds,
-            suite: &self.suite,
-            measure,
-            demand: self.demand(),
-            limit: self.limit("to", self.demand())?,
-            levels: IdaLevels::Fixed(levels),
-            keep: &[],
-            by: None,
-        };
-        followed(|engine| {
-            PLANNED.set(runs as u64);
-            run_ida(&request, engine)
-        })
-        .map_err(self.failed())
-    }
-
-    fn ida(&self) -> Result<Sheet, Failure> {
-        let (models, measure) = (self.models(None)?, self.measure()?);
-        let run = self.ida_of(measure, &models, &self.bounds()?)?;
-        Ok(IdaFamily {
-            version: VERSION,
-            name: &self.name,
-            measure: &measure,
-            demand: self.demand(),
-            limit: self.limit("to", self.demand())?,
-            fixed_levels: true,
-            run: &run,
-            warnings: &[],
-            display: self.display,
-        }
-        .sheet())
-    }
-
-    /// The incremental dynamic analysis, and the curve that fits it.
-    fn fragility(&self) -> Result<Sheet, Failure> {
-        let (models, measure) = (self.models(None)?, self.measure()?);
-        let demand = self.demand();
-        let limit = self.limit("to", demand)?;
-        let Some(limit) = limit else {
-            let expected = "a limit, such as 150 mm (or slider.gap in the model)";
-            return Err(Failure::of(format!("--to: expected {expected}, found nothing")));
-        };
-        let run = self.ida_of(measure, &models, &self.bounds()?)?;
-        let request = FragilityRequest {
-            table: &run.rows,
-            source_name: "the incremental dynamic analysis",
-            demand,
-            limit: Some(limit),
-            measure: None,
-            units: None,
-            fit_to: None,
-            floor: None,
-            cap: None,
-            keep: &[],
-            bootstrap: None,
-        };
-        let engine = Engine::unwatched();
-        let (name, display, confidence) = (self.name.as_str(), self.display, 0.9);
-        if let Some(by) = usual_by(&request).map_err(self.failed())? {
-            let (groups, by_unit) =
-                run_fragility_by(&request, by, &engine).map_err(self.failed())?;
-            let family = FragilityFamily {
-                version: VERSION,
-                name,
-                by,
-                by_unit: &by_unit,
-                groups: &groups,
-                demand,
-                limit: Some(limit),
-                confidence,
-                display,
-            };
-            return family.sheet().ok_or_else(|| {
-                let reason = groups.iter().find_map(|group| group.run.as_ref().err());
-                Failure::of(reason.map_or("no rows".to_owned(), ToString::to_string))
-            });
-        }
-        let fit = run_fragility(&request, &engine).map_err(self.failed())?;
-        Ok(FragilityReport {
-            version: VERSION,
-            name,
-            demand,
-            limit: Some(limit),
-            run: &fit,
-            confidence,
-            display,
-        }
-        .sheet())
-    }
-
-    fn design(&self) -> Result<Sheet, Failure> {
-        let models = self.models(None)?;
-        let (scaling, scaled) = self.scaling()?;
-        let demand = "peak_sliding_displacement_m";
-        let Some(gap_m) = self.limit("gap", demand)? else {
-            let expected = "a length, such as 150 mm (or slider.gap in the model)";
-            return Err(Failure::of(format!("--gap: expected {expected}, found nothing")));
-        };
-        let target = Target {
-            gap_m,
-            probability: self.asked.number("probability", 0.9)?,
-            acceleration_share: 0.5,
-        };
-        let acceleration = models.roof_acceleration();
-        let given = self.analysis.friction_bounds;
-        let bounds = given.map(|bounds| [bounds.lower, bounds.upper]);
-        let request = DesignRequest {
-            models: &models,
-            suite: &self.suite,
-            scaling,
-            target,
-            acceleration: &acceleration,
-            bounds,
-            sensitivity: self.asked.number("sensitivity", 0.0)? as u32,
-            seed: 1,
-            confidence: 0.9,
-        };
-        let runs = models.grid().len() * self.suite.records.len();
-        let run = followed(|engine| {
-            PLANNED.set(runs as u64);
-            run_design(&request, engine)
-        })
-        .map_err(self.failed())?;
-        Ok(DesignReport {
-            version: VERSION,
-            name: &self.name,
-            records: self.suite.records.len(),
-            scaled: if self.suite.made { "" } else { &scaled },
-            target,
-            variables: &run.variables,
-            acceleration: &acceleration,
-            found: &run.found,
-            bounds: bounds.zip(run.bounded.as_deref()),
-            map: run.map.as_ref(),
-            sensitivity: run.sensitivity.as_ref(),
-            confidence: 0.9,
-            failures: &run.failures,
-            warnings: &[],
-            display: self.display,
-        }
-        .sheet())
-    }
 }
 
 /// What errors call the plan's text.
@@ -609,7 +334,6 @@ impl Planned {
         let passes = Rows { solved: &solved, demand: &demand, warnings: &warnings };
         let summary = self.study.summary(&self.name, &passes, &Engine::unwatched());
         let report = StudyReport {
-            version: VERSION,
             study: &self.study,
             summary: &summary.map_err(Failure::of)?,
             checked: 0,

@@ -1,12 +1,12 @@
-//! What spectrum, ida, fragility and design share: model and records in, sheets and tables out.
+//! What the analyses over a suite share: model and records in, sheets and tables out.
 
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
-use slipstick::assessment::models::Models;
-use slipstick::assessment::suite::{Scaling, Suite};
+use slipstick::assessment::suite::Suite;
 use slipstick::assessment::{AssessmentError, ChoiceError};
-use slipstick::input::{self, Analysis, Bound, FrictionBounds, Override};
-use slipstick::motion::intensity::Measure;
+use slipstick::input::{self, Analysis, Override};
+use slipstick::requests::On;
 use slipstick::response::{Method, Warning};
 use slipstick::study::engine::Engine;
 use slipstick::table::Table;
@@ -14,18 +14,19 @@ use slipstick_files::{
     OpenJob, OpenSuite, OutputFolder, SuiteError, SuiteRequest, on_threads, sha256_hex, to_csv,
     to_parquet,
 };
-use slipstick_report::assessment::{Sheet, Went, key};
+use slipstick_report::assessment::{Sheet, Went};
 use slipstick_report::{FileNote, InputText};
 
 use super::compare::name as model_name;
 use super::run::{ModelFile, command_line, overrides, read_model, tell_replaced};
-use crate::args::{BoundsArgs, BoundsName, ResultArgs, ScaleArgs, SuiteArgs};
+use crate::args::{ResultArgs, SuiteArgs};
 use crate::failure::{Failure, print, say};
 use crate::progress::counted;
 
 /// A model and its suite, read.
 pub struct Opened {
     pub file: ModelFile,
+    text: String,
     pub name: String,
     pub analysis: Analysis,
     overrides: Vec<Override>,
@@ -67,27 +68,21 @@ impl Opened {
                 OpenSuite::single(&record, job.loaded, made)
             }
         };
-        Ok(Self { file, name, analysis, overrides, suite, warnings, sources })
+        let text = file.text();
+        Ok(Self { file, text, name, analysis, overrides, suite, warnings, sources })
     }
 
-    /// The models of a grid, from options `(name, PATH=VALUES)`.
-    pub fn models(&self, options: &[(&str, String)]) -> Result<Models, Failure> {
-        let coupled = options.iter().any(|(option, _)| *option == "friction");
-        let text = self.file.text();
-        Models::new(&self.file.name, &text, &self.overrides, options, coupled)
-            .map_err(|error| self.failure(error))
-    }
-
-    /// The bounds of friction to run; none for a model without them.
-    pub fn bounds(&self, args: BoundsArgs) -> Result<Vec<Bound>, Failure> {
-        let wanted = match args.bounds {
-            BoundsName::All => None,
-            BoundsName::Lower => Some("lower"),
-            BoundsName::Nominal => Some("nominal"),
-            BoundsName::Upper => Some("upper"),
-        };
-        FrictionBounds::chosen(self.analysis.friction_bounds, wanted)
-            .map_err(|error| choice(&error))
+    /// What is asked of.
+    pub fn on(&self) -> On<'_> {
+        On {
+            name: &self.name,
+            source: &self.file.name,
+            text: &self.text,
+            set: &self.overrides,
+            analysis: &self.analysis,
+            suite: &self.suite,
+            warnings: &self.warnings,
+        }
     }
 
     /// An error of an analysis, with the model's text where it points into that.
@@ -129,15 +124,10 @@ impl Opened {
 
 /// Reads the records that are asked for; `None` where none are.
 pub fn open_records(args: &SuiteArgs) -> Result<Option<OpenSuite>, Failure> {
-    open_pairs(args, &[])
-}
-
-/// The same with the other components of pairs.
-pub fn open_pairs(args: &SuiteArgs, second: &[String]) -> Result<Option<OpenSuite>, Failure> {
     if args.records.is_empty() {
         return Ok(None);
     }
-    let request = SuiteRequest { second: second.to_vec(), ..suite_request(args)? };
+    let request = suite_request(args)?;
     let read = |engine: &Engine<'_>| on_threads(jobs(args), || OpenSuite::open(&request, engine));
     let opened =
         counted("reading records", args.result.quiet, read).map_err(|error| match error {
@@ -163,12 +153,8 @@ pub fn failure(error: AssessmentError) -> Failure {
 
 /// What was chosen wrongly is an option of the command: only here does it get its dashes.
 pub fn choice(error: &ChoiceError) -> Failure {
-    let dashes = if error.what == SOURCE { "" } else { "--" };
-    Failure::Message(format!("{dashes}{error}"))
+    Failure::Message(format!("--{error}"))
 }
-
-/// The one choice that is no option.
-const SOURCE: &str = "SOURCE";
 
 /// The folder for results, made before any work is done.
 pub fn folder(args: &ResultArgs, inputs: &[PathBuf]) -> Result<Option<OutputFolder>, Failure> {
@@ -180,7 +166,7 @@ fn suite_request(args: &SuiteArgs) -> Result<SuiteRequest, Failure> {
     let options = args.record.options(true)?;
     Ok(SuiteRequest {
         patterns: args.records.clone(),
-        second: Vec::new(),
+        second: args.second.clone(),
         vertical: args.vertical.clone(),
         units: options.units,
         dt_s: options.dt_s,
@@ -188,55 +174,12 @@ fn suite_request(args: &SuiteArgs) -> Result<SuiteRequest, Failure> {
     })
 }
 
-/// How the records are scaled, and that in words.
-pub fn scaling(args: &ScaleArgs) -> Result<(Scaling, String), Failure> {
-    scaling_by("level", &args.measure, args.level.as_deref(), args.scale)
-}
-
-/// The same, the level being that of an option.
-pub fn scaling_by(
-    option: &str,
-    name: &str,
-    level: Option<&str>,
-    factor: Option<f64>,
-) -> Result<(Scaling, String), Failure> {
-    let Some(level) = level else {
-        let factor = factor.unwrap_or(1.0);
-        if !(factor.is_finite() && factor != 0.0) {
-            return Err(message("--scale", "a factor other than 0", &factor.to_string()));
-        }
-        let words = if factor == 1.0 { " as recorded".to_owned() } else { format!(" × {factor}") };
-        return Ok((Scaling::Factor(factor), words));
-    };
-    Scaling::to_level(option, measure(name)?, level).map_err(failure)
-}
-
-/// A measure by its name.
-pub fn measure(name: &str) -> Result<Measure, Failure> {
-    Measure::parse(name).map_err(|error| Failure::Message(format!("--measure: {error}")))
-}
-
-/// A limit > 0 on a demand: with the unit that its key ends in, or a bare number.
-pub fn limit(option: &str, text: &str, demand: &str) -> Result<f64, Failure> {
-    key::limit(option, text, demand).map_err(|error| Failure::Message(error.to_string()))
-}
-
-/// A share strictly between 0 and 1.
-pub fn share(option: &str, value: f64) -> Result<f64, Failure> {
-    let inside = value > 0.0 && value < 1.0;
-    if inside {
-        Ok(value)
-    } else {
-        Err(message(option, "a share between 0 and 1", &value.to_string()))
-    }
-}
-
 /// What was expected of an option, and what was found.
 pub fn message(option: &str, expected: &str, found: &str) -> Failure {
     Failure::Message(format!("{option}: expected {expected}, found {found:?}"))
 }
 
-/// Writes tables, figures, summary and report, and prints the result.
+/// Writes tables, figures, summary and report, and prints the result; status 1 where it is not complete.
 pub fn conclude(
     args: &ResultArgs,
     folder: Option<OutputFolder>,
@@ -244,7 +187,7 @@ pub fn conclude(
     tables: &[(&str, &Table)],
     sources: &[(String, String, String)],
     inputs: &[(String, String)],
-) -> Result<(), Failure> {
+) -> Result<ExitCode, Failure> {
     if let Some(mut folder) = folder {
         folder.replaces(&["history.csv", "events.csv"]);
         for (name, table) in tables {
@@ -262,19 +205,15 @@ pub fn conclude(
             .collect();
         let inputs: Vec<InputText> =
             inputs.iter().map(|(path, text)| InputText { path, text }).collect();
-        let went = Went {
-            version: env!("CARGO_PKG_VERSION"),
-            command_line: &command_line(),
-            files: &files,
-            inputs: &inputs,
-        };
+        let went = Went { command_line: &command_line(), files: &files, inputs: &inputs };
         folder.write("summary.json", sheet.to_json().as_bytes())?;
         folder.write("report.html", sheet.to_html(&went).as_bytes())?;
         folder.commit()?;
     }
     print(&if args.json { sheet.to_json() } else { sheet.to_text() })?;
+    let status = ExitCode::from(u8::from(!sheet.complete));
     if args.quiet {
-        return Ok(());
+        return Ok(status);
     }
     if args.json {
         for warning in &sheet.warnings {
@@ -284,5 +223,5 @@ pub fn conclude(
     if let Some(out) = &args.out {
         say(format_args!("wrote {}", out.join("report.html").display()));
     }
-    Ok(())
+    Ok(status)
 }

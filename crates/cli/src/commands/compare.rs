@@ -39,7 +39,6 @@ pub fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let comparison = comparison.map_err(|error| Failure::Message(error.to_string()))?;
     let went_in = WentIn::of(&model, &source, mapping_file.as_ref());
     let report = CompareReport {
-        version: env!("CARGO_PKG_VERSION"),
         name: &name(&model, analysis.name.as_deref()),
         measured: &measured.source_name,
         model: &analysis.model,

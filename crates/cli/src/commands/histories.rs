@@ -4,15 +4,16 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use slipstick::assessment::histories::{ModelOn, run_histories};
-use slipstick::assessment::suite::{PairScaling, Scaling};
+use slipstick::assessment::suite::{PairScaling, times};
+use slipstick::input;
 use slipstick::motion::intensity::LevelMeasure;
 use slipstick::motion::target::TargetSpectrum;
 use slipstick::units::Dimension;
 use slipstick_files::{read_target, stems_or_paths};
 use slipstick_report::assessment::histories::HistoriesReport;
 
-use super::assessment::{Opened, conclude, failure, folder, message, open_pairs, scaling_by};
-use super::run::scale_factor;
+use super::assessment::{Opened, conclude, failure, folder, message, open_records};
+use super::run::{read_model, scale_factor};
 use crate::args::{MethodName, RunArgs, SuiteArgs, quantity};
 use crate::failure::Failure;
 
@@ -30,13 +31,19 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
     let measure = args.measure.as_deref().unwrap_or("PGA");
     let (scaling, scaled, target) = scaling(args, measure, factor)?;
     let suites: Vec<SuiteArgs> = args.models.iter().map(|model| suite_of(args, model)).collect();
+    // A record among the models is told before a model that lacks one.
+    for model in args.models.iter().filter(|path| path.extension().is_some_and(|e| e != "toml")) {
+        let file = read_model(model)?;
+        input::from_bytes(&file.name, &file.bytes, &[])
+            .map_err(|error| Failure::input(error, &file.text()))?;
+    }
     // Every model has the same records: they are read once.
     let mut records = None;
     let mut opened = Vec::with_capacity(suites.len());
     for suite in &suites {
         let read = || match &records {
             Some(read) => Ok(Clone::clone(read)),
-            None => Ok(records.insert(open_pairs(suite, &args.second)?).clone()),
+            None => Ok(records.insert(open_records(suite)?).clone()),
         };
         opened.push(Opened::open_with(suite, read)?);
     }
@@ -66,7 +73,6 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
     let (first, suite) = first.ok_or_else(|| Failure::Message("expected a model".to_owned()))?;
     let histories = first.compute(suite, |engine| run_histories(&models, &scaling, engine))?;
     let report = HistoriesReport {
-        version: env!("CARGO_PKG_VERSION"),
         histories: &histories,
         scaled: if opened.iter().all(|opened| opened.suite.made) { "" } else { &scaled },
         warnings: &warnings,
@@ -75,10 +81,7 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
     let sheet = report.sheet();
     let tables = [("runs.csv", &histories.runs), ("governing.csv", &histories.governing)];
     let texts: Vec<(String, String)> = opened.iter().flat_map(Opened::inputs).collect();
-    conclude(&args.result, folder, &sheet, &tables, &sources, &texts)?;
-    let records = histories.models.iter().flat_map(|model| &model.records);
-    let failed = records.flat_map(|on| &on.holds).any(|holds| !holds);
-    Ok(ExitCode::from(u8::from(failed)))
+    conclude(&args.result, folder, &sheet, &tables, &sources, &texts)
 }
 
 /// A file that went in: path, hash, what it is.
@@ -115,11 +118,11 @@ fn scaling(
                 return Err(message("--periods", expected, text));
             }
             let Some(level) = &args.scale_to else {
-                let (scaling, words) = scaling_by("scale-to", name, None, factor)?;
-                let Scaling::Factor(factor) = scaling else {
-                    return Err(message("--scale", "a factor", &words));
-                };
-                return Ok((PairScaling::Factor(factor), words, None));
+                let factor = factor.unwrap_or(1.0);
+                if !(factor.is_finite() && factor != 0.0) {
+                    return Err(message("--scale", "a factor other than 0", &factor.to_string()));
+                }
+                return Ok((PairScaling::Factor(factor), times(factor), None));
             };
             let measure = LevelMeasure::parse(name)
                 .map_err(|error| Failure::Message(format!("--measure: {error}")))?;
@@ -159,9 +162,10 @@ fn suite_of(args: &RunArgs, model: &Path) -> SuiteArgs {
         model: model.to_owned(),
         records: args.records.iter().cloned().chain(motion).collect(),
         vertical: args.vertical.clone(),
+        second: args.second.clone(),
         record: args.record.clone(),
         set: args.set.clone(),
-        jobs: None,
+        jobs: args.jobs,
         result: args.result.clone(),
     }
 }

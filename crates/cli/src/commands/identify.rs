@@ -91,12 +91,11 @@ fn finish(
     identified: &Identified,
 ) -> Result<ExitCode, Failure> {
     let went_in = WentIn::of_files(inputs.model, inputs.sources, inputs.mapping);
-    let version = env!("CARGO_PKG_VERSION");
     let report = IdentifyReport {
         inputs: &went_in.inputs(),
         files: &went_in.files(),
         command_line: &command_line(),
-        ..IdentifyReport::of(version, measured, identified, args.display_units.into())
+        ..IdentifyReport::of(measured, identified, args.display_units.into())
     };
     let more = identified.files();
     if let Some(mut folder) = folder {

@@ -128,9 +128,11 @@ fn run(args: &StudyArgs, study: &OpenStudy, shard: Shard, out: &Path) -> Result<
             checks.equilibrium_residual,
         ));
         let page = if args.report { STUDY_REPORT } else { "summary.csv" };
-        say(format_args!("wrote {}", out.join(page).display()));
+        let (page, table) = (out.join(page), out.join("parts"));
+        say(format_args!("wrote {}; the table is {}", page.display(), table.display()));
     }
-    Ok(ExitCode::SUCCESS)
+    // Rows without an answer are no answer to all that was asked.
+    Ok(ExitCode::from(u8::from(outcome.failures > 0)))
 }
 
 /// Writes the page of a study.
@@ -142,7 +144,6 @@ fn report(
     out: &Path,
 ) -> Result<(), Failure> {
     let page = StudyReport {
-        version: env!("CARGO_PKG_VERSION"),
         study: &study.study,
         summary,
         checked,
@@ -160,12 +161,7 @@ fn report(
         .zip(&study.inputs)
         .map(|(text, (path, _))| InputText { path, text })
         .collect();
-    let went = Went {
-        version: env!("CARGO_PKG_VERSION"),
-        command_line: &command_line(),
-        files: &files,
-        inputs: &inputs,
-    };
+    let went = Went { command_line: &command_line(), files: &files, inputs: &inputs };
     let mut folder = OutputFolder::create(out, &[])?;
     folder.write(STUDY_REPORT, page.sheet().to_html(&went).as_bytes())?;
     Ok(folder.commit()?)

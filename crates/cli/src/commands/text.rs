@@ -14,6 +14,7 @@ use crate::failure::{Failure, print};
 pub fn schema(args: &SchemaArgs) -> Result<ExitCode, Failure> {
     let text = match args {
         SchemaArgs { units: true, .. } => slipstick::units::table(),
+        SchemaArgs { requests: true, .. } => slipstick::requests::table(),
         SchemaArgs { plan: true, .. } => slipstick::input::plan_json_schema(),
         _ => slipstick::input::json_schema(),
     };

@@ -142,7 +142,7 @@ fn exact_isolator_period_sets_the_radius() {
                 "records",
                 "--over",
                 over,
-                "--level",
+                "--scale-to",
                 "3 m/s2",
             ],
         )
@@ -187,7 +187,7 @@ fn exact_ida_at_levels_is_that_of_its_runs() {
         "model.toml",
         "--records",
         "records/*.csv",
-        "--levels",
+        "--scale-to",
         "1..7 m/s2:4",
         "--out",
         "out",
@@ -217,7 +217,7 @@ fn exact_ida_at_levels_is_that_of_its_runs() {
 #[test]
 fn exact_hunt_brackets_the_gap_to_one_percent() {
     let folder = suite("hunt", 3);
-    folder.stdout(&["ida", "model.toml", "--records", "records", "--hunt", "--out", "out", "-q"]);
+    folder.stdout(&["ida", "model.toml", "--records", "records", "--out", "out", "-q"]);
     let csv = folder.read("out/capacities.csv");
     let records = cells(&csv, "record");
     let (below, above) = (column(&csv, "below"), column(&csv, "above"));
@@ -275,11 +275,10 @@ fn exact_hunt_brackets_the_gap_to_one_percent() {
         "model.toml",
         "--records",
         "records",
-        "--hunt",
         "--demand",
         "storey1_peak_drift_m",
     ]);
-    assert!(refused.starts_with("--to: expected a limit to hunt for"), "{refused}");
+    assert!(refused.starts_with("--limit: expected a limit to hunt for"), "{refused}");
     let drift = json(
         &folder,
         &[
@@ -287,10 +286,9 @@ fn exact_hunt_brackets_the_gap_to_one_percent() {
             "model.toml",
             "--records",
             "records",
-            "--hunt",
             "--demand",
             "storey1_peak_drift_m",
-            "--to",
+            "--limit",
             "4 mm",
         ],
     );
@@ -302,7 +300,7 @@ fn exact_hunt_brackets_the_gap_to_one_percent() {
 fn exact_design_front_is_that_of_all_designs() {
     let folder = bounded("design", 1);
     let (friction, radius) = ("0.02..0.10:9", "slider.radius=0.5..4m:8");
-    let scale = ["--level", "2 m/s2"];
+    let scale = ["--scale-to", "2 m/s2"];
     let arguments = |command: &'static str| {
         let common = [command, "model.toml", "--records", "records", "--friction", friction, "-q"];
         [&common[..], &scale[..]].concat()
@@ -373,7 +371,7 @@ fn exact_design_that_cannot_be_is_status_1_with_the_nearest() {
         "0.02,0.03",
         "--gap",
         "0.1 mm",
-        "--level",
+        "--scale-to",
         "6 m/s2",
         "--sensitivity",
         "0",
@@ -391,7 +389,7 @@ fn exact_results_are_the_same_on_any_number_of_threads() {
     let folder = suite("threads", 3);
     let commands: [&[&str]; 3] = [
         &["spectrum", "model.toml", "--records", "records", "--over", "storey.1.period=0.2..1s:5"],
-        &["ida", "model.toml", "--records", "records", "--hunt"],
+        &["ida", "model.toml", "--records", "records"],
         &[
             "design",
             "model.toml",
@@ -453,28 +451,35 @@ fn exact_what_is_wrong_is_said() {
              \"peak_sliding_displacement\"; nearest is \"peak_sliding_displacement_m\"",
         ),
         (
-            with(&["spectrum", "model.toml", "--over", "slider.radius=1,2 m", "--level", "0.3 m"]),
-            "--level: expected an acceleration, such as \"0.3 g\", found a length, \"0.3 m\"",
+            with(&[
+                "spectrum",
+                "model.toml",
+                "--over",
+                "slider.radius=1,2 m",
+                "--scale-to",
+                "0.3 m",
+            ]),
+            "--scale-to: expected an acceleration, such as \"0.3 g\", found a length, \"0.3 m\"",
         ),
         (
-            with(&["ida", "model.toml", "--levels", "1 m/s2", "--measure", "PGAA"]),
+            with(&["ida", "model.toml", "--scale-to", "1 m/s2", "--measure", "PGAA"]),
             "--measure: expected",
         ),
         (
-            with(&["ida", "model.toml", "--levels", "1 m/s2", "--measure", "Arias"]),
+            with(&["ida", "model.toml", "--scale-to", "1 m/s2", "--measure", "Arias"]),
             "--measure: expected a measure that grows as the motion does, such as PGA or Sa(1.2 s), found Arias",
         ),
         (
-            with(&["ida", "model.toml", "--levels", "2, 1 m/s2"]),
-            "--levels: expected levels > 0 that rise",
+            with(&["ida", "model.toml", "--scale-to", "2, 1 m/s2"]),
+            "--scale-to: expected levels > 0 that rise",
         ),
         (
-            vec!["ida", "model.toml", "--records", "records/*.AT2", "--levels", "1 m/s2"],
+            vec!["ida", "model.toml", "--records", "records/*.AT2", "--scale-to", "1 m/s2"],
             "records/*.AT2: ",
         ),
         (
             with(&["design", "model.toml", "--gap", "1 mm"]),
-            "--vary: expected something to vary, --friction or --vary slider.radius=1..5m:50",
+            "--vary: expected something to vary, friction or slider.radius=1..5m:50",
         ),
         (
             vec!["fragility", "none.csv", "--measure", "PGA"],
@@ -515,7 +520,7 @@ fn exact_what_is_wrong_is_said() {
     let output = folder.output(&with(&[
         "ida",
         "model.toml",
-        "--levels",
+        "--scale-to",
         "1 m/s2",
         "--set",
         "analysis.method=stepwise",
@@ -541,8 +546,16 @@ fn exact_help_of_the_suite_teaches_in_a_hundred_columns() {
 #[test]
 fn exact_ida_of_designs_and_bounds() {
     let folder = bounded("ida-designs", 4);
-    let ida =
-        ["ida", "model.toml", "--records", "records", "--levels", "1, 2, 4 m/s2", "--to", "20 mm"];
+    let ida = [
+        "ida",
+        "model.toml",
+        "--records",
+        "records",
+        "--scale-to",
+        "1, 2, 4 m/s2",
+        "--limit",
+        "20 mm",
+    ];
     let with = |more: &[&'static str]| [&ida[..], more].concat();
     let by_bound = json(&folder, &with(&["--out", "out"]));
     assert_eq!(by_bound["by"], "friction");
@@ -613,7 +626,10 @@ fn exact_design_counts_the_runs_that_fail() {
     let words = shown.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("of 20 were needed, 4 of them without an answer"), "{shown}");
     assert!(
-        words.contains("runs have no answer and count as beyond the gap; the first: r0: "),
+        words.contains(
+            "runs have no answer and count as beyond the gap; the first: r0, \
+             slider.kinetic_friction = 0.07: "
+        ),
         "{shown}"
     );
 }
@@ -622,7 +638,7 @@ fn exact_design_counts_the_runs_that_fail() {
 #[test]
 fn exact_ida_clusters_pairs() {
     let folder = suite("ida-pairs", 8);
-    let levels = ["--levels", "1..6 m/s2:21", "--to", "40 mm", "-q"];
+    let levels = ["--scale-to", "1..6 m/s2:21", "--limit", "40 mm", "-q"];
     let files: Vec<String> = (0..8).map(|i| format!("records/r{i}.csv")).collect();
     let file = |i: usize| files[i].as_str();
     let (first, second) = ([0, 2, 4, 6].map(file), [1, 3, 5, 7].map(file));
@@ -662,4 +678,114 @@ fn exact_ida_clusters_pairs() {
     assert_eq!((&stated["clustered_by"], &stated["records"]), (&"pair".into(), &4.into()));
     assert!((number(&stated["median"]) / number(&alone["median"]) - 1.0).abs() < 1e-3);
     assert!(stated["se_ln_median"] != alone["se_ln_median"]);
+}
+
+/// One run that fails is one row with its error, named with its factor; the others are what they are alone,
+/// and the status says that not all is answered.
+#[test]
+fn exact_a_run_that_fails_is_a_row_and_the_status_says_so() {
+    let folder = suite("one-fails", 3);
+    // Three times this is more than any motion may be.
+    folder.write("records/strong.csv", "time_s,acceleration_m_per_s2\n0,0\n0.1,5e29\n0.2,0\n");
+    let tail = ["--records", "records/*.csv", "--scale", "3", "--out", "out"];
+    let answered = |head: &[&str], runs: usize| {
+        let arguments = [head, &tail[..]].concat();
+        let output = folder.output(&arguments);
+        assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+        let said: String = text(&output.stdout).split_whitespace().collect::<Vec<_>>().join(" ");
+        let expected = format!("1 of {runs} runs have no answer and ");
+        assert!(said.contains(&expected), "{said}");
+        let reason = ": sample 1: expected a horizontal acceleration of at most 1e30";
+        assert!(said.contains("strong × 3") && said.contains(reason), "{said}");
+        let summary: Value = serde_json::from_str(&folder.read("out/summary.json")).unwrap();
+        assert_eq!(summary["warnings"][0]["kind"], "failed_runs");
+        said
+    };
+    answered(&["spectrum", "model.toml", "--over", "storey.1.period=0.5 s"], 4);
+    let said = answered(&["run", "model.toml"], 4);
+    assert!(said.contains("no maximum: 1 of 4 runs have no answer"), "{said}");
+    let runs = folder.read("out/runs.csv");
+    let status = cells(&runs, "status");
+    assert_eq!(status[..3], ["ok"; 3]);
+    assert!(status[3].contains("sample 1: expected"), "{status:?}");
+    let alone = run(&folder, "r1", 3.0, &[]);
+    let peaks = cells(&runs, "peak_sliding_displacement_m");
+    assert_eq!(peaks[1].parse::<f64>().unwrap(), number(&alone["peak_sliding_displacement_m"]));
+    assert_eq!(peaks[3], "");
+    assert_eq!(cells(&folder.read("out/governing.csv"), "peak_sliding_displacement_m"), [""]);
+}
+
+/// The level of one record would make it stronger than any motion may be.
+#[test]
+fn exact_ida_with_runs_that_fail_says_so_in_its_status() {
+    let folder = suite("ida-fails", 2);
+    let mut ripple = "time_s,acceleration_m_per_s2\n".to_owned();
+    for i in 0..200 {
+        ripple.push_str(&format!(
+            "{:.3},{}\n",
+            0.005 * f64::from(i),
+            if i % 2 == 0 { 9 } else { -9 }
+        ));
+    }
+    folder.write("records/ripple.csv", ripple);
+    let arguments = [
+        "ida",
+        "model.toml",
+        "--records",
+        "records",
+        "--measure",
+        "Sa(2 s)",
+        "--scale-to",
+        "1, 1e29 m/s2",
+    ];
+    let output = folder.output(&arguments);
+    let said: String = text(&output.stdout).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("1 of 6 runs have no answer and count as above any limit"), "{said}");
+    assert!(said.contains("the first: ripple × "), "{said}");
+    assert_eq!(output.status.code(), Some(1));
+}
+
+/// Flat geometry is said wherever runs leave it, with how many and which first.
+#[test]
+fn exact_runs_beyond_flat_geometry_are_counted_in_every_analysis() {
+    let folder = suite("flat", 3);
+    for head in [
+        &["ida", "model.toml", "--scale-to", "1, 40 m/s2"][..],
+        &["spectrum", "model.toml", "--over", "storey.1.period=0.5 s", "--scale", "20"],
+        &["design", "model.toml", "--friction", "0.05", "--scale", "20", "--sensitivity", "0"],
+    ] {
+        let output =
+            folder.output(&[head, &["--records", "records/*.csv", "--json", "-q"]].concat());
+        let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let warnings = summary["warnings"].as_array().unwrap();
+        let flat = warnings.iter().find(|warning| warning["kind"] == "flat_geometry");
+        let message =
+            flat.unwrap_or_else(|| panic!("{head:?}: {summary}"))["message"].as_str().unwrap();
+        assert!(
+            message.starts_with("3 of ") && message.contains("the first of them r0"),
+            "{message}"
+        );
+    }
+}
+
+/// The limit of the analysis is known beside its tables, as in its folder.
+#[test]
+fn exact_fragility_knows_the_limit_of_the_analysis() {
+    let folder = suite("limit-known", 6);
+    let ida = [
+        "--records",
+        "records",
+        "--scale-to",
+        "0.5..6 m/s2:12",
+        "--limit",
+        "50 mm",
+        "--out",
+        "ida",
+        "-q",
+    ];
+    folder.stdout(&[&["ida", "model.toml"], &ida[..]].concat());
+    let of = |source: &str| json(&folder, &["fragility", source]);
+    for source in ["ida", "ida/ida.csv", "ida/ida.parquet", "ida/capacities.csv"] {
+        assert_eq!(of(source)["limit"], 0.05, "{source}");
+    }
 }

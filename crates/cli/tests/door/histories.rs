@@ -101,7 +101,7 @@ fn exact_models_side_by_side_in_one_report() {
     assert!(text.contains("model: peak sliding displacement"), "{text}");
     assert!(text.contains("plain: peak sliding displacement"), "{text}");
     let page = folder.read("out/report.html");
-    assert!(page.contains("largest peak bold") && page.contains("Share of the records"));
+    assert!(page.contains("bold the largest") && page.contains("Share of the records"));
     assert_eq!(
         folder.names("out"),
         ["governing.csv", "histories.svg", "report.html", "runs.csv", "shares.svg", "summary.json",]
@@ -319,4 +319,70 @@ fn exact_force_of_surfaces_is_friction_and_restoring_force() {
     let text = folder.stdout(&["run", "model.toml"]);
     assert!(text.contains("Peak friction and restoring force"), "{text}");
     assert!(!text.contains("Peak friction force"), "{text}");
+}
+
+/// A report that a reviewer can follow: earthquakes, factors and peaks first, what governs marked, and the hand's
+/// calculation beside the runs.
+#[test]
+fn exact_report_of_a_suite_says_what_it_is_of() {
+    let folder = folder("histories-of", 1);
+    let at2 = |component: &str, phase: f64| {
+        let values = (0..1500).map(|k| {
+            let t = 0.01 * f64::from(k);
+            format!("{:.6e}", 0.3 * (4.0 * t + phase).sin() * (0.2 * t).sin() * (-0.05 * t).exp())
+        });
+        let rows: Vec<String> =
+            values.collect::<Vec<_>>().chunks(5).map(|row| row.join(" ")).collect();
+        format!(
+            "PEER NGA STRONG MOTION DATABASE RECORD\nMade Up, 1/1/2000, Nowhere Fire Station, {component}\n\
+             ACCELERATION TIME SERIES IN UNITS OF G\nNPTS=  1500, DT=   .0100 SEC,\n{}\n",
+            rows.join("\n")
+        )
+    };
+    folder.write("x/RSN1_A000.AT2", at2("0", 0.0));
+    folder.write("y/RSN1_A090.AT2", at2("90", 0.7));
+    let arguments =
+        ["--records", "x", "--second", "y", "--periods", "0.5 s..3 s", "--code-spectrum"];
+    let spectrum = ["sds = 1.2 g, sd1 = 0.8 g, tl = 8 s", "--jobs", "1", "--out", "out"];
+    let text = folder.stdout(&[&["run", "model.toml"], &arguments[..], &spectrum[..]].concat());
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for said in [
+        "Records Record Earthquake Station Component Factor PGA (g) RSN1_A000 ",
+        "Nowhere Fire Station",
+        "Effective damping β_M (%)",
+        "Displacement D_M (mm)",
+        "over D_M",
+        "* governs: the bound of friction with the larger value.",
+    ] {
+        assert!(words.contains(said), "{said}: {text}");
+    }
+    let summary: serde_json::Value =
+        serde_json::from_str(&folder.read("out/summary.json")).unwrap();
+    let record = &summary["records"][1];
+    assert_eq!(record["station"], "Nowhere Fire Station");
+    let lateral = &summary["lateral_force"][1];
+    let number = |key: &str| lateral[key].as_f64().unwrap();
+    // D = Sa(T) (T/2π)²/B with Sa = 0.8 g/T, T from the stiffness under the mass of 500 kg.
+    let rate = number("period_s") / std::f64::consts::TAU;
+    let sa = 0.8 * 9.80665 / number("period_s");
+    let displacement = sa * rate * rate / number("damping_factor");
+    assert!((displacement / number("displacement_m") - 1.0).abs() < 1e-12, "{lateral}");
+    assert!((500.0 / (number("stiffness_n_per_m") * rate * rate) - 1.0).abs() < 1e-12, "{lateral}");
+    let page = folder.read("out/report.html");
+    assert!(page.contains("class=\"number governs\""));
+    assert!(page.find("id=\"target\"").unwrap() < page.find("id=\"histories\"").unwrap());
+}
+
+/// A factor that makes another motion of a record is said with the record.
+#[test]
+fn exact_far_factors_are_said() {
+    let folder = folder("histories-far", 3);
+    let warned = |scale: &str| {
+        let text = folder.stdout(&["run", "model.toml", "--records", "records", "--scale", scale]);
+        text.split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ")
+            .contains("factor_far: 3 of 3 factors are outside 0.25 to 4")
+    };
+    assert!(warned("0.2") && warned("-5") && !warned("4") && !warned("-0.25"));
 }

@@ -387,8 +387,12 @@ fn exact_messages_say_what_was_meant() {
         ),
         (
             &["identify", "cyclic", "record.AT2"],
-            "record.AT2:5:40: expected a table with a column a sensor, found \"a record of ground motion, \
+            "record.AT2:1:1: expected a table with a column a sensor, found \"a record of ground motion, \
              PEER AT2\"",
+        ),
+        (
+            &["run", "model.toml", "record.csv"],
+            "record.csv: expected a model, found a record (a record is given beside a model",
         ),
         (
             &["run", "model.toml", "--second", "record.csv"],
@@ -405,7 +409,7 @@ fn exact_messages_say_what_was_meant() {
                 "model.toml",
                 "--records",
                 "record.csv",
-                "--levels",
+                "--scale-to",
                 "1, 2 m/s2",
                 "--demand",
                 "force",

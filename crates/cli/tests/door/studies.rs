@@ -497,7 +497,7 @@ fn exact_failing_runs_are_rows() {
     let folder = folder("study-failing");
     folder.write("plan.toml", PLAN.replace("[0.02, 0.15]", "[0.1, 0.3]"));
     let output = folder.output(&["study", "plan.toml", "--out", "out"]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
     let table = text(&output.stdout);
     assert!(table.ends_with("750 runs failed: see the column status\n"), "{table}");
     assert!(text(&output.stderr).contains("1500 runs, 750 failed"), "{}", text(&output.stderr));
@@ -724,7 +724,7 @@ fn exact_what_is_named_twice_is_said() {
         "--records",
         "records/b.csv",
         "records",
-        "--levels",
+        "--scale-to",
         "1, 2 m/s2",
     ]);
     let said = text(&output.stdout);

@@ -13,20 +13,20 @@
 //! is dropped when its bound of displacement is beyond the gap, or when a design of the front is
 //! better than both bounds. So the front equals that of the full grid, run for run.
 
+use super::cases::{Case, Cases, Ran, failures, noticed};
 use super::grid::Axis;
 use super::models::Models;
 use super::proportion::Proportion;
 use super::sensitivity::{self, Index};
 use super::suite::{Scaling, Suite};
 use super::{AssessmentError, FailedRun};
-use crate::error::{FitError, MotionError, RunError, Stopped};
+use crate::error::{FitError, RunError, Stopped};
 use crate::input::Parts;
 use crate::numerics::fractile::{held_by, needed, sorted};
 use crate::numerics::sort;
 use crate::numerics::unit_points;
-use crate::response::demand_values;
-use crate::solver::{PreparedMotion, Workspace};
-use crate::study::engine::{Engine, Running};
+use crate::response::{Warning, demand_values};
+use crate::study::engine::Engine;
 use crate::table::Table;
 
 /// What is asked of a design.
@@ -297,6 +297,8 @@ pub struct DesignRun {
     pub sensitivity: Option<Result<Sensitivity, SensitivityError>>,
     /// Runs of the search without an answer.
     pub failures: Vec<FailedRun>,
+    /// What was noticed of runs of the search.
+    pub warnings: Vec<Warning>,
     /// Both figures over the two main variables; `None` where fewer than two vary.
     pub map: Option<DesignMap>,
     /// The front, a row a design.
@@ -370,27 +372,26 @@ pub fn run_design(
     let records = suite.records.len();
     let grid = models.grid();
     let parts = models.all(records, engine)?;
-    let mut failures: Vec<FailedRun> = Vec::new();
-    let mut ran: Vec<((usize, usize), Demand)> = Vec::new();
+    let mut ran: Vec<Ran<Demand>> = Vec::new();
     let found = search(&target, grid.len(), records, |pairs: &[(usize, usize)]| {
         let runs = runner.pairs(pairs, &parts)?;
-        let demand = |(run, (_, record)): (Result<Demand, RunError>, &(usize, usize))| {
-            run.unwrap_or_else(|error| {
-                failures.push(runner.failed(*record, error));
-                FAILED
-            })
-        };
-        let demands: Vec<Demand> = runs.into_iter().zip(pairs).map(demand).collect();
-        ran.extend(pairs.iter().copied().zip(demands.iter().copied()));
+        let demands = demands(&runs);
+        ran.extend(runs);
         Ok::<_, AssessmentError>(demands)
     })?;
+    let label = |design: usize| grid.label(design);
+    let (mut failed, mut warnings) = (failures(&ran, suite, label), noticed(&ran, suite, label));
     let bounded = match request.bounds {
         None => None,
         Some(factors) => {
             let designs: Vec<usize> =
                 found.front.iter().chain(&found.nearest).map(|point| point.design).collect();
-            let (bounded, failed) = runner.bounded(&designs, &parts, factors, &target)?;
-            failures.extend(failed);
+            let (bounded, ran) = runner.bounded(&designs, &parts, factors, &target)?;
+            let label = |of: usize| {
+                format!("{}, friction × {}", grid.label(designs[of / 2]), factors[of % 2])
+            };
+            failed.extend(failures(&ran, suite, label));
+            warnings.extend(noticed(&ran, suite, label));
             Some(bounded)
         }
     };
@@ -398,31 +399,42 @@ pub fn run_design(
     let variables = grid.axes().to_vec();
     let map = runner.map(request, &found, sensitivity.as_ref())?;
     let front = table(request, &variables, &found, bounded.as_deref());
-    ran.retain(|((design, _), _)| found.front.iter().any(|point| point.design == *design));
-    sort(&mut ran, |a, b| a.0.cmp(&b.0));
+    ran.retain(|ran| found.front.iter().any(|point| point.design == ran.case.design));
+    sort(&mut ran, |a, b| (a.case.design, a.case.record).cmp(&(b.case.design, b.case.record)));
     let runs = rows(request, &runner, &ran)?;
-    Ok(DesignRun { variables, found, bounded, sensitivity, failures, map, front, runs })
+    Ok(DesignRun {
+        variables,
+        found,
+        bounded,
+        sensitivity,
+        failures: failed,
+        warnings,
+        map,
+        front,
+        runs,
+    })
 }
 
 /// A row for each run of a design and a record.
 fn rows(
     request: &DesignRequest<'_>,
     runner: &Runner<'_>,
-    ran: &[((usize, usize), Demand)],
+    ran: &[Ran<Demand>],
 ) -> Result<Table, AssessmentError> {
     let (suite, grid) = (request.suite, request.models.grid());
-    let records: Vec<usize> = ran.iter().map(|((_, record), _)| *record).collect();
+    let records: Vec<usize> = ran.iter().map(|ran| ran.case.record).collect();
     let mut rows = Table::default();
     rows.texts("record", records.iter().map(|&i| suite.records[i].name.clone()).collect());
     rows.columns.extend(suite.intensities(&request.scaling, &records, runner.engine)?.columns);
     rows.numbers("scale", "", records.iter().map(|&i| runner.factors[i]).collect());
     for (i, axis) in grid.axes().iter().enumerate() {
-        let value = |((design, _), _): &((usize, usize), Demand)| grid.values(*design)[i];
+        let value = |ran: &Ran<Demand>| grid.values(ran.case.design)[i];
         rows.numbers(&axis.path, &axis.unit, ran.iter().map(value).collect());
     }
-    let displacements = ran.iter().map(|(_, demand)| demand.displacement_m).collect();
+    let all = demands(ran);
+    let displacements = all.iter().map(|demand| demand.displacement_m).collect();
     rows.numbers("peak_sliding_displacement_m", "m", displacements);
-    let accelerations = ran.iter().map(|(_, demand)| demand.acceleration_m_per_s2).collect();
+    let accelerations = all.iter().map(|demand| demand.acceleration_m_per_s2).collect();
     rows.numbers(request.acceleration, "m/s2", accelerations);
     Ok(rows)
 }
@@ -433,15 +445,16 @@ const MAP_VALUES: usize = 25;
 /// A run without an answer.
 const FAILED: Demand = Demand { displacement_m: f64::NAN, acceleration_m_per_s2: f64::NAN };
 
+fn demands(ran: &[Ran<Demand>]) -> Vec<Demand> {
+    ran.iter().map(|ran| *ran.kept.as_ref().unwrap_or(&FAILED)).collect()
+}
+
 /// What all runs of a search share.
 struct Runner<'a> {
     models: &'a Models,
-    suite: &'a Suite,
     engine: &'a Engine<'a>,
     factors: Vec<f64>,
-    tail_s: f64,
-    /// Scaled records with that tail; none for a made motion.
-    motions: Vec<Result<PreparedMotion, MotionError>>,
+    cases: Cases<'a>,
     displacement: usize,
     acceleration: usize,
 }
@@ -452,40 +465,13 @@ impl<'a> Runner<'a> {
         let factors = suite.factors(&request.scaling, engine)?;
         let first = models.parts(&models.grid().values(0));
         let tail_s = first.map_or(0.0, |parts| parts.tail_s);
-        let shared = if suite.made { 0 } else { suite.records.len() };
-        let motion = |i: usize| suite.motion(i, factors[i], tail_s).map(PreparedMotion::new);
-        let motions = engine.map(shared, |i| Ok(motion(i)))?;
         Ok(Self {
             displacement: models.column("peak_sliding_displacement_m")?,
             acceleration: models.column(request.acceleration)?,
+            cases: Cases::new(suite, &factors, tail_s, engine)?,
             models,
-            suite,
             engine,
             factors,
-            tail_s,
-            motions,
-        })
-    }
-
-    /// One run of a model, which has the motion of these parts.
-    fn run(
-        &self,
-        parts: &Parts,
-        (running, room): (&mut Running<'_>, &mut Workspace),
-        record: usize,
-    ) -> Result<Demand, RunError> {
-        let own;
-        let motion = match self.motions.get(record) {
-            Some(motion) if parts.tail_s == self.tail_s => motion.as_ref().map_err(Clone::clone)?,
-            _ => {
-                own = self.suite.motion_of(record, self.factors[record], parts)?.into();
-                &own
-            }
-        };
-        let values = demand_values(&running.on(motion, room)?.demands);
-        Ok(Demand {
-            displacement_m: values[self.displacement],
-            acceleration_m_per_s2: values[self.acceleration],
         })
     }
 
@@ -494,72 +480,52 @@ impl<'a> Runner<'a> {
         &self,
         pairs: &[(usize, usize)],
         parts: &[Result<Parts, RunError>],
-    ) -> Result<Vec<Result<Demand, RunError>>, Stopped> {
-        let groups: Vec<&[(usize, usize)]> = pairs.chunk_by(|a, b| a.0 == b.0).collect();
-        self.engine.plan(pairs.len() as u64);
-        let runs = self.engine.map(groups.len(), |i| {
-            let runs: Vec<Result<Demand, RunError>> = match &parts[groups[i][0].0] {
-                Err(error) => groups[i].iter().map(|_| Err(error.clone())).collect(),
-                Ok(parts) => {
-                    let (mut running, mut room) =
-                        (Running::new(&parts.model, self.engine), Workspace::default());
-                    let of = |(_, record): &(usize, usize)| {
-                        self.run(parts, (&mut running, &mut room), *record)
-                    };
-                    groups[i].iter().map(of).collect()
-                }
-            };
-            self.engine.done(runs.len() as u64)?;
-            Ok(runs)
-        })?;
-        Ok(runs.into_iter().flatten().collect())
+    ) -> Result<Vec<Ran<Demand>>, Stopped> {
+        let case = |&(design, record): &(usize, usize)| {
+            let scale = self.factors[record];
+            Case { design, record, scale }
+        };
+        let cases: Vec<Case> = pairs.iter().map(case).collect();
+        self.cases.run(parts, &cases, |_, response, _| {
+            let values = demand_values(&response.demands);
+            Demand {
+                displacement_m: values[self.displacement],
+                acceleration_m_per_s2: values[self.acceleration],
+            }
+        })
     }
 
-    /// Figures of designs with friction times the lower and the upper factor, and the runs that failed.
+    /// Every one of some designs on every record, the records fastest.
+    fn all(&self, parts: &[Result<Parts, RunError>]) -> Result<Vec<Ran<Demand>>, Stopped> {
+        let records = 0..self.factors.len();
+        let of = |design| records.clone().map(move |record| (design, record));
+        let pairs: Vec<(usize, usize)> = (0..parts.len()).flat_map(of).collect();
+        self.pairs(&pairs, parts)
+    }
+
+    /// Figures of designs with friction times the lower and the upper factor, and those runs; `designs[i]`
+    /// is run as the designs `2 i` and `2 i + 1`.
     fn bounded(
         &self,
         designs: &[usize],
         parts: &[Result<Parts, RunError>],
         factors: [f64; 2],
         target: &Target,
-    ) -> Result<(Vec<Bounded>, Vec<FailedRun>), AssessmentError> {
-        let records = self.suite.records.len();
-        self.engine.plan((designs.len() * 2 * records) as u64);
-        let runs = self.engine.map(designs.len() * 2, |i| {
-            let (design, factor) = (designs[i / 2], factors[i % 2]);
-            let of_all = || -> Result<Vec<Result<Demand, RunError>>, RunError> {
-                let parts = parts[design].as_ref().map_err(Clone::clone)?;
-                let model = parts.model.with_friction_times(factor)?;
-                let (mut running, mut room) =
-                    (Running::new(&model, self.engine), Workspace::default());
-                let of = |record| self.run(parts, (&mut running, &mut room), record);
-                Ok((0..records).map(of).collect())
-            };
-            let runs = of_all().unwrap_or_else(|error| vec![Err(error); records]);
-            self.engine.done(records as u64)?;
-            Ok(runs)
-        })?;
-        let mut failures = Vec::new();
-        let mut demand = |(record, run): (usize, Result<Demand, RunError>)| {
-            run.unwrap_or_else(|error| {
-                failures.push(self.failed(record, error));
-                FAILED
-            })
+    ) -> Result<(Vec<Bounded>, Vec<Ran<Demand>>), AssessmentError> {
+        let with = |(design, factor): (usize, f64)| -> Result<Parts, RunError> {
+            let parts = parts[design].as_ref().map_err(Clone::clone)?;
+            Ok(Parts { model: parts.model.with_friction_times(factor)?, ..parts.clone() })
         };
-        let demands: Vec<Vec<Demand>> = runs
-            .into_iter()
-            .map(|runs| runs.into_iter().enumerate().map(&mut demand).collect())
-            .collect();
-        let bounded = |(pair, &design): (&[Vec<Demand>], &usize)| {
-            let (lower, upper) = (target.figures(&pair[0])?, target.figures(&pair[1])?);
+        let both = designs.iter().flat_map(|design| factors.map(|factor| (*design, factor)));
+        let ran = self.all(&both.map(with).collect::<Vec<_>>())?;
+        let of_bounds = demands(&ran);
+        let of_bounds: Vec<&[Demand]> = of_bounds.chunks(self.factors.len()).collect();
+        let bounded = |(pair, &design): (&[&[Demand]], &usize)| {
+            let (lower, upper) = (target.figures(pair[0])?, target.figures(pair[1])?);
             Ok(Bounded { design, lower, upper })
         };
-        let bounded = demands.chunks(2).zip(designs).map(bounded);
-        Ok((bounded.collect::<Result<_, AssessmentError>>()?, failures))
-    }
-
-    fn failed(&self, record: usize, error: RunError) -> FailedRun {
-        FailedRun { record: self.suite.records[record].name.clone(), error }
+        let bounded = of_bounds.chunks(2).zip(designs).map(bounded);
+        Ok((bounded.collect::<Result<_, AssessmentError>>()?, ran))
     }
 
     /// Figures over the two main variables, at no more than [`MAP_VALUES`] values of each.
@@ -595,31 +561,21 @@ impl<'a> Runner<'a> {
         };
         let (of_x, of_y) = (places(first), places(second));
         let chosen = grid.values(design);
-        let records = self.suite.records.len();
-        let count = of_x.len() * of_y.len();
-        self.engine.plan((count * records) as u64);
-        let figures = self.engine.map(count, |k| {
+        let parts = |k: usize| {
             let mut values = chosen.clone();
             values[first] = grid.axes()[first].values[of_x[k / of_y.len()]];
             values[second] = grid.axes()[second].values[of_y[k % of_y.len()]];
-            let figures = match self.models.parts(&values) {
-                // What makes no model has no figures, and no line goes through it.
-                Err(_) => [f64::NAN; 2],
-                Ok(parts) => {
-                    let (mut running, mut room) =
-                        (Running::new(&parts.model, self.engine), Workspace::default());
-                    let of = |record| {
-                        self.run(&parts, (&mut running, &mut room), record).unwrap_or(FAILED)
-                    };
-                    let demands: Vec<Demand> = (0..records).map(of).collect();
-                    request.target.figures(&demands).map_or([f64::NAN; 2], |figures| {
-                        [figures.displacement_m, figures.acceleration_m_per_s2]
-                    })
-                }
-            };
-            self.engine.done(records as u64)?;
-            Ok(figures)
-        })?;
+            Ok(self.models.parts(&values).map_err(RunError::from))
+        };
+        let parts = self.engine.map(of_x.len() * of_y.len(), parts)?;
+        // What makes no model, or fails, has no figures, and no line goes through it.
+        let demands = demands(&self.all(&parts)?);
+        let figures = demands.chunks(self.factors.len()).map(|demands| {
+            request.target.figures(demands).map_or([f64::NAN; 2], |figures| {
+                [figures.displacement_m, figures.acceleration_m_per_s2]
+            })
+        });
+        let figures: Vec<[f64; 2]> = figures.collect();
         let value = |axis: usize| move |place: &usize| grid.axes()[axis].values[*place];
         Ok(Some(DesignMap {
             variables: [first, second],
@@ -642,29 +598,24 @@ impl<'a> Runner<'a> {
             Ok(rows) => rows,
             Err(error) => return Ok(Some(Err(error.into()))),
         };
-        let records = self.suite.records.len();
-        self.engine.plan((rows.len() * records) as u64);
-        let figures = self.engine.map(rows.len(), |i| {
+        let parts = self.engine.map(rows.len(), |i| {
             let value = |(axis, u): (&Axis, &f64)| {
                 let [low, high] = axis.ends();
                 (low + u * (high - low)).clamp(low, high)
             };
             let values: Vec<f64> = axes.iter().zip(&rows[i]).map(value).collect();
-            let figures = || -> Result<[f64; 2], SensitivityError> {
-                let parts = self.models.parts(&values).map_err(RunError::from)?;
-                let (mut running, mut room) =
-                    (Running::new(&parts.model, self.engine), Workspace::default());
-                let demands =
-                    (0..records).map(|record| self.run(&parts, (&mut running, &mut room), record));
-                let figures = request.target.figures(&demands.collect::<Result<Vec<_>, _>>()?)?;
-                Ok([figures.displacement_m, figures.acceleration_m_per_s2])
-            };
-            let figures = figures();
-            self.engine.done(records as u64)?;
-            Ok(figures)
+            Ok(self.models.parts(&values).map_err(RunError::from))
         })?;
+        let ran = self.all(&parts)?;
+        let figures = |of_row: &[Ran<Demand>]| -> Result<[f64; 2], SensitivityError> {
+            let demands =
+                of_row.iter().map(|ran| ran.kept.clone()).collect::<Result<Vec<_>, _>>()?;
+            let figures = request.target.figures(&demands)?;
+            Ok([figures.displacement_m, figures.acceleration_m_per_s2])
+        };
         let indices = || -> Result<Sensitivity, SensitivityError> {
-            let figures = figures.into_iter().collect::<Result<Vec<_>, _>>()?;
+            let figures = ran.chunks(self.factors.len()).map(figures);
+            let figures = figures.collect::<Result<Vec<_>, _>>()?;
             let of = |which: usize| {
                 let outputs: Vec<f64> = figures.iter().map(|pair| pair[which]).collect();
                 sensitivity::indices(&outputs, inputs, request.confidence)

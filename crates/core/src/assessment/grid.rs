@@ -93,6 +93,16 @@ impl Grid {
         indices
     }
 
+    /// A combination in words, to stand after a name: `, slider.radius = 2 m`.
+    #[must_use]
+    pub fn label(&self, number: usize) -> String {
+        let values = self.axes.iter().zip(self.values(number));
+        let one = |(axis, value): (&Axis, f64)| {
+            format!(", {} = {value} {}", axis.path, axis.unit).trim_end().to_owned()
+        };
+        values.map(one).collect()
+    }
+
     /// The values of a combination, in SI.
     #[must_use]
     pub fn values(&self, number: usize) -> Vec<f64> {

@@ -1,12 +1,14 @@
 //! Response-history analyses side by side: models on the records of suites, with lower- and
 //! upper-bound friction, and what governs.
 
+use super::lateral::LateralForce;
 use super::single::{Job, Judged};
-use super::suite::{PairScaling, Scaled, Suite};
+use super::suite::{PairScaling, Scaled, Suite, SuiteRecord};
 use super::{AssessmentError, FailedRun};
 use crate::error::RunError;
 use crate::input::{Analysis, Bound, Names};
 use crate::motion::target::Matched;
+use crate::record::Origin;
 use crate::response::{DemandColumn, DemandShape, Demands, Method, Warning, flat_geometry, struck};
 use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
@@ -32,18 +34,34 @@ pub struct OnRecord {
     pub record: String,
     /// Name of its pair, that of the first component; empty where it is in none.
     pub pair: String,
+    /// What its file says of where it was recorded.
+    pub origin: Origin,
     /// Factor on it.
     pub scale: f64,
     /// Peak of the horizontal acceleration as it was run, in m/s².
     pub pga_m_per_s2: f64,
-    /// Demands with each bound of friction, in the order of [`ModelHistories::bounds`].
-    pub demands: Vec<Demands>,
-    /// Whether the certificate of each holds.
-    pub holds: Vec<bool>,
+    /// Demands with each bound of friction, in the order of [`ModelHistories::bounds`], and whether their
+    /// certificate holds; or why there are none.
+    pub runs: Vec<Result<(Demands, bool), FailedRun>>,
     /// Times in s and sliding displacements in m with nominal friction.
     pub sliding: [Vec<f64>; 2],
     /// What was noticed of it.
     pub warnings: Vec<Warning>,
+}
+
+impl OnRecord {
+    /// The size of a demand with a bound of friction; NaN where there is none.
+    #[must_use]
+    pub fn size(&self, column: &DemandColumn, bound: usize) -> f64 {
+        self.value(column, bound).abs()
+    }
+
+    /// A demand with a bound of friction; NaN where there is none.
+    #[must_use]
+    pub fn value(&self, column: &DemandColumn, bound: usize) -> f64 {
+        let demands = self.runs.get(bound).and_then(|run| run.as_ref().ok());
+        demands.and_then(|(demands, _)| column.value(demands)).unwrap_or(f64::NAN)
+    }
 }
 
 /// A model on all its records.
@@ -55,10 +73,18 @@ pub struct ModelHistories {
     pub names: Names,
     /// The gap of its slider in m, where it has one.
     pub gap_m: Option<f64>,
+    /// Where its stop stands towards +x and −x, in m, where there is one.
+    pub stop_m: [Option<f64>; 2],
     /// The bounds of friction that were run.
     pub bounds: Vec<Bound>,
     /// Its records in their order.
     pub records: Vec<OnRecord>,
+    /// Index of the record that slides farthest with the bound that governs, index of that bound, times in s
+    /// and sliding displacements in m.
+    pub governing_history: Option<(usize, usize, [Vec<f64>; 2])>,
+    /// Of each bound the displacement of the equivalent-lateral-force procedure under the target spectrum,
+    /// where there is one of both.
+    pub lateral: Vec<Option<LateralForce>>,
 }
 
 /// What came of all models.
@@ -80,13 +106,23 @@ impl ModelHistories {
     /// What the model has that demands are asked of.
     #[must_use]
     pub fn shape(&self) -> DemandShape {
-        let first = self.records.first().and_then(|on| on.demands.first());
-        first.map_or_else(DemandShape::default, Demands::shape)
+        let first = self.runs().find_map(|run| run.as_ref().ok());
+        first.map_or_else(DemandShape::default, |(demands, _)| demands.shape())
     }
 
     /// The records of each earthquake: both components of a pair, or a record alone.
     fn earthquakes(&self) -> impl Iterator<Item = &[OnRecord]> {
         self.records.chunk_by(|a, b| !a.pair.is_empty() && a.pair == b.pair)
+    }
+
+    /// All runs: record by record, bound by bound.
+    pub fn runs(&self) -> impl Iterator<Item = &Result<(Demands, bool), FailedRun>> {
+        self.records.iter().flat_map(|on| &on.runs)
+    }
+
+    /// The runs without an answer.
+    pub fn failures(&self) -> impl Iterator<Item = &FailedRun> {
+        self.runs().filter_map(|run| run.as_ref().err())
     }
 
     /// Whether the records are pairs of components.
@@ -111,8 +147,7 @@ impl ModelHistories {
     /// The sizes of a demand with a bound of friction, record by record; NaN where there is none.
     #[must_use]
     pub fn sizes(&self, column: &DemandColumn, bound: usize) -> Vec<f64> {
-        let size = |on: &OnRecord| column.value(&on.demands[bound]).map_or(f64::NAN, f64::abs);
-        self.records.iter().map(size).collect()
+        self.records.iter().map(|on| on.size(column, bound)).collect()
     }
 
     /// The mean of these sizes, or their maximum; of a pair the larger of both components counts. NaN where
@@ -143,11 +178,12 @@ impl ModelHistories {
         self.governing_bound(column).map(|i| (&self.bounds[i], self.governing(column, i)))
     }
 
-    /// Index of the bound with which a demand governs.
+    /// Index of the bound with which a demand governs; none where a run has no answer.
     #[must_use]
     pub fn governing_bound(&self, column: &DemandColumn) -> Option<usize> {
         let all = (0..self.bounds.len()).map(|i| (i, self.governing(column, i)));
-        let all = all.filter(|(_, value)| !value.is_nan());
+        let all: Vec<(usize, f64)> = all.filter(|_| self.failures().next().is_none()).collect();
+        let all = all.into_iter().filter(|(_, value)| !value.is_nan());
         all.reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|(i, _)| i)
     }
 }
@@ -155,7 +191,8 @@ impl ModelHistories {
 /// Runs every model on every one of its records, each component of a pair by itself, and with the bounds of friction that it gives.
 ///
 /// # Errors
-/// [`AssessmentError`] for records that cannot be scaled so, and for the first run without an answer.
+/// [`AssessmentError`] for records that cannot be scaled so. A record without an answer is one with its reason,
+/// and with it there is no mean or maximum.
 pub fn run_histories(
     models: &[ModelOn<'_>],
     scaling: &PairScaling,
@@ -167,20 +204,20 @@ pub fn run_histories(
         let Scaled { factors, matched: of_target } = model.suite.scaled(scaling, engine)?;
         let pairs = (0..factors.len()).step_by(2).map(|i| model.suite.pair_name(i).to_owned());
         matched = matched.or(of_target.map(|matched| (matched, pairs.collect())));
-        let run = |i: usize| {
-            let record = &model.suite.records[i].name;
-            let failed = |error| Box::new(FailedRun { record: record.clone(), error });
-            on_record(model, i, factors[i]).map_err(failed)
-        };
+        let run = |i: usize| on_record(model, i, factors[i]);
         let records = engine.runs(model.suite.records.len(), run)?;
-        let records = records.into_iter().collect::<Result<Vec<_>, Box<FailedRun>>>()?;
-        done.push(ModelHistories {
+        let mut of_model = ModelHistories {
             name: model.name.to_owned(),
             names: model.analysis.names.clone(),
             gap_m: model.analysis.model.slider().gap_m(),
+            stop_m: model.analysis.model.slider().stop().map_or([None; 2], |stop| stop.gap_m),
+            governing_history: None,
+            lateral: lateral(model.analysis, scaling),
             bounds: bounds(model.analysis),
             records,
-        });
+        };
+        of_model.governing_history = governing_history(model, &of_model);
+        done.push(of_model);
     }
     let shapes = done.iter().map(ModelHistories::shape);
     let shape = shapes.fold(DemandShape::default(), |all, shape| DemandShape {
@@ -198,44 +235,96 @@ fn bounds(analysis: &Analysis) -> Vec<Bound> {
     analysis.friction_bounds.map_or_else(|| vec![Bound::NOMINAL], |bounds| bounds.all().to_vec())
 }
 
-fn on_record(model: &ModelOn<'_>, record: usize, scale: f64) -> Result<OnRecord, RunError> {
-    let motion = model.suite.motion(record, scale, 0.0)?;
-    let pga_m_per_s2 = motion.figures().pga_m_per_s2;
-    let job = Job::new(model.analysis.clone(), motion, Vec::new())?;
-    let outcome = job.run(false)?;
-    let mut nominal = outcome.nominal;
-    let history = nominal.response.history.take().unwrap_or_default();
-    let judged = match outcome.bounds {
-        None => vec![nominal],
-        Some([lower, upper]) => vec![lower, nominal, upper],
+/// The procedure's displacement with each bound under the spectrum that the records are brought to.
+fn lateral(analysis: &Analysis, scaling: &PairScaling) -> Vec<Option<LateralForce>> {
+    let PairScaling::Target(spectrum, _) = scaling else { return Vec::new() };
+    let of = |bound: &Bound| LateralForce::of(&bound.of(&analysis.model), spectrum);
+    bounds(analysis).iter().map(of).collect()
+}
+
+fn on_record(model: &ModelOn<'_>, record: usize, scale: f64) -> OnRecord {
+    let SuiteRecord { name, origin, .. } = &model.suite.records[record];
+    let mut on = OnRecord {
+        record: name.clone(),
+        pair: model.suite.pair_name(record).to_owned(),
+        origin: origin.clone(),
+        scale,
+        pga_m_per_s2: f64::NAN,
+        runs: Vec::new(),
+        sliding: [Vec::new(), Vec::new()],
+        warnings: Vec::new(),
     };
     let bounds = bounds(model.analysis);
-    let noticed = judged.iter().zip(&bounds).flat_map(|(judged, bound)| {
-        let friction = if bounds.len() > 1 { Some(bound.name) } else { None };
-        let of_bound = |warning: Warning| match friction {
-            Some(name) => {
-                let message = format!("{name} friction: {}", warning.message);
+    for bound in &bounds {
+        let design = match bounds.len() {
+            1 => String::new(),
+            _ => format!(", {} friction", bound.name),
+        };
+        let failed =
+            |error| FailedRun { record: name.clone(), scale, design: design.clone(), error };
+        let run = with_bound(model, record, scale, bound).map_err(failed);
+        let kept = run.map(|(job, judged)| on.keep(bound, bounds.len() > 1, &job, judged));
+        on.runs.push(kept);
+    }
+    on
+}
+
+/// The run of a record with a bound of friction.
+fn with_bound(
+    model: &ModelOn<'_>,
+    record: usize,
+    scale: f64,
+    bound: &Bound,
+) -> Result<(Job, Judged), RunError> {
+    let motion = model.suite.motion(record, scale, 0.0)?;
+    let mut analysis = model.analysis.clone();
+    analysis.friction_bounds = None;
+    analysis.model = bound.of(&analysis.model);
+    let job = Job::new(analysis, motion, Vec::new())?;
+    let judged = job.run(false)?.nominal;
+    Ok((job, judged))
+}
+
+impl OnRecord {
+    /// Takes what the tables and the figure tell of a run.
+    fn keep(&mut self, bound: &Bound, several: bool, job: &Job, judged: Judged) -> (Demands, bool) {
+        let Judged { model, response, certificate, .. } = judged;
+        let of_bound = |warning: Warning| match several {
+            false => warning,
+            true => {
+                let message = format!("{} friction: {}", bound.name, warning.message);
                 Warning { message, ..warning }
             }
-            None => warning,
         };
-        let Judged { model, response, .. } = judged;
-        let met = struck(model, &response.demands).into_iter();
-        let met = met.chain(flat_geometry(model, &response.demands)).map(of_bound);
-        response.warnings.iter().cloned().chain(met).collect::<Vec<_>>()
-    });
-    let holds =
-        |judged: &Judged| judged.response.method == Method::Stepwise || judged.certificate.holds();
-    Ok(OnRecord {
-        record: model.suite.records[record].name.clone(),
-        pair: model.suite.pair_name(record).to_owned(),
-        scale,
-        pga_m_per_s2,
-        holds: judged.iter().map(holds).collect(),
-        sliding: [history.time_s, history.sliding_displacement_m],
-        warnings: job.warnings.iter().cloned().chain(noticed).collect(),
-        demands: judged.into_iter().map(|judged| judged.response.demands).collect(),
-    })
+        if self.pga_m_per_s2.is_nan() {
+            self.pga_m_per_s2 = job.motion.figures().pga_m_per_s2;
+            self.warnings.extend(job.warnings.iter().cloned());
+        }
+        if *bound == Bound::NOMINAL {
+            let history = response.history.unwrap_or_default();
+            self.sliding = [history.time_s, history.sliding_displacement_m];
+        }
+        let met = struck(&model, &response.demands).into_iter();
+        let met = met.chain(flat_geometry(&model, &response.demands)).map(of_bound);
+        self.warnings.extend(response.warnings.into_iter().chain(met));
+        let holds = response.method == Method::Stepwise || certificate.holds();
+        (response.demands, holds)
+    }
+}
+
+/// The run of the record that slides farthest with the bound that governs, once more with its history.
+fn governing_history(
+    model: &ModelOn<'_>,
+    of: &ModelHistories,
+) -> Option<(usize, usize, [Vec<f64>; 2])> {
+    let peak = of.shape().find("peak_sliding_displacement_m")?.1;
+    let bound = of.governing_bound(&peak)?;
+    let sizes = of.sizes(&peak, bound);
+    let record = (0..sizes.len()).reduce(|a, b| if sizes[b] > sizes[a] { b } else { a })?;
+    let (_, judged) =
+        with_bound(model, record, of.records[record].scale, &of.bounds[bound]).ok()?;
+    let history = judged.response.history?;
+    Some((record, bound, [history.time_s, history.sliding_displacement_m]))
 }
 
 /// Every run as a row.
@@ -259,17 +348,23 @@ fn table_of_runs(models: &[ModelHistories], shape: DemandShape) -> Table {
         "m/s2",
         rows.iter().map(|(_, on, _)| on.pga_m_per_s2).collect(),
     );
-    let holds = rows.iter().map(|(_, on, i)| Some(on.holds[*i])).collect();
+    let holds = rows.iter().map(|(_, on, i)| Some(on.runs[*i].as_ref().ok()?.1)).collect();
     table.columns.push(Column {
         name: "holds".to_owned(),
         unit: String::new(),
         cells: Cells::Flags(holds),
     });
     for column in shape.columns() {
-        let value =
-            |(_, on, i): &(_, &OnRecord, usize)| column.value(&on.demands[*i]).unwrap_or(f64::NAN);
+        let value = |(_, on, i): &(_, &OnRecord, usize)| on.value(&column, *i);
         table.numbers(&column.name(), column.unit(), rows.iter().map(value).collect());
     }
+    let status = |(_, on, i): &(_, &OnRecord, usize)| {
+        on.runs[*i]
+            .as_ref()
+            .err()
+            .map_or_else(|| "ok".to_owned(), |failed| failed.error.to_string())
+    };
+    table.texts("status", rows.iter().map(status).collect());
     table
 }
 

@@ -5,6 +5,7 @@
 //! intensity: a curve may cross the limit, come back below it (they call it resurrection) and cross
 //! again. The capacity of a record is its **first** crossing; what comes back is told, not used.
 
+use super::cases::{Case, Cases, OnDesign, Ran, failures, noticed};
 use super::fragility::{Capacity, Fragility};
 use super::models::Models;
 use super::observed::{Averaged, DesignGroup, FRICTION, design_groups};
@@ -13,16 +14,13 @@ use super::suite::{Suite, SuiteRecord};
 use super::{AssessmentError, FailedRun, refuse};
 use crate::error::{FitError, RunError, Stopped};
 use crate::input::{Bound, Parts};
+use crate::motion::GroundMotion;
 use crate::motion::intensity::Measure;
 use crate::numerics::fractile;
 use crate::numerics::sort;
-use crate::response::demand_values;
-use crate::solver::{PreparedMotion, Workspace};
-use crate::study::engine::{Engine, Running};
+use crate::response::{Response, Warning, demand_values};
+use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
-
-/// Levels of a curve that one thread takes: the model is prepared once for them.
-const PIECE: usize = 4;
 
 /// Runs that a hunt on one record is thought to take, for those who wait.
 const RUNS_OF_A_HUNT: u64 = 30;
@@ -276,17 +274,12 @@ pub struct IdaRun {
     pub groups: Vec<IdaGroup>,
     /// Runs without an answer.
     pub failures: Vec<FailedRun>,
+    /// What was noticed of runs.
+    pub warnings: Vec<Warning>,
     /// A row a run: record, level, scale, design, all demands.
     pub rows: Table,
     /// A row a record and design, where there is a limit.
     pub capacities: Option<Table>,
-}
-
-/// A run of a record: its level and factor, demands or the reason why there are none.
-struct Run {
-    level: f64,
-    scale: f64,
-    demands: Result<Vec<f64>, RunError>,
 }
 
 /// Runs an incremental dynamic analysis.
@@ -302,13 +295,13 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
         IdaLevels::Fixed(levels) => {
             let rise = levels.windows(2).all(|pair| pair[0] < pair[1]);
             if levels.is_empty() || !rise || !(levels[0] > 0.0) {
-                return Err(refuse("levels", "levels > 0 that rise", format!("{levels:?}")));
+                return Err(refuse("scale-to", "levels > 0 that rise", format!("{levels:?}")));
             }
             None
         }
         IdaLevels::Hunt { start, top } => {
             let Some(limit) = request.limit else {
-                return Err(refuse("to", "the limit to hunt for, or slider.gap", "nothing"));
+                return Err(refuse("limit", "the limit to hunt for, or slider.gap", "nothing"));
             };
             Some(Hunt::new(limit, *start, *top)?)
         }
@@ -328,81 +321,59 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
     kept.sort_unstable();
     let unscaled = suite.measure_of_pairs(measure, engine)?;
     let clusters = suite.clusters();
-    let parts = kept.iter().map(|&design| designs.parts(design)).collect::<Result<Vec<_>, _>>()?;
-    let one = |(running, room): (&mut Running<'_>, &mut Workspace),
-               parts: &Parts,
-               record: usize,
-               level: f64|
-     -> Run {
-        let scale = level / unscaled[record];
-        let motion = suite.motion_of(record, scale, parts);
-        let demands = motion.and_then(|motion| {
-            let response = running.on(&PreparedMotion::new(motion), room)?;
-            Ok(demand_values(&response.demands))
-        });
-        Run { level, scale, demands }
-    };
+    let parts = kept.iter().map(|&design| designs.parts(design));
+    let parts = parts.collect::<Result<Vec<_>, AssessmentError>>()?;
+    let parts: Vec<Result<Parts, RunError>> = parts.into_iter().map(Ok).collect();
+    let cases = Cases::new(suite, &[], 0.0, engine)?;
+    let keep = |_: &Case, response: &Response, _: &GroundMotion| demand_values(&response.demands);
     let records = suite.records.len();
     let curves_count = kept.len() * records;
     // Curve `i` is that of the record `i % records` under the design `i / records` of those kept.
-    let all: Vec<Vec<Run>> = match (&request.levels, &hunt) {
+    let case = |curve: usize, level: f64| {
+        let (design, record) = (curve / records, curve % records);
+        Case { design, record, scale: level / unscaled[record] }
+    };
+    let ran: Vec<Vec<(f64, Ran<Vec<f64>>)>> = match (&request.levels, &hunt) {
         (IdaLevels::Fixed(levels), _) => {
-            engine.plan((curves_count * levels.len()) as u64);
-            let pieces = levels.len().div_ceil(PIECE);
-            let runs = engine.map(curves_count * pieces, |i| {
-                let (curve, piece) = (i / pieces, i % pieces);
-                let (record, parts) = (curve % records, &parts[curve / records]);
-                let (mut running, mut room) =
-                    (Running::new(&parts.model, engine), Workspace::default());
-                let these = levels.iter().skip(piece * PIECE).take(PIECE);
-                let of = |level: &f64| one((&mut running, &mut room), parts, record, *level);
-                let runs: Vec<Run> = these.map(of).collect();
-                engine.done(runs.len() as u64)?;
-                Ok(runs)
-            })?;
-            let mut runs = runs.into_iter().flatten();
-            (0..curves_count).map(|_| runs.by_ref().take(levels.len()).collect()).collect()
+            let of = |curve| levels.iter().map(move |&level| case(curve, level));
+            let all: Vec<Case> = (0..curves_count).flat_map(of).collect();
+            let mut ran = cases.run(&parts, &all, keep)?.into_iter();
+            let curve = |_| levels.iter().copied().zip(ran.by_ref()).collect();
+            (0..curves_count).map(curve).collect()
         }
         (_, Some(hunt)) => {
             engine.plan(curves_count as u64 * RUNS_OF_A_HUNT);
             engine.map(curves_count, |curve| {
-                let (record, parts) = (curve % records, &parts[curve / records]);
-                let mut runs: Vec<Run> = Vec::new();
-                let (mut running, mut room) =
-                    (Running::new(&parts.model, engine), Workspace::default());
+                let mut runs: Vec<(f64, Ran<Vec<f64>>)> = Vec::new();
+                let mut design = OnDesign::new(&cases, &parts[curve / records]);
                 hunt.try_run(|level| {
-                    let run = one((&mut running, &mut room), parts, record, level);
-                    let demand = run.demands.as_ref().map_or(f64::NAN, |values| values[column]);
-                    runs.push(run);
+                    let ran = design.run(case(curve, level), keep);
+                    let demand = ran.kept.as_ref().map_or(f64::NAN, |values| values[column]);
+                    runs.push((level, ran));
                     engine.done(1)?;
                     Ok::<_, Stopped>(demand.abs())
                 })?;
                 engine.replan(RUNS_OF_A_HUNT, runs.len() as u64);
-                sort(&mut runs, |a, b| a.level.total_cmp(&b.level));
+                sort(&mut runs, |a, b| a.0.total_cmp(&b.0));
                 Ok(runs)
             })?
         }
         (IdaLevels::Hunt { .. }, None) => Vec::new(),
     };
-    let curves: Vec<Curve> = all
-        .iter()
-        .map(|runs| {
-            let demand = |run: &Run| run.demands.as_ref().map_or(f64::NAN, |v| v[column].abs());
-            Curve {
-                levels: runs.iter().map(|run| run.level).collect(),
-                demands: runs.iter().map(demand).collect(),
-            }
-        })
-        .collect();
-    let record = |curve: usize| &suite.records[curve % records].name;
-    let failed = |(curve, runs): (usize, &Vec<Run>)| {
-        let failed = |run: &Run| {
-            let error = run.demands.as_ref().err()?.clone();
-            Some(FailedRun { record: record(curve).clone(), error })
-        };
-        runs.iter().filter_map(failed).collect::<Vec<_>>()
+    let curve = |runs: &Vec<(f64, Ran<Vec<f64>>)>| {
+        let demand = |ran: &Ran<Vec<f64>>| ran.kept.as_ref().map_or(f64::NAN, |v| v[column].abs());
+        Curve {
+            levels: runs.iter().map(|(level, _)| *level).collect(),
+            demands: runs.iter().map(|(_, ran)| demand(ran)).collect(),
+        }
     };
-    let failures = all.iter().enumerate().flat_map(failed).collect();
+    let curves: Vec<Curve> = ran.iter().map(curve).collect();
+    let (levels, flat): (Vec<f64>, Vec<Ran<Vec<f64>>>) = ran.into_iter().flatten().unzip();
+    let all_varied = Averaged { paths: designs.paths(), designs: kept.len() };
+    let label = |design: usize| designs.label(kept[design], &all_varied);
+    let failures = failures(&flat, suite, label);
+    let warnings = noticed(&flat, suite, label);
+    let record = |curve: usize| &suite.records[curve % records].name;
     let group = |group: DesignGroup| {
         let DesignGroup { value, text, designs: of_group, averaged } = group;
         let mut names = Vec::new();
@@ -428,30 +399,25 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
         table.columns.extend(designs.table(&of_curves).columns);
         table
     });
-    let flat: Vec<(usize, &Run)> = all
-        .iter()
-        .enumerate()
-        .flat_map(|(curve, runs)| runs.iter().map(move |run| (curve, run)))
-        .collect();
     let mut rows = Table::default();
-    rows.texts("record", flat.iter().map(|(curve, _)| names[*curve].clone()).collect());
+    let of_rows = |pick: &dyn Fn(&Case) -> String| flat.iter().map(|ran| pick(&ran.case)).collect();
+    rows.texts("record", of_rows(&|case| record(case.record).clone()));
     rows.texts("measure", vec![measure.to_string(); flat.len()]);
     rows.texts("measure_unit", vec![measure.unit().to_owned(); flat.len()]);
-    rows.columns
-        .extend(suite.pair_column(flat.iter().map(|(curve, _)| clusters[*curve % records])));
+    rows.columns.extend(suite.pair_column(flat.iter().map(|ran| clusters[ran.case.record])));
     let choice = if hunt.is_some() { "hunted" } else { "given" };
     rows.texts("level_choice", vec![choice.to_owned(); flat.len()]);
-    rows.numbers("level", measure.unit(), flat.iter().map(|(_, run)| run.level).collect());
-    rows.numbers("scale", "", flat.iter().map(|(_, run)| run.scale).collect());
-    let of_runs: Vec<usize> = flat.iter().map(|(curve, _)| of_curves[*curve]).collect();
+    rows.numbers("level", measure.unit(), levels);
+    rows.numbers("scale", "", flat.iter().map(|ran| ran.case.scale).collect());
+    let of_runs: Vec<usize> = flat.iter().map(|ran| kept[ran.case.design]).collect();
     rows.columns.extend(designs.table(&of_runs).columns);
     for (i, column) in models.columns().iter().enumerate() {
-        let of = |(_, run): &(usize, &Run)| run.demands.as_ref().map_or(f64::NAN, |v| v[i]);
+        let of = |ran: &Ran<Vec<f64>>| ran.kept.as_ref().map_or(f64::NAN, |values| values[i]);
         rows.numbers(&column.name(), column.unit(), flat.iter().map(of).collect());
     }
-    rows.texts("status", flat.iter().map(|(_, run)| status(&run.demands)).collect());
+    rows.texts("status", flat.iter().map(|ran| status(&ran.kept)).collect());
     let by = by.map(|by| (by.to_owned(), by_unit));
-    Ok(IdaRun { by, groups, failures, rows, capacities })
+    Ok(IdaRun { by, groups, failures, warnings, rows, capacities })
 }
 
 /// The designs of an analysis: the models of its grid with each bound of friction, those fastest.
@@ -488,6 +454,12 @@ impl<'a> Designs<'a> {
     fn split(&self, design: usize) -> (usize, Option<&Bound>) {
         let bounds = self.bounds.len().max(1);
         (design / bounds, self.bounds.get(design % bounds))
+    }
+
+    /// Everything that tells designs apart.
+    fn paths(&self) -> Vec<String> {
+        let axes = self.models.grid().axes().iter().map(|axis| axis.path.clone());
+        axes.chain([FRICTION.to_owned()]).collect()
     }
 
     fn parts(&self, design: usize) -> Result<Parts, AssessmentError> {

@@ -1,18 +1,20 @@
 //! Sliding spectra and frequency response: the sliding model beside the one on a fixed base, and the
 //! window of frequencies in which a structure amplifies.
 
+use core::ops::ControlFlow;
+
+use super::cases::{Case, Cases, Ran, failures, noticed};
 use super::models::Models;
-use super::suite::{Scaling, Suite};
+use super::suite::{Scaling, Suite, SuiteRecord};
 use super::{AssessmentError, FailedRun, refuse};
 use crate::error::{ModelError, MotionError, RunError, Stopped};
 use crate::input::{Bound, Parts};
 use crate::model::{InitialState, Model, Slider};
 use crate::motion::GroundMotion;
 use crate::numerics::fractile::fractiles;
-use crate::response::{DemandColumn, demand_values};
+use crate::response::{DemandColumn, Warning, demand_values};
 use crate::slider::{Ends, Friction};
-use crate::solver::{PreparedMotion, Workspace};
-use crate::study::engine::{Engine, Running};
+use crate::study::engine::Engine;
 use crate::table::Table;
 
 /// A friction that nothing overcomes: a million times what any motion on Earth asks.
@@ -123,6 +125,8 @@ pub struct SpectrumRun {
     pub window_key: String,
     /// Runs without an answer.
     pub failures: Vec<FailedRun>,
+    /// What was noticed of runs.
+    pub warnings: Vec<Warning>,
     /// Number of runs, those of the fixed-base models apart.
     pub runs: usize,
     /// Fractiles, a row a value and group.
@@ -147,10 +151,9 @@ pub struct DemandCurves {
 const TOLD: [&str; 3] =
     ["peak_sliding_displacement_m", "residual_sliding_displacement_m", "sliding_path_m"];
 
-/// One run: demands, and the peaks of the roof on a fixed base and of the table in m/s².
+/// One run: its demands, and the peak of the table in m/s².
 struct Run {
     demands: Vec<f64>,
-    fixed: f64,
     table: f64,
 }
 
@@ -198,7 +201,18 @@ pub fn run_spectrum(
     };
     let all = |bound| nominal.iter().map(move |parts| of_bound(bound, parts));
     let parts: Vec<Result<Parts, RunError>> = bounds.iter().flat_map(all).collect();
-    let runs = run_all(&parts, suite, &factors, models.shape().storeys > 0, engine)?;
+    let peak = |motion: &GroundMotion| {
+        motion.horizontal_m_per_s2().iter().fold(0.0, |peak: f64, a| peak.max(a.abs()))
+    };
+    let cases = Cases::new(suite, &factors, tail_s(&parts), engine)?;
+    let runs = cases.run(&parts, &all_cases(parts.len(), &factors), |_, response, motion| Run {
+        demands: demand_values(&response.demands),
+        table: peak(motion),
+    })?;
+    let fixed = match models.shape().storeys {
+        0 => vec![f64::NAN; runs.len()],
+        _ => on_fixed_base(&parts, suite, &factors, engine)?,
+    };
 
     let stem = roof
         .trim_end_matches("_peak_acceleration_m_per_s2")
@@ -210,15 +224,15 @@ pub fn run_spectrum(
     };
     let roof_column = models.column(&roof)?;
     let nothing = f64::NAN;
-    let value = |run: &Result<Run, RunError>, key: usize| -> f64 {
-        let Ok(run) = run else { return nothing };
+    let value = |i: usize, key: usize| -> f64 {
+        let Ok(run) = &runs[i].kept else { return nothing };
         if let Some(&column) = columns.get(key) {
             let value = run.demands[column];
             return if keys[key] == TOLD[1] { value.abs() } else { value };
         }
         let roof = run.demands[roof_column];
         let over =
-            if ratio_keys[key - columns.len()].ends_with("ratio") { run.fixed } else { run.table };
+            if ratio_keys[key - columns.len()].ends_with("ratio") { fixed[i] } else { run.table };
         // 0/0: nothing moves, and nothing is amplified.
         if roof == 0.0 && over == 0.0 { 0.0 } else { roof / over }
     };
@@ -232,13 +246,11 @@ pub fn run_spectrum(
         .map(|(k, key)| {
             let of = |group: usize, i: usize| {
                 let from = at(group, i);
-                fractiles(
-                    &runs[from..from + records].iter().map(|run| value(run, k)).collect::<Vec<_>>(),
-                )
+                fractiles(&(from..from + records).map(|run| value(run, k)).collect::<Vec<_>>())
             };
             let of_group = |group: usize| (0..length).map(|i| of(group, i)).collect();
             let single = |group: usize, record: usize| -> Vec<f64> {
-                (0..length).map(|i| value(&runs[at(group, i) + record], k)).collect()
+                (0..length).map(|i| value(at(group, i) + record, k)).collect()
             };
             let singles = |group: usize| (0..records).map(|r| single(group, r)).collect();
             DemandCurves {
@@ -260,14 +272,13 @@ pub fn run_spectrum(
             intervals_above(&axis.values, &median, 1.0)
         })
         .collect();
-    let failures = runs
-        .iter()
-        .enumerate()
-        .filter_map(|(i, run)| {
-            let error = run.as_ref().err()?.clone();
-            Some(FailedRun { record: suite.records[i % records].name.clone(), error })
-        })
-        .collect();
+    let label = |design: usize| {
+        let bound = request.bounds.get(design / grid.len());
+        let bound = bound.map_or(String::new(), |bound| format!(", {} friction", bound.name));
+        format!("{}{bound}", grid.label(design % grid.len()))
+    };
+    let failures = failures(&runs, suite, label);
+    let warnings = noticed(&runs, suite, label);
 
     let mut table = Table::default();
     let coordinates = |table: &mut Table, repeat: usize| {
@@ -299,13 +310,13 @@ pub fn run_spectrum(
     rows.numbers("scale", "", of_runs.iter().map(|&record| factors[record]).collect());
     coordinates(&mut rows, records);
     for (i, column) in models.columns().iter().enumerate() {
-        let of = |run: &Result<Run, RunError>| run.as_ref().map_or(f64::NAN, |run| run.demands[i]);
+        let of = |ran: &Ran<Run>| ran.kept.as_ref().map_or(f64::NAN, |run| run.demands[i]);
         rows.numbers(&column.name(), column.unit(), runs.iter().map(of).collect());
     }
     for (k, key) in ratio_keys.iter().enumerate() {
-        rows.numbers(key, "", runs.iter().map(|run| value(run, columns.len() + k)).collect());
+        rows.numbers(key, "", (0..runs.len()).map(|run| value(run, columns.len() + k)).collect());
     }
-    rows.texts("status", runs.iter().map(status).collect());
+    rows.texts("status", runs.iter().map(|ran| status(&ran.kept)).collect());
     Ok(SpectrumRun {
         over: axis.path.clone(),
         unit: axis.unit.clone(),
@@ -320,6 +331,7 @@ pub fn run_spectrum(
         curves,
         windows,
         failures,
+        warnings,
         runs: runs.len(),
         table,
         rows,
@@ -331,99 +343,80 @@ pub(super) fn status<T>(run: &Result<T, RunError>) -> String {
     run.as_ref().err().map_or_else(|| "ok".to_owned(), RunError::to_string)
 }
 
-fn run_all(
+/// The peak of the roof of the same structures on a fixed base, for each design and record; NaN where there
+/// is none.
+fn on_fixed_base(
     parts: &[Result<Parts, RunError>],
     suite: &Suite,
     factors: &[f64],
-    with_fixed_base: bool,
     engine: &Engine<'_>,
-) -> Result<Vec<Result<Run, RunError>>, Stopped> {
-    let records = suite.records.len();
-    // One structure on a fixed base serves all designs that share it.
-    let mut structures: Vec<Model> = Vec::new();
+) -> Result<Vec<f64>, Stopped> {
+    // One structure on a fixed base serves all designs that share it, and its motion.
+    let mut structures: Vec<Result<Parts, RunError>> = Vec::new();
     let mut of_design: Vec<Option<usize>> = Vec::with_capacity(parts.len());
     const LOOKED_BACK: usize = 256;
     for parts in parts {
-        let Some(model) = parts.as_ref().ok().filter(|_| with_fixed_base) else {
-            of_design.push(None);
-            continue;
-        };
-        let Ok(held) = fixed_base(&model.model) else {
+        let held = parts.as_ref().ok().and_then(|parts| {
+            Some(Parts { model: fixed_base(&parts.model).ok()?, ..parts.clone() })
+        });
+        let Some(held) = held else {
             of_design.push(None);
             continue;
         };
         let from = structures.len().saturating_sub(LOOKED_BACK);
-        let known = structures[from..].iter().position(|other| same_structure(other, &held));
+        let alike = |other: &Result<Parts, RunError>| {
+            other.as_ref().is_ok_and(|other| {
+                same_structure(&other.model, &held.model)
+                    && other.motion == held.motion
+                    && other.tail_s == held.tail_s
+            })
+        };
+        let known = structures[from..].iter().position(alike);
         of_design.push(Some(known.map_or(structures.len(), |i| from + i)));
         if known.is_none() {
-            structures.push(held);
+            structures.push(Ok(held));
         }
     }
-    // A made motion may differ from design to design, and with it the table's part of the ratio.
-    let shared_motion = !suite.made;
-    let held = |structure: &Model, motion: &GroundMotion| -> Result<f64, RunError> {
-        let along = without_vertical(motion)?;
-        let room = &mut Workspace::default();
-        let demands =
-            Running::new(structure, engine).on(&PreparedMotion::new(along), room)?.demands;
-        Ok(demands.shape().roof_acceleration().value(&demands).unwrap_or(f64::NAN))
+    let along = |record: &SuiteRecord| {
+        let motion = without_vertical(&record.motion);
+        SuiteRecord { motion: motion.unwrap_or_else(|_| record.motion.clone()), ..record.clone() }
     };
-    let tail_s =
-        parts.iter().find_map(|parts| parts.as_ref().ok()).map_or(0.0, |parts| parts.tail_s);
-    let shared = |count: usize| if shared_motion { count } else { 0 };
-    let motion = |i: usize| suite.motion(i, factors[i], tail_s).map(PreparedMotion::new);
-    let motions: Vec<Result<PreparedMotion, MotionError>> =
-        engine.map(shared(records), |i| Ok(motion(i)))?;
-    let fixed: Vec<f64> = engine.map(shared(structures.len() * records), |i| {
-        let motion = motions[i % records].as_ref().ok();
-        let peak = motion.and_then(|motion| held(&structures[i / records], motion.motion()).ok());
-        Ok(peak.unwrap_or(f64::NAN))
+    let flat = Suite { records: suite.records.iter().map(along).collect(), ..suite.clone() };
+    let tail_s = tail_s(&structures);
+    // They are none of the runs that were asked for: nobody is told of them, and they stop with the others.
+    let follow = |_| engine.done(0).map_or_else(|_| ControlFlow::Break(()), ControlFlow::Continue);
+    let quiet = Engine::new(&follow);
+    let cases = Cases::new(&flat, factors, tail_s, &quiet)?;
+    let all = all_cases(structures.len(), factors);
+    let peaks = cases.run(&structures, &all, |_, response, _| {
+        let demands = &response.demands;
+        demands.shape().roof_acceleration().value(demands).unwrap_or(f64::NAN)
     })?;
-    let run = |parts: &Parts,
-               (running, room): (&mut Running<'_>, &mut Workspace),
-               design: usize,
-               record: usize| {
-        let own;
-        let prepared = match motions.get(record) {
-            Some(motion) if parts.tail_s == tail_s => motion.as_ref().map_err(Clone::clone)?,
-            _ => {
-                own = suite.motion_of(record, factors[record], parts)?.into();
-                &own
-            }
-        };
-        let motion = prepared.motion();
-        let demands = demand_values(&running.on(prepared, room)?.demands);
-        let fixed = match of_design[design] {
-            None => f64::NAN,
-            Some(structure) if shared_motion => fixed[structure * records + record],
-            Some(structure) => held(&structures[structure], motion)?,
-        };
-        let table = motion.horizontal_m_per_s2().iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
-        Ok(Run { demands, fixed, table })
+    let records = factors.len();
+    let peak = |design: Option<usize>, record: usize| {
+        let ran = design.and_then(|design| peaks.get(design * records + record));
+        ran.and_then(|ran| ran.kept.as_ref().ok()).copied().unwrap_or(f64::NAN)
     };
-    // A piece is one design on some records: its model is prepared once for all of them.
-    let pieces = records.div_ceil(PIECE);
-    engine.plan((parts.len() * records) as u64);
-    let runs = engine.map(parts.len() * pieces, |i| {
-        let (design, first) = (i / pieces, i % pieces * PIECE);
-        let these = first..(first + PIECE).min(records);
-        let runs: Vec<Result<Run, RunError>> = match &parts[design] {
-            Err(error) => these.map(|_| Err(error.clone())).collect(),
-            Ok(parts) => {
-                let (mut running, mut room) =
-                    (Running::new(&parts.model, engine), Workspace::default());
-                let of = |record| run(parts, (&mut running, &mut room), design, record);
-                these.map(of).collect()
-            }
-        };
-        engine.done(runs.len() as u64)?;
-        Ok(runs)
-    })?;
-    Ok(runs.into_iter().flatten().collect())
+    let of = |design: &Option<usize>| {
+        let design = *design;
+        (0..records).map(move |record| (design, record))
+    };
+    Ok(of_design.iter().flat_map(of).map(|(design, record)| peak(design, record)).collect())
 }
 
-/// Records that one model is run on in one piece of work.
-const PIECE: usize = 16;
+/// Every design on every record, the records fastest.
+fn all_cases(designs: usize, factors: &[f64]) -> Vec<Case> {
+    let of = |design| {
+        let each = factors.iter().enumerate();
+        each.map(move |(record, &scale)| Case { design, record, scale })
+    };
+    (0..designs).flat_map(of).collect()
+}
+
+/// The tail of the first design that there is.
+fn tail_s(parts: &[Result<Parts, RunError>]) -> f64 {
+    parts.iter().find_map(|parts| parts.as_ref().ok()).map_or(0.0, |parts| parts.tail_s)
+}
 
 /// Whether two models on a fixed base answer alike: all but the block and its slider is the same.
 fn same_structure(a: &Model, b: &Model) -> bool {

@@ -4,10 +4,12 @@ use super::grid::levels;
 use super::{AssessmentError, refuse};
 use crate::error::{MotionError, RunError};
 use crate::input::Parts;
+use crate::input::loaded::Loaded;
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{LevelMeasure, Measure};
 use crate::motion::target::{Matched, TargetSpectrum, matching_periods, maximum_direction};
 use crate::record::Origin;
+use crate::response::Warning;
 use crate::study::engine::{Engine, made_motion, scaled_with_tail};
 use crate::table::{Column, Table};
 
@@ -36,6 +38,12 @@ impl Scaling {
         };
         Ok((Self::Level(measure, value), format!(" scaled to {measure} = {}", text.trim())))
     }
+}
+
+/// A factor on records in words, to stand after them.
+#[must_use]
+pub fn times(factor: f64) -> String {
+    if factor == 1.0 { " as recorded".to_owned() } else { format!(" × {factor}") }
 }
 
 /// How records are scaled where the two components of a pair take one factor.
@@ -98,6 +106,38 @@ pub struct Suite {
 }
 
 impl Suite {
+    /// Records that were read, by their names, each alone; and what reading them gave notice of, each kind once
+    /// with the record that gave it first.
+    #[must_use]
+    pub fn of(
+        read: impl IntoIterator<Item = (String, Loaded)>,
+        made: bool,
+    ) -> (Self, Vec<Warning>) {
+        let mut suite = Self { records: Vec::new(), made };
+        let mut noticed: Vec<(Warning, usize)> = Vec::new();
+        for (name, Loaded { motion, origin, warnings, .. }) in read {
+            for warning in warnings {
+                match noticed.iter_mut().find(|(seen, _)| seen.kind == warning.kind) {
+                    Some((_, more)) => *more += 1,
+                    None => {
+                        let message = format!("{name}: {}", warning.message);
+                        let time_s = None;
+                        noticed.push((Warning { message, time_s, ..warning }, 0));
+                    }
+                }
+            }
+            suite.records.push(SuiteRecord { name, motion, pair: None, origin });
+        }
+        let told = |(warning, more): (Warning, usize)| match more {
+            0 => warning,
+            _ => {
+                let message = format!("{} (and {more} of the other records)", warning.message);
+                Warning { message, ..warning }
+            }
+        };
+        (suite, noticed.into_iter().map(told).collect())
+    }
+
     /// Names of the records.
     #[must_use]
     pub fn names(&self) -> Vec<String> {

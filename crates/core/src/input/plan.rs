@@ -164,6 +164,13 @@ pub enum List {
     },
 }
 
+/// The number of 15 digits, as a person writes it, where it is as near as the rounding of the sum of two
+/// numbers up to `size`: 0.03 + 3 (0.07 − 0.03) / 4 is 0.06, not 0.060000000000000005.
+fn as_written(value: f64, size: f64) -> f64 {
+    let short = format!("{value:.14e}").parse().unwrap_or(value);
+    if (short - value).abs() <= f64::EPSILON * size { short } else { value }
+}
+
 impl List {
     /// Number of values.
     #[must_use]
@@ -191,7 +198,10 @@ impl List {
             Self::Even { ends: [first, last], count } => match index {
                 0 => *first,
                 index if index + 1 >= *count => *last,
-                index => first + (last - first) * (index as f64 / (count - 1) as f64),
+                index => {
+                    let value = first + (last - first) * (index as f64 / (count - 1) as f64);
+                    as_written(value, first.abs().max(last.abs()))
+                }
             },
             Self::Ratios { ends: [first, last], count } => match index {
                 0 => *first,

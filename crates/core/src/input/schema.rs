@@ -253,13 +253,14 @@ impl Range {
     #[must_use]
     pub fn refusal(self, name: &str, value: f64) -> String {
         let (least, most) = (units::SMALLEST, units::LARGEST);
+        let a = if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
         let too_large = value.is_finite() && value.abs() > most;
         match self {
             Self::Positive if too_large || (value > 0.0 && value < least) => {
-                format!("a {name} from {least:e} to {most:e} in SI")
+                format!("{a} {name} from {least:e} to {most:e} in SI")
             }
             Self::Any | Self::NotNegative if too_large => {
-                format!("a {name} of at most {most:e} in SI")
+                format!("{a} {name} of at most {most:e} in SI")
             }
             _ => self.expected(name),
         }

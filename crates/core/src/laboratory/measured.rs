@@ -58,8 +58,13 @@ impl Measured {
     /// unit that is missing or not the one the header states, no times, times that run backwards
     /// or leave a gap.
     pub fn read(source_name: &str, bytes: &[u8], mapping: &Mapping) -> Result<Self, MeasuredError> {
-        let columns = record::columns(source_name, bytes);
-        Self::of_columns(columns.map_err(|error| of_format(source_name, bytes, error))?, mapping)
+        let columns = record::columns(source_name, bytes).map_err(MeasuredError::from);
+        columns.and_then(|columns| Self::of_columns(columns, mapping)).map_err(
+            |error| match error {
+                MeasuredError::File(error) => of_format(source_name, bytes, error).into(),
+                other => other,
+            },
+        )
     }
 
     /// As [`Measured::read`], of columns that were read already.
@@ -352,7 +357,8 @@ fn of_format(source_name: &str, bytes: &[u8], error: RecordError) -> RecordError
         Ok(record) if record.format != record::Format::Delimited => RecordError {
             expected: "a table with a column a sensor".into(),
             found: format!("a record of ground motion, {}", record.layout),
-            ..error
+            // It is the whole file, whatever of it was no number.
+            ..RecordError { line: 1, column: 1, offset: None, ..error }
         },
         _ => error,
     }
@@ -516,6 +522,13 @@ mod tests {
         assert!(missing.contains("table_acceleration_m_per_s2"), "{missing}");
         assert!(missing.contains("time_s"), "{missing}");
         assert!(read("a,b\n1,2\n3,4\n", &[]).unwrap_err().contains("a column of times"));
+        // Of a record of the public domain, whatever its numbers look like.
+        let record = include_bytes!("../../../../data/records/nga-west2.AT2");
+        let mapping = Mapping::parse(None, &[]).unwrap();
+        let error = Measured::read("r.AT2", record, &mapping).unwrap_err().to_string();
+        let expected = "r.AT2:1:1: expected a table with a column a sensor, found \"a record of ground \
+                        motion, PEER AT2\"";
+        assert!(error.starts_with(expected), "{error}");
         assert!(read("time_s,b\n1,2\n0,4\n", &[]).unwrap_err().contains("a time after 1 s"));
     }
 

@@ -9,6 +9,7 @@
 use core::cell::Cell;
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::Arc;
 
 use crate::error::{MotionError, RunError, SolveError, Stopped};
 use crate::input::MotionSource;
@@ -24,7 +25,7 @@ pub type Follow<'a> = &'a (dyn Fn(u64) -> ControlFlow<()> + Sync);
 pub struct Engine<'a> {
     follow: Follow<'a>,
     stopped: AtomicBool,
-    planned: AtomicU64,
+    planned: Arc<AtomicU64>,
 }
 
 impl Engine<'static> {
@@ -39,7 +40,13 @@ impl<'a> Engine<'a> {
     /// An engine that tells of its runs as they are done.
     #[must_use]
     pub fn new(follow: Follow<'a>) -> Self {
-        Self { follow, stopped: AtomicBool::new(false), planned: AtomicU64::new(0) }
+        Self::planning(follow, Arc::default())
+    }
+
+    /// The same, whose follower may look how many runs are planned.
+    #[must_use]
+    pub fn planning(follow: Follow<'a>, planned: Arc<AtomicU64>) -> Self {
+        Self { follow, stopped: AtomicBool::new(false), planned }
     }
 
     /// Tells that so many more runs are to be done.

@@ -7,11 +7,31 @@ use slipstick::input::plan::{Levels, Plan};
 use super::part::part_of_name;
 use super::parts::MANIFEST;
 use crate::error::FileError;
+use crate::globs::expand;
 use crate::read::read_bytes;
 use crate::table::{ReadTable, read_table};
 
 /// The column of that measure.
 const MEASURE: &str = "measure";
+
+/// What the commands write into their folders, the first that is there.
+const TABLES: [&str; 4] = ["parts/part-*.parquet", "part-*.parquet", "ida.parquet", "runs.parquet"];
+
+/// The files of runs: a table itself, or those in the folder of a command.
+///
+/// # Errors
+/// [`FileError::Unfit`] for a folder without runs.
+pub fn files_of_runs(source: &Path) -> Result<Vec<PathBuf>, FileError> {
+    if !source.is_dir() {
+        return Ok(vec![source.to_owned()]);
+    }
+    let found = TABLES.iter().find_map(|pattern| expand(source, pattern).ok());
+    found.ok_or_else(|| FileError::Unfit {
+        path: source.to_owned(),
+        expected: "a table, or a folder that ida, study, spectrum or design wrote".to_owned(),
+        found: "a folder without runs".to_owned(),
+    })
+}
 
 /// Runs in CSV or Parquet as one table. A study says in its manifest what its records were scaled to,
 /// and its table is given that as a column.
@@ -44,10 +64,14 @@ fn measure_of_levels(part: &Path) -> Option<String> {
     }
 }
 
-/// The limit that an incremental dynamic analysis was run for, from the summary in its folder; `None`
-/// where it was another demand's.
+/// The limit that an incremental dynamic analysis was run for, from the summary in its folder or beside its
+/// table; `None` where it was another demand's.
 #[must_use]
-pub fn limit_of_ida(folder: &Path, demand: &str) -> Option<f64> {
+pub fn limit_of_ida(source: &Path, demand: &str) -> Option<f64> {
+    let folder = match source.file_stem()?.to_str()? {
+        "ida" | "capacities" if source.is_file() => source.parent()?,
+        _ => source,
+    };
     let summary = read_bytes(&folder.join("summary.json")).ok()?;
     let summary: serde_json::Value = serde_json::from_slice(&summary).ok()?;
     (summary.get("demand")?.as_str()? == demand).then(|| summary.get("limit")?.as_f64())?

@@ -84,14 +84,15 @@ def read_suite(
 def spectrum(
     model: _core.Model,
     records: Mapping[str, _core.Motion],
-    over: Varied,
+    over: Varied | None = None,
     *,
-    vary: Varied | None = None,
     friction: Values | None = None,
-    measure: str = "PGA",
-    level: str | None = None,
-    demands: Sequence[str] = (),
-    bounds: str = "all",
+    vary: Varied | None = None,
+    measure: str | None = None,
+    scale_to: str | None = None,
+    scale: float | None = None,
+    demand: Sequence[str] = (),
+    bounds: str | None = None,
     jobs: int | None = None,
     progress: Progress | None = None,
 ) -> Assessment:
@@ -102,14 +103,17 @@ def spectrum(
     model, records
         The model and the motions by name, such as from ``read_suite``.
     over
-        The parameter along the axis and its values: ``{"slider.radius": "1..5 m:50"}``.
-    vary
-        Parameters that make groups of curves.
+        The parameter along the axis and its values: ``{"slider.radius": "1..5 m:50"}``; the isolator period
+        if left out.
     friction
         Kinetic coefficients that make groups; the ratio of static to kinetic friction is kept.
-    measure, level
+    vary
+        Parameters that make groups of curves.
+    measure, scale_to
         All records are scaled so that the measure takes this value; as recorded if left out.
-    demands
+    scale
+        A factor on all records instead.
+    demand
         Keys of demands besides those that are always told.
     bounds
         Which of the model's ``slider.bounds`` are run: ``"all"``, ``"lower"``, ``"nominal"``, ``"upper"``.
@@ -139,36 +143,31 @@ def spectrum(
     >>> len(found.tables["runs"])
     9
     """
-    return Assessment(
-        _core.spectrum(
-            model,
-            list(records.items()),
-            _varied(over)[0],
-            vary=_varied(vary or {}),
-            friction=None if friction is None else _values(friction),
-            measure=measure,
-            level=level,
-            demands=list(demands),
-            bounds=bounds,
-            jobs=jobs,
-            progress=progress,
-        )
-    )
+    asked: dict[str, object] = {
+        "over": over,
+        "friction": friction,
+        "vary": vary,
+        "measure": measure,
+        "scale_to": scale_to,
+    }
+    asked |= {"scale": scale, "demand": demand, "bounds": bounds}
+    return _assess("spectrum", model, records, asked, jobs, progress)
 
 
 def ida(
     model: _core.Model,
     records: Mapping[str, _core.Motion],
     *,
-    levels: str | None = None,
+    measure: str | None = None,
+    scale_to: str | None = None,
     between: str | None = None,
-    measure: str = "PGA",
-    demand: str = "peak_sliding_displacement_m",
+    demand: str | None = None,
     limit: str | None = None,
+    friction: Values | None = None,
     vary: Varied | None = None,
-    keep: Sequence[str] = (),
+    where: Sequence[str] = (),
     by: str | None = None,
-    bounds: str = "all",
+    bounds: str | None = None,
     jobs: int | None = None,
     progress: Progress | None = None,
 ) -> Assessment:
@@ -178,16 +177,19 @@ def ida(
     ----------
     model, records
         The model and the motions by name.
-    levels
-        Levels of the measure for all records: ``"0.1..1 g:10"``.
-    between
-        In place of them: each record's own capacity is hunted between two levels, ``"0.05..2 g"``.
     measure
         The intensity measure.
+    scale_to
+        Levels of the measure for all records: ``"0.1..1 g:10"``; each record's own capacity is hunted if left
+        out.
+    between
+        First and highest level of the hunt, ``"0.05..2 g"``.
     demand, limit
         The demand and the limit on it with its unit; of sliding, the model's gap if left out.
-    vary, keep, by
-        Designs that are run, rows that are kept, and the path whose values have curves of their own.
+    friction, vary
+        Designs that are run: kinetic coefficients, with the ratio of static to kinetic kept, and parameters.
+    where, by
+        Designs that are kept, and the path whose values have curves of their own.
     bounds
         Which of the model's ``slider.bounds`` are run: ``"all"``, ``"lower"``, ``"nominal"``, ``"upper"``.
     jobs, progress
@@ -201,7 +203,7 @@ def ida(
     Raises
     ------
     InputError
-        For neither or both of ``levels`` and ``between``, and for a choice that cannot be.
+        For a hunt without a limit, and for a choice that cannot be.
     KeyboardInterrupt
         At Ctrl-C.
 
@@ -212,40 +214,36 @@ def ida(
     ...                   "slider.kinetic_friction": 0.05, "slider.radius": "2 m"})
     >>> records = {name: ss.Motion([0.0, 0.3, -0.3, 0.0], dt=dt, units="g")
     ...            for name, dt in [("short", 0.2), ("middle", 0.25), ("long", 0.3)]}
-    >>> found = ss.ida(model, records, levels="0.1..0.4 g:4", limit="50 mm")
+    >>> found = ss.ida(model, records, scale_to="0.1..0.4 g:4", limit="50 mm")
     >>> len(found.table), len(found.tables["capacities"])
     (12, 3)
     """
-    return Assessment(
-        _core.ida(
-            model,
-            list(records.items()),
-            levels=levels,
-            between=between,
-            measure=measure,
-            demand=demand,
-            limit=limit,
-            vary=_varied(vary or {}),
-            keep=list(keep),
-            by=by,
-            bounds=bounds,
-            jobs=jobs,
-            progress=progress,
-        )
-    )
+    asked: dict[str, object] = {
+        "measure": measure,
+        "scale_to": scale_to,
+        "between": between,
+        "demand": demand,
+        "limit": limit,
+    }
+    asked |= {"friction": friction, "vary": vary, "where": where, "by": by, "bounds": bounds}
+    return _assess("ida", model, records, asked, jobs, progress)
 
 
 def fragility(
     source: _core.Table | Assessment | str | PathLike[str],
     *,
-    demand: str = "peak_sliding_displacement_m",
+    demand: str | None = None,
     limit: str | None = None,
     measure: str | None = None,
     units: str | None = None,
     fit_to: str | None = None,
-    keep: Sequence[str] = (),
-    confidence: float = 0.9,
-    bootstrap: tuple[int, int] | None = None,
+    where: Sequence[str] = (),
+    by: str | None = None,
+    bootstrap: int | None = None,
+    seed: int | None = None,
+    floor: str | None = None,
+    cap: str | None = None,
+    confidence: float | None = None,
     jobs: int | None = None,
     progress: Progress | None = None,
 ) -> Assessment:
@@ -254,19 +252,22 @@ def fragility(
     Parameters
     ----------
     source
-        Runs of ``ida`` or ``study``, capacities or counts: a table, or a file in CSV or Parquet.
+        Runs of ``ida`` or ``study``, capacities or counts: a table, a file in CSV or Parquet, or the folder of
+        a command.
     demand, limit
-        The demand and the limit on it with its unit.
+        The demand and the limit on it with its unit; that of the analysis if left out.
     measure, units
         The measure, and its units where the table does not state them.
     fit_to
         ``"counts"``, ``"capacities"`` or ``"cloud"``; by the kind of data if left out.
-    keep
-        Rows that are kept: ``"slider.radius=2 m"``.
+    where, by
+        Rows that are kept, ``"slider.radius=2 m"``, and the column whose values have curves of their own.
+    bootstrap, seed
+        Intervals from so many draws of the records, with this seed.
+    floor, cap
+        Demands below and above these count as below and above them only, in a cloud.
     confidence
         Of intervals and band.
-    bootstrap
-        Intervals from so many draws of the records, with this seed.
 
     Returns
     -------
@@ -287,32 +288,30 @@ def fragility(
     ...                   "slider.kinetic_friction": 0.05, "slider.radius": "2 m"})
     >>> records = {name: ss.Motion([0.0, 0.3, -0.3, 0.0], dt=dt, units="g")
     ...            for name, dt in [("short", 0.2), ("middle", 0.25), ("long", 0.3)]}
-    >>> ida = ss.ida(model, records, levels="0.1..0.6 g:11", limit="50 mm")
+    >>> ida = ss.ida(model, records, scale_to="0.1..0.6 g:11", limit="50 mm")
     >>> curve = ss.fragility(ida)
     >>> curve.table.columns
     ['level', 'probability', 'band_low', 'band_high']
     """
+    asked: dict[str, object] = {
+        "demand": demand,
+        "limit": limit,
+        "measure": measure,
+        "units": units,
+        "fit_to": fit_to,
+    }
+    asked |= {"where": where, "by": by, "bootstrap": bootstrap, "seed": seed, "floor": floor, "cap": cap}
+    given = _given(asked | {"confidence": confidence})
+    known = None
     if isinstance(source, Assessment):
-        table = source.tables.get("capacities", source.table) if limit is None else source.table
+        known = source.summary.get("limit")
+        whole = limit is not None or fit_to not in (None, "capacities")
+        table = source.table if whole else source.tables.get("capacities", source.table)
     elif isinstance(source, _core.Table):
         table = source
     else:
-        table = _core.read_table([Path(source)])
-    return Assessment(
-        _core.fragility(
-            table,
-            demand=demand,
-            limit=limit,
-            measure=measure,
-            units=units,
-            fit_to=fit_to,
-            keep=list(keep),
-            confidence=confidence,
-            bootstrap=bootstrap,
-            jobs=jobs,
-            progress=progress,
-        )
-    )
+        table, known = _core.read_runs(Path(source), demand)
+    return Assessment(_core.fit(table, given, limit=known, jobs=jobs, progress=progress))
 
 
 def design(
@@ -321,16 +320,17 @@ def design(
     vary: Varied | None = None,
     *,
     friction: Values | None = None,
+    measure: str | None = None,
+    scale_to: str | None = None,
+    scale: float | None = None,
     gap: str | None = None,
-    probability: float = 0.9,
+    probability: float | None = None,
     demand: str | None = None,
-    share: float = 0.5,
-    measure: str = "PGA",
-    level: str | None = None,
+    share: float | None = None,
     bounds: tuple[float, float] | None = None,
-    sensitivity: int = 256,
-    seed: int = 1,
-    confidence: float = 0.9,
+    sensitivity: int | None = None,
+    seed: int | None = None,
+    confidence: float | None = None,
     jobs: int | None = None,
     progress: Progress | None = None,
 ) -> Assessment:
@@ -350,7 +350,7 @@ def design(
     demand, share
         Key of the acceleration that is made least, and the share of the records that must not exceed it;
         the roof's if left out.
-    measure, level
+    measure, scale_to, scale
         As in ``spectrum``.
     bounds
         Factors on friction for the check of robustness; those of the model if left out.
@@ -385,26 +385,46 @@ def design(
     >>> list(found.tables)
     ['front', 'runs']
     """
-    return Assessment(
-        _core.design(
-            model,
-            list(records.items()),
-            _varied(vary or {}),
-            friction=None if friction is None else _values(friction),
-            gap=gap,
-            probability=probability,
-            demand=demand,
-            share=share,
-            measure=measure,
-            level=level,
-            bounds=bounds,
-            sensitivity=sensitivity,
-            seed=seed,
-            confidence=confidence,
-            jobs=jobs,
-            progress=progress,
-        )
-    )
+    asked: dict[str, object] = {
+        "vary": vary,
+        "friction": friction,
+        "measure": measure,
+        "scale_to": scale_to,
+        "scale": scale,
+    }
+    asked |= {"gap": gap, "probability": probability, "demand": demand, "share": share, "bounds": bounds}
+    asked |= {"sensitivity": sensitivity, "seed": seed, "confidence": confidence}
+    return _assess("design", model, records, asked, jobs, progress)
+
+
+def _assess(
+    kind: str,
+    model: _core.Model,
+    records: Mapping[str, _core.Motion],
+    asked: Mapping[str, object],
+    jobs: int | None,
+    progress: Progress | None,
+) -> Assessment:
+    answer = _core.assess(kind, model, list(records.items()), _given(asked), jobs=jobs, progress=progress)
+    return Assessment(answer)
+
+
+#: Lists of these are one text each; those of others are one text together.
+_MANY = ("vary", "where", "demand")
+
+
+def _given(asked: Mapping[str, object]) -> list[tuple[str, str]]:
+    """Return what is given as texts; what is left out has its default in the core."""
+    given: list[tuple[str, str]] = []
+    for name, value in asked.items():
+        if isinstance(value, str) or not isinstance(value, (Mapping, Sequence)):
+            texts = [] if value is None else [str(value)]
+        elif isinstance(value, Mapping):
+            texts = [f"{path}={_values(values)}" for path, values in value.items()]
+        else:
+            texts = [str(item) for item in value] if name in _MANY else [_values(value)]
+        given += [(name, text) for text in texts]
+    return given
 
 
 def _texts(paths: str | PathLike[str] | Iterable[str | PathLike[str]]) -> list[str]:
@@ -415,7 +435,3 @@ def _texts(paths: str | PathLike[str] | Iterable[str | PathLike[str]]) -> list[s
 
 def _values(values: Values) -> str:
     return values if isinstance(values, str) else ", ".join(str(value) for value in values)
-
-
-def _varied(varied: Varied) -> list[str]:
-    return [f"{path}={_values(values)}" for path, values in varied.items()]

@@ -16,17 +16,16 @@ __all__ = [
     "Study",
     "Table",
     "__version__",
+    "assess",
     "compare_with",
-    "design",
-    "fragility",
-    "ida",
+    "fields",
+    "fit",
     "identify_cyclic",
     "identify_free_vibration",
     "identify_shaking_table",
+    "read_runs",
     "read_suite",
-    "read_table",
     "run",
-    "spectrum",
     "study",
 ]
 
@@ -166,9 +165,7 @@ class Study:
     @property
     def notices(self) -> list[str]: ...
 
-def run(
-    model: Model, motion: Motion | None = None, *, floor_spectra: bool = False
-) -> Response: ...
+def run(model: Model, motion: Motion | None = None, *, floor_spectra: bool = False) -> Response: ...
 def study(
     plan: str | PathLike[str] | Path,
     folder: str | PathLike[str] | Path,
@@ -199,67 +196,22 @@ def read_suite(
     dt_s: float | None = None,
     vertical: list[str] = ...,
 ) -> list[tuple[str, Motion]]: ...
-def read_table(files: list[Path]) -> Table: ...
-def spectrum(
+def read_runs(source: Path, demand: str | None) -> tuple[Table, float | None]: ...
+def fields(kind: str) -> list[tuple[str, bool, str, str]]: ...
+def assess(
+    kind: str,
     model: Model,
     records: list[tuple[str, Motion]],
-    over: str,
+    given: list[tuple[str, str]],
     *,
-    vary: list[str] = ...,
-    friction: str | None = None,
-    measure: str = "PGA",
-    level: str | None = None,
-    demands: list[str] = ...,
-    bounds: str = "all",
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Assessment: ...
-def ida(
-    model: Model,
-    records: list[tuple[str, Motion]],
-    *,
-    levels: str | None = None,
-    between: str | None = None,
-    measure: str = "PGA",
-    demand: str = "peak_sliding_displacement_m",
-    limit: str | None = None,
-    vary: list[str] = ...,
-    keep: list[str] = ...,
-    by: str | None = None,
-    bounds: str = "all",
-    jobs: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
-) -> Assessment: ...
-def fragility(
+def fit(
     table: Table,
+    given: list[tuple[str, str]],
     *,
-    demand: str = "peak_sliding_displacement_m",
-    limit: str | None = None,
-    measure: str | None = None,
-    units: str | None = None,
-    fit_to: str | None = None,
-    keep: list[str] = ...,
-    confidence: float = 0.9,
-    bootstrap: tuple[int, int] | None = None,
-    jobs: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
-) -> Assessment: ...
-def design(
-    model: Model,
-    records: list[tuple[str, Motion]],
-    vary: list[str],
-    *,
-    friction: str | None = None,
-    gap: str | None = None,
-    probability: float = 0.9,
-    demand: str | None = None,
-    share: float = 0.5,
-    measure: str = "PGA",
-    level: str | None = None,
-    bounds: tuple[float, float] | None = None,
-    sensitivity: int = 256,
-    seed: int = 1,
-    confidence: float = 0.9,
+    limit: float | None = None,
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Assessment: ...
@@ -299,9 +251,7 @@ class Identified:
     def tables(self) -> dict[str, Table]: ...
     @property
     def curves(self) -> dict[str, Table]: ...
-    def _estimates(
-        self,
-    ) -> list[tuple[str, str, float | None, float | None, float | None, str | None]]: ...
+    def _estimates(self) -> list[tuple[str, str, float | None, float | None, float | None, str | None]]: ...
     def _figures(self) -> list[tuple[str, str]]: ...
     def _text(self, units: str) -> str: ...
     def _summary_json(self) -> str: ...

@@ -2,10 +2,7 @@
 
 mod figures;
 
-use slipstick::assessment::FailedRun;
-use slipstick::assessment::design::{
-    Bounded, DesignMap, Figures, Found, Point, Sensitivity, SensitivityError, Target,
-};
+use slipstick::assessment::design::{Bounded, DesignRun, Figures, Point, Target};
 use slipstick::assessment::grid::Axis;
 use slipstick::assessment::sensitivity::Index;
 use slipstick::response::Warning;
@@ -19,8 +16,6 @@ use crate::number::compact;
 /// What a design is told from.
 #[derive(Clone, Debug)]
 pub struct DesignReport<'a> {
-    /// Version of this program.
-    pub version: &'static str,
     /// Name of the model.
     pub name: &'a str,
     /// Number of records.
@@ -29,22 +24,14 @@ pub struct DesignReport<'a> {
     pub scaled: &'a str,
     /// What was asked.
     pub target: Target,
-    /// What was varied, the last fastest.
-    pub variables: &'a [Axis],
+    /// What came of it.
+    pub run: &'a DesignRun,
     /// Key of the acceleration, such as `storey1_peak_acceleration_m_per_s2`.
     pub acceleration: &'a str,
-    /// What was found.
-    pub found: &'a Found,
-    /// Factors on friction and the designs of the front (or the nearest) with them.
-    pub bounds: Option<([f64; 2], &'a [Bounded])>,
-    /// Both figures over the two main variables.
-    pub map: Option<&'a DesignMap>,
-    /// Sensitivity, where asked for, or why there is none.
-    pub sensitivity: Option<&'a Result<Sensitivity, SensitivityError>>,
+    /// Factors on friction with which the front (or the nearest design) was run.
+    pub bounds: Option<[f64; 2]>,
     /// Confidence of intervals.
     pub confidence: f64,
-    /// Runs without an answer.
-    pub failures: &'a [FailedRun],
     /// What reading the records gave notice of.
     pub warnings: &'a [Warning],
     /// Units to show results in.
@@ -56,8 +43,8 @@ impl DesignReport<'_> {
     #[must_use]
     pub fn values(&self, design: usize) -> Vec<f64> {
         let mut rest = design;
-        let mut values: Vec<f64> = Vec::with_capacity(self.variables.len());
-        for variable in self.variables.iter().rev() {
+        let mut values: Vec<f64> = Vec::with_capacity(self.run.variables.len());
+        for variable in self.run.variables.iter().rev() {
             let n = variable.values.len().max(1);
             values.push(variable.values.get(rest % n).copied().unwrap_or(f64::NAN));
             rest /= n;
@@ -70,7 +57,7 @@ impl DesignReport<'_> {
     /// upper friction too.
     #[must_use]
     pub fn robust(&self) -> Option<Point> {
-        let (_, bounded) = self.bounds?;
+        let (_, bounded) = self.bounded()?;
         let keeps = |point: &&Point| {
             bounded.iter().any(|b| {
                 b.design == point.design
@@ -78,7 +65,12 @@ impl DesignReport<'_> {
                     && b.upper.displacement_m <= self.target.gap_m
             })
         };
-        self.found.front.iter().rev().find(keeps).copied()
+        self.run.found.front.iter().rev().find(keeps).copied()
+    }
+
+    /// Those factors with the designs.
+    fn bounded(&self) -> Option<([f64; 2], &[Bounded])> {
+        self.bounds.zip(self.run.bounded.as_deref())
     }
 
     fn length(&self) -> Unit {
@@ -86,14 +78,14 @@ impl DesignReport<'_> {
     }
 
     fn acceleration_unit(&self) -> Unit {
-        let all = self.found.front.iter().map(|p| p.figures.acceleration_m_per_s2);
+        let all = self.run.found.front.iter().map(|p| p.figures.acceleration_m_per_s2);
         self.display.unit(Quantity::Acceleration, all.fold(0.0, f64::max))
     }
 
     /// The result laid out.
     #[must_use]
     pub fn sheet(&self) -> Sheet {
-        let designs: usize = self.variables.iter().map(|v| v.values.len()).product();
+        let designs: usize = self.run.variables.iter().map(|v| v.values.len()).product();
         Sheet {
             kind: "Design over a suite",
             name: self.name.to_owned(),
@@ -102,15 +94,16 @@ impl DesignReport<'_> {
                 "{designs} designs, {} records{}; {} runs of {} were needed{}",
                 self.records,
                 self.scaled,
-                self.found.runs,
+                self.run.found.runs,
                 designs * self.records,
-                match self.failures.len() {
+                match self.run.failures.len() {
                     0 => String::new(),
                     failed => format!(", {failed} of them without an answer"),
                 }
             ),
             display: self.display,
             verdict: self.verdict(),
+            complete: !self.run.found.front.is_empty() && self.run.failures.is_empty(),
             warnings: self.all_warnings(),
             tables: self.tables(),
             notes: self.notes(),
@@ -124,7 +117,7 @@ impl DesignReport<'_> {
     fn verdict(&self) -> Vec<String> {
         let (l, a) = (self.length(), self.acceleration_unit());
         let design = |what: &str, point: &Point| {
-            let values = self.values(point.design).into_iter().zip(self.variables);
+            let values = self.values(point.design).into_iter().zip(&self.run.variables);
             let values = values.map(|(value, variable)| {
                 let value = crate::number::rounded(value, 4);
                 format!("{} {value} {}", name(variable), variable.unit).trim_end().to_owned()
@@ -140,9 +133,9 @@ impl DesignReport<'_> {
                 a.symbol
             )
         };
-        let Some(chosen) = self.found.chosen() else {
+        let Some(chosen) = self.run.found.chosen() else {
             let none = "No design of the grid keeps the gap.".to_owned();
-            let nearest = self.found.nearest.map(|point| design("Nearest", &point));
+            let nearest = self.run.found.nearest.map(|point| design("Nearest", &point));
             return std::iter::once(none).chain(nearest).collect();
         };
         let mut verdict = vec![design("Chosen design", &chosen)];
@@ -158,14 +151,14 @@ impl DesignReport<'_> {
 
     fn failed_runs(&self) -> Option<Warning> {
         let records = self.records as u64;
-        let bounded = self.bounds.map_or(0, |(_, bounded)| 2 * bounded.len() as u64 * records);
-        failed(self.failures, self.found.runs + bounded, "count as beyond the gap")
+        let bounded = self.bounded().map_or(0, |(_, bounded)| 2 * bounded.len() as u64 * records);
+        failed(&self.run.failures, self.run.found.runs + bounded, "count as beyond the gap")
     }
 
     fn all_warnings(&self) -> Vec<Warning> {
         let mut all: Vec<Warning> = self.failed_runs().into_iter().collect();
         let mut warn = |kind, message| all.push(Warning { kind, time_s: None, message });
-        if self.found.front.is_empty() {
+        if self.run.found.front.is_empty() {
             warn(
                 "no_feasible_design",
                 format!(
@@ -175,9 +168,10 @@ impl DesignReport<'_> {
                 ),
             );
         }
-        if let Some(chosen) = self.found.chosen() {
+        if let Some(chosen) = self.run.found.chosen() {
             let values = self.values(chosen.design);
             let edges: Vec<&str> = self
+                .run
                 .variables
                 .iter()
                 .zip(&values)
@@ -219,14 +213,14 @@ impl DesignReport<'_> {
                 ),
             );
         }
-        all.extend(self.warnings.iter().cloned());
+        all.extend(self.run.warnings.iter().chain(self.warnings).cloned());
         all
     }
 
     fn heads(&self) -> Vec<String> {
         let (l, a) = (self.length(), self.acceleration_unit());
         std::iter::once("Design".to_owned())
-            .chain(self.variables.iter().map(label))
+            .chain(self.run.variables.iter().map(label))
             .chain([
                 l.label("D"),
                 a.label("A"),
@@ -254,11 +248,11 @@ impl DesignReport<'_> {
 
     fn tables(&self) -> Vec<(String, Vec<Vec<String>>)> {
         let mut rows = vec![self.heads()];
-        let main = self.found.chosen().or(self.found.nearest);
-        let name = if self.found.front.is_empty() { "nearest" } else { "chosen" };
+        let main = self.run.found.chosen().or(self.run.found.nearest);
+        let name = if self.run.found.front.is_empty() { "nearest" } else { "chosen" };
         if let Some(point) = main {
             rows.push(self.row(name, point.design, &point.figures));
-            if let Some(([lower, upper], bounded)) = self.bounds
+            if let Some(([lower, upper], bounded)) = self.bounded()
                 && let Some(b) = bounded.iter().find(|b| b.design == point.design)
             {
                 rows.push(self.row(
@@ -277,7 +271,7 @@ impl DesignReport<'_> {
             && main != Some(robust)
         {
             rows.push(self.row("robust", robust.design, &robust.figures));
-            if let Some(([lower, upper], bounded)) = self.bounds
+            if let Some(([lower, upper], bounded)) = self.bounded()
                 && let Some(b) = bounded.iter().find(|b| b.design == robust.design)
             {
                 rows.push(self.row(
@@ -293,9 +287,9 @@ impl DesignReport<'_> {
             }
         }
         let mut tables = vec![("Choice".to_owned(), rows)];
-        if self.found.front.len() > 1 {
+        if self.run.found.front.len() > 1 {
             const SHOWN: usize = 12;
-            let n = self.found.front.len();
+            let n = self.run.found.front.len();
             let mut shown: Vec<usize> = if n <= SHOWN {
                 (0..n).collect()
             } else {
@@ -304,7 +298,7 @@ impl DesignReport<'_> {
             shown.dedup();
             let mut rows = vec![self.heads()];
             for i in shown.into_iter().rev() {
-                let point = &self.found.front[i];
+                let point = &self.run.found.front[i];
                 rows.push(self.row(&(n - i).to_string(), point.design, &point.figures));
             }
             let heading = if n > SHOWN {
@@ -314,7 +308,7 @@ impl DesignReport<'_> {
             };
             tables.push((heading, rows));
         }
-        if let Some(Ok(sensitivity)) = self.sensitivity {
+        if let Some(Ok(sensitivity)) = self.run.sensitivity.as_ref() {
             let heads = ["", "First order", "from", "to", "Total", "from", "to"].map(str::to_owned);
             for (what, indices) in [
                 ("displacement", &sensitivity.displacement),
@@ -333,7 +327,7 @@ impl DesignReport<'_> {
                     std::iter::once(v.path.clone()).chain(numbers).collect()
                 };
                 let rows = std::iter::once(heads.to_vec())
-                    .chain(self.variables.iter().zip(indices).map(row))
+                    .chain(self.run.variables.iter().zip(indices).map(row))
                     .collect();
                 tables.push((format!("Sobol' indices of the {what}"), rows));
             }
@@ -358,7 +352,7 @@ impl DesignReport<'_> {
             self.length().symbol,
             self.records
         ));
-        if let Some(Err(error)) = self.sensitivity {
+        if let Some(Err(error)) = self.run.sensitivity.as_ref() {
             notes.push(format!("No sensitivity: {error}."));
         }
         notes
@@ -382,7 +376,7 @@ impl DesignReport<'_> {
                     .to_owned(),
             );
         }
-        if self.sensitivity.is_some() {
+        if self.run.sensitivity.is_some() {
             method.push(
                 "Sobol' indices by Saltelli's and Jansen's estimators from scrambled Sobol' points, the \
                  variables uniform between their ends; intervals by the bootstrap."
@@ -392,7 +386,7 @@ impl DesignReport<'_> {
         method
     }
 
-    fn json(&self) -> Json {
+    fn json(&self) -> Vec<(&'static str, Json)> {
         let pair = |[low, high]: [f64; 2]| Json::List(vec![low.into(), high.into()]);
         let figures = |f: &Figures| {
             Json::Object(vec![
@@ -406,7 +400,7 @@ impl DesignReport<'_> {
         let point = |p: &Point| {
             let values = self.values(p.design).into_iter().map(Json::from).collect();
             let bounded =
-                self.bounds.and_then(|(_, all)| all.iter().find(|b| b.design == p.design));
+                self.bounded().and_then(|(_, all)| all.iter().find(|b| b.design == p.design));
             Json::Object(vec![
                 ("values", Json::List(values)),
                 ("nominal", figures(&p.figures)),
@@ -431,10 +425,11 @@ impl DesignReport<'_> {
                 ("total_interval", pair(i.total_interval)),
             ])
         };
-        let sensitivity = match self.sensitivity {
+        let sensitivity = match self.run.sensitivity.as_ref() {
             Some(Ok(s)) => {
-                let of =
-                    |all: &[Index]| Json::List(self.variables.iter().zip(all).map(index).collect());
+                let of = |all: &[Index]| {
+                    Json::List(self.run.variables.iter().zip(all).map(index).collect())
+                };
                 Json::Object(vec![
                     ("points", Json::Count(s.points as u64)),
                     ("displacement", of(&s.displacement)),
@@ -443,8 +438,7 @@ impl DesignReport<'_> {
             }
             _ => Json::Null,
         };
-        Json::Object(vec![
-            ("slipstick", self.version.into()),
+        vec![
             ("model", self.name.into()),
             ("records", Json::Count(self.records as u64)),
             ("gap_m", self.target.gap_m.into()),
@@ -452,16 +446,16 @@ impl DesignReport<'_> {
             ("acceleration", self.acceleration.into()),
             ("acceleration_share", self.target.acceleration_share.into()),
             ("confidence", self.confidence.into()),
-            ("variables", Json::List(self.variables.iter().map(variable).collect())),
-            ("runs", Json::Count(self.found.runs)),
-            ("failed", Json::Count(self.failures.len() as u64)),
-            ("designs_beyond_gap", Json::Count(self.found.beyond_gap as u64)),
-            ("chosen", optional(self.found.chosen())),
+            ("variables", Json::List(self.run.variables.iter().map(variable).collect())),
+            ("runs", Json::Count(self.run.found.runs)),
+            ("failed", Json::Count(self.run.failures.len() as u64)),
+            ("designs_beyond_gap", Json::Count(self.run.found.beyond_gap as u64)),
+            ("chosen", optional(self.run.found.chosen())),
             ("robust", optional(self.robust())),
-            ("nearest", optional(self.found.nearest)),
-            ("front", Json::List(self.found.front.iter().map(point).collect())),
+            ("nearest", optional(self.run.found.nearest)),
+            ("front", Json::List(self.run.found.front.iter().map(point).collect())),
             ("sensitivity", sensitivity),
-        ])
+        ]
     }
 }
 

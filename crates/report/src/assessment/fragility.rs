@@ -20,8 +20,6 @@ pub use family::FragilityFamily;
 /// What a fragility is told from.
 #[derive(Clone, Debug)]
 pub struct FragilityReport<'a> {
-    /// Version of this program.
-    pub version: &'static str,
     /// Where the data came from, as a person calls it.
     pub name: &'a str,
     /// Key of the demand.
@@ -123,8 +121,14 @@ impl FragilityReport<'_> {
             notes: self.goodness().1,
             figures,
             method: self.method(),
+            complete: self.complete(),
             json: self.json(),
         }
+    }
+
+    /// Whether every run has a demand.
+    fn complete(&self) -> bool {
+        !self.run.warnings.iter().any(|warning| warning.kind == "failed_runs")
     }
 
     /// Median with its interval, and dispersion.
@@ -359,7 +363,7 @@ impl FragilityReport<'_> {
         method
     }
 
-    fn json(&self) -> Json {
+    fn json(&self) -> Vec<(&'static str, Json)> {
         let curve = self.run.fragility.curve();
         let pair = |ends: [Option<f64>; 2]| Json::List(ends.map(Json::from).to_vec());
         let [of_median, of_dispersion] = self.run.fragility.standard_errors();
@@ -403,8 +407,7 @@ impl FragilityReport<'_> {
         };
         let row =
             |[x, p, low, high]: [f64; 4]| Json::List([x, p, low, high].map(Json::from).to_vec());
-        Json::Object(vec![
-            ("slipstick", self.version.into()),
+        vec![
             ("name", self.name.into()),
             ("method", method.into()),
             ("why", self.run.why.as_str().into()),
@@ -431,7 +434,7 @@ impl FragilityReport<'_> {
             ("goodness_of_fit", self.goodness().0),
             data,
             ("curve", Json::List(self.curve().into_iter().map(row).collect())),
-        ])
+        ]
     }
 }
 

@@ -1,24 +1,27 @@
 //! Models on the records of suites, side by side, and what governs.
 
+use slipstick::assessment::FailedRun;
 use slipstick::assessment::histories::{Histories, ModelHistories, OnRecord, RECORDS_OF_A_MEAN};
+use slipstick::assessment::lateral::{LEAST_TOTAL, LateralForce};
 use slipstick::input::{Bound, Names};
+use slipstick::record::Origin;
 use slipstick::response::{DemandColumn, DemandOf, Warning};
 use slipstick::table::{Cells, Column, Table};
+use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
 use super::lines::{GROUPS, RECORD, line, panel, stacked};
 use super::pairs;
-use super::sheet::{Sheet, cell};
+use super::sheet::{Sheet, cell, failed};
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::figures::Drawn;
 use crate::json::Json;
+use crate::markup::shortened;
 use crate::number::compact;
 use crate::plot::{Axis, Limit, Panel, Series, Shape, Style};
 
 /// What the histories of a suite are told from.
 #[derive(Clone, Debug)]
 pub struct HistoriesReport<'a> {
-    /// Version of this program.
-    pub version: &'static str,
     /// The runs.
     pub histories: &'a Histories,
     /// How the records were scaled, in words.
@@ -32,6 +35,12 @@ pub struct HistoriesReport<'a> {
 /// A column of a table: its head, the model, its demand and the bound of friction; none where no record of
 /// the model has the demand.
 type Shown<'a> = (String, Option<(&'a ModelHistories, DemandColumn, usize)>);
+
+/// What a file may say of where it was recorded.
+type Said = fn(&Origin) -> &Option<String>;
+
+/// Factors on records beyond which it is said: FEMA P-1050 and the guidance on ground motions to ASCE/SEI 7.
+const FACTORS: core::ops::RangeInclusive<f64> = 0.25..=4.0;
 
 /// Demands that have a table, of those that there are; the last one of models with storeys alone.
 const SHOWN: [&str; 5] = [
@@ -57,10 +66,17 @@ impl HistoriesReport<'_> {
                 (n, false) => format!("{n} records"),
                 (n, true) => format!("{n} pairs of components"),
             });
-        let failed = models.iter().flat_map(|m| &m.records).flat_map(|on| &on.holds);
-        let certificate = match failed.filter(|holds| !**holds).count() {
+        let broken = |run: &&Result<_, FailedRun>| matches!(run, Ok((_, false)));
+        let broken = models.iter().flat_map(ModelHistories::runs).filter(broken).count();
+        let certificate = match broken {
             0 => "every certificate holds".to_owned(),
             n => format!("{n} certificates do not hold"),
+        };
+        let unanswered = models.iter().flat_map(ModelHistories::failures).count();
+        let complete = unanswered == 0 && broken == 0;
+        let certificate = match unanswered {
+            0 => certificate,
+            n => format!("{n} without an answer; {certificate}"),
         };
         Sheet {
             kind: "Response histories",
@@ -68,6 +84,7 @@ impl HistoriesReport<'_> {
             first: Some(("Governs", self.governing())),
             line: format!("{runs} runs: {records}{}; {certificate}", self.scaled),
             verdict: Vec::new(),
+            complete,
             display: self.display,
             warnings: self.warnings(),
             tables: self.tables(),
@@ -99,7 +116,9 @@ impl HistoriesReport<'_> {
         });
         columns.extend(met.map(|column| vec![column; models.len()]));
         let has = |columns: &Vec<DemandColumn>| {
-            models.iter().zip(columns).any(|(model, column)| model.governs(column).is_some())
+            models.iter().zip(columns).any(|(model, column)| {
+                (0..model.bounds.len()).any(|i| model.sizes(column, i).iter().any(|s| !s.is_nan()))
+            })
         };
         columns.retain(has);
         columns
@@ -123,12 +142,19 @@ impl HistoriesReport<'_> {
         let peaks = self.peaks();
         let unit = self.unit_of(&peaks);
         let of = |model: &ModelHistories| {
-            let (bound, value) = model.governs(peaks.first()?)?;
             let name = if self.histories.models.len() > 1 {
                 format!("{}: ", model.name)
             } else {
                 String::new()
             };
+            if let Some(failed) = model.failures().next() {
+                let (count, statistic) = (model.failures().count(), model.statistic());
+                let of = model.runs().count();
+                return Some(format!(
+                    "{name}no {statistic}: {count} of {of} runs have no answer, the first {failed}"
+                ));
+            }
+            let (bound, value) = model.governs(peaks.first()?)?;
             let friction = match model.bounds.len() {
                 1 => String::new(),
                 _ => format!("{} friction, ", bound.name),
@@ -167,7 +193,9 @@ impl HistoriesReport<'_> {
             _ => {
                 let each = models.iter().zip(demand);
                 let of = each.map(|(m, column)| {
-                    let governs = m.governing_bound(column);
+                    // Of records without an answer none governs: all are shown as they stand.
+                    let nominal = m.bounds.iter().position(|bound| *bound == Bound::NOMINAL);
+                    let governs = m.governing_bound(column).or(nominal);
                     let head = match governs.filter(|_| m.bounds.len() > 1) {
                         Some(i) => format!("{} ({})", m.name, m.bounds[i].name),
                         None => m.name.clone(),
@@ -192,7 +220,7 @@ impl HistoriesReport<'_> {
             let of = |(_, of): &Shown<'_>| {
                 let (model, column, bound) = (*of)?;
                 let on = model.records.iter().find(|on| on.record == **name)?;
-                column.value(&on.demands[bound]).map(f64::abs)
+                Some(on.size(&column, bound))
             };
             let value = |column: &Shown<'_>| shown(of(column));
             rows.push(row(name, &mut columns.iter().map(value)));
@@ -208,7 +236,13 @@ impl HistoriesReport<'_> {
             let pairs = models.iter().any(ModelHistories::has_pairs);
             let name = if pairs { format!("{name}, larger of each pair") } else { name.to_owned() };
             let value = |(_, of): &Shown<'_>| {
-                shown(of.map(|(model, column, bound)| model.governing(&column, bound)))
+                let value = shown(of.map(|(model, column, bound)| model.governing(&column, bound)));
+                let governs = of.is_some_and(|(model, column, bound)| {
+                    models.len() == 1
+                        && model.bounds.len() > 1
+                        && model.governing_bound(&column) == Some(bound)
+                });
+                if governs { format!("{value}*") } else { value }
             };
             rows.push(row(&name, &mut columns.iter().map(value)));
         }
@@ -239,13 +273,113 @@ impl HistoriesReport<'_> {
         }
     }
 
-    /// A table a demand, and the factors of pairs that were brought to a spectrum.
+    /// What was run, what governs beside the hand's calculation, a table a demand, and how pairs were brought
+    /// to a spectrum.
     fn tables(&self) -> Vec<(String, Vec<Vec<String>>)> {
         let demands = self.columns();
         let demands = demands.iter().map(|columns| self.table(columns));
         let matched = self.histories.matched.iter();
         let of_pairs = matched.map(|(m, names)| pairs::table(names.iter().map(String::as_str), m));
-        demands.chain(of_pairs).collect()
+        let lateral = self.histories.models.iter().filter_map(|model| self.lateral(model));
+        self.records().into_iter().chain(lateral).chain(demands).chain(of_pairs).collect()
+    }
+
+    /// The records: what their files say of them, their factors and peaks; none of a made motion.
+    fn records(&self) -> Option<(String, Vec<Vec<String>>)> {
+        let model = self.histories.models.first().filter(|_| !self.scaled.is_empty())?;
+        let said: [(&str, Said); 3] = [
+            ("Earthquake", |origin| &origin.event),
+            ("Station", |origin| &origin.station),
+            ("Component", |origin| &origin.component),
+        ];
+        let known = |of: Said| model.records.iter().any(|on| of(&on.origin).is_some());
+        let said: Vec<_> = said.into_iter().filter(|(_, of)| known(*of)).collect();
+        let heads = said.iter().map(|(head, _)| (*head).to_owned());
+        let heads = core::iter::once("Record".to_owned()).chain(heads);
+        let row = |on: &OnRecord| -> Vec<String> {
+            let origin = said.iter().map(|(_, of)| {
+                of(&on.origin).as_ref().map_or("—".to_owned(), |text| shortened(text, 28))
+            });
+            let pga = on.pga_m_per_s2 / STANDARD_GRAVITY_M_PER_S2;
+            let name = core::iter::once(on.record.clone());
+            name.chain(origin).chain([cell(on.scale), cell(pga)]).collect()
+        };
+        let heads = heads.chain(["Factor".to_owned(), "PGA (g)".to_owned()]).collect();
+        let rows = core::iter::once(heads).chain(model.records.iter().map(row));
+        Some(("Records".to_owned(), rows.collect()))
+    }
+
+    /// The equivalent-lateral-force displacement with each bound, beside that of the runs.
+    fn lateral(&self, model: &ModelHistories) -> Option<(String, Vec<Vec<String>>)> {
+        let found = model.lateral.iter().flatten();
+        let largest = found.clone().map(|found| found.displacement_m).reduce(f64::max)?;
+        let stiffest = found.map(|found| found.stiffness_n_per_m).fold(0.0, f64::max);
+        let (length, stiffness) = (
+            self.display.unit(Quantity::Length, largest),
+            self.display.unit(Quantity::Stiffness, stiffest),
+        );
+        let peak = model.shape().find(SHOWN[0])?.1;
+        let runs = |bound: usize| model.governing(&peak, bound);
+        type Value<'b> = Box<dyn Fn(&LateralForce, usize) -> f64 + 'b>;
+        let rows: [(String, Value<'_>); 8] = [
+            (
+                stiffness.label("Effective stiffness k_M"),
+                Box::new(|found, _| stiffness.of(found.stiffness_n_per_m)),
+            ),
+            (
+                "Effective damping β_M (%)".to_owned(),
+                Box::new(|found, _| 100.0 * found.damping_ratio),
+            ),
+            ("Damping factor B_M".to_owned(), Box::new(|found, _| found.damping_factor)),
+            ("Effective period T_M (s)".to_owned(), Box::new(|found, _| found.period_s)),
+            (
+                length.label("Displacement D_M"),
+                Box::new(|found, _| length.of(found.displacement_m)),
+            ),
+            (
+                length.label("1.15 D_M, the least D_TM"),
+                Box::new(|found, _| length.of(LEAST_TOTAL * found.displacement_m)),
+            ),
+            (
+                length.label(&format!("Runs, {}", model.statistic())),
+                Box::new(|_, bound| length.of(runs(bound))),
+            ),
+            ("  over D_M".to_owned(), Box::new(|found, bound| runs(bound) / found.displacement_m)),
+        ];
+        let heads = model.bounds.iter().map(|bound| bound.name.to_owned());
+        let heads = core::iter::once(String::new()).chain(heads).collect();
+        let row = |(name, value): &(String, Value<'_>)| {
+            let of = |(bound, found): (usize, &Option<LateralForce>)| {
+                cell(found.map_or(f64::NAN, |found| value(&found, bound)))
+            };
+            let cells = model.lateral.iter().enumerate().map(of);
+            core::iter::once(name.clone()).chain(cells).collect()
+        };
+        let mut heading = "Equivalent lateral force beside the runs".to_owned();
+        if self.histories.models.len() > 1 {
+            heading.push_str(&format!(", {}", model.name));
+        }
+        Some((heading, core::iter::once(heads).chain(rows.iter().map(row)).collect()))
+    }
+
+    /// Factors that no longer make another earthquake of a record.
+    fn far_factors(&self) -> Option<Warning> {
+        let records = &self.histories.models.first()?.records;
+        let far = |on: &&OnRecord| !FACTORS.contains(&on.scale.abs());
+        let count = records.iter().filter(far).count();
+        let distance = |on: &OnRecord| libm::log(on.scale.abs()).abs();
+        let farthest =
+            records.iter().filter(far).max_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        let message = format!(
+            "{count} of {} factors are outside {} to {}, {} × {} farthest: records so much weaker or \
+             stronger have other durations and frequencies than the motion that is meant",
+            records.len(),
+            FACTORS.start(),
+            FACTORS.end(),
+            farthest.record,
+            cell(farthest.scale)
+        );
+        Some(Warning { kind: "factor_far", time_s: None, message })
     }
 
     /// How it was computed.
@@ -260,14 +394,26 @@ impl HistoriesReport<'_> {
             );
         }
         method.extend(self.histories.matched.iter().map(|(matched, _)| pairs::method(matched)));
+        if self.histories.models.iter().any(|model| model.lateral.iter().any(Option::is_some)) {
+            method.push(
+                "The equivalent-lateral-force displacement is that of ASCE/SEI 7, section 17.5, worked out for \
+                 each bound: D_M = Sa(T_M) (T_M/2π)²/B_M under the target spectrum, with the stiffness and the \
+                 damping of the friction loop at D_M, all mass moving together and B_M of table 17.5-1. The \
+                 ends of travel and the difference of static and kinetic friction are not in it."
+                    .to_owned(),
+            );
+        }
         method
     }
 
     /// What the tables leave out.
     fn notes(&self) -> Vec<String> {
         let models = &self.histories.models;
-        if models.len() < 2 || models.iter().all(|model| model.bounds.len() == 1) {
+        if models.iter().all(|model| model.bounds.len() == 1) {
             return Vec::new();
+        }
+        if models.len() == 1 {
+            return vec!["* governs: the bound of friction with the larger value.".to_owned()];
         }
         vec![
             "Each column is of the bound of friction that governs, named in its head; runs.csv has every \
@@ -278,8 +424,17 @@ impl HistoriesReport<'_> {
 
     /// Warnings of reading and of the runs, each kind once with the record that gave it first.
     fn warnings(&self) -> Vec<Warning> {
+        let models = &self.histories.models;
+        let runs =
+            models.iter().map(|model| model.records.len() * model.bounds.len()).sum::<usize>();
+        let unanswered: Vec<FailedRun> =
+            models.iter().flat_map(ModelHistories::failures).cloned().collect();
+        let count_as = "leave their model without a mean or maximum";
+        let unanswered = failed(&unanswered, runs as u64, count_as);
+        let far = self.far_factors().filter(|_| !self.scaled.is_empty());
+        let of_reading = unanswered.iter().chain(&far).chain(self.warnings);
         let mut all: Vec<(Warning, usize)> =
-            self.warnings.iter().map(|warning| (warning.clone(), 0)).collect();
+            of_reading.map(|warning| (warning.clone(), 0)).collect();
         for on in self.histories.models.iter().flat_map(|model| &model.records) {
             for warning in &on.warnings {
                 match all.iter_mut().find(|(seen, _)| seen.kind == warning.kind) {
@@ -307,57 +462,77 @@ impl HistoriesReport<'_> {
         let end_s = models.iter().flat_map(|model| &model.records);
         let end_s = end_s.filter_map(|on| on.sliding[0].last()).fold(0.0, |a: f64, b| a.max(*b));
         let all = models.iter().flat_map(|model| &model.records);
-        let all: Vec<f64> = all.flat_map(|on| on.sliding[1].iter().map(|s| unit.of(*s))).collect();
+        let nominal = all.map(|on| &on.sliding);
+        let governing =
+            models.iter().filter_map(|model| Some(&model.governing_history.as_ref()?.2));
+        let all: Vec<f64> = nominal
+            .chain(governing)
+            .flat_map(|[_, sliding]| sliding.iter().map(|s| unit.of(*s)))
+            .collect();
         // A gap far away would flatten every curve.
         let largest = all.iter().fold(0.0, |largest: f64, s| largest.max(s.abs()));
-        let gaps = models.iter().filter_map(|model| model.gap_m).map(|gap_m| unit.of(gap_m));
+        let gaps = models
+            .iter()
+            .flat_map(|model| model.gap_m.into_iter().chain(model.stop_m.into_iter().flatten()));
+        let gaps = gaps.map(|gap_m| unit.of(gap_m));
         let y =
             Axis::symmetric(label, all.into_iter().chain(gaps.filter(|gap| *gap < 2.0 * largest)));
         let panels = models.iter().map(|model| self.history_panel(model, &y, end_s, &unit));
         let caption = if models.iter().any(|model| model.records.len() > 1) {
-            "Sliding displacement with nominal friction: every record thin, that of the largest peak bold."
+            "Sliding displacement: every record with nominal friction thin; bold the largest with the bound of \
+             friction that governs."
         } else {
-            "Sliding displacement with nominal friction."
+            "Sliding displacement: thin with nominal friction, bold with the bound that governs."
         };
-        let mut figures = vec![stacked(
+        let target = self.histories.matched.iter().map(|(matched, _)| pairs::figure(matched));
+        let mut figures: Vec<Drawn> = target.collect();
+        figures.push(stacked(
             "histories",
             "Sliding displacement",
             caption.to_owned(),
             panels.collect(),
-        )];
+        ));
         if models.iter().any(|model| model.records.len() > 1) {
             figures.extend(peaks.first().map(|peak| self.shares(peak, &unit)));
         }
-        figures.extend(self.histories.matched.iter().map(|(matched, _)| pairs::figure(matched)));
         figures
     }
 
     fn history_panel(&self, model: &ModelHistories, y: &Axis, end_s: f64, unit: &Unit) -> Panel {
-        let peak =
-            |on: &&OnRecord| on.sliding[1].iter().fold(0.0, |peak: f64, s| peak.max(s.abs()));
-        let largest = model.records.iter().max_by(|a, b| peak(a).total_cmp(&peak(b)));
-        let curve = |on: &OnRecord, label: String, style: Style| {
-            let [times_s, s] = &on.sliding;
+        let curve = |[times_s, s]: &[Vec<f64>; 2], label: String, style: Style| {
             let points = times_s.iter().zip(s).map(|(t, s)| [*t, unit.of(*s)]).collect();
             Series { label, style, shape: Shape::History, points }
         };
-        let mut series: Vec<Series> = Vec::new();
-        for on in &model.records {
-            if largest.is_none_or(|largest| !core::ptr::eq(on, largest)) {
-                series.push(curve(on, String::new(), RECORD));
-            }
-        }
-        series.extend(largest.map(|on| curve(on, on.record.clone(), GROUPS[0])));
-        let limit = |value: f64| Limit { value, label: "gap".to_owned(), style: Style::LIMIT };
-        let near = model.gap_m.filter(|gap_m| unit.of(*gap_m) < y.max);
-        let limits = near.into_iter().flat_map(|gap_m| {
-            [limit(unit.of(gap_m)), Limit { label: String::new(), ..limit(-unit.of(gap_m)) }]
+        let nominal = model.records.iter().map(|on| curve(&on.sliding, String::new(), RECORD));
+        let governs = model.governing_history.as_ref().map(|(record, bound, history)| {
+            let name = &model.records[*record].record;
+            let label = match model.bounds.len() {
+                1 => name.clone(),
+                _ => format!("{name}, {} friction", model.bounds[*bound].name),
+            };
+            curve(history, label, GROUPS[0])
         });
+        let limit = |value: f64, label: &str| Limit {
+            value: unit.of(value),
+            label: label.to_owned(),
+            style: Style::LIMIT,
+        };
+        let of_gap =
+            model.gap_m.into_iter().flat_map(|gap_m| [limit(gap_m, "gap"), limit(-gap_m, "")]);
+        let [ahead, behind] = model.stop_m;
+        let of_stop = ahead.map(|stop_m| limit(stop_m, "stop"));
+        let of_stop = of_stop.into_iter().chain(behind.map(|stop_m| limit(-stop_m, "")));
+        let near = |limit: &Limit| limit.value.abs() < y.max;
         let note = if self.histories.models.len() > 1 { model.name.clone() } else { String::new() };
         Panel {
-            limits: limits.collect(),
+            limits: of_gap.chain(of_stop).filter(near).collect(),
             note,
-            ..panel(Axis::linear("Time (s)", 0.0, end_s), y.clone(), 150.0, series)
+            ..panel(
+                Axis::linear("Time (s)", 0.0, end_s),
+                y.clone(),
+                150.0,
+                nominal.chain(governs).collect(),
+            )
         }
     }
 
@@ -369,6 +544,7 @@ impl HistoriesReport<'_> {
             for (i, bound) in model.bounds.iter().enumerate() {
                 let mut sizes: Vec<f64> =
                     model.sizes(column, i).iter().map(|size| unit.of(*size)).collect();
+                sizes.retain(|size| !size.is_nan());
                 sizes.sort_by(f64::total_cmp);
                 largest.extend(sizes.last().copied());
                 let mut points = vec![[0.0, 0.0]];
@@ -399,12 +575,43 @@ impl HistoriesReport<'_> {
         stacked("shares", "Peaks over the suite", caption, vec![panel(x, y, 190.0, series)])
     }
 
-    fn json(&self) -> Json {
-        Json::Object(vec![
-            ("slipstick", self.version.into()),
+    fn json(&self) -> Vec<(&'static str, Json)> {
+        let names = self.histories.models.iter().map(|model| model.name.as_str().into());
+        let text = |text: &Option<String>| text.as_deref().map_or(Json::Null, Json::from);
+        let record = |on: &OnRecord| {
+            Json::Object(vec![
+                ("record", on.record.as_str().into()),
+                ("event", text(&on.origin.event)),
+                ("station", text(&on.origin.station)),
+                ("component", text(&on.origin.component)),
+                ("scale", on.scale.into()),
+                ("pga_m_per_s2", on.pga_m_per_s2.into()),
+            ])
+        };
+        let records = self.histories.models.first().map_or(&[][..], |model| &model.records);
+        let records = records.iter().map(record).collect();
+        let of_bounds = self.histories.models.iter().flat_map(|model| {
+            let each = model.bounds.iter().zip(&model.lateral);
+            each.filter_map(|(bound, found)| Some((&model.name, bound, found.as_ref()?)))
+        });
+        let lateral = of_bounds.map(|(model, bound, found)| {
+            Json::Object(vec![
+                ("model", model.as_str().into()),
+                ("friction", bound.name.into()),
+                ("displacement_m", found.displacement_m.into()),
+                ("stiffness_n_per_m", found.stiffness_n_per_m.into()),
+                ("damping_ratio", found.damping_ratio.into()),
+                ("damping_factor", found.damping_factor.into()),
+                ("period_s", found.period_s.into()),
+            ])
+        });
+        vec![
+            ("models", Json::List(names.collect())),
+            ("records", Json::List(records)),
             ("runs", columns(&self.histories.runs)),
             ("governing", columns(&self.histories.governing)),
-        ])
+            ("lateral_force", Json::List(lateral.collect())),
+        ]
     }
 }
 

@@ -22,8 +22,6 @@ use crate::plot::{Axis, Series, Style};
 /// What an incremental dynamic analysis is told from.
 #[derive(Clone, Debug)]
 pub struct IdaReport<'a> {
-    /// Version of this program.
-    pub version: &'static str,
     /// Name of the model.
     pub name: &'a str,
     /// The intensity measure, as `Sa(1.2 s, 5 %)`.
@@ -137,6 +135,7 @@ impl IdaReport<'_> {
             ),
             display: self.display,
             verdict: self.verdict(),
+            complete: self.failures.is_empty(),
             warnings: self.all_warnings(),
             tables: self.tables(),
             notes: self.notes(),
@@ -364,7 +363,7 @@ impl IdaReport<'_> {
         method
     }
 
-    fn json(&self) -> Json {
+    fn json(&self) -> Vec<(&'static str, Json)> {
         let numbers = |values: &[f64]| Json::List(values.iter().map(|v| Json::from(*v)).collect());
         let crossings = self.crossings();
         let of = |((record, curve), crossing): ((&String, &Curve), &Crossing)| {
@@ -407,8 +406,7 @@ impl IdaReport<'_> {
             ]),
             _ => Json::Null,
         };
-        Json::Object(vec![
-            ("slipstick", self.version.into()),
+        vec![
             ("model", self.name.into()),
             ("measure", self.measure.into()),
             ("measure_unit", self.measure_unit.into()),
@@ -432,6 +430,6 @@ impl IdaReport<'_> {
                 ]),
             ),
             ("records", Json::List(records)),
-        ])
+        ]
     }
 }

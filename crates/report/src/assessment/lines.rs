@@ -16,7 +16,7 @@ pub const GROUPS: [Style; 6] = [
 ];
 
 /// A single record of a suite.
-pub const RECORD: Style = Style { colour: "#a0a0a0", width: 0.6, dashes: "" };
+pub const RECORD: Style = Style { colour: "#767676", width: 0.5, dashes: "" };
 
 /// The fill between two fractiles.
 pub const BAND: &str = "#dde5ee";

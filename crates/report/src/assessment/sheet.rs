@@ -5,6 +5,7 @@ use std::fmt::Display;
 use slipstick::assessment::FailedRun;
 use slipstick::response::Warning;
 
+use crate::VERSION;
 use crate::display::DisplayUnits;
 use crate::figures::Drawn;
 use crate::html::{Frame, appendix, document, figure_list, inputs, warning_list};
@@ -13,9 +14,10 @@ use crate::laboratory::compare::number_table;
 use crate::laboratory::text::{aligned, field};
 use crate::markup::Markup;
 use crate::report::{FileNote, InputText};
+use crate::summary::keys::listed;
 
 /// A result as people and programs read it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sheet {
     /// What it is, above the name: `Incremental dynamic analysis`.
     pub kind: &'static str,
@@ -39,15 +41,15 @@ pub struct Sheet {
     pub figures: Vec<Drawn>,
     /// How it was found and what that leaves out, a sentence or two each.
     pub method: Vec<String>,
-    /// The object that `--json` prints.
-    pub json: Json,
+    /// Whether every run has an answer whose certificate holds, and what was looked for is found.
+    pub complete: bool,
+    /// What `--json` prints between the version and the warnings.
+    pub json: Vec<(&'static str, Json)>,
 }
 
 /// What a result was made from.
 #[derive(Clone, Copy, Debug)]
 pub struct Went<'a> {
-    /// Version of this program.
-    pub version: &'a str,
     /// The command as it was typed.
     pub command_line: &'a str,
     /// Files read, with their hashes.
@@ -89,7 +91,11 @@ impl Sheet {
     /// The object that `--json` prints, indented.
     #[must_use]
     pub fn to_json(&self) -> String {
-        self.json.to_pretty()
+        let head = ("slipstick", VERSION.into());
+        let tail = [("warnings", false), ("notes", true)];
+        let tail = tail.map(|(key, notes)| (key, listed(&self.warnings, notes)));
+        let members = core::iter::once(head).chain(self.json.iter().cloned()).chain(tail);
+        Json::Object(members.collect()).to_pretty()
     }
 
     /// One self-contained HTML page that prints on A4.
@@ -134,8 +140,7 @@ impl Sheet {
             kind: self.kind,
             title_end: ": ",
             name: &self.name,
-            line: &format!("Slipstick {}. {}", went.version, self.line),
-            version: went.version,
+            line: &format!("Slipstick {}. {}", VERSION, self.line),
             command_line: went.command_line,
             body: &body,
         })

@@ -1,12 +1,11 @@
 //! Sliding spectra and frequency response curves.
 
-use slipstick::assessment::FailedRun;
 use slipstick::assessment::spectrum::{DemandCurves, SpectrumRun};
 use slipstick::response::Warning;
 
 use super::key::{quantity, title};
 use super::lines::{BAND, FRACTILES, GROUPS, RECORD, band, line, panel, share_names, stacked};
-use super::sheet::{Sheet, cell, counted};
+use super::sheet::{Sheet, cell, failed};
 use crate::display::{DisplayUnits, Unit};
 use crate::json::Json;
 use crate::number::compact;
@@ -15,30 +14,14 @@ use crate::plot::{Axis, Limit, Panel, Series, Style};
 /// What a spectrum is told from.
 #[derive(Clone, Debug)]
 pub struct SpectrumReport<'a> {
-    /// Version of this program.
-    pub version: &'static str,
     /// Name of the model.
     pub name: &'a str,
-    /// The varied path along the axis.
-    pub over: &'a str,
-    /// Its unit; empty where it has none.
-    pub unit: &'a str,
-    /// Its values, rising, in SI.
-    pub values: &'a [f64],
-    /// Names of the groups of curves, such as `friction 0.05`; one empty name where there is one group.
-    pub groups: &'a [String],
+    /// What came of it.
+    pub run: &'a SpectrumRun,
     /// Names of the records; of a made motion, its description alone.
     pub records: &'a [String],
     /// How the records were scaled, in words.
     pub scaled: &'a str,
-    /// The demands.
-    pub curves: &'a [DemandCurves],
-    /// Of the key that they belong to: intervals in which the median of the group is above 1.
-    pub windows: Option<(&'a str, &'a [Vec<[f64; 2]>])>,
-    /// Runs without an answer.
-    pub failures: &'a [FailedRun],
-    /// Number of runs.
-    pub runs: usize,
     /// What reading the records gave notice of.
     pub warnings: &'a [Warning],
     /// Units to show results in.
@@ -47,8 +30,7 @@ pub struct SpectrumReport<'a> {
 
 /// Names of the groups of a spectrum, such as `kinetic friction 0.05`; an empty one where nothing
 /// makes groups.
-#[must_use]
-pub fn group_names(run: &SpectrumRun) -> Vec<String> {
+fn group_names(run: &SpectrumRun) -> Vec<String> {
     let name = |values: &Vec<f64>| {
         let of = |((path, unit), value): (&(String, String), &f64)| {
             format!("{} {} {unit}", short(path), compact(*value)).trim_end().to_owned()
@@ -72,6 +54,10 @@ fn short(path: &str) -> String {
 }
 
 impl<'s> SpectrumReport<'s> {
+    fn groups(&self) -> Vec<String> {
+        group_names(self.run)
+    }
+
     /// The result laid out.
     #[must_use]
     pub fn sheet(&self) -> Sheet {
@@ -84,16 +70,17 @@ impl<'s> SpectrumReport<'s> {
             kind: "Sliding spectra",
             name: self.name.to_owned(),
             first: None,
-            line: format!("{} runs: {records}{}", self.runs, self.scaled),
+            line: format!("{} runs: {records}{}", self.run.runs, self.scaled),
             display: self.display,
             verdict: self.verdict(),
-            warnings: counted("failed_runs", self.failures)
+            warnings: failed(&self.run.failures, self.run.runs as u64, "count as above all")
                 .into_iter()
-                .chain(self.warnings.iter().cloned())
+                .chain(self.run.warnings.iter().chain(self.warnings).cloned())
                 .collect(),
+            complete: self.run.failures.is_empty(),
             tables: self.tables(),
             notes: self.notes(),
-            figures: self.curves.iter().map(|curves| self.figure(curves)).collect(),
+            figures: self.run.curves.iter().map(|curves| self.figure(curves)).collect(),
             method: self.method(),
             json: self.json(),
         }
@@ -103,17 +90,16 @@ impl<'s> SpectrumReport<'s> {
     fn verdict(&self) -> Vec<String> {
         let of = |curves: &DemandCurves| {
             let unit = self.unit_of(curves);
-            let all = curves
-                .fractiles
-                .iter()
-                .flat_map(|group| group.iter().zip(self.values).map(|(f, at)| (f[MEDIAN], *at)));
+            let all = curves.fractiles.iter().flat_map(|group| {
+                group.iter().zip(&self.run.values).map(|(f, at)| (f[MEDIAN], *at))
+            });
             let finite: Vec<(f64, f64)> = all.filter(|(value, _)| value.is_finite()).collect();
             let least = finite.iter().copied().min_by(|a, b| a.0.total_cmp(&b.0))?;
             let most = finite.iter().copied().max_by(|a, b| a.0.total_cmp(&b.0))?;
             let median = if self.records.len() > 1 { "Median " } else { "" };
             let what = title(&curves.key);
             let what = if median.is_empty() { what } else { what.to_lowercase() };
-            let at = |x: f64| format!("{} {}", compact(x), self.unit).trim_end().to_owned();
+            let at = |x: f64| format!("{} {}", compact(x), self.run.unit).trim_end().to_owned();
             Some(format!(
                 "{median}{what}: {} {} at {} to {} {} at {}.",
                 cell(unit.of(least.0)),
@@ -124,13 +110,13 @@ impl<'s> SpectrumReport<'s> {
                 at(most.1)
             ))
         };
-        self.curves.first().and_then(of).into_iter().collect()
+        self.run.curves.first().and_then(of).into_iter().collect()
     }
 
     /// At most this many rows of a table: the ends and what lies evenly between.
     fn shown(&self) -> Vec<usize> {
         const ROWS: usize = 13;
-        let n = self.values.len();
+        let n = self.run.values.len();
         if n <= ROWS {
             return (0..n).collect();
         }
@@ -146,14 +132,15 @@ impl<'s> SpectrumReport<'s> {
     }
 
     fn axis_label(&self) -> String {
-        let unit = if self.unit.is_empty() { String::new() } else { format!(" ({})", self.unit) };
-        format!("{}{unit}", self.over)
+        let unit =
+            if self.run.unit.is_empty() { String::new() } else { format!(" ({})", self.run.unit) };
+        format!("{}{unit}", self.run.over)
     }
 
     /// One group: a table a demand with its fractiles, or of a single motion three demands a table.
     /// Several groups: a table a demand with their medians.
     fn tables(&self) -> Vec<(String, Vec<Vec<String>>)> {
-        let (single, many) = (self.records.len() == 1, self.groups.len() > 1);
+        let (single, many) = (self.records.len() == 1, self.groups().len() > 1);
         let named = |curves: &DemandCurves| self.unit_of(curves).label(&title(&curves.key));
         let column = |head: String, curves, group, which| Column { head, curves, group, which };
         let tables: Vec<(String, Vec<Column>)> = if many {
@@ -161,23 +148,23 @@ impl<'s> SpectrumReport<'s> {
                 let of_group =
                     |(g, name): (usize, &String)| column(name.clone(), curves, g, MEDIAN);
                 let after = if single { "" } else { ", median" };
-                let columns = self.groups.iter().enumerate().map(of_group).collect();
+                let columns = self.groups().iter().enumerate().map(of_group).collect();
                 (format!("{}{after}", named(curves)), columns)
             };
-            self.curves.iter().map(of).collect()
+            self.run.curves.iter().map(of).collect()
         } else if single {
             let of = |part: &'s [DemandCurves]| {
                 let columns = part.iter().map(|curves| column(named(curves), curves, 0, MEDIAN));
                 ("Demands".to_owned(), columns.collect())
             };
-            self.curves.chunks(3).map(of).collect()
+            self.run.curves.chunks(3).map(of).collect()
         } else {
             let of = |curves: &'s DemandCurves| {
                 let names = share_names().into_iter().enumerate();
                 let columns = names.map(|(which, name)| column(name, curves, 0, which)).collect();
                 (named(curves), columns)
             };
-            self.curves.iter().map(of).collect()
+            self.run.curves.iter().map(of).collect()
         };
         let table = |(heading, columns): (String, Vec<Column>)| {
             let heads = columns.iter().map(|column| column.head.clone());
@@ -186,7 +173,9 @@ impl<'s> SpectrumReport<'s> {
                 let number = |c: &Column| {
                     cell(self.unit_of(c.curves).of(c.curves.fractiles[c.group][i][c.which]))
                 };
-                std::iter::once(compact(self.values[i])).chain(columns.iter().map(number)).collect()
+                std::iter::once(compact(self.run.values[i]))
+                    .chain(columns.iter().map(number))
+                    .collect()
             };
             let rows = std::iter::once(heads).chain(self.shown().iter().map(row)).collect();
             (heading, rows)
@@ -196,17 +185,18 @@ impl<'s> SpectrumReport<'s> {
 
     fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
-        if self.shown().len() < self.values.len() {
+        if self.shown().len() < self.run.values.len() {
             notes.push(format!(
                 "{} of {} values along the axis are shown; all, with all fractiles, are in spectrum.csv.",
                 self.shown().len(),
-                self.values.len()
+                self.run.values.len()
             ));
         }
-        let Some((key, windows)) = self.windows else { return notes };
-        for (name, windows) in self.groups.iter().zip(windows) {
-            let of =
-                |[from, to]: &[f64; 2]| format!("{} to {} {}", cell(*from), cell(*to), self.unit);
+        let key = &self.run.window_key;
+        for (name, windows) in self.groups().iter().zip(&self.run.windows) {
+            let of = |[from, to]: &[f64; 2]| {
+                format!("{} to {} {}", cell(*from), cell(*to), self.run.unit)
+            };
             let list: Vec<String> = windows.iter().map(of).collect();
             let where_ =
                 if list.is_empty() { "nowhere in the range".to_owned() } else { list.join(", ") };
@@ -218,7 +208,7 @@ impl<'s> SpectrumReport<'s> {
 
     fn figure(&self, curves: &DemandCurves) -> crate::figures::Drawn {
         let unit = self.unit_of(curves);
-        let x = self.values;
+        let x = &self.run.values[..];
         let ends = (x.first().copied().unwrap_or(0.0), x.last().copied().unwrap_or(1.0));
         // Values at equal ratios, or over more than a decade, want a logarithmic axis.
         let logarithmic = ends.0 > 0.0 && ends.1 / ends.0 >= 12.0;
@@ -233,7 +223,7 @@ impl<'s> SpectrumReport<'s> {
         let points = |values: &[f64]| -> Vec<[f64; 2]> {
             x.iter().zip(values).map(|(&x, &y)| [x, y]).collect()
         };
-        let (many, single) = (self.groups.len() > 1, self.records.len() == 1);
+        let (many, single) = (self.groups().len() > 1, self.records.len() == 1);
         let mut series: Vec<Series> = Vec::new();
         if !single && !many {
             series.push(band(x, &of(0, 0), &of(0, 2), "16 to 84 %", BAND));
@@ -244,7 +234,7 @@ impl<'s> SpectrumReport<'s> {
                 series.push(line(label, RECORD, finite(points(&values))));
             }
         }
-        for (group, name) in self.groups.iter().enumerate() {
+        for (group, name) in self.groups().iter().enumerate() {
             let style = if many { GROUPS[group % GROUPS.len()] } else { FRACTILES[1] };
             if many && !single {
                 for which in [0, 2] {
@@ -284,7 +274,7 @@ impl<'s> SpectrumReport<'s> {
             .iter()
             .find(|(part, _)| curves.key.contains(part))
             .map_or("spectrum", |(_, id)| id);
-        stacked(id, &what, format!("{what} over {}.{spread}", self.over), vec![panel])
+        stacked(id, &what, format!("{what} over {}.{spread}", self.run.over), vec![panel])
     }
 
     fn method(&self) -> Vec<String> {
@@ -308,13 +298,14 @@ impl<'s> SpectrumReport<'s> {
         method
     }
 
-    fn json(&self) -> Json {
+    fn json(&self) -> Vec<(&'static str, Json)> {
         let numbers = |values: &[f64]| Json::List(values.iter().map(|v| Json::from(*v)).collect());
         let texts =
             |values: &[String]| Json::List(values.iter().map(|v| v.as_str().into()).collect());
+        let groups = self.groups();
         let mut curves = Vec::new();
-        for of_demand in self.curves {
-            for (group, fractiles) in self.groups.iter().zip(&of_demand.fractiles) {
+        for of_demand in &self.run.curves {
+            for (group, fractiles) in groups.iter().zip(&of_demand.fractiles) {
                 let pick = |i: usize| numbers(&fractiles.iter().map(|f| f[i]).collect::<Vec<_>>());
                 curves.push(Json::Object(vec![
                     ("demand", of_demand.key.as_str().into()),
@@ -325,29 +316,26 @@ impl<'s> SpectrumReport<'s> {
                 ]));
             }
         }
-        let windows = self.windows.map_or(Json::Null, |(key, windows)| {
-            let of = |(group, windows): (&String, &Vec<[f64; 2]>)| {
-                Json::Object(vec![
-                    ("demand", key.into()),
-                    ("group", group.as_str().into()),
-                    ("above_1", Json::List(windows.iter().map(|w| numbers(w)).collect())),
-                ])
-            };
-            Json::List(self.groups.iter().zip(windows).map(of).collect())
-        });
-        Json::Object(vec![
-            ("slipstick", self.version.into()),
+        let window = |(group, windows): (&String, &Vec<[f64; 2]>)| {
+            Json::Object(vec![
+                ("demand", self.run.window_key.as_str().into()),
+                ("group", group.as_str().into()),
+                ("above_1", Json::List(windows.iter().map(|w| numbers(w)).collect())),
+            ])
+        };
+        let windows = Json::List(groups.iter().zip(&self.run.windows).map(window).collect());
+        vec![
             ("model", self.name.into()),
-            ("over", self.over.into()),
-            ("unit", self.unit.into()),
-            ("values", numbers(self.values)),
-            ("groups", texts(self.groups)),
+            ("over", self.run.over.as_str().into()),
+            ("unit", self.run.unit.as_str().into()),
+            ("values", numbers(&self.run.values)),
+            ("groups", texts(&groups)),
             ("records", texts(self.records)),
-            ("runs", Json::Count(self.runs as u64)),
-            ("failed", Json::Count(self.failures.len() as u64)),
+            ("runs", Json::Count(self.run.runs as u64)),
+            ("failed", Json::Count(self.run.failures.len() as u64)),
             ("curves", Json::List(curves)),
             ("windows", windows),
-        ])
+        ]
     }
 }
 

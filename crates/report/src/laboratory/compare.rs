@@ -7,6 +7,7 @@ use slipstick::response::{Method, Mode};
 use slipstick::units::Dimension;
 
 use super::text::{aligned, field, in_groups};
+use crate::VERSION;
 use crate::describe::{model_line, model_rows};
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::figures::Drawn;
@@ -20,13 +21,11 @@ use crate::summary::keys::listed;
 use crate::summary::method_name;
 
 /// The table's own acceleration: there to be seen, not to hide the others.
-const TABLE: Style = Style { colour: "#8a9a86", width: 0.8, dashes: "" };
+const TABLE: Style = Style { colour: "#5f7358", width: 0.8, dashes: "" };
 
 /// What a comparison is told from.
 #[derive(Clone, Copy, Debug)]
 pub struct CompareReport<'a> {
-    /// Version of this program.
-    pub version: &'static str,
     /// Name of the model.
     pub name: &'a str,
     /// The measured file as it was given.
@@ -139,7 +138,7 @@ impl CompareReport<'_> {
     #[must_use]
     pub fn table(&self) -> String {
         let mut text =
-            format!("{}  (slipstick {}, {})\n", self.name, self.version, method_name(self.method));
+            format!("{}  (slipstick {}, {})\n", self.name, VERSION, method_name(self.method));
         text.push_str(&field("Measured", self.measured));
         text.push_str(&field("Model", &model_line(self.model, self.display)));
         text.push_str(&field("Times", &self.comparison.alignment));
@@ -218,7 +217,7 @@ impl CompareReport<'_> {
         });
         let figures = c.motion.figures();
         Json::Object(vec![
-            ("slipstick", self.version.into()),
+            ("slipstick", VERSION.into()),
             ("model", self.name.into()),
             ("method", method_name(self.method).into()),
             ("measured", self.measured.into()),
@@ -229,8 +228,8 @@ impl CompareReport<'_> {
             ("table_peak_acceleration_m_per_s2", figures.pga_m_per_s2.into()),
             ("quantities", Json::List(quantities.collect())),
             ("within", Json::List(within.collect())),
-            ("warnings", listed(&c.warnings, false, warning_json)),
-            ("notes", listed(&c.warnings, true, warning_json)),
+            ("warnings", listed(&c.warnings, false)),
+            ("notes", listed(&c.warnings, true)),
         ])
         .to_pretty()
     }
@@ -284,11 +283,10 @@ impl CompareReport<'_> {
             name: self.name,
             line: &format!(
                 "Slipstick {}, {} method, driven by the measured table acceleration of {}.",
-                self.version,
+                VERSION,
                 method_name(self.method),
                 self.measured
             ),
-            version: self.version,
             command_line: self.command_line,
             body: &body,
         })
@@ -459,7 +457,16 @@ pub(crate) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
     let Some((heads, rows)) = rows.split_first() else { return };
     let wide = heads.len() > 6;
     out.raw(if wide { "<div class=\"small\">\n" } else { "" });
-    let heads: Vec<_> = heads.iter().enumerate().map(|(i, head)| (head.clone(), i > 0)).collect();
+    // A column with words is set as words.
+    let number = |cell: &str| {
+        cell == "—"
+            || cell.starts_with(['<', '−', '-', '+'])
+            || cell.starts_with(|c: char| c.is_ascii_digit())
+    };
+    let numbers: Vec<bool> = (0..heads.len())
+        .map(|i| i > 0 && rows.iter().filter_map(|row| row.get(i)).all(|cell| number(cell)))
+        .collect();
+    let heads: Vec<_> = heads.iter().cloned().zip(numbers.iter().copied()).collect();
     table_head(out, &heads);
     for row in rows {
         for (i, cell) in row.iter().enumerate() {
@@ -470,7 +477,18 @@ pub(crate) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
                     .text(cell.trim_start())
                     .raw("</th>");
             } else {
-                out.raw("<td class=\"number\">").text(typeset_cell(cell)).raw("</td>");
+                let governs = cell.strip_suffix('*');
+                if !numbers.get(i).is_some_and(|number| *number) {
+                    out.raw("<td class=\"words\">").text(cell).raw("</td>");
+                    continue;
+                }
+                out.raw(if governs.is_some() {
+                    "<td class=\"number governs\">"
+                } else {
+                    "<td class=\"number\">"
+                })
+                .text(typeset_cell(governs.unwrap_or(cell)))
+                .raw(if governs.is_some() { "*</td>" } else { "</td>" });
             }
         }
         out.raw("</tr>\n");
@@ -481,13 +499,4 @@ pub(crate) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
 /// Numbers are set as in print, words as they are.
 fn typeset_cell(cell: &str) -> String {
     if cell.parse::<f64>().is_ok() { typeset(cell) } else { cell.to_owned() }
-}
-
-/// A warning as `summary.json` has it.
-pub(super) fn warning_json(warning: &slipstick::response::Warning) -> Json {
-    Json::Object(vec![
-        ("kind", warning.kind.into()),
-        ("time_s", warning.time_s.into()),
-        ("message", warning.message.as_str().into()),
-    ])
 }

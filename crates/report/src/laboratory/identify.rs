@@ -5,9 +5,10 @@ use slipstick::laboratory::identify::{Found, Identified, cyclic_histories};
 use slipstick::laboratory::measured::Measured;
 use slipstick::response::Warning;
 
-use super::compare::{number_table, warning_json};
+use super::compare::number_table;
 use super::text::{aligned, field};
 use super::{cyclic, free_vibration, shaking_table};
+use crate::VERSION;
 use crate::display::{DisplayUnits, Quantity};
 use crate::figures::Drawn;
 use crate::html::{self, Frame, inputs, name_table, warning_list};
@@ -23,8 +24,6 @@ const FOR_MODEL: &str = "For the model file";
 /// What was identified, and from what.
 #[derive(Clone, Debug)]
 pub struct IdentifyReport<'a> {
-    /// Version of this program.
-    pub version: &'static str,
     /// The job: `cyclic`, `free-vibration` or `shaking-table`.
     pub job: &'static str,
     /// The measured files.
@@ -94,15 +93,9 @@ fn shown(display: DisplayUnits, unit: &'static str, values: [f64; 3]) -> ([Strin
 impl IdentifyReport<'_> {
     /// Of what was identified from measured files; what went in is left to the caller.
     #[must_use]
-    pub fn of(
-        version: &'static str,
-        measured: &[Measured],
-        identified: &Identified,
-        display: DisplayUnits,
-    ) -> Self {
+    pub fn of(measured: &[Measured], identified: &Identified, display: DisplayUnits) -> Self {
         let names: Vec<&str> = measured.iter().map(|m| m.source_name.as_str()).collect();
         let report = Self {
-            version,
             job: "",
             measured: names.join(", "),
             estimates: identified.estimates.clone(),
@@ -170,8 +163,7 @@ impl IdentifyReport<'_> {
                 }
             }
             Found::ShakingTable { fit, parameters, seed } => {
-                let (rows, figures) =
-                    shaking_table::agreement(fit, &report.measured, version, display);
+                let (rows, figures) = shaking_table::agreement(fit, &report.measured, display);
                 Self {
                     job: "shaking-table",
                     facts: shaking_table::facts(fit, display),
@@ -248,7 +240,7 @@ impl IdentifyReport<'_> {
     /// The table that a person reads.
     #[must_use]
     pub fn table(&self) -> String {
-        let mut text = format!("identify {}  (slipstick {})\n", self.job, self.version);
+        let mut text = format!("identify {}  (slipstick {})\n", self.job, VERSION);
         text.push_str(&field("Measured", &self.measured));
         for (name, fact) in &self.facts {
             text.push_str(&field("", &format!("{name}: {fact}")));
@@ -286,15 +278,15 @@ impl IdentifyReport<'_> {
     #[must_use]
     pub fn to_json(&self) -> String {
         let mut keys: Vec<(&'static str, Json)> = vec![
-            ("slipstick", self.version.into()),
+            ("slipstick", VERSION.into()),
             ("job", self.job.into()),
             ("measured", self.measured.as_str().into()),
             ("confidence", 0.95.into()),
             ("estimates", Json::List(self.estimates.iter().map(estimate_json).collect())),
         ];
         keys.extend(self.json.iter().cloned());
-        keys.push(("warnings", listed(&self.warnings, false, warning_json)));
-        keys.push(("notes", listed(&self.warnings, true, warning_json)));
+        keys.push(("warnings", listed(&self.warnings, false)));
+        keys.push(("notes", listed(&self.warnings, true)));
         Json::Object(keys).to_pretty()
     }
 
@@ -344,8 +336,7 @@ impl IdentifyReport<'_> {
             kind: "Parameters from a test",
             title_end: ": identified parameters",
             name: &self.measured,
-            line: &format!("Slipstick {}, identify {}.", self.version, self.job),
-            version: self.version,
+            line: &format!("Slipstick {}, identify {}.", VERSION, self.job),
             command_line: self.command_line,
             body: &body,
         })

@@ -88,11 +88,9 @@ pub fn json(fit: &TableFit, parameters: &[Parameter], seed: u64) -> Vec<(&'stati
 pub fn agreement(
     fit: &TableFit,
     measured: &str,
-    version: &'static str,
     display: DisplayUnits,
 ) -> (Vec<Vec<String>>, Vec<Drawn>) {
     let report = CompareReport {
-        version,
         name: measured,
         measured,
         model: &fit.model,

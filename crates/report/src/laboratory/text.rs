@@ -5,19 +5,28 @@ use slipstick::error::visible;
 /// Lines of cells, each column as wide as its widest; the first column left, the others right.
 pub fn aligned(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    // What governs has a star behind its number, in a place of its own.
+    let bare = |cell: &String| cell.strip_suffix('*').unwrap_or(cell).to_owned();
     let width = |column: usize| {
-        rows.iter().filter_map(|row| row.get(column)).map(|c| c.chars().count()).max().unwrap_or(0)
+        let cells = rows.iter().filter_map(|row| row.get(column));
+        let starred = cells.clone().any(|cell| cell.ends_with('*'));
+        (cells.map(|cell| bare(cell).chars().count()).max().unwrap_or(0), starred)
     };
-    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let widths: Vec<(usize, bool)> = (0..columns).map(width).collect();
     let mut text = String::new();
     for row in rows {
         let mut line = String::new();
         for (column, cell) in row.iter().enumerate() {
-            let width = widths[column];
+            let (width, starred) = widths[column];
             if column == 0 {
                 line.push_str(&format!("{cell:<width$}"));
             } else {
-                line.push_str(&format!("  {cell:>width$}"));
+                let star = match cell.ends_with('*') {
+                    true => "*",
+                    false if starred => " ",
+                    false => "",
+                };
+                line.push_str(&format!("  {:>width$}{star}", bare(cell)));
             }
         }
         text.push_str(line.trim_end());

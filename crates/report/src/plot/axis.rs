@@ -113,13 +113,20 @@ impl Axis {
         let first = libm::floor(libm::log10(self.min)) as i32;
         let last = libm::ceil(libm::log10(self.max)) as i32;
         let crowded = last - first > 5;
+        // Within a decade 1, 2 and 5 are two marks, or one: half steps and more of the digits have labels.
+        let narrow = self.max / self.min < 9.0;
         (first..=last)
-            .flat_map(|decade| (1..10).map(move |digit| (decade, digit)))
-            .map(|(decade, digit)| {
+            .flat_map(|decade| (2..20).map(move |half| (decade, half)))
+            .filter(|(_, half)| half % 2 == 0 || (narrow && *half < 6))
+            .map(|(decade, half)| {
                 // Written and read back: 0.02 rather than 2 × 0.01 with its rounding.
-                let value = format!("{digit}e{decade}").parse().unwrap_or(f64::NAN);
-                let labelled = digit == 1 || (!crowded && matches!(digit, 2 | 5));
-                let decimals = (-decade).max(0) as usize;
+                let value = format!("{}e{}", 5 * half, decade - 1).parse().unwrap_or(f64::NAN);
+                let labelled = match half {
+                    2 => true,
+                    4 | 10 => !crowded,
+                    _ => narrow && half < 14,
+                };
+                let decimals = (i32::from(half % 2 == 1) - decade).max(0) as usize;
                 let label = if labelled { format!("{value:.decimals$}") } else { String::new() };
                 Tick { value, label }
             })
@@ -193,6 +200,10 @@ mod tests {
         assert_eq!(
             labels(&Axis::logarithmic("T", 0.05, 2.0), 0),
             ["0.05", "0.1", "0.2", "0.5", "1", "2"]
+        );
+        assert_eq!(
+            labels(&Axis::logarithmic("T", 0.9, 4.5), 0),
+            ["1", "1.5", "2", "2.5", "3", "4"]
         );
     }
 

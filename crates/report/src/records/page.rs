@@ -1,6 +1,7 @@
 //! A record on a page to read and print.
 
 use super::ChannelInfo;
+use crate::VERSION;
 use crate::display::{DisplayUnits, Quantity as Shown};
 use crate::figures::Drawn;
 use crate::markup::Markup;
@@ -15,7 +16,6 @@ pub fn page(
     command: &str,
 ) -> String {
     let mut out = Markup::new();
-    let version = env!("CARGO_PKG_VERSION");
     let first = channels.first().map_or("", |(info, _)| info.file.as_str());
     let one_file = channels.iter().all(|(info, _)| info.file == first);
     let title = if one_file { first } else { "Ground motions" };
@@ -32,7 +32,7 @@ pub fn page(
         channel(&mut out, info, figures, one_file, display);
     }
     out.raw("</main>\n<footer>\n<p>")
-        .text(format!("Slipstick {version}: "))
+        .text(format!("Slipstick {VERSION}: "))
         .raw("<code>")
         .text(command)
         .raw("</code></p>\n</footer>\n</body>\n</html>\n");

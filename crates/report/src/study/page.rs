@@ -18,8 +18,6 @@ use crate::plot::{Axis, Panel, Series, Style};
 /// What the page of a study is told from.
 #[derive(Clone, Copy, Debug)]
 pub struct StudyReport<'a> {
-    /// Version of this program.
-    pub version: &'static str,
     /// The study.
     pub study: &'a Study,
     /// Its figures.
@@ -63,6 +61,7 @@ impl StudyReport<'_> {
             notes: Vec::new(),
             figures: self.figures(),
             method: self.method(),
+            complete: true,
             json: self.json(),
         }
     }
@@ -345,15 +344,14 @@ impl StudyReport<'_> {
         method
     }
 
-    fn json(&self) -> Json {
+    fn json(&self) -> Vec<(&'static str, Json)> {
         let cases = self.study.cases();
-        Json::Object(vec![
-            ("slipstick", self.version.into()),
+        vec![
             ("name", self.summary.name.as_str().into()),
             ("runs", self.study.runs().into()),
             ("records", cases.records.into()),
             ("levels", cases.levels.into()),
             ("samples", cases.samples.into()),
-        ])
+        ]
     }
 }

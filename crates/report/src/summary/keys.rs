@@ -33,8 +33,8 @@ pub fn object(summary: &Summary) -> Json {
                     .collect(),
             ),
         ),
-        ("warnings", listed(&summary.warnings, false, warning)),
-        ("notes", listed(&summary.warnings, true, warning)),
+        ("warnings", listed(&summary.warnings, false)),
+        ("notes", listed(&summary.warnings, true)),
         ("checks", checks(&summary.checks)),
     ]);
     if let Some(iterations) = summary.iterations {
@@ -134,8 +134,8 @@ fn json(kind: DemandKind, value: Option<f64>) -> Json {
 }
 
 /// The warnings among some, or the notes.
-pub(crate) fn listed(all: &[Warning], notes: bool, json: fn(&Warning) -> Json) -> Json {
-    Json::List(all.iter().filter(|warning| warning.is_note() == notes).map(json).collect())
+pub(crate) fn listed(all: &[Warning], notes: bool) -> Json {
+    Json::List(all.iter().filter(|warning| warning.is_note() == notes).map(warning).collect())
 }
 
 fn warning(warning: &Warning) -> Json {

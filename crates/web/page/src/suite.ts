@@ -145,9 +145,8 @@ export function planOf(tab: SuiteTab, state: State): string {
     const unit = /[^\d.eE+\s-].*$/.exec(parts.at(-1) ?? "")?.[0] ?? "";
     return parts.length > 0 ? `values = [${parts.map((part) => (unit ? JSON.stringify(/[^\d.eE+\s-]/.test(part) ? part : `${part} ${unit}`) : part)).join(", ")}]` : null;
   };
-  const [measure, levels, level] = [tab.option("measure"), tab.option("levels"), tab.option("level")];
-  if (measure && level) lines.push(`measure = ${JSON.stringify(measure)}`, `levels = [${JSON.stringify(level)}]`);
-  else if (measure && levels) {
+  const [measure, levels] = [tab.option("measure"), tab.option("scale-to")];
+  if (measure && levels) {
     const range = /^\s*([\d.]+)\s*\.\.\s*([\d.]+)\s*([^:]*?)\s*:\s*(\d+)\s*$/.exec(levels);
     const count = Number(range?.[4] ?? 0);
     const values = range

@@ -74,7 +74,12 @@ fn exact_distributions() {
     assert_eq!(friction("{ values = [0.1, 0.2] }"), list(List::Values(vec![0.1, 0.2])));
     let even = List::Even { ends: [0.1, 0.2], count: 3 };
     assert_eq!(friction("{ linspace = [0.1, 0.2, 3] }"), list(even.clone()));
-    assert_eq!([even.get(0), even.get(1), even.get(2)], [0.1, 0.15000000000000002, 0.2]);
+    assert_eq!([even.get(0), even.get(1), even.get(2)], [0.1, 0.15, 0.2]);
+    let fifth = List::Even { ends: [0.03, 0.07], count: 5 };
+    assert_eq!([fifth.get(1), fifth.get(2), fifth.get(3)], [0.04, 0.05, 0.06]);
+    // What no short number is stays what it is.
+    let third = List::Even { ends: [0.0, 1.0], count: 4 };
+    assert_eq!([third.get(1), third.get(2)], [1.0 / 3.0, 2.0 / 3.0]);
     let ratios = List::Ratios { ends: [1.0, 100.0], count: 3 };
     assert_eq!(
         distribution("slider.radius", "{ logspace = [\"1 m\", \"100 m\", 3] }"),

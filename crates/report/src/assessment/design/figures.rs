@@ -12,8 +12,8 @@ use crate::plot::{Axis, Series, Shape, Style, contour, levels};
 
 impl DesignReport<'_> {
     pub(super) fn figures(&self) -> Vec<Drawn> {
-        let front = (!self.found.front.is_empty()).then(|| self.front_figure());
-        let map = self.map.map(|map| self.map_figure(map));
+        let front = (!self.run.found.front.is_empty()).then(|| self.front_figure());
+        let map = self.run.map.as_ref().map(|map| self.map_figure(map));
         front.into_iter().chain(map).collect()
     }
 
@@ -21,15 +21,15 @@ impl DesignReport<'_> {
         let (l, a) = (self.length(), self.acceleration_unit());
         let at =
             |figures: &Figures| [l.of(figures.displacement_m), a.of(figures.acceleration_m_per_s2)];
-        let front: Vec<[f64; 2]> = self.found.front.iter().map(|p| at(&p.figures)).collect();
+        let front: Vec<[f64; 2]> = self.run.found.front.iter().map(|p| at(&p.figures)).collect();
         let mut series = vec![
             line("front", Style { width: 1.2, ..Style::MAIN }, front.clone()),
             dots("", "#0b3c6f", front.clone()),
         ];
-        if let Some((_, bounded)) = self.bounds {
+        if let Some((_, bounded)) = self.bounded() {
             for (label, fill, pick) in [
                 ("lower friction", "#fff", (|b| &b.lower) as fn(&Bounded) -> &Figures),
-                ("upper friction", "#b0b0b0", |b| &b.upper),
+                ("upper friction", "#767676", |b| &b.upper),
             ] {
                 let points: Vec<[f64; 2]> = bounded.iter().map(|b| at(pick(b))).collect();
                 series.push(Series {
@@ -59,7 +59,7 @@ impl DesignReport<'_> {
         );
         series.push(ring(front.last().copied()));
         let frame = panel(x, y, 260.0, series);
-        let bounds = if self.bounds.is_some() {
+        let bounds = if self.bounded().is_some() {
             " Small points: the same designs with lower- and upper-bound friction."
         } else {
             ""
@@ -73,14 +73,14 @@ impl DesignReport<'_> {
 
     /// Lines of equal displacement and equal acceleration over the two main variables.
     fn map_figure(&self, map: &DesignMap) -> Drawn {
-        let [x, y] = map.variables.map(|i| &self.variables[i]);
-        let only = self.variables.len() == 2;
+        let [x, y] = map.variables.map(|i| &self.run.variables[i]);
+        let only = self.run.variables.len() == 2;
         let at = |point: &Point| {
             let values = self.values(point.design);
             map.variables.map(|i| values[i])
         };
-        let front: Vec<[f64; 2]> = self.found.front.iter().map(at).collect();
-        let main = self.found.chosen().or(self.found.nearest);
+        let front: Vec<[f64; 2]> = self.run.found.front.iter().map(at).collect();
+        let main = self.run.found.chosen().or(self.run.found.nearest);
         let axis = |variable: &Variable, values: &[f64]| {
             let (low, high) = (values[0], values[values.len() - 1]);
             Axis::linear(label(variable), low, high)
@@ -126,7 +126,7 @@ impl DesignReport<'_> {
             compact(100.0 * self.target.acceleration_share),
             super::name(x),
             super::name(y),
-            if self.found.front.is_empty() { "nearest" } else { "chosen" }
+            if self.run.found.front.is_empty() { "nearest" } else { "chosen" }
         );
         stacked("map", "Displacement and acceleration over the main variables", caption, panels)
     }

@@ -14,8 +14,6 @@ use crate::plot::Axis;
 /// What several fragilities are told from.
 #[derive(Clone, Debug)]
 pub struct FragilityFamily<'a> {
-    /// Version of this program.
-    pub version: &'static str,
     /// Where the data came from, as a person calls it.
     pub name: &'a str,
     /// The path by which the rows were taken apart.
@@ -37,7 +35,6 @@ pub struct FragilityFamily<'a> {
 impl FragilityFamily<'_> {
     fn report<'b>(&'b self, run: &'b FragilityRun) -> FragilityReport<'b> {
         FragilityReport {
-            version: self.version,
             name: self.name,
             demand: self.demand,
             limit: self.limit,
@@ -70,11 +67,11 @@ impl FragilityFamily<'_> {
         self.reports().into_iter().flat_map(of).collect()
     }
 
-    /// The result laid out; `None` where no value has a fragility.
+    /// The result laid out; empty where no value has a fragility.
     #[must_use]
-    pub fn sheet(&self) -> Option<Sheet> {
+    pub fn sheet(&self) -> Sheet {
         let reports = self.reports();
-        let (_, first) = reports.first()?;
+        let Some((_, first)) = reports.first() else { return Sheet::default() };
         let unit = first.unit();
         let fitted = first.fitted();
         let fitted = fitted.split("; averaged").next().unwrap_or(&fitted);
@@ -98,7 +95,7 @@ impl FragilityFamily<'_> {
             0 | 1 => String::new(),
             _ => format!("; each {averaged}"),
         };
-        Some(Sheet {
+        Sheet {
             kind: "Fragility",
             name: self.name.to_owned(),
             first: Some((
@@ -125,8 +122,9 @@ impl FragilityFamily<'_> {
             notes: Vec::new(),
             figures: vec![self.figure(&reports, unit)],
             method: first.method(),
+            complete: reports.iter().all(|(_, report)| report.complete()),
             json: self.json(),
-        })
+        }
     }
 
     fn table(
@@ -203,7 +201,7 @@ impl FragilityFamily<'_> {
         single("fragility", "Fragility curves", caption, panel(x, y, 300.0, series))
     }
 
-    fn json(&self) -> Json {
+    fn json(&self) -> Vec<(&'static str, Json)> {
         let of = |group: &FragilityGroup| {
             let value = if group.value.is_nan() {
                 Json::from(group.text.as_str())
@@ -211,19 +209,18 @@ impl FragilityFamily<'_> {
                 Json::from(group.value)
             };
             let found = match &group.run {
-                Ok(run) => ("fragility", self.report(run).json()),
+                Ok(run) => ("fragility", Json::Object(self.report(run).json())),
                 Err(error) => ("error", Json::from(error.to_string().as_str())),
             };
             Json::Object(vec![("value", value), found])
         };
-        Json::Object(vec![
-            ("slipstick", self.version.into()),
+        vec![
             ("name", self.name.into()),
             ("by", self.by.into()),
             ("by_unit", self.by_unit.into()),
             ("demand", self.demand.into()),
             ("limit", self.limit.into()),
             ("curves", Json::List(self.groups.iter().map(of).collect())),
-        ])
+        ]
     }
 }

@@ -18,8 +18,6 @@ use crate::plot::{Axis, Series, Style};
 /// What an incremental dynamic analysis of one or several designs is told from.
 #[derive(Clone, Debug)]
 pub struct IdaFamily<'a> {
-    /// Version of this program.
-    pub version: &'static str,
     /// Name of the model.
     pub name: &'a str,
     /// The intensity measure.
@@ -47,7 +45,8 @@ impl IdaFamily<'_> {
             self.run.groups.iter().map(|group| self.report(group, &measure)).collect();
         match (&self.run.by, &reports[..]) {
             (None, [one]) => {
-                IdaReport { failures: &self.run.failures, warnings: self.warnings, ..one.clone() }
+                let warnings = [&self.run.warnings[..], self.warnings].concat();
+                IdaReport { failures: &self.run.failures, warnings: &warnings, ..one.clone() }
                     .sheet()
             }
             (by, _) => {
@@ -60,7 +59,6 @@ impl IdaFamily<'_> {
     fn report<'b>(&'b self, group: &'b IdaGroup, measure: &'b str) -> IdaReport<'b> {
         const NONE: &[FailedRun] = &[];
         IdaReport {
-            version: self.version,
             name: self.name,
             measure,
             measure_unit: self.measure.unit(),
@@ -110,7 +108,7 @@ impl Groups<'_> {
             };
             warnings.extend(report.all_warnings().into_iter().map(of_group));
         }
-        warnings.extend(family.warnings.iter().cloned());
+        warnings.extend(family.run.warnings.iter().chain(family.warnings).cloned());
         let verdict = |(label, report): (String, &IdaReport<'_>)| {
             let said = report.verdict().into_iter().next()?;
             Some(match self.by {
@@ -147,6 +145,7 @@ impl Groups<'_> {
             notes,
             figures: vec![self.figure()],
             method: first.map_or_else(Vec::new, IdaReport::method),
+            complete: family.run.failures.is_empty(),
             json: self.json(measure),
         }
     }
@@ -241,18 +240,17 @@ impl Groups<'_> {
         single("ida", "Incremental dynamic analysis", caption, panel(x, y, 300.0, series))
     }
 
-    fn json(&self, measure: &str) -> Json {
+    fn json(&self, measure: &str) -> Vec<(&'static str, Json)> {
         let of = |(group, report): (&IdaGroup, &IdaReport<'_>)| {
             let value = if group.value.is_nan() {
                 Json::from(group.text.as_str())
             } else {
                 Json::from(group.value)
             };
-            Json::Object(vec![("value", value), ("ida", report.json())])
+            Json::Object(vec![("value", value), ("ida", Json::Object(report.json()))])
         };
         let groups = self.family.run.groups.iter().zip(self.reports).map(of).collect();
-        Json::Object(vec![
-            ("slipstick", self.family.version.into()),
+        vec![
             ("model", self.family.name.into()),
             ("measure", measure.into()),
             ("measure_unit", self.family.measure.unit().into()),
@@ -261,6 +259,6 @@ impl Groups<'_> {
             ("by", self.by.into()),
             ("by_unit", self.unit.into()),
             ("groups", Json::List(groups)),
-        ])
+        ]
     }
 }

@@ -1,0 +1,107 @@
+//! `slipstick spectrum`, `ida`, `design` and `fragility`: a request in, an answer out.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Duration;
+
+use slipstick::assessment::AssessmentError;
+use slipstick::requests::{Answer, Curves, Found, Kind, Runs};
+use slipstick::study::engine::Engine;
+use slipstick::table::Table;
+use slipstick_files::{
+    OutputFolder, ReadTable, files_of_runs, limit_of_ida, read_bytes, read_csv, read_runs,
+    read_table, reading_time, sha256_hex, time_left,
+};
+use slipstick_report::assessment::answer;
+
+use super::assessment::{Opened, choice, conclude, failure, folder, message};
+use crate::args::{AssessArgs, FragilityArgs, ResultArgs};
+use crate::failure::Failure;
+use crate::progress::{TRIAL, counted, estimated};
+
+/// Runs, prints and writes; status 1 where a run has no answer, or no design is found.
+pub fn assess<const KIND: usize>(args: &AssessArgs<KIND>) -> Result<ExitCode, Failure> {
+    let asked = args.fields.asked().map_err(|error| choice(&error))?;
+    if !args.suite.second.is_empty() && asked.kind() != Kind::Ida {
+        let expected = "ida or run, which know what a pair is";
+        return Err(message("--second", expected, asked.kind().name()));
+    }
+    let opened = Opened::open(&args.suite)?;
+    let result = &args.suite.result;
+    let folder = opened.folder(result)?;
+    let answer = opened.compute(&args.suite, |engine| asked.run(&opened.on(), engine))?;
+    tell(result, folder, answer, &opened.sources(), &opened.inputs())
+}
+
+/// Fits, prints and writes.
+pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
+    let asked = args.fields.asked().map_err(|error| choice(&error))?;
+    let quiet = args.result.quiet;
+    let estimate = || reading_left(&args.source);
+    let (mut sources, read) = estimated("reading", quiet, &estimate, || read(&args.source))?;
+    let inputs: Vec<PathBuf> = sources.iter().map(|(path, ..)| path.into()).collect();
+    let runs = Runs {
+        name: &args.source.display().to_string(),
+        source: &read.path.display().to_string(),
+        table: &read.table,
+        limit: limit_of_ida(&args.source, asked.demand()),
+    };
+    let fit = |engine: &Engine<'_>| asked.fit(&runs, engine);
+    let answer = counted("fitting", quiet, fit).map_err(|error| match error {
+        AssessmentError::Cell(error) => read.cell_error(&error).into(),
+        other => failure(other),
+    })?;
+    if let Found::Fragility { curves: Curves::One(run), .. } = &answer.found
+        && let Some((.., kind)) = sources.first_mut()
+    {
+        run.kind.clone_into(kind);
+    }
+    let folder = folder(&args.result, &inputs)?;
+    tell(&args.result, folder, answer, &sources, &[])
+}
+
+/// Prints and writes an answer.
+fn tell(
+    args: &ResultArgs,
+    folder: Option<OutputFolder>,
+    answer: Answer,
+    sources: &[Source],
+    inputs: &[(String, String)],
+) -> Result<ExitCode, Failure> {
+    let sheet = answer::sheet(&answer, args.display_units.into());
+    let tables = answer::tables(answer);
+    let files: Vec<(String, &Table)> = tables
+        .iter()
+        .flat_map(|tabled| {
+            tabled.forms.iter().map(|form| (format!("{}.{form}", tabled.name), &tabled.table))
+        })
+        .collect();
+    let files: Vec<(&str, &Table)> =
+        files.iter().map(|(name, table)| (&name[..], *table)).collect();
+    conclude(args, folder, &sheet, &files, sources, inputs)
+}
+
+/// A file that was read: its path, its hash, what it is.
+type Source = (String, String, String);
+
+/// Time that reading a source may take, from its first lines or its first parts.
+fn reading_left(source: &Path) -> Option<Duration> {
+    let piece = |bytes: &[u8]| drop(read_csv(source, &String::from_utf8_lossy(bytes)));
+    let files = files_of_runs(source).ok()?;
+    let parts = |count: usize| read_table(&files[..count]).ok().map(|_| ());
+    match files.as_slice() {
+        [one] => reading_time(one, TRIAL, piece),
+        many => time_left([1, many.len()], TRIAL, parts),
+    }
+}
+
+/// The table of a source, and its files with their hashes.
+fn read(source: &Path) -> Result<(Vec<Source>, ReadTable), Failure> {
+    let files = files_of_runs(source)?;
+    let mut sources = Vec::with_capacity(files.len());
+    for path in &files {
+        let sha256 = sha256_hex(&read_bytes(path)?);
+        sources.push((path.display().to_string(), sha256, "runs".to_owned()));
+    }
+    Ok((sources, read_runs(&files)?))
+}

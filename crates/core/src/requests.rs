@@ -1,0 +1,451 @@
+//! Requests: what a person asks of an analysis over a suite, as texts by name, made into an answer.
+//!
+//! The command, the Python package and the page only fill the fields of one table ([`Field`]) and show the
+//! [`Answer`]: names, defaults and checks stand here alone. An error names the field; each door says it in
+//! its own words.
+
+mod fields;
+
+pub use fields::{Asked, Field, Kind, Takes, table};
+
+use crate::assessment::design::{DesignRequest, DesignRun, Target, run_design};
+use crate::assessment::grid::levels;
+use crate::assessment::ida::{IdaLevels, IdaRequest, IdaRun, run_ida};
+use crate::assessment::models::Models;
+use crate::assessment::observed::{
+    FitTo, FragilityGroup, FragilityRequest, FragilityRun, run_fragility, run_fragility_by,
+    usual_by,
+};
+use crate::assessment::spectrum::{SpectrumRequest, SpectrumRun, run_spectrum};
+use crate::assessment::suite::{Scaling, Suite, times};
+use crate::assessment::{AssessmentError, refuse};
+use crate::error::{ChoiceError, MeasureError, UnitError};
+use crate::input::{Analysis, Bound, FrictionBounds, Override};
+use crate::motion::intensity::Measure;
+use crate::response::{DemandColumn, Warning};
+use crate::study::engine::Engine;
+use crate::table::Table;
+use crate::units::{Dimension, parse_quantity};
+
+/// The demand that gaps limit.
+const SLIDING: &str = "peak_sliding_displacement_m";
+
+/// Where a hunt starts and ends where nothing else is said, over the records' median.
+const HUNTED: [f64; 2] = [0.05, 20.0];
+
+/// The model and the records that are asked of.
+#[derive(Clone, Copy, Debug)]
+pub struct On<'a> {
+    /// What the model is called.
+    pub name: &'a str,
+    /// What errors call its text.
+    pub source: &'a str,
+    /// Its text.
+    pub text: &'a str,
+    /// Keys that are set in it.
+    pub set: &'a [Override],
+    /// What the two make.
+    pub analysis: &'a Analysis,
+    /// The records.
+    pub suite: &'a Suite,
+    /// What reading them gave notice of.
+    pub warnings: &'a [Warning],
+}
+
+/// A table of runs that a fragility is asked of.
+#[derive(Clone, Copy, Debug)]
+pub struct Runs<'a> {
+    /// What the answer calls it.
+    pub name: &'a str,
+    /// What errors call it.
+    pub source: &'a str,
+    /// The table.
+    pub table: &'a Table,
+    /// The limit that it was made for, in SI, where it is known.
+    pub limit: Option<f64>,
+}
+
+/// What came of a request, and what it is of.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// Name of the model or the table.
+    pub name: String,
+    /// Names of the records.
+    pub records: Vec<String>,
+    /// How they were scaled, in words.
+    pub scaled: String,
+    /// What reading them gave notice of.
+    pub warnings: Vec<Warning>,
+    /// What came of it.
+    pub found: Found,
+}
+
+/// What came of a request.
+#[derive(Clone, Debug)]
+pub enum Found {
+    /// A sliding spectrum.
+    Spectrum(SpectrumRun),
+    /// An incremental dynamic analysis.
+    Ida {
+        /// The intensity measure.
+        measure: Measure,
+        /// Key of the demand.
+        demand: String,
+        /// The limit on it, SI.
+        limit: Option<f64>,
+        /// Whether the levels are the same for all records; else they were hunted.
+        fixed_levels: bool,
+        /// What came of it.
+        run: IdaRun,
+    },
+    /// A fragility, or one for each value of a path.
+    Fragility {
+        /// Key of the demand.
+        demand: String,
+        /// The limit on it, SI.
+        limit: Option<f64>,
+        /// Confidence of intervals.
+        confidence: f64,
+        /// The curves.
+        curves: Curves,
+    },
+    /// A design.
+    Design {
+        /// What was asked.
+        target: Target,
+        /// Key of the acceleration.
+        acceleration: String,
+        /// Factors on friction of the check of robustness.
+        bounds: Option<[f64; 2]>,
+        /// Confidence of intervals.
+        confidence: f64,
+        /// What came of it.
+        run: DesignRun,
+    },
+}
+
+/// The curves of a fragility.
+#[derive(Clone, Debug)]
+pub enum Curves {
+    /// One.
+    One(Box<FragilityRun>),
+    /// One for each value of a path, which has a unit.
+    By {
+        /// The path.
+        path: String,
+        /// Its SI unit.
+        unit: String,
+        /// A curve for each value, or why there is none.
+        groups: Vec<FragilityGroup>,
+    },
+}
+
+impl Asked {
+    /// Runs a spectrum, an incremental dynamic analysis or a design; of a fragility, the incremental dynamic
+    /// analysis is asked for by itself.
+    ///
+    /// # Errors
+    /// [`AssessmentError`], a choice by the name of its field.
+    pub fn run(&self, on: &On<'_>, engine: &Engine<'_>) -> Result<Answer, AssessmentError> {
+        let (found, scaled) = match self.kind() {
+            Kind::Spectrum => self.spectrum(on, engine)?,
+            Kind::Ida => (self.ida(on, engine)?, String::new()),
+            Kind::Design => self.design(on, engine)?,
+            Kind::Fragility => return Err(refuse("source", "a table of runs", "a model")),
+        };
+        Ok(Answer {
+            name: on.name.to_owned(),
+            records: on.suite.names(),
+            scaled: if on.suite.made { String::new() } else { scaled },
+            warnings: on.warnings.to_vec(),
+            found,
+        })
+    }
+
+    /// Fits a fragility.
+    ///
+    /// # Errors
+    /// [`AssessmentError`], a choice by the name of its field.
+    pub fn fit(&self, runs: &Runs<'_>, engine: &Engine<'_>) -> Result<Answer, AssessmentError> {
+        let demand = self.demand();
+        let limited = |name| self.given(name).map(|text| limit(name, text, demand)).transpose();
+        let keep: Vec<String> = self.all("where").map(str::to_owned).collect();
+        let limit = limited("limit")?.or(runs.limit);
+        let request = FragilityRequest {
+            table: runs.table,
+            source_name: runs.source,
+            demand,
+            limit,
+            measure: self.given("measure"),
+            units: self.given("units"),
+            fit_to: self.given("fit-to").map(|name| match name {
+                "counts" => FitTo::Counts,
+                "capacities" => FitTo::Capacities,
+                _ => FitTo::Cloud,
+            }),
+            floor: limited("floor")?,
+            cap: limited("cap")?,
+            keep: &keep,
+            bootstrap: match self.given("bootstrap") {
+                Some(_) => Some((self.count("bootstrap", 50, 100_000)? as u32, self.seed()?)),
+                None => None,
+            },
+        };
+        let confidence = self.share("confidence")?;
+        let by = match self.given("by") {
+            Some(by) => Some(by),
+            None => usual_by(&request)?,
+        };
+        let curves = match by {
+            None => Curves::One(Box::new(run_fragility(&request, engine)?)),
+            Some(by) => {
+                let (groups, unit) = run_fragility_by(&request, by, engine)?;
+                if groups.iter().all(|group| group.run.is_err()) {
+                    let reason = groups.iter().find_map(|group| group.run.as_ref().err());
+                    let reason = reason.map_or("no rows".to_owned(), ToString::to_string);
+                    return Err(refuse("by", format!("a value of {by} that has a curve"), reason));
+                }
+                Curves::By { path: by.to_owned(), unit, groups }
+            }
+        };
+        let demand = demand.to_owned();
+        Ok(Answer {
+            name: runs.name.to_owned(),
+            records: Vec::new(),
+            scaled: String::new(),
+            warnings: Vec::new(),
+            found: Found::Fragility { demand, limit, confidence, curves },
+        })
+    }
+
+    fn spectrum(
+        &self,
+        on: &On<'_>,
+        engine: &Engine<'_>,
+    ) -> Result<(Found, String), AssessmentError> {
+        let models = self.models(on, Some(self.one("over")))?;
+        let (scaling, scaled) = self.scaling()?;
+        let demands: Vec<String> = self.all("demand").map(str::to_owned).collect();
+        let bounds = self.bounds(on)?;
+        let suite = on.suite;
+        let request =
+            SpectrumRequest { models: &models, suite, scaling, demands: &demands, bounds: &bounds };
+        Ok((Found::Spectrum(run_spectrum(&request, engine)?), scaled))
+    }
+
+    fn ida(&self, on: &On<'_>, engine: &Engine<'_>) -> Result<Found, AssessmentError> {
+        let measure = self.measure()?;
+        let models = self.models(on, None)?;
+        let demand = self.demand();
+        models.column(demand)?;
+        let limit = match self.given("limit") {
+            Some(text) => Some(limit("limit", text, demand)?),
+            None => on.analysis.model.slider().gap_m().filter(|_| demand == SLIDING),
+        };
+        let levels = self.levels(on, &measure, engine)?;
+        let fixed_levels = matches!(levels, IdaLevels::Fixed(_));
+        if !fixed_levels && limit.is_none() {
+            let expected = "a limit to hunt for, such as 150 mm (or slider.gap in the model)";
+            return Err(refuse("limit", expected, "nothing"));
+        }
+        let keep: Vec<String> = self.all("where").map(str::to_owned).collect();
+        let request = IdaRequest {
+            models: &models,
+            bounds: &self.bounds(on)?,
+            suite: on.suite,
+            measure,
+            demand,
+            limit,
+            levels,
+            keep: &keep,
+            by: self.given("by"),
+        };
+        let run = run_ida(&request, engine)?;
+        Ok(Found::Ida { measure, demand: demand.to_owned(), limit, fixed_levels, run })
+    }
+
+    fn levels(
+        &self,
+        on: &On<'_>,
+        measure: &Measure,
+        engine: &Engine<'_>,
+    ) -> Result<IdaLevels, AssessmentError> {
+        if let Some(text) = self.given("scale-to") {
+            if self.given("between").is_some() {
+                return Err(refuse("between", "a hunt, without scale-to", "both"));
+            }
+            return Ok(IdaLevels::Fixed(levels("scale-to", text, measure)?));
+        }
+        if let Some(text) = self.given("between") {
+            return match levels("between", &format!("{text}:2"), measure)?[..] {
+                [start, top] => Ok(IdaLevels::Hunt { start, top }),
+                _ => Err(refuse("between", "two levels, 0.05..2 g", format!("{text:?}"))),
+            };
+        }
+        let mut values = on.suite.measure(measure, engine)?;
+        values.sort_by(f64::total_cmp);
+        let median = values.get(values.len() / 2).copied().unwrap_or(f64::NAN);
+        let [start, top] = HUNTED.map(|part| part * median);
+        Ok(IdaLevels::Hunt { start, top })
+    }
+
+    fn design(&self, on: &On<'_>, engine: &Engine<'_>) -> Result<(Found, String), AssessmentError> {
+        if self.given("friction").is_none() && self.given("vary").is_none() {
+            let expected = "something to vary, friction or slider.radius=1..5m:50";
+            return Err(refuse("vary", expected, "nothing"));
+        }
+        let models = self.models(on, None)?;
+        let (scaling, scaled) = self.scaling()?;
+        let gap_m = match (self.given("gap"), on.analysis.model.slider().gap_m()) {
+            (Some(text), _) => limit("gap", text, SLIDING)?,
+            (None, Some(gap_m)) => gap_m,
+            (None, None) => {
+                let expected = "a length (or slider.gap in the model)";
+                return Err(refuse("gap", expected, "nothing"));
+            }
+        };
+        let target = Target {
+            gap_m,
+            probability: self
+                .number("probability", "a share above 0, at most 1", |p| p > 0.0 && p <= 1.0)?,
+            acceleration_share: self
+                .number("share", "a share above 0, at most 1", |p| p > 0.0 && p <= 1.0)?,
+        };
+        let bounds = match self.given("bounds") {
+            Some(text) => Some(factors(text)?),
+            None => on.analysis.friction_bounds.map(|bounds| [bounds.lower, bounds.upper]),
+        };
+        let acceleration =
+            self.given("demand").map_or_else(|| models.roof_acceleration(), str::to_owned);
+        let confidence = self.share("confidence")?;
+        let request = DesignRequest {
+            models: &models,
+            suite: on.suite,
+            scaling,
+            target,
+            acceleration: &acceleration,
+            bounds,
+            sensitivity: self.count("sensitivity", 0, 1 << 20)? as u32,
+            seed: self.seed()?,
+            confidence,
+        };
+        let run = run_design(&request, engine)?;
+        Ok((Found::Design { target, acceleration, bounds, confidence, run }, scaled))
+    }
+
+    /// The models of what is varied, friction first and the axis last. Only `friction` takes the static
+    /// coefficient with it.
+    fn models(&self, on: &On<'_>, over: Option<&str>) -> Result<Models, AssessmentError> {
+        let friction = self.given("friction");
+        let mut varied: Vec<(&str, String)> = Vec::new();
+        let of_friction =
+            friction.map(|values| ("friction", format!("slider.kinetic_friction={values}")));
+        let of_paths = self.all("vary").map(|text| ("vary", text.to_owned()));
+        match self.kind() {
+            Kind::Spectrum => varied.extend(of_paths.chain(of_friction)),
+            _ => varied.extend(of_friction.into_iter().chain(of_paths)),
+        }
+        varied.extend(over.map(|over| ("over", over.to_owned())));
+        Models::new(on.source, on.text, on.set, &varied, friction.is_some())
+    }
+
+    fn measure(&self) -> Result<Measure, AssessmentError> {
+        let name = self.one("measure");
+        Measure::parse(name).map_err(|error| {
+            let MeasureError { expected, found, nearest } = error;
+            let (what, found) = ("measure".to_owned(), format!("{found:?}"));
+            AssessmentError::Choice(ChoiceError { what, expected, found, nearest })
+        })
+    }
+
+    /// How records are scaled, and that in words.
+    fn scaling(&self) -> Result<(Scaling, String), AssessmentError> {
+        if let Some(level) = self.given("scale-to") {
+            if self.given("scale").is_some() {
+                return Err(refuse("scale", "only one of scale and scale-to", "both"));
+            }
+            return Scaling::to_level("scale-to", self.measure()?, level);
+        }
+        let factor = self.number("scale", "a factor other than 0", |factor| factor != 0.0)?;
+        Ok((Scaling::Factor(factor), times(factor)))
+    }
+
+    /// The bounds of friction to run; none for a model without them.
+    fn bounds(&self, on: &On<'_>) -> Result<Vec<Bound>, AssessmentError> {
+        let wanted = Some(self.one("bounds")).filter(|name| *name != "all");
+        Ok(FrictionBounds::chosen(on.analysis.friction_bounds, wanted)?)
+    }
+
+    fn number(
+        &self,
+        name: &str,
+        expected: &str,
+        fits: impl Fn(f64) -> bool,
+    ) -> Result<f64, AssessmentError> {
+        let text = self.one(name);
+        let number = text.trim().parse::<f64>().ok().filter(|n| n.is_finite() && fits(*n));
+        number.ok_or_else(|| refuse(name, expected, format!("{text:?}")))
+    }
+
+    /// A share strictly between 0 and 1.
+    fn share(&self, name: &str) -> Result<f64, AssessmentError> {
+        self.number(name, "a share between 0 and 1", |share| share > 0.0 && share < 1.0)
+    }
+
+    fn count(&self, name: &str, least: u64, most: u64) -> Result<u64, AssessmentError> {
+        let text = self.one(name);
+        let count = text.trim().parse::<u64>().ok().filter(|n| (least..=most).contains(n));
+        let expected = || format!("a whole number from {least} to {most}");
+        count.ok_or_else(|| refuse(name, expected(), format!("{text:?}")))
+    }
+
+    fn seed(&self) -> Result<u64, AssessmentError> {
+        self.count("seed", 0, u64::MAX)
+    }
+}
+
+/// Two factors on friction that rise, `0.8,1.3`.
+fn factors(text: &str) -> Result<[f64; 2], AssessmentError> {
+    let number =
+        |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite() && *v >= 0.0);
+    match text.split_once(',').and_then(|(a, b)| Some([number(a)?, number(b)?])) {
+        Some([lower, upper]) if lower <= upper => Ok([lower, upper]),
+        _ => Err(refuse("bounds", "two factors that rise, such as 0.8,1.3", format!("{text:?}"))),
+    }
+}
+
+/// Endings of keys that are no demand of the registry (ratios of two demands, columns of other
+/// programs' tables), with what they measure, the longer before the shorter.
+const ENDINGS: [(&str, Dimension); 5] = [
+    ("_m_per_s2", Dimension::Acceleration),
+    ("_m_per_s", Dimension::Velocity),
+    ("_m", Dimension::Length),
+    ("_n", Dimension::Force),
+    ("_s", Dimension::Time),
+];
+
+/// What the key of a demand, or of a column like one, measures; none of a ratio. The key without its unit.
+#[must_use]
+pub fn measured(key: &str) -> (Option<Dimension>, &str) {
+    if let Some(column) = DemandColumn::of_name(key) {
+        return (column.dimension(), key);
+    }
+    let found = ENDINGS.iter().find_map(|(ending, of)| Some((*of, key.strip_suffix(ending)?)));
+    found.map_or((None, key), |(dimension, bare)| (Some(dimension), bare))
+}
+
+/// A limit > 0 on a demand, in SI: with the unit that its key ends in, or a bare number; `what` is what
+/// errors call it.
+fn limit(what: &str, text: &str, demand: &str) -> Result<f64, AssessmentError> {
+    let refused = |expected: &str| refuse(what, expected, format!("{text:?}"));
+    let value = match measured(demand).0 {
+        Some(dimension) => {
+            parse_quantity(text, dimension).map_err(|UnitError { expected, found, nearest }| {
+                let what = what.to_owned();
+                AssessmentError::Choice(ChoiceError { what, expected, found, nearest })
+            })?
+        }
+        None => text.trim().parse().map_err(|_| refused("a number"))?,
+    };
+    if value.is_finite() && value > 0.0 { Ok(value) } else { Err(refused("a limit > 0")) }
+}

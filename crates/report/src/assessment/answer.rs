@@ -1,0 +1,140 @@
+//! Answers to requests, laid out, and their tables.
+
+use slipstick::requests::{Answer, Curves, Found};
+use slipstick::table::Table;
+
+use super::design::DesignReport;
+use super::fragility::{FragilityFamily, FragilityReport};
+use super::ida::IdaFamily;
+use super::sheet::Sheet;
+use super::spectrum::SpectrumReport;
+use crate::display::DisplayUnits;
+
+/// A table of an answer.
+#[derive(Clone, Debug)]
+pub struct Tabled {
+    /// Its name.
+    pub name: &'static str,
+    /// The endings of the files that hold it.
+    pub forms: &'static [&'static str],
+    /// Its columns.
+    pub table: Table,
+}
+
+/// An answer laid out.
+#[must_use]
+pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
+    let Answer { name, records, scaled, warnings, found } = answer;
+    match found {
+        Found::Spectrum(run) => {
+            SpectrumReport { name, records, scaled, run, warnings, display }.sheet()
+        }
+        Found::Ida { measure, demand, limit, fixed_levels, run } => IdaFamily {
+            name,
+            measure,
+            demand,
+            limit: *limit,
+            fixed_levels: *fixed_levels,
+            run,
+            warnings,
+            display,
+        }
+        .sheet(),
+        Found::Design { target, acceleration, bounds, confidence, run } => DesignReport {
+            name,
+            records: records.len(),
+            scaled,
+            target: *target,
+            run,
+            acceleration,
+            bounds: *bounds,
+            confidence: *confidence,
+            warnings,
+            display,
+        }
+        .sheet(),
+        Found::Fragility { demand, limit, confidence, curves } => {
+            let (limit, confidence) = (*limit, *confidence);
+            match curves {
+                Curves::One(run) => {
+                    FragilityReport { name, demand, limit, run, confidence, display }.sheet()
+                }
+                Curves::By { path, unit, groups } => FragilityFamily {
+                    name,
+                    by: path,
+                    by_unit: unit,
+                    groups,
+                    demand,
+                    limit,
+                    confidence,
+                    display,
+                }
+                .sheet(),
+            }
+        }
+    }
+}
+
+/// The tables of an answer, its own first.
+#[must_use]
+pub fn tables(answer: Answer) -> Vec<Tabled> {
+    const BOTH: &[&str] = &["csv", "parquet"];
+    let tabled = |name, forms, table| Tabled { name, forms, table };
+    match answer.found {
+        Found::Spectrum(run) => {
+            vec![tabled("spectrum", BOTH, run.table), tabled("runs", &BOTH[1..], run.rows)]
+        }
+        Found::Ida { run, .. } => {
+            let capacities = run.capacities.map(|table| tabled("capacities", &BOTH[..1], table));
+            core::iter::once(tabled("ida", BOTH, run.rows)).chain(capacities).collect()
+        }
+        Found::Design { run, .. } => {
+            vec![tabled("front", BOTH, run.front), tabled("runs", &BOTH[1..], run.runs)]
+        }
+        Found::Fragility { demand, limit, confidence, curves } => {
+            let display = DisplayUnits::Si;
+            let (name, demand) = (&answer.name[..], &demand[..]);
+            let mut table = Table::default();
+            let rows: Vec<[f64; 4]> = match &curves {
+                Curves::One(run) => {
+                    FragilityReport { name, demand, limit, run, confidence, display }.curve()
+                }
+                Curves::By { path: by, unit: by_unit, groups } => {
+                    let family = FragilityFamily {
+                        name,
+                        by,
+                        by_unit,
+                        groups,
+                        demand,
+                        limit,
+                        confidence,
+                        display,
+                    };
+                    let curves = family.curves();
+                    if curves.iter().any(|(group, _)| group.value.is_nan()) {
+                        let texts = curves.iter().map(|(group, _)| group.text.clone());
+                        table.texts(by, texts.collect());
+                    } else {
+                        let values = curves.iter().map(|(group, _)| group.value);
+                        table.numbers(by, by_unit, values.collect());
+                    }
+                    curves.into_iter().map(|(_, row)| row).collect()
+                }
+            };
+            let unit = match &curves {
+                Curves::One(run) => Some(&**run),
+                Curves::By { groups, .. } => {
+                    groups.iter().find_map(|group| group.run.as_ref().ok())
+                }
+            };
+            let unit = unit.map_or("", |run| &run.measure_unit);
+            let column = |i: usize| rows.iter().map(|row| row[i]).collect::<Vec<_>>();
+            table
+                .numbers("level", unit, column(0))
+                .numbers("probability", "", column(1))
+                .numbers("band_low", "", column(2))
+                .numbers("band_high", "", column(3));
+            vec![tabled("fragility", BOTH, table)]
+        }
+    }
+}
