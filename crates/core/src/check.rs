@@ -8,15 +8,19 @@
 
 mod collocation;
 mod damping;
+mod decisions;
 mod demands;
-mod devices;
 mod energy;
+mod events;
 mod ground;
+mod group;
 mod judge;
-mod lanes;
+mod knots;
+mod lane;
 mod law;
+mod near;
+mod outputs;
 mod rate;
-mod step;
 mod structure;
 
 use self::judge::Judge;
@@ -27,7 +31,6 @@ use crate::model::{Model, Stop, StopKind};
 use crate::motion::GroundMotion;
 use crate::progress::{GoOn, Pulse, UNWATCHED};
 use crate::response::{History, Response, interface_name};
-use crate::slider::Direction;
 
 /// Radians beyond which the phase of the fastest mode says nothing: every interval is divided into
 /// steps of half a radian, so this also bounds the work.
@@ -161,7 +164,8 @@ pub fn check_while(
     response: &Response,
     go_on: GoOn<'_>,
 ) -> Result<Certificate, Stopped> {
-    let structure = Structure::new(model);
+    let vertical = motion.vertical_m_per_s2().is_some();
+    let structure = Structure::new(model, vertical);
     let history = response.history.as_ref();
     let end_s = history.and_then(|h| h.time_s.last().copied()).unwrap_or(0.0);
     let fastest = if model.stop().is_some() { Phase::Pressed } else { Phase::Slip };
@@ -169,24 +173,8 @@ pub fn check_while(
     let bound = (100.0 * f64::EPSILON * radians).max(1e-10);
     let judged = history.filter(|h| radians <= MAX_RADIANS && well_formed(model, motion, h));
     let run = |history| {
-        let vertical = motion.vertical_m_per_s2().is_some();
-        let reached = reaches_rigid_stop(model, history);
-        if reached == Some(true) || !is_plain(model, vertical) {
-            let pulse = Pulse::new(go_on);
-            let given = (response, history);
-            return devices::certificate(model, motion, given, &structure, (bound, pulse));
-        }
-        let (law, given) = (Law::new(model), (response, history));
-        let judge = Judge::new(model, motion, given, (&structure, &law), Pulse::new(go_on));
-        let Some(mut certificate) = judge.run(bound)? else { return Ok(None) };
-        if reached.is_some() {
-            let calls = devices::near_misses(model, history);
-            certificate.closest_call =
-                certificate.closest_call.into_iter().chain(calls).reduce(|nearest, call| {
-                    if call.margin < nearest.margin { call } else { nearest }
-                });
-        }
-        Ok(Some(certificate))
+        let (law, given) = (Law::new(model, vertical), (response, history));
+        Judge::new(model, motion, given, (&structure, &law), Pulse::new(go_on)).run(bound)
     };
     let judged = judged.map_or(Ok(None), run)?;
     Ok(judged.unwrap_or_else(|| unjudged(bound)))
@@ -203,28 +191,6 @@ fn unjudged(bound: f64) -> Certificate {
         bound,
         energy: EnergyHistory::default(),
     }
-}
-
-/// Whether [`Judge`] knows all that is in force between stops.
-fn is_plain(model: &Model, vertical: bool) -> bool {
-    let slider = model.slider();
-    let elastic = matches!(slider.stop(), Some(Stop { kind: StopKind::Elastic { .. }, .. }));
-    let rate = slider.rate().is_none() || !elastic;
-    // The spring of a pendulum is constant: N = M g cos θ.
-    let spring = slider.radius_m().is_none()
-        || !vertical && (slider.rate().is_none() || slider.tilt_rad == 0.0);
-    rate && spring && slider.series().is_none() && model.contents().is_empty()
-}
-
-/// Whether a history comes to a rigid stop, of a model that has one: `s` is monotone between knots.
-fn reaches_rigid_stop(model: &Model, history: &History) -> Option<bool> {
-    let stop = model.stop().filter(|stop| matches!(stop.kind, StopKind::Rigid { .. }))?;
-    let reached = |side: Direction| {
-        let to_stop = |s: &f64, gap_m: f64| side.sign() * s >= gap_m;
-        let all = &history.sliding_displacement_m;
-        stop.gap_towards(side).is_some_and(|gap_m| all.iter().any(|s| to_stop(s, gap_m)))
-    };
-    Some(reached(Direction::Positive) || reached(Direction::Negative))
 }
 
 /// Whether a history has the shape that its documentation promises.

@@ -1,6 +1,7 @@
 //! The balance of energy in the frame of the table.
 
 use super::EnergyHistory;
+use super::group::Spent;
 use super::structure::{excess, larger};
 
 /// A sum that keeps what rounding drops, so that a long record costs no digits.
@@ -52,17 +53,13 @@ impl Energy {
         self.scale = rounding_j;
     }
 
-    /// Adds work of the table, the integral of its size, and what dampers and friction took, in J.
-    pub(super) fn spend(&mut self, work: f64, size: f64, damping: f64, friction: f64) {
-        self.input.add(work);
-        self.size.add(size);
-        self.damping.add(damping);
-        self.friction.add(friction);
-    }
-
-    /// Adds what rounding of the loads makes of work and losses, in J.
-    pub(super) fn blur(&mut self, energy_j: f64) {
-        self.blur += energy_j;
+    /// Adds what an interval has spent.
+    pub(super) fn spend(&mut self, spent: &Spent<f64>) {
+        self.input.add(spent.work);
+        self.size.add(spent.size);
+        self.damping.add(spent.damping);
+        self.friction.add(spent.friction);
+        self.blur += spent.blur;
     }
 
     /// Balances the books at a knot with this kinetic and strain energy in J.

@@ -56,11 +56,13 @@ pub(super) struct Ground<'a> {
     total_kg: f64,
     /// Index of the sample at or before the last piece asked for.
     cursor: usize,
+    /// Rounding of a time, and the largest `N` up to the end.
+    blur: (f64, f64),
 }
 
 impl<'a> Ground<'a> {
-    pub(super) fn new(model: &Model, motion: &'a GroundMotion) -> Self {
-        Self {
+    pub(super) fn new(model: &Model, motion: &'a GroundMotion, end_s: f64) -> Self {
+        let mut ground = Self {
             times_s: motion.times_s(),
             horizontal: motion.horizontal_m_per_s2(),
             vertical: motion.vertical_m_per_s2(),
@@ -68,7 +70,15 @@ impl<'a> Ground<'a> {
             gravity: model.normal_gravity_m_per_s2(),
             total_kg: model.total_mass_kg(),
             cursor: 0,
-        }
+            blur: (8.0 * f64::EPSILON * end_s, 0.0),
+        };
+        ground.blur.1 = ground.largest(end_s).0;
+        ground
+    }
+
+    /// Rounding of a time, and the largest `N`.
+    pub(super) fn blur(&self) -> (f64, f64) {
+        self.blur
     }
 
     /// The piece from `from_s` on, no longer than to `end_s`; ends where contact is lost or found.
@@ -126,9 +136,9 @@ impl<'a> Ground<'a> {
         [left, sample(first), sample(after - 1), right]
     }
 
-    /// Whether there is a sample at a time.
-    pub(super) fn has_sample(&self, t: f64) -> bool {
-        self.times_s.binary_search_by(|s| s.total_cmp(&t)).is_ok()
+    /// Whether there is a sample at the time from which the last piece was asked for.
+    pub(super) fn is_at_sample(&self, from_s: f64) -> bool {
+        self.times_s[self.cursor] == from_s
     }
 
     /// Largest `N` and largest `|Ü|` up to a time.
@@ -190,5 +200,17 @@ impl<'a> Ground<'a> {
         let linear = |from: f64, to: f64| from + (to - from) * part;
         let table = linear(self.horizontal[i], self.horizontal[i + 1]);
         (table, linear(self.press(i), self.press(i + 1)))
+    }
+}
+
+/// The load at a fraction of a stretch.
+pub(super) fn between([from, to]: [Load; 2], t: f64) -> Load {
+    let linear = |from: f64, to: f64| from + (to - from) * t;
+    Load {
+        table: linear(from.table, to.table),
+        a: linear(from.a, to.a),
+        normal: linear(from.normal, to.normal),
+        slope: from.slope,
+        normal_slope: from.normal_slope,
     }
 }

@@ -2,13 +2,18 @@
 
 use fearless_simd::{Level, dispatch};
 
-use super::collocation::{MAX_TURN, Scheme};
-use super::demands::{self, Outputs, Peaks, Rounding, Totals};
+use super::collocation::{MAX_TURN, POINTS, Rule};
+use super::demands::{self, Rounding, Totals};
 use super::energy::Energy;
-use super::ground::{Ground, Load, of_side};
-use super::lanes::{Bench, Group, Interval, Knots, Map, Reach, Sizes, Told, Work, Worst};
-use super::law::{Dips, Law};
-use super::step::{Look, Spread, Unit};
+use super::events::Events;
+use super::ground::{Ground, Load, between};
+use super::group::{
+    Course, Feed, Group, Key, Maps, Pass, Points, Spent, Spread, UNBOUNDED, Watch, Work,
+};
+use super::knots::{Acting, Bench, Knots, Sizes, Worst};
+use super::law::{Law, Sliding};
+use super::near::{Dips, dip};
+use super::outputs::{BLOCK, Outputs, STOREYS, VELOCITY};
 use super::structure::{Phase, Structure, excess, larger};
 use super::{Certificate, ClosestCall};
 use crate::error::Stopped;
@@ -20,7 +25,11 @@ use crate::slider::Direction;
 
 /// A sliding velocity below this part of its peak has no sign: the depth of a dip through zero that
 /// the exact method may miss.
-pub(super) const STILL: f64 = 1e-12;
+const STILL: f64 = 1e-12;
+/// Most kinds of intervals that are judged by maps.
+const MOST_KEYS: usize = 16;
+/// Buckets of intervals by the power of two of their steps.
+const BUCKETS: usize = 34;
 
 /// Largest defects so far, each with the scale it is measured by.
 #[derive(Default)]
@@ -52,56 +61,63 @@ fn relative(pair: [f64; 2]) -> f64 {
     if pair[0] == 0.0 { 0.0 } else { pair[0] / pair[1] }
 }
 
+/// Intervals of one key: even ones by maps, odd ones by their equations.
+struct Kind {
+    key: Key,
+    even: Group,
+    odd: Group,
+    maps: Option<Maps>,
+    spread: Spread,
+}
+
+/// What is told of all intervals.
+struct Told {
+    spent: Vec<Spent<f64>>,
+    /// One an interface.
+    watch: Vec<Watch<f64>>,
+}
+
 pub(super) struct Judge<'a> {
-    model: &'a Model,
+    pub(super) model: &'a Model,
     response: &'a Response,
-    history: &'a History,
+    pub(super) h: &'a History,
     pub(super) structure: &'a Structure,
-    ground: Ground<'a>,
-    /// Largest `N` and `|Ü|`.
-    largest: (f64, f64),
     pub(super) law: &'a Law,
-    pub(super) scheme: Scheme<'a>,
+    pub(super) ground: Ground<'a>,
+    /// Largest `N` and `|Ü|`.
+    pub(super) largest: (f64, f64),
+    outputs: Outputs,
+    /// Largest sizes of the outputs.
+    attained: Vec<f64>,
+    rates: [f64; 3],
     /// Velocities below this are zero to within rounding.
-    pub(super) still: f64,
+    still: f64,
     /// Rounding of a time.
     pub(super) instant_s: f64,
     /// What it makes of a force at an event at most.
-    unsure_n: f64,
+    pub(super) unsure_n: f64,
     /// Velocity that the largest acceleration gives in that time.
-    pub(super) jolt: f64,
-    /// Within an interval: the largest velocity of the wrong sign, the largest excess by such.
-    pub(super) astray: [f64; 2],
-    /// Within an interval: the largest size of each velocity.
-    pub(super) fastest: Vec<f64>,
+    jolt: f64,
+    /// What the rounding of `N` makes of places and velocities in an interval.
+    drift: [f64; 2],
     pub(super) figures: Figures,
-    pub(super) energy: Energy,
-    /// Near decisions of the phase under way.
-    pub(super) dips: Dips,
+    energy: Energy,
+    /// Near decisions of the phases under way, by interface.
+    dips: Vec<Dips>,
     closest: Option<ClosestCall>,
     /// A margin that the closest call has at most.
     floor: f64,
-    pub(super) peaks: Peaks<'a>,
     pub(super) totals: Totals,
-    /// How far outputs may leave the chord of a step, by phase, and the longest step.
-    pub(super) spreads: [Option<Spread>; 3],
-    longest_s: f64,
+    events: Events,
     /// Step of most intervals of the motion.
     even_s: f64,
+    longest_s: f64,
     /// Intervals judged by maps so far.
     #[cfg(test)]
     by_maps: usize,
-    level: Level,
-    /// The knot up to which near decisions were looked at.
-    fed: usize,
-    /// `(x, v)` along an interval, and at the start of a step.
-    pub(super) state: Vec<f64>,
-    pub(super) before: Vec<f64>,
-    /// `(x, v)` of the knot last looked at.
-    stored: Vec<f64>,
-    /// Asks whether to go on, after so many units of work a step.
+    pub(super) level: Level,
+    /// Asks whether to go on.
     pulse: Pulse<'a>,
-    units: u32,
 }
 
 impl<'a> Judge<'a> {
@@ -112,10 +128,9 @@ impl<'a> Judge<'a> {
         (structure, law): (&'a Structure, &'a Law),
         pulse: Pulse<'a>,
     ) -> Self {
-        let d = structure.degrees();
         let end_s = history.time_s.last().copied().unwrap_or(0.0);
         let instant_s = 8.0 * f64::EPSILON * end_s;
-        let ground = Ground::new(model, motion);
+        let ground = Ground::new(model, motion, end_s);
         let largest = ground.largest(end_s);
         let relative = || {
             let tables = history.table_acceleration_m_per_s2.iter();
@@ -123,68 +138,97 @@ impl<'a> Judge<'a> {
             pairs.fold(0.0, |most, (block, table)| (block - table).abs().max(most))
         };
         let relative = if law.rate.is_some() { relative() } else { 0.0 };
-        let added_rate = law.added_rate(largest.0 / structure.block_kg, relative);
+        let added = law.added_rate(largest.0 / structure.block_kg, relative);
+        let rate = |phase| structure.rate(phase) + if phase == Phase::Stick { 0.0 } else { added };
+        let interfaces = 1 + structure.contents.len();
+        let outputs = Outputs::new(model);
         Self {
             model,
             response,
-            history,
+            h: history,
             structure,
+            law,
             ground,
             largest,
-            law,
-            scheme: Scheme::new((structure, law), 2.0 * instant_s, added_rate),
+            attained: vec![0.0; outputs.len()],
+            outputs,
+            rates: [Phase::Stick, Phase::Slip, Phase::Pressed].map(rate),
             still: 0.0,
             instant_s,
             unsure_n: 0.0,
             jolt: 0.0,
-            astray: [0.0; 2],
-            fastest: vec![0.0; d],
+            drift: [0.0; 2],
             figures: Figures::default(),
             energy: Energy::default(),
-            dips: Dips::new(0.0),
+            dips: vec![Dips::new(0.0); interfaces],
             closest: None,
             floor: f64::INFINITY,
-            peaks: Peaks::new(Outputs::new(model, structure)),
-            totals: Totals::default(),
-            spreads: [const { None }; 3],
-            longest_s: history.time_s.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max),
+            totals: Totals::new(interfaces),
+            events: Events::default(),
             even_s: common_step(motion.times_s(), 2.0 * instant_s),
+            longest_s: history.time_s.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max),
             #[cfg(test)]
             by_maps: 0,
             level: Level::new(),
-            fed: 0,
-            state: vec![0.0; 2 * d],
-            before: vec![0.0; 2 * d],
-            stored: vec![0.0; 2 * d],
             pulse,
-            units: 32 * d as u32,
+        }
+    }
+
+    /// What the lanes need.
+    pub(super) fn bench(&self) -> Bench<'a> {
+        Bench {
+            structure: self.structure,
+            rule: Rule::get(),
+            history: self.h,
+            law: self.law,
+            slope: self.model.slope_m_per_s2(),
+            instant_s: self.instant_s,
+            vertical: self.ground.has_vertical(),
         }
     }
 
     /// Looks at every knot by itself: the balance of forces, scales, energies and outputs. `None`
     /// where something stored is not finite.
     fn knots(&mut self) -> Result<Option<Knots>, Stopped> {
-        let h = self.history;
-        let mut stop = Vec::new();
-        if self.model.stop().is_some() {
+        let h = self.h;
+        let (mut stop, mut held) = (Vec::new(), Vec::new());
+        if self.model.stop().is_some() && self.law.restitution().is_none() {
             let at = |k: usize| (h.sliding_displacement_m[k], h.sliding_velocity_m_per_s[k]);
             let force = |k: usize| self.law.push(self.contact(k)).force(at(k).0, at(k).1);
             stop.extend((0..h.len()).map(force));
         }
+        if self.law.is_pendulum() {
+            held = vec![1.0; h.len()];
+        } else if self.law.restitution().is_some() {
+            let most = h.sliding_displacement_m.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
+            let leans = |k: usize| {
+                let s = h.sliding_displacement_m[k];
+                self.law.leans(s, 8.0 * f64::EPSILON * most) != [false; 2]
+            };
+            held.extend((0..h.len()).map(|k| if leans(k) { 1.0 } else { 0.0 }));
+        }
+        // At the end both sides of a jump last.
+        let passed = |k: &usize| {
+            h.time_s[k + 1] == h.time_s[*k] && (*k == 0 || h.time_s[k - 1] == h.time_s[*k])
+        };
+        let passed: Vec<usize> = (0..h.len() - 1).filter(passed).collect();
         let mut worst = Worst::NONE;
-        let mut knots = Knots::new(h.len(), self.peaks.outputs.len());
+        let mut knots = Knots::new(h.len(), self.outputs.len());
         let mut pulse = core::mem::replace(&mut self.pulse, Pulse::new(UNWATCHED));
-        let (bench, outputs) = (self.bench(&stop), &self.peaks.outputs);
+        let (bench, outputs) = (self.bench(), &self.outputs);
+        let acting = Acting { stop: &stop, held: &held, passed: &passed };
         let to = (&mut knots, &mut pulse);
-        dispatch!(self.level, simd => bench.knots(simd, outputs, &mut worst, to))?;
+        dispatch!(self.level, simd => bench.knots(simd, outputs, &mut worst, acting, to))?;
         self.pulse = pulse;
-        if worst.broken.0.iter().any(|x| x.is_nan()) {
+        if worst.broken.0.iter().any(|x| x.is_nan())
+            || !h.surface_displacement_m.iter().all(|u| u.is_finite())
+        {
             return Ok(None);
         }
-        self.peaks.attained.copy_from_slice(&knots.attained);
+        self.attained.copy_from_slice(&knots.attained);
         let Sizes { place, storey, rate, table } = worst.sizes;
         let [place, storey, rate, table] = [place, storey, rate, table].map(|all| all.largest());
-        let (sliding, block) = (self.peaks.speed(), self.peaks.block_acceleration());
+        let (sliding, block) = (self.attained[VELOCITY], self.attained[BLOCK]);
         let speed = sliding.max(rate);
         // A frame held at rest by its weight on a slope moves by rounding alone: its velocities
         // are measured by the static displacement, not by themselves.
@@ -199,256 +243,332 @@ impl<'a> Judge<'a> {
         if self.model.stop().is_some() {
             for k in 0..h.len() {
                 let at = (h.sliding_displacement_m[k], h.sliding_velocity_m_per_s[k]);
-                let slack = self.contact_slack(at.1);
-                let broken = self.law.contact_excess(self.contact(k), at, slack);
+                let broken = self.law.contact_excess(self.contact(k), at, self.slack(at.1));
                 self.figures.excess = larger(self.figures.excess, broken);
+                let beyond = self.law.beyond_walls(at.0);
+                self.figures.displacement[0] = larger(self.figures.displacement[0], beyond);
+            }
+        }
+        // Surfaces in series make up s, within their travels.
+        for k in 0..if h.surfaces > 0 { h.len() } else { 0 } {
+            let surfaces = h.surface_displacements(k);
+            let off = surfaces.iter().sum::<f64>() - h.sliding_displacement_m[k];
+            for off in [off, self.law.beyond_ends(surfaces)] {
+                self.figures.displacement[0] = larger(self.figures.displacement[0], off);
             }
         }
         Ok(Some(knots))
     }
 
-    /// What the lanes need.
-    pub(super) fn bench<'b>(&self, stop: &'b [f64]) -> Bench<'b>
-    where
-        'a: 'b,
-    {
-        Bench {
-            structure: self.structure,
-            rule: self.scheme.rule,
-            history: self.history,
-            slope: self.model.slope_m_per_s2(),
-            instant_s: self.instant_s,
-            stop,
-            law: self.law,
-        }
-    }
-
     /// Judges everything; `None` where something stored is not finite.
     pub(super) fn run(mut self, bound: f64) -> Result<Option<Certificate>, Stopped> {
         let Some(mut all) = self.knots()? else { return Ok(None) };
-        let h = self.history;
-        let (times, knots) = (&h.time_s, h.len());
-        self.load_state(0);
+        let (h, knots) = (self.h, self.h.len());
         self.start();
-        let stop_j = self.law.push(self.contact(0)).strain(self.x()[0]);
-        let initial_j = self.structure.kinetic(self.v()) + self.structure.strain(self.x()) + stop_j;
+        let stop_j = self.law.push(self.contact(0)).strain(h.sliding_displacement_m[0]);
+        let initial_j = all.kinetic_j[0] + all.strain_j[0] + stop_j;
         let rounding_j = self.model.total_mass_kg() * self.jolt * self.jolt;
         self.energy.start(initial_j, stop_j, rounding_j, knots);
-        let told = self.side_by_side(&all)?;
+        self.decide();
         self.find_floor();
-        self.dips = self.fresh_dips(0);
-        let mut arrives = false;
-        for k in 0..knots {
-            if k > 0 {
-                self.join(k, !arrives);
-            }
-            self.energy.knot(all.kinetic_j[k], all.strain_j[k]);
-            let leaves = k + 1 < knots && times[k + 1] > times[k];
-            if leaves {
-                match &told[k] {
-                    Some(told) => self.recall(k, told)?,
-                    None => self.interval(k, Look::All)?,
-                }
-            } else if !arrives {
-                self.alone(k);
-            }
-            arrives = leaves;
+        let told = self.side_by_side(&all)?;
+        let near = self.look_again(&all, &told)?;
+        self.in_order(&all, &told, &near);
+        for list in [&mut all.kinetic_j, &mut all.strain_j] {
+            list.truncate(knots);
         }
-        self.close(h.mode[knots - 1]);
-        all.kinetic_j.truncate(knots);
-        all.strain_j.truncate(knots);
         self.energy.history.kinetic_j = all.kinetic_j;
         self.energy.history.strain_j = all.strain_j;
         Ok(Some(self.certificate(bound)))
     }
 
-    /// Judges side by side all intervals of one step in which no stop acts and the loads are linear;
-    /// looks for peaks where there may be some.
-    fn side_by_side(&mut self, knots: &Knots) -> Result<Vec<Option<Told<f64>>>, Stopped> {
-        let h = self.history;
-        let mut told = Vec::with_capacity(h.len());
+    /// Contact with the stop at a knot.
+    pub(super) fn contact(&self, k: usize) -> Contact {
+        self.h.contact.get(k).copied().unwrap_or(Contact::Free)
+    }
+
+    /// What the rounding of times makes of a position at this speed, and of the force of the stop.
+    pub(super) fn slack(&self, w: f64) -> [f64; 2] {
+        let slack_m = self.instant_s * w.abs() + 8.0 * f64::EPSILON * self.figures.displacement[1];
+        [slack_m, self.structure.stop_damper() * self.jolt]
+    }
+
+    /// Displacement and velocity of a degree at a knot.
+    pub(super) fn stored(&self, k: usize, degree: usize) -> [f64; 2] {
+        let (h, n) = (self.h, self.h.storeys);
+        match degree {
+            0 => [h.sliding_displacement_m[k], h.sliding_velocity_m_per_s[k]],
+            i if i <= n => [h.storey_displacements(k)[i - 1], h.storey_velocities(k)[i - 1]],
+            i => {
+                let [r, p, _] = h.contents_state(k, i - 1 - n);
+                [r, p]
+            }
+        }
+    }
+
+    /// Compares the stored state of a knot with another, degree by degree.
+    pub(super) fn compare(&mut self, k: usize, other: impl Fn(usize) -> [f64; 2]) {
+        for i in 0..self.structure.degrees() {
+            let ([x, v], [own_x, own_v]) = (self.stored(k, i), other(i));
+            self.figures.displacement[0] = larger(self.figures.displacement[0], x - own_x);
+            self.figures.velocity[0] = larger(self.figures.velocity[0], v - own_v);
+        }
+    }
+
+    /// The first knot has the model's initial state.
+    fn start(&mut self) {
+        let initial = self.model.initial();
+        let mut x = vec![initial.sliding_displacement_m];
+        x.extend(self.model.initial_storey_displacement_m());
+        let mut v = vec![initial.sliding_velocity_m_per_s];
+        v.extend(self.model.initial_storey_velocity_m_per_s());
+        let at = |list: &[f64], i: usize| list.get(i).copied().unwrap_or(0.0);
+        self.compare(0, |i| [at(&x, i), at(&v, i)]);
+    }
+
+    /// Modes before the first knot: a block with a velocity slides on.
+    pub(super) fn modes_at_start(&self) -> Vec<Mode> {
+        let mut modes = vec![Mode::Stick; self.h.interfaces];
+        if self.model.initial().sliding_velocity_m_per_s != 0.0 {
+            modes[0] = self.h.mode[0];
+        }
+        modes
+    }
+
+    /// How a slip of surfaces in series goes on from a knot.
+    pub(super) fn sliding(&self, k: usize, mode: Mode) -> Option<Sliding> {
+        let Mode::Slip(direction) = mode else { return None };
+        self.law.series.as_ref()?;
+        let mut ways = self.law.slidings(self.h.surface_displacements(k), direction);
+        // The force that is stored tells that a surface has left its end.
+        let place = if ways.len() > 1 {
+            let (loads, found) =
+                (self.ground.instant(self.h.time_s[k]), self.h.friction_force_n[k]);
+            let suits = |way: &Sliding| {
+                let off = |load: &Load| (load.normal * way.force(0.0) + found).abs();
+                let least = loads.iter().map(off).fold(f64::INFINITY, f64::min);
+                least <= STILL * self.model.weight_n()
+            };
+            ways.iter().position(suits).unwrap_or(0)
+        } else {
+            0
+        };
+        (!ways.is_empty()).then(|| ways.swap_remove(place))
+    }
+
+    /// What is in force from a knot on in modes.
+    pub(super) fn course<'m>(&self, k: usize, modes: &'m [Mode], feed: Feed) -> Course<'m> {
+        let s = self.h.sliding_displacement_m[k];
+        let (mut friction, mut hold) = ([0.0; 2], [0.0; 2]);
+        let mut taken = [-UNBOUNDED, UNBOUNDED];
+        let mut slides = 0.0;
+        match modes[0] {
+            Mode::Stick => {
+                hold = self.law.hold(self.h.surface_displacements(k));
+                let free = hold;
+                let slack_m = 8.0 * f64::EPSILON * self.figures.displacement[1];
+                let [positive, negative] = self.law.leans(s, slack_m);
+                if positive {
+                    (hold[0], taken[0]) = (-UNBOUNDED, free[0]);
+                }
+                if negative {
+                    (hold[1], taken[1]) = (UNBOUNDED, free[1]);
+                }
+            }
+            Mode::Slip(direction) => {
+                friction = match self.sliding(k, modes[0]) {
+                    Some(sliding) => sliding.friction(s),
+                    None => [self.law.sliding_load(direction), 0.0],
+                };
+                slides += self.law.most();
+            }
+        }
+        for (mode, contents) in modes[1..].iter().zip(&self.structure.contents) {
+            if *mode != Mode::Stick {
+                slides += contents.kinetic_friction;
+            }
+        }
+        let push = self.law.push(self.contact(k));
+        Course { knot: k, modes, friction, push, hold, taken, slides, feed }
+    }
+
+    /// The interval from a knot to the next.
+    fn interval(&mut self, k: usize) -> Course<'a> {
+        let h = self.h;
+        let modes = h.modes(k);
+        let phase = match (modes[0], self.contact(k)) {
+            (Mode::Stick, _) => Phase::Stick,
+            (_, Contact::Pressed(_)) => Phase::Pressed,
+            _ => Phase::Slip,
+        };
+        let times_s = [h.time_s[k], h.time_s[k + 1]];
+        let feed = Feed::new(&mut self.ground, times_s, self.rates[phase as usize]);
+        if !self.ground.is_at_sample(times_s[0]) {
+            let rounding = self.rounding(0, self.structure.total_kg, &feed.loads()[0]);
+            self.unsure_n = larger(self.unsure_n, rounding);
+        }
+        self.course(k, modes, feed)
+    }
+
+    /// The key of an interval whose path is a linear map of its inputs.
+    fn key(&self, course: &Course<'_>) -> Option<Key> {
+        let slips = course.modes[0] != Mode::Stick;
+        if !course.feed.is_single() || course.modes.len() > 64 || slips && self.law.rate.is_some() {
+            return None;
+        }
+        let per_n = course.friction[1] + self.law.curvature_per_m();
+        let [from, to] = course.feed.loads().map(|load| load.normal * per_n);
+        let [stiffness, damper, _] = course.push.numbers();
+        let stuck = course.modes.iter().enumerate().filter(|(_, mode)| **mode == Mode::Stick);
+        let stuck = stuck.fold(0, |bits, (i, _)| bits | 1 << i);
+        (from == to).then_some(Key { stuck, push: [stiffness, damper], rise: from })
+    }
+
+    /// Judges all intervals eight at a time; looks for peaks where there may be some.
+    fn side_by_side(&mut self, knots: &Knots) -> Result<Told, Stopped> {
+        let (h, bench) = (self.h, self.bench());
+        let interfaces = h.interfaces;
+        let mut told = Told {
+            spent: vec![Spent::default(); h.len()],
+            watch: vec![Watch::default(); h.len() * interfaces],
+        };
         let mut worst = Worst::NONE;
-        let mut work = Work::new(self.structure.degrees());
-        let mut groups = [Phase::Stick, Phase::Slip].map(|phase| {
-            let steps = self.steps(phase);
-            [Group::new(phase, steps), Group::new(phase, steps)]
-        });
-        let mut maps = [None, None];
-        let even_s = self.even_s;
-        for k in 0..h.len().saturating_sub(1) {
-            told.push(None);
+        let mut work = Work::new(&bench, self.outputs.len());
+        let mut kinds: Vec<Kind> = Vec::new();
+        let mut rest: Vec<Option<Group>> = (0..BUCKETS).map(|_| None).collect();
+        for k in 0..h.len() - 1 {
             let length_s = h.time_s[k + 1] - h.time_s[k];
             if !(length_s > 0.0) {
                 continue;
             }
-            let Some((phase, interval)) = self.single(k, length_s) else { continue };
-            let which = phase as usize;
-            let even = (length_s - even_s).abs() <= 2.0 * self.instant_s;
-            if self.spreads[which].is_none() {
-                maps[which] = self.prepare(phase);
-            }
-            let even = even && maps[which].is_some();
-            let group = &mut groups[which][usize::from(even)];
-            if group.push(&interval) {
-                let maps = maps[which].as_ref().filter(|_| even);
-                self.flush(group, maps, knots, (&mut work, &mut worst), &mut told)?;
+            let course = self.interval(k);
+            let steps = course.feed.steps();
+            let kind = self.key(&course).and_then(|key| {
+                let place = kinds.iter().position(|kind| kind.key == key);
+                place.or_else(|| {
+                    let made =
+                        (kinds.len() < MOST_KEYS).then(|| self.kind(key, &course, &mut work));
+                    kinds.extend(made);
+                    kinds.len().checked_sub(1).filter(|&i| kinds[i].key == key)
+                })
+            });
+            match kind {
+                Some(i) => {
+                    let kind = &mut kinds[i];
+                    let even = (length_s - self.even_s).abs() <= 2.0 * self.instant_s;
+                    let even = even && kind.maps.is_some();
+                    let group = if even { &mut kind.even } else { &mut kind.odd };
+                    if group.push(&bench, &course) {
+                        let maps = kind.maps.as_ref().filter(|_| even);
+                        let how = (maps, Some(&kind.spread));
+                        self.flush(&bench, group, how, knots, (&mut work, &mut worst), &mut told)?;
+                    }
+                }
+                None => {
+                    let bucket = (usize::BITS - steps.leading_zeros()) as usize;
+                    let bucket = if course.feed.is_single() { bucket } else { BUCKETS - 1 };
+                    let group =
+                        rest[bucket.min(BUCKETS - 1)].get_or_insert_with(|| Group::new(&bench));
+                    if group.push(&bench, &course) {
+                        let to = (&mut work, &mut worst);
+                        self.flush(&bench, group, (None, None), knots, to, &mut told)?;
+                    }
+                }
             }
         }
-        for group in groups.iter_mut().flatten().filter(|group| group.count > 0) {
-            self.flush(group, None, knots, (&mut work, &mut worst), &mut told)?;
+        for kind in &mut kinds {
+            let spread = Some(&kind.spread);
+            for (group, maps) in [(&mut kind.even, kind.maps.as_ref()), (&mut kind.odd, None)] {
+                let to = (&mut work, &mut worst);
+                self.flush(&bench, group, (maps, spread), knots, to, &mut told)?;
+            }
         }
-        told.resize(h.len(), None);
+        for group in rest.iter_mut().flatten() {
+            let to = (&mut work, &mut worst);
+            self.flush(&bench, group, (None, None), knots, to, &mut told)?;
+        }
         self.figures.take(&worst);
+        self.drift = worst.drift.map(|drift| drift.largest());
         self.still = (STILL * worst.sliding.largest()).max(self.still);
         Ok(told)
     }
 
-    /// Steps that an even interval of a phase takes, and any that goes side by side with others.
-    fn steps(&self, phase: Phase) -> usize {
-        let turn = self.scheme.rate(phase) * self.even_s;
-        if turn > MAX_TURN { libm::ceil(turn / MAX_TURN) as usize } else { 1 }
-    }
-
-    /// The interval from a knot if it takes no more steps under a linear load, and no stop acts in it.
-    fn single(&mut self, k: usize, length_s: f64) -> Option<(Phase, Interval)> {
-        let h = self.history;
-        let phase = if h.mode[k] == Mode::Stick { Phase::Stick } else { Phase::Slip };
-        let longest = MAX_TURN * self.steps(phase) as f64;
-        if self.contact(k) != Contact::Free || self.scheme.rate(phase) * length_s > longest {
-            return None;
-        }
-        let piece = self.ground.piece(h.time_s[k], h.time_s[k + 1]);
-        if piece.to_s < h.time_s[k + 1] {
-            return None;
-        }
-        let [from, to] = piece.loads;
-        let force = match h.mode[k] {
-            Mode::Stick => {
-                let bound =
-                    self.law.fixed()[0].min(self.law.fixed()[1]) * from.normal.min(to.normal);
-                if !(bound > 0.0) {
-                    return None;
-                }
-                [0.0; 2]
-            }
-            Mode::Slip(direction) => {
-                [from, to].map(|load| self.law.sliding_load(direction, load.normal))
-            }
-        };
-        let interval = Interval {
-            knot: k,
-            length_s,
-            table: [from.table, to.table],
-            normal: [from.normal, to.normal],
-            drift: from.slope,
-            sign: h.mode[k].sign(),
-            force,
-        };
-        Some((phase, interval))
-    }
-
-    /// Bounds the outputs of a phase; the maps of the even step to its path, and to its places, where
-    /// there is an even step.
-    fn prepare(&mut self, phase: Phase) -> Option<[Map; 2]> {
-        let (rate, steps) = (self.scheme.rate(phase), self.steps(phase));
+    /// Groups of a key with the maps of the even step, where there is one, and bounds on the outputs.
+    fn kind(&self, key: Key, course: &Course<'_>, work: &mut Work) -> Kind {
+        let bench = self.bench();
+        let rate = course.feed.rate();
+        let turn = rate * self.even_s;
+        let steps = if turn > MAX_TURN { libm::ceil(turn / MAX_TURN * (1.0 - 1e-9)) } else { 1.0 };
+        let even_s = (!self.even_s.is_nan()).then(|| self.even_s / steps);
         let longest_s = if rate > 0.0 { MAX_TURN / rate } else { f64::INFINITY };
-        let longest_s = longest_s.min(self.longest_s / steps as f64);
-        if phase != Phase::Stick && self.law.rate.is_some() {
-            self.spreads[phase as usize] = Some(Spread::unknown(longest_s));
-            return None;
-        }
-        let longest = self.units(phase, longest_s);
-        self.spread(phase, longest_s, &longest);
-        if self.even_s.is_nan() {
-            return None;
-        }
-        let same = (longest_s * steps as f64 - self.even_s).abs() <= 2.0 * self.instant_s;
-        let even = if same { longest } else { self.units(phase, self.even_s / steps as f64) };
-        let columns = [Unit::paths(&even), Unit::places(&even)];
-        let maps =
-            columns.each_ref().map(|columns| Map::new(phase, self.structure.degrees(), columns));
-        let [columns, _] = columns;
-        self.scheme.keep(phase, (self.even_s, steps), columns);
-        Some(maps)
+        let longest_s = longest_s.min(self.longest_s / steps);
+        let (level, outputs) = (self.level, &self.outputs);
+        let (maps, spread) = dispatch!(level, simd => {
+            bench.maps(simd, (&key, outputs), (even_s, longest_s), work)
+        });
+        Kind { key, even: Group::new(&bench), odd: Group::new(&bench), maps, spread }
     }
 
     /// Judges a group and empties it.
     fn flush(
         &mut self,
+        bench: &Bench<'_>,
         group: &mut Group,
-        maps: Option<&[Map; 2]>,
+        (maps, spread): (Option<&Maps>, Option<&Spread>),
         knots: &Knots,
         (work, worst): (&mut Work, &mut Worst),
-        told: &mut [Option<Told<f64>>],
+        told: &mut Told,
     ) -> Result<(), Stopped> {
-        self.pulse.beat(self.units.saturating_mul(self.steps(group.phase) as u32))?;
-        let Some(spread) = &self.spreads[group.phase as usize] else { return Ok(()) };
+        if group.count == 0 {
+            return Ok(());
+        }
         group.fill();
-        let (bounds, longest_s) = (&spread.leaving[..], spread.longest_s);
-        let reach = Reach { bounds, longest_s, unknown: spread.bounds.is_empty(), knots };
         #[cfg(test)]
         if maps.is_some() {
             self.by_maps += group.count;
         }
-        let bench = self.bench(&[]);
-        let (lanes, peaks) = ((&*group, maps), &mut self.peaks);
-        dispatch!(self.level, simd => bench.group(simd, lanes, &reach, peaks, work, worst));
+        let level = self.level;
+        let mut pass = Pass {
+            ground: &mut self.ground,
+            outputs: &self.outputs,
+            attained: &mut self.attained,
+            knots,
+            work,
+            worst,
+            pulse: &mut self.pulse,
+        };
+        dispatch!(level, simd => bench.group(simd, group, (maps, spread), &mut pass))?;
         for lane in 0..group.count {
-            told[group.knot(lane)] = Some(work.told.lane(lane));
+            let k = group.knot(lane);
+            told.spent[k] = pass.work.spent.lane(lane);
+            let watch = pass.work.watch.iter().map(|watch| watch.lane(lane));
+            let own = &mut told.watch[k * self.h.interfaces..][..self.h.interfaces];
+            for (own, watch) in own.iter_mut().zip(watch) {
+                *own = watch;
+            }
         }
         group.count = 0;
         Ok(())
     }
 
-    /// Takes up what was told of an interval; looks again where a decision may have been close.
-    fn recall(&mut self, k: usize, told: &Told<f64>) -> Result<(), Stopped> {
-        let h = self.history;
-        let (mode, from_s, to_s) = (h.mode[k], h.time_s[k], h.time_s[k + 1]);
-        self.energy.spend(told.work, told.size, told.damping, told.friction);
-        self.totals.add(mode, Contact::Free, to_s - from_s);
-        let near = self.closest.map_or(self.floor, |call| call.margin.min(self.floor));
-        let (floor, wrong) = match mode {
-            Mode::Stick => (near.min(self.dips.so_far()).max(0.0), told.least < 0.0),
-            Mode::Slip(direction) => {
-                let s = &h.sliding_displacement_m;
-                self.totals.path_m += (s[k + 1] - s[k]).abs();
-                let wrong = told.least.min(told.low) < -self.still;
-                let drops = self.law.drops(direction);
-                let near = (near * self.peaks.speed()).min(self.dips.so_far());
-                (if drops { near } else { f64::NEG_INFINITY }, wrong)
-            }
-        };
-        if wrong || told.low < floor {
-            return self.interval(k, Look::Law);
-        }
-        let [first, last] = told.ends;
-        if first.min(last) < floor {
-            self.resume(k);
-            self.dips.feed(from_s, first);
-            self.dips.feed(to_s, last);
-        }
-        self.dips.see(told.fastest);
-        Ok(())
-    }
-
-    /// Looks at all decisions where the block came to rest, and at maxima of the demand at knots: only
-    /// what comes closer is worth a search between knots.
+    /// Looks at maxima of the demand at knots, beside the decisions already made: only what comes closer
+    /// is worth a search between knots.
     fn find_floor(&mut self) {
-        let h = self.history;
-        for k in 1..h.len() {
-            if h.mode[k] != h.mode[k - 1] {
-                self.load_state(k);
-                self.change(k, h.mode[k - 1], h.mode[k]);
-            }
-        }
+        let h = self.h;
         self.floor = self.closest.map_or(f64::INFINITY, |call| call.margin);
-        if self.ground.has_vertical() {
+        if self.ground.has_vertical() || self.law.series.is_some() {
             return;
         }
-        let normal = self.largest.0;
-        let margin = |k: usize| self.law.margin(h.friction_force_n[k], normal);
+        let [low, high] = self.law.hold(&[]).map(|per_n| per_n * self.largest.0);
+        let margin = |k: usize| {
+            let demand = h.friction_force_n[k];
+            let bound = if demand > 0.0 { high } else { -low };
+            (bound > 0.0).then(|| 1.0 - demand.abs() / bound)
+        };
+        let free = |k: usize| h.contact.get(k).is_none_or(|contact| *contact == Contact::Free);
+        let sticks = |k: usize| h.modes(k)[0] == Mode::Stick && free(k);
         for k in 1..h.len().saturating_sub(1) {
-            if h.mode[k - 1..=k + 1] != [Mode::Stick; 3] || self.contact(k) != Contact::Free {
+            if !(sticks(k - 1) && sticks(k) && sticks(k + 1)) {
                 continue;
             }
             if let (Some(before), Some(here), Some(after)) =
@@ -462,17 +582,379 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Decisions are looked at from the knot `k` to the next, and perhaps were not before.
-    fn resume(&mut self, k: usize) {
-        if self.fed != k {
-            self.dips.interrupt();
+    /// The largest speed of an interface.
+    fn speed(&self, i: usize) -> f64 {
+        match i.checked_sub(1) {
+            None => self.attained[VELOCITY],
+            Some(e) => self.attained[STOREYS + 3 * self.h.storeys + e],
         }
-        self.fed = k + 1;
     }
 
-    /// Contact with the stop at a knot.
-    fn contact(&self, k: usize) -> Contact {
-        self.history.contact.get(k).copied().unwrap_or(Contact::Free)
+    /// Whether an interface could stick where it slides, without slowing down to it smoothly.
+    fn drops(&self, i: usize, direction: Direction) -> bool {
+        match i.checked_sub(1).map(|e| &self.structure.contents[e]) {
+            None => self.law.drops(direction),
+            Some(contents) => contents.static_friction > contents.kinetic_friction,
+        }
+    }
+
+    /// Whether the points of an interval are needed: a decision may have been closer than any so far, or
+    /// a law is broken.
+    fn is_near(&self, k: usize, told: &Told) -> bool {
+        let h = self.h;
+        let watch = &told.watch[k * h.interfaces..][..h.interfaces];
+        let contact = self.contact(k) != Contact::Free && h.modes(k)[0] != Mode::Stick;
+        let near = |(i, (watch, mode)): (usize, (&Watch<f64>, &Mode))| match mode {
+            Mode::Stick => !(watch.least >= 0.0) || watch.low < self.floor,
+            Mode::Slip(direction) => {
+                let floor = self.floor * self.speed(i);
+                let wrong = !(watch.least.min(watch.low) >= -self.still);
+                wrong || self.drops(i, *direction) && watch.low < floor
+            }
+        };
+        contact || watch.iter().zip(h.modes(k)).enumerate().any(near)
+    }
+
+    /// The points of intervals in which a decision may have been close, in order of time.
+    fn look_again(&mut self, knots: &Knots, told: &Told) -> Result<Vec<Points>, Stopped> {
+        let (h, bench) = (self.h, self.bench());
+        let mut found = Vec::new();
+        let mut work = Work::new(&bench, self.outputs.len());
+        let mut worst = Worst::NONE;
+        let mut group = Group::new(&bench);
+        for k in 0..h.len() {
+            let last = k + 1 == h.len();
+            let full = if !last && h.time_s[k + 1] > h.time_s[k] && self.is_near(k, told) {
+                let course = self.interval(k);
+                group.push(&bench, &course)
+            } else {
+                false
+            };
+            if full || last && group.count > 0 {
+                group.fill();
+                let level = self.level;
+                let mut pass = Pass {
+                    ground: &mut self.ground,
+                    outputs: &self.outputs,
+                    attained: &mut self.attained,
+                    knots,
+                    work: &mut work,
+                    worst: &mut worst,
+                    pulse: &mut self.pulse,
+                };
+                dispatch!(level, simd => {
+                    bench.points(simd, &mut group, &mut pass, &mut found)
+                })?;
+                group.count = 0;
+            }
+        }
+        // Steps of one interval stand in their order.
+        found.sort_by_key(|points| points.knot);
+        Ok(found)
+    }
+
+    /// Goes through the knots in order of time: events, near decisions, energies, sums.
+    fn in_order(&mut self, all: &Knots, told: &Told, near: &[Points]) {
+        let (h, knots) = (self.h, self.h.len());
+        let before = self.modes_at_start();
+        self.events.begin(h, &before);
+        for i in 0..h.interfaces {
+            self.dips[i] = self.fresh_dips(0, i);
+        }
+        let (mut arrives, mut near) = (false, near);
+        for k in 0..knots {
+            if k > 0 {
+                self.join(k, !arrives);
+            }
+            self.energy.knot(all.kinetic_j[k], all.strain_j[k]);
+            let leaves = k + 1 < knots && h.time_s[k + 1] > h.time_s[k];
+            if leaves {
+                let count = near.iter().take_while(|points| points.knot == k).count();
+                let (own, later) = near.split_at(count);
+                near = later;
+                self.recall(k, told, own);
+            } else if !arrives {
+                self.alone(k);
+            }
+            arrives = leaves;
+        }
+        for (i, mode) in h.modes(knots - 1).iter().enumerate() {
+            self.close(i, *mode);
+        }
+        for call in self.near_misses() {
+            self.nearest(call);
+        }
+    }
+
+    /// Passes from the knot before `k` to `k`; `abreast` where both have the same time.
+    fn join(&mut self, k: usize, abreast: bool) {
+        let h = self.h;
+        let (before, after) = (h.modes(k - 1), h.modes(k));
+        let struck = abreast && self.strikes(k);
+        if abreast {
+            if !struck {
+                let other: Vec<[f64; 2]> =
+                    (0..self.structure.degrees()).map(|i| self.stored(k - 1, i)).collect();
+                self.compare(k, |i| other[i]);
+            }
+            let surfaces = h.surface_displacements(k).iter();
+            for (a, b) in surfaces.zip(h.surface_displacements(k - 1)) {
+                self.figures.displacement[0] = larger(self.figures.displacement[0], a - b);
+            }
+        }
+        for i in 0..after.len() {
+            if before[i] != after[i] {
+                let [_, v] = self.stored(k, self.structure.degree_of(i));
+                if !struck {
+                    self.figures.velocity[0] = larger(self.figures.velocity[0], v);
+                }
+                self.close(i, before[i]);
+                self.dips[i] = self.fresh_dips(k, i);
+            }
+        }
+        if struck {
+            let damping = self.lost_in_impact(k);
+            self.energy.spend(&Spent { damping, ..Spent::default() });
+        }
+        if struck || before != after || !h.contact.is_empty() {
+            self.events.pass(h, k, struck);
+        }
+    }
+
+    /// Takes up what was told of an interval, and looks at its points where a decision may have been close.
+    fn recall(&mut self, k: usize, told: &Told, near: &[Points]) {
+        let h = self.h;
+        let (modes, times_s) = (h.modes(k), [h.time_s[k], h.time_s[k + 1]]);
+        self.energy.spend(&told.spent[k]);
+        let slack_m = 8.0 * f64::EPSILON * self.figures.displacement[1];
+        let leans = self.law.restitution().is_some()
+            && self.law.leans(h.sliding_displacement_m[k], slack_m) != [false; 2];
+        self.totals.add(modes, self.contact(k), times_s[1] - times_s[0], leans);
+        for (i, mode) in modes.iter().enumerate() {
+            if *mode != Mode::Stick {
+                let at = self.structure.degree_of(i);
+                let [[from, _], [to, _]] = [k, k + 1].map(|k| self.stored(k, at));
+                self.totals.interfaces[i].path_m += (to - from).abs();
+            }
+        }
+        if h.surfaces > 0 {
+            self.surfaces(k);
+        }
+        for (i, mode) in modes.iter().enumerate() {
+            let watch = told.watch[k * h.interfaces + i];
+            if !near.is_empty() {
+                self.dips[i].resume(times_s);
+                match mode {
+                    Mode::Stick => near.iter().for_each(|points| self.held(i, points)),
+                    Mode::Slip(direction) => self.slid(i, *direction, near),
+                }
+                continue;
+            }
+            let least = self.dips[i].so_far();
+            let floor = match mode {
+                Mode::Stick => self.floor.min(least).max(0.0),
+                Mode::Slip(direction) if self.drops(i, *direction) => {
+                    (self.floor * self.speed(i)).min(least)
+                }
+                Mode::Slip(_) => f64::NEG_INFINITY,
+            };
+            let [first, last] = watch.ends;
+            if first.min(last) < floor {
+                self.dips[i].resume(times_s);
+                self.dips[i].feed(times_s[0], first);
+                self.dips[i].feed(times_s[1], last);
+            }
+            self.dips[i].see(watch.fastest);
+        }
+        if self.contact(k) != Contact::Free && modes[0] != Mode::Stick {
+            self.against_stop(k, near);
+        }
+    }
+
+    /// Judges surfaces in series from the knot `k` to the next.
+    fn surfaces(&mut self, k: usize) {
+        let h = self.h;
+        let [from, to] = [k, k + 1].map(|k| h.surface_displacements(k));
+        let Some(sliding) = self.sliding(k, h.modes(k)[0]) else {
+            for (own, stored) in from.iter().zip(to) {
+                self.figures.displacement[0] = larger(self.figures.displacement[0], own - stored);
+            }
+            return;
+        };
+        let moved = h.sliding_displacement_m[k + 1] - h.sliding_displacement_m[k];
+        let own = sliding.displacements(from, moved);
+        let fastest = self.attained[VELOCITY];
+        for (own, stored) in own.iter().zip(to) {
+            let off = (own - stored).abs() - self.instant_s * fastest - self.drift[0];
+            self.figures.displacement[0] = larger(self.figures.displacement[0], excess(off));
+        }
+        let normal = self.ground.instant(h.time_s[k + 1])[0].normal;
+        let broken = self.law.series_excess(&sliding, &own, moved);
+        self.figures.excess = larger(self.figures.excess, excess(normal * broken));
+        self.events.slides_on(h, k, sliding.active());
+    }
+
+    /// Judges an elastic stop that acts or is left at the points of an interval.
+    fn against_stop(&mut self, k: usize, near: &[Points]) {
+        for points in near {
+            let [s, w] = [0, 1].map(|i| points.values[self.h.interfaces + i]);
+            let fastest = w.iter().fold(0.0, |most: f64, w| most.max(w.abs()));
+            for (s, w) in s.into_iter().zip(w) {
+                let broken = self.law.contact_excess(self.contact(k), (s, w), self.slack(fastest));
+                self.figures.excess = larger(self.figures.excess, broken);
+            }
+        }
+    }
+
+    /// Judges a step of a stick from what is asked at its points.
+    fn held(&mut self, i: usize, points: &Points) {
+        let rule = Rule::get();
+        let step = &points.step;
+        let values = &points.values[i];
+        let load = |t: f64| between(step.loads, t);
+        let k = points.knot;
+        let hold = self.course(k, self.h.modes(k), Feed::default()).hold;
+        let mass_kg = self.stuck_mass(k, i);
+        let rounding = self.rounding(i, mass_kg, &step.loads[0]);
+        let mut margins = [f64::NAN; POINTS];
+        for point in 0..POINTS {
+            let normal = load(rule.points[point]).normal;
+            let asked = self.asked_in(i, values[point], hold, normal);
+            self.figures.excess = larger(self.figures.excess, excess(asked.beyond() - rounding));
+            margins[point] = asked.margin().unwrap_or(f64::NAN);
+        }
+        if margins.iter().any(|m| m.is_nan()) {
+            self.dips[i].interrupt();
+            return;
+        }
+        let inner = dip(&margins);
+        let flat = margins.iter().all(|m| (m - margins[0]).abs() <= 1e-12);
+        for point in 0..POINTS {
+            let (mut t, mut margin) = (rule.points[point], margins[point]);
+            if inner == Some(point) {
+                let cost = |t: f64, value: f64| {
+                    self.asked_in(i, value, hold, load(t).normal).margin().unwrap_or(f64::INFINITY)
+                };
+                (t, margin) = rule.least(values, point, cost);
+                let bound = self.asked_in(i, values[point], hold, load(t).normal).bound();
+                self.figures.excess =
+                    larger(self.figures.excess, excess(-margin * bound - rounding));
+            }
+            self.dips[i].feed(step.from_s + t * step.step_s, margin);
+        }
+        // A plateau near the bound is as close a call as a maximum, if it is no sliver of one.
+        let long = step.step_s > 1e6 * self.instant_s;
+        if flat && long && margins[0] < 1.0 {
+            self.dips[i].take(step.from_s, margins[0]);
+        }
+    }
+
+    /// Judges the steps of a slip from the speed, in the direction claimed, at their points.
+    fn slid(&mut self, i: usize, direction: Direction, near: &[Points]) {
+        let rule = Rule::get();
+        let mut astray = [0.0; 2];
+        let per_n = match i.checked_sub(1).map(|e| &self.structure.contents[e]) {
+            None => self.law.wrong_way(),
+            Some(contents) => {
+                let mu = contents.kinetic_friction.max(0.5 * contents.static_friction);
+                2.0 * mu * contents.mass_kg / self.structure.total_kg
+            }
+        };
+        for points in near {
+            let (step, speeds) = (&points.step, &points.values[i]);
+            let inner = dip(speeds);
+            for point in 0..POINTS {
+                let (mut t, mut speed) = (rule.points[point], speeds[point]);
+                if inner == Some(point) {
+                    (t, speed) = rule.least(speeds, point, |_, speed| speed);
+                }
+                if speed < -self.still || speed.is_nan() {
+                    let force = per_n * between(step.loads, t).normal;
+                    astray = [larger(astray[0], speed), larger(astray[1], force)];
+                }
+                self.dips[i].feed(step.from_s + t * step.step_s, speed);
+            }
+        }
+        // What the knot's own defect and the rounding of times explain is no sign.
+        let (Some(first), Some(last)) = (near.first(), near.last()) else { return };
+        let at = self.structure.degree_of(i);
+        let k = first.knot;
+        let [_, stored] = self.stored(k + 1, at);
+        let defect = (direction.sign() * stored - last.values[i][POINTS - 1]).abs();
+        let jerked = [k, k + 1].map(|k| self.acceleration(k, at).abs());
+        let blur = defect + self.instant_s * jerked[0].max(jerked[1]);
+        if astray[0] > self.still + blur {
+            self.figures.excess = larger(self.figures.excess, astray[1]);
+        }
+    }
+
+    /// `ẍ` of a degree from the accelerations stored at a knot.
+    fn acceleration(&self, k: usize, degree: usize) -> f64 {
+        let (h, n) = (self.h, self.h.storeys);
+        let floor = |floor: usize| match floor {
+            0 => h.block_acceleration_m_per_s2[k],
+            i => h.storey_accelerations(k)[i - 1],
+        };
+        match degree {
+            0 => floor(0) - h.table_acceleration_m_per_s2[k],
+            i if i <= n => floor(i) - floor(0),
+            i => {
+                let e = i - 1 - n;
+                h.contents_state(k, e)[2] - floor(self.structure.contents[e].floor)
+            }
+        }
+    }
+
+    /// Judges a knot at which no interval ends or begins by the load that suits it best.
+    fn alone(&mut self, k: usize) {
+        let h = self.h;
+        let w = h.sliding_velocity_m_per_s[k];
+        let per_n = match h.modes(k)[0] {
+            Mode::Stick => None,
+            Mode::Slip(direction) => Some(match self.sliding(k, h.modes(k)[0]) {
+                Some(sliding) => -sliding.force(0.0),
+                None => {
+                    let factor =
+                        self.law.rate.as_ref().map_or(1.0, |rate| rate.coefficients([w.abs()])[0]);
+                    self.law.sliding_load(direction) * factor
+                }
+            }),
+        };
+        let (mut table, mut force) = (f64::INFINITY, f64::INFINITY);
+        for load in self.ground.instant(h.time_s[k]) {
+            let off = (load.table - h.table_acceleration_m_per_s2[k]).abs();
+            table = table.min((off - self.instant_s * load.slope.abs()).max(0.0));
+            let off =
+                per_n.map_or(0.0, |per_n| (h.friction_force_n[k] - per_n * load.normal).abs());
+            let rounding = self.law.most() * load.normal_rounding(self.ground.blur());
+            force = force.min(excess(off - rounding));
+        }
+        self.figures.table[0] = larger(self.figures.table[0], table);
+        self.figures.excess = larger(self.figures.excess, force);
+    }
+
+    /// Keeps the least margin; rounding may leave one a little below 0.
+    pub(super) fn nearest(&mut self, call: ClosestCall) {
+        let call = ClosestCall { margin: call.margin.abs(), ..call };
+        if self.closest.is_none_or(|closest| call.margin < closest.margin) {
+            self.closest = Some(call);
+        }
+    }
+
+    fn fresh_dips(&self, k: usize, i: usize) -> Dips {
+        Dips::new(if self.h.modes(k)[i] == Mode::Stick { 1e-12 } else { self.still })
+    }
+
+    /// Ends a phase of an interface: its near decisions are known.
+    fn close(&mut self, i: usize, mode: Mode) {
+        let call = match mode {
+            Mode::Stick => self.dips[i].least(i),
+            Mode::Slip(direction) if self.drops(i, direction) => self.dips[i].least_of_peak(i),
+            Mode::Slip(_) => None,
+        };
+        if let Some(call) = call {
+            self.nearest(call);
+        }
     }
 
     fn certificate(self, bound: f64) -> Certificate {
@@ -485,14 +967,19 @@ impl<'a> Judge<'a> {
         let near = |scale: f64| 64.0 * f64::EPSILON * scale;
         let rounding = Rounding {
             instant_s: self.instant_s,
-            displacement_m: near(f.displacement[1]),
-            velocity_m_per_s: near(f.velocity[1]) + self.jolt,
+            displacement_m: near(f.displacement[1]) + self.drift[0],
+            velocity_m_per_s: near(f.velocity[1]) + self.jolt + self.drift[1],
             force_n: near(f.force[1])
                 + self.unsure_n
                 + self.law.rounding(&self.ground, self.instant_s, normal),
         };
-        let own = (&self.peaks, &self.totals);
-        let demands_error = demands::error(self.model, self.response, self.history, own, &rounding);
+        let own = demands::Own {
+            outputs: &self.outputs,
+            peaks: &self.attained,
+            totals: &self.totals,
+            events: &self.events,
+        };
+        let demands_error = demands::error(self.model, self.response, self.h, &own, &rounding);
         Certificate {
             equilibrium_residual: equilibrium.into_iter().fold(0.0, larger),
             friction_excess: relative([f.excess, self.law.scale(normal, weight)]),
@@ -501,263 +988,6 @@ impl<'a> Judge<'a> {
             closest_call: self.closest,
             bound,
             energy: self.energy.history,
-        }
-    }
-
-    fn x(&self) -> &[f64] {
-        &self.stored[..self.stored.len() / 2]
-    }
-
-    fn v(&self) -> &[f64] {
-        &self.stored[self.stored.len() / 2..]
-    }
-
-    /// Reads the stored state of a knot.
-    fn load_state(&mut self, k: usize) {
-        let h = self.history;
-        let (x, v) = self.stored.split_at_mut(self.structure.degrees());
-        x[0] = h.sliding_displacement_m[k];
-        v[0] = h.sliding_velocity_m_per_s[k];
-        x[1..].copy_from_slice(h.storey_displacements(k));
-        v[1..].copy_from_slice(h.storey_velocities(k));
-    }
-
-    /// Compares the stored state with another, entry by entry.
-    fn compare(&mut self, other: &[f64]) {
-        let d = self.structure.degrees();
-        for (i, (stored, other)) in self.stored.iter().zip(other).enumerate() {
-            let figure =
-                if i < d { &mut self.figures.displacement } else { &mut self.figures.velocity };
-            figure[0] = larger(figure[0], stored - other);
-        }
-    }
-
-    /// Compares the state integrated from the knot `k` with the stored one at the next, less what
-    /// the motion changes within the rounding of their times.
-    fn arrive(&mut self, k: usize, end: &[f64]) {
-        let d = self.structure.degrees();
-        for i in 0..d {
-            let [from, to] = [k, k + 1].map(|k| self.stored_acceleration(k, i).abs());
-            for (at, rate, figure) in [
-                (i, self.fastest[i], &mut self.figures.displacement),
-                (d + i, from.max(to), &mut self.figures.velocity),
-            ] {
-                let defect = (self.stored[at] - end[at]).abs() - self.instant_s * rate;
-                figure[0] = larger(figure[0], excess(defect));
-            }
-        }
-    }
-
-    /// `s̈` or `q̈_i` from the accelerations stored at a knot.
-    fn stored_acceleration(&self, k: usize, degree: usize) -> f64 {
-        let block = self.history.block_acceleration_m_per_s2[k];
-        match degree.checked_sub(1) {
-            None => block - self.history.table_acceleration_m_per_s2[k],
-            Some(storey) => self.history.storey_accelerations(k)[storey] - block,
-        }
-    }
-
-    /// The first knot has the model's initial state, and a block at rest that slides was pushed.
-    fn start(&mut self) {
-        let initial = self.model.initial();
-        let mut state = vec![initial.sliding_displacement_m];
-        state.extend(self.model.initial_storey_displacement_m());
-        state.push(initial.sliding_velocity_m_per_s);
-        state.extend(self.model.initial_storey_velocity_m_per_s());
-        self.compare(&state);
-        if initial.sliding_velocity_m_per_s == 0.0 {
-            self.change(0, Mode::Stick, self.history.mode[0]);
-        }
-    }
-
-    /// Passes from the knot before `k` to `k`; `abreast` where both have the same time.
-    fn join(&mut self, k: usize, abreast: bool) {
-        let (before, after) = (self.history.mode[k - 1], self.history.mode[k]);
-        if abreast {
-            self.load_state(k - 1);
-            let other = self.stored.clone();
-            self.load_state(k);
-            self.compare(&other);
-        }
-        if before != after {
-            self.load_state(k);
-            let speed = self.stored[self.structure.degrees()];
-            self.figures.velocity[0] = larger(self.figures.velocity[0], speed);
-            self.close(before);
-            self.change(k, before, after);
-            self.dips = self.fresh_dips(k);
-        }
-    }
-
-    /// What the rounding of times makes of the demand on a block at rest, less what holds it, in N.
-    pub(super) fn rounding(&self, load: &Load) -> f64 {
-        let most = self.law.fixed()[0].max(self.law.fixed()[1]);
-        load.rounding((self.instant_s, self.largest.0), self.structure.block_kg, most)
-    }
-
-    /// Judges the decision between two modes at the knot `k`, where the block has no velocity.
-    ///
-    /// The knot's own side of a jump decides.
-    fn change(&mut self, k: usize, before: Mode, after: Mode) {
-        if before == after {
-            return;
-        }
-        let h = self.history;
-        let table = h.table_acceleration_m_per_s2[k];
-        let loads = self.ground.instant(h.time_s[k]);
-        let stop = self.law.push(self.contact(k)).force(self.x()[0], 0.0);
-        let judged = |load: &Load| {
-            let demand = self.structure.demand(self.x(), self.v(), load.a) + stop;
-            let bound = self.law.bound(demand, load.normal);
-            let drift = self.model.block().mass_kg * load.slope.abs() * self.instant_s / bound;
-            let margin = self.law.margin(demand, load.normal).map(|margin| (margin, drift));
-            let rounding = self.rounding(load);
-            let forbidden = excess(self.law.forbids(after, demand, load.normal) - rounding);
-            (forbidden, margin, rounding)
-        };
-        // What a jump passes on its way lets go too.
-        let side = of_side(&loads, table);
-        let passed = if before == Mode::Stick { &loads[..] } else { &side[..] };
-        let best = passed.iter().map(judged).reduce(|a, b| if b.0 < a.0 { b } else { a });
-        // Distances that are not numbers leave no candidate.
-        let (excess, margin, rounding) = best.unwrap_or((f64::INFINITY, None, 0.0));
-        self.figures.excess = larger(self.figures.excess, excess);
-        if !self.ground.has_sample(h.time_s[k]) {
-            self.unsure_n = larger(self.unsure_n, rounding);
-        }
-        if let (true, Some((margin, drift))) = (before != Mode::Stick, margin) {
-            if self.totals.closest_stop.is_none_or(|least| margin.abs() < least) {
-                self.totals.closest_stop = Some(margin.abs());
-                self.totals.stop_rounding = drift + 1e3 * f64::EPSILON;
-            }
-            let time_s = h.time_s[k];
-            self.nearest(ClosestCall { margin, time_s, kind: "stop", interface: 0 });
-        }
-    }
-
-    /// Keeps the least margin; rounding may leave one a little below 0.
-    fn nearest(&mut self, call: ClosestCall) {
-        let call = ClosestCall { margin: call.margin.abs(), ..call };
-        if self.closest.is_none_or(|closest| call.margin < closest.margin) {
-            self.closest = Some(call);
-        }
-    }
-
-    fn fresh_dips(&self, k: usize) -> Dips {
-        Dips::new(if self.history.mode[k] == Mode::Stick { 1e-12 } else { self.still })
-    }
-
-    /// Ends a phase: its near decisions are known.
-    fn close(&mut self, mode: Mode) {
-        let call = match mode {
-            Mode::Stick => self.dips.least(0),
-            Mode::Slip(direction) if self.law.drops(direction) => self.dips.least_of_peak(0),
-            Mode::Slip(_) => None,
-        };
-        if let Some(call) = call {
-            self.nearest(call);
-        }
-    }
-
-    /// How far the stored table acceleration and force of sliding at a knot are off those of a load.
-    fn off(&self, k: usize, load: &Load) -> [f64; 2] {
-        let h = self.history;
-        // The stored time is rounded, the acceleration stored with it need not be.
-        let table = (load.table - h.table_acceleration_m_per_s2[k]).abs();
-        let w = h.sliding_velocity_m_per_s[k];
-        let beyond = match h.mode[k] {
-            Mode::Stick => 0.0,
-            Mode::Slip(claimed) => {
-                let direction = if w.abs() <= self.still {
-                    claimed
-                } else if w > 0.0 {
-                    Direction::Positive
-                } else {
-                    Direction::Negative
-                };
-                self.law.sliding_excess(h.friction_force_n[k], (direction, w), load.normal)
-            }
-        };
-        [(table - self.instant_s * load.slope.abs()).max(0.0), beyond]
-    }
-
-    /// Judges the stored values of a knot with the load of an interval that ends or begins there.
-    fn side(&mut self, k: usize, load: &Load) {
-        let [table, beyond] = self.off(k, load);
-        self.figures.table[0] = larger(self.figures.table[0], table);
-        self.figures.excess = larger(self.figures.excess, beyond);
-    }
-
-    /// Judges a knot at which no interval ends or begins by the load that suits it best.
-    fn alone(&mut self, k: usize) {
-        let offs = self.ground.instant(self.history.time_s[k]).map(|load| self.off(k, &load));
-        let least = |i: usize| offs.iter().map(|off| off[i]).fold(f64::INFINITY, f64::min);
-        self.figures.table[0] = larger(self.figures.table[0], least(0));
-        self.figures.excess = larger(self.figures.excess, least(1));
-    }
-
-    /// What the rounding of times makes of a position at this speed, and of the force of the stop.
-    pub(super) fn contact_slack(&self, w: f64) -> [f64; 2] {
-        let slack_m = self.instant_s * w.abs() + 8.0 * f64::EPSILON * self.figures.displacement[1];
-        [slack_m, self.structure.stop_damper() * self.jolt]
-    }
-
-    /// Integrates from the knot `k` to the next.
-    fn interval(&mut self, k: usize, look: Look) -> Result<(), Stopped> {
-        let mode = self.history.mode[k];
-        let contact = self.contact(k);
-        let phase = match (mode, contact) {
-            (Mode::Stick, _) => Phase::Stick,
-            (_, Contact::Pressed(_)) => Phase::Pressed,
-            _ => Phase::Slip,
-        };
-        let d = self.structure.degrees();
-        self.load_state(k);
-        self.state.copy_from_slice(&self.stored);
-        if phase == Phase::Stick {
-            self.state[d] = 0.0;
-        }
-        let (mut from_s, end_s) = (self.history.time_s[k], self.history.time_s[k + 1]);
-        self.astray = [0.0; 2];
-        self.fastest.fill(0.0);
-        if look == Look::All {
-            self.totals.add(mode, contact, end_s - from_s);
-        }
-        self.resume(k);
-        if self.spreads[phase as usize].is_none() {
-            self.prepare(phase);
-        }
-        let mut first = None;
-        loop {
-            let piece = self.ground.piece(from_s, end_s);
-            let steps = self.scheme.begin(phase, piece.to_s - from_s);
-            let step_s = (piece.to_s - from_s) / steps as f64;
-            for j in 0..steps {
-                self.pulse.beat(self.units)?;
-                let loads = [j, j + 1].map(|j| between(piece.loads, j as f64 / steps as f64));
-                self.step((mode, contact), from_s + j as f64 * step_s, step_s, loads, look);
-            }
-            let first = *first.get_or_insert(piece.loads[0]);
-            from_s = piece.to_s;
-            if from_s < end_s {
-                continue;
-            }
-            self.load_state(k + 1);
-            let end = core::mem::take(&mut self.state);
-            if look == Look::All {
-                self.arrive(k, &end);
-                self.side(k, &first);
-                self.side(k + 1, &piece.loads[1]);
-            }
-            // What the knot's own defect and the rounding of times explain is no sign.
-            let defect = (self.stored[d] - end[d]).abs();
-            let jerked = [k, k + 1].map(|k| self.stored_acceleration(k, 0).abs());
-            let blur = defect + self.instant_s * jerked[0].max(jerked[1]);
-            if self.astray[0] > self.still + blur {
-                self.figures.excess = larger(self.figures.excess, self.astray[1]);
-            }
-            self.state = end;
-            return Ok(());
         }
     }
 }
@@ -781,18 +1011,6 @@ fn common_step(times_s: &[f64], same_s: f64) -> f64 {
     }
     let count = lengths().filter(|length_s| same(*length_s, step_s)).count();
     if step_s > 0.0 && 2 * count > times_s.len() - 1 { step_s } else { f64::NAN }
-}
-
-/// The load at a fraction of a stretch.
-pub(super) fn between([from, to]: [Load; 2], t: f64) -> Load {
-    let linear = |from: f64, to: f64| from + (to - from) * t;
-    Load {
-        table: linear(from.table, to.table),
-        a: linear(from.a, to.a),
-        normal: linear(from.normal, to.normal),
-        slope: from.slope,
-        normal_slope: from.normal_slope,
-    }
 }
 
 #[cfg(test)]
@@ -858,10 +1076,10 @@ mod tests {
             for tail_s in [0.0, 1.0, 1.0037] {
                 let (model, motion, response) = wrong(n, 800, tail_s);
                 assert_eq!(motion.dt_s().is_none(), tail_s > 0.0);
-                let structure = Structure::new(&model);
+                let structure = Structure::new(&model, false);
                 let history = response.history.as_ref().unwrap();
                 let (given, pulse) = ((&response, history), Pulse::new(UNWATCHED));
-                let law = Law::new(&model);
+                let law = Law::new(&model, false);
                 let mut judge = Judge::new(&model, &motion, given, (&structure, &law), pulse);
                 let knots = judge.knots().unwrap().unwrap();
                 judge.side_by_side(&knots).unwrap();
@@ -891,11 +1109,11 @@ mod tests {
         }
         for n in [0, 1, 3] {
             let (model, motion, response) = wrong(n, 99, 0.0);
-            let structure = Structure::new(&model);
+            let structure = Structure::new(&model, false);
             let of = |level| {
                 let history = response.history.as_ref().unwrap();
                 let (given, pulse) = ((&response, history), Pulse::new(UNWATCHED));
-                let law = Law::new(&model);
+                let law = Law::new(&model, false);
                 let mut judge = Judge::new(&model, &motion, given, (&structure, &law), pulse);
                 judge.level = level;
                 judge.run(1e-10).unwrap().unwrap()

@@ -1,20 +1,61 @@
-//! The friction law as a judge reads it, and the decisions that came close.
+//! The laws of friction and stop as a judge reads them.
 
-use super::ClosestCall;
-use super::collocation::{POINTS, Rule};
 use super::ground::Ground;
 use super::rate::RateFriction;
 use super::structure::{excess, larger};
 use crate::model::{Model, Stop, StopKind};
-use crate::response::{Contact, EventKind, Mode};
-use crate::slider::Direction;
+use crate::response::{Contact, Mode};
+use crate::slider::{Direction, Surface, SurfacesInSeries};
 
-/// Bounds and kinetic forces from the coefficients, for each direction.
+/// Thresholds of surfaces closer than this part of the largest are the same.
+const SAME: f64 = 1e-13;
+/// A threshold is passed by less than this part of the friction within the rounding of the times.
+const PASSED: f64 = 1e-10;
+/// A surface is at its end from this part of its travel on: bounces at a stop leave it by little more.
+const AT_END: f64 = 1.0 - 4.0 * f64::EPSILON;
+
+/// What friction is asked for and between which forces it holds, in N.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Asked {
+    pub(super) demand: f64,
+    pub(super) low: f64,
+    pub(super) high: f64,
+}
+
+impl Asked {
+    /// How far the demand lies beyond what holds, in N; negative within.
+    pub(super) fn beyond(&self) -> f64 {
+        (self.demand - self.high).max(self.low - self.demand)
+    }
+
+    /// What a margin is measured by.
+    pub(super) fn bound(&self) -> f64 {
+        if self.low <= 0.0 && self.high >= 0.0 {
+            return if self.demand > 0.0 { self.high } else { -self.low };
+        }
+        self.low.abs().max(self.high.abs())
+    }
+
+    /// Distance from the nearest bound over the larger one, or over the one that the demand is on the
+    /// side of, negative beyond; `None` without a bound.
+    pub(super) fn margin(&self) -> Option<f64> {
+        let (bound, straddles) = (self.bound(), self.low <= 0.0 && self.high >= 0.0);
+        if straddles {
+            return (bound > 0.0).then(|| 1.0 - self.demand.abs() / bound);
+        }
+        (self.high > self.low && bound.is_finite()).then(|| -self.beyond() / bound)
+    }
+}
+
+/// Bounds and kinetic forces for each direction, restoring forces that follow `N`, and the stop.
 pub(super) struct Law {
     fixed: [f64; 2],
     kinetic: [f64; 2],
     /// In place of the kinetic coefficients, where there is one.
     pub(super) rate: Option<RateFriction>,
+    pub(super) series: Option<SurfacesInSeries>,
+    /// Of a pendulum whose spring follows `N`.
+    radius_m: Option<f64>,
     stop: Option<Stop>,
 }
 
@@ -23,13 +64,18 @@ pub(super) struct Law {
 pub(super) struct Push {
     stiffness: f64,
     damper: f64,
-    pub(super) shift: f64,
+    shift: f64,
 }
 
 impl Push {
     /// Force of the block on the stop towards +x.
     pub(super) fn force(&self, s: f64, w: f64) -> f64 {
         self.stiffness * s + self.damper * w - self.shift
+    }
+
+    /// Stiffness, damper and shift.
+    pub(super) fn numbers(&self) -> [f64; 3] {
+        [self.stiffness, self.damper, self.shift]
     }
 
     /// What its spring has stored: `(k s − shift)²/(2 k)`.
@@ -39,19 +85,162 @@ impl Push {
     }
 }
 
-impl Law {
-    /// Static coefficients towards +x and −x.
-    pub(super) fn fixed(&self) -> [f64; 2] {
-        self.fixed
+/// A slip on surfaces in series: which slide, and the force over the normal force.
+#[derive(Clone, Debug)]
+pub(super) struct Sliding {
+    shares: Vec<f64>,
+    /// Signed force at the knot, and its slope over `s`.
+    phi: f64,
+    slope: f64,
+    direction: Direction,
+}
+
+impl Sliding {
+    /// `F/N` after a displacement.
+    pub(super) fn force(&self, moved: f64) -> f64 {
+        self.phi + self.slope * moved
     }
 
-    pub(super) fn new(model: &Model) -> Self {
+    /// `p₀, p₁` of `T/N = p₀ − p₁ s` in a slip that begins at `s`.
+    pub(super) fn friction(&self, s: f64) -> [f64; 2] {
+        [self.slope * s - self.phi, self.slope]
+    }
+
+    /// Displacements of the surfaces after one, from those at the knot.
+    pub(super) fn displacements(&self, from: &[f64], moved: f64) -> Vec<f64> {
+        from.iter().zip(&self.shares).map(|(u, share)| u + share * moved).collect()
+    }
+
+    /// Which slide.
+    pub(super) fn active(&self) -> Vec<bool> {
+        self.shares.iter().map(|share| *share > 0.0).collect()
+    }
+}
+
+/// Whether a surface has no travel left one way, after a displacement that way.
+fn is_at_end(surface: &Surface, u: f64) -> bool {
+    surface.travel_m.is_some_and(|travel_m| u >= travel_m * AT_END)
+}
+
+impl Law {
+    pub(super) fn new(model: &Model, vertical: bool) -> Self {
         Self {
             fixed: model.static_friction(),
             kinetic: model.kinetic_friction(),
             rate: RateFriction::new(model),
+            series: model.slider().series().cloned(),
+            radius_m: model.slider().pendulum_radius_m(vertical),
             stop: model.stop().copied(),
         }
+    }
+
+    /// The largest coefficient at rest.
+    pub(super) fn most(&self) -> f64 {
+        self.fixed[0].max(self.fixed[1])
+    }
+
+    /// What the rounding of times and of vertical motion makes of a force of friction at most.
+    pub(super) fn rounding(&self, ground: &Ground<'_>, instant_s: f64, normal: f64) -> f64 {
+        self.most() * ground.normal_rounding(instant_s, normal)
+    }
+
+    /// `1/R` of a spring that follows `N`.
+    pub(super) fn curvature_per_m(&self) -> f64 {
+        self.radius_m.map_or(0.0, |radius_m| 1.0 / radius_m)
+    }
+
+    /// Whether the spring follows the normal force.
+    pub(super) fn is_pendulum(&self) -> bool {
+        self.radius_m.is_some()
+    }
+
+    /// `T/N` of sliding: with friction by speed what `μ(|ṡ|)` multiplies.
+    pub(super) fn sliding_load(&self, direction: Direction) -> f64 {
+        let mu = match &self.rate {
+            Some(rate) => rate.factor(direction),
+            None => self.kinetic[index(direction)],
+        };
+        -direction.sign() * mu
+    }
+
+    /// `μ_k` at rest.
+    fn kinetic_at_rest(&self, direction: Direction) -> f64 {
+        let factor = self.rate.as_ref().map_or(1.0, |rate| rate.coefficients([0.0])[0]);
+        self.sliding_load(direction).abs() * factor
+    }
+
+    /// Whether a slip in this direction could turn into a stick without slowing down to it smoothly.
+    pub(super) fn drops(&self, direction: Direction) -> bool {
+        match &self.series {
+            Some(series) => series.static_ratio() > 1.0,
+            None => self.kinetic_at_rest(direction) < self.fixed[index(direction)],
+        }
+    }
+
+    /// `|T + μ_k N sgn ṡ|` over `N` for a slip whose velocity has the wrong sign. Where no kinetic
+    /// friction tells the directions apart the static one stands for it: eq. (4) was not asked at ṡ = 0.
+    pub(super) fn wrong_way(&self) -> f64 {
+        let [positive, negative] =
+            [Direction::Positive, Direction::Negative].map(|way| self.kinetic_at_rest(way));
+        let excess = if self.series.is_some() { 0.0 } else { positive + negative };
+        if excess > 0.0 { excess } else { self.most() }
+    }
+
+    /// What the laws add to the rates of a slip, in 1/s: for a normal force over the block's mass, and
+    /// the largest acceleration of the block over the table.
+    pub(super) fn added_rate(&self, normal: f64, acceleration: f64) -> f64 {
+        let mut rate = libm::sqrt(normal * self.curvature_per_m());
+        if let Some(series) = &self.series {
+            let radii = series.surfaces().iter().filter_map(|surface| surface.radius_m);
+            rate += libm::sqrt(normal / radii.fold(f64::INFINITY, f64::min));
+        }
+        rate + self.rate.as_ref().map_or(0.0, |r| r.rate(normal, acceleration, self.most()))
+    }
+
+    /// Restitution of a rigid stop.
+    pub(super) fn restitution(&self) -> Option<f64> {
+        match self.stop.as_ref()?.kind {
+            StopKind::Rigid { restitution } => Some(restitution),
+            StopKind::Elastic { .. } => None,
+        }
+    }
+
+    /// Where the rigid stop of a direction stands.
+    pub(super) fn wall(&self, direction: Direction) -> Option<f64> {
+        self.restitution()?;
+        Some(direction.sign() * self.stop.as_ref()?.gap_towards(direction)?)
+    }
+
+    /// By how much `s` lies beyond a rigid stop, in m.
+    pub(super) fn beyond_walls(&self, s: f64) -> f64 {
+        let beyond = |side: Direction| Some(side.sign() * (s - self.wall(side)?));
+        let sides = [Direction::Positive, Direction::Negative].into_iter().filter_map(beyond);
+        sides.fold(0.0, f64::max)
+    }
+
+    /// Against which stops a block at `s` rests.
+    pub(super) fn leans(&self, s: f64, slack_m: f64) -> [bool; 2] {
+        [Direction::Positive, Direction::Negative]
+            .map(|side| self.wall(side).is_some_and(|wall| side.sign() * (s - wall) >= -slack_m))
+    }
+
+    /// Least and largest `T/N` that hold a block at rest with surfaces in series at these displacements:
+    /// `max(u/R − r μ) ≤ F/N ≤ min(u/R + r μ)`, and `T = −F`.
+    pub(super) fn hold(&self, surfaces: &[f64]) -> [f64; 2] {
+        let Some(series) = &self.series else { return [-self.fixed[0], self.fixed[1]] };
+        let (mut least, mut most) = (f64::NEG_INFINITY, f64::INFINITY);
+        for (u, surface) in surfaces.iter().zip(series.surfaces()) {
+            let place = surface.radius_m.map_or(0.0, |radius_m| u / radius_m);
+            let friction = series.static_ratio() * surface.friction;
+            let travel_m = surface.travel_m.unwrap_or(f64::INFINITY);
+            if *u > -travel_m * AT_END {
+                least = least.max(place - friction);
+            }
+            if *u < travel_m * AT_END {
+                most = most.min(place + friction);
+            }
+        }
+        [-most, -least]
     }
 
     /// What the stop does, zero where it does not act.
@@ -104,100 +293,111 @@ impl Law {
         }
     }
 
-    /// What the rounding of times and of vertical motion makes of a force of friction at most.
-    pub(super) fn rounding(&self, ground: &Ground<'_>, instant_s: f64, normal: f64) -> f64 {
-        self.fixed[0].max(self.fixed[1]) * ground.normal_rounding(instant_s, normal)
-    }
-
     /// Largest `μ_s N`, or the weight where that is 0: the scale of [`super::Certificate::friction_excess`].
     pub(super) fn scale(&self, normal: f64, weight: f64) -> f64 {
         let bound = self.fixed[0].max(self.fixed[1]) * normal;
         if bound > 0.0 { bound } else { weight }
     }
 
-    /// `T = −μ_k N sgn ṡ`; with friction by speed what [`speed_factor`](Self::speed_factor) multiplies.
-    pub(super) fn sliding_load(&self, direction: Direction, normal: f64) -> f64 {
-        let mu = match &self.rate {
-            Some(rate) => rate.factor(direction),
-            None => self.kinetic[index(direction)],
+    /// Displacements of surfaces of which those that have slid in a direction are off their ends on the
+    /// other side, where they have moved by less than their rounding.
+    pub(super) fn off_ends(&self, surfaces: &[f64], slid: Direction) -> Vec<f64> {
+        let mut all = surfaces.to_vec();
+        if let (Some(series), Some(sliding)) = (&self.series, self.sliding(surfaces, slid, false)) {
+            let active = sliding.active();
+            for ((u, surface), active) in all.iter_mut().zip(series.surfaces()).zip(active) {
+                if active && is_at_end(surface, -slid.sign() * *u) {
+                    *u *= 1.0 - 8.0 * f64::EPSILON;
+                }
+            }
+        }
+        all
+    }
+
+    /// How a slip in a direction goes on from these displacements of surfaces in series, of which those
+    /// at their ends may have left them by less than their rounding: the ways that are then possible.
+    pub(super) fn slidings(&self, surfaces: &[f64], direction: Direction) -> Vec<Sliding> {
+        let Some(series) = &self.series else { return Vec::new() };
+        let mut all = surfaces.iter().zip(series.surfaces());
+        let ended = all.any(|(u, surface)| is_at_end(surface, direction.sign() * u));
+        let ways = [false, true].into_iter().take(if ended { 2 } else { 1 });
+        ways.filter_map(|off_ends| self.sliding(surfaces, direction, off_ends)).collect()
+    }
+
+    /// The same with all at their ends still there, or all off them.
+    fn sliding(&self, surfaces: &[f64], direction: Direction, off_ends: bool) -> Option<Sliding> {
+        let series = self.series.as_ref()?;
+        let sign = direction.sign();
+        let all = || surfaces.iter().zip(series.surfaces());
+        let thresholds: Vec<Option<f64>> = all()
+            .map(|(u, surface)| {
+                let ended = !off_ends && is_at_end(surface, sign * u);
+                let place = surface.radius_m.map_or(0.0, |radius_m| u / radius_m);
+                (!ended).then_some(sign * place + surface.friction)
+            })
+            .collect();
+        let least = thresholds.iter().flatten().fold(f64::INFINITY, |a, b| a.min(*b));
+        let size = series.surfaces().iter().fold(least.abs(), |a, s| a.max(s.friction));
+        let slides: Vec<bool> =
+            thresholds.iter().map(|t| t.is_some_and(|t| t <= least + SAME * size)).collect();
+        let radius = |i: usize| series.surfaces()[i].radius_m;
+        let flat = (0..slides.len()).filter(|&i| slides[i] && radius(i).is_none()).count();
+        let sum: f64 = (0..slides.len()).filter(|&i| slides[i]).filter_map(radius).sum();
+        let share = |i: usize| match (slides[i], radius(i)) {
+            (false, _) => 0.0,
+            (true, None) => 1.0 / flat as f64,
+            (true, Some(_)) if flat > 0 => 0.0,
+            (true, Some(radius_m)) => radius_m / sum,
         };
-        -direction.sign() * mu * normal
+        Some(Sliding {
+            shares: (0..slides.len()).map(share).collect(),
+            phi: sign * least,
+            slope: if flat > 0 { 0.0 } else { 1.0 / sum },
+            direction,
+        })
     }
 
-    /// What friction by speed makes of a load of sliding; 1 without.
-    pub(super) fn speed_factor(&self, w: f64) -> f64 {
-        self.rate.as_ref().map_or(1.0, |rate| rate.coefficients([w.abs()])[0])
+    /// By how much surfaces break `|u/R − φ| ≤ μ` after a displacement in a slip, over the normal force.
+    pub(super) fn series_excess(&self, sliding: &Sliding, surfaces: &[f64], moved: f64) -> f64 {
+        let Some(series) = &self.series else { return 0.0 };
+        let (phi, sign) = (sliding.force(moved), sliding.direction.sign());
+        let mut worst: f64 = 0.0;
+        for (u, surface) in surfaces.iter().zip(series.surfaces()) {
+            let ended = is_at_end(surface, sign * u);
+            let place = surface.radius_m.map_or(0.0, |radius_m| u / radius_m);
+            if !ended {
+                worst = worst.max(sign * (phi - place) - surface.friction);
+            }
+        }
+        if worst <= PASSED * self.fixed[0] { 0.0 } else { worst }
     }
 
-    /// `μ_k` at a speed.
-    pub(super) fn kinetic(&self, direction: Direction, speed: f64) -> f64 {
-        -direction.sign() * self.sliding_load(direction, 1.0) * self.speed_factor(speed)
+    /// By how much surfaces lie beyond their ends, in m.
+    pub(super) fn beyond_ends(&self, surfaces: &[f64]) -> f64 {
+        let Some(series) = &self.series else { return 0.0 };
+        let all = surfaces.iter().zip(series.surfaces());
+        all.filter_map(|(u, surface)| Some(u.abs() - surface.travel_m?)).fold(0.0, f64::max)
     }
 
-    /// Whether a slip in this direction could turn into a stick without slowing down to it smoothly.
-    pub(super) fn drops(&self, direction: Direction) -> bool {
-        self.kinetic(direction, 0.0) < self.fixed[index(direction)]
-    }
-
-    /// What friction by speed adds to the rates of a slip, as [`RateFriction::rate`] has it.
-    pub(super) fn added_rate(&self, normal: f64, acceleration: f64) -> f64 {
-        let fixed = self.fixed[0].max(self.fixed[1]);
-        self.rate.as_ref().map_or(0.0, |rate| rate.rate(normal, acceleration, fixed))
-    }
-
-    /// The bound that a demand of this sign meets: too large a `T` slides the block towards −x.
-    pub(super) fn bound(&self, demand: f64, normal: f64) -> f64 {
-        self.fixed[if demand > 0.0 { 1 } else { 0 }] * normal
-    }
-
-    /// How far a demand lies beyond its bound, in N; negative within.
-    pub(super) fn beyond(&self, demand: f64, normal: f64) -> f64 {
-        demand.abs() - self.bound(demand, normal)
-    }
-
-    /// `1 − |demand|/bound`; `None` without a bound.
-    pub(super) fn margin(&self, demand: f64, normal: f64) -> Option<f64> {
-        let bound = self.bound(demand, normal);
-        (bound > 0.0).then(|| 1.0 - demand.abs() / bound)
-    }
-
-    /// `|T + μ_k N sgn ṡ|` for the direction in which the block really moves, at a velocity.
-    pub(super) fn sliding_excess(
-        &self,
-        force: f64,
-        (direction, w): (Direction, f64),
-        normal: f64,
-    ) -> f64 {
-        (force - self.sliding_load(direction, normal) * self.speed_factor(w)).abs()
-    }
-
-    /// The same for a slip whose velocity has the wrong sign. Where no kinetic friction tells the
-    /// directions apart the static one stands for it: eq. (4) was not asked at ṡ = 0.
-    pub(super) fn wrong_way(&self, claimed: Direction, normal: f64) -> f64 {
-        let force = self.sliding_load(claimed, normal) * self.speed_factor(0.0);
-        let excess = self.sliding_excess(force, (claimed.opposite(), 0.0), normal);
-        if excess > 0.0 { excess } else { self.fixed[0].max(self.fixed[1]) * normal }
-    }
-
-    /// By how much a demand forbids a change to a mode at ṡ = 0, in N, or 0: eqs (1), (3), (4).
-    pub(super) fn forbids(&self, to: Mode, demand: f64, normal: f64) -> f64 {
-        let beyond = match to {
-            Mode::Stick => self.beyond(demand, normal),
-            Mode::Slip(Direction::Positive) => demand + self.fixed[0] * normal,
-            Mode::Slip(Direction::Negative) => self.fixed[1] * normal - demand,
-        };
-        excess(beyond)
-    }
-}
-
-/// What a change of contact is called.
-pub(super) fn contact_event(before: Contact, after: Contact) -> Option<EventKind> {
-    match (before, after) {
-        (Contact::Free, Contact::Pressed(_) | Contact::Separated(_)) => Some(EventKind::Contact),
-        (Contact::Pressed(_), Contact::Separated(_)) => Some(EventKind::Separation),
-        (Contact::Separated(_), Contact::Pressed(_)) => Some(EventKind::Press),
-        (Contact::Pressed(_) | Contact::Separated(_), Contact::Free) => Some(EventKind::Leave),
-        _ => None,
+    /// Where a slip in a mode has come to a halt: how far the force was from the next surface's, over
+    /// that.
+    pub(super) fn next_join(&self, surfaces: &[f64], mode: Mode) -> Option<f64> {
+        let Mode::Slip(direction) = mode else { return None };
+        let sliding = self.sliding(surfaces, direction, false)?;
+        let series = self.series.as_ref()?;
+        let sign = direction.sign();
+        let held = sign * sliding.phi;
+        surfaces
+            .iter()
+            .zip(series.surfaces())
+            .zip(sliding.active())
+            .filter(|((u, surface), active)| !active && !is_at_end(surface, sign * *u))
+            .map(|((u, surface), _)| {
+                let place = surface.radius_m.map_or(0.0, |radius_m| u / radius_m);
+                let threshold = sign * place + surface.friction;
+                (threshold - held) / threshold.abs().max(surface.friction)
+            })
+            .reduce(f64::min)
     }
 }
 
@@ -206,100 +406,5 @@ pub(super) fn index(direction: Direction) -> usize {
     match direction {
         Direction::Positive => 0,
         Direction::Negative => 1,
-    }
-}
-
-/// The least of the inner values, if it is below both ends.
-pub(super) fn dip(values: &[f64; POINTS]) -> Option<usize> {
-    let least = (0..POINTS).fold(0, |best, i| if values[i] < values[best] { i } else { best });
-    (least > 0 && least + 1 < POINTS).then_some(least)
-}
-
-/// Local minima of a quantity within one phase, fed in order of time.
-///
-/// A minimum counts once the quantity has fallen to it and risen from it by more than `slack`, the
-/// rounding of the values.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Dips {
-    slack: f64,
-    falling: bool,
-    turn: f64,
-    turn_s: f64,
-    /// Largest value.
-    peak: f64,
-    least: Option<(f64, f64)>,
-}
-
-impl Dips {
-    pub(super) fn new(slack: f64) -> Self {
-        Self { slack, falling: false, turn: f64::NAN, turn_s: 0.0, peak: 0.0, least: None }
-    }
-
-    /// Takes a value that is no minimum.
-    pub(super) fn see(&mut self, value: f64) {
-        self.peak = self.peak.max(value);
-    }
-
-    /// The least minimum so far, or ∞.
-    pub(super) fn so_far(&self) -> f64 {
-        self.least.map_or(f64::INFINITY, |(least, _)| least)
-    }
-
-    /// Takes the next value.
-    pub(super) fn feed(&mut self, time_s: f64, value: f64) {
-        self.peak = self.peak.max(value);
-        let onward = if self.falling { value <= self.turn } else { value >= self.turn };
-        if onward || self.turn.is_nan() {
-            (self.turn, self.turn_s) = (value, time_s);
-        } else if (value - self.turn).abs() > self.slack {
-            if self.falling {
-                self.take(self.turn_s, self.turn);
-            }
-            self.falling = !self.falling;
-            (self.turn, self.turn_s) = (value, time_s);
-        }
-    }
-
-    /// Takes the values at the points of a step, with the least between two where they dip there.
-    pub(super) fn feed_points(
-        &mut self,
-        rule: &Rule,
-        (from_s, step_s): (f64, f64),
-        values: &[f64; POINTS],
-    ) {
-        let inner = dip(values);
-        for i in 0..POINTS {
-            let (t, value) = if inner == Some(i) {
-                rule.least(values, i, |_, value| value)
-            } else {
-                (rule.points[i], values[i])
-            };
-            self.feed(from_s + t * step_s, value);
-        }
-    }
-
-    /// Takes a value as a minimum.
-    pub(super) fn take(&mut self, time_s: f64, value: f64) {
-        if self.least.is_none_or(|(least, _)| value < least) {
-            self.least = Some((value, time_s));
-        }
-    }
-
-    /// Starts anew after a stretch without values.
-    pub(super) fn interrupt(&mut self) {
-        (self.falling, self.turn) = (false, f64::NAN);
-    }
-
-    /// The least minimum of an interface's margin in stick.
-    pub(super) fn least(&self, interface: usize) -> Option<ClosestCall> {
-        let (margin, time_s) = self.least?;
-        Some(ClosestCall { margin, time_s, kind: "stick", interface })
-    }
-
-    /// The least minimum of an interface's speed in slip over its largest value.
-    pub(super) fn least_of_peak(&self, interface: usize) -> Option<ClosestCall> {
-        let (least, time_s) = self.least?;
-        let margin = least / self.peak;
-        (self.peak > 0.0).then_some(ClosestCall { margin, time_s, kind: "slip", interface })
     }
 }

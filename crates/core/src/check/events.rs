@@ -1,0 +1,107 @@
+//! The events that the knots tell.
+
+use crate::response::{Contact, Event, EventKind, History, Mode};
+
+/// Impacts slower than this are neither listed nor counted, in m/s.
+pub(super) const SLOWEST_IMPACT_M_PER_S: f64 = 1e-3;
+
+/// An event, with the sliding speed before it.
+pub(super) struct Told {
+    pub(super) event: Event,
+    pub(super) speed: f64,
+}
+
+/// All so far.
+#[derive(Default)]
+pub(super) struct Events {
+    pub(super) list: Vec<Told>,
+    /// The last turn of the slider since its last impact.
+    turn: Option<usize>,
+    /// Largest speed of an impact.
+    pub(super) impacts: f64,
+    /// Surfaces that slid in the last interval, while the slider slides on.
+    active: Option<Vec<bool>>,
+}
+
+/// What a change of contact is called.
+fn contact_event(before: Contact, after: Contact) -> Option<EventKind> {
+    match (before, after) {
+        (Contact::Free, Contact::Pressed(_) | Contact::Separated(_)) => Some(EventKind::Contact),
+        (Contact::Pressed(_), Contact::Separated(_)) => Some(EventKind::Separation),
+        (Contact::Separated(_), Contact::Pressed(_)) => Some(EventKind::Press),
+        (Contact::Pressed(_) | Contact::Separated(_), Contact::Free) => Some(EventKind::Leave),
+        _ => None,
+    }
+}
+
+impl Events {
+    fn push(&mut self, h: &History, k: usize, interface: usize, kind: EventKind, speed: f64) {
+        let place = match interface {
+            0 => h.sliding_displacement_m[k],
+            _ => h.contents_state(k, interface - 1)[0],
+        };
+        if interface == 0 {
+            self.turn = (kind == EventKind::Reversal).then_some(self.list.len());
+        }
+        let mode = h.modes(k)[interface];
+        let event =
+            Event { time_s: h.time_s[k], kind, mode, sliding_displacement_m: place, interface };
+        self.list.push(Told { event, speed });
+    }
+
+    /// The first knot, with the modes before it.
+    pub(super) fn begin(&mut self, h: &History, before: &[Mode]) {
+        for i in 0..before.len() {
+            if before[i] == Mode::Stick && h.modes(0)[i] != Mode::Stick {
+                self.push(h, 0, i, EventKind::Slip, 0.0);
+            }
+        }
+    }
+
+    /// Passes to the knot `k`, at which the block has perhaps struck a rigid stop.
+    pub(super) fn pass(&mut self, h: &History, k: usize, struck: bool) {
+        let (before, after) = (h.modes(k - 1), h.modes(k));
+        if struck {
+            let speed = h.sliding_velocity_m_per_s[k - 1].abs();
+            self.impacts = self.impacts.max(speed);
+            if let Some(turn) = self.turn.take()
+                && speed < SLOWEST_IMPACT_M_PER_S
+            {
+                self.list.remove(turn);
+            }
+            self.active = None;
+            if after[0] == Mode::Stick {
+                self.push(h, k, 0, EventKind::Rest, speed);
+            } else if speed >= SLOWEST_IMPACT_M_PER_S {
+                self.push(h, k, 0, EventKind::Impact, speed);
+            }
+            self.turn = None;
+        }
+        for i in usize::from(struck)..after.len() {
+            let kind = match (before[i], after[i]) {
+                (Mode::Stick, Mode::Slip(_)) => EventKind::Slip,
+                (Mode::Slip(_), Mode::Stick) => EventKind::Stick,
+                (a, b) if a != b => EventKind::Reversal,
+                _ => continue,
+            };
+            if i == 0 {
+                self.active = None;
+            }
+            self.push(h, k, i, kind, 0.0);
+        }
+        if let (Some(before), Some(after)) = (h.contact.get(k - 1), h.contact.get(k))
+            && let Some(kind) = contact_event(*before, *after)
+        {
+            let speed = h.sliding_velocity_m_per_s[k].abs();
+            self.push(h, k, 0, kind, speed);
+        }
+    }
+
+    /// The slider slides from the knot `k` on these surfaces.
+    pub(super) fn slides_on(&mut self, h: &History, k: usize, active: Vec<bool>) {
+        if self.active.as_ref().is_some_and(|before| *before != active) {
+            self.push(h, k, 0, EventKind::Surface, 0.0);
+        }
+        self.active = Some(active);
+    }
+}

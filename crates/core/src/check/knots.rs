@@ -1,0 +1,405 @@
+//! The knots by themselves: the balance of forces, energies, outputs.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::collocation::Rule;
+use super::lane::{Eight, LANES, Places, add_chain, all, chain_form, inlined, keep, larger};
+use super::law::Law;
+use super::outputs::{Outputs, each_output};
+use super::structure::{StoreyDamping, Structure};
+use crate::error::Stopped;
+use crate::progress::Pulse;
+use crate::response::{History, Mode};
+
+/// Largest sizes of what is stored.
+#[derive(Clone, Copy)]
+pub(super) struct Sizes {
+    /// `s` and `r`.
+    pub(super) place: Eight,
+    /// `q`.
+    pub(super) storey: Eight,
+    /// `q̇` and `ṙ`.
+    pub(super) rate: Eight,
+    /// `Ü`.
+    pub(super) table: Eight,
+}
+
+/// The worst of all lanes so far.
+pub(super) struct Worst {
+    pub(super) displacement: [Eight; 2],
+    pub(super) velocity: [Eight; 2],
+    pub(super) force: [Eight; 2],
+    pub(super) table: Eight,
+    pub(super) excess: Eight,
+    pub(super) sliding: Eight,
+    /// What the rounding of `N` makes of places and velocities in an interval.
+    pub(super) drift: [Eight; 2],
+    pub(super) sizes: Sizes,
+    /// 0, or not a number where something stored is none.
+    pub(super) broken: Eight,
+}
+
+impl Worst {
+    pub(super) const NONE: Self = Self {
+        displacement: [Eight::ZERO; 2],
+        velocity: [Eight::ZERO; 2],
+        force: [Eight::ZERO; 2],
+        table: Eight::ZERO,
+        excess: Eight::ZERO,
+        sliding: Eight::ZERO,
+        drift: [Eight::ZERO; 2],
+        sizes: Sizes {
+            place: Eight::ZERO,
+            storey: Eight::ZERO,
+            rate: Eight::ZERO,
+            table: Eight::ZERO,
+        },
+        broken: Eight::ZERO,
+    };
+}
+
+/// What the lanes need of a model and its history.
+pub(super) struct Bench<'a> {
+    pub(super) structure: &'a Structure,
+    pub(super) rule: &'static Rule,
+    pub(super) history: &'a History,
+    pub(super) law: &'a Law,
+    /// `g sin θ`.
+    pub(super) slope: f64,
+    pub(super) instant_s: f64,
+    /// Whether the normal force varies.
+    pub(super) vertical: bool,
+}
+
+/// What else there is to know of knots.
+#[derive(Clone, Copy)]
+pub(super) struct Acting<'a> {
+    /// Force of the block on an elastic stop; empty without.
+    pub(super) stop: &'a [f64],
+    /// 1 where more than friction, spring and stop acts on the block; empty where it never does.
+    pub(super) held: &'a [f64],
+    /// Knots that the motion passes in no time, in order: they are no peaks.
+    pub(super) passed: &'a [usize],
+}
+
+/// What one look at the knots tells of each.
+pub(super) struct Knots {
+    /// Outputs one after another, `stride` values each.
+    pub(super) outputs: Vec<f64>,
+    pub(super) stride: usize,
+    pub(super) kinetic_j: Vec<f64>,
+    pub(super) strain_j: Vec<f64>,
+    pub(super) attained: Vec<f64>,
+}
+
+impl Knots {
+    pub(super) fn new(knots: usize, outputs: usize) -> Self {
+        let stride = knots.next_multiple_of(LANES);
+        Self {
+            outputs: vec![0.0; outputs * stride],
+            stride,
+            kinetic_j: vec![0.0; stride],
+            strain_j: vec![0.0; stride],
+            attained: vec![0.0; outputs],
+        }
+    }
+}
+
+/// Work space of lanes, by storey and by item of contents.
+struct Bodies {
+    q: Vec<Eight>,
+    v: Vec<Eight>,
+    a: Vec<Eight>,
+    elastic: Vec<Eight>,
+    viscous: Vec<Eight>,
+    /// Velocity and acceleration of contents.
+    carried: Vec<[Eight; 2]>,
+}
+
+impl Bodies {
+    fn new(n: usize, contents: usize) -> Self {
+        let list = || vec![Eight::ZERO; n];
+        let carried = vec![[Eight::ZERO; 2]; contents];
+        Self { q: list(), v: list(), a: list(), elastic: list(), viscous: list(), carried }
+    }
+}
+
+impl Bench<'_> {
+    /// `C1 ṡ² + q̇ᵀ C q̇`.
+    #[inline(always)]
+    pub(super) fn dissipation<S: Simd>(
+        &self,
+        simd: S,
+        w: f64x8<S>,
+        v: impl Fn(usize) -> f64x8<S>,
+    ) -> f64x8<S> {
+        let s = self.structure;
+        let storeys = match &s.damping {
+            StoreyDamping::Chain(c) => chain_form(simd, c, v),
+            StoreyDamping::Full(c) => {
+                let n = s.masses_kg.len();
+                let mut sum = all(simd, 0.0);
+                for i in 0..n {
+                    let mut row = all(simd, 0.0);
+                    for j in 0..n {
+                        row += all(simd, c[i * n + j]) * v(j);
+                    }
+                    sum += v(i) * row;
+                }
+                sum
+            }
+        };
+        all(simd, s.damper) * w * w + storeys
+    }
+
+    /// `T` in a slip at a velocity, of a load of sliding.
+    #[inline(always)]
+    pub(super) fn sliding_force<S: Simd>(&self, simd: S, w: f64x8<S>, load: f64x8<S>) -> f64x8<S> {
+        match &self.law.rate {
+            Some(rate) => load * f64x8::load_array(simd, rate.coefficients(w.abs().to_array())),
+            None => load,
+        }
+    }
+
+    /// `1ᵀ (C q̇ + K q)`.
+    #[inline(always)]
+    pub(super) fn base_force<S: Simd>(
+        &self,
+        simd: S,
+        q: impl Fn(usize) -> f64x8<S>,
+        v: impl Fn(usize) -> f64x8<S>,
+    ) -> f64x8<S> {
+        let s = self.structure;
+        let Some(&k) = s.stiffnesses.first() else { return all(simd, 0.0) };
+        let mut sum = all(simd, k) * q(0);
+        for (j, &c) in s.base_damping.iter().enumerate() {
+            sum += all(simd, c) * v(j);
+        }
+        sum
+    }
+
+    /// Looks at every knot by itself: the balance of its forces, its energies and its outputs.
+    #[inline(always)]
+    pub(super) fn knots<S: Simd>(
+        &self,
+        simd: S,
+        outputs: &Outputs,
+        worst: &mut Worst,
+        acting: Acting<'_>,
+        (knots, pulse): (&mut Knots, &mut Pulse<'_>),
+    ) -> Result<(), Stopped> {
+        let count = self.structure.masses_kg.len();
+        let mut bodies = Bodies::new(count, self.structure.contents.len());
+        let mut attained = vec![Eight::ZERO; outputs.len()];
+        let last = self.history.len() - 1;
+        for from in (0..=last).step_by(LANES) {
+            pulse.beat(16 * self.structure.degrees() as u32)?;
+            let places = Places::new(core::array::from_fn(|lane| (from + lane).min(last)));
+            // One storey gets loops of its own.
+            let (n, at) = (count, (from, &places));
+            let to = (&mut *knots, &mut bodies, &mut attained[..]);
+            if n == 1 {
+                self.eight_knots(simd, 1, at, acting, outputs, worst, to);
+            } else {
+                self.eight_knots(simd, n, at, acting, outputs, worst, to);
+            }
+        }
+        for (attained, lanes) in knots.attained.iter_mut().zip(&attained) {
+            *attained = lanes.largest();
+        }
+        Ok(())
+    }
+
+    /// 1 in the lanes where an interface sticks at its knot, else 0.
+    #[inline(always)]
+    fn stuck<S: Simd>(&self, simd: S, places: &Places, interface: usize) -> f64x8<S> {
+        let h = self.history;
+        let one = |lane: usize| {
+            let mode = h.mode[places.knot(lane) * h.interfaces + interface];
+            if mode == Mode::Stick { 1.0 } else { 0.0 }
+        };
+        f64x8::load_array(simd, core::array::from_fn(one))
+    }
+
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)] // one loop's body
+    fn eight_knots<S: Simd>(
+        &self,
+        simd: S,
+        n: usize,
+        (from, places): (usize, &Places),
+        acting: Acting<'_>,
+        outputs: &Outputs,
+        worst: &mut Worst,
+        (knots, bodies, attained): (&mut Knots, &mut Bodies, &mut [Eight]),
+    ) {
+        let (h, structure) = (self.history, self.structure);
+        let zero = all(simd, 0.0);
+        let slope = all(simd, self.slope);
+        let one = inlined(
+            #[inline(always)]
+            |list: &[f64]| places.read(simd, list, 0, [1, 0]),
+        );
+        let s = one(&h.sliding_displacement_m);
+        let w = one(&h.sliding_velocity_m_per_s);
+        let block = one(&h.block_acceleration_m_per_s2);
+        let table = one(&h.table_acceleration_m_per_s2);
+        let force = one(&h.friction_force_n);
+        let Acting { stop, held, passed } = acting;
+        let stop = if stop.is_empty() { zero } else { one(stop) };
+        let first = passed.partition_point(|&k| k < from);
+        let passes = passed.get(first).is_some_and(|&k| k < from + LANES);
+        let lasts = |lane: usize| if passed.contains(&(from + lane)) { 0.0 } else { 1.0 };
+        let lasts = f64x8::load_array(
+            simd,
+            core::array::from_fn(|lane| if passes { lasts(lane) } else { 1.0 }),
+        );
+        let mut sum = s + w + block + table + force;
+        keep(simd, &mut worst.sizes.place, s.abs());
+        keep(simd, &mut worst.sizes.table, table.abs());
+        for i in 0..n {
+            let of = inlined(
+                #[inline(always)]
+                |list: &[f64]| places.read(simd, list, 0, [n, i]),
+            );
+            let (q, v) = (of(&h.storey_displacement_m), of(&h.storey_velocity_m_per_s));
+            let a = of(&h.storey_acceleration_m_per_s2);
+            sum += q + v + a;
+            keep(simd, &mut worst.sizes.storey, q.abs());
+            keep(simd, &mut worst.sizes.rate, v.abs());
+            bodies.q[i].store(q);
+            bodies.v[i].store(v);
+            bodies.a[i].store(a);
+            bodies.elastic[i] = Eight::ZERO;
+            bodies.viscous[i] = Eight::ZERO;
+        }
+        // Eqs (9), (10): the largest defect and the largest single term.
+        let mut term = add_chain(simd, n, &structure.stiffnesses, &bodies.q, &mut bodies.elastic);
+        match &structure.damping {
+            StoreyDamping::Chain(c) => {
+                term = larger(term, add_chain(simd, n, c, &bodies.v, &mut bodies.viscous));
+            }
+            StoreyDamping::Full(c) => {
+                for i in 0..n {
+                    let mut row = zero;
+                    for j in 0..n {
+                        let share = all(simd, c[i * n + j]) * bodies.v[j].load(simd);
+                        term = larger(term, share.abs());
+                        row += share;
+                    }
+                    bodies.viscous[i].store(row);
+                }
+            }
+        }
+        let total = block + slope;
+        let spring = all(simd, structure.spring) * s;
+        let damper = all(simd, structure.damper) * w;
+        let inertia = all(simd, structure.block_kg) * total;
+        let mut balance = inertia + damper + spring + stop - force;
+        let mut defect = zero;
+        let mut kinetic = all(simd, structure.block_kg) * w * w;
+        let stuck = self.stuck(simd, places, 0);
+        // Contents pull at their floors with their inertia, whether they slide or not.
+        for (e, contents) in structure.contents.iter().enumerate() {
+            let of = inlined(
+                #[inline(always)]
+                |list: &[f64]| places.read(simd, list, 0, [structure.contents.len(), e]),
+            );
+            let p = of(&h.contents_velocity_m_per_s);
+            let (r, a) = (of(&h.contents_displacement_m), of(&h.contents_acceleration_m_per_s2));
+            sum += r + p + a;
+            keep(simd, &mut worst.sizes.place, r.abs());
+            keep(simd, &mut worst.sizes.rate, p.abs());
+            let mass = all(simd, contents.mass_kg);
+            let inertia = mass * (a + slope);
+            balance += inertia;
+            term = larger(term, inertia.abs());
+            let (mut speed, mut under) = (w + p, block);
+            if let Some(i) = contents.floor.checked_sub(1) {
+                let pull = bodies.viscous[i].load(simd) + inertia;
+                bodies.viscous[i].store(pull);
+                speed += bodies.v[i].load(simd);
+                under = bodies.a[i].load(simd);
+            }
+            kinetic += mass * speed * speed;
+            let at_rest = self.stuck(simd, places, 1 + e);
+            defect = larger(defect, (mass * (a - under) * at_rest).abs());
+            keep(simd, &mut worst.velocity[0], (p * at_rest).abs());
+            bodies.carried[e][0].store(p);
+            bodies.carried[e][1].store(a);
+        }
+        worst.broken.store(worst.broken.load(simd) + sum * zero);
+        for i in 0..n {
+            let mass = all(simd, structure.masses_kg[i]);
+            let inertia = mass * (bodies.a[i].load(simd) + slope);
+            balance += inertia;
+            let floor = inertia + bodies.viscous[i].load(simd) + bodies.elastic[i].load(simd);
+            defect = larger(defect, floor.abs());
+            term = larger(term, inertia.abs());
+            let speed = w + bodies.v[i].load(simd);
+            kinetic += mass * speed * speed;
+        }
+        for single in [spring, damper, inertia, force, stop] {
+            term = larger(term, single.abs());
+        }
+        if !held.is_empty() {
+            balance *= all(simd, 1.0) - one(held);
+        }
+        let split = all(simd, structure.block_kg) * (block - table);
+        defect = larger(larger(defect, balance.abs()), (split * stuck).abs());
+        keep(simd, &mut worst.force[0], defect);
+        keep(simd, &mut worst.force[1], term);
+        keep(simd, &mut worst.velocity[0], (w * stuck).abs());
+        let half = all(simd, 0.5);
+        let form = chain_form(
+            simd,
+            &structure.stiffnesses,
+            #[inline(always)]
+            |i| bodies.q[i].load(simd),
+        );
+        let strain = half * (spring * s + form);
+        let out = inlined(
+            #[inline(always)]
+            |g: usize, value: f64x8<S>| {
+                let to = g * knots.stride + from;
+                knots.outputs[to..to + LANES].copy_from_slice(&value.to_array());
+                keep(simd, &mut attained[g], value.abs() * lasts);
+            },
+        );
+        let base = self.base_force(
+            simd,
+            #[inline(always)]
+            |i| bodies.q[i].load(simd),
+            #[inline(always)]
+            |i| bodies.v[i].load(simd),
+        );
+        let floor = inlined(
+            #[inline(always)]
+            |i: usize| bodies.a[i].load(simd) + slope,
+        );
+        let carried = inlined(
+            #[inline(always)]
+            |e: usize| bodies.carried[e][1].load(simd) + slope,
+        );
+        // Where more acts on the block the slider's force is not known from what is stored.
+        let mut slider = force - (spring + damper) - stop;
+        if !held.is_empty() {
+            slider *= all(simd, 1.0) - one(held);
+        }
+        let moment = outputs.moment(simd, total, floor, carried);
+        let fixed = [w, block, slider, force, base, moment, stop];
+        each_output(
+            simd,
+            (n, structure.contents.len()),
+            fixed,
+            #[inline(always)]
+            |i| [bodies.q[i].load(simd), bodies.a[i].load(simd)],
+            #[inline(always)]
+            |e| [bodies.carried[e][0].load(simd), bodies.carried[e][1].load(simd)],
+            out,
+        );
+        knots.kinetic_j[from..from + LANES].copy_from_slice(&(half * kinetic).to_array());
+        knots.strain_j[from..from + LANES].copy_from_slice(&strain.to_array());
+    }
+}

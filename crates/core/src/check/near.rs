@@ -1,0 +1,99 @@
+//! Decisions that came close: between knots, and in which order.
+
+use super::ClosestCall;
+use super::collocation::POINTS;
+
+/// The least of the inner values, if it is below both ends.
+pub(super) fn dip(values: &[f64; POINTS]) -> Option<usize> {
+    let least = (0..POINTS).fold(0, |best, i| if values[i] < values[best] { i } else { best });
+    (least > 0 && least + 1 < POINTS).then_some(least)
+}
+
+/// Local minima of a quantity within one phase, fed in order of time.
+///
+/// A minimum counts once the quantity has fallen to it and risen from it by more than `slack`, the
+/// rounding of the values.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Dips {
+    slack: f64,
+    /// The time up to which values were fed, in s.
+    fed_s: f64,
+    falling: bool,
+    turn: f64,
+    turn_s: f64,
+    /// Largest value.
+    peak: f64,
+    least: Option<(f64, f64)>,
+}
+
+impl Dips {
+    pub(super) fn new(slack: f64) -> Self {
+        Self {
+            slack,
+            fed_s: 0.0,
+            falling: false,
+            turn: f64::NAN,
+            turn_s: 0.0,
+            peak: 0.0,
+            least: None,
+        }
+    }
+
+    /// Takes a value that is no minimum.
+    pub(super) fn see(&mut self, value: f64) {
+        self.peak = self.peak.max(value);
+    }
+
+    /// The least minimum so far, or ∞.
+    pub(super) fn so_far(&self) -> f64 {
+        self.least.map_or(f64::INFINITY, |(least, _)| least)
+    }
+
+    /// Takes the next value.
+    pub(super) fn feed(&mut self, time_s: f64, value: f64) {
+        self.peak = self.peak.max(value);
+        let onward = if self.falling { value <= self.turn } else { value >= self.turn };
+        if onward || self.turn.is_nan() {
+            (self.turn, self.turn_s) = (value, time_s);
+        } else if (value - self.turn).abs() > self.slack {
+            if self.falling {
+                self.take(self.turn_s, self.turn);
+            }
+            self.falling = !self.falling;
+            (self.turn, self.turn_s) = (value, time_s);
+        }
+    }
+
+    /// Takes a value as a minimum.
+    pub(super) fn take(&mut self, time_s: f64, value: f64) {
+        if self.least.is_none_or(|(least, _)| value < least) {
+            self.least = Some((value, time_s));
+        }
+    }
+
+    /// Starts anew after a stretch without values.
+    pub(super) fn interrupt(&mut self) {
+        (self.falling, self.turn) = (false, f64::NAN);
+    }
+
+    /// Values of an interval follow; perhaps none of the one before did.
+    pub(super) fn resume(&mut self, [from_s, to_s]: [f64; 2]) {
+        if self.fed_s != from_s {
+            self.interrupt();
+        }
+        self.fed_s = to_s;
+    }
+
+    /// The least minimum of an interface's margin in stick.
+    pub(super) fn least(&self, interface: usize) -> Option<ClosestCall> {
+        let (margin, time_s) = self.least?;
+        Some(ClosestCall { margin, time_s, kind: "stick", interface })
+    }
+
+    /// The least minimum of an interface's speed in slip over its largest value.
+    pub(super) fn least_of_peak(&self, interface: usize) -> Option<ClosestCall> {
+        let (least, time_s) = self.least?;
+        let margin = least / self.peak;
+        (self.peak > 0.0).then_some(ClosestCall { margin, time_s, kind: "slip", interface })
+    }
+}

@@ -1,0 +1,147 @@
+//! The tracked outputs, and the largest sizes that they attain.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::collocation::{POINTS, Rule};
+use super::structure::larger;
+use crate::model::{Contents, Model};
+
+/// Places of the tracked outputs; from [`STOREYS`] on displacements of all storeys, then drifts, then total
+/// accelerations, then velocities of contents and their total accelerations.
+pub(super) const VELOCITY: usize = 0;
+pub(super) const BLOCK: usize = 1;
+pub(super) const SLIDER: usize = 2;
+pub(super) const FRICTION: usize = 3;
+pub(super) const BASE_SHEAR: usize = 4;
+pub(super) const OVERTURNING: usize = 5;
+pub(super) const STOP: usize = 6;
+pub(super) const STOREYS: usize = 7;
+
+/// Hands on all outputs in their order: those of the block, of the storeys from displacement and
+/// acceleration, of contents from velocity and acceleration.
+#[inline(always)]
+pub(super) fn each_output<S: Simd>(
+    simd: S,
+    (n, contents): (usize, usize),
+    block: [f64x8<S>; STOREYS],
+    storey: impl Fn(usize) -> [f64x8<S>; 2],
+    carried: impl Fn(usize) -> [f64x8<S>; 2],
+    mut out: impl FnMut(usize, f64x8<S>),
+) {
+    for g in 0..STOREYS {
+        out(g, block[g]);
+    }
+    let mut below = f64x8::splat(simd, 0.0);
+    for i in 0..n {
+        let [q, acceleration] = storey(i);
+        out(STOREYS + i, q);
+        out(STOREYS + n + i, q - below);
+        out(STOREYS + 2 * n + i, acceleration);
+        below = q;
+    }
+    for e in 0..contents {
+        let [velocity, acceleration] = carried(e);
+        out(STOREYS + 3 * n + e, velocity);
+        out(STOREYS + 3 * n + contents + e, acceleration);
+    }
+}
+
+/// `m z` of the block (to its centre), of the floors and of contents.
+struct Arm {
+    block: f64,
+    floors: Vec<f64>,
+    contents: Vec<f64>,
+}
+
+/// The tracked outputs: linear functions of state, accelerations and forces.
+pub(super) struct Outputs {
+    /// `None`: no moment is asked for.
+    arm: Option<Arm>,
+    storeys: usize,
+    contents: usize,
+}
+
+impl Outputs {
+    pub(super) fn new(model: &Model) -> Self {
+        let (storeys, contents) = (model.storeys(), model.contents().len());
+        Self { arm: arm(model), storeys, contents }
+    }
+
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
+        STOREYS + 3 * self.storeys + 2 * self.contents
+    }
+
+    /// The overturning moment about the sliding surface from total accelerations with the slope's share.
+    #[inline(always)]
+    pub(super) fn moment<S: Simd>(
+        &self,
+        simd: S,
+        block: f64x8<S>,
+        floor: impl Fn(usize) -> f64x8<S>,
+        contents: impl Fn(usize) -> f64x8<S>,
+    ) -> f64x8<S> {
+        let Some(arm) = &self.arm else { return f64x8::splat(simd, 0.0) };
+        let mut sum = f64x8::splat(simd, arm.block) * block;
+        for (i, &arm) in arm.floors.iter().enumerate() {
+            sum += f64x8::splat(simd, arm) * floor(i);
+        }
+        for (e, &arm) in arm.contents.iter().enumerate() {
+            sum += f64x8::splat(simd, arm) * contents(e);
+        }
+        sum
+    }
+
+    /// Height of what a moment is asked of, in m; 0 without one.
+    pub(super) fn height_m(&self, model: &Model) -> f64 {
+        let heights = model.frame().heights_m.iter().flatten().sum::<f64>();
+        if self.arm.is_some() { heights + model.block().height_m.unwrap_or(0.0) } else { 0.0 }
+    }
+
+    /// Whether a moment is asked for.
+    pub(super) fn has_moment(&self) -> bool {
+        self.arm.is_some()
+    }
+}
+
+/// The arms, where width and heights are given.
+fn arm(model: &Model) -> Option<Arm> {
+    let (block, frame) = (model.block(), model.frame());
+    block.width_m?;
+    let heights_m = match &frame.heights_m {
+        Some(heights_m) => heights_m.as_slice(),
+        None if model.storeys() == 0 && block.height_m.is_some() => &[],
+        None => return None,
+    };
+    let mut above_m = block.height_m.unwrap_or(0.0);
+    let mut floors_m = vec![above_m];
+    for height_m in heights_m {
+        above_m += height_m;
+        floors_m.push(above_m);
+    }
+    let floors = frame.masses_kg.iter().zip(&floors_m[1..]).map(|(mass, z)| mass * z);
+    let contents = model.contents().iter();
+    Some(Arm {
+        block: 0.5 * floors_m[0] * block.mass_kg,
+        floors: floors.collect(),
+        contents: contents.map(|c: &Contents| c.mass_kg * floors_m[c.floor]).collect(),
+    })
+}
+
+/// Raises a peak to the largest size of a polynomial through the values at the points of a step.
+pub(super) fn raise(rule: &Rule, peak: &mut f64, values: &[f64; POINTS]) {
+    let size = |value: f64| value.abs();
+    let at = |best: usize, i: usize| if size(values[i]) > size(values[best]) { i } else { best };
+    let best = (1..POINTS).fold(0, at);
+    let (least, most) =
+        values.iter().fold((values[0], values[0]), |(least, most), &v| (v.min(least), v.max(most)));
+    *peak = larger(*peak, values[best]);
+    // Between two points the polynomial rises above both by less than a tenth of its range.
+    if size(values[best]) + 0.1 * (most - least) <= *peak * (1.0 + 1e-12) {
+        return;
+    }
+    let sign = values[best].signum();
+    let (_, lowest) = rule.least(values, best, |_, value| -sign * value);
+    *peak = larger(*peak, lowest);
+}
