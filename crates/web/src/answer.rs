@@ -479,7 +479,7 @@ fn checks(summary: &Summary, outcome: &Outcome) -> Json {
         Json::Object(vec![
             ("margin", Json::Text(significant(call.margin, 2))),
             ("time_s", call.time_s.into()),
-            ("kind", call.decision().into()),
+            ("kind", Json::Text(call.decision())),
         ])
     });
     let iterations = outcome.nominal.response.iterations.map_or(Json::Null, |iterations| {

@@ -152,7 +152,7 @@ fn checks(checks: &Checks) -> Json {
             ("margin", call.margin.into()),
             ("time_s", call.time_s.into()),
             ("kind", call.kind.into()),
-            ("interface", call.interface_name().into()),
+            ("interface", Json::Text(call.interface_name())),
         ])
     });
     Json::Object(vec![
