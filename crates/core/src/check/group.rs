@@ -1302,8 +1302,13 @@ impl Bench<'_> {
         let half = all(simd, 0.5);
         // What the stop's spring takes, and a spring that follows a constant N, is exact.
         damping += half * stiffness * (to * to - from * from) - shift * (to - from);
-        if follows && !solved {
-            friction += half * group.rise[0].load(simd) * (to * to - from * from);
+        if follows {
+            let stored = half * group.rise[0].load(simd) * (to * to - from * from);
+            if !solved {
+                friction += stored;
+            }
+            // What such a spring gives back is work put in.
+            size += larger(zero, -stored);
         }
         let spent = &mut work.spent;
         spent.work.store(spent.work.load(simd) + done);
