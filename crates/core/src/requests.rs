@@ -82,6 +82,7 @@ pub struct Answer {
 
 /// What came of a request.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "there is one of it an analysis")]
 pub enum Found {
     /// A sliding spectrum.
     Spectrum(SpectrumRun),
