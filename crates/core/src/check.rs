@@ -84,7 +84,8 @@ pub struct Certificate {
     /// that `ṡ` really has; at a change of mode, by how much the demand forbids it.
     pub friction_excess: f64,
     /// Largest imbalance of energy at a knot, over the largest sum of `E₀`, the integral of the size
-    /// of the table's power, and the four kinds of energy.
+    /// of the table's power, what springs that follow the normal force give back, and the four kinds of
+    /// energy.
     pub energy_balance_error: f64,
     /// Largest difference of a printed demand from the one recomputed from the check's own path, over
     /// the peak of its quantity, 0/0 = 0; 1 where a count or the time of an event differs. Peaks are

@@ -173,7 +173,7 @@ pub struct Input<'a> {
 /// let text = "[block]\nmass = \"325 kg\"\n[slider]\nstatic_friction = 0.02\nkinetic_friction = 0.012\n";
 /// let set = [Override::parse("slider.spring=143 kN/m")?];
 /// let analysis = parse("mock-up.toml", text, &set)?;
-/// assert_eq!(analysis.model.slider().stiffness_n_per_m, 143e3);
+/// assert_eq!(analysis.model.slider_stiffness_n_per_m(), 143e3);
 ///
 /// let error = parse("mock-up.toml", &text.replace("kg", "mm"), &[]).unwrap_err();
 /// assert_eq!(

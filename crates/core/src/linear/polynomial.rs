@@ -259,6 +259,7 @@ pub fn largest(c: &Polynomial, to: f64, attained: f64) -> f64 {
         bend: derivative(&slope),
         curvature: curvature_bound(c),
         third: curvature_bound(&slope),
+        end: to,
         attained: attained.max(start).max(end),
     };
     peak.search([0.0, start], [to, end]);
@@ -271,6 +272,8 @@ struct Peak<'a> {
     bend: Polynomial,
     curvature: f64,
     third: f64,
+    /// Where the search ends.
+    end: f64,
     attained: f64,
 }
 
@@ -282,7 +285,8 @@ impl Peak<'_> {
         } else {
             [curvature_up_to(self.c, b), curvature_up_to(self.slope, b)]
         };
-        if ga.max(gb) + 0.125 * curvature * width * width <= self.attained || width <= NARROWEST {
+        let narrowest = NARROWEST * self.end;
+        if ga.max(gb) + 0.125 * curvature * width * width <= self.attained || width <= narrowest {
             return;
         }
         let middle = a + 0.5 * width;
@@ -348,6 +352,16 @@ mod tests {
         let c = from_roots(&[0.0, 0.0, 0.6], -1.0);
         let x = first_root(&deflated(&c, 2), 1.0).expect("one root");
         assert!((x - 0.6).abs() < 2e-16);
+    }
+
+    /// A peak within a billionth of the unit, as a steep ramp of the motion makes it.
+    #[test]
+    fn largest_value_in_a_short_part() {
+        let part = 1e-9;
+        let mut c = ZERO;
+        (c[0], c[1], c[2]) = (1.8, 3.6, -3.6 / part);
+        let peak = 1.8 + 0.25 * 3.6 * part;
+        assert_eq!(largest(&c, part, f64::MIN), peak);
     }
 
     #[test]
