@@ -6,7 +6,7 @@
 
 mod fields;
 
-pub use fields::{Asked, Field, Kind, Takes, table};
+pub use fields::{Field, Kind, Request, Takes, table};
 
 use crate::assessment::design::{DesignRequest, DesignRun, Target, run_design};
 use crate::assessment::grid::levels;
@@ -77,13 +77,13 @@ pub struct Answer {
     /// What reading them gave notice of.
     pub warnings: Vec<Warning>,
     /// What came of it.
-    pub found: Found,
+    pub found: Results,
 }
 
 /// What came of a request.
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant, reason = "there is one of it an analysis")]
-pub enum Found {
+pub enum Results {
     /// A sliding spectrum.
     Spectrum(SpectrumRun),
     /// An incremental dynamic analysis.
@@ -141,7 +141,7 @@ pub enum Curves {
     },
 }
 
-impl Asked {
+impl Request {
     /// Runs a spectrum, an incremental dynamic analysis or a design; of a fragility, the incremental dynamic
     /// analysis is asked for by itself.
     ///
@@ -215,7 +215,7 @@ impl Asked {
             records: Vec::new(),
             scaled: String::new(),
             warnings: Vec::new(),
-            found: Found::Fragility { demand, limit, confidence, curves },
+            found: Results::Fragility { demand, limit, confidence, curves },
         })
     }
 
@@ -223,7 +223,7 @@ impl Asked {
         &self,
         on: &On<'_>,
         engine: &Engine<'_>,
-    ) -> Result<(Found, String), AssessmentError> {
+    ) -> Result<(Results, String), AssessmentError> {
         let models = self.models(on, Some(self.one("over")))?;
         let (scaling, scaled) = self.scaling()?;
         let demands: Vec<String> = self.all("demand").map(str::to_owned).collect();
@@ -231,10 +231,10 @@ impl Asked {
         let suite = on.suite;
         let request =
             SpectrumRequest { models: &models, suite, scaling, demands: &demands, bounds: &bounds };
-        Ok((Found::Spectrum(run_spectrum(&request, engine)?), scaled))
+        Ok((Results::Spectrum(run_spectrum(&request, engine)?), scaled))
     }
 
-    fn ida(&self, on: &On<'_>, engine: &Engine<'_>) -> Result<Found, AssessmentError> {
+    fn ida(&self, on: &On<'_>, engine: &Engine<'_>) -> Result<Results, AssessmentError> {
         let measure = self.measure()?;
         let models = self.models(on, None)?;
         let demand = self.demand();
@@ -262,7 +262,7 @@ impl Asked {
             by: self.given("by"),
         };
         let run = run_ida(&request, engine)?;
-        Ok(Found::Ida { measure, demand: demand.to_owned(), limit, fixed_levels, run })
+        Ok(Results::Ida { measure, demand: demand.to_owned(), limit, fixed_levels, run })
     }
 
     fn levels(
@@ -290,7 +290,11 @@ impl Asked {
         Ok(IdaLevels::Hunt { start, top })
     }
 
-    fn design(&self, on: &On<'_>, engine: &Engine<'_>) -> Result<(Found, String), AssessmentError> {
+    fn design(
+        &self,
+        on: &On<'_>,
+        engine: &Engine<'_>,
+    ) -> Result<(Results, String), AssessmentError> {
         if self.given("friction").is_none() && self.given("vary").is_none() {
             let expected = "something to vary, friction or slider.radius=1..5m:50";
             return Err(refuse("vary", expected, "nothing"));
@@ -331,7 +335,7 @@ impl Asked {
             confidence,
         };
         let run = run_design(&request, engine)?;
-        Ok((Found::Design { target, acceleration, bounds, confidence, run }, scaled))
+        Ok((Results::Design { target, acceleration, bounds, confidence, run }, scaled))
     }
 
     /// The models of what is varied, friction first and the axis last. Only `friction` takes the static

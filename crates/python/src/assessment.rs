@@ -7,7 +7,7 @@ use pyo3::types::PyDict;
 use slipstick::assessment::AssessmentError;
 use slipstick::assessment::suite::Suite;
 use slipstick::record::Units;
-use slipstick::requests::{Answer, Asked, Field, Kind, On, Runs, Takes};
+use slipstick::requests::{Answer, Field, Kind, On, Request, Runs, Takes};
 use slipstick_files::{
     OpenSuite, SuiteError, SuiteRequest, files_of_runs, limit_of_ida, read_runs,
 };
@@ -150,14 +150,14 @@ pub(crate) fn fit(
     Assessment::new(py, asked.kind(), answer.map_err(|error| of_assessment(py, &error))?)
 }
 
-fn asked(py: Python<'_>, kind: &str, given: &[(String, String)]) -> PyResult<Asked> {
+fn asked(py: Python<'_>, kind: &str, given: &[(String, String)]) -> PyResult<Request> {
     let names = Kind::ALL.map(Kind::name).join(", ");
     let known = Kind::ALL.into_iter().find(|known| known.name() == kind);
     let kind = known.ok_or_else(|| of_argument(py, "kind", &names, kind))?;
     let given: Vec<(String, String)> =
         given.iter().map(|(name, text)| (name.replace('_', "-"), text.clone())).collect();
     let given = given.iter().map(|(name, text)| (name.as_str(), text.clone()));
-    Asked::new(kind, given).map_err(|error| of_assessment(py, &AssessmentError::Choice(error)))
+    Request::new(kind, given).map_err(|error| of_assessment(py, &AssessmentError::Choice(error)))
 }
 
 /// The fields of an analysis: name, whether it may be repeated, default, what it is.

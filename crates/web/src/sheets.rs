@@ -9,7 +9,7 @@ use slipstick::input::loaded::{Loaded, Wanted};
 use slipstick::input::plan::Plan;
 use slipstick::input::{Analysis, MotionSource};
 use slipstick::record::Options;
-use slipstick::requests::{Asked, Found, Kind, On, Runs};
+use slipstick::requests::{Kind, On, Request, Results, Runs};
 use slipstick::response::{Method, Warning};
 use slipstick::study::engine::Engine;
 use slipstick::study::summary::{Rows, Take};
@@ -125,10 +125,10 @@ impl Settings<'_> {
     }
 
     /// What is asked of an analysis, of all its fields.
-    fn asked(&self, kind: Kind) -> Result<Asked, Failure> {
+    fn asked(&self, kind: Kind) -> Result<Request, Failure> {
         let field = |name: &str| kind.fields().iter().any(|field| field.name == name);
         let given = self.pairs().filter(|(name, _)| field(name));
-        Asked::new(kind, given.map(|(name, text)| (name, text.to_owned()))).map_err(Failure::of)
+        Request::new(kind, given.map(|(name, text)| (name, text.to_owned()))).map_err(Failure::of)
     }
 
     /// What was asked, as the command takes it.
@@ -190,7 +190,7 @@ pub fn assess(
         // The incremental dynamic analysis, and the curve that fits it.
         Kind::Fragility => {
             let ida = settings.asked(Kind::Ida)?.run(&on, engine).map_err(failed)?;
-            let Found::Ida { limit, run, .. } = &ida.found else { return Ok(ida) };
+            let Results::Ida { limit, run, .. } = &ida.found else { return Ok(ida) };
             let source = "the incremental dynamic analysis";
             let runs = Runs { name: &name, source, table: &run.rows, limit: *limit };
             settings.asked(kind)?.fit(&runs, engine).map_err(failed)

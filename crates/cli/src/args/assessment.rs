@@ -6,7 +6,7 @@ use clap::builder::PossibleValuesParser;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 use slipstick::error::ChoiceError;
-use slipstick::requests::{Asked, Field, Kind, Takes};
+use slipstick::requests::{Field, Kind, Request, Takes};
 
 use super::{RecordArgs, ResultArgs};
 
@@ -118,8 +118,8 @@ pub struct Fields<const KIND: usize>(Vec<(&'static str, String)>);
 
 impl<const KIND: usize> Fields<KIND> {
     /// What is asked for.
-    pub fn asked(&self) -> Result<Asked, ChoiceError> {
-        Asked::new(Kind::ALL[KIND], self.0.iter().cloned())
+    pub fn asked(&self) -> Result<Request, ChoiceError> {
+        Request::new(Kind::ALL[KIND], self.0.iter().cloned())
     }
 }
 

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use slipstick::assessment::AssessmentError;
-use slipstick::requests::{Answer, Curves, Found, Kind, Runs};
+use slipstick::requests::{Answer, Curves, Kind, Results, Runs};
 use slipstick::study::engine::Engine;
 use slipstick::table::Table;
 use slipstick_files::{
@@ -51,7 +51,7 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
         AssessmentError::Cell(error) => read.cell_error(&error).into(),
         other => failure(other),
     })?;
-    if let Found::Fragility { curves: Curves::One(run), .. } = &answer.found
+    if let Results::Fragility { curves: Curves::One(run), .. } = &answer.found
         && let Some((.., kind)) = sources.first_mut()
     {
         run.kind.clone_into(kind);

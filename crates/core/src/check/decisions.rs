@@ -8,7 +8,7 @@ use super::ground::{Load, of_side};
 use super::group::{Feed, Group, UNBOUNDED, Work};
 use super::judge::Judge;
 use super::lane::LANES;
-use super::law::Asked;
+use super::law::StickDemand;
 use super::outputs::{FRICTION, STOREYS};
 use super::structure::{excess, larger};
 use crate::response::Mode;
@@ -146,16 +146,22 @@ impl Judge<'_> {
     }
 
     /// What an interface at rest is asked for by a demand or an acceleration of contents.
-    pub(super) fn asked_in(&self, i: usize, value: f64, hold: [f64; 2], normal: f64) -> Asked {
+    pub(super) fn asked_in(
+        &self,
+        i: usize,
+        value: f64,
+        hold: [f64; 2],
+        normal: f64,
+    ) -> StickDemand {
         let Some(contents) = i.checked_sub(1).map(|e| &self.structure.contents[e]) else {
             let [low, high] = hold;
             let low = if low <= -UNBOUNDED { f64::NEG_INFINITY } else { low * normal };
             let high = if high >= UNBOUNDED { f64::INFINITY } else { high * normal };
-            return Asked { demand: value, low, high };
+            return StickDemand { demand: value, low, high };
         };
         let share = contents.mass_kg / self.structure.total_kg;
         let high = contents.static_friction * share * normal;
-        Asked { demand: contents.mass_kg * value, low: -high, high }
+        StickDemand { demand: contents.mass_kg * value, low: -high, high }
     }
 
     /// What the rounding of times makes of what an interface at rest is asked for, less what holds it.
@@ -190,7 +196,7 @@ impl Judge<'_> {
         modes: &[Mode],
         (i, leans): (usize, bool),
         load: &Load,
-    ) -> (Asked, f64) {
+    ) -> (StickDemand, f64) {
         let forces = change.forces(modes, load);
         let of = |place: usize| forces.get(place).copied().unwrap_or(f64::NAN);
         let (value, mass_kg) = match i.checked_sub(1) {

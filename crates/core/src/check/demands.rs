@@ -1,6 +1,6 @@
 //! The printed demands and events, compared with those of the check's own path.
 
-use super::events::{Events, Told};
+use super::events::{Events, JudgedEvent};
 use super::outputs::{
     BASE_SHEAR, BLOCK, FRICTION, OVERTURNING, Outputs, SLIDER, STOP, STOREYS, VELOCITY,
 };
@@ -296,7 +296,8 @@ fn of_events(
             [Slip, Stick, Reversal, Contact, Separation, Press, Leave, Impact, Rest, Surface]
         {
             let fits = |e: &&Event| e.kind == kind && e.interface == interface;
-            let own: Vec<&Event> = all.iter().map(|told: &Told| &told.event).filter(fits).collect();
+            let own: Vec<&Event> =
+                all.iter().map(|judged: &JudgedEvent| &judged.event).filter(fits).collect();
             let printed: Vec<&Event> = response.events.iter().filter(fits).collect();
             let count = own.len() as u64;
             c.same(printed.len() == own.len());

@@ -6,7 +6,7 @@ use crate::response::{Contact, Event, EventKind, History, Mode};
 pub(super) const SLOWEST_IMPACT_M_PER_S: f64 = 1e-3;
 
 /// An event, with the sliding speed before it.
-pub(super) struct Told {
+pub(super) struct JudgedEvent {
     pub(super) event: Event,
     pub(super) speed: f64,
 }
@@ -14,7 +14,7 @@ pub(super) struct Told {
 /// All so far.
 #[derive(Default)]
 pub(super) struct Events {
-    pub(super) list: Vec<Told>,
+    pub(super) list: Vec<JudgedEvent>,
     /// The last turn of the slider since its last impact.
     turn: Option<usize>,
     /// Largest speed of an impact.
@@ -46,7 +46,7 @@ impl Events {
         let mode = h.modes(k)[interface];
         let event =
             Event { time_s: h.time_s[k], kind, mode, sliding_displacement_m: place, interface };
-        self.list.push(Told { event, speed });
+        self.list.push(JudgedEvent { event, speed });
     }
 
     /// The first knot, with the modes before it.

@@ -15,7 +15,7 @@ use fearless_simd::prelude::*;
 
 use super::collocation::{MAX_TURN, MOST_PASSES, NODES, POINTS, ROUNDING};
 use super::ground::{Ground, Load, between};
-use super::knots::{Bench, Knots, Worst};
+use super::knots::{Knots, LaneJudge, Worst};
 use super::lane::{Eight, LANES, Places, all, both, inlined, keep, larger, smaller};
 use super::law::Push;
 use super::outputs::{BLOCK, FRICTION, Outputs, STOP, each_output, raise};
@@ -188,7 +188,7 @@ pub(super) struct Group {
 }
 
 impl Group {
-    pub(super) fn new(bench: &Bench<'_>) -> Self {
+    pub(super) fn new(bench: &LaneJudge<'_>) -> Self {
         let s = bench.structure;
         let masses = || core::iter::once(s.block_kg).chain(s.masses_kg.iter().copied());
         let rest = Step { from_s: 0.0, step_s: 0.0, loads: [Load::default(); 2] };
@@ -222,7 +222,7 @@ impl Group {
     }
 
     /// Takes an interval; whether there is no room for another.
-    pub(super) fn push(&mut self, bench: &Bench<'_>, course: &Course<'_>) -> bool {
+    pub(super) fn push(&mut self, bench: &LaneJudge<'_>, course: &Course<'_>) -> bool {
         let lane = self.count;
         self.knots[lane] = course.knot;
         self.feeds[lane] = course.feed;
@@ -261,7 +261,12 @@ impl Group {
     }
 
     /// Sets contents of a lane by the sign of their sliding.
-    fn carry(&mut self, bench: &Bench<'_>, lane: usize, modes: impl Iterator<Item = (f64, bool)>) {
+    fn carry(
+        &mut self,
+        bench: &LaneJudge<'_>,
+        lane: usize,
+        modes: impl Iterator<Item = (f64, bool)>,
+    ) {
         let s = bench.structure;
         if s.contents.is_empty() {
             return;
@@ -286,7 +291,7 @@ impl Group {
     }
 
     /// All lanes as a key has them, in a step of this length.
-    pub(super) fn of_key(bench: &Bench<'_>, key: &Key, step_s: f64) -> Self {
+    pub(super) fn of_key(bench: &LaneJudge<'_>, key: &Key, step_s: f64) -> Self {
         let mut group = Self::new(bench);
         for lane in 0..LANES {
             group.step_s.0[lane] = step_s;
@@ -344,7 +349,7 @@ impl Group {
     }
 
     /// Goes on by a step; a lane that has arrived waits in steps of no length. Whether any goes on.
-    fn next(&mut self, bench: &Bench<'_>, ground: &mut Ground<'_>) -> bool {
+    fn next(&mut self, bench: &LaneJudge<'_>, ground: &mut Ground<'_>) -> bool {
         if self.at_once {
             let fresh = self.feeds[0].at == 0;
             self.feeds[0].at = 1;
@@ -401,7 +406,7 @@ impl Group {
     }
 
     /// What follows the normal force in the step under way: its rounding, and springs.
-    fn follow_normal(&mut self, bench: &Bench<'_>, ground: &Ground<'_>) {
+    fn follow_normal(&mut self, bench: &LaneJudge<'_>, ground: &Ground<'_>) {
         if bench.vertical {
             for lane in 0..LANES {
                 let rounding = self.steps[lane].loads[0].normal_rounding(ground.blur());
@@ -463,7 +468,7 @@ pub(super) struct Spread {
 
 /// What the points of intervals say of a margin or a speed, one after another.
 #[derive(Clone, Default)]
-struct Seen {
+struct Extremes {
     first: Eight,
     least: Eight,
     most: Eight,
@@ -520,13 +525,13 @@ pub(super) struct Work {
     /// Outputs at the nodes, and at the ends of a step within an interval.
     values: Vec<Eight>,
     pub(super) ends: [Vec<Eight>; 2],
-    seen: Vec<Seen>,
+    seen: Vec<Extremes>,
     pub(super) spent: Spent<Eight>,
     pub(super) watch: Vec<Watch<Eight>>,
 }
 
 impl Work {
-    pub(super) fn new(bench: &Bench<'_>, outputs: usize) -> Self {
+    pub(super) fn new(bench: &LaneJudge<'_>, outputs: usize) -> Self {
         let zeros = |count: usize| vec![Eight::ZERO; count];
         let (d, e) = (bench.structure.degrees(), bench.structure.contents.len());
         Self {
@@ -539,7 +544,7 @@ impl Work {
             fastest: zeros(d),
             values: zeros(NODES * outputs),
             ends: [zeros(outputs), zeros(outputs)],
-            seen: vec![Seen::default(); 1 + e],
+            seen: vec![Extremes::default(); 1 + e],
             spent: Spent::default(),
             watch: vec![Watch::default(); 1 + e],
         }
@@ -586,7 +591,7 @@ struct Now<S: Simd> {
     part: f64,
 }
 
-impl Bench<'_> {
+impl LaneJudge<'_> {
     /// Judges a group by the maps of its step, or by solving the equations of each.
     #[inline(always)]
     pub(super) fn group<S: Simd>(
@@ -1720,7 +1725,7 @@ fn state_of(input: &[Eight], path: &[Eight], end: usize, entry: usize, degrees: 
     if end == 0 { input[entry] } else { path[NODES * degrees + entry] }
 }
 
-impl Seen {
+impl Extremes {
     #[inline(always)]
     fn start<S: Simd>(&mut self, first: f64x8<S>) {
         for place in [&mut self.first, &mut self.least, &mut self.most, &mut self.last] {

@@ -10,7 +10,7 @@ use super::ground::{Ground, Load, between};
 use super::group::{
     Course, Feed, Group, Key, Maps, Pass, Points, Spent, Spread, UNBOUNDED, Watch, Work,
 };
-use super::knots::{Acting, Bench, Knots, Sizes, Worst};
+use super::knots::{Acting, Knots, LaneJudge, Sizes, Worst};
 use super::law::{Law, Sliding};
 use super::near::{Dips, dip};
 use super::outputs::{BLOCK, Outputs, STOREYS, VELOCITY};
@@ -70,8 +70,8 @@ struct Kind {
     spread: Spread,
 }
 
-/// What is told of all intervals.
-struct Told {
+/// Figures of all intervals.
+struct IntervalFigures {
     spent: Vec<Spent<f64>>,
     /// One an interface.
     watch: Vec<Watch<f64>>,
@@ -175,8 +175,8 @@ impl<'a> Judge<'a> {
     }
 
     /// What the lanes need.
-    pub(super) fn bench(&self) -> Bench<'a> {
-        Bench {
+    pub(super) fn bench(&self) -> LaneJudge<'a> {
+        LaneJudge {
             structure: self.structure,
             rule: Rule::get(),
             history: self.h,
@@ -271,9 +271,9 @@ impl<'a> Judge<'a> {
         self.energy.start(initial_j, stop_j, rounding_j, knots);
         self.decide();
         self.find_floor();
-        let told = self.side_by_side(&all)?;
-        let near = self.look_again(&all, &told)?;
-        self.in_order(&all, &told, &near);
+        let intervals = self.side_by_side(&all)?;
+        let near = self.look_again(&all, &intervals)?;
+        self.in_order(&all, &intervals, &near);
         for list in [&mut all.kinetic_j, &mut all.strain_j] {
             list.truncate(knots);
         }
@@ -425,10 +425,10 @@ impl<'a> Judge<'a> {
     }
 
     /// Judges all intervals eight at a time; looks for peaks where there may be some.
-    fn side_by_side(&mut self, knots: &Knots) -> Result<Told, Stopped> {
+    fn side_by_side(&mut self, knots: &Knots) -> Result<IntervalFigures, Stopped> {
         let (h, bench) = (self.h, self.bench());
         let interfaces = h.interfaces;
-        let mut told = Told {
+        let mut intervals = IntervalFigures {
             spent: vec![Spent::default(); h.len()],
             watch: vec![Watch::default(); h.len() * interfaces],
         };
@@ -461,7 +461,14 @@ impl<'a> Judge<'a> {
                     if group.push(&bench, &course) {
                         let maps = kind.maps.as_ref().filter(|_| even);
                         let how = (maps, Some(&kind.spread));
-                        self.flush(&bench, group, how, knots, (&mut work, &mut worst), &mut told)?;
+                        self.flush(
+                            &bench,
+                            group,
+                            how,
+                            knots,
+                            (&mut work, &mut worst),
+                            &mut intervals,
+                        )?;
                     }
                 }
                 None => {
@@ -471,7 +478,7 @@ impl<'a> Judge<'a> {
                         rest[bucket.min(BUCKETS - 1)].get_or_insert_with(|| Group::new(&bench));
                     if group.push(&bench, &course) {
                         let to = (&mut work, &mut worst);
-                        self.flush(&bench, group, (None, None), knots, to, &mut told)?;
+                        self.flush(&bench, group, (None, None), knots, to, &mut intervals)?;
                     }
                 }
             }
@@ -480,17 +487,17 @@ impl<'a> Judge<'a> {
             let spread = Some(&kind.spread);
             for (group, maps) in [(&mut kind.even, kind.maps.as_ref()), (&mut kind.odd, None)] {
                 let to = (&mut work, &mut worst);
-                self.flush(&bench, group, (maps, spread), knots, to, &mut told)?;
+                self.flush(&bench, group, (maps, spread), knots, to, &mut intervals)?;
             }
         }
         for group in rest.iter_mut().flatten() {
             let to = (&mut work, &mut worst);
-            self.flush(&bench, group, (None, None), knots, to, &mut told)?;
+            self.flush(&bench, group, (None, None), knots, to, &mut intervals)?;
         }
         self.figures.take(&worst);
         self.drift = worst.drift.map(|drift| drift.largest());
         self.still = (STILL * worst.sliding.largest()).max(self.still);
-        Ok(told)
+        Ok(intervals)
     }
 
     /// Groups of a key with the maps of the even step, where there is one, and bounds on the outputs.
@@ -509,15 +516,32 @@ impl<'a> Judge<'a> {
         Kind { key, even: Group::new(&bench), odd: Group::new(&bench), maps, spread }
     }
 
+    fn pass<'p>(
+        &'p mut self,
+        knots: &'p Knots,
+        work: &'p mut Work,
+        worst: &'p mut Worst,
+    ) -> Pass<'p, 'a> {
+        Pass {
+            ground: &mut self.ground,
+            outputs: &self.outputs,
+            attained: &mut self.attained,
+            knots,
+            work,
+            worst,
+            pulse: &mut self.pulse,
+        }
+    }
+
     /// Judges a group and empties it.
     fn flush(
         &mut self,
-        bench: &Bench<'_>,
+        bench: &LaneJudge<'_>,
         group: &mut Group,
         (maps, spread): (Option<&Maps>, Option<&Spread>),
         knots: &Knots,
         (work, worst): (&mut Work, &mut Worst),
-        told: &mut Told,
+        intervals: &mut IntervalFigures,
     ) -> Result<(), Stopped> {
         if group.count == 0 {
             return Ok(());
@@ -528,21 +552,13 @@ impl<'a> Judge<'a> {
             self.by_maps += group.count;
         }
         let level = self.level;
-        let mut pass = Pass {
-            ground: &mut self.ground,
-            outputs: &self.outputs,
-            attained: &mut self.attained,
-            knots,
-            work,
-            worst,
-            pulse: &mut self.pulse,
-        };
+        let mut pass = self.pass(knots, work, worst);
         dispatch!(level, simd => bench.group(simd, group, (maps, spread), &mut pass))?;
         for lane in 0..group.count {
             let k = group.knot(lane);
-            told.spent[k] = pass.work.spent.lane(lane);
-            let watch = pass.work.watch.iter().map(|watch| watch.lane(lane));
-            let own = &mut told.watch[k * self.h.interfaces..][..self.h.interfaces];
+            intervals.spent[k] = work.spent.lane(lane);
+            let watch = work.watch.iter().map(|watch| watch.lane(lane));
+            let own = &mut intervals.watch[k * self.h.interfaces..][..self.h.interfaces];
             for (own, watch) in own.iter_mut().zip(watch) {
                 *own = watch;
             }
@@ -600,9 +616,9 @@ impl<'a> Judge<'a> {
 
     /// Whether the points of an interval are needed: a decision may have been closer than any so far, or
     /// a law is broken.
-    fn is_near(&self, k: usize, told: &Told) -> bool {
+    fn is_near(&self, k: usize, intervals: &IntervalFigures) -> bool {
         let h = self.h;
-        let watch = &told.watch[k * h.interfaces..][..h.interfaces];
+        let watch = &intervals.watch[k * h.interfaces..][..h.interfaces];
         let contact = self.contact(k) != Contact::Free && h.modes(k)[0] != Mode::Stick;
         let near = |(i, (watch, mode)): (usize, (&Watch<f64>, &Mode))| match mode {
             Mode::Stick => !(watch.least >= 0.0) || watch.low < self.floor,
@@ -616,7 +632,11 @@ impl<'a> Judge<'a> {
     }
 
     /// The points of intervals in which a decision may have been close, in order of time.
-    fn look_again(&mut self, knots: &Knots, told: &Told) -> Result<Vec<Points>, Stopped> {
+    fn look_again(
+        &mut self,
+        knots: &Knots,
+        intervals: &IntervalFigures,
+    ) -> Result<Vec<Points>, Stopped> {
         let (h, bench) = (self.h, self.bench());
         let mut found = Vec::new();
         let mut work = Work::new(&bench, self.outputs.len());
@@ -624,7 +644,7 @@ impl<'a> Judge<'a> {
         let mut group = Group::new(&bench);
         for k in 0..h.len() {
             let last = k + 1 == h.len();
-            let full = if !last && h.time_s[k + 1] > h.time_s[k] && self.is_near(k, told) {
+            let full = if !last && h.time_s[k + 1] > h.time_s[k] && self.is_near(k, intervals) {
                 let course = self.interval(k);
                 group.push(&bench, &course)
             } else {
@@ -633,15 +653,7 @@ impl<'a> Judge<'a> {
             if full || last && group.count > 0 {
                 group.fill();
                 let level = self.level;
-                let mut pass = Pass {
-                    ground: &mut self.ground,
-                    outputs: &self.outputs,
-                    attained: &mut self.attained,
-                    knots,
-                    work: &mut work,
-                    worst: &mut worst,
-                    pulse: &mut self.pulse,
-                };
+                let mut pass = self.pass(knots, &mut work, &mut worst);
                 dispatch!(level, simd => {
                     bench.points(simd, &mut group, &mut pass, &mut found)
                 })?;
@@ -654,7 +666,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Goes through the knots in order of time: events, near decisions, energies, sums.
-    fn in_order(&mut self, all: &Knots, told: &Told, near: &[Points]) {
+    fn in_order(&mut self, all: &Knots, intervals: &IntervalFigures, near: &[Points]) {
         let (h, knots) = (self.h, self.h.len());
         let before = self.modes_at_start();
         self.events.begin(h, &before);
@@ -672,7 +684,7 @@ impl<'a> Judge<'a> {
                 let count = near.iter().take_while(|points| points.knot == k).count();
                 let (own, later) = near.split_at(count);
                 near = later;
-                self.recall(k, told, own);
+                self.recall(k, intervals, own);
             } else if !arrives {
                 self.alone(k);
             }
@@ -721,11 +733,11 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Takes up what was told of an interval, and looks at its points where a decision may have been close.
-    fn recall(&mut self, k: usize, told: &Told, near: &[Points]) {
+    /// Takes up the figures of an interval, and looks at its points where a decision may have been close.
+    fn recall(&mut self, k: usize, intervals: &IntervalFigures, near: &[Points]) {
         let h = self.h;
         let (modes, times_s) = (h.modes(k), [h.time_s[k], h.time_s[k + 1]]);
-        self.energy.spend(&told.spent[k]);
+        self.energy.spend(&intervals.spent[k]);
         let slack_m = 8.0 * f64::EPSILON * self.figures.displacement[1];
         let leans = self.law.restitution().is_some()
             && self.law.leans(h.sliding_displacement_m[k], slack_m) != [false; 2];
@@ -741,7 +753,7 @@ impl<'a> Judge<'a> {
             self.surfaces(k);
         }
         for (i, mode) in modes.iter().enumerate() {
-            let watch = told.watch[k * h.interfaces + i];
+            let watch = intervals.watch[k * h.interfaces + i];
             if !near.is_empty() {
                 self.dips[i].resume(times_s);
                 match mode {

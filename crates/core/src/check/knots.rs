@@ -60,7 +60,7 @@ impl Worst {
 }
 
 /// What the lanes need of a model and its history.
-pub(super) struct Bench<'a> {
+pub(super) struct LaneJudge<'a> {
     pub(super) structure: &'a Structure,
     pub(super) rule: &'static Rule,
     pub(super) history: &'a History,
@@ -125,7 +125,7 @@ impl Bodies {
     }
 }
 
-impl Bench<'_> {
+impl LaneJudge<'_> {
     /// `C1 ṡ² + q̇ᵀ C q̇`.
     #[inline(always)]
     pub(super) fn dissipation<S: Simd>(

@@ -16,13 +16,13 @@ const AT_END: f64 = 1.0 - 4.0 * f64::EPSILON;
 
 /// What friction is asked for and between which forces it holds, in N.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Asked {
+pub(super) struct StickDemand {
     pub(super) demand: f64,
     pub(super) low: f64,
     pub(super) high: f64,
 }
 
-impl Asked {
+impl StickDemand {
     /// How far the demand lies beyond what holds, in N; negative within.
     pub(super) fn beyond(&self) -> f64 {
         (self.demand - self.high).max(self.low - self.demand)

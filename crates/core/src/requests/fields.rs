@@ -283,12 +283,12 @@ pub fn table() -> String {
 
 /// What is asked of an analysis: texts by the names of its fields.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Asked {
+pub struct Request {
     kind: Kind,
     given: Vec<(&'static Field, String)>,
 }
 
-impl Asked {
+impl Request {
     /// Takes what is given, `(name of the field, text)`; an empty text is none.
     ///
     /// # Errors
@@ -366,7 +366,7 @@ mod tests {
             for (i, field) in fields.iter().enumerate() {
                 assert!(fields[..i].iter().all(|other| other.name != field.name), "{}", field.name);
                 let given = (field.name, field.default.to_owned());
-                let asked = Asked::new(kind, [given]).unwrap();
+                let asked = Request::new(kind, [given]).unwrap();
                 assert_eq!(asked.one(field.name), field.default, "{}", field.name);
             }
         }
@@ -376,7 +376,7 @@ mod tests {
     #[test]
     fn exact_what_is_no_field_is_said_with_the_nearest() {
         let error = |kind, name, text: &str| {
-            Asked::new(kind, [(name, text.to_owned())]).unwrap_err().to_string()
+            Request::new(kind, [(name, text.to_owned())]).unwrap_err().to_string()
         };
         assert_eq!(
             error(Kind::Ida, "limits", "1 mm"),

@@ -46,20 +46,14 @@ impl Segment {
 impl<S: Simd, W: Width> Run<'_, S, W> {
     /// Goes through one sample interval from a time in it.
     #[inline(never)]
-    pub(super) fn step_events(&mut self, sample: usize, mut from_s: f64) -> Result<(), SolveError> {
+    pub(super) fn step_events(&mut self, sample: usize, from_s: f64) -> Result<(), SolveError> {
         let simd = self.simd;
         simd.vectorize(
             #[inline(always)]
             || {
                 self.course.events_in_interval = 0;
-                let length_s = self.ground.times_s[sample + 1] - self.ground.times_s[sample];
-                let change_s = self.ground.contact_change(sample).map(|part| part * length_s);
-                for to_s in [change_s.unwrap_or(0.0), length_s] {
-                    if to_s > from_s {
-                        let stretch = self.ground.stretch(sample, from_s, to_s);
-                        self.step_stretch(&stretch)?;
-                        from_s = to_s;
-                    }
+                for stretch in self.ground.stretches(sample, from_s).iter().flatten() {
+                    self.step_stretch(stretch)?;
                 }
                 Ok(())
             },

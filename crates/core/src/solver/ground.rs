@@ -235,10 +235,12 @@ impl Ground<'_> {
         from + (to - from) * (at_s / length_s)
     }
 
-    /// Where in an interval (as a part of it) contact is lost or regained.
+    /// An interval from a time after its first sample, cut where contact changes.
     #[inline(always)]
-    pub(super) fn contact_change(&self, interval: usize) -> Option<f64> {
-        change(self.normals(interval))
+    pub(super) fn stretches(&self, interval: usize, from_s: f64) -> [Option<Stretch>; 2] {
+        let length_s = self.times_s[interval + 1] - self.times_s[interval];
+        let accelerations = [self.acceleration[interval], self.acceleration[interval + 1]];
+        Stretch::cut(interval, length_s, accelerations, self.normals(interval), from_s)
     }
 
     /// The part of an interval between two times after its first sample; contact does not change
@@ -255,13 +257,9 @@ impl Ground<'_> {
 /// contact changes, and the loads after it, which stand for as long as what has started may take to stop.
 pub(super) fn jump(sample: usize, from: [f64; 2], to: [f64; 2]) -> Vec<Stretch> {
     let [a, n] = [0, 1].map(|i| [from[i], to[i]]);
-    let part = |[from_s, to_s]: [f64; 2]| Stretch::new(sample, RAMP_S, a, n, [from_s, to_s]);
-    let mut all = match change(n).map(|part| part * RAMP_S) {
-        Some(change_s) => vec![part([0.0, change_s]), part([change_s, RAMP_S])],
-        None => vec![part([0.0, RAMP_S])],
-    };
-    all.push(Stretch::standing(sample, to, STANDING_S));
-    all
+    let ramp = Stretch::cut(sample, RAMP_S, a, n, 0.0);
+    let standing = Stretch::standing(sample, to, STANDING_S);
+    ramp.into_iter().flatten().chain([standing]).collect()
 }
 
 /// Where in an interval between two normal forces (as a part of it) contact is lost or regained.
@@ -323,6 +321,27 @@ impl Stretch {
             normal_from_s,
             normal_rate,
         }
+    }
+
+    /// An interval with these loads at its ends, from a time in it, cut where contact changes.
+    #[inline(always)]
+    fn cut(
+        interval: usize,
+        length_s: f64,
+        accelerations: [f64; 2],
+        normals: [f64; 2],
+        mut from_s: f64,
+    ) -> [Option<Self>; 2] {
+        let change_s = change(normals).map(|part| part * length_s);
+        let mut stretches = [None, None];
+        for (stretch, to_s) in stretches.iter_mut().zip([change_s.unwrap_or(0.0), length_s]) {
+            if to_s > from_s {
+                *stretch =
+                    Some(Self::new(interval, length_s, accelerations, normals, [from_s, to_s]));
+                from_s = to_s;
+            }
+        }
+        stretches
     }
 
     /// Loads that stand for a time.

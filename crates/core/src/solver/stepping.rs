@@ -197,8 +197,7 @@ impl<'a> Stepping<'a> {
     /// Goes through one sample interval, or a jump.
     fn step(&mut self, sample: usize) -> Result<(), SolveError> {
         let times_s = self.ground.times_s;
-        let length_s = times_s[sample + 1] - times_s[sample];
-        if length_s == 0.0 {
+        if times_s[sample + 1] == times_s[sample] {
             self.record_sample(sample, true);
             // What a jump at the very end lets go has no time to slide.
             if times_s[sample] < times_s[times_s.len() - 1] {
@@ -207,14 +206,8 @@ impl<'a> Stepping<'a> {
             return Ok(());
         }
         self.events_in_interval = 0;
-        let change_s = self.ground.contact_change(sample).map(|part| part * length_s);
-        let mut from_s = 0.0;
-        for to_s in [change_s.unwrap_or(0.0), length_s] {
-            if to_s > from_s {
-                let stretch = self.ground.stretch(sample, from_s, to_s);
-                self.step_stretch(&stretch)?;
-                from_s = to_s;
-            }
+        for stretch in self.ground.stretches(sample, 0.0).iter().flatten() {
+            self.step_stretch(stretch)?;
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! Answers to requests, laid out, and their tables.
 
-use slipstick::requests::{Answer, Curves, Found};
+use slipstick::requests::{Answer, Curves, Results};
 use slipstick::table::Table;
 
 use super::design::DesignReport;
@@ -26,10 +26,10 @@ pub struct Tabled {
 pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
     let Answer { name, records, scaled, warnings, found } = answer;
     match found {
-        Found::Spectrum(run) => {
+        Results::Spectrum(run) => {
             SpectrumReport { name, records, scaled, run, warnings, display }.sheet()
         }
-        Found::Ida { measure, demand, limit, fixed_levels, run } => IdaFamily {
+        Results::Ida { measure, demand, limit, fixed_levels, run } => IdaFamily {
             name,
             measure,
             demand,
@@ -40,7 +40,7 @@ pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
             display,
         }
         .sheet(),
-        Found::Design { target, acceleration, bounds, confidence, run } => DesignReport {
+        Results::Design { target, acceleration, bounds, confidence, run } => DesignReport {
             name,
             records: records.len(),
             scaled,
@@ -53,7 +53,7 @@ pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
             display,
         }
         .sheet(),
-        Found::Fragility { demand, limit, confidence, curves } => {
+        Results::Fragility { demand, limit, confidence, curves } => {
             let (limit, confidence) = (*limit, *confidence);
             match curves {
                 Curves::One(run) => {
@@ -81,17 +81,17 @@ pub fn tables(answer: Answer) -> Vec<Tabled> {
     const BOTH: &[&str] = &["csv", "parquet"];
     let tabled = |name, forms, table| Tabled { name, forms, table };
     match answer.found {
-        Found::Spectrum(run) => {
+        Results::Spectrum(run) => {
             vec![tabled("spectrum", BOTH, run.table), tabled("runs", &BOTH[1..], run.rows)]
         }
-        Found::Ida { run, .. } => {
+        Results::Ida { run, .. } => {
             let capacities = run.capacities.map(|table| tabled("capacities", &BOTH[..1], table));
             core::iter::once(tabled("ida", BOTH, run.rows)).chain(capacities).collect()
         }
-        Found::Design { run, .. } => {
+        Results::Design { run, .. } => {
             vec![tabled("front", BOTH, run.front), tabled("runs", &BOTH[1..], run.runs)]
         }
-        Found::Fragility { demand, limit, confidence, curves } => {
+        Results::Fragility { demand, limit, confidence, curves } => {
             let display = DisplayUnits::Si;
             let (name, demand) = (&answer.name[..], &demand[..]);
             let mut table = Table::default();

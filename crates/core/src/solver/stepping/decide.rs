@@ -311,15 +311,13 @@ impl Stepping<'_> {
     /// Whether friction could not hold the slider, with all else as assigned.
     fn must_slide(
         &mut self,
-        (stretch, at_s): (&Stretch, f64),
+        at: (&Stretch, f64),
         assignment: &Assignment,
         direction: Direction,
     ) -> bool {
         self.put_in_force(&assignment.in_force);
         self.hold(0);
-        let unit_s = self.unit_s;
-        self.expand(stretch, at_s);
-        self.unit_s = unit_s;
+        self.expand_at(at);
         self.leaving(0) == Some(direction)
     }
 
@@ -330,21 +328,12 @@ impl Stepping<'_> {
     }
 
     /// The assignment in which these slide, the slider else sticks, and as many contents as can.
-    fn assign(
-        &mut self,
-        (stretch, at_s): (&Stretch, f64),
-        held: &InForce,
-        slides: &[LetGo],
-    ) -> Assignment {
+    fn assign(&mut self, at: (&Stretch, f64), held: &InForce, slides: &[LetGo]) -> Assignment {
         self.put_in_force(held);
         let mut let_go = slides.to_vec();
         loop {
             let_go.drain(..).for_each(|(i, direction)| self.let_go(i, direction));
-            // What is rounding depends on the unit: all decisions of an instant, and the segment after
-            // them, take the same.
-            let unit_s = self.unit_s;
-            self.expand(stretch, at_s);
-            self.unit_s = unit_s;
+            self.expand_at(at);
             let stuck = (1..self.modes.len()).filter(|&i| self.modes[i] == Mode::Stick);
             let_go = stuck.filter_map(|i| Some((i, self.leaving(i)?))).collect();
             if let_go.is_empty() {
@@ -366,6 +355,14 @@ impl Stepping<'_> {
         }
         let sticking = self.modes.iter().filter(|mode| **mode == Mode::Stick).count();
         Assignment { in_force: self.in_force(), start, sticking, holds }
+    }
+
+    /// Expands the motion from an instant. What is rounding depends on the unit: all decisions of an
+    /// instant, and the segment after them, take the same.
+    fn expand_at(&mut self, (stretch, at_s): (&Stretch, f64)) {
+        let unit_s = self.unit_s;
+        self.expand(stretch, at_s);
+        self.unit_s = unit_s;
     }
 
     /// Acceleration of an interface by the series, positive along a direction.
