@@ -2,20 +2,18 @@
 
 mod course;
 mod dense;
-mod event;
+mod direct;
 mod ground;
+mod modal;
 mod outputs;
-mod peaks;
+mod phase;
 mod prepared;
 mod recorder;
-mod run;
-mod screen;
-mod settle;
 mod slider;
-mod stepping;
 mod stepwise;
 mod summary;
 mod tables;
+mod walk;
 mod workspace;
 
 use crate::error::SolveError;
@@ -24,8 +22,8 @@ use crate::motion::GroundMotion;
 use crate::progress::{GoOn, UNWATCHED};
 use crate::response::{Method, Response};
 
-pub use event::EVENTS_PER_INTERVAL_LIMIT;
 pub use prepared::{InstructionSet, Prepared, PreparedMotion};
+pub use walk::EVENTS_PER_INTERVAL_LIMIT;
 pub use workspace::Workspace;
 
 /// Exact response with its history.

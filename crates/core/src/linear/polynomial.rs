@@ -125,7 +125,7 @@ pub fn deflated(c: &Polynomial, order: usize) -> Polynomial {
     d
 }
 
-/// [`first_root`] of a polynomial whose first `order` coefficients, 2 at most, stand for zero: of what is
+/// [`first_root`] of a polynomial whose first `order` coefficients stand for zero: of what is
 /// left of it over `x^order`.
 #[inline(always)]
 #[must_use]

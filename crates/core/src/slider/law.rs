@@ -191,6 +191,12 @@ impl Exit {
 }
 
 impl Hold {
+    /// Friction alone, of one coefficient.
+    pub(crate) fn of_friction(coefficient: f64) -> Self {
+        let friction = [-coefficient, coefficient];
+        Self { force_n: 0.0, of_normal: 0.0, friction, leans: [false; 2] }
+    }
+
     /// What holds off rigid stops.
     pub(crate) fn off_stops(self) -> Self {
         Self { leans: [false; 2], ..self }
@@ -245,14 +251,9 @@ impl Hold {
         self.size(direction) * normal_n
     }
 
-    /// The same under a normal force that is a series; none where nothing lets the block go that way.
-    pub(crate) fn series_against(
-        &self,
-        direction: Direction,
-        normal: &Polynomial,
-    ) -> Option<Polynomial> {
-        let size = self.size(direction);
-        (size.is_finite() && !direction.of(self.leans)).then(|| normal.map(|n| size * n))
+    /// Whether a force can make the block slide in a direction.
+    pub(crate) fn gives(&self, direction: Direction) -> bool {
+        self.size(direction).is_finite() && !direction.of(self.leans)
     }
 
     /// How far a demand and a normal force, linear in time, leave the block from sliding in a direction:
@@ -276,11 +277,14 @@ impl Hold {
     pub(crate) fn beyond_friction(
         &self,
         asked: &Polynomial,
-        normal: &Polynomial,
+        [normal_n, rise_n]: [f64; 2],
     ) -> Option<(f64, Polynomial)> {
         let side = self.leans.iter().position(|leans| *leans)?;
         let (sign, bound) = (if side == 0 { -1.0 } else { 1.0 }, self.friction[side]);
-        Some((sign, core::array::from_fn(|k| sign * (asked[k] - bound * normal[k]))))
+        let mut beyond = asked.map(|c| sign * c);
+        beyond[0] -= sign * (bound * normal_n);
+        beyond[1] -= sign * (bound * rise_n);
+        Some((sign, beyond))
     }
 
     /// Whether friction holds a force that it is asked for, eq. (4); at the bound it does. Else the

@@ -24,6 +24,7 @@ use fearless_simd::prelude::*;
 use self::ahead::Ahead;
 use super::course::Course;
 use super::ground::{Ground, Normal};
+use super::phase::Reached;
 use super::recorder::Recorder;
 use crate::error::SolveError;
 use crate::linear::System;
@@ -57,13 +58,6 @@ pub(super) struct Shared<'r, 'a> {
     pub(super) candidates: &'r mut Vec<Candidate>,
     pub(super) recorder: Option<&'r mut Recorder>,
     pub(super) pulse: &'r mut Pulse<'a>,
-}
-
-/// How far it has come: so long after a sample, from where event stepping goes on.
-#[derive(Clone, Copy)]
-pub(super) struct Reached {
-    pub(super) sample: usize,
-    pub(super) at_s: f64,
 }
 
 impl<'a> Dense<'a> {

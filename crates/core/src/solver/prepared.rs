@@ -5,12 +5,17 @@ use std::sync::Arc;
 use fearless_simd::Level;
 use fearless_simd::prelude::*;
 
+use super::course::{Course, Sliding};
 use super::ground::{Ground, Normal, Sampling, contact_loss_s, varying_normal};
+use super::modal::Modal;
+use super::phase::Phase;
 use super::recorder::{self, Recorder};
-use super::run::{Outcome, Run, Sliding};
+use super::slider::SliderState;
+use super::summary::Outcome;
 use super::tables::{self, Tables};
+use super::walk::Walk;
 use super::workspace::Workspace;
-use super::{stepping, summary};
+use super::{direct, summary};
 use crate::error::SolveError;
 use crate::linear::lanes::{Many, One, Width};
 use crate::model::Model;
@@ -133,16 +138,16 @@ impl Prepared {
         self.demands_in(&mut Workspace::default(), motion)
     }
 
-    /// [`Prepared::demands`] in room that analyses before it have left.
+    /// [`Prepared::demands`] in workspace that analyses before it have left.
     ///
     /// # Errors
     /// [`SolveError`] with time and cause.
     pub fn demands_in(
         &self,
-        room: &mut Workspace,
+        workspace: &mut Workspace,
         motion: &PreparedMotion,
     ) -> Result<Response, SolveError> {
-        self.demands_while(room, motion, UNWATCHED)
+        self.demands_while(workspace, motion, UNWATCHED)
     }
 
     /// The same as long as `go_on` says so, which is asked every few milliseconds.
@@ -151,11 +156,11 @@ impl Prepared {
     /// [`SolveError::Stopped`] where it says no, and as [`Prepared::demands`].
     pub fn demands_while(
         &self,
-        room: &mut Workspace,
+        workspace: &mut Workspace,
         motion: &PreparedMotion,
         go_on: GoOn<'_>,
     ) -> Result<Response, SolveError> {
-        self.solve(InstructionSet::best(), motion, (false, go_on), room)
+        self.solve(InstructionSet::best(), motion, (false, go_on), workspace)
     }
 
     /// [`Prepared::demands`] by a given instruction set: the bits are the same by all.
@@ -195,7 +200,7 @@ impl Prepared {
         instructions: InstructionSet,
         motion: &PreparedMotion,
         how: (bool, GoOn<'_>),
-        room: &mut Workspace,
+        workspace: &mut Workspace,
     ) -> Result<Response, SolveError> {
         let own;
         let tables = if self.dt_s == motion.dt_s() {
@@ -205,7 +210,7 @@ impl Prepared {
             &own
         };
         let ground = (motion.motion(), &*motion.sampling);
-        solve(instructions, &self.model, tables, ground, how, room)
+        solve(instructions, &self.model, tables, ground, how, workspace)
     }
 }
 
@@ -218,8 +223,8 @@ pub(super) fn solve_once(
 ) -> Result<Response, SolveError> {
     let sampling = Sampling::new(motion);
     let tables = tables_of(model, sampling.dt_s);
-    let (ground, room) = ((motion, &sampling), &mut Workspace::default());
-    solve(InstructionSet::best(), model, &tables, ground, (with_history, go_on), room)
+    let (ground, workspace) = ((motion, &sampling), &mut Workspace::default());
+    solve(InstructionSet::best(), model, &tables, ground, (with_history, go_on), workspace)
 }
 
 fn tables_of(model: &Model, dt_s: Option<f64>) -> Tables {
@@ -246,7 +251,7 @@ fn solve(
     tables: &Tables,
     (motion, sampling): (&GroundMotion, &Sampling),
     (with_history, go_on): (bool, GoOn<'_>),
-    room: &mut Workspace,
+    workspace: &mut Workspace,
 ) -> Result<Response, SolveError> {
     let rate = tables.rate_rad_per_s();
     let masses = (1 + model.storeys()) as f64;
@@ -266,7 +271,7 @@ fn solve(
     recorder::fits(model, motion.len())?;
     let slope = tables.slope;
     let [mut sloped, mut varying] =
-        [&mut room.acceleration, &mut room.normal_n].map(core::mem::take);
+        [&mut workspace.acceleration, &mut workspace.normal_n].map(core::mem::take);
     let acceleration = if slope == 0.0 {
         motion.horizontal_m_per_s2()
     } else {
@@ -299,7 +304,7 @@ fn solve(
         ground,
         recorder,
         pulse: Pulse::new(go_on),
-        room,
+        workspace,
     });
     let (mut outcome, recorder) = match solved {
         // What would happen beyond a rigid stop says nothing.
@@ -318,8 +323,8 @@ fn solve(
     }
     let contact_loss_s = contact_loss_s(motion.times_s(), normal);
     let warnings = summary::warnings(model, &outcome.events, &contact_loss_s);
-    let demands = summary::demands(model, &outcome, |j| room.peaks.attained(j));
-    [room.acceleration, room.normal_n] = [sloped, varying];
+    let demands = summary::demands(model, &outcome, |j| workspace.peaks.attained(j));
+    [workspace.acceleration, workspace.normal_n] = [sloped, varying];
     Ok(Response {
         method: Method::Exact,
         demands,
@@ -340,7 +345,7 @@ fn stepped(
     (with_history, go_on): (bool, GoOn<'_>),
 ) -> Result<Response, SolveError> {
     let contact_loss_s = contact_loss_s(motion.times_s(), ground.normal);
-    let stepped = stepping::solve(model, law, ground, instructions, (with_history, go_on))?;
+    let stepped = direct::solve(model, law, ground, instructions, (with_history, go_on))?;
     let mut warnings = summary::warnings(model, &stepped.outcome.events, &contact_loss_s);
     warnings.extend(stepped.warnings);
     let mut demands = summary::demands(model, &stepped.outcome, |j| stepped.peaks[j]);
@@ -400,7 +405,7 @@ struct Analysis<'a> {
     ground: Ground<'a>,
     recorder: Option<Recorder>,
     pulse: Pulse<'a>,
-    room: &'a mut Workspace,
+    workspace: &'a mut Workspace,
 }
 
 impl Job for Analysis<'_> {
@@ -414,11 +419,18 @@ impl Job for Analysis<'_> {
             width: W,
             job: Analysis<'_>,
         ) -> Result<(Outcome, Option<Recorder>), SolveError> {
-            let Analysis { tables, law, ground, recorder, pulse, room, .. } = job;
-            let laws = (tables, law);
-            let mut run = Run::new((simd, width), laws, ground, (recorder, pulse), room);
-            run.go()?;
-            Ok(run.outcome(room))
+            let Analysis { model, tables, law, ground, recorder, pulse, workspace } = job;
+            let mut events = core::mem::take(&mut workspace.events);
+            events.clear();
+            let phase = Modal::new((simd, width), (tables, law), ground, recorder, workspace);
+            let place = phase.place(0);
+            let course = Course::new(SliderState::new(law, place[0], place[1]), place, events);
+            let before = [model.slope_m_per_s2(), model.normal_n()];
+            let units = 32 * (1 + width.modes() as u32);
+            let mut walk = Walk::new((phase, course), (ground, before), (pulse, units));
+            walk.go()?;
+            let outcome = walk.outcome(tables.overturns());
+            Ok((outcome, walk.phase.leave(walk.course.events, workspace)))
         }
         match self.model.storeys() {
             0 | 1 => of(simd, One, self),

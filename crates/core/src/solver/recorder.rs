@@ -1,5 +1,6 @@
 //! Keeps the history of a response.
 
+use super::slider::SliderState;
 use crate::error::SolveError;
 use crate::linear::lanes::dot;
 use crate::linear::{BATCH, System};
@@ -202,6 +203,15 @@ impl Recorder {
         let stored = Stored { time_s, mode, contact, table, state, block, friction_n, f: &f };
         self.store(system, &stored, row);
         self.f = f;
+    }
+
+    /// Displacements of surfaces in series at a knot.
+    #[inline(always)]
+    pub(super) fn surfaces(&mut self, slider: &SliderState<'_>, s: f64) {
+        if self.history.surfaces > 0 {
+            let surfaces = slider.law.surfaces(&slider.memory, s);
+            self.history.surface_displacement_m.extend(surfaces);
+        }
     }
 
     /// The motion at a knot whose time has been stored with those of other samples.

@@ -1,7 +1,6 @@
 //! The slider between its events: what is in force, and what follows an event.
 //!
-//! Event stepping of a lone slider ([`event`](super::event)) and of several interfaces
-//! ([`stepping`](super::stepping)) find where something happens; both ask here what it does.
+//! The [`walk`](super::walk) finds where something happens, and asks here what it does.
 
 use crate::linear::polynomial::{DEGREE, Polynomial, deflated, first_root};
 use crate::response::{EventKind, StopDemands, SurfaceDemands};
@@ -74,8 +73,8 @@ impl Surfaces {
     }
 
     /// What is left behind.
-    pub(super) fn demands(self) -> Vec<SurfaceDemands> {
-        self.0
+    pub(super) fn demands(&self) -> Vec<SurfaceDemands> {
+        self.0.clone()
     }
 }
 
@@ -218,10 +217,4 @@ pub(super) fn first_crossing(distance: &Polynomial, to: f64) -> Option<f64> {
     }
     let order = (1..=DEGREE).find(|&k| distance[k] != 0.0)?;
     first_root(&deflated(distance, order), to)
-}
-
-/// With the distance zero: order of its first derivative that does not vanish, if that is negative.
-pub(super) fn leaving_order(distance: &Polynomial) -> Option<usize> {
-    let order = (1..=DEGREE).find(|&k| distance[k] != 0.0)?;
-    (distance[order] < 0.0).then_some(order)
 }

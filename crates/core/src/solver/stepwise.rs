@@ -3,12 +3,13 @@
 //! Friction by the sliding speed, a pendulum's spring `N/R` and elastic stops are forces at samples like
 //! any other, and are taken.
 
+use super::course::Sliding;
 use super::ground::{Normal, contact_loss_s, varying_normal};
 use super::outputs::{self, output};
 use super::recorder::{self, Recorder, Stored};
-use super::run::{Outcome, Sliding};
 use super::slider::Stopping;
 use super::summary;
+use super::summary::Outcome;
 use super::tables::system_of;
 use crate::error::SolveError;
 use crate::linear::System;
@@ -160,6 +161,7 @@ pub(super) fn solve(
         surfaces: Vec::new(),
         residual_m: step.s,
         sliding_at_end: step.mode != Mode::Stick,
+        first_impact_s: None,
     };
     Ok(Response {
         method: Method::Stepwise,

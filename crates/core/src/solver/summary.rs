@@ -1,10 +1,24 @@
 //! Peaks and counts in the words of the result, and what the reader must be told.
 
+use super::course::Sliding;
 use super::outputs::output;
-use super::run::Outcome;
 use crate::model::Model;
-use crate::response::{Demands, Event, EventKind, StoreyDemands, Warning};
+use crate::response::{
+    Demands, Event, EventKind, StopDemands, StoreyDemands, SurfaceDemands, Warning,
+};
 use crate::slider::Direction;
+
+/// What an analysis leaves behind besides its peaks.
+pub(super) struct Outcome {
+    pub(super) events: Vec<Event>,
+    pub(super) overturns: bool,
+    pub(super) sliding: Sliding,
+    pub(super) stop: Option<StopDemands>,
+    pub(super) surfaces: Vec<SurfaceDemands>,
+    pub(super) residual_m: f64,
+    pub(super) sliding_at_end: bool,
+    pub(super) first_impact_s: Option<f64>,
+}
 
 /// What the response asks of the structure, from the peaks of the [`outputs`](super::outputs::rows).
 pub(super) fn demands(model: &Model, outcome: &Outcome, peak: impl Fn(usize) -> f64) -> Demands {

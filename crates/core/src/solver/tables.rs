@@ -52,7 +52,7 @@ pub(super) struct LazyPhase {
     orders: usize,
     overturning: Option<Arc<Overturning>>,
     slope: f64,
-    phase: OnceLock<Phase>,
+    phase: OnceLock<PhaseTables>,
 }
 
 impl LazyPhase {
@@ -63,7 +63,7 @@ impl LazyPhase {
 
     /// The tables.
     #[inline(always)]
-    pub(super) fn get(&self) -> &Phase {
+    pub(super) fn get(&self) -> &PhaseTables {
         match self.phase.get() {
             Some(phase) => phase,
             None => self.make(),
@@ -72,16 +72,16 @@ impl LazyPhase {
 
     #[cold]
     #[inline(never)]
-    fn make(&self) -> &Phase {
+    fn make(&self) -> &PhaseTables {
         InstructionSet::best().run(MakePhase(self))
     }
 }
 
 impl Deref for LazyPhase {
-    type Target = Phase;
+    type Target = PhaseTables;
 
     #[inline(always)]
-    fn deref(&self) -> &Phase {
+    fn deref(&self) -> &PhaseTables {
         self.get()
     }
 }
@@ -89,20 +89,20 @@ impl Deref for LazyPhase {
 struct MakePhase<'a>(&'a LazyPhase);
 
 impl<'a> Job for MakePhase<'a> {
-    type Output = &'a Phase;
+    type Output = &'a PhaseTables;
 
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> &'a Phase {
+    fn run<S: Simd>(self, simd: S) -> &'a PhaseTables {
         self.0.phase.get_or_init(|| {
             simd.vectorize(
                 #[inline(always)]
-                || Phase::new(simd, self.0),
+                || PhaseTables::new(simd, self.0),
             )
         })
     }
 }
 
-struct MakeBatch<'a>(&'a Phase, f64);
+struct MakeBatch<'a>(&'a PhaseTables, f64);
 
 impl<'a> Job for MakeBatch<'a> {
     type Output = &'a Batch;
@@ -120,7 +120,7 @@ impl<'a> Job for MakeBatch<'a> {
 
 /// Tables of stick, or of slip under one restraint.
 #[derive(Debug)]
-pub(super) struct Phase {
+pub(super) struct PhaseTables {
     pub(super) system: Arc<System>,
     pub(super) slip: bool,
     /// Length of one series in s: a whole part of the step.
@@ -260,7 +260,7 @@ impl Tables {
 
     /// A phase by its number.
     #[inline(always)]
-    pub(super) fn phase(&self, number: usize) -> &Phase {
+    pub(super) fn phase(&self, number: usize) -> &PhaseTables {
         self.slip.get(number.wrapping_sub(1)).unwrap_or(&self.stick).get()
     }
 
@@ -292,7 +292,7 @@ fn unit_s(rate_rad_per_s: f64, dt_s: Option<f64>) -> f64 {
     }
 }
 
-impl Phase {
+impl PhaseTables {
     /// Tables of slip with what of its restraint is friction, or of stick.
     #[inline(always)]
     fn new<S: Simd>(simd: S, of: &LazyPhase) -> Self {
@@ -333,8 +333,8 @@ impl Phase {
 
 impl Batch {
     #[inline(always)]
-    fn new<S: Simd>(simd: S, phase: &Phase, dt_s: f64) -> Self {
-        let Phase { ref system, slip, .. } = *phase;
+    fn new<S: Simd>(simd: S, phase: &PhaseTables, dt_s: f64) -> Self {
+        let PhaseTables { ref system, slip, .. } = *phase;
         let rows = &phase.outputs.rows;
         let units = Units::new(simd, system, slip, dt_s);
         let mut of_s = vec![0.0; rows[0].state.len()];

@@ -1,7 +1,7 @@
 //! Room that one analysis leaves to the next.
 
 use super::dense::Candidate;
-use super::peaks::Peaks;
+use super::modal::Peaks;
 use super::prepared::Prepared;
 use crate::linear::Series;
 use crate::linear::lanes::Eight;

@@ -6,12 +6,13 @@ use fearless_simd::{f64x4, f64x8, mask64x4};
 use super::lanes::{BATCH, Four, combine4, combine8, four, larger, times4, times8};
 use super::outputs::{ACCELERATION, DISPLACEMENT};
 use super::tables::{Phase, Row};
-use super::{Dense, Reached, Shared};
+use super::{Dense, Shared};
 use crate::error::SolveError;
 use crate::linear::Window;
 use crate::response::Mode;
 use crate::slider::Direction;
 use crate::solver::outputs::output;
+use crate::solver::phase::Reached;
 
 /// A run ahead of event stepping.
 pub(super) struct Ahead<'r, 'a, S: Simd> {
@@ -59,7 +60,7 @@ impl<'r, 'a, S: Simd> Ahead<'r, 'a, S> {
         let mut at_s = 0.0;
         while sample < end && !self.is_due() {
             let from = sample;
-            sample = match self.shared.course.mode {
+            sample = match self.shared.course.block.mode {
                 Mode::Slip(direction) => self.slide(sample, end, direction),
                 Mode::Stick => self.rest(sample, end),
             };
@@ -87,7 +88,7 @@ impl<'r, 'a, S: Simd> Ahead<'r, 'a, S> {
     #[inline(always)]
     pub(super) fn is_due(&self) -> bool {
         let course = &self.shared.course;
-        course.start.is_some() || course.is_stopped(self.shared.x[1])
+        course.block.start.is_some() || course.is_stopped(self.shared.x[1])
     }
 
     /// The friction force in a mode, or what an input takes its place in stick: nothing.
@@ -179,7 +180,7 @@ impl<'r, 'a, S: Simd> Ahead<'r, 'a, S> {
     /// peaks at the ends of a slip, where nothing else looks if the samples begin or end amid it.
     #[inline(always)]
     fn attain(&mut self) {
-        let mode = self.shared.course.mode;
+        let mode = self.shared.course.block.mode;
         if mode != Mode::Stick && !self.is_due() {
             let x = *self.shared.x;
             let outputs = self.of.tables.slip.outputs.at(self.simd, x, self.force_n(mode));

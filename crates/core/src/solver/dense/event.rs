@@ -11,11 +11,8 @@ use super::lanes::{four, least};
 use super::series::Series;
 use crate::response::Mode;
 use crate::slider::Direction;
-use crate::solver::course::Instant;
+use crate::solver::course::{AMBIGUOUS, Instant};
 use crate::solver::slider::Start;
-
-/// Events nearer to an end of a piece, and decisions of a smaller margin, are ambiguous.
-const AMBIGUOUS: f64 = 1e-9;
 
 /// A slip that starts with less than this part of what friction gives is ambiguous if it ends at once.
 const CLEAR: f64 = 1e-2;
@@ -73,7 +70,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
             let mut at = 0.0;
             loop {
                 let span = Span { rest: 1.0 - at, a: start_a + change * at, change };
-                let (mode, x) = (self.shared.course.mode, *self.shared.x);
+                let (mode, x) = (self.shared.course.block.mode, *self.shared.x);
                 let segment = Segment { sample, span, mode, x };
                 let at_sample = piece == 0 && at == 0.0;
                 let end = match mode {
@@ -161,7 +158,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let [c1, c2, c3, c4] = series.leading();
         let (c1, c2, c3, c4) = (sign * c1[1], sign * c2[1], sign * c3[1], sign * c4[1]);
         let (speed, end_speed) = (sign * x[1], sign * end.as_array()[1]);
-        let start = self.shared.course.start;
+        let start = self.shared.course.block.start;
         let slides = match start {
             None => least(speed, end_speed) > 0.125 * curvature * (rest * rest),
             // The zero at the start is no stop: with D = Σ k (k − 1) |c_k|
@@ -172,7 +169,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
             Some(_) => c2 > rest * (curvature - 2.0 * c2) * (1.0 / 6.0),
         };
         if slides {
-            self.shared.course.start = None;
+            self.shared.course.block.start = None;
             return self.through::<true>(segment, at_sample, &series, end, [force_n; 2]);
         }
         let mut t = match start {
@@ -239,7 +236,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
         }
         self.move_to::<SLIP>(segment, at_sample, series, (t, x), friction_n);
         if SLIP {
-            (self.shared.x[1], self.shared.course.start) = (0.0, None);
+            (self.shared.x[1], self.shared.course.block.start) = (0.0, None);
         }
         End::Event(t)
     }
@@ -278,10 +275,10 @@ impl<S: Simd> Ahead<'_, '_, S> {
             let is_high = high - demand_n < demand_n - low;
             let direction = if is_high { Direction::Negative } else { Direction::Positive };
             self.shared.course.release(&at, &hold, direction, 1);
-        } else if !self.shared.course.stop(&at, &hold, demand_n, Some(AMBIGUOUS)) {
+        } else if !self.shared.course.stop(&at, &hold, demand_n, false) {
             return false;
         }
-        for mode in [segment.mode, self.shared.course.mode] {
+        for mode in [segment.mode, self.shared.course.block.mode] {
             self.record_now(sample, at_s, mode);
         }
         true

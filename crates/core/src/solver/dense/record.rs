@@ -92,7 +92,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
                         window(-(shape.floor * f0) - slope, acceleration),
                     ]);
                 }
-                let (ground, mode) = (&self.of.ground, self.shared.course.mode);
+                let (ground, mode) = (&self.of.ground, self.shared.course.block.mode);
                 let samples = sample..sample + steps;
                 let times = [&ground.times_s[samples.clone()], &ground.table[samples]];
                 if let Some(recorder) = &mut self.shared.recorder {

@@ -11,8 +11,8 @@ use crate::linear::{QUIET, Window};
 use crate::response::Mode;
 use crate::slider::Direction;
 use crate::solver::ground::{largest_change, largest_size};
+use crate::solver::modal::clear_steps;
 use crate::solver::outputs::output;
-use crate::solver::screen::clear_steps;
 
 /// A chord over a sample is off by this part of what one over a batch is.
 const PER_SAMPLE: f64 = 1.0 / (BATCH * BATCH) as f64;

@@ -8,10 +8,13 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
+use super::super::course::Course;
+use super::super::modal::bound_between;
 use super::super::outputs::output;
-use super::super::peaks::bound_between;
+use super::super::phase::Phase;
 use super::super::prepared::Job;
-use super::Stepping;
+use super::super::walk::Walk;
+use super::Direct;
 use super::affine::{Affine, Configuration, Number};
 use crate::linear::lanes::{eight, larger, largest_lane};
 use crate::linear::{BATCH, Force, Window};
@@ -64,7 +67,7 @@ struct Candidate {
 }
 
 struct RunAhead<'r, 'a> {
-    stepping: &'r mut Stepping<'a>,
+    walk: &'r mut Walk<'a, Direct<'a>>,
     configuration: usize,
     samples: [usize; 2],
 }
@@ -74,65 +77,95 @@ impl Job for RunAhead<'_, '_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> usize {
-        let Self { stepping, configuration, samples } = self;
-        let mut ahead = core::mem::take(&mut stepping.ahead);
+        let Self { walk, configuration, samples } = self;
+        let mut ahead = core::mem::take(&mut walk.phase.ahead);
         let configurations = core::mem::take(&mut ahead.configurations);
         let mut reached = samples[0];
         if let Some(affine) = &configurations[configuration].affine {
-            reached = stepping.batches(simd, &mut ahead, (affine, configuration), samples);
+            reached = batches(walk, simd, &mut ahead, (affine, configuration), samples);
         }
         ahead.configurations = configurations;
-        stepping.ahead = ahead;
+        walk.phase.ahead = ahead;
         reached
     }
 }
 
-impl Stepping<'_> {
-    /// The first sample from one on that is left open.
-    pub(super) fn run_ahead(&mut self, sample: usize, last: usize) -> usize {
-        let end = self.ground.sampling.regular_end(sample, last);
-        if sample + BATCH > end || !self.may_run_ahead() {
-            return sample;
-        }
-        let Some(configuration) = self.configuration() else { return sample };
-        let instructions = self.instructions;
-        let reached =
-            instructions.run(RunAhead { stepping: self, configuration, samples: [sample, end] });
-        if self.ahead.candidates.len() > CANDIDATES {
-            self.settle_candidates();
-        }
-        reached
+/// The first sample between two that is left open.
+pub(super) fn run_ahead<'a>(walk: &mut Walk<'a, Direct<'a>>, [sample, end]: [usize; 2]) -> usize {
+    if sample + BATCH > end || !may_run_ahead(walk) {
+        return sample;
     }
-
-    /// Whether nothing waits to be decided, and the block is at no stop.
-    fn may_run_ahead(&self) -> bool {
-        let waits = !self.pending.is_empty()
-            || self.near.is_some()
-            || matches!(self.slider.memory.contact, Contact::Pressed(_))
-            || self.leant
-            || self.slider.just.is_some()
-            || self.start.iter().any(Option::is_some);
-        !waits
-            && self.modes.iter().enumerate().all(|(i, mode)| match mode {
-                Mode::Slip(direction) => direction.sign() * self.velocity(i) > 0.0,
-                Mode::Stick => i > 0 || self.held().leans == [false; 2],
-            })
+    let Some(configuration) = walk.phase.configuration(&walk.course) else { return sample };
+    let instructions = walk.phase.instructions;
+    let reached = instructions.run(RunAhead { walk, configuration, samples: [sample, end] });
+    if walk.phase.ahead.candidates.len() > CANDIDATES {
+        walk.phase.settle_candidates(&mut walk.course);
     }
+    reached
+}
 
+/// Whether nothing waits to be decided, and the block is at no stop.
+fn may_run_ahead<'a>(walk: &Walk<'a, Direct<'a>>) -> bool {
+    let (phase, course) = (&walk.phase, &walk.course);
+    let is_at_stop =
+        course.near.is_some() || matches!(course.slider.memory.contact, Contact::Pressed(_));
+    walk.is_settled()
+        && !is_at_stop
+        && (0..course.interfaces()).all(|i| match course.mode(i) {
+            Mode::Slip(direction) => direction.sign() * phase.place(i)[1] > 0.0,
+            Mode::Stick => phase.hold(course, i).leans == [false; 2],
+        })
+}
+
+/// Takes samples up to `end`; the first that is left open.
+#[inline(always)]
+fn batches<'a, S: Simd>(
+    walk: &mut Walk<'a, Direct<'a>>,
+    simd: S,
+    ahead: &mut Ahead,
+    (affine, configuration): (&Affine, usize),
+    [mut sample, end]: [usize; 2],
+) -> usize {
+    let (phase, course) = (&mut walk.phase, &walk.course);
+    let mut margins = core::mem::take(&mut ahead.margins);
+    if phase.find_margins(course, &mut margins) {
+        let count = phase.x.count();
+        ahead.x.resize(count.next_multiple_of(4), 0.0);
+        phase.x.get(&mut ahead.x);
+        ahead.states.clear();
+        ahead.states.extend(ahead.x.iter().map(|x| [*x; BATCH + 1]));
+        let a = phase.ground.acceleration[sample];
+        ahead.outputs.clear();
+        let start = affine.outputs.iter().map(|y| [y.at(&ahead.x, a); BATCH + 1]);
+        ahead.outputs.extend(start);
+        while sample + BATCH <= end && walk.pulse.beat(walk.units).is_ok() {
+            let steps = phase.batch(simd, course, ahead, (affine, configuration), &margins, sample);
+            sample += steps;
+            if steps < BATCH {
+                break;
+            }
+        }
+        phase.x.set(&ahead.x[..count]);
+    }
+    ahead.margins = margins;
+    sample
+}
+
+impl<'a> Direct<'a> {
     /// The output that says what a stuck interface is asked for, and between what it is held.
-    fn held_between(&self, interface: usize, normal_n: f64) -> (usize, [f64; 2]) {
+    fn held_between(&self, course: &Course<'a>, interface: usize) -> (usize, [f64; 2]) {
+        let (normal_n, hold) = (self.ground.normal_at(0), self.hold(course, interface));
         let Some(i) = interface.checked_sub(1) else {
-            return (output::FRICTION, self.held().holds_n(normal_n));
+            return (output::FRICTION, hold.holds_n(normal_n));
         };
-        let (slope, contents) = (self.peaks.slope_m_per_s2, &self.body.contents[i]);
-        let bound = contents.static_friction * (normal_n / self.body.total_kg);
-        (self.contents_acceleration_output(i), [-bound - slope, bound - slope])
+        let slope = self.peaks.slope_m_per_s2;
+        let bounds = hold.holds_n(normal_n / self.body.total_kg);
+        (self.contents_acceleration_output(i), bounds.map(|bound| bound - slope))
     }
 
     /// What must stay positive in the present modes; false where that is more than values of the outputs.
-    fn find_margins(&self, margins: &mut Vec<Margin>) -> bool {
+    fn find_margins(&self, course: &Course<'a>, margins: &mut Vec<Margin>) -> bool {
         margins.clear();
-        let normal_n = self.ground.normal_at(0);
         let mut push = |of, constant| margins.push(Margin { of, constant });
         for (i, mode) in self.modes.iter().enumerate() {
             match mode {
@@ -140,15 +173,15 @@ impl Stepping<'_> {
                     push(MarginOf::Output(self.velocity_output(i), direction.sign()), 0.0);
                 }
                 Mode::Stick => {
-                    let (asked, [low, high]) = self.held_between(i, normal_n);
+                    let (asked, [low, high]) = self.held_between(course, i);
                     push(MarginOf::Output(asked, 1.0), -low);
                     push(MarginOf::Output(asked, -1.0), high);
                 }
             }
         }
         if let Mode::Slip(direction) = self.modes[0] {
-            for exit in self.slider.law.exits(&self.slider.memory, direction).into_iter().flatten()
-            {
+            let (law, memory) = (course.slider.law, &course.slider.memory);
+            for exit in law.exits(memory, direction).into_iter().flatten() {
                 match [exit.of_s, exit.of_w] {
                     [of_s, 0.0] => push(MarginOf::Level(of_s), exit.constant),
                     [0.0, of_w] => push(MarginOf::Output(output::VELOCITY, of_w), exit.constant),
@@ -159,44 +192,12 @@ impl Stepping<'_> {
         true
     }
 
-    /// Takes samples up to `end`; the first that is left open.
-    #[inline(always)]
-    fn batches<S: Simd>(
-        &mut self,
-        simd: S,
-        ahead: &mut Ahead,
-        (affine, configuration): (&Affine, usize),
-        [mut sample, end]: [usize; 2],
-    ) -> usize {
-        let mut margins = core::mem::take(&mut ahead.margins);
-        if self.find_margins(&mut margins) {
-            let count = self.x.count();
-            ahead.x.resize(count.next_multiple_of(4), 0.0);
-            self.x.get(&mut ahead.x);
-            ahead.states.clear();
-            ahead.states.extend(ahead.x.iter().map(|x| [*x; BATCH + 1]));
-            let a = self.ground.acceleration[sample];
-            ahead.outputs.clear();
-            let start = affine.outputs.iter().map(|y| [y.at(&ahead.x, a); BATCH + 1]);
-            ahead.outputs.extend(start);
-            while sample + BATCH <= end && self.pulse.beat(self.units).is_ok() {
-                let steps = self.batch(simd, ahead, (affine, configuration), &margins, sample);
-                sample += steps;
-                if steps < BATCH {
-                    break;
-                }
-            }
-            self.x.set(&ahead.x[..count]);
-        }
-        ahead.margins = margins;
-        sample
-    }
-
     /// Takes the samples of a batch up to the first that is left open; how many.
     #[inline(always)]
     fn batch<S: Simd>(
         &mut self,
         simd: S,
+        course: &Course<'a>,
         ahead: &mut Ahead,
         (affine, configuration): (&Affine, usize),
         margins: &[Margin],
@@ -237,7 +238,7 @@ impl Stepping<'_> {
             return 0;
         }
         self.weigh(simd, ahead, (affine, configuration), (sample, steps), &departure);
-        self.store_samples(sample..sample + steps, [&ahead.states, &ahead.outputs]);
+        self.store_samples(course, sample..sample + steps, [&ahead.states, &ahead.outputs]);
         for list in [&mut ahead.states, &mut ahead.outputs] {
             list.iter_mut().for_each(|nine| nine[0] = nine[steps]);
         }
@@ -293,7 +294,7 @@ impl Stepping<'_> {
     }
 
     /// Settles the candidates that are still in question, those that promise most first.
-    pub(super) fn settle_candidates(&mut self) {
+    pub(super) fn settle_candidates(&mut self, course: &mut Course<'a>) {
         let mut candidates = core::mem::take(&mut self.ahead.candidates);
         let states = core::mem::take(&mut self.ahead.candidate_states);
         let peaks = &self.peaks.values;
@@ -302,7 +303,7 @@ impl Stepping<'_> {
         candidates.sort_by(|a, b| promise(b).total_cmp(&promise(a)));
         for candidate in &candidates {
             if candidate.bound > self.peaks.values[candidate.output] {
-                self.settle_candidate(candidate, &states);
+                self.settle_candidate(course, candidate, &states);
             }
         }
         candidates.clear();
@@ -312,29 +313,29 @@ impl Stepping<'_> {
     }
 
     /// Looks for peaks in the sample of a candidate by its series.
-    fn settle_candidate(&mut self, candidate: &Candidate, states: &[f64]) {
-        let Configuration { modes, memory, .. } =
-            &self.ahead.configurations[candidate.configuration];
-        let (modes, memory) = (modes.clone(), memory.clone());
-        let here = (
-            self.x.clone(),
-            core::mem::replace(&mut self.modes, modes),
-            core::mem::replace(&mut self.slider.memory, memory),
-            self.near.take(),
-        );
+    fn settle_candidate(&mut self, course: &mut Course<'a>, candidate: &Candidate, states: &[f64]) {
+        let here = (self.x.clone(), self.modes.clone(), course.slider.memory.clone());
+        let near = course.near.take();
+        let configuration = &self.ahead.configurations[candidate.configuration];
+        course.slider.memory.clone_from(&configuration.memory);
+        course.set_modes(&configuration.modes);
         self.x.set(&states[candidate.state..][..self.x.count()]);
+        self.enter(course);
         let sample = candidate.sample;
         let to_s = self.ground.times_s[sample + 1] - self.ground.times_s[sample];
         let stretch = self.ground.stretch(sample, 0.0, to_s);
         let mut at_s = 0.0;
         while at_s < to_s {
-            self.expand(&stretch, at_s);
-            let part = self.series.part;
-            self.move_to(part);
-            self.look(part);
-            at_s += part * self.series.unit_s;
+            let segment = self.expand(course, &stretch, at_s);
+            self.move_to(segment.part);
+            self.look(course, &stretch, &segment);
+            at_s = segment.to_s;
         }
-        (self.x, self.modes, self.slider.memory, self.near) = here;
+        let modes;
+        (self.x, modes, course.slider.memory) = here;
+        course.set_modes(&modes);
+        course.near = near;
+        self.enter(course);
     }
 }
 

@@ -8,12 +8,12 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::event::{Segment, of_sliding, output_series};
-use super::ground::Stretch;
-use super::run::{Curvature, InForce, Run};
+use super::super::course::Course;
+use super::super::ground::Stretch;
+use super::super::phase::Segment;
+use super::series::output_series;
 use super::settle::Scratch;
-use super::tables::Phase;
-use crate::linear::Load;
+use super::{Curvature, InForce, Modal};
 use crate::linear::lanes::{Eight, Width, eight, greatest, larger};
 use crate::linear::polynomial::{Polynomial, curvature_bound, largest};
 use crate::response::Mode;
@@ -23,7 +23,7 @@ const CANDIDATES: usize = 512;
 
 /// Peaks attained, and the candidates for more.
 #[derive(Debug, Default)]
-pub(super) struct Peaks {
+pub(in crate::solver) struct Peaks {
     pub(super) peak: Vec<Eight>,
     /// Sizes that are no news: the peaks, or infinite where a size cannot grow.
     pub(super) limit: Vec<Eight>,
@@ -50,7 +50,7 @@ pub(super) struct Candidate {
     pub(super) mode: Mode,
     /// Number of the phase.
     pub(super) phase: usize,
-    /// As in [`InForce`](super::run::InForce).
+    /// As in [`InForce`].
     pub(super) friction: f64,
     pub(super) stop: f64,
 }
@@ -80,7 +80,7 @@ impl Peaks {
     }
 
     /// What an output has attained.
-    pub(super) fn attained(&self, j: usize) -> f64 {
+    pub(in crate::solver) fn attained(&self, j: usize) -> f64 {
         self.peak[j / 8].0[j % 8]
     }
 
@@ -133,17 +133,12 @@ impl Peaks {
     }
 }
 
-impl<'a, S: Simd, W: Width> Run<'a, S, W> {
-    /// Looks at a segment from `next` to `x` under the load of its unit.
+impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
+    /// Looks at a segment from `next` to `x`.
     #[inline(always)]
-    pub(super) fn look(
-        &mut self,
-        phase: &Phase,
-        stretch: &Stretch,
-        segment: &Segment,
-        load: &Load,
-    ) {
-        let simd = self.simd;
+    pub(super) fn look_at_outputs(&mut self, stretch: &Stretch, segment: &Segment) {
+        let (simd, load) = (self.simd, self.motion.load);
+        let phase = self.now.tables.get();
         // ‖ẍ‖ and the rate of what fades, times the unit squared.
         let part = segment.part;
         let (norm, bend) = if self.now.fading.is_some() {
@@ -157,7 +152,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 phase,
                 &self.next,
                 [of_a, of_force],
-                &mut self.spare,
+                &mut self.scratch,
             );
             (phase.growth * second * (segment.unit_s * segment.unit_s), 0.0)
         };
@@ -183,7 +178,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             open |= self.weigh(g, [a, b], slack, None);
         }
         if open && self.now.fading.is_some() {
-            self.settle_fading(phase, stretch, segment);
+            self.settle_fading(stretch, segment);
         } else if open {
             self.keep(stretch.interval, Extent::Segment(*segment), true);
         }
@@ -192,7 +187,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     /// Looks for peaks in the last series, of friction that fades, in those outputs whose bounds in
     /// `above` leave one.
     #[inline(never)]
-    fn settle_fading(&mut self, phase: &Phase, stretch: &Stretch, segment: &Segment) {
+    fn settle_fading(&mut self, stretch: &Stretch, segment: &Segment) {
+        let phase = self.now.tables.get();
         let load = stretch.load(segment.from_s, segment.unit_s, self.now.friction);
         for j in 0..self.peaks.outputs {
             let (g, lane) = (j / 8, j % 8);
@@ -251,23 +247,18 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         open.any_true()
     }
 
-    /// Looks at the force of the stop in `x` and, in slip, over a part of the series of `s` and of `ṡ`
-    /// times a sign.
+    /// Looks at the force of the stop in `x` and, in slip, over a part of the series.
     #[inline(never)]
-    pub(super) fn look_at_stop(
-        &mut self,
-        sliding: Option<(&Polynomial, &Polynomial, f64)>,
-        part: f64,
-    ) {
-        let contact = self.course.slider.memory.contact;
-        let mut force_n = self.course.slider.law.stop_force_n(contact, self.x[0], self.x[1]);
-        if let (Some([of_s, of_w, constant]), Some((s, speed, sign))) =
-            (self.course.slider.law.stop_row(contact), sliding)
-        {
-            let p = of_sliding([of_s, sign * of_w, constant], s, speed);
+    pub(super) fn look_at_stop(&mut self, course: &mut Course<'a>, part: f64) {
+        let InForce { mode, contact, .. } = self.now;
+        let mut force_n = self.law.stop_force_n(contact, self.x[0], self.x[1]);
+        if let (Some([of_s, of_w, constant]), Mode::Slip(_)) = (self.law.stop_row(contact), mode) {
+            let (s, w) = (self.motion.displacement(), &self.motion.number);
+            let mut p: Polynomial = core::array::from_fn(|k| of_s * s[k] + of_w * w[k]);
+            p[0] += constant;
             force_n = largest(&p, part, force_n);
         }
-        let peak = &mut self.course.slider.stopping.demands.peak_force_n;
+        let peak = &mut course.slider.stopping.demands.peak_force_n;
         *peak = greatest(*peak, force_n);
     }
 
@@ -281,8 +272,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 self.settle_peaks();
             }
         }
-        let InForce { mode, phase, friction, stop, .. } = self.now;
-        let phase = phase.number;
+        let InForce { mode, tables, friction, stop, .. } = self.now;
+        let phase = tables.number;
         let peaks = &mut self.peaks;
         peaks.candidates.push(Candidate { sample, extent, mode, phase, friction, stop });
         peaks.states.extend_from_slice(if moved { &self.next } else { &self.x });
@@ -293,7 +284,11 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
 
 /// Bound on an output between two values, from how far it may depart from their chord.
 #[inline(always)]
-pub(super) fn bound_between<S: Simd>(simd: S, [a, b]: [f64x8<S>; 2], slack: f64x8<S>) -> f64x8<S> {
+pub(in crate::solver) fn bound_between<S: Simd>(
+    simd: S,
+    [a, b]: [f64x8<S>; 2],
+    slack: f64x8<S>,
+) -> f64x8<S> {
     // An extreme lies inside only where the ends are less than four times the slack apart:
     // |y| ≤ max + (slack − |Δ|/4)² / slack.
     let zero = eight(simd, 0.0);

@@ -9,11 +9,12 @@ use core::ops::Range;
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::event::{Segment, output_series};
-use super::ground::{Roughness, Stretch, largest_size};
+use super::super::ground::{Roughness, Stretch, largest_size};
+use super::super::phase::Segment;
+use super::super::tables::{Batch, PhaseTables};
 use super::peaks::{Candidate, Extent, bound_between};
-use super::run::{Curvature, Run};
-use super::tables::{Batch, Phase};
+use super::series::output_series;
+use super::{Curvature, Modal};
 use crate::linear::lanes::{Width, eight, greatest, larger};
 use crate::linear::{BATCH, Force, Load, Window};
 use crate::response::Mode;
@@ -48,7 +49,7 @@ struct Place {
 
 /// A candidate of whole samples.
 struct Samples<'a> {
-    phase: &'a Phase,
+    phase: &'a PhaseTables,
     batch: &'a Batch,
     a: &'a Window,
     force: Force<'a>,
@@ -110,7 +111,7 @@ impl Scratch {
     }
 }
 
-impl<'a, S: Simd, W: Width> Run<'a, S, W> {
+impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
     /// Settles all candidates that are still in question.
     #[inline(never)]
     pub(super) fn settle_peaks(&mut self) {
@@ -269,7 +270,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         }
         let force = [force.at(k), (force.at(k + 1) - force.at(k)) * batch.per_dt];
         let how = (simd, self.width);
-        let [_, second] = Self::derivative_norms(how, phase, x, [load, force], &mut self.spare);
+        let [_, second] = Self::derivative_norms(how, phase, x, [load, force], &mut self.scratch);
         phase.outputs.groups[g].norm.load(simd) * eight(simd, second * batch.growth * near)
     }
 
@@ -389,7 +390,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     fn expand_candidate(
         &mut self,
         i: usize,
-        phase: &Phase,
+        phase: &PhaseTables,
         (stretch, segment): (&Stretch, &Segment),
         x: &[f64],
     ) -> Load {

@@ -2,9 +2,10 @@
 
 use core::ops::Range;
 
-use super::super::ground::{Ground, Stretch};
+use super::super::course::Course;
+use super::super::ground::Ground;
 use super::super::outputs::output;
-use super::Stepping;
+use super::Direct;
 use super::body::{Body, Expansion, Loads};
 use crate::linear::polynomial::{
     DEGREE, Polynomial, ZERO, curvature_bound, largest, size_bound, value,
@@ -14,7 +15,7 @@ use crate::response::{History, Mode};
 
 /// Largest sizes so far.
 pub(super) struct Peaks {
-    /// In the order of [`Stepping::output`].
+    /// In the order of [`Direct::output`].
     pub(super) values: Vec<f64>,
     /// Whether the overturning moment is asked for.
     pub(super) overturns: bool,
@@ -103,7 +104,7 @@ impl Output<'_> {
     }
 }
 
-impl Stepping<'_> {
+impl<'a> Direct<'a> {
     /// Output of the velocity of an interface.
     pub(super) fn velocity_output(&self, interface: usize) -> usize {
         let Some(i) = interface.checked_sub(1) else { return output::VELOCITY };
@@ -147,10 +148,10 @@ impl Stepping<'_> {
     }
 
     /// Looks for peaks in the part of the series just gone through.
-    pub(super) fn look(&mut self, part: f64) {
+    pub(super) fn look_at_outputs(&mut self, course: &mut Course<'_>, part: f64) {
         for j in 0..self.peaks.values.len() {
             match j {
-                output::FRICTION => self.look_at_friction(part),
+                output::FRICTION => self.look_at_friction(course, part),
                 output::OVERTURNING if !self.peaks.overturns => {}
                 j => {
                     let output = self.output(&self.series, j);
@@ -161,7 +162,7 @@ impl Stepping<'_> {
                 }
             }
         }
-        self.look_at_stop(part);
+        self.look_at_stop(course, part);
     }
 
     /// Overturning moment of the inertia of block, floors and contents about the sliding surface.
@@ -184,25 +185,28 @@ impl Stepping<'_> {
     }
 
     /// Friction takes what it can where the block leans on a rigid stop, the stop the rest.
-    fn look_at_friction(&mut self, part: f64) {
-        let friction = self.series.friction;
-        let beyond = self.beyond_friction().filter(|(_, p)| value(p, 0.5 * part) > 0.0);
+    fn look_at_friction(&mut self, course: &mut Course<'_>, part: f64) {
+        let Expansion { friction, normal: [normal, rise, ..], .. } = &self.series;
+        let beyond = (self.modes[0] == Mode::Stick)
+            .then(|| course.hold(self.x.s).beyond_friction(friction, [*normal, *rise]))
+            .flatten()
+            .filter(|(_, p)| value(p, 0.5 * part) > 0.0);
         let peak = &mut self.peaks.values[output::FRICTION];
         let Some((sign, beyond)) = beyond else {
-            raise(peak, &friction, part);
+            raise(peak, friction, part);
             return;
         };
         raise(peak, &core::array::from_fn(|k| friction[k] - sign * beyond[k]), part);
-        raise(&mut self.slider.stopping.demands.peak_force_n, &beyond, part);
+        raise(&mut course.slider.stopping.demands.peak_force_n, &beyond, part);
     }
 
-    fn look_at_stop(&mut self, part: f64) {
-        if !self.slider.law.has_pads() {
+    fn look_at_stop(&mut self, course: &mut Course<'_>, part: f64) {
+        let (law, contact) = (course.slider.law, course.slider.memory.contact);
+        if !law.has_pads() {
             return;
         }
-        let mut force_n =
-            self.slider.law.stop_force_n(self.slider.memory.contact, self.x.s, self.x.w);
-        if let Some([of_s, of_w, constant]) = self.slider.law.stop_row(self.slider.memory.contact) {
+        let mut force_n = law.stop_force_n(contact, self.x.s, self.x.w);
+        if let Some([of_s, of_w, constant]) = law.stop_row(contact) {
             let (s, w) = (&self.series.s, &self.series.w);
             let mut p: Polynomial = core::array::from_fn(|k| of_s * s[k] + of_w * w[k]);
             p[0] += constant;
@@ -211,45 +215,22 @@ impl Stepping<'_> {
             }
             force_n = largest(&p, part, force_n);
         }
-        let peak = &mut self.slider.stopping.demands.peak_force_n;
+        let peak = &mut course.slider.stopping.demands.peak_force_n;
         *peak = peak.max(force_n);
     }
 
-    /// Records the knot before an event at an instant that no segment has led to.
-    pub(super) fn note_before(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) {
-        if !(at_sample && self.ground.starts_anew(stretch.interval)) {
-            self.record(stretch, at_s, false);
-        }
-    }
-
-    /// Records the present state as a knot.
-    pub(super) fn record(&mut self, stretch: &Stretch, at_s: f64, row: bool) {
+    /// Records the present state as a knot at a time, under an acceleration of the table.
+    pub(super) fn record_knot(
+        &mut self,
+        course: &Course<'_>,
+        [time_s, table]: [f64; 2],
+        loads: &Loads,
+        row: bool,
+    ) {
         if self.history.is_none() {
             return;
         }
-        let interval = stretch.interval;
-        if at_s == 0.0 {
-            self.record_sample(interval, row);
-            return;
-        }
-        let time_s = self.ground.times_s[interval] + at_s;
-        let table = self.ground.table_at(interval, at_s);
-        self.record_knot(time_s, table, &Self::loads(stretch, at_s), row);
-    }
-
-    /// Records the present state as a knot at a sample.
-    pub(super) fn record_sample(&mut self, sample: usize, row: bool) {
-        let normal = self.ground.normal_at(sample).max(0.0);
-        let loads =
-            Loads { acceleration: [self.ground.acceleration[sample], 0.0], normal: [normal, 0.0] };
-        self.record_knot(self.ground.times_s[sample], self.ground.table[sample], &loads, row);
-    }
-
-    fn record_knot(&mut self, time_s: f64, table: f64, loads: &Loads, row: bool) {
-        if self.history.is_none() {
-            return;
-        }
-        self.look_at_instant(loads);
+        self.look_at_orders(0, loads);
         let [mut states, mut outputs] = core::mem::take(&mut self.knot);
         states.resize(self.x.count(), [0.0]);
         self.x.get(states.as_flattened_mut());
@@ -258,7 +239,7 @@ impl Stepping<'_> {
         outputs.extend(all.map(|j| [self.output(&self.instant, j).start()]));
         if self.modes[0] == Mode::Stick {
             let [friction_n] = &mut outputs[output::FRICTION];
-            let hold = self.held();
+            let hold = course.hold(self.x.s);
             let [low, high] = hold.friction_n(loads.normal[0]);
             if hold.leans[0] {
                 *friction_n = friction_n.max(low);
@@ -267,24 +248,26 @@ impl Stepping<'_> {
                 *friction_n = friction_n.min(high);
             }
         }
-        self.store([&[time_s], &[table]], [&states, &outputs], row);
+        self.store(course, [&[time_s], &[table]], [&states, &outputs], row);
         self.knot = [states, outputs];
     }
 
     /// Stores samples in the present modes as rows of the history, by their states and outputs side by side.
     pub(super) fn store_samples<const K: usize>(
         &mut self,
+        course: &Course<'_>,
         samples: Range<usize>,
         lists: [&[[f64; K]]; 2],
     ) {
         let Ground { times_s, table, .. } = self.ground;
-        self.store([&times_s[samples.clone()], &table[samples]], lists, true);
+        self.store(course, [&times_s[samples.clone()], &table[samples]], lists, true);
     }
 
     /// Stores knots in the present modes: their times, the accelerations of the table, their states and
     /// outputs side by side.
     fn store<const K: usize>(
         &mut self,
+        course: &Course<'_>,
         [times_s, table]: [&[f64]; 2],
         [states, outputs]: [&[[f64; K]]; 2],
         are_rows: bool,
@@ -301,12 +284,12 @@ impl Stepping<'_> {
             h.mode.push(self.modes[0]);
             h.mode.extend(items.iter().map(|part| self.modes[1 + part]));
             if h.surfaces > 0 {
-                let surfaces = self.slider.law.surfaces(&self.slider.memory, states[0][k]);
+                let surfaces = course.slider.law.surfaces(&course.slider.memory, states[0][k]);
                 h.surface_displacement_m.extend(surfaces);
             }
         }
-        if self.slider.law.has_pads() {
-            h.contact.resize(end, self.slider.memory.contact);
+        if course.slider.law.has_pads() {
+            h.contact.resize(end, course.slider.memory.contact);
         }
         h.table_acceleration_m_per_s2.extend_from_slice(table);
         side_by_side(count, &mut h.sliding_displacement_m, &states[..1]);

@@ -15,9 +15,11 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
+use super::super::course::Course;
 use super::super::ground::Normal;
+use super::super::phase::Phase;
 use super::super::prepared::Job;
-use super::Stepping;
+use super::Direct;
 use super::ahead::Nine;
 use super::body::Loads;
 use crate::linear::lanes::eight;
@@ -48,7 +50,7 @@ pub(super) struct Affine {
     pub(super) dt_s: f64,
     /// The components of the state that move.
     pub(super) moving: Vec<(usize, Row)>,
-    /// In the order of [`Stepping::output`].
+    /// In the order of [`Direct::output`].
     pub(super) outputs: Vec<Number>,
     /// Numbers of which `‖ẍ‖²` at the start of a sample is the sum of the squares.
     pub(super) second: Vec<Number>,
@@ -138,16 +140,16 @@ fn terms(row: &[f64]) -> Vec<(usize, f64)> {
     row.iter().copied().enumerate().filter(|(_, c)| *c != 0.0).collect()
 }
 
-impl Stepping<'_> {
+impl<'a> Direct<'a> {
     /// The place of the present configuration, if its motion is affine.
-    pub(super) fn configuration(&mut self) -> Option<usize> {
+    pub(super) fn configuration(&mut self, course: &Course<'a>) -> Option<usize> {
         let dt_s = self.ground.sampling.dt_s?;
         let Normal::Constant(normal_n) = self.ground.normal else { return None };
         let count = self.x.count();
-        if !(normal_n > 0.0 && self.slider.law.repeats()) || count > MOST_COMPONENTS {
+        if !(normal_n > 0.0 && course.slider.law.repeats()) || count > MOST_COMPONENTS {
             return None;
         }
-        let (all, memory) = (&self.ahead.configurations, &self.slider.memory);
+        let (all, memory) = (&self.ahead.configurations, &course.slider.memory);
         let place = all.iter().position(|c| c.modes == self.modes && c.memory == *memory);
         let place = match place {
             Some(place) => place,
@@ -164,14 +166,14 @@ impl Stepping<'_> {
             // The matrices of a large system cost as much as many samples.
             configuration.asked += 1;
             if 32 * configuration.asked >= count * count {
-                self.ahead.configurations[place].affine = self.affine(dt_s, normal_n);
+                self.ahead.configurations[place].affine = self.affine(course, dt_s, normal_n);
             }
         }
         self.ahead.configurations[place].affine.is_some().then_some(place)
     }
 
-    fn affine(&mut self, dt_s: f64, normal_n: f64) -> Option<Affine> {
-        let restraint = self.force(self.modes[0]).affine(normal_n).restraints.all;
+    fn affine(&mut self, course: &Course<'a>, dt_s: f64, normal_n: f64) -> Option<Affine> {
+        let restraint = self.force.affine(normal_n).restraints.all;
         let (k, c) = (restraint.stiffness_n_per_m, restraint.damper_n_s_per_m);
         let block_kg = self.body.joined_kg(0, &self.modes);
         let rate = self.body.rate_rad_per_s + (k / block_kg).sqrt() + c.abs() / block_kg;
@@ -179,7 +181,7 @@ impl Stepping<'_> {
         if !(parts <= MOST_PARTS) {
             return None;
         }
-        let (matrices, outputs) = self.units(normal_n);
+        let (matrices, outputs) = self.units(course, normal_n);
         let components = (0..self.x.count()).filter(|&i| self.moves(i)).collect();
         let step = (dt_s, parts as usize);
         let moving = self.instructions.run(RowsOf { matrices: &matrices, step, components });
@@ -200,24 +202,29 @@ impl Stepping<'_> {
 
     /// What the series makes of nothing, of units of the state and of a unit of acceleration: the matrices,
     /// and each output as a row with its factor of the acceleration and its constant.
-    fn units(&mut self, normal_n: f64) -> (Matrices, Vec<(Vec<f64>, f64, f64)>) {
+    fn units(
+        &mut self,
+        course: &Course<'a>,
+        normal_n: f64,
+    ) -> (Matrices, Vec<(Vec<f64>, f64, f64)>) {
         let (count, outputs) = (self.x.count(), self.peaks.values.len());
         let stride = count.next_multiple_of(4);
         let here = self.x.clone();
         let mut unit = vec![0.0; count + 1];
-        let nothing = self.respond(&unit, normal_n, stride);
+        let nothing = self.respond(course, &unit, normal_n, stride);
         let mut units = Vec::with_capacity(count + 1);
         for i in 0..=count {
             // Half the difference, which knows no side.
             unit[i] = 1.0;
-            let mut response = self.respond(&unit, normal_n, stride);
+            let mut response = self.respond(course, &unit, normal_n, stride);
             unit[i] = -1.0;
-            let opposite = self.respond(&unit, normal_n, stride);
+            let opposite = self.respond(course, &unit, normal_n, stride);
             unit[i] = 0.0;
             response.iter_mut().zip(opposite).for_each(|(x, other)| *x = 0.5 * (*x - other));
             units.push(response);
         }
         self.x = here;
+        self.enter(course);
         let mut a = vec![0.0; stride * stride];
         // What stands still moves nothing: only rows of outputs ask for it.
         for i in (0..count).filter(|&i| self.moves(i)) {
@@ -230,8 +237,16 @@ impl Stepping<'_> {
     }
 
     /// Derivative, padded, and outputs of a state and an acceleration.
-    fn respond(&mut self, state: &[f64], normal_n: f64, stride: usize) -> Vec<f64> {
+    fn respond(
+        &mut self,
+        course: &Course<'a>,
+        state: &[f64],
+        normal_n: f64,
+        stride: usize,
+    ) -> Vec<f64> {
         self.x.set(state);
+        // At rest springs push by where the block is.
+        self.enter(course);
         let acceleration = [state[self.x.count()], 0.0];
         self.look_at_orders(1, &Loads { acceleration, normal: [normal_n, 0.0] });
         let mut response = vec![0.0; stride];
@@ -325,6 +340,7 @@ impl Stepping<'_> {
 mod tests {
     use super::super::super::ground::{Ground, Sampling};
     use super::super::super::prepared::InstructionSet;
+    use super::super::start;
     use super::*;
     use crate::model::{Block, Contents, Damping, Frame, InitialState, Model, Slider};
     use crate::motion::GroundMotion;
@@ -351,7 +367,7 @@ mod tests {
     }
 
     /// Looks at every assignment of modes of a model.
-    fn each(model: &Model, look: impl Fn(&mut Stepping<'_>)) {
+    fn each(model: &Model, look: impl for<'a> Fn(&mut Direct<'a>, &Course<'a>)) {
         let motion = GroundMotion::evenly_spaced(0.01, vec![0.0; 20], None).expect("a motion");
         let (sampling, law) = (Sampling::new(&motion), model.law(false));
         let ground = Ground {
@@ -363,13 +379,12 @@ mod tests {
         };
         for assignment in 0..16_u32 {
             let how = (false, Pulse::new(UNWATCHED));
-            let mut run = Stepping::new(model, &law, ground, InstructionSet::best(), how);
-            for (i, mode) in run.modes.iter_mut().enumerate() {
-                if assignment & (1 << i) != 0 {
-                    *mode = Mode::Slip(Direction::Positive);
-                }
+            let mut walk = start(model, &law, ground, InstructionSet::best(), how);
+            for i in (0..walk.course.interfaces()).filter(|i| assignment & (1 << i) != 0) {
+                walk.course.interface_mut(i).mode = Mode::Slip(Direction::Positive);
             }
-            look(&mut run);
+            walk.phase.enter(&walk.course);
+            look(&mut walk.phase, &walk.course);
         }
     }
 
@@ -393,8 +408,8 @@ mod tests {
         for damper in [0.0, 300.0] {
             let model = model(damper);
             let k = model.slider_stiffness_n_per_m();
-            each(&model, |run| {
-                let (matrices, _) = run.units(model.normal_n());
+            each(&model, |run, course| {
+                let (matrices, _) = run.units(course, model.normal_n());
                 let rows = run.momenta(k);
                 for mut x in states(matrices.stride, 50) {
                     if run.modes[0] == Mode::Stick {
@@ -418,9 +433,9 @@ mod tests {
     fn exact_dual_norms_of_outputs_hold_and_are_reached() {
         let model = model(50.0);
         let k = model.slider_stiffness_n_per_m();
-        each(&model, |run| {
+        each(&model, |run, course| {
             let (n, slides) = (run.body.storeys(), run.modes[0] != Mode::Stick);
-            let (_, rows) = run.units(model.normal_n());
+            let (_, rows) = run.units(course, model.normal_n());
             let momenta = run.momenta(k);
             for (mut row, ..) in rows {
                 let [norm, _] = run.dual_norm(&row, k);

@@ -1,10 +1,11 @@
 //! The structure with its contents in physical coordinates, and the Taylor series of its motion.
 
+use super::super::ground::Stretch;
 use crate::linear::polynomial::{DEGREE, Polynomial, ZERO};
 use crate::linear::{System, fading_part};
 use crate::model::{Contents, Model};
 use crate::response::Mode;
-use crate::slider::{Coefficient, Direction, SlipForce};
+use crate::slider::{Coefficient, SlipForce};
 
 /// Terms of a series below this part of the largest are below rounding.
 const NEGLIGIBLE: f64 = 1e-18;
@@ -28,7 +29,7 @@ pub(super) struct Body {
 
 /// A state: block over ground, floors over block, contents over their floors.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct State {
+pub(in crate::solver) struct State {
     pub(super) s: f64,
     pub(super) w: f64,
     pub(super) q: Vec<f64>,
@@ -75,9 +76,19 @@ pub(super) struct Loads {
     pub(super) normal: [f64; 2],
 }
 
+impl Loads {
+    /// Those of a stretch from a time on.
+    pub(super) fn at(stretch: &Stretch, at_s: f64) -> Self {
+        Self {
+            acceleration: [stretch.acceleration_at(at_s), stretch.acceleration_rate],
+            normal: [stretch.normal_at(at_s), stretch.normal_rate],
+        }
+    }
+}
+
 /// What slides, and the force of the slider where it does.
 #[derive(Clone, Copy)]
-pub(super) struct Phase<'a> {
+pub(super) struct InForce<'a> {
     /// The slider, then the contents.
     pub(super) modes: &'a [Mode],
     /// The force while the slider slides; what springs and stops do at rest, where it does not.
@@ -86,7 +97,7 @@ pub(super) struct Phase<'a> {
 
 /// The motion from an instant on, by powers of the time over `unit_s`.
 #[derive(Clone, Debug)]
-pub(super) struct Expansion {
+pub(in crate::solver) struct Expansion {
     /// Where it begins in its sample interval, and its unit.
     pub(super) from_s: f64,
     pub(super) unit_s: f64,
@@ -181,6 +192,22 @@ impl Body {
         }
     }
 
+    /// `1ᵀ(K q + C v)` in a state.
+    pub(super) fn shear_n(&self, x: &State) -> f64 {
+        let n = self.storeys();
+        let [q, v] = [&x.q, &x.v].map(|list| {
+            let of = |x: &f64| {
+                let mut p = ZERO;
+                p[0] = *x;
+                p
+            };
+            list.iter().map(of).collect::<Vec<_>>()
+        });
+        let mut restoring = vec![0.0; n];
+        self.restoring(&q, &v, 0, &mut restoring);
+        restoring.iter().sum()
+    }
+
     /// Sum of the sizes of the spring and damper forces on a floor, from 1.
     pub(super) fn restoring_size(&self, x: &State, floor: usize) -> f64 {
         let (n, k) = (self.storeys(), &self.stiffnesses_n_per_m);
@@ -200,8 +227,8 @@ impl Body {
         on.fold(own, |sum, (contents, _)| sum + contents.mass_kg)
     }
 
-    /// Room for a series.
-    pub(super) fn room(&self) -> Expansion {
+    /// Scratch for a series.
+    pub(super) fn scratch(&self) -> Expansion {
         let (n, e) = (self.storeys(), self.contents.len());
         Expansion {
             from_s: 0.0,
@@ -236,12 +263,12 @@ impl Body {
     pub(super) fn expand(
         &self,
         x: &State,
-        phase: &Phase<'_>,
+        in_force: &InForce<'_>,
         loads: &Loads,
         (unit_s, orders): (f64, usize),
         out: &mut Expansion,
     ) {
-        let (n, modes) = (self.storeys(), phase.modes);
+        let (n, modes) = (self.storeys(), in_force.modes);
         out.unit_s = unit_s;
         if orders > 0 {
             out.clear();
@@ -274,7 +301,7 @@ impl Body {
         let (q, v, floors) = (&mut q[..n], &mut v[..n], &mut floors[..n]);
         let (restoring, carriers) = (&mut restoring[..n], &mut carriers[..=n]);
         let (mut largest, mut sizes) = (0.0_f64, [0.0; DEGREE + 1]);
-        let force = &phase.force;
+        let force = &in_force.force;
         let sign = modes[0].sign();
         if let Coefficient::Exponential { rate_s_per_m, .. } = force.coefficient {
             *decay = ZERO;
@@ -369,7 +396,7 @@ impl Body {
             }
         }
         if orders == DEGREE {
-            out.part = self.exact_part(phase, out, (largest, &sizes));
+            out.part = self.exact_part(in_force, out, (largest, &sizes));
         }
     }
 
@@ -390,7 +417,7 @@ impl Body {
     /// Part of the unit over which the last terms of the series are below rounding, 4 at most.
     fn exact_part(
         &self,
-        phase: &Phase<'_>,
+        in_force: &InForce<'_>,
         out: &Expansion,
         (largest, sizes): (f64, &[f64; DEGREE + 1]),
     ) -> f64 {
@@ -404,8 +431,8 @@ impl Body {
             for k in [DEGREE - 1, DEGREE] {
                 limit(largest, k, sizes[k]);
             }
-            if let Coefficient::Exponential { drop, rate_s_per_m, .. } = phase.force.coefficient
-                && phase.modes[0] != Mode::Stick
+            if let Coefficient::Exponential { drop, rate_s_per_m, .. } = in_force.force.coefficient
+                && in_force.modes[0] != Mode::Stick
                 && drop != 0.0
             {
                 for k in [DEGREE - 1, DEGREE] {
@@ -455,11 +482,5 @@ impl Expansion {
         let own = [self.s, self.w];
         let all = [&own[..], &self.q, &self.v, &self.r, &self.p].into_iter().flatten();
         all.zip(list).for_each(|(c, out)| *out = c[k]);
-    }
-
-    /// The velocity of an interface, positive along a direction.
-    pub(super) fn speed(&self, interface: usize, direction: Direction) -> Polynomial {
-        let velocity = if interface == 0 { &self.w } else { &self.p[interface - 1] };
-        velocity.map(|c| direction.sign() * c)
     }
 }

@@ -8,14 +8,16 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::ground::{Normal, largest_size};
-use super::outputs::output;
+use super::super::course::Course;
+use super::super::ground::{Normal, largest_size};
+use super::super::outputs::output;
+use super::super::recorder::Knot;
+use super::super::tables::{Batch, PhaseTables};
 use super::peaks::Extent;
-use super::recorder::Knot;
-use super::run::{Curvature, InForce, Run};
-use super::tables::{Batch, Phase};
+use super::{Curvature, InForce, Modal};
 use crate::linear::lanes::{Eight, Width, eight, greatest, least};
 use crate::linear::{BATCH, Force, QUIET, Window};
+use crate::progress::Pulse;
 use crate::response::Mode;
 use crate::slider::{Direction, Hold};
 
@@ -30,19 +32,26 @@ struct Coarse<S: Simd> {
     first: f64x8<S>,
 }
 
-impl<'a, S: Simd, W: Width> Run<'a, S, W> {
+impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
     /// Takes samples up to the end of the evenly spaced ones; the first that the bounds leave open.
     #[inline(always)]
-    pub(super) fn screened(&mut self, sample: usize, end: usize) -> usize {
-        let phase = self.now.phase.get();
-        if self.course.start.is_some() || self.now.fading.is_some() || sample + BATCH > end {
+    pub(super) fn screened(
+        &mut self,
+        (course, pulse): (&Course<'a>, &mut Pulse<'a>),
+        sample: usize,
+        end: usize,
+    ) -> usize {
+        let tables = self.now.tables.get();
+        if course.block.start.is_some() || self.now.fading.is_some() || sample + BATCH > end {
             return sample;
         }
-        let Some(batch) = phase.batch() else { return sample };
-        match self.course.mode {
+        let Some(batch) = tables.batch() else { return sample };
+        match self.now.mode {
             Mode::Slip(_) if self.x[1] == 0.0 => sample,
-            Mode::Slip(direction) => self.slide((phase, batch), sample, end, direction),
-            Mode::Stick => self.rest((phase, batch), sample, end),
+            Mode::Slip(direction) => {
+                self.slide((course, pulse), (tables, batch), [sample, end], direction)
+            }
+            Mode::Stick => self.rest((course, pulse), (tables, batch), [sample, end]),
         }
     }
 
@@ -56,9 +65,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     #[inline(always)]
     fn slide(
         &mut self,
-        (phase, batch): (&'a Phase, &'a Batch),
-        mut sample: usize,
-        end: usize,
+        (course, pulse): (&Course<'a>, &mut Pulse<'a>),
+        (phase, batch): (&'a PhaseTables, &'a Batch),
+        [mut sample, end]: [usize; 2],
         direction: Direction,
     ) -> usize {
         let (simd, sign, stride) = (self.simd, direction.sign(), 4 * self.width.fours());
@@ -72,7 +81,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let coefficient = self.now.friction;
         let mut known = 0;
         while sample + BATCH <= end {
-            if self.pulse.beat(self.units[0]).is_err() {
+            if pulse.beat(self.units).is_err() {
                 break;
             }
             if varying && !(self.ground.normal.least(simd, sample) > 0.0) {
@@ -122,7 +131,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             let reach = (steps * steps) as f64 * near;
             let group = (slack, None, reach);
             self.look_over((phase, None), (sample, steps, curvature), inputs, group, &mut known);
-            self.record_batch(batch, sample, steps, a, force);
+            self.record_batch(course, batch, sample, steps, a, force);
             sample += steps;
             core::mem::swap(&mut self.x, &mut self.next);
             if steps < BATCH {
@@ -136,9 +145,9 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     #[inline(always)]
     fn rest(
         &mut self,
-        (phase, batch): (&'a Phase, &'a Batch),
-        mut sample: usize,
-        end: usize,
+        (course, pulse): (&Course<'a>, &mut Pulse<'a>),
+        (phase, batch): (&'a PhaseTables, &'a Batch),
+        [mut sample, end]: [usize; 2],
     ) -> usize {
         let (simd, stride) = (self.simd, 4 * self.width.fours());
         let hold = self.hold;
@@ -150,7 +159,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let constant = row.of_stop * stop + row.constant;
         let mut known = 0;
         while sample + BATCH <= end {
-            if self.pulse.beat(self.units[0]).is_err() {
+            if pulse.beat(self.units).is_err() {
                 break;
             }
             let a = self.window(sample);
@@ -171,13 +180,13 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                     && let coarse = self.coarse(phase, size, QUIET as f64 * batch.dt_s)
                     && self.is_quiet(phase, &coarse, stop, holds)
                 {
-                    self.take_quiet(batch, sample);
+                    self.take_quiet(course, batch, sample);
                     sample += QUIET;
                     continue;
                 }
                 let (x, next) = (&self.x[..stride], &mut self.next[..stride]);
                 batch.maps.after(simd, BATCH, x, a, force, next);
-                self.record_batch(batch, sample, BATCH, a, force);
+                self.record_batch(course, batch, sample, BATCH, a, force);
                 self.swap_in_stick();
                 sample += BATCH;
                 continue;
@@ -227,7 +236,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
                 group,
                 &mut known,
             );
-            self.record_batch(batch, sample, steps, a, force);
+            self.record_batch(course, batch, sample, steps, a, force);
             sample += steps;
             self.swap_in_stick();
             if steps < BATCH {
@@ -243,7 +252,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     #[inline(always)]
     fn look_over(
         &mut self,
-        (phase, coarse): (&Phase, Option<&Coarse<S>>),
+        (phase, coarse): (&PhaseTables, Option<&Coarse<S>>),
         (sample, steps, curvature): (usize, usize, Curvature),
         [first, last]: [[f64; 3]; 2],
         (slack, first_group, reach): (f64x8<S>, Option<f64x8<S>>, f64),
@@ -284,7 +293,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     #[inline(always)]
     fn outputs_known(
         &mut self,
-        phase: &Phase,
+        phase: &PhaseTables,
         g: usize,
         inputs: [f64; 3],
         known: &mut u64,
@@ -301,7 +310,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
 
     /// Bounds under an acceleration of a size over a length of time.
     #[inline(always)]
-    fn coarse(&self, phase: &Phase, size: f64, length_s: f64) -> Coarse<S> {
+    fn coarse(&self, phase: &PhaseTables, size: f64, length_s: f64) -> Coarse<S> {
         let first = eight(self.simd, 0.0);
         let mut coarse = Coarse { impulse: length_s * size, size, first };
         coarse.first = self.reach(phase, 0, &coarse);
@@ -310,7 +319,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
 
     /// Bound on what state and loads do to the outputs of a group over that time.
     #[inline(always)]
-    fn reach(&self, phase: &Phase, g: usize, coarse: &Coarse<S>) -> f64x8<S> {
+    fn reach(&self, phase: &PhaseTables, g: usize, coarse: &Coarse<S>) -> f64x8<S> {
         let (simd, group) = (self.simd, &phase.outputs.groups[g]);
         let amplitudes = &self.amplitudes[..self.amplitude_count(phase)];
         let reach = group.size_of_a.load(simd) * eight(simd, coarse.size)
@@ -320,13 +329,13 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
 
     /// Number of amplitudes that the outputs of a phase have factors of; those of one storey one.
     #[inline(always)]
-    fn amplitude_count(&self, phase: &Phase) -> usize {
+    fn amplitude_count(&self, phase: &PhaseTables) -> usize {
         if self.width.modes() == 1 { 1 } else { phase.outputs.amplitude_count }
     }
 
     /// The same of the outputs themselves.
     #[inline(always)]
-    fn most(&self, phase: &Phase, g: usize, reach: f64x8<S>, stop: f64) -> f64x8<S> {
+    fn most(&self, phase: &PhaseTables, g: usize, reach: f64x8<S>, stop: f64) -> f64x8<S> {
         let (simd, group) = (self.simd, &phase.outputs.groups[g]);
         let constant = (group.constant.load(simd) + group.of_stop.load(simd) * eight(simd, stop))
             + group.of_s.load(simd) * eight(simd, self.x[0]);
@@ -335,7 +344,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
 
     /// Whether in stick the demand changes by no more than `holds`, and no output passes its limit.
     #[inline(always)]
-    fn is_quiet(&self, phase: &Phase, coarse: &Coarse<S>, stop: f64, holds: f64) -> bool {
+    fn is_quiet(&self, phase: &PhaseTables, coarse: &Coarse<S>, stop: f64, holds: f64) -> bool {
         for g in 0..self.groups(phase) {
             let reach = if g == 0 { coarse.first } else { self.reach(phase, g, coarse) };
             if g == 0 && !(reach.as_array()[output::FRICTION] <= holds) {
@@ -358,13 +367,13 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
 
     /// Moves the state on over quiet stick.
     #[inline(always)]
-    fn take_quiet(&mut self, batch: &Batch, sample: usize) {
+    fn take_quiet(&mut self, course: &Course<'a>, batch: &Batch, sample: usize) {
         if self.recorder.is_some() {
             let start = self.x.clone();
             for from in (sample..sample + QUIET).step_by(BATCH) {
                 let a = self.window(from);
                 let force = Force::Constant(0.0);
-                self.record_batch(batch, from, BATCH, a, force);
+                self.record_batch(course, batch, from, BATCH, a, force);
                 batch.maps.after(self.simd, BATCH, &self.x, a, force, &mut self.next);
                 self.swap_in_stick();
             }
@@ -382,6 +391,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
     #[inline(always)]
     fn record_batch(
         &mut self,
+        course: &Course<'a>,
         batch: &Batch,
         sample: usize,
         steps: usize,
@@ -389,7 +399,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         force: Force<'_>,
     ) {
         let Some(recorder) = &mut self.recorder else { return };
-        let (InForce { mode, phase, .. }, contact) = (self.now, self.course.slider.memory.contact);
+        let InForce { mode, contact, tables, .. } = self.now;
         let samples = sample..sample + steps;
         let (times_s, table) = (&self.ground.times_s[samples.clone()], &self.ground.table[samples]);
         recorder.store_samples([times_s, table], mode, contact);
@@ -408,11 +418,8 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             let (time_s, table, acceleration, state) = (times_s[k], table[k], a[k], &x[..stride]);
             let knot =
                 Knot { time_s, mode, contact, table, acceleration, state, friction_n, force_n };
-            recorder.motion(&phase.system, &knot);
-            if recorder.history.surfaces > 0 {
-                let surfaces = self.course.slider.law.surfaces(&self.course.slider.memory, x[0]);
-                recorder.history.surface_displacement_m.extend(surfaces);
-            }
+            recorder.motion(&tables.system, &knot);
+            recorder.surfaces(&course.slider, x[0]);
         }
         recorder.state = x;
     }
@@ -438,7 +445,7 @@ fn held_steps<S: Simd>(
 
 /// Samples up to the last before the first that is not clear: both ends of each must be.
 #[inline(always)]
-pub(super) fn clear_steps(clear: u64, first: bool) -> usize {
+pub(in crate::solver) fn clear_steps(clear: u64, first: bool) -> usize {
     let ends = (clear << 1) | u64::from(first);
     ((!ends).trailing_zeros() as usize).saturating_sub(1).min(BATCH)
 }

@@ -1,0 +1,184 @@
+//! What the walk asks of the motion between two events.
+
+use super::course::Course;
+use super::ground::Stretch;
+use super::walk::Walk;
+use crate::error::SolveError;
+use crate::linear::lanes::least;
+use crate::linear::polynomial::Polynomial;
+use crate::slider::Hold;
+
+/// A segment of a stretch: one series long at most.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Segment {
+    pub(super) from_s: f64,
+    pub(super) to_s: f64,
+    /// Length of its series in s.
+    pub(super) unit_s: f64,
+    /// Its length over that.
+    pub(super) part: f64,
+}
+
+impl Segment {
+    /// Its first part.
+    #[inline(always)]
+    pub(super) fn up_to(self, part: f64) -> Self {
+        Self { to_s: least(self.from_s + part * self.unit_s, self.to_s), part, ..self }
+    }
+}
+
+/// How far running ahead has come: so long after a sample, from where the walk goes on.
+#[derive(Clone, Copy)]
+pub(super) struct Reached {
+    pub(super) sample: usize,
+    pub(super) at_s: f64,
+}
+
+/// The motion between two events: the state of structure, slider and contents, its series in the modes of
+/// a [`Course`], and what is kept of it. Interfaces are numbered, the slider first, then the contents.
+///
+/// What an interface is *asked* for is the force of the slider in N, of contents their acceleration in
+/// m/s², with the *normal* force in the same unit.
+pub(super) trait Phase<'a>: Sized {
+    /// The motion from an instant on by powers of the time.
+    type Expansion;
+    /// What moves.
+    type State: Clone;
+
+    /// [`Walk::step`] by the vector instructions of this.
+    fn step(walk: &mut Walk<'a, Self>, sample: usize, from_s: f64) -> Result<(), SolveError>;
+
+    /// Goes on from the first of two samples towards the second, as far as nothing is in doubt.
+    ///
+    /// # Errors
+    /// Where the analysis is stopped.
+    fn run_ahead(walk: &mut Walk<'a, Self>, samples: [usize; 2]) -> Result<Reached, SolveError>;
+
+    /// Settles what may still hold a peak.
+    fn settle(walk: &mut Walk<'a, Self>);
+
+    /// Modes or law have changed.
+    fn enter(&mut self, course: &Course<'a>);
+
+    // ---- state ----------------------------------------------------------------------------------
+
+    /// Displacement and velocity of an interface.
+    fn place(&self, interface: usize) -> [f64; 2];
+
+    /// Gives the slider or contents a displacement and a velocity that an event fixes.
+    fn put(&mut self, interface: usize, place: [f64; 2]);
+
+    /// Adds to the block's velocity over the ground what is taken from that of all else over the block:
+    /// an impact, which what does not touch the stop does not feel.
+    fn strike(&mut self, change: f64);
+
+    /// All that moves.
+    fn state(&self) -> Self::State;
+
+    /// Goes back to it.
+    fn set_state(&mut self, state: &Self::State);
+
+    /// The force that keeps the block stuck under an acceleration and a normal force, eqs (8), (14), by what
+    /// holds it.
+    fn demand_n(&mut self, hold: &Hold, loads: [f64; 2]) -> f64;
+
+    /// Mass of the block with what is stuck to it, in kg.
+    fn block_kg(&self) -> f64;
+
+    // ---- series ---------------------------------------------------------------------------------
+
+    /// Expands the motion from a time of a stretch over as much of it as one series takes.
+    fn expand(&mut self, course: &Course<'a>, stretch: &Stretch, from_s: f64) -> Segment;
+
+    /// Finds accelerations and forces of an instant.
+    fn look_at_instant(&mut self, course: &Course<'a>, stretch: &Stretch, at_s: f64);
+
+    /// What was expanded last.
+    fn series(&self) -> &Self::Expansion;
+
+    /// The last instant looked at.
+    fn instant(&self) -> &Self::Expansion;
+
+    /// What of the motion a series is of, as far as it is exact.
+    fn segment(&self, series: &Self::Expansion) -> Segment;
+
+    /// The length that a series took last, in s.
+    fn unit_s(&self) -> f64;
+
+    /// The length to begin with.
+    fn set_unit_s(&mut self, unit_s: f64);
+
+    /// Sliding displacement, where the slider slides.
+    fn displacement(&self, series: &Self::Expansion) -> Polynomial;
+
+    /// Velocity of an interface that slides.
+    fn velocity(&self, series: &Self::Expansion, interface: usize) -> Polynomial;
+
+    /// Acceleration of an interface over what it slides on.
+    fn acceleration(&self, series: &Self::Expansion, interface: usize) -> Polynomial;
+
+    /// What an interface that sticks is asked for.
+    fn asked(&self, series: &Self::Expansion, interface: usize) -> Polynomial;
+
+    /// What presses on it, at the start, and by how much that changes over the unit.
+    fn normal(&self, series: &Self::Expansion, interface: usize) -> [f64; 2];
+
+    /// What holds it.
+    fn hold(&self, course: &Course<'a>, interface: usize) -> Hold;
+
+    /// What is rounding of the acceleration of an interface over what it slides on, in m/s²: of its terms
+    /// now, or of the largest so far.
+    fn rounding_m_per_s2(
+        &self,
+        course: &Course<'a>,
+        series: &Self::Expansion,
+        interface: usize,
+    ) -> f64;
+
+    /// Largest velocity of an interface so far.
+    fn peak_velocity(&self, interface: usize) -> f64;
+
+    /// Moves to a part of what was expanded last.
+    fn move_to(&mut self, part: f64);
+
+    // ---- what is kept ---------------------------------------------------------------------------
+
+    /// Looks for peaks in the part of the series just gone through.
+    fn look(&mut self, course: &mut Course<'a>, stretch: &Stretch, segment: &Segment);
+
+    /// Records the present state as a knot, perhaps as a row of the history.
+    fn record(&mut self, course: &Course<'a>, stretch: &Stretch, at_s: f64, row: bool);
+
+    /// The same at a sample.
+    fn record_sample(&mut self, course: &Course<'a>, sample: usize, row: bool);
+}
+
+/// The length over which a series is expanded, and the part of it that the series serves, at most 1.
+///
+/// `expand` expands over a length and returns the part over which that is exact, perhaps above 1; `last_s`
+/// is the length that the last series would have served.
+#[inline(always)]
+pub(super) fn fitting(
+    last_s: &mut f64,
+    first_s: f64,
+    left_s: f64,
+    mut expand: impl FnMut(f64) -> f64,
+) -> [f64; 2] {
+    let mut unit_s = if last_s.is_finite() { *last_s } else { first_s };
+    loop {
+        // A hair beyond is the rounding of the times.
+        if unit_s * (1.0 + 1e-9) >= left_s {
+            unit_s = left_s;
+        }
+        let part = expand(unit_s);
+        let longer_s = unit_s * part;
+        *last_s = if unit_s == left_s { longer_s.max(*last_s) } else { longer_s };
+        if !last_s.is_finite() {
+            *last_s = unit_s;
+        }
+        if part >= 0.25 {
+            return [unit_s, part.min(1.0)];
+        }
+        unit_s *= part.max(1e-3);
+    }
+}
