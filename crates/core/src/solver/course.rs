@@ -79,6 +79,13 @@ impl Interface {
     }
 }
 
+/// An interface that slides from rest, and where.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Release {
+    pub(super) interface: usize,
+    pub(super) direction: Direction,
+}
+
 /// A rigid stop that has just been struck, and where the block is to it.
 #[derive(Clone, Copy)]
 pub(super) struct Near {
@@ -94,6 +101,8 @@ pub(super) struct Course<'a> {
     /// Those of contents that slide each by itself, which start from rest.
     pub(super) contents: Vec<Interface>,
     pub(super) near: Option<Near>,
+    /// Interfaces that have reached their bounds.
+    pub(super) released: Vec<Release>,
     pub(super) events: Vec<Event>,
     pub(super) events_in_interval: u32,
 }
@@ -111,10 +120,16 @@ pub(super) struct Instant {
 }
 
 impl<'a> Course<'a> {
-    /// Before anything has happened, in a list that is empty.
-    pub(super) fn new(slider: SliderState<'a>, [s, w]: [f64; 2], events: Vec<Event>) -> Self {
+    /// Before anything has happened, in the lists of another.
+    pub(super) fn new(
+        slider: SliderState<'a>,
+        [s, w]: [f64; 2],
+        (mut released, mut events): (Vec<Release>, Vec<Event>),
+    ) -> Self {
+        released.clear();
+        events.clear();
         let (block, contents) = (Interface::new(s, w), Vec::new());
-        Self { slider, block, contents, near: None, events, events_in_interval: 0 }
+        Self { slider, block, contents, near: None, released, events, events_in_interval: 0 }
     }
 
     /// The same with so many contents.

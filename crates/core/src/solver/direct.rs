@@ -63,7 +63,8 @@ fn start<'a>(
     let phase = Direct::new(model, law, ground, instructions, with_history);
     let count = phase.body.contents.len();
     let [s, w] = phase.place(0);
-    let course = Course::new(SliderState::new(law, s, w), [s, w], Vec::new()).with_contents(count);
+    let course = Course::new(SliderState::new(law, s, w), [s, w], (Vec::new(), Vec::new()))
+        .with_contents(count);
     let before = [model.slope_m_per_s2(), model.normal_n()];
     let units = 128 * (1 + model.storeys() + count) as u32;
     Walk::new((phase, course), (ground, before), (pulse, units))

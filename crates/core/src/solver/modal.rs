@@ -30,7 +30,7 @@ use crate::error::SolveError;
 use crate::linear::lanes::{Eight, Width, combine8, dot, eight};
 use crate::linear::polynomial::{Polynomial, derivative};
 use crate::linear::{BATCH, Force, Series};
-use crate::response::{Event, Mode};
+use crate::response::Mode;
 use crate::slider::{Affine, Contact, EXITS, Exit, Fading, Hold, Law, Restraint};
 
 pub(super) use self::peaks::{Peaks, bound_between};
@@ -219,14 +219,13 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
         }
     }
 
-    /// Gives its lists back, with the list of events; its recorder.
-    pub(super) fn leave(self, events: Vec<Event>, workspace: &mut Workspace) -> Option<Recorder> {
+    /// Gives its lists back; its recorder.
+    pub(super) fn leave(self, workspace: &mut Workspace) -> Option<Recorder> {
         let [f, g] = self.scratch;
         workspace.states = [self.x, self.next];
         workspace.modes = [self.amplitudes, f, g];
         (workspace.values, workspace.series) = (self.values, self.series);
-        (workspace.peaks, workspace.events) = (self.peaks, events);
-        workspace.candidates = self.candidates;
+        (workspace.peaks, workspace.candidates) = (self.peaks, self.candidates);
         self.recorder
     }
 

@@ -1,5 +1,6 @@
 //! What serves many analyses at once: a motion prepared for all models, a model for all motions.
 
+use core::mem::take;
 use std::sync::Arc;
 
 use fearless_simd::Level;
@@ -271,7 +272,7 @@ fn solve(
     recorder::fits(model, motion.len())?;
     let slope = tables.slope;
     let [mut sloped, mut varying] =
-        [&mut workspace.acceleration, &mut workspace.normal_n].map(core::mem::take);
+        [&mut workspace.acceleration, &mut workspace.normal_n].map(take);
     let acceleration = if slope == 0.0 {
         motion.horizontal_m_per_s2()
     } else {
@@ -420,17 +421,18 @@ impl Job for Analysis<'_> {
             job: Analysis<'_>,
         ) -> Result<(Outcome, Option<Recorder>), SolveError> {
             let Analysis { model, tables, law, ground, recorder, pulse, workspace } = job;
-            let mut events = core::mem::take(&mut workspace.events);
-            events.clear();
+            let lists = (take(&mut workspace.released), take(&mut workspace.events));
             let phase = Modal::new((simd, width), (tables, law), ground, recorder, workspace);
             let place = phase.place(0);
-            let course = Course::new(SliderState::new(law, place[0], place[1]), place, events);
+            let course = Course::new(SliderState::new(law, place[0], place[1]), place, lists);
             let before = [model.slope_m_per_s2(), model.normal_n()];
             let units = 32 * (1 + width.modes() as u32);
             let mut walk = Walk::new((phase, course), (ground, before), (pulse, units));
             walk.go()?;
             let outcome = walk.outcome(tables.overturns());
-            Ok((outcome, walk.phase.leave(walk.course.events, workspace)))
+            let Walk { phase, course, .. } = walk;
+            (workspace.released, workspace.events) = (course.released, course.events);
+            Ok((outcome, phase.leave(workspace)))
         }
         match self.model.storeys() {
             0 | 1 => of(simd, One, self),

@@ -17,8 +17,6 @@ use crate::progress::Pulse;
 use crate::response::{Contact, EventKind, Mode};
 use crate::slider::{Direction, Exit, Reached};
 
-use self::decide::Release;
-
 /// Most events in one sample interval before an analysis is given up.
 pub const EVENTS_PER_INTERVAL_LIMIT: u32 = 1_000_000;
 
@@ -45,8 +43,6 @@ pub(super) struct Walk<'a, P> {
     pub(super) units: u32,
     /// Acceleration and normal force before the motion.
     before: [f64; 2],
-    /// Interfaces that have reached their bounds.
-    pending: Vec<Release>,
     /// Whether a jump is walked, in which displacements stand.
     walks_jump: bool,
     /// What friction takes of a push against a rigid stop has just become all of it, or too little.
@@ -73,7 +69,6 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
             pulse,
             units,
             before,
-            pending: Vec::new(),
             walks_jump: false,
             leant: false,
             leans_since_s: None,
@@ -138,8 +133,8 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     fn finish(&mut self, last: usize) -> Result<(), SolveError> {
         let end_s = self.ground.times_s[last];
         self.must_be_finite(end_s)?;
-        let is_due =
-            !self.pending.is_empty() || (0..self.course.interfaces()).any(|i| self.has_stopped(i));
+        let is_due = !self.course.released.is_empty()
+            || (0..self.course.interfaces()).any(|i| self.has_stopped(i));
         if is_due {
             // A decision at the very end is made by the limit from the left.
             let interval = (0..last).rev().find(|&i| self.ground.times_s[i] < end_s);
@@ -211,7 +206,10 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     pub(super) fn is_settled(&self) -> bool {
         let starts =
             (0..self.course.interfaces()).any(|i| self.course.interface(i).start.is_some());
-        self.pending.is_empty() && !self.leant && self.course.slider.just.is_none() && !starts
+        self.course.released.is_empty()
+            && !self.leant
+            && self.course.slider.just.is_none()
+            && !starts
     }
 
     /// Where the slider rests against a rigid stop: how much of its push friction cannot take, positive
@@ -378,7 +376,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     fn follow(&mut self, part: f64, end: Option<End>) {
         match end {
             Some(End::Still(i)) => self.stand(i),
-            Some(End::Release) => self.pending = self.released(part),
+            Some(End::Release) => self.find_released(part),
             _ => {}
         }
         self.stop_within_rounding(part);

@@ -1,5 +1,6 @@
 //! Room that one analysis leaves to the next.
 
+use super::course::Release;
 use super::dense::Candidate;
 use super::modal::Peaks;
 use super::prepared::Prepared;
@@ -21,6 +22,7 @@ pub struct Workspace {
     pub(super) series: Series,
     pub(super) modes: [Vec<f64>; 3],
     pub(super) peaks: Peaks,
+    pub(super) released: Vec<Release>,
     pub(super) events: Vec<Event>,
     pub(super) candidates: Vec<Candidate>,
     last: Option<Prepared>,

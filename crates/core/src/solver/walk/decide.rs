@@ -12,7 +12,7 @@
 //! A lone slider needs no such walk: its distance from a bound is linear in the ramp's parameter, so that it
 //! is released if it is beyond its bound at the end.
 
-use super::super::course::AMBIGUOUS;
+use super::super::course::{AMBIGUOUS, Release};
 use super::super::ground::{Stretch, jump};
 use super::super::phase::{Phase, Segment};
 use super::super::slider::{ROUNDING, Start, falls_below, first_crossing};
@@ -21,9 +21,6 @@ use crate::error::SolveError;
 use crate::linear::polynomial::{DEGREE, Polynomial, curvature_bound, value};
 use crate::response::{EventKind, Mode};
 use crate::slider::{Direction, Memory};
-
-/// An interface that slides from rest, and where.
-pub(super) type Release = (usize, Direction);
 
 /// Modes of all interfaces, with what follows from them.
 struct Assignment {
@@ -125,7 +122,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
             if ends[0].min(ends[1]) > hidden {
                 continue;
             }
-            if let Some(at) = self.release(i, to, part)
+            if let Some(at) = self.release_towards(i, to, part)
                 && first.is_none_or(|(first, _)| at < first)
             {
                 first = Some((at, to));
@@ -136,7 +133,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
 
     /// The same in a direction.
     #[inline(never)]
-    fn release(&self, i: usize, to: Direction, part: f64) -> Option<f64> {
+    fn release_towards(&self, i: usize, to: Direction, part: f64) -> Option<f64> {
         let series = self.phase.series();
         let mut distance = self.distance(series, i, to)?;
         first_crossing(&distance, part)?;
@@ -148,16 +145,21 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         first_crossing(&distance, part)
     }
 
-    /// All stuck interfaces that reach their bounds at a part of the series.
-    pub(super) fn released(&self, part: f64) -> Vec<Release> {
+    /// Finds all stuck interfaces that reach their bounds at a part of the series.
+    pub(super) fn find_released(&mut self, part: f64) {
+        let mut released = core::mem::take(&mut self.course.released);
+        released.extend(self.course.stuck().filter_map(|i| self.released(i, part)));
+        self.course.released = released;
+    }
+
+    /// Where a stuck interface has reached its bound at a part of the series.
+    fn released(&self, interface: usize, part: f64) -> Option<Release> {
         let series = self.phase.series();
-        let at_part = |i: usize| {
-            let (at, to) = self.first_release(i, self.phase.segment(series).part)?;
-            let distance = self.distance(series, i, to)?;
-            let rounding = self.rounding_of_distance(series, i, &distance);
-            (at <= part || value(&distance, part) <= rounding).then_some((i, to))
-        };
-        self.course.stuck().filter_map(at_part).collect()
+        let (at, direction) = self.first_release(interface, self.phase.segment(series).part)?;
+        let distance = self.distance(series, interface, direction)?;
+        let rounding = self.rounding_of_distance(series, interface, &distance);
+        let is_reached = at <= part || value(&distance, part) <= rounding;
+        is_reached.then_some(Release { interface, direction })
     }
 
     // ---- decisions ------------------------------------------------------------------------------
@@ -190,8 +192,8 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         if !(at.normal_n > 0.0) {
             return None;
         }
-        if let [(_, direction)] = *self.pending {
-            self.pending.clear();
+        if let [Release { direction, .. }] = *self.course.released {
+            self.course.released.clear();
             self.note_before(stretch, at_s, at_sample);
             let hold = self.course.hold(at.place_m);
             self.course.release(&at, &hold, direction, 1);
@@ -239,7 +241,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     #[inline(never)]
     fn decide_by_series(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool {
         let stopped = (0..self.course.interfaces()).any(|i| self.has_stopped(i));
-        let reached = core::mem::take(&mut self.pending);
+        let reached = core::mem::take(&mut self.course.released);
         let due = stopped || !reached.is_empty();
         if !(due || self.is_any_at_bound(stretch, at_s)) {
             return false;
@@ -302,7 +304,8 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         let held = self.in_force();
         let at = (stretch, at_s);
         let first = self.assign(at, &held, reached);
-        let is_slider_free = held.modes[0] == Mode::Stick && reached.iter().all(|(i, _)| *i > 0);
+        let is_slider_free =
+            held.modes[0] == Mode::Stick && reached.iter().all(|release| release.interface > 0);
         if !is_slider_free {
             return if first.holds || reached.is_empty() {
                 first
@@ -320,16 +323,18 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         let with: Vec<Release> = (1..held.modes.len())
             .filter(|&i| held.modes[i] == Mode::Stick)
             .filter_map(|i| match first.in_force.modes[i] {
-                Mode::Slip(direction) => Some((i, direction)),
+                Mode::Slip(direction) => Some(Release { interface: i, direction }),
                 Mode::Stick => None,
             })
             .collect();
         let mut best = Some(first).filter(|first| first.holds);
         for direction in [towards, towards.opposite()] {
-            let slides: Vec<Release> = [(0, direction)].iter().chain(reached).copied().collect();
+            let slides: Vec<Release> =
+                [Release { interface: 0, direction }].iter().chain(reached).copied().collect();
             let mut next = self.assign(at, &held, &slides);
             if !next.holds {
-                let slides: Vec<Release> = [(0, direction)].iter().chain(&with).copied().collect();
+                let slides: Vec<Release> =
+                    [Release { interface: 0, direction }].iter().chain(&with).copied().collect();
                 next = self.assign(at, &held, &slides);
             }
             let better = best.as_ref().is_none_or(|best| next.sticking > best.sticking);
@@ -340,7 +345,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         match best {
             Some(best) => best,
             None if !reached.is_empty() => self.choose_anew(at, &held),
-            None => self.assign(at, &held, &[(0, towards)]),
+            None => self.assign(at, &held, &[Release { interface: 0, direction: towards }]),
         }
     }
 
@@ -368,10 +373,14 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         self.put_in_force(held);
         let mut released = slides.to_vec();
         loop {
-            released.drain(..).for_each(|(i, direction)| self.let_slide(i, direction));
+            released.drain(..).for_each(|release| self.release(release));
             self.expand_at(at);
             let stuck = self.course.stuck().filter(|&i| i > 0);
-            released = stuck.filter_map(|i| Some((i, self.leaving(i)?))).collect();
+            let leaving = |interface| {
+                let direction = self.leaving(interface)?;
+                Some(Release { interface, direction })
+            };
+            released = stuck.filter_map(leaving).collect();
             if released.is_empty() {
                 break;
             }
@@ -418,9 +427,9 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     }
 
     /// Lets an interface slide from rest.
-    fn let_slide(&mut self, i: usize, direction: Direction) {
-        self.course.interface_mut(i).mode = Mode::Slip(direction);
-        if i == 0
+    fn release(&mut self, Release { interface, direction }: Release) {
+        self.course.interface_mut(interface).mode = Mode::Slip(direction);
+        if interface == 0
             && let Some(contact) = self.course.slider.begin(self.phase.place(0)[0], direction)
         {
             self.course.slider.memory.contact = contact;
@@ -459,11 +468,11 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
             let mut at_s = stretch.from_s;
             self.phase.set_unit_s(stretch.to_s - at_s);
             while at_s < stretch.to_s {
-                let due = !self.pending.is_empty()
+                let due = !self.course.released.is_empty()
                     || (0..resting.len()).any(|i| self.has_stopped(i))
                     || self.is_any_at_bound(&stretch, at_s);
                 if due {
-                    let reached = core::mem::take(&mut self.pending);
+                    let reached = core::mem::take(&mut self.course.released);
                     let next = self.choose(&stretch, at_s, &reached);
                     self.course.events_in_interval += 1;
                     self.limit_events(self.ground.times_s[sample])?;
@@ -477,10 +486,12 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         }
         self.walks_jump = false;
         let slides = |i: usize| match self.course.mode(i) {
-            Mode::Slip(direction) if resting[i] && !self.has_stopped(i) => Some((i, direction)),
+            Mode::Slip(direction) if resting[i] && !self.has_stopped(i) => {
+                Some(Release { interface: i, direction })
+            }
             _ => None,
         };
-        self.pending = (0..resting.len()).filter_map(slides).collect();
+        self.course.released = (0..resting.len()).filter_map(slides).collect();
         self.phase.set_state(&state);
         self.course.near = near;
         self.phase.set_unit_s(unit_s);
