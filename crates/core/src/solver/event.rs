@@ -342,8 +342,8 @@ impl<S: Simd, W: Width> Run<'_, S, W> {
         self.set_in_force();
     }
 
-    /// Decides by the loads after a jump at the very end, and looks at the outputs under them.
-    pub(super) fn look_after_jump(&mut self, stretch: &Stretch) {
+    /// Decides by the loads beside a jump at the very start or end, and looks at the outputs under them.
+    pub(super) fn look_beside_jump(&mut self, stretch: &Stretch) {
         if self.course.mode == Mode::Stick {
             self.release_if_due(stretch, 0.0, true);
         }

@@ -276,6 +276,10 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
         let last = times_s.len() - 1;
         let mut sample = 0;
         self.set_in_force();
+        if let Some(stretch) = self.ground.before_first_jump() {
+            self.look_beside_jump(&stretch);
+            self.course.start = None;
+        }
         while sample < last {
             if times_s[sample + 1] == times_s[sample] {
                 // The left side of a jump; the right side decides, as the next sample does.
@@ -330,7 +334,7 @@ impl<'a, S: Simd, W: Width> Run<'a, S, W> {
             }
         }
         if let Some(stretch) = self.ground.after_last_jump() {
-            self.look_after_jump(&stretch);
+            self.look_beside_jump(&stretch);
         }
         self.record_sample(last, true);
         if matches!(self.course.mode, Mode::Slip(_)) {

@@ -183,6 +183,10 @@ impl<'a> Stepping<'a> {
         self.lean(0.0);
         let before = [self.model.slope_m_per_s2(), self.model.normal_n()];
         self.walk_jump(0, before, self.loads_at(0))?;
+        if let Some(stretch) = self.ground.before_first_jump() {
+            self.look_beside_jump(&stretch);
+            self.start.fill(None);
+        }
         let mut sample = 0;
         loop {
             sample = self.run_ahead(sample, last);
@@ -229,9 +233,7 @@ impl<'a> Stepping<'a> {
         }
         if let Some(stretch) = self.ground.after_last_jump() {
             self.walk_jump(last, self.loads_at(last - 1), self.loads_at(last))?;
-            self.decide(&stretch, 0.0, true);
-            self.expand(&stretch, 0.0);
-            self.look(0.0);
+            self.look_beside_jump(&stretch);
         }
         self.record_sample(last, true);
         for i in 0..self.modes.len() {
@@ -247,6 +249,13 @@ impl<'a> Stepping<'a> {
         self.slider.note_surfaces(self.x.s);
         self.settle_candidates();
         Ok(())
+    }
+
+    /// Decides by the loads beside a jump at the very start or end, and looks at the outputs under them.
+    fn look_beside_jump(&mut self, stretch: &Stretch) {
+        self.decide(stretch, 0.0, true);
+        self.expand(stretch, 0.0);
+        self.look(0.0);
     }
 
     fn stepped(self) -> Stepped {

@@ -17,7 +17,7 @@ use super::{Near, SLOWEST_IMPACT_M_PER_S, Stepping};
 use crate::error::SolveError;
 use crate::linear::polynomial::{DEGREE, Polynomial, derivative, value};
 use crate::response::{EventKind, Mode};
-use crate::slider::{Direction, Memory};
+use crate::slider::{Direction, Hold, Memory};
 
 /// Where a bounce is below the rounding of `s`: parts of the stop's distance.
 const LEAST_BOUNCE: f64 = 4.0 * f64::EPSILON;
@@ -108,10 +108,11 @@ impl Stepping<'_> {
         size(&p.slider) + size(&p.friction) + springs.abs() + force.force_n.abs()
     }
 
-    /// What is rounding of the velocity of an interface over a series.
-    fn rounding_m_per_s(&self, interface: usize, velocity: &Polynomial) -> f64 {
+    /// What is rounding of the velocity of an interface at a part of a series: of `Σ |c_k| x^k`, or of the
+    /// largest so far.
+    fn rounding_m_per_s(&self, interface: usize, velocity: &Polynomial, part: f64) -> f64 {
         let largest = self.peaks.values[self.velocity_output(interface)];
-        let terms = velocity.iter().fold(0.0, |terms: f64, c| terms.max(c.abs()));
+        let terms = value(&velocity.map(f64::abs), part);
         ROUNDING * if self.walks_jump { terms } else { terms.max(largest) }
     }
 
@@ -206,7 +207,7 @@ impl Stepping<'_> {
             let speed = self.series.speed(i, direction);
             let here = direction.sign() * self.velocity(i);
             if here <= 0.0
-                || (here <= self.rounding_m_per_s(i, &speed)
+                || (here <= self.rounding_m_per_s(i, &speed, part)
                     && value(&derivative(&speed), part) <= 0.0)
             {
                 self.stand(i);
@@ -225,13 +226,17 @@ impl Stepping<'_> {
             return false;
         }
         let was = self.in_force();
-        if self.has_stopped(0) {
+        let margins = self.has_stopped(0).then(|| {
             self.hold(0);
             self.look_at_instant(&Self::loads(stretch, at_s));
-            let margin = self.held().margin(self.instant.friction[0], self.instant.normal[0]);
-            self.sliding[0].decide(margin);
-        }
+            let (asked_n, normal_n) = (self.instant.friction[0], self.instant.normal[0]);
+            [self.held_at_rest(), self.held()].map(|hold| hold.margin(asked_n, normal_n))
+        });
         let chosen = self.choose(stretch, at_s, &reached);
+        if let Some([sticks, slides]) = margins {
+            let stays = chosen.in_force.modes[0] == Mode::Stick;
+            self.sliding[0].decide(if stays { sticks } else { slides });
+        }
         self.put_in_force(&was);
         if chosen.in_force.modes == was.modes {
             self.events_in_interval += 1;
@@ -478,14 +483,24 @@ impl Stepping<'_> {
         }
     }
 
-    /// A block held within the rounding of `s` off a rigid stop is at it.
+    /// The rigid stop that the block is off by no more than the rounding of `s`: where it comes to rest,
+    /// it is at it.
+    fn stop_within_reach(&self) -> Option<f64> {
+        let is_at_it = |near: &Near| near.offset.abs() <= 8.0 * f64::EPSILON * near.place.abs();
+        self.near.filter(is_at_it).map(|near| near.place)
+    }
+
+    /// What holds the slider if it comes to rest here.
+    fn held_at_rest(&self) -> Hold {
+        self.stop_within_reach().map_or_else(|| self.held(), |place| self.slider.hold(place))
+    }
+
     fn come_to_stop(&mut self) {
         if self.modes[0] == Mode::Stick
-            && let Some(near) = self.near
-            && near.offset.abs() <= 8.0 * f64::EPSILON * near.place.abs()
+            && let Some(place) = self.stop_within_reach()
         {
-            (self.x.s, self.near) = (near.place, None);
-            self.slider.law.settle(&mut self.slider.memory, near.place);
+            (self.x.s, self.near) = (place, None);
+            self.slider.law.settle(&mut self.slider.memory, place);
         }
     }
 
