@@ -159,8 +159,8 @@ const GIB: f64 = (1_u64 << 30) as f64;
 pub enum SolveError {
     /// More events in one sample interval than any real system has.
     #[error(
-        "more than {limit} stick/slip events in one sample interval, at {time_s} s: \
-         the block chatters; check masses, stiffnesses and friction"
+        "more than {limit} stick/slip events in one sample interval, at {} s: \
+         the block chatters; check masses, stiffnesses and friction", short(*time_s)
     )]
     TooManyEvents {
         /// When it was noticed, in s.
@@ -196,15 +196,17 @@ pub enum SolveError {
         numbers: usize,
     },
     /// A state that left the range of numbers.
-    #[error("the response is not finite at {time_s} s: check masses, stiffnesses and the motion")]
+    #[error(
+        "the response is not finite at {} s: check masses, stiffnesses and the motion", short(*time_s)
+    )]
     NotFinite {
         /// When it was noticed, in s.
         time_s: f64,
     },
     /// All surfaces in series are at the end of their travel.
     #[error(
-        "all sliding surfaces reach the end of their travel at {time_s} s, and nothing stops the \
-         block: give [slider.stop] with a gap within the travel, or longer travels"
+        "all sliding surfaces reach the end of their travel at {} s, and nothing stops the \
+         block: give [slider.stop] with a gap within the travel, or longer travels", short(*time_s)
     )]
     EndOfTravel {
         /// When, in s.
@@ -223,9 +225,10 @@ pub enum SolveError {
     Stopped(#[from] Stopped),
     /// The iteration of the stepwise method did not converge.
     #[error(
-        "stepwise method: {iterations} iterations did not converge at {time_s} s: it converges only \
+        "stepwise method: {iterations} iterations did not converge at {} s: it converges only \
          where the fastest mode times the step is below 2 (here {omega_dt:.3}) and where stick and \
-         slip do not take turns within the step; a shorter step or the exact method helps"
+         slip do not take turns within the step; a shorter step or the exact method helps",
+        short(*time_s)
     )]
     NoConvergence {
         /// Time of the step's end, in s.

@@ -253,6 +253,13 @@ fn exact_contact_lost_anywhere_moves_nothing() {
 fn prop_tiny_motions_across_lost_contact_do_not_chatter() {
     let mut alarms = Vec::new();
     let surface = "[[slider.surface]]\nfriction = 0.2\n".to_owned();
+    let shelf = |mu: f64| {
+        format!(
+            "[[contents]]\nfloor = 1\nmass = \"66 kg\"\nstatic_friction = {mu}\nkinetic_friction = {mu}\n"
+        )
+    };
+    let storey = "[[storey]]\nmass = \"91 kg\"\nstiffness = \"54 kN/m\"\ndamper = \"0 N s/m\"\n";
+    let shelves = format!("{storey}{}{}", shelf(0.21), shelf(0.32));
     for seed in 0..60 {
         let r = &mut Random::new(seed);
         let mut draw =
@@ -265,6 +272,7 @@ fn prop_tiny_motions_across_lost_contact_do_not_chatter() {
             (friction([0.2, 0.15]), contents(20.0, [0.3, 0.2])),
             (format!("{}\nradius = \"2 m\"", friction([0.2; 2])), contents(20.0, [0.2; 2])),
             (String::new(), surface.clone()),
+            (friction([0.31, 0.248]), shelves.clone()),
         ] {
             let model = model(&slider, &more);
             let found = response(&model, &motion);
@@ -319,6 +327,87 @@ fn exact_a_jump_at_the_end_counts() {
             assert!(check(&model, &motion, &response).holds(), "{a}");
         }
     }
+}
+
+/// The same at the very start, where a time that stands twice has two values: what slides between them
+/// has no time to.
+#[test]
+fn exact_a_jump_at_the_start_counts() {
+    let held = friction([0.2, 0.2]);
+    let plain = model(&held, "");
+    let loaded = model(&held, &contents(20.0, [0.5, 0.4]));
+    for (model, mass_kg) in [(plain, 100.0), (loaded, 120.0)] {
+        let motion = |a: f64| ground(&[0.0, 0.0, 0.5], &[a, 0.1, 0.1], None);
+        let still = response(&model, &motion(-0.5));
+        let d = &still.demands;
+        assert_eq!((d.slip_count, d.peak_friction_force_n), (0, 0.5 * mass_kg));
+        assert_eq!(d.peak_block_acceleration_m_per_s2, 0.5);
+        let gone = response(&model, &motion(-3.0));
+        let d = &gone.demands;
+        assert_eq!((d.slip_count, d.stick_count, d.sliding_path_m), (1, 1, 0.0));
+        assert!((d.peak_friction_force_n / mass_kg - 0.2 * 9.80665).abs() < 1e-14);
+        for (response, a) in [(still, -0.5), (gone, -3.0)] {
+            assert_eq!(alarm(&model, &motion(a), &response), None, "{a}");
+        }
+    }
+}
+
+/// Within a ramp of the motion, however short, the block stops, stays and is let go:
+/// `ṡ = w − μ g t − a₀ t + (a₀ − a₁) t²/(2 T)` falls below zero at 0.265 T, and at 0.628 T friction no
+/// longer holds −a.
+#[test]
+fn exact_stop_and_release_within_a_steep_ramp() {
+    let block = friction([0.1; 2]);
+    for ramp_s in [1e-3, 1e-6, 1e-9, 1e-12] {
+        let start = format!("[initial]\nsliding_velocity = \"{:e} m/s\"\n", 0.5 * ramp_s);
+        let model = model(&block, &start);
+        let (first, last) = (2.0, -6.0);
+        let motion = ground(&[0.0, ramp_s, 0.5, 1.0], &[first, last, 0.0, 0.0], None);
+        let found = response(&model, &motion);
+        let held = 0.1 * 9.80665;
+        let [b, c] = [first + held, 0.5 * (first - last)];
+        let stop = (b - (b * b - 2.0 * c).sqrt()) / (2.0 * c);
+        let release = (first + held) / (first - last);
+        let times: Vec<f64> = found.events.iter().map(|e| e.time_s / ramp_s).collect();
+        let off = |k: usize, wanted: f64| (times[k] - wanted).abs() < 1e-12;
+        assert!(off(0, stop) && off(1, release), "{ramp_s}: {times:?}, not {stop}, {release}");
+        assert_eq!(alarm(&model, &motion, &found), None, "{ramp_s} s");
+    }
+}
+
+/// Friction that grows with the normal force up to the instant at which the block strikes a rigid stop.
+#[test]
+fn exact_a_peak_on_arrival_at_a_rigid_stop_is_certified() {
+    let stop = "[slider.stop]\ngap = \"0.3 m\"\nrestitution = 0.0\n\
+                [initial]\nsliding_velocity = \"1 m/s\"\n";
+    let model = model(&friction([0.1; 2]), stop);
+    let times_s: Vec<f64> = (0..60).map(|k| 0.01 * f64::from(k)).collect();
+    let up: Vec<f64> = (0..60).map(|k| 0.2 * f64::from(k)).collect();
+    let motion = ground(&times_s, &[0.0; 60], Some(&up));
+    let found = response(&model, &motion);
+    assert_eq!(alarm(&model, &motion, &found), None);
+    let arrival_s = found.events[0].time_s;
+    let peak_n = 10.0 * (9.80665 + 20.0 * arrival_s);
+    assert!((found.demands.peak_slider_force_n / peak_n - 1.0).abs() < 1e-13);
+}
+
+/// Bounces that carry contents along die out; the last ends within the rounding of `s` off the stop.
+#[test]
+fn regress_last_bounces_under_contents_raise_no_alarm() {
+    let horizontal = [
+        0.0, 0.0, 0.0, 0.063, 2.167, 1.276, 0.895, 0.0, 0.524, -1.404, 0.877, -1.387, -1.13, 3.308,
+        -0.138, 0.0, 0.561, -0.646, 1.157, -3.725, -0.602, -0.61, 0.911, 2.98,
+    ];
+    let up = [
+        -9.98, 11.448, 4.868, 1.556, -13.966, -0.743, -9.427, 1.06, 9.337, -10.329, 6.686, 26.78,
+        -6.968, 20.233, -8.865, 3.186, 1.395, 8.605, -7.625, 8.582, 9.208, 4.955, -18.328, 14.085,
+    ];
+    let stop = "[slider.stop]\ngap = \"0.001 m\"\nrestitution = 0.8\n";
+    let model = model(&friction([0.161; 2]), &(stop.to_owned() + &contents(66.0, [0.37; 2])));
+    let times_s: Vec<f64> = (0..24).map(|k| 0.02 * f64::from(k)).collect();
+    let motion = ground(&times_s, &horizontal, Some(&up));
+    let found = response(&model, &motion);
+    assert_eq!(alarm(&model, &motion, &found), None);
 }
 
 /// Friction that changes within a hair of rest is refused, whatever units make the rate a large number.

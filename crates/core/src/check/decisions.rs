@@ -209,9 +209,7 @@ impl Judge<'_> {
             Mode::Stick => self.law.hold(stored),
         };
         if leans {
-            let slack_m = 8.0 * f64::EPSILON * self.figures.displacement[1];
-            let s = self.h.sliding_displacement_m[change.knot];
-            let [positive, negative] = self.law.leans(s, slack_m);
+            let [positive, negative] = self.law.leans(self.h.sliding_displacement_m[change.knot]);
             if positive {
                 hold[0] = -UNBOUNDED;
             }

@@ -200,18 +200,16 @@ impl<'a> Judge<'a> {
         if self.law.is_pendulum() {
             held = vec![1.0; h.len()];
         } else if self.law.restitution().is_some() {
-            let most = h.sliding_displacement_m.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
+            // Sliding, the block has left the stop or not yet struck it.
             let leans = |k: usize| {
                 let s = h.sliding_displacement_m[k];
-                self.law.leans(s, 8.0 * f64::EPSILON * most) != [false; 2]
+                h.modes(k)[0] == Mode::Stick && self.law.leans(s) != [false; 2]
             };
             held.extend((0..h.len()).map(|k| if leans(k) { 1.0 } else { 0.0 }));
         }
-        // At the end both sides of a jump last.
-        let passed = |k: &usize| {
-            h.time_s[k + 1] == h.time_s[*k] && (*k == 0 || h.time_s[k - 1] == h.time_s[*k])
-        };
-        let passed: Vec<usize> = (0..h.len() - 1).filter(passed).collect();
+        // At the start and at the end both sides of a jump last.
+        let passed = |k: &usize| h.time_s[k + 1] == h.time_s[*k] && h.time_s[k - 1] == h.time_s[*k];
+        let passed: Vec<usize> = (1..h.len().saturating_sub(1)).filter(passed).collect();
         let mut worst = Worst::NONE;
         let mut knots = Knots::new(h.len(), self.outputs.len());
         let mut pulse = core::mem::replace(&mut self.pulse, Pulse::new(UNWATCHED));
@@ -366,8 +364,7 @@ impl<'a> Judge<'a> {
             Mode::Stick => {
                 hold = self.law.hold(self.h.surface_displacements(k));
                 let free = hold;
-                let slack_m = 8.0 * f64::EPSILON * self.figures.displacement[1];
-                let [positive, negative] = self.law.leans(s, slack_m);
+                let [positive, negative] = self.law.leans(s);
                 if positive {
                     (hold[0], taken[0]) = (-UNBOUNDED, free[0]);
                 }
@@ -738,9 +735,8 @@ impl<'a> Judge<'a> {
         let h = self.h;
         let (modes, times_s) = (h.modes(k), [h.time_s[k], h.time_s[k + 1]]);
         self.energy.spend(&intervals.spent[k]);
-        let slack_m = 8.0 * f64::EPSILON * self.figures.displacement[1];
         let leans = self.law.restitution().is_some()
-            && self.law.leans(h.sliding_displacement_m[k], slack_m) != [false; 2];
+            && self.law.leans(h.sliding_displacement_m[k]) != [false; 2];
         self.totals.add(modes, self.contact(k), times_s[1] - times_s[0], leans);
         for (i, mode) in modes.iter().enumerate() {
             if *mode != Mode::Stick {

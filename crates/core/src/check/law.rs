@@ -218,10 +218,12 @@ impl Law {
         sides.fold(0.0, f64::max)
     }
 
-    /// Against which stops a block at `s` rests.
-    pub(super) fn leans(&self, s: f64, slack_m: f64) -> [bool; 2] {
-        [Direction::Positive, Direction::Negative]
-            .map(|side| self.wall(side).is_some_and(|wall| side.sign() * (s - wall) >= -slack_m))
+    /// Against which stops a block at `s` rests: within the rounding of `s`.
+    pub(super) fn leans(&self, s: f64) -> [bool; 2] {
+        let off = |side: Direction, wall: f64| side.sign() * (wall - s);
+        [Direction::Positive, Direction::Negative].map(|side| {
+            self.wall(side).is_some_and(|wall| off(side, wall) <= 8.0 * f64::EPSILON * wall.abs())
+        })
     }
 
     /// Least and largest `T/N` that hold a block at rest with surfaces in series at these displacements:

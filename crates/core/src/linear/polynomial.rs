@@ -17,7 +17,8 @@ const COEFFICIENTS: usize = (DEGREE + 1).next_multiple_of(4);
 /// The polynomial that vanishes.
 pub const ZERO: Polynomial = [0.0; COEFFICIENTS];
 
-/// Narrowest interval that is searched: a dip that a chord over it can hide is below 3e-17 of `D`.
+/// Narrowest interval that is searched, of the part searched: a dip that a chord over it can hide is below
+/// 3e-17 of `D` times the square of that part.
 const NARROWEST: f64 = 1.0 / (1_u64 << 26) as f64;
 
 /// Value at `x` in [0, 1]: by Horner's scheme in `x⁴` four sums, of the powers that leave the same rest.
@@ -143,7 +144,7 @@ pub fn first_root_after_zero(c: &Polynomial, order: usize, end: f64) -> Option<f
 /// First point of [0, `end`] after which the polynomial is negative, `None` if there is none.
 ///
 /// `end` is at most 1. The polynomial is taken to be ≥ 0 at 0. A dip below zero is missed only if it is shallower than
-/// 3e-17 of the bound on the second derivative; a root is located to the last few bits.
+/// 3e-17 of the bound on the second derivative times `end²`; a root is located to the last few bits.
 #[inline(always)]
 #[must_use]
 pub fn first_root(c: &Polynomial, end: f64) -> Option<f64> {
@@ -187,11 +188,12 @@ impl Search<'_> {
             return None;
         }
         let middle = a + 0.5 * width;
+        let narrowest = NARROWEST * self.end;
         if gb < 0.0 {
-            if self.falls([a, b], curvature) || width <= NARROWEST {
+            if self.falls([a, b], curvature) || width <= narrowest {
                 return Some(self.bracketed([a, ga], [b, gb]));
             }
-        } else if width <= NARROWEST {
+        } else if width <= narrowest {
             return None;
         }
         let gm = value(self.c, middle);
@@ -352,6 +354,20 @@ mod tests {
         let c = from_roots(&[0.0, 0.0, 0.6], -1.0);
         let x = first_root(&deflated(&c, 2), 1.0).expect("one root");
         assert!((x - 0.6).abs() < 2e-16);
+    }
+
+    /// A dip within a billionth of the unit: a velocity that comes to a halt in a steep ramp of the motion.
+    #[test]
+    fn exact_first_root_in_a_short_part() {
+        for part in [1e-3, 1e-6, 1e-9, 1e-12] {
+            for [first, second] in [[0.3, 0.6], [0.5, 0.501], [0.25, 2.0]] {
+                let mut c = ZERO;
+                (c[0], c[1], c[2]) =
+                    (first * second, -(first + second) / part, 1.0 / (part * part));
+                let x = first_root(&c, part).expect("two roots") / part;
+                assert!((x - first).abs() < 1e-12, "{part}: {x}");
+            }
+        }
     }
 
     /// A peak within a billionth of the unit, as a steep ramp of the motion makes it.

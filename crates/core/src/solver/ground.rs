@@ -221,11 +221,21 @@ impl Ground<'_> {
         interval == 0 || self.times_s[interval - 1] == self.times_s[interval]
     }
 
+    /// The loads before a jump at the first sample, where there is one.
+    pub(super) fn before_first_jump(&self) -> Option<Stretch> {
+        (self.times_s[0] == self.times_s[1]).then(|| self.standing(0))
+    }
+
     /// The loads after a jump at the last sample, where there is one.
     pub(super) fn after_last_jump(&self) -> Option<Stretch> {
         let last = self.times_s.len() - 1;
-        let loads = [self.acceleration[last], self.normal_at(last)];
-        (self.times_s[last] == self.times_s[last - 1]).then(|| Stretch::standing(last, loads, 1.0))
+        (self.times_s[last] == self.times_s[last - 1]).then(|| self.standing(last))
+    }
+
+    /// The loads of a sample, which stand.
+    fn standing(&self, sample: usize) -> Stretch {
+        let loads = [self.acceleration[sample], self.normal_at(sample)];
+        Stretch::standing(sample, loads, 1.0)
     }
 
     /// `Ü` at a time after an interval's first sample.

@@ -87,6 +87,10 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         self.note_ends(0.0)?;
         self.lean(0.0);
         self.walk_jump(0, self.before, self.loads_at(0))?;
+        if let Some(stretch) = self.ground.before_first_jump() {
+            self.look_beside_jump(&stretch);
+            self.clear_starts();
+        }
         let mut sample = 0;
         while sample < last {
             let mut from_s = 0.0;
@@ -146,10 +150,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         }
         if let Some(stretch) = self.ground.after_last_jump() {
             self.walk_jump(last, self.loads_at(last - 1), self.loads_at(last))?;
-            self.decide(&stretch, 0.0, true);
-            let segment = self.phase.expand(&self.course, &stretch, 0.0).up_to(0.0);
-            self.phase.move_to(0.0);
-            self.phase.look(&mut self.course, &stretch, &segment);
+            self.look_beside_jump(&stretch);
         }
         self.record_sample(last);
         for i in 0..self.course.interfaces() {
@@ -167,6 +168,14 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         self.course.slider.note_surfaces(self.phase.place(0)[0]);
         P::settle(self);
         Ok(())
+    }
+
+    /// Decides by the loads beside a jump at the very start or end, and looks at the outputs under them.
+    fn look_beside_jump(&mut self, stretch: &Stretch) {
+        self.decide(stretch, 0.0, true);
+        let segment = self.phase.expand(&self.course, stretch, 0.0).up_to(0.0);
+        self.phase.move_to(0.0);
+        self.phase.look(&mut self.course, stretch, &segment);
     }
 
     /// What the analysis leaves behind.
@@ -298,11 +307,17 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         if self.course.near.is_some() {
             self.move_near(segment.part);
         }
+        self.clear_starts();
+        self.course.slider.just = None;
+        (segment, end)
+    }
+
+    /// No slip has just started.
+    #[inline(always)]
+    fn clear_starts(&mut self) {
         for i in 0..self.course.interfaces() {
             self.course.interface_mut(i).start = None;
         }
-        self.course.slider.just = None;
-        (segment, end)
     }
 
     /// The part of the series after which something ends, and what does.
@@ -407,7 +422,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     fn is_within_rounding(&self, i: usize, speed: f64, part: f64) -> bool {
         let velocity = self.phase.velocity(self.phase.series(), i);
         let falls = |sign: f64| sign * value(&derivative(&velocity), part) <= 0.0;
-        speed <= self.rounding_m_per_s(i, &velocity) && falls(self.course.mode(i).sign())
+        speed <= self.rounding_m_per_s(i, &velocity, part) && falls(self.course.mode(i).sign())
     }
 
     /// What follows the end of a branch of the slider.

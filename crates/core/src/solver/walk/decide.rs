@@ -46,15 +46,16 @@ fn leading(p: &Polynomial, rounding: f64) -> Option<usize> {
 impl<'a, P: Phase<'a>> Walk<'a, P> {
     // ---- rounding -------------------------------------------------------------------------------
 
-    /// What is rounding of the velocity of an interface over a series.
+    /// What is rounding of the velocity of an interface at a part of a series: of `Σ |c_k| x^k`, or of the
+    /// largest so far.
     #[inline(always)]
-    pub(super) fn rounding_m_per_s(&self, i: usize, velocity: &Polynomial) -> f64 {
-        let terms = velocity.iter().fold(0.0, |terms: f64, c| terms.max(c.abs()));
+    pub(super) fn rounding_m_per_s(&self, i: usize, velocity: &Polynomial, part: f64) -> f64 {
+        let terms = value(&velocity.map(f64::abs), part);
         let largest = if self.walks_jump { 0.0 } else { self.phase.peak_velocity(i) };
         ROUNDING * terms.max(largest)
     }
 
-    /// The same of the time over a series, in its unit.
+    /// What is rounding of the time over a series, in its unit.
     fn rounding_of_time(&self, series: &P::Expansion) -> f64 {
         let Segment { from_s, unit_s, .. } = self.phase.segment(series);
         if unit_s > 0.0 { ROUNDING * (from_s / unit_s) } else { 0.0 }
@@ -247,16 +248,21 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
             return false;
         }
         let was = self.in_force();
-        if self.has_stopped(0) {
+        let margins = self.has_stopped(0).then(|| {
             self.stick(0);
             self.phase.enter(&self.course);
             self.phase.look_at_instant(&self.course, stretch, at_s);
             let (phase, instant) = (&self.phase, self.phase.instant());
-            let ([demand, ..], [normal, _]) = (phase.asked(instant, 0), phase.normal(instant, 0));
-            let margin = phase.hold(&self.course, 0).margin(demand, normal);
-            self.course.block.sliding.decide(margin);
-        }
+            let ([asked_n, ..], [normal_n, _]) =
+                (phase.asked(instant, 0), phase.normal(instant, 0));
+            let holds = [self.hold_at_rest(), phase.hold(&self.course, 0)];
+            holds.map(|hold| hold.margin(asked_n, normal_n))
+        });
         let chosen = self.choose(stretch, at_s, &reached);
+        if let Some([sticks, slides]) = margins {
+            let stays = chosen.in_force.modes[0] == Mode::Stick;
+            self.course.block.sliding.decide(if stays { sticks } else { slides });
+        }
         self.put_in_force(&was);
         if chosen.in_force.modes == was.modes {
             self.course.events_in_interval += 1;

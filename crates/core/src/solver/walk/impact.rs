@@ -6,7 +6,7 @@ use super::super::phase::Phase;
 use super::Walk;
 use crate::linear::polynomial::{deflated, first_root, value};
 use crate::response::{EventKind, Mode};
-use crate::slider::Direction;
+use crate::slider::{Direction, Hold};
 
 /// Impacts slower than this are neither listed nor counted, in m/s.
 const SLOWEST_IMPACT_M_PER_S: f64 = 1e-3;
@@ -33,15 +33,29 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
             self.course.near.filter(|near| near.offset.abs() <= 1e-3 * near.place.abs());
     }
 
-    /// A block held within the rounding of `s` off a rigid stop is at it.
+    /// The rigid stop that the block is off by no more than the rounding of `s`: where it comes to rest,
+    /// it is at it.
+    fn stop_within_reach(&self) -> Option<f64> {
+        let is_at_it = |near: &Near| near.offset.abs() <= 8.0 * f64::EPSILON * near.place.abs();
+        self.course.near.filter(is_at_it).map(|near| near.place)
+    }
+
+    /// What holds the slider if it comes to rest here.
+    pub(super) fn hold_at_rest(&self) -> Hold {
+        match self.stop_within_reach() {
+            Some(place) => self.course.slider.hold(place),
+            None => self.phase.hold(&self.course, 0),
+        }
+    }
+
+    /// A block held within reach of a rigid stop is at it.
     pub(super) fn come_to_stop(&mut self) {
         if self.course.block.mode == Mode::Stick
-            && let Some(near) = self.course.near
-            && near.offset.abs() <= 8.0 * f64::EPSILON * near.place.abs()
+            && let Some(place) = self.stop_within_reach()
         {
-            self.stop_at(near.place);
+            self.stop_at(place);
             let slider = &mut self.course.slider;
-            slider.law.settle(&mut slider.memory, near.place);
+            slider.law.settle(&mut slider.memory, place);
         }
     }
 
