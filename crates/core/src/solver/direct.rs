@@ -323,12 +323,12 @@ impl<'a> Phase<'a> for Direct<'a> {
         self.unit_s = unit_s;
     }
 
-    fn displacement(&self, series: &Expansion) -> Polynomial {
-        series.s
+    fn displacement<'e>(&self, series: &'e Expansion) -> &'e Polynomial {
+        &series.s
     }
 
-    fn velocity(&self, series: &Expansion, interface: usize) -> Polynomial {
-        interface.checked_sub(1).map_or(series.w, |i| series.p[i])
+    fn velocity<'e>(&self, series: &'e Expansion, interface: usize) -> &'e Polynomial {
+        interface.checked_sub(1).map_or(&series.w, |i| &series.p[i])
     }
 
     fn acceleration(&self, series: &Expansion, interface: usize) -> Polynomial {
@@ -342,8 +342,8 @@ impl<'a> Phase<'a> for Direct<'a> {
         core::array::from_fn(|k| own[k] - under[k])
     }
 
-    fn asked(&self, series: &Expansion, interface: usize) -> Polynomial {
-        interface.checked_sub(1).map_or(series.friction, |i| series.carried[i])
+    fn asked<'e>(&self, series: &'e Expansion, interface: usize) -> &'e Polynomial {
+        interface.checked_sub(1).map_or(&series.friction, |i| &series.carried[i])
     }
 
     fn normal(&self, series: &Expansion, interface: usize) -> [f64; 2] {

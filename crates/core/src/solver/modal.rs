@@ -10,7 +10,7 @@ mod screen;
 mod series;
 mod settle;
 
-use core::mem::take;
+use core::mem::{swap, take};
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
@@ -508,13 +508,15 @@ impl<'a, S: Simd, W: Width> Phase<'a> for Modal<'a, S, W> {
 
     #[inline(always)]
     fn expand(&mut self, _: &Course<'a>, stretch: &Stretch, from_s: f64) -> Segment {
-        self.motion = self.expanded(stretch, from_s);
+        self.expand_motion(stretch, from_s);
         self.motion.segment
     }
 
     fn look_at_instant(&mut self, _: &Course<'a>, stretch: &Stretch, at_s: f64) {
         let fading_s = self.fading_s;
-        self.instant = self.expanded(stretch, at_s);
+        swap(&mut self.motion, &mut self.instant);
+        self.expand_motion(stretch, at_s);
+        swap(&mut self.motion, &mut self.instant);
         self.fading_s = fading_s;
     }
 
@@ -541,13 +543,13 @@ impl<'a, S: Simd, W: Width> Phase<'a> for Modal<'a, S, W> {
     }
 
     #[inline(always)]
-    fn displacement(&self, motion: &Motion) -> Polynomial {
-        motion.displacement()
+    fn displacement<'e>(&self, motion: &'e Motion) -> &'e Polynomial {
+        &motion.displacement
     }
 
     #[inline(always)]
-    fn velocity(&self, motion: &Motion, _: usize) -> Polynomial {
-        motion.number
+    fn velocity<'e>(&self, motion: &'e Motion, _: usize) -> &'e Polynomial {
+        &motion.number
     }
 
     fn acceleration(&self, motion: &Motion, _: usize) -> Polynomial {
@@ -555,8 +557,8 @@ impl<'a, S: Simd, W: Width> Phase<'a> for Modal<'a, S, W> {
     }
 
     #[inline(always)]
-    fn asked(&self, motion: &Motion, _: usize) -> Polynomial {
-        motion.number
+    fn asked<'e>(&self, motion: &'e Motion, _: usize) -> &'e Polynomial {
+        &motion.number
     }
 
     #[inline(always)]

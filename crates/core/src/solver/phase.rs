@@ -108,17 +108,17 @@ pub(super) trait Phase<'a>: Sized {
     /// The length to begin with.
     fn set_unit_s(&mut self, unit_s: f64);
 
-    /// Sliding displacement, where the slider slides.
-    fn displacement(&self, series: &Self::Expansion) -> Polynomial;
+    /// Sliding displacement, where the slider slides and its branch can end elsewhere than at a stop.
+    fn displacement<'e>(&self, series: &'e Self::Expansion) -> &'e Polynomial;
 
     /// Velocity of an interface that slides.
-    fn velocity(&self, series: &Self::Expansion, interface: usize) -> Polynomial;
+    fn velocity<'e>(&self, series: &'e Self::Expansion, interface: usize) -> &'e Polynomial;
 
     /// Acceleration of an interface over what it slides on.
     fn acceleration(&self, series: &Self::Expansion, interface: usize) -> Polynomial;
 
     /// What an interface that sticks is asked for.
-    fn asked(&self, series: &Self::Expansion, interface: usize) -> Polynomial;
+    fn asked<'e>(&self, series: &'e Self::Expansion, interface: usize) -> &'e Polynomial;
 
     /// What presses on it, at the start, and by how much that changes over the unit.
     fn normal(&self, series: &Self::Expansion, interface: usize) -> [f64; 2];

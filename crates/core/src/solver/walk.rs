@@ -7,7 +7,7 @@
 mod decide;
 mod impact;
 
-use super::course::{Course, Instant};
+use super::course::{Course, Instant, Release};
 use super::ground::{Ground, Stretch};
 use super::phase::{Phase, Reached as Ahead, Segment};
 use super::summary::Outcome;
@@ -27,8 +27,8 @@ enum End {
     Still(usize),
     /// The slider's branch ends.
     Exit(Exit),
-    /// Interfaces that stuck reach their bounds.
-    Release,
+    /// An interface that sticks reaches its bound.
+    Release(Release),
     /// Friction takes all of a push against a rigid stop from here on, or no longer does.
     Lean,
 }
@@ -229,7 +229,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         }
         let (phase, series) = (&self.phase, self.phase.series());
         let hold = phase.hold(&self.course, 0);
-        hold.beyond_friction(&phase.asked(series, 0), phase.normal(series, 0))
+        hold.beyond_friction(phase.asked(series, 0), phase.normal(series, 0))
     }
 
     // ---- steps ----------------------------------------------------------------------------------
@@ -340,13 +340,21 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
             && !self.walks_jump
         {
             let (law, memory) = (self.course.slider.law, &self.course.slider.memory);
-            for exit in law.exits(memory, direction).into_iter().flatten() {
-                take(first_root(&self.of_exit(&exit), segment.part), End::Exit(exit));
+            let exits = law.exits(memory, direction);
+            if exits.iter().any(Option::is_some) {
+                let series = self.phase.series();
+                let sliding = [self.phase.displacement(series), self.phase.velocity(series, 0)];
+                for exit in exits.into_iter().flatten() {
+                    let p = self.of_exit(&exit, sliding);
+                    take(first_root(&p, segment.part), End::Exit(exit));
+                }
             }
         }
         for i in 0..self.course.interfaces() {
             if self.course.mode(i) == Mode::Stick {
-                take(self.first_release(i, segment.part).map(|(at, _)| at), End::Release);
+                if let Some((at, direction)) = self.first_release(i, segment.part) {
+                    take(Some(at), End::Release(Release { interface: i, direction }));
+                }
             }
         }
         if self.leans_since_s.is_some() && !self.walks_jump {
@@ -371,11 +379,9 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         }
     }
 
-    /// The polynomial of an exit, less what of it is known to vanish.
+    /// The polynomial of an exit, less what of it is known to vanish, from those of `s` and `ṡ`.
     #[inline(always)]
-    fn of_exit(&self, exit: &Exit) -> Polynomial {
-        let series = self.phase.series();
-        let (s, w) = (self.phase.displacement(series), self.phase.velocity(series, 0));
+    fn of_exit(&self, exit: &Exit, [s, w]: [&Polynomial; 2]) -> Polynomial {
         let mut p: Polynomial = core::array::from_fn(|k| exit.of_s * s[k] + exit.of_w * w[k]);
         p[0] += exit.constant;
         if let Reached::Wall(_, place) = exit.reached
@@ -391,7 +397,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     fn follow(&mut self, part: f64, end: Option<End>) {
         match end {
             Some(End::Still(i)) => self.stand(i),
-            Some(End::Release) => self.find_released(part),
+            Some(End::Release(first)) => self.find_released(first, part),
             _ => {}
         }
         self.stop_within_rounding(part);
@@ -421,8 +427,8 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     #[inline(always)]
     fn is_within_rounding(&self, i: usize, speed: f64, part: f64) -> bool {
         let velocity = self.phase.velocity(self.phase.series(), i);
-        let falls = |sign: f64| sign * value(&derivative(&velocity), part) <= 0.0;
-        speed <= self.rounding_m_per_s(i, &velocity, part) && falls(self.course.mode(i).sign())
+        let falls = |sign: f64| sign * value(&derivative(velocity), part) <= 0.0;
+        speed <= self.rounding_m_per_s(i, velocity, part) && falls(self.course.mode(i).sign())
     }
 
     /// What follows the end of a branch of the slider.

@@ -253,7 +253,7 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
         let InForce { mode, contact, .. } = self.now;
         let mut force_n = self.law.stop_force_n(contact, self.x[0], self.x[1]);
         if let (Some([of_s, of_w, constant]), Mode::Slip(_)) = (self.law.stop_row(contact), mode) {
-            let (s, w) = (self.motion.displacement(), &self.motion.number);
+            let (s, w) = (&self.motion.displacement, &self.motion.number);
             let mut p: Polynomial = core::array::from_fn(|k| of_s * s[k] + of_w * w[k]);
             p[0] += constant;
             force_n = largest(&p, part, force_n);

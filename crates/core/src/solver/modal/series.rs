@@ -9,7 +9,7 @@ use super::super::phase::{Segment, fitting};
 use super::super::tables::PhaseTables;
 use super::{InForce, Modal};
 use crate::linear::lanes::{Width, least};
-use crate::linear::polynomial::{DEGREE, Polynomial, ZERO};
+use crate::linear::polynomial::{DEGREE, Polynomial};
 use crate::linear::{Load, Series};
 use crate::response::Mode;
 use crate::slider::Fading;
@@ -20,8 +20,8 @@ pub(in crate::solver) struct Motion {
     pub(super) segment: Segment,
     /// In slip the sliding velocity, in stick the demand on friction.
     pub(super) number: Polynomial,
-    /// `s` at the start.
-    start_m: f64,
+    /// `s`, where the block slides and its branch can end elsewhere than at a stop: `∫ ṡ dt + s₀`.
+    pub(super) displacement: Polynomial,
     /// Loads, as the state takes them.
     pub(super) load: Load,
     /// `N` at the start, and its change over the unit.
@@ -29,15 +29,12 @@ pub(in crate::solver) struct Motion {
 }
 
 impl Motion {
-    /// `s`, where the block slides: `∫ ṡ dt + s₀`.
     #[inline(always)]
-    pub(super) fn displacement(&self) -> Polynomial {
-        let mut integral = ZERO;
-        integral[0] = self.start_m;
+    fn integrate(&mut self, start_m: f64) {
+        self.displacement[0] = start_m;
         for k in 0..DEGREE {
-            integral[k + 1] = self.number[k] * (self.segment.unit_s / (k + 1) as f64);
+            self.displacement[k + 1] = self.number[k] * (self.segment.unit_s / (k + 1) as f64);
         }
-        integral
     }
 }
 
@@ -57,28 +54,29 @@ impl<S: Simd, W: Width> Modal<'_, S, W> {
 
     /// Expands the motion from a time of a stretch.
     #[inline(always)]
-    pub(super) fn expanded(&mut self, stretch: &Stretch, from_s: f64) -> Motion {
+    pub(super) fn expand_motion(&mut self, stretch: &Stretch, from_s: f64) {
         let InForce { mode, tables, stop, fading, .. } = self.now;
         let (simd, stride) = (self.simd, 4 * self.width.fours());
         let phase = tables.get();
-        let (segment, load, number);
         if let Some(fading) = fading {
-            segment = self.expand_fading(&fading, stretch, from_s);
-            load = self.load(stretch, &segment);
-            number = self.series.component(self.width, 1);
+            self.motion.segment = self.expand_fading(&fading, stretch, from_s);
+            self.motion.load = self.load(stretch, &self.motion.segment);
+            self.motion.number = self.series.component(self.width, 1);
         } else {
-            segment = Self::extent(phase.unit_s, stretch, from_s);
-            load = self.load(stretch, &segment);
-            let x = &self.x[..stride];
-            let mut p = phase.solution.number(simd, &phase.system, (x, &load), &mut self.series);
+            self.motion.segment = Self::extent(phase.unit_s, stretch, from_s);
+            self.motion.load = self.load(stretch, &self.motion.segment);
+            let (x, Motion { load, number, .. }) = (&self.x[..stride], &mut self.motion);
+            *number = phase.solution.number(simd, &phase.system, (x, load), &mut self.series);
             if mode == Mode::Stick {
                 let row = &phase.outputs.rows[super::output::FRICTION];
-                p[0] += row.state[0] * x[0] + (row.of_stop * stop + row.constant);
+                number[0] += row.state[0] * x[0] + (row.of_stop * stop + row.constant);
             }
-            number = p;
         }
-        let normal = [stretch.normal_at(from_s), stretch.normal_rate * segment.unit_s];
-        Motion { segment, number, start_m: self.x[0], load, normal }
+        let unit_s = self.motion.segment.unit_s;
+        self.motion.normal = [stretch.normal_at(from_s), stretch.normal_rate * unit_s];
+        if mode != Mode::Stick && (self.exits.iter().any(Option::is_some) || self.law.has_pads()) {
+            self.motion.integrate(self.x[0]);
+        }
     }
 
     /// Loads over a segment, as the state takes them.

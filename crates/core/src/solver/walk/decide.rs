@@ -79,7 +79,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     fn distance(&self, series: &P::Expansion, i: usize, to: Direction) -> Option<Polynomial> {
         let hold = self.phase.hold(&self.course, i);
         let normal = self.phase.normal(series, i);
-        hold.gives(to).then(|| hold.distance(&self.phase.asked(series, i), normal, to))
+        hold.gives(to).then(|| hold.distance(self.phase.asked(series, i), normal, to))
     }
 
     /// Where a stuck interface is about to slide by the series: the first derivative of demand − bound
@@ -114,8 +114,8 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         let (phase, series) = (&self.phase, self.phase.series());
         let (asked, [normal, rise]) = (phase.asked(series, i), phase.normal(series, i));
         let hold = phase.hold(&self.course, i);
-        let hidden = 0.125 * curvature_bound(&asked) * (part * part);
-        let last = [value(&asked, part), normal + rise * part];
+        let hidden = 0.125 * curvature_bound(asked) * (part * part);
+        let last = [value(asked, part), normal + rise * part];
         let mut first: Option<(f64, Direction)> = None;
         for to in [Direction::Negative, Direction::Positive] {
             let ends = [[asked[0], normal], last];
@@ -133,23 +133,33 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     }
 
     /// The same in a direction.
-    #[inline(never)]
+    #[inline(always)]
     fn release_towards(&self, i: usize, to: Direction, part: f64) -> Option<f64> {
         let series = self.phase.series();
         let mut distance = self.distance(series, i, to)?;
-        first_crossing(&distance, part)?;
+        let at = first_crossing(&distance, part)?;
         // What does not go further below zero than rounding is held.
         let rounding = self.rounding_of_distance(series, i, &distance);
         let order = leading(&distance, rounding)?;
         distance[..order].fill(0.0);
         falls_below(&distance, rounding, part).then_some(())?;
-        first_crossing(&distance, part)
+        if order == 0 { Some(at) } else { first_crossing(&distance, part) }
     }
 
-    /// Finds all stuck interfaces that reach their bounds at a part of the series.
-    pub(super) fn find_released(&mut self, part: f64) {
+    /// Finds all stuck interfaces that reach their bounds at a part of the series, where one does.
+    #[inline(always)]
+    pub(super) fn find_released(&mut self, first: Release, part: f64) {
+        self.course.released.push(first);
+        if self.course.interfaces() > 1 {
+            self.find_released_with(first, part);
+        }
+    }
+
+    #[inline(never)]
+    fn find_released_with(&mut self, first: Release, part: f64) {
         let mut released = core::mem::take(&mut self.course.released);
-        released.extend(self.course.stuck().filter_map(|i| self.released(i, part)));
+        let others = self.course.stuck().filter(|&i| i != first.interface);
+        released.extend(others.filter_map(|i| self.released(i, part)));
         self.course.released = released;
     }
 
@@ -253,8 +263,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
             self.phase.enter(&self.course);
             self.phase.look_at_instant(&self.course, stretch, at_s);
             let (phase, instant) = (&self.phase, self.phase.instant());
-            let ([asked_n, ..], [normal_n, _]) =
-                (phase.asked(instant, 0), phase.normal(instant, 0));
+            let (asked_n, [normal_n, _]) = (phase.asked(instant, 0)[0], phase.normal(instant, 0));
             let holds = [self.hold_at_rest(), phase.hold(&self.course, 0)];
             holds.map(|hold| hold.margin(asked_n, normal_n))
         });
@@ -319,7 +328,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
                 self.choose_anew(at, &held)
             };
         }
-        let [demand, ..] = self.phase.asked(self.phase.series(), 0);
+        let demand = self.phase.asked(self.phase.series(), 0)[0];
         if first.holds && first.sticking == held.modes.len() - reached.len() {
             return first;
         }

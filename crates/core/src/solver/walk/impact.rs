@@ -22,7 +22,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     /// the digits.
     #[inline(never)]
     pub(super) fn move_near(&mut self, part: f64) {
-        let mut moved = self.phase.displacement(self.phase.series());
+        let mut moved = *self.phase.displacement(self.phase.series());
         moved[0] = 0.0;
         if let Some(near) = &mut self.course.near {
             near.offset += value(&moved, part);
