@@ -49,8 +49,8 @@ impl<'a> Course<'a> {
     /// The sliding velocity is zero: stick if friction holds the demand, eq. (4), else slip on against it,
     /// eq. (3).
     ///
-    /// Nothing happens, and the answer is false, where the demand is nearer to a bound than a margin that
-    /// is asked for, or else would have the block go on as before.
+    /// A block that goes on as before has decided nothing. Nothing happens, and the answer is false, where a
+    /// margin is asked for and the demand is nearer to a bound, or would have the block go on.
     pub(super) fn stop(
         &mut self,
         at: &Instant,
@@ -64,7 +64,9 @@ impl<'a> Course<'a> {
         if least_margin.is_some_and(|least| goes_on || !margin.is_some_and(|m| m > least)) {
             return false;
         }
-        self.sliding.decide(margin);
+        if !goes_on {
+            self.sliding.decide(margin);
+        }
         match way {
             None => {
                 self.sliding.end(at.time_s, at.place_m);

@@ -459,7 +459,10 @@ impl<'a> Stepping<'a> {
     /// One segment, up to its end or the first event in it; the time reached.
     fn segment(&mut self, stretch: &Stretch, from_s: f64) -> Result<f64, SolveError> {
         let (to_s, part, end) = self.walk(stretch, from_s);
-        self.look(part);
+        // What is passed in no time is no peak, but for the start.
+        if part > 0.0 || stretch.interval == 0 {
+            self.look(part);
+        }
         self.follow(part, end);
         match end {
             Some(End::Lean) => {

@@ -233,9 +233,9 @@ impl Stepping<'_> {
             [self.held_at_rest(), self.held()].map(|hold| hold.margin(asked_n, normal_n))
         });
         let chosen = self.choose(stretch, at_s, &reached);
-        if let Some([sticks, slides]) = margins {
-            let stays = chosen.in_force.modes[0] == Mode::Stick;
-            self.sliding[0].decide(if stays { sticks } else { slides });
+        let mode = chosen.in_force.modes[0];
+        if let Some([sticks, slides]) = margins.filter(|_| mode != was.modes[0]) {
+            self.sliding[0].decide(if mode == Mode::Stick { sticks } else { slides });
         }
         self.put_in_force(&was);
         if chosen.in_force.modes == was.modes {
