@@ -352,6 +352,62 @@ fn exact_a_jump_at_the_start_counts() {
     }
 }
 
+/// Peaks at the first and the last instant with what is not stored at knots: a pendulum whose spring
+/// follows the normal force, a block pressed against a rigid stop, contact made at the start.
+#[test]
+fn exact_outputs_beside_a_jump_are_certified() {
+    let pieces = "static_friction = 0.24\nradius = \"2 m\"\n\
+                  kinetic_friction = { velocity = [\"0 m/s\", \"0.1 m/s\"], coefficient = [0.24, 0.16] }";
+    let start = |s: &str, w: &str| {
+        format!("[initial]\nsliding_displacement = \"{s} m\"\nsliding_velocity = \"{w} m/s\"\n")
+    };
+    let rigid = "[slider.stop]\ngap = \"0.01 m\"\nrestitution = 0.0\n";
+    let elastic = "[slider.stop]\ngap = \"0.01 m\"\nstiffness = \"100 kN/m\"\n";
+    let held = friction([0.06; 2]);
+    let all = [
+        (pieces, start("0.01", "0")),
+        (pieces, format!("{rigid}{}", start("-0.01", "-0.1"))),
+        (&held, format!("{rigid}{}", start("-0.01", "0"))),
+        (&held, format!("{rigid}{}", start("0.01", "0.1"))),
+        (&held, format!("{elastic}{}", start("0.01", "0"))),
+        (&held, format!("{elastic}{}", start("-0.01", "-0.1"))),
+        (&held, format!("{elastic}{}", start("0.012", "0"))),
+    ];
+    let lists: [[f64; 4]; 4] = [
+        [0.2, 0.2, 0.2, -1.5],
+        [-1.5, 0.3, 0.3, 0.3],
+        [3.0, 0.2, 0.1, 3.0],
+        [-3.0, 0.2, 0.1, -4.0],
+    ];
+    for (slider, more) in all {
+        let model = model(slider, &more);
+        for list in lists {
+            for up in [None, Some([-2.0, 1.0, 2.0, -3.0])] {
+                let up = up.as_ref().map(<[f64; 4]>::as_slice);
+                let motion = ground(&[0.0, 0.0, 0.5, 0.5], &list, up);
+                let found = response(&model, &motion);
+                assert_eq!(alarm(&model, &motion, &found), None, "{more} {list:?} {up:?}");
+            }
+        }
+    }
+}
+
+/// A jump at the start that only lets the block go on is no decision.
+#[test]
+fn exact_a_slip_that_goes_on_decides_nothing() {
+    let block = friction([0.1; 2]);
+    for more in [
+        "",
+        "[[contents]]\nfloor = 0\nmass = \"20 kg\"\nstatic_friction = 0.3\nkinetic_friction = 0.2\n",
+    ] {
+        let model = model(&block, more);
+        let motion = ground(&[0.0, 0.0, 0.5, 1.0], &[-1.4, -1.6, 0.0, 0.0], None);
+        let found = response(&model, &motion);
+        assert_eq!((found.demands.slip_count, found.demands.stick_count), (1, 1));
+        assert_eq!(alarm(&model, &motion, &found), None, "{more}");
+    }
+}
+
 /// Within a ramp of the motion, however short, the block stops, stays and is let go:
 /// `ṡ = w − μ g t − a₀ t + (a₀ − a₁) t²/(2 T)` falls below zero at 0.265 T, and at 0.628 T friction no
 /// longer holds −a.

@@ -49,12 +49,21 @@ impl Events {
         self.list.push(JudgedEvent { event, speed });
     }
 
-    /// The first knot, with the modes before it.
-    pub(super) fn begin(&mut self, h: &History, before: &[Mode]) {
+    /// The first knot, with the modes and the contact before it.
+    pub(super) fn begin(&mut self, h: &History, before: &[Mode], contact: Contact) {
         for i in 0..before.len() {
             if before[i] == Mode::Stick && h.modes(0)[i] != Mode::Stick {
                 self.push(h, 0, i, EventKind::Slip, 0.0);
             }
+        }
+        self.touch(h, 0, contact);
+    }
+
+    /// Contact with the stop at a knot, after another.
+    fn touch(&mut self, h: &History, k: usize, before: Contact) {
+        let kind = h.contact.get(k).and_then(|after| contact_event(before, *after));
+        if let Some(kind) = kind {
+            self.push(h, k, 0, kind, h.sliding_velocity_m_per_s[k].abs());
         }
     }
 
@@ -89,11 +98,8 @@ impl Events {
             }
             self.push(h, k, i, kind, 0.0);
         }
-        if let (Some(before), Some(after)) = (h.contact.get(k - 1), h.contact.get(k))
-            && let Some(kind) = contact_event(*before, *after)
-        {
-            let speed = h.sliding_velocity_m_per_s[k].abs();
-            self.push(h, k, 0, kind, speed);
+        if let Some(before) = h.contact.get(k - 1) {
+            self.touch(h, k, *before);
         }
     }
 

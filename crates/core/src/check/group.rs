@@ -746,6 +746,19 @@ impl LaneJudge<'_> {
         self.ask(simd, n, group, 0, work);
     }
 
+    /// Outputs at instants, in `ends[0]`.
+    #[inline(always)]
+    pub(super) fn outputs_at<S: Simd>(
+        &self,
+        simd: S,
+        group: &mut Group,
+        (ground, outputs): (&Ground<'_>, &Outputs),
+        work: &mut Work,
+    ) {
+        self.instants(simd, group, ground, work);
+        self.end(simd, self.structure.masses_kg.len(), (group, 0), outputs, work);
+    }
+
     /// Acceleration of an item of contents that [`instants`](Self::instants) or a node has found.
     pub(super) fn acceleration(&self, work: &Work, contents: usize, lane: usize) -> f64 {
         work.bodies[self.structure.degree_of(1 + contents)].0[lane]

@@ -666,7 +666,8 @@ impl<'a> Judge<'a> {
     fn in_order(&mut self, all: &Knots, intervals: &IntervalFigures, near: &[Points]) {
         let (h, knots) = (self.h, self.h.len());
         let before = self.modes_at_start();
-        self.events.begin(h, &before);
+        let [s, w] = self.stored(0, 0);
+        self.events.begin(h, &before, self.law.contact_at_start(s, w));
         for i in 0..h.interfaces {
             self.dips[i] = self.fresh_dips(0, i);
         }
@@ -939,6 +940,25 @@ impl<'a> Judge<'a> {
         }
         self.figures.table[0] = larger(self.figures.table[0], table);
         self.figures.excess = larger(self.figures.excess, force);
+        if k == 0 || k + 1 == h.len() {
+            self.beside_jump(k);
+        }
+    }
+
+    /// Raises the peaks by the outputs at the first or the last knot, where no interval tells those that
+    /// are not stored.
+    fn beside_jump(&mut self, k: usize) {
+        let load = self.ground.instant(self.h.time_s[k])[if k == 0 { 1 } else { 2 }];
+        let bench = self.bench();
+        let mut work = Work::new(&bench, self.outputs.len());
+        let mut group = Group::new(&bench);
+        group.push(&bench, &self.course(k, self.h.modes(k), Feed::instant(load)));
+        group.fill();
+        let (level, ground, outputs) = (self.level, &self.ground, &self.outputs);
+        dispatch!(level, simd => bench.outputs_at(simd, &mut group, (ground, outputs), &mut work));
+        for (peak, value) in self.attained.iter_mut().zip(&work.ends[0]) {
+            *peak = larger(*peak, value.0[0]);
+        }
     }
 
     /// Keeps the least margin; rounding may leave one a little below 0.

@@ -258,6 +258,26 @@ impl Law {
         Push { stiffness: stiffness_n_per_m, damper: damper_n_s_per_m, shift }
     }
 
+    /// Contact with an elastic stop before a start at `s` and `w`: beyond the gap the stop pushes unless the
+    /// block runs ahead of it; at the gap, if the block moves on.
+    pub(super) fn contact_at_start(&self, s: f64, w: f64) -> Contact {
+        let Some(StopKind::Elastic { .. }) = self.stop.as_ref().map(|stop| stop.kind) else {
+            return Contact::Free;
+        };
+        let gap_m = |side| self.stop.as_ref()?.gap_towards(side);
+        for side in [Direction::Positive, Direction::Negative] {
+            let Some(delta) = gap_m(side).map(|gap_m| side.sign() * s - gap_m) else { continue };
+            let push = side.sign() * self.push(Contact::Pressed(side)).force(s, w);
+            if delta > 0.0 {
+                return if push >= 0.0 { Contact::Pressed(side) } else { Contact::Separated(side) };
+            }
+            if delta == 0.0 && side.sign() * w > 0.0 {
+                return Contact::Pressed(side);
+            }
+        }
+        Contact::Free
+    }
+
     /// By how much a claimed contact breaks the law of the stop, as the force that should or should
     /// not act, in N. `slack_m` and `slack_n` are what the rounding of times makes of position and
     /// force.

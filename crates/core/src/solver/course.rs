@@ -199,8 +199,8 @@ impl<'a> Course<'a> {
     /// The sliding velocity is zero: stick if friction holds the demand, eq. (4), else slip on against it,
     /// eq. (3).
     ///
-    /// Nothing happens, and the answer is false, where the decision is ambiguous, or would have the block go
-    /// on as before and that is not wanted.
+    /// A block that goes on as before has decided nothing. Nothing happens, and the answer is false, where the
+    /// decision is ambiguous, or would have the block go on and that is not wanted.
     pub(super) fn stop(
         &mut self,
         at: &Instant,
@@ -214,7 +214,9 @@ impl<'a> Course<'a> {
         if (goes_on && !may_go_on) || !margin.is_some_and(|margin| margin > AMBIGUOUS) {
             return false;
         }
-        self.block.sliding.decide(margin);
+        if !goes_on {
+            self.block.sliding.decide(margin);
+        }
         match way {
             None => {
                 self.block.sliding.end(at.time_s, at.place_m);

@@ -282,7 +282,10 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     #[inline(always)]
     fn segment(&mut self, stretch: &Stretch, from_s: f64) -> Result<f64, SolveError> {
         let (segment, end) = self.advance(stretch, from_s);
-        self.phase.look(&mut self.course, stretch, &segment);
+        // What is passed in no time is no peak, but for the start.
+        if segment.part > 0.0 || stretch.interval == 0 {
+            self.phase.look(&mut self.course, stretch, &segment);
+        }
         self.follow(segment.part, end);
         match end {
             Some(End::Lean) => {

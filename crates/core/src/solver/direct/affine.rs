@@ -35,6 +35,9 @@ const MOST_PARTS: f64 = 16.0;
 const MOST_COMPONENTS: usize = 64;
 const MOST_CONFIGURATIONS: usize = 128;
 
+/// What a unit is taken as, so that constant forces beside it are below rounding: 2^100.
+const LARGE: f64 = f64::from_bits((1023 + 100) << 52);
+
 /// One assignment of modes, on one branch of the slider's law.
 pub(super) struct Configuration {
     pub(super) modes: Vec<Mode>,
@@ -215,12 +218,13 @@ impl<'a> Direct<'a> {
         let mut units = Vec::with_capacity(count + 1);
         for i in 0..=count {
             // Half the difference, which knows no side.
-            unit[i] = 1.0;
+            unit[i] = LARGE;
             let mut response = self.respond(course, &unit, normal_n, stride);
-            unit[i] = -1.0;
+            unit[i] = -LARGE;
             let opposite = self.respond(course, &unit, normal_n, stride);
             unit[i] = 0.0;
-            response.iter_mut().zip(opposite).for_each(|(x, other)| *x = 0.5 * (*x - other));
+            let half = 0.5 / LARGE;
+            response.iter_mut().zip(opposite).for_each(|(x, other)| *x = half * (*x - other));
             units.push(response);
         }
         self.x = here;

@@ -268,9 +268,9 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
             holds.map(|hold| hold.margin(asked_n, normal_n))
         });
         let chosen = self.choose(stretch, at_s, &reached);
-        if let Some([sticks, slides]) = margins {
-            let stays = chosen.in_force.modes[0] == Mode::Stick;
-            self.course.block.sliding.decide(if stays { sticks } else { slides });
+        let mode = chosen.in_force.modes[0];
+        if let Some([sticks, slides]) = margins.filter(|_| mode != was.modes[0]) {
+            self.course.block.sliding.decide(if mode == Mode::Stick { sticks } else { slides });
         }
         self.put_in_force(&was);
         if chosen.in_force.modes == was.modes {
