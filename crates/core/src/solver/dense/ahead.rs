@@ -26,6 +26,8 @@ pub(super) struct Ahead<'r, 'a, S: Simd> {
     /// The same in stick of friction and slider force; infinite where the static bounds keep them.
     pub(super) most_friction: f64,
     pub(super) most_slider: f64,
+    /// `|g sin θ|`.
+    pub(super) slope: f64,
     /// Whether outputs stand behind several gates.
     pub(super) several: bool,
     /// Whether the overturning moment is an output.
@@ -45,6 +47,7 @@ impl<'r, 'a, S: Simd> Ahead<'r, 'a, S> {
             high: four(simd, 0.0),
             most_friction: 0.0,
             most_slider: 0.0,
+            slope: of.tables.shape.slope.abs(),
             several: overturns || of.tables.storey.damper_n_s_per_m != 0.0,
             overturns,
         };

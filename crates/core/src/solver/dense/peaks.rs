@@ -266,7 +266,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let (Span { rest, a, change }, of) = (segment.span, &phase.outputs);
         let force_n = self.force_n(segment.mode);
         let series = Series::new::<SLIP>(simd, &phase.series, segment.x, &segment.span, force_n);
-        let end = series.at(simd, rest).to_array();
+        let end = series.at(rest).to_array();
         let input = if SLIP { [force_n; 2] } else { [a, a + change * rest] };
         let (first, last) = (of.at(simd, segment.x, input[0]), of.at(simd, end, input[1]));
         let slack = combine8(simd, &of.of_gates, self.slack::<SLIP>(&series, rest).to_array());

@@ -7,10 +7,10 @@ use super::ahead::Ahead;
 use super::lanes::{BATCH, Four, combine4, eight, four, greatest, larger4, least, times4};
 use super::outputs::{BEHIND, BEHIND_ANY};
 use super::peaks::Samples;
+use super::windows::Extent;
 use crate::linear::{QUIET, Window};
 use crate::response::Mode;
 use crate::slider::Direction;
-use crate::solver::ground::{largest_change, largest_size};
 use crate::solver::outputs::output;
 use crate::solver::screen::clear_steps;
 
@@ -24,17 +24,32 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let (simd, tables) = (self.simd, self.of.tables);
         let (of, mode) = (&tables.slip.gates.slack, Mode::Slip(direction));
         let (sign, force_n) = (direction.sign(), self.force_n(mode));
-        let by_force = times4(simd, &of.of_force, force_n.abs());
+        let by_force = of.of_force.each_ref().map(|of| times4(simd, of, force_n.abs()));
         let mut x = self.state();
         let mut gates = self.gates::<true>(x, force_n);
+        // One slack for many samples: batches go by it until the first that does not.
+        let (mut far, mut far_from, mut goes_far) = (four(simd, 0.0), sample, false);
         while sample + BATCH <= end {
             let a = self.window(sample);
             let start = x.to_array();
-            let slack = (times4(simd, &of.of_norm, tables.storey.norm(&start))
-                + times4(simd, &of.of_acceleration, largest_size(simd, a)))
-                + (times4(simd, &of.of_change, largest_change(simd, a)) + by_force);
             let next = self.after::<true>(BATCH, x, a, force_n);
             let next_gates = self.gates::<true>(next, force_n);
+            let extents = self.of.windows.at(sample);
+            if sample >= far_from && !self.several {
+                far = self.slack_in_slip(start, extents[1], (&of.of_acceleration[1], by_force[1]));
+                far_from = sample + QUIET;
+                goes_far = self.slides_within(gates, far, sign);
+            }
+            if goes_far {
+                goes_far = self.slides_within(next_gates, far, sign);
+                if goes_far {
+                    self.record::<true>(sample, BATCH, x, force_n);
+                    (x, gates) = (next, next_gates);
+                    sample += BATCH;
+                    continue;
+                }
+            }
+            let slack = self.slack_in_slip(start, extents[0], (&of.of_acceleration[0], by_force[0]));
             let within = self.within(gates, slack) & self.within(next_gates, slack);
             // (i) |ṡ| ≥ min of the ends − H²/8 max|g″|: it slides through.
             let hidden = slack.as_array()[0];
@@ -84,6 +99,28 @@ impl<S: Simd> Ahead<'_, '_, S> {
         }
         *self.shared.x = x.to_array();
         sample
+    }
+
+    /// How far the gates depart from a chord over a batch at most, from a state on.
+    #[inline(always)]
+    fn slack_in_slip(
+        &self,
+        x: [f64; 4],
+        extent: Extent,
+        (of_acceleration, by_force): (&Four, f64x4<S>),
+    ) -> f64x4<S> {
+        let (simd, tables) = (self.simd, self.of.tables);
+        let of = &tables.slip.gates.slack;
+        (times4(simd, &of.of_norm, tables.storey.norm(&x))
+            + times4(simd, of_acceleration, extent.size + self.slope))
+            + (times4(simd, &of.of_change, extent.change) + by_force)
+    }
+
+    /// Whether at an end of a chord the gates are within their limits, and the block slides, by a slack.
+    #[inline(always)]
+    fn slides_within(&self, gates: f64x4<S>, slack: f64x4<S>, sign: f64) -> bool {
+        let speed = sign * gates.as_array()[0];
+        self.within(gates, slack).all_true() && speed > slack.as_array()[0]
     }
 
     /// Outputs behind several gates that may pass their peaks where the gates and `s` are at most so large:
@@ -161,17 +198,15 @@ impl<S: Simd> Ahead<'_, '_, S> {
             let a = self.window(sample);
             let start = x.to_array();
             let amplitude = storey.amplitude(&start);
-            let size = largest_size(simd, a);
+            let [Extent { size, change }, far] = self.of.windows.at(sample);
+            let size = size + self.slope;
             let base = times4(simd, &quiet.of_amplitude, amplitude);
             let most = base + times4(simd, &quiet.of_acceleration[0], size);
             let within = most.simd_le(limit);
             let quiet_batch = within.all_true() && self.moment_stays(most);
             if quiet_batch && most.as_array()[0] <= holds {
                 if sample + QUIET <= end {
-                    let mut far = size;
-                    for from in (sample + BATCH..sample + QUIET).step_by(BATCH) {
-                        far = greatest(far, largest_size(simd, self.window(from)));
-                    }
+                    let far = far.size + self.slope;
                     let most = base + times4(simd, &quiet.of_acceleration[1], far);
                     let stays = most.simd_le(limit).all_true() && self.moment_stays(most);
                     if stays && most.as_array()[0] <= holds {
@@ -187,8 +222,8 @@ impl<S: Simd> Ahead<'_, '_, S> {
                 continue;
             }
             let slack = (times4(simd, &of.of_norm, amplitude)
-                + times4(simd, &of.of_acceleration, size))
-                + times4(simd, &of.of_change, largest_change(simd, a));
+                + times4(simd, &of.of_acceleration[0], size))
+                + times4(simd, &of.of_change, change);
             let hidden = storey.participation * slack.as_array()[2];
             // Of the demand without the spring's part.
             let demand = self.row::<false>(&tables.stick.rows[0], start, a, 0.0);
