@@ -275,7 +275,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
             normal_n: self.of.normal_n,
             mass_kg: storey.block_mass_kg,
         };
-        let hold = self.shared.course.slider.hold(at.place_m);
+        let hold = self.hold;
         let demand_n = storey.demand_n(self.shared.x, a);
         if segment.mode == Mode::Stick {
             let [low, high] = self.of.bounds_n;
@@ -285,9 +285,8 @@ impl<S: Simd> Ahead<'_, '_, S> {
         } else if !self.shared.course.stop(&at, &hold, demand_n, Some(AMBIGUOUS)) {
             return false;
         }
-        for mode in [segment.mode, self.shared.course.mode] {
-            self.record_now(sample, at_s, mode);
-        }
+        self.record_now(sample, at_s, segment.mode);
+        self.record_now(sample, at_s, self.shared.course.mode);
         true
     }
 }

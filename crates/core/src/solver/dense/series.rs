@@ -239,11 +239,7 @@ fn group<S: Simd, const SLIP: bool>(
 
 /// Coefficients times factors.
 #[inline(always)]
-fn weighted<S: Simd>(
-    simd: S,
-    c: &[f64x8<S>; GROUPS],
-    factors: &ByOrder,
-) -> [f64x8<S>; GROUPS] {
+fn weighted<S: Simd>(simd: S, c: &[f64x8<S>; GROUPS], factors: &ByOrder) -> [f64x8<S>; GROUPS] {
     [c[0] * factors[0].load(simd), c[1] * factors[1].load(simd), c[2] * factors[2].load(simd)]
 }
 

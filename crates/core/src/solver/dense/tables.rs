@@ -33,6 +33,8 @@ pub(in crate::solver) struct Tables {
     pub(super) shape: Shape,
     /// Equal pieces into which a sample is cut for its Taylor series.
     pub(super) pieces: usize,
+    /// Length of a batch.
+    pub(super) batch_s: f64,
     pub(super) stick: Phase,
     pub(super) slip: Phase,
     pub(super) quiet: Quiet,
@@ -95,7 +97,7 @@ impl Tables {
         // Filled in place: they are too large to be moved about.
         let mut tables = Box::new(Self::EMPTY);
         (tables.storey, tables.shape) = (OneStorey::new(system), shape);
-        tables.pieces = pieces as usize;
+        (tables.pieces, tables.batch_s) = (pieces as usize, BATCH as f64 * dt_s);
         simd.vectorize(
             #[inline(always)]
             || tables.fill(system, rows, dt_s),
@@ -105,7 +107,7 @@ impl Tables {
 
     #[inline(always)]
     fn fill(&mut self, system: &System, rows: [&[OutputRow]; 2], dt_s: f64) {
-        let Self { storey, pieces, stick, slip, quiet, shape } = self;
+        let Self { storey, pieces, stick, slip, quiet, shape, .. } = self;
         let mut taps = [Four::ZERO; BATCH + 1];
         for (is_slip, phase) in [(true, slip), (false, &mut *stick)] {
             phase.series.fill(storey, is_slip, dt_s / *pieces as f64);
@@ -122,6 +124,7 @@ impl Tables {
         storey: OneStorey::NONE,
         shape: Shape { floor: 0.0, arms: [0.0; 2], slope: 0.0 },
         pieces: 0,
+        batch_s: 0.0,
         stick: Phase::EMPTY,
         slip: Phase::EMPTY,
         quiet: Quiet {

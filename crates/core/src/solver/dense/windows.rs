@@ -47,13 +47,19 @@ impl Windows {
         Self { eights }
     }
 
-    /// Over the batch from a sample, and over many samples.
+    /// Over the batch from a sample.
     #[inline(always)]
-    pub(super) fn at(&self, sample: usize) -> [Extent; 2] {
-        let touched = self.eights[sample / BATCH..].first_chunk::<TOUCHED>();
-        let [a, b, c, d, e] = touched.copied().unwrap_or_default();
-        let batch = a.and(b);
-        [batch, batch.and(c).and(d.and(e))]
+    pub(super) fn batch(&self, sample: usize) -> Extent {
+        let from = sample / BATCH;
+        self.eights[from].and(&self.eights[from + 1])
+    }
+
+    /// Over many samples from one.
+    #[inline(always)]
+    pub(super) fn many(&self, sample: usize) -> Extent {
+        let from = sample / BATCH;
+        let [a, b, c, d, e] = &self.eights[from..from + TOUCHED] else { return Extent::default() };
+        a.and(b).and(&c.and(d)).and(e)
     }
 }
 
@@ -66,10 +72,7 @@ impl Extent {
     }
 
     #[inline(always)]
-    fn and(self, other: Self) -> Self {
-        Self {
-            size: greatest(self.size, other.size),
-            change: greatest(self.change, other.change),
-        }
+    fn and(&self, other: &Self) -> Self {
+        Self { size: greatest(self.size, other.size), change: greatest(self.change, other.change) }
     }
 }
