@@ -664,13 +664,16 @@ impl<'a> Law<'a> {
         Hold { force_n, of_normal, friction, leans }
     }
 
-    /// Friction over the normal force at the start of a branch: the size of what resists sliding,
-    /// negative where the surfaces pull the block along.
+    /// Friction over the normal force once the block begins to slide at `s`: the size of what resists
+    /// sliding, negative where the surfaces pull the block along.
     #[inline(always)]
-    fn resistance(&self, begun: &Memory, direction: Direction) -> f64 {
+    fn resistance(&self, memory: &Memory, s: f64, direction: Direction) -> f64 {
         match self.bearing {
             Bearing::InSeries(series) => {
-                direction.sign() * series.force(&begun.series, direction)[0]
+                let mut begun = memory.series.clone();
+                series.settle(&mut begun, s);
+                series.begin(&mut begun, direction);
+                direction.sign() * series.force(&begun, direction)[0]
             }
             Bearing::Surface { friction, .. } => friction.kinetic_coefficient(direction),
         }
@@ -678,8 +681,14 @@ impl<'a> Law<'a> {
 
     /// The same under a normal force.
     #[inline(always)]
-    pub(crate) fn resistance_n(&self, begun: &Memory, direction: Direction, normal_n: f64) -> f64 {
-        self.resistance(begun, direction) * normal_n
+    pub(crate) fn resistance_n(
+        &self,
+        memory: &Memory,
+        s: f64,
+        direction: Direction,
+        normal_n: f64,
+    ) -> f64 {
+        self.resistance(memory, s, direction) * normal_n
     }
 
     /// By how much that is below what holds.
@@ -687,11 +696,11 @@ impl<'a> Law<'a> {
     pub(crate) fn drop_n(
         &self,
         hold: &Hold,
-        begun: &Memory,
+        (memory, s): (&Memory, f64),
         direction: Direction,
         normal_n: f64,
     ) -> f64 {
-        (hold.size(direction) - self.resistance(begun, direction)) * normal_n
+        (hold.size(direction) - self.resistance(memory, s, direction)) * normal_n
     }
 
     /// Size of the friction force while the block slides in a direction at a speed.

@@ -18,6 +18,7 @@ mod record;
 mod screen;
 mod series;
 mod tables;
+mod windows;
 
 use fearless_simd::prelude::*;
 
@@ -34,11 +35,13 @@ use crate::slider::{Law, TwoBranches};
 pub(super) use self::outputs::Shape;
 pub(super) use self::peaks::Candidate;
 pub(super) use self::tables::Tables;
+pub(super) use self::windows::Windows;
 
 /// What running ahead needs to know of an analysis.
 #[derive(Clone, Copy)]
 pub(super) struct Dense<'a> {
     tables: &'a Tables,
+    windows: &'a Windows,
     system: &'a System,
     ground: Ground<'a>,
     normal_n: f64,
@@ -62,7 +65,8 @@ pub(super) struct Shared<'r, 'a> {
 
 impl<'a> Dense<'a> {
     /// Where a law and a normal force allow it.
-    pub(super) fn new(
+    pub(super) fn new<S: Simd>(
+        simd: S,
         (tables, system): (&'a Tables, &'a System),
         law: &Law<'_>,
         ground: Ground<'a>,
@@ -72,7 +76,8 @@ impl<'a> Dense<'a> {
             return None;
         }
         let TwoBranches { bounds_n, kinetic_n } = law.two_branches(normal_n)?;
-        Some(Self { tables, system, ground, normal_n, bounds_n, kinetic_n })
+        let windows = ground.sampling.windows(simd, ground.table);
+        Some(Self { tables, windows, system, ground, normal_n, bounds_n, kinetic_n })
     }
 
     /// Goes on from the first of two samples towards the second, as far as nothing is in doubt.

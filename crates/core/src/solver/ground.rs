@@ -1,20 +1,25 @@
 //! The motion as the equations see it: along the slope with gravity's pull, and as normal force.
 
+use std::sync::OnceLock;
+
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
+use super::dense::Windows;
 use crate::linear::lanes::{greatest, largest_lane, least, sum_of_lanes};
 use crate::linear::{BATCH, Load, Window};
 use crate::model::Model;
 use crate::motion::GroundMotion;
 
 /// How a motion is sampled.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct Sampling {
     /// The step that all but a few intervals have; none where the sampling is uneven.
     pub(super) dt_s: Option<f64>,
     /// The other intervals, in order: jumps, an odd end, a gap.
     irregular: Vec<usize>,
+    /// Made where they are first needed.
+    windows: OnceLock<Windows>,
 }
 
 impl Sampling {
@@ -24,7 +29,13 @@ impl Sampling {
             Some(dt_s) => (Some(dt_s), Vec::new()),
             None => regular_step(motion.times_s()),
         };
-        Self { dt_s, irregular }
+        Self { dt_s, irregular, windows: OnceLock::new() }
+    }
+
+    /// Largest sizes of the motion over windows.
+    #[inline(always)]
+    pub(super) fn windows<S: Simd>(&self, simd: S, table: &[f64]) -> &Windows {
+        self.windows.get_or_init(|| Windows::new(simd, table))
     }
 
     /// End of the regular intervals that begin at a sample: the first sample whose interval has
@@ -44,13 +55,6 @@ impl Sampling {
 pub(super) fn largest_size<S: Simd>(simd: S, x: &Window) -> f64 {
     let [first, rest @ ..] = x;
     greatest(first.abs(), largest_lane(simd, f64x8::from_slice(simd, rest).abs()))
-}
-
-/// Largest |x_{i+1} − x_i| in a batch.
-#[inline(always)]
-pub(super) fn largest_change<S: Simd>(simd: S, x: &Window) -> f64 {
-    let (before, after) = (f64x8::from_slice(simd, &x[..BATCH]), f64x8::from_slice(simd, &x[1..]));
-    largest_lane(simd, (after - before).abs())
 }
 
 /// Least value in a batch.
@@ -420,7 +424,6 @@ mod tests {
             let near = |sum: f64, found: f64| (found - sum).abs() <= 1e-14 * sum;
             assert!(near(kinks, found.kinks) && near(changes().sum(), found.variation));
             assert_eq!(found.change, changes().fold(0.0, f64::max));
-            assert_eq!(largest_change(simd, x), found.change);
         }
     }
 }

@@ -190,7 +190,8 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
             fading: None,
         };
         let of_dense = tables.dense.as_deref();
-        let dense = of_dense.and_then(|of| Dense::new((of, &tables.stick.system), law, ground));
+        let dense =
+            of_dense.and_then(|of| Dense::new(simd, (of, &tables.stick.system), law, ground));
         let mut candidates = take(&mut workspace.candidates);
         candidates.clear();
         Self {

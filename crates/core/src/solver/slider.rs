@@ -132,18 +132,12 @@ impl<'a> SliderState<'a> {
 
     /// Friction with which it would begin to slide, as the size of what resists.
     pub(super) fn resistance_n(&self, s: f64, direction: Direction, normal_n: f64) -> f64 {
-        self.law.resistance_n(&self.begun(s, direction), direction, normal_n)
+        self.law.resistance_n(&self.memory, s, direction, normal_n)
     }
 
     /// By how much that is below what holds.
     pub(super) fn drop_n(&self, hold: &Hold, s: f64, direction: Direction, normal_n: f64) -> f64 {
-        self.law.drop_n(hold, &self.begun(s, direction), direction, normal_n)
-    }
-
-    fn begun(&self, s: f64, direction: Direction) -> Memory {
-        let mut memory = self.memory.clone();
-        self.law.begin(&mut memory, s, direction);
-        memory
+        self.law.drop_n(hold, (&self.memory, s), direction, normal_n)
     }
 
     /// Changes the contact with an elastic stop at a speed.

@@ -36,10 +36,12 @@ pub(super) fn demands(model: &Model, outcome: &Outcome, peak: impl Fn(usize) -> 
                 .map(|heights_m| peak(output::drift(n, i)) / heights_m[i]),
         })
         .collect();
-    let count = |kind| {
-        let own = outcome.events.iter().filter(|e| e.kind == kind && e.interface == 0);
-        own.count() as u64
-    };
+    let [mut slip_count, mut reversal_count, mut stick_count] = [0; 3];
+    for event in outcome.events.iter().filter(|e| e.interface == 0) {
+        slip_count += u64::from(event.kind == EventKind::Slip);
+        reversal_count += u64::from(event.kind == EventKind::Reversal);
+        stick_count += u64::from(event.kind == EventKind::Stick);
+    }
     let sliding = &outcome.sliding;
     let peak_sliding_displacement_m = sliding.max_m.max(-sliding.min_m);
     let peak_base_shear_n = if n == 0 { 0.0 } else { peak(output::BASE_SHEAR) };
@@ -53,9 +55,9 @@ pub(super) fn demands(model: &Model, outcome: &Outcome, peak: impl Fn(usize) -> 
         sliding_path_m: sliding.path_m,
         peak_sliding_velocity_m_per_s: peak(output::VELOCITY),
         sliding_time_s: sliding.time_s,
-        slip_count: count(EventKind::Slip),
-        reversal_count: count(EventKind::Reversal),
-        stick_count: count(EventKind::Stick),
+        slip_count,
+        reversal_count,
+        stick_count,
         peak_block_acceleration_m_per_s2: peak(output::BLOCK),
         storeys,
         peak_base_shear_n,

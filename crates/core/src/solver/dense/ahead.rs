@@ -3,16 +3,19 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8, mask64x4};
 
-use super::lanes::{BATCH, Four, combine4, combine8, four, larger, times4, times8};
+use super::lanes::{BATCH, Four, combine4, combine8, four, larger, of_storey4, times4, times8};
 use super::outputs::{ACCELERATION, DISPLACEMENT};
 use super::tables::{Phase, Row};
 use super::{Dense, Shared};
 use crate::error::SolveError;
 use crate::linear::Window;
 use crate::response::Mode;
-use crate::slider::Direction;
+use crate::slider::{Direction, Hold};
 use crate::solver::outputs::output;
 use crate::solver::phase::Reached;
+
+/// Keeps the block's numbers of a state.
+const BLOCK: Four = Four([1.0, 1.0, 0.0, 0.0]);
 
 /// A run ahead of event stepping.
 pub(super) struct Ahead<'r, 'a, S: Simd> {
@@ -27,6 +30,10 @@ pub(super) struct Ahead<'r, 'a, S: Simd> {
     /// The same in stick of friction and slider force; infinite where the static bounds keep them.
     pub(super) most_friction: f64,
     pub(super) most_slider: f64,
+    /// What holds at rest; the same everywhere but for the spring's force, which is not asked for.
+    pub(super) hold: Hold,
+    /// `|g sin θ|`.
+    pub(super) slope: f64,
     /// Whether outputs stand behind several gates.
     pub(super) several: bool,
     /// Whether the overturning moment is an output.
@@ -41,11 +48,13 @@ impl<'r, 'a, S: Simd> Ahead<'r, 'a, S> {
             simd,
             of,
             peak: f64x8::load_array(simd, *shared.peak),
+            hold: shared.course.slider.hold(0.0),
             shared,
             low: four(simd, 0.0),
             high: four(simd, 0.0),
             most_friction: 0.0,
             most_slider: 0.0,
+            slope: of.tables.shape.slope.abs(),
             several: overturns || of.tables.storey.damper_n_s_per_m != 0.0,
             overturns,
         };
@@ -139,7 +148,16 @@ impl<'r, 'a, S: Simd> Ahead<'r, 'a, S> {
         let even = (times4(simd, &taps[6], a[2]) + times4(simd, &taps[4], a[4]))
             + (times4(simd, &taps[2], a[6]) + times4(simd, &taps[0], a[8]));
         load += odd + even;
-        combine4(simd, &phase.power[k], x) + load
+        self.carried::<SLIP>(&phase.power[k], x) + load
+    }
+
+    /// What a map makes of a state. In stick the block keeps its place.
+    #[inline(always)]
+    pub(super) fn carried<const SLIP: bool>(&self, map: &[Four; 4], x: f64x4<S>) -> f64x4<S> {
+        if SLIP {
+            return combine4(self.simd, map, x);
+        }
+        x * BLOCK.load(self.simd) + of_storey4(self.simd, map, x)
     }
 
     /// One number at the samples 1 … 8 after a state.
@@ -159,15 +177,22 @@ impl<'r, 'a, S: Simd> Ahead<'r, 'a, S> {
         let mut load = times8(simd, &row.first, a[0]) + (odd + even);
         if SLIP {
             load += times8(simd, &row.force, force_n);
+            combine8(simd, &row.state, x) + load
+        } else {
+            (times8(simd, &row.state[2], x[2]) + times8(simd, &row.state[3], x[3])) + load
         }
-        combine8(simd, &row.state, x) + load
     }
 
     /// The gates in a state under an input.
     #[inline(always)]
     pub(super) fn gates<const SLIP: bool>(&self, x: f64x4<S>, input: f64) -> f64x4<S> {
-        let gates = &self.phase::<SLIP>().gates;
-        combine4(self.simd, &gates.columns, x) + times4(self.simd, &gates.of_input, input)
+        let (simd, gates) = (self.simd, &self.phase::<SLIP>().gates);
+        let by_input = times4(simd, &gates.of_input, input);
+        if SLIP {
+            combine4(simd, &gates.columns, x) + by_input
+        } else {
+            of_storey4(simd, &gates.columns, x) + by_input
+        }
     }
 
     /// Whether the gates stay within their limits by a slack.

@@ -56,7 +56,13 @@ impl OneStorey {
     /// `f = D η̇ + Ω η`.
     #[inline(always)]
     pub(super) fn restoring(&self, x: &[f64; 4]) -> f64 {
-        self.omega2 * x[2] + self.decay * x[3]
+        self.restoring_of([x[2], x[3]])
+    }
+
+    /// The same of `η, η̇`.
+    #[inline(always)]
+    pub(super) fn restoring_of(&self, [eta, rate]: [f64; 2]) -> f64 {
+        self.omega2 * eta + self.decay * rate
     }
 
     /// `u` in slip under a friction force.

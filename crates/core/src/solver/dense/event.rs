@@ -7,14 +7,14 @@ use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
 
 use super::ahead::Ahead;
-use super::lanes::{four, least};
+use super::lanes::{four, greatest, least};
 use super::series::Series;
 use crate::response::Mode;
 use crate::slider::Direction;
 use crate::solver::course::{AMBIGUOUS, Instant};
 use crate::solver::slider::Start;
 
-/// A slip that starts with less than this part of what friction gives is ambiguous if it ends at once.
+/// A slip that starts with less than this part of what friction makes is ambiguous if it ends at once.
 const CLEAR: f64 = 1e-2;
 
 /// Longest correction of a root that is made by derivatives, in pieces: the next term of the state is below
@@ -62,6 +62,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
             return Some(0.0);
         }
         let (pieces, a) = (self.of.tables.pieces, self.of.ground.acceleration);
+        let piece_s = self.of.tables.slip.series.piece_s;
         let [from, to] = [a[sample], a[sample + 1]];
         let change = if pieces == 1 { to - from } else { (to - from) / pieces as f64 };
         let mut events = 0;
@@ -80,9 +81,9 @@ impl<S: Simd> Ahead<'_, '_, S> {
                 match end {
                     End::Piece => break,
                     End::Event(t) => at += t,
-                    End::Ambiguous => return Some((piece as f64 + at) * self.of.tables.piece_s),
+                    End::Ambiguous => return Some((piece as f64 + at) * piece_s),
                 }
-                let at_s = (piece as f64 + at) * self.of.tables.piece_s;
+                let at_s = (piece as f64 + at) * piece_s;
                 events += 1;
                 if events > MOST_EVENTS || !self.decide(&segment, start_a + change * at, at_s) {
                     return Some(at_s);
@@ -100,7 +101,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let [low, high] = self.of.bounds_n;
         let table = &self.of.tables.stick.series;
         let series = Series::<S>::new::<false>(simd, table, x, &segment.span, 0.0);
-        let end = series.at(simd, rest);
+        let end = series.at(rest);
         let curvature = storey.participation * storey.restoring(series.curvature.as_array());
         let hidden = 0.125 * curvature * (rest * rest);
         let demand = storey.demand_n(&x, a);
@@ -114,10 +115,10 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let (sign, bound) = if below { (1.0, high) } else { (-1.0, low) };
         let (m, l) = (sign * storey.block_mass_kg, sign * storey.participation);
         let distance = sign * (bound - demand);
-        let [c1, c2, c3, c4] = series.leading();
-        let slope = l * storey.restoring(&c1) - m * change;
-        let (c2, c3, c4) =
-            (l * storey.restoring(&c2), l * storey.restoring(&c3), l * storey.restoring(&c4));
+        let [c1, c2, c3, c4] = series.leading_storey();
+        let (c1, c2) = (l * storey.restoring_of(c1), l * storey.restoring_of(c2));
+        let (c3, c4) = (l * storey.restoring_of(c3), l * storey.restoring_of(c4));
+        let slope = c1 - m * change;
         let is_simple = (above || below)
             && distance > AMBIGUOUS * bound.abs()
             && sign * (bound - end_demand) < 0.0
@@ -130,8 +131,9 @@ impl<S: Simd> Ahead<'_, '_, S> {
             if !(t > 0.0 && t < rest) {
                 return End::Ambiguous;
             }
-            let y = series.at(simd, t);
-            let derivatives = series.derivatives(simd, t);
+            let velocities = series.velocities(t);
+            let y = series.state(t, velocities);
+            let derivatives = series.derivatives(t, velocities);
             let f1 = l * storey.restoring(derivatives[0].as_array());
             let f2 = l * storey.restoring(derivatives[1].as_array());
             let g = sign * bound - sign * storey.demand_n(y.as_array(), a + change * t);
@@ -153,51 +155,53 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let force_n = self.force_n(segment.mode);
         let table = &tables.slip.series;
         let series = Series::<S>::new::<true>(simd, table, x, &segment.span, force_n);
-        let end = series.at(simd, rest);
+        let end = series.velocities(rest);
         let curvature = series.curvature.as_array()[1];
-        let [c1, c2, c3, c4] = series.leading();
-        let (c1, c2, c3, c4) = (sign * c1[1], sign * c2[1], sign * c3[1], sign * c4[1]);
-        let (speed, end_speed) = (sign * x[1], sign * end.as_array()[1]);
-        let start = self.shared.course.block.start;
-        let slides = match start {
-            None => least(speed, end_speed) > 0.125 * curvature * (rest * rest),
-            // The zero at the start is no stop: with D = Σ k (k − 1) |c_k|
-            // |ṡ|/t ≥ c₁ − t D/2, and where c₁ = 0 |ṡ|/t² ≥ c₂ − t (D − 2 c₂)/6.
+        let [c1, c2, c3, c4] = series.leading_speed();
+        let (c1, c2, c3, c4) = (sign * c1, sign * c2, sign * c3, sign * c4);
+        let (speed, end_speed) = (sign * x[1], sign * end.as_array()[0]);
+        // A slip that has just started is divided by the zero at its start: q(t) = |ṡ|/t^m. With
+        // D = Σ k (k − 1) |c_k| the second derivative of q is at most D, where m = 1 it is at most
+        // D − 2 |c₂|, and where m = 2 at most D − 2 |c₂| − 6 |c₃|.
+        let (q, end_q, curvature, clear) = match self.shared.course.block.start {
+            None => ([speed, c1, c2, c3, c4], end_speed, curvature, 0.0),
             Some(Start { order: 1, acceleration }) => {
-                acceleration * tables.piece_s > 0.5 * curvature * rest
+                let q = [acceleration * table.piece_s, c2, c3, c4, 0.0];
+                (q, end_speed / rest, curvature - 2.0 * c2.abs(), CLEAR)
             }
-            Some(_) => c2 > rest * (curvature - 2.0 * c2) * (1.0 / 6.0),
+            Some(_) => {
+                let curvature = curvature - (2.0 * c2.abs() + 6.0 * c3.abs());
+                ([c2, c3, c4, 0.0, 0.0], end_speed / (rest * rest), curvature, CLEAR)
+            }
         };
-        if slides {
+        // Speeds are known to some ulp of what friction alone makes of them.
+        let of_friction = greatest(-self.of.bounds_n[0], self.of.bounds_n[1])
+            * (tables.storey.per_block_mass * table.piece_s);
+        let lower = least(q[0], end_q);
+        let stays = lower > 0.125 * curvature * (rest * rest)
+            || lower > 0.0 && is_least_at_ends(q[1], 2.0 * q[2], curvature, rest);
+        if stays && end_speed > AMBIGUOUS * (of_friction * rest) {
             self.shared.course.block.start = None;
+            let end = series.state(rest, end);
             return self.through::<true>(segment, at_sample, &series, end, [force_n; 2]);
         }
-        let mut t = match start {
-            None if speed > 0.0 && crosses_once(c1, 2.0 * c2, curvature, rest) => {
-                guess([speed, c1, c2, c3, c4])
-            }
-            // |ṡ|/t = c₁ + c₂ t + …, whose second derivative is at most D − 2 |c₂|; c₁ as computed is a
-            // difference of accelerations of this size.
-            Some(Start { order: 1, acceleration })
-                if acceleration > CLEAR * self.of.bounds_n[1] * tables.storey.per_block_mass
-                    && c2 + rest * (curvature - 2.0 * c2.abs()) < 0.0 =>
-            {
-                guess([c1, c2, c3, c4, 0.0])
-            }
-            _ => return End::Ambiguous,
-        };
-        if !(end_speed < 0.0) {
+        let is_simple = q[0] > clear * of_friction
+            && end_q < 0.0
+            && crosses_once(q[1], 2.0 * q[2], curvature, rest);
+        if !is_simple {
             return End::Ambiguous;
         }
+        let mut t = guess(q);
         for _ in 0..4 {
             if !(t > 0.0 && t < rest) {
                 return End::Ambiguous;
             }
-            let y = series.at(simd, t);
-            let derivatives = series.derivatives(simd, t);
+            let velocities = series.velocities(t);
+            let derivatives = series.derivatives(t, velocities);
             let (g1, g2) =
                 (sign * derivatives[0].as_array()[1], sign * derivatives[1].as_array()[1]);
-            let d = halley(sign * y.as_array()[1], g1, g2);
+            let d = halley(sign * velocities.as_array()[0], g1, g2);
+            let y = series.state(t, velocities);
             t += d;
             if d.abs() < SHORT {
                 let y = later(simd, y, derivatives, d);
@@ -268,7 +272,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
             normal_n: self.of.normal_n,
             mass_kg: storey.block_mass_kg,
         };
-        let hold = self.shared.course.slider.hold(at.place_m);
+        let hold = self.hold;
         let demand_n = storey.demand_n(self.shared.x, a);
         if segment.mode == Mode::Stick {
             let [low, high] = self.of.bounds_n;
@@ -278,11 +282,18 @@ impl<S: Simd> Ahead<'_, '_, S> {
         } else if !self.shared.course.stop(&at, &hold, demand_n, false) {
             return false;
         }
-        for mode in [segment.mode, self.shared.course.block.mode] {
-            self.record_now(sample, at_s, mode);
-        }
+        self.record_now(sample, at_s, segment.mode);
+        self.record_now(sample, at_s, self.shared.course.block.mode);
         true
     }
+}
+
+/// Whether a value with these derivatives at the start and a bound on the second is nowhere less than at
+/// one of its ends: it falls or rises all the way, is concave, or is convex and rises at the start.
+#[inline(always)]
+fn is_least_at_ends(slope: f64, second: f64, curvature: f64, rest: f64) -> bool {
+    let bends_one_way = second.abs() > curvature - second.abs();
+    slope.abs() > curvature * rest || bends_one_way && (second < 0.0 || slope >= 0.0)
 }
 
 /// Whether a value that is positive at the start and negative at the end, with these derivatives at the

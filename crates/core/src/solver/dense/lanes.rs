@@ -26,6 +26,13 @@ pub(super) fn combine4<S: Simd>(simd: S, c: &[Four; 4], x: f64x4<S>) -> f64x4<S>
         + (times4(simd, &c[2], x[2]) + times4(simd, &c[3], x[3]))
 }
 
+/// The part of that which is the storey's.
+#[inline(always)]
+pub(super) fn of_storey4<S: Simd>(simd: S, c: &[Four; 4], x: f64x4<S>) -> f64x4<S> {
+    let [_, _, eta, rate] = x.to_array();
+    times4(simd, &c[2], eta) + times4(simd, &c[3], rate)
+}
+
 /// The sum of `columns[j] x[j]`.
 #[inline(always)]
 pub(super) fn combine8<S: Simd>(simd: S, c: &[Eight; 4], x: [f64; 4]) -> f64x8<S> {

@@ -9,7 +9,7 @@ use fearless_simd::prelude::*;
 
 use super::equations::{OneStorey, unit};
 use super::lanes::{BATCH, Eight, Four, combine8, times8};
-use crate::linear::System;
+use crate::linear::{QUIET, System};
 use crate::solver::outputs::{OutputRow, output};
 
 /// Place of the storey's displacement, and drift, among the outputs.
@@ -107,15 +107,16 @@ pub(super) struct Gates {
 }
 
 /// How far the gates depart from a chord at most: these times the norm of the state at the start, the
-/// largest acceleration, its largest change in a sample, and the friction force.
+/// largest acceleration, its largest change in a sample, and the friction force. The norm is that at the
+/// start of the chord's batch, or of many samples with the chord among them.
 ///
 /// In slip the chord spans a batch, in stick a sample.
 #[derive(Debug)]
 pub(super) struct Slack {
     pub(super) of_norm: Four,
-    pub(super) of_acceleration: Four,
+    pub(super) of_acceleration: [Four; 2],
     pub(super) of_change: Four,
-    pub(super) of_force: Four,
+    pub(super) of_force: [Four; 2],
 }
 
 impl Gates {
@@ -125,9 +126,9 @@ impl Gates {
         sizes: [Four::ZERO; 4],
         slack: Slack {
             of_norm: Four::ZERO,
-            of_acceleration: Four::ZERO,
+            of_acceleration: [Four::ZERO; 2],
             of_change: Four::ZERO,
-            of_force: Four::ZERO,
+            of_force: [Four::ZERO; 2],
         },
     };
 
@@ -158,8 +159,8 @@ impl Gates {
 }
 
 impl Slack {
-    /// Of rows `g = c·x + …` over chords within a batch of length `H`. From `g″ = c A² x + c A b a + c A d T
-    /// + c b ȧ`, and (h) of the book for the growth of the norm,
+    /// Of rows `g = c·x + …` over chords within a time `H` of the start. From `g″ = c A² x + c A b a
+    /// + c A d T + c b ȧ`, and (h) of the book for the growth of the norm,
     ///
     /// ```text
     /// |g″| ≤ |c A²|* (‖x‖ + H (√M_tot |a| + |T|/√M1)) + |c A b| |a| + |c A d| |T| + |c b| |ȧ|
@@ -178,11 +179,11 @@ impl Slack {
         }
         let b = storey.rate(slip, [0.0; 4], 1.0, 0.0);
         let d = if slip { storey.rate(slip, [0.0; 4], 0.0, 1.0) } else { [0.0; 4] };
-        let batch_s = BATCH as f64 * dt_s;
-        let span_s = if slip { batch_s } else { dt_s };
+        let span_s = if slip { BATCH as f64 * dt_s } else { dt_s };
         let reach = 0.125 * span_s * span_s;
         let growth = if slip { storey.root_mass } else { storey.participation.abs() };
-        let mut of = [[0.0; 4]; 4];
+        let (mut of_norm, mut of_change) = (Four::ZERO, Four::ZERO);
+        let (mut of_acceleration, mut of_force) = ([Four::ZERO; 2], [Four::ZERO; 2]);
         for (j, c) in rows.iter().enumerate() {
             let (mut ca, mut caa) = ([0.0; 4], [0.0; 4]);
             for i in 0..4 {
@@ -192,12 +193,15 @@ impl Slack {
                 caa[i] = dot(&ca, &a[i]);
             }
             let norm = system.dual_norm(slip, &caa);
-            of[0][j] = reach * norm;
-            of[1][j] = reach * (dot(&ca, &b).abs() + norm * (batch_s * growth));
-            of[2][j] = reach * dot(c, &b).abs() / dt_s;
-            of[3][j] = reach * (dot(&ca, &d).abs() + norm * (batch_s * storey.per_root_block));
+            of_norm.0[j] = reach * norm;
+            of_change.0[j] = reach * dot(c, &b).abs() / dt_s;
+            let [at_a, at_force] = [dot(&ca, &b).abs(), dot(&ca, &d).abs()];
+            for (i, samples) in [BATCH, QUIET].into_iter().enumerate() {
+                let grown = norm * (samples as f64 * dt_s);
+                of_acceleration[i].0[j] = reach * (at_a + grown * growth);
+                of_force[i].0[j] = reach * (at_force + grown * storey.per_root_block);
+            }
         }
-        let [of_norm, of_acceleration, of_change, of_force] = of.map(Four);
         Self { of_norm, of_acceleration, of_change, of_force }
     }
 }

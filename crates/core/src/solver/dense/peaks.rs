@@ -138,7 +138,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
             friction + hidden <= self.most_friction && slider + hidden <= self.most_slider
         };
         if !(quiet && stays) || self.several {
-            self.look_at_outputs::<SLIP>(segment, end.to_array(), t, input, slack);
+            self.look_at_outputs::<SLIP>(segment, end.to_array(), t, input, slack.to_array());
         }
     }
 
@@ -150,38 +150,44 @@ impl<S: Simd> Ahead<'_, '_, S> {
     }
 
     /// The same for all outputs.
-    #[inline(always)]
+    #[inline(never)]
     fn look_at_outputs<const SLIP: bool>(
         &mut self,
         segment: &Segment,
         end: [f64; 4],
         t: f64,
         input: [f64; 2],
-        slack: f64x4<S>,
+        slack: [f64; 4],
     ) {
-        let (simd, of) = (self.simd, &self.phase::<SLIP>().outputs);
-        let (first, last) = (of.at(simd, segment.x, input[0]), of.at(simd, end, input[1]));
-        let slack = combine8(simd, &of.of_gates, slack.to_array());
-        let attained = larger(first.abs(), last.abs());
-        if (attained + slack).simd_le(self.peak).all_true() {
-            return;
-        }
-        self.peak = larger(self.peak, attained);
-        self.set_limits();
-        // A parabola of that curvature between ends d apart rises above the higher one by
-        // (slack − d/4)²/slack, and not at all where d ≥ 4 slack.
-        let zero = eight(simd, 0.0);
-        let inside = slack - (last - first).abs() * eight(simd, 0.25);
-        let rise = inside.simd_gt(zero).select(inside * (inside / slack), zero);
-        // A few ulp are no more than the rounding of the ends.
-        let above = attained + rise;
-        let rounding = self.peak * eight(simd, 1e-15);
-        if above.simd_gt(self.peak + rounding).any_true() {
-            let mut segment = *segment;
-            segment.span.rest = t;
-            let above = Eight(above.to_array());
-            self.keep(Candidate { place: Place::Segment(segment), above });
-        }
+        let simd = self.simd;
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let of = &self.phase::<SLIP>().outputs;
+                let (first, last) = (of.at(simd, segment.x, input[0]), of.at(simd, end, input[1]));
+                let slack = combine8(simd, &of.of_gates, slack);
+                let attained = larger(first.abs(), last.abs());
+                if (attained + slack).simd_le(self.peak).all_true() {
+                    return;
+                }
+                self.peak = larger(self.peak, attained);
+                self.set_limits();
+                // A parabola of that curvature between ends d apart rises above the higher one by
+                // (slack − d/4)²/slack, and not at all where d ≥ 4 slack.
+                let zero = eight(simd, 0.0);
+                let inside = slack - (last - first).abs() * eight(simd, 0.25);
+                let rise = inside.simd_gt(zero).select(inside * (inside / slack), zero);
+                // A few ulp are no more than the rounding of the ends.
+                let above = attained + rise;
+                let rounding = self.peak * eight(simd, 1e-15);
+                if above.simd_gt(self.peak + rounding).any_true() {
+                    let mut segment = *segment;
+                    segment.span.rest = t;
+                    let above = Eight(above.to_array());
+                    self.keep(Candidate { place: Place::Segment(segment), above });
+                }
+            },
+        );
     }
 
     #[inline(never)]
@@ -266,7 +272,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let (Span { rest, a, change }, of) = (segment.span, &phase.outputs);
         let force_n = self.force_n(segment.mode);
         let series = Series::new::<SLIP>(simd, &phase.series, segment.x, &segment.span, force_n);
-        let end = series.at(simd, rest).to_array();
+        let end = series.at(rest).to_array();
         let input = if SLIP { [force_n; 2] } else { [a, a + change * rest] };
         let (first, last) = (of.at(simd, segment.x, input[0]), of.at(simd, end, input[1]));
         let slack = combine8(simd, &of.of_gates, self.slack::<SLIP>(&series, rest).to_array());

@@ -4,13 +4,13 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
 use super::ahead::Ahead;
-use super::lanes::{BATCH, Four, combine4, eight, four, greatest, larger4, least, times4};
+use super::lanes::{BATCH, Four, eight, four, greatest, larger4, least, times4};
 use super::outputs::{BEHIND, BEHIND_ANY};
 use super::peaks::Samples;
+use super::windows::Extent;
 use crate::linear::{QUIET, Window};
 use crate::response::Mode;
 use crate::slider::Direction;
-use crate::solver::ground::{largest_change, largest_size};
 use crate::solver::modal::clear_steps;
 use crate::solver::outputs::output;
 
@@ -22,87 +22,156 @@ impl<S: Simd> Ahead<'_, '_, S> {
     #[inline(always)]
     pub(super) fn slide(&mut self, mut sample: usize, end: usize, direction: Direction) -> usize {
         let (simd, tables) = (self.simd, self.of.tables);
-        let (of, mode) = (&tables.slip.gates.slack, Mode::Slip(direction));
+        let of = &tables.slip.gates.slack;
+        let mode = Mode::Slip(direction);
         let (sign, force_n) = (direction.sign(), self.force_n(mode));
-        let by_force = times4(simd, &of.of_force, force_n.abs());
+        let by_force = [
+            times4(simd, &of.of_force[0], force_n.abs()),
+            times4(simd, &of.of_force[1], force_n.abs()),
+        ];
         let mut x = self.state();
         let mut gates = self.gates::<true>(x, force_n);
+        // Where the gates have passed by far, one slack serves many samples: it is made from here on, and
+        // serves up to there.
+        let (mut far, mut far_from, mut far_to) = (four(simd, 0.0), end, 0);
         while sample + BATCH <= end {
             let a = self.window(sample);
             let start = x.to_array();
-            let slack = (times4(simd, &of.of_norm, tables.storey.norm(&start))
-                + times4(simd, &of.of_acceleration, largest_size(simd, a)))
-                + (times4(simd, &of.of_change, largest_change(simd, a)) + by_force);
-            let next = self.after::<true>(BATCH, x, a, force_n);
-            let next_gates = self.gates::<true>(next, force_n);
-            let within = self.within(gates, slack) & self.within(next_gates, slack);
+            let (mut next, mut next_gates) = (x, gates);
+            if sample >= far_from {
+                let extent = self.of.windows.many(sample);
+                far = self.slack_in_slip(start, extent, (&of.of_acceleration[1], by_force[1]));
+                let goes_far = self.slides_within(gates, far, sign);
+                far_from = sample + QUIET;
+                far_to = if goes_far { far_from } else { 0 };
+            }
+            if sample < far_to {
+                next = self.after::<true>(BATCH, x, a, force_n);
+                next_gates = self.gates::<true>(next, force_n);
+                if self.slides_within(next_gates, far, sign) {
+                    self.record::<true>(sample, BATCH, x, force_n);
+                    (x, gates) = (next, next_gates);
+                    sample += BATCH;
+                    continue;
+                }
+                far_to = 0;
+            }
+            let extent = self.of.windows.batch(sample);
+            let slack = self.slack_in_slip(start, extent, (&of.of_acceleration[0], by_force[0]));
             // (i) |ṡ| ≥ min of the ends − H²/8 max|g″|: it slides through.
             let hidden = slack.as_array()[0];
-            let slides = sign * start[1] > hidden && sign * next.as_array()[1] > hidden;
-            let mut open = 0;
-            if self.several {
-                let most = larger4(gates.abs(), next_gates.abs()) + slack;
-                let s = greatest(start[0].abs(), next.as_array()[0].abs());
-                open = self.open_behind_several(most.to_array(), s, force_n);
-                // Only where it slides through is |s| at most that at the ends.
-                open |= u64::from(!slides) << output::SLIDER;
+            let u = gates.as_array()[3];
+            let is_likely =
+                sign * (start[1] + tables.batch_s * (u - 0.5 * (a[0] + a[BATCH]))) > 0.0;
+            let (mut slides, mut open_gates, mut open) = (false, 0, 0);
+            if is_likely {
+                next = self.after::<true>(BATCH, x, a, force_n);
+                next_gates = self.gates::<true>(next, force_n);
+                slides = sign * start[1] > hidden && sign * next.as_array()[1] > hidden;
+                (open_gates, open) =
+                    self.open_in_slip([gates, next_gates], [x, next], slack, force_n);
+                if slides && open_gates | open == 0 {
+                    self.record::<true>(sample, BATCH, x, force_n);
+                    (x, gates) = (next, next_gates);
+                    sample += BATCH;
+                    if far_from == end && !self.several {
+                        far_from = sample;
+                    }
+                    continue;
+                }
             }
-            if slides && within.all_true() && open == 0 {
-                self.record::<true>(sample, BATCH, x, force_n);
-                (x, gates) = (next, next_gates);
-                sample += BATCH;
-                continue;
-            }
-            let open_gates = !within.to_bitmask() & 0b1111;
             let mut steps = BATCH;
             let mut speed = eight(simd, 0.0);
-            if !slides || open_gates & 1 != 0 {
-                speed = self.row::<true>(&tables.slip.rows[1], start, a, force_n);
-            }
             if !slides {
+                speed = self.row::<true>(&tables.slip.rows[1], start, a, force_n);
                 let hidden = PER_SAMPLE * hidden;
                 let clear = (eight(simd, sign) * speed).simd_gt(eight(simd, hidden)).to_bitmask();
                 steps = clear_steps(clear, sign * start[1] > hidden);
                 if steps == 0 {
                     break;
                 }
+                next = self.after::<true>(steps, x, a, force_n);
+                next_gates = self.gates::<true>(next, force_n);
+                (open_gates, open) =
+                    self.open_in_slip([gates, next_gates], [x, next], slack, force_n);
             }
-            let slack = slack * four(simd, PER_SAMPLE);
-            let samples = Samples { sample, steps, mode, x: start };
-            open |= self.open_in_slip(&samples, a, force_n, open_gates, speed, slack);
-            open |= BEHIND_ANY * u64::from(!self.within(gates, slack).all_true());
-            if open != 0 {
-                self.look_over::<true>(&samples, open, slack);
+            if open_gates | open != 0 {
+                if slides && open_gates & 1 != 0 {
+                    speed = self.row::<true>(&tables.slip.rows[1], start, a, force_n);
+                }
+                let slack = slack * four(simd, PER_SAMPLE);
+                let samples = Samples { sample, steps, mode, x: start };
+                open |= self.open_at_samples(&samples, a, force_n, open_gates, speed, slack);
+                open |= BEHIND_ANY * u64::from(!self.within(gates, slack).all_true());
+                if open != 0 {
+                    self.look_over::<true>(&samples, open, slack);
+                }
             }
             self.record::<true>(sample, steps, x, force_n);
+            (x, gates) = (next, next_gates);
             sample += steps;
             if steps < BATCH {
-                x = self.after::<true>(steps, x, a, force_n);
                 break;
             }
-            (x, gates) = (next, next_gates);
         }
         *self.shared.x = x.to_array();
         sample
     }
 
-    /// Outputs behind several gates that may pass their peaks where the gates and `s` are at most so large:
-    /// the slider force `T − K1 s − C1 ṡ`, and the overturning moment.
+    /// How far the gates depart from a chord over a batch at most, from a state on.
     #[inline(always)]
-    fn open_behind_several(&self, gates: [f64; 4], s: f64, force_n: f64) -> u64 {
+    fn slack_in_slip(
+        &self,
+        x: [f64; 4],
+        extent: Extent,
+        (of_acceleration, by_force): (&Four, f64x4<S>),
+    ) -> f64x4<S> {
+        let (simd, tables) = (self.simd, self.of.tables);
+        let of = &tables.slip.gates.slack;
+        (times4(simd, &of.of_norm, tables.storey.norm(&x))
+            + times4(simd, of_acceleration, extent.size + self.slope))
+            + (times4(simd, &of.of_change, extent.change) + by_force)
+    }
+
+    /// Whether at an end of a chord the gates are within their limits, and the block slides, by a slack.
+    #[inline(always)]
+    fn slides_within(&self, gates: f64x4<S>, slack: f64x4<S>, sign: f64) -> bool {
+        let speed = sign * gates.as_array()[0];
+        self.within(gates, slack).all_true() && speed > slack.as_array()[0]
+    }
+
+    /// Gates that may pass their limits between two states of a slide, and outputs behind several gates that
+    /// may pass their peaks: the slider force `T − K1 s − C1 ṡ`, and the overturning moment. `|s|` is at
+    /// most that at the ends.
+    #[inline(always)]
+    fn open_in_slip(
+        &self,
+        [first, last]: [f64x4<S>; 2],
+        [x, next]: [f64x4<S>; 2],
+        slack: f64x4<S>,
+        force_n: f64,
+    ) -> (u64, u64) {
+        let within = self.within(first, slack) & self.within(last, slack);
+        let open_gates = !within.to_bitmask() & 0b1111;
+        if !self.several {
+            return (open_gates, 0);
+        }
+        let gates = (larger4(first.abs(), last.abs()) + slack).to_array();
+        let s = greatest(x.as_array()[0].abs(), next.as_array()[0].abs());
         let (storey, [of_f, of_u]) = (&self.of.tables.storey, self.of.tables.shape.arms);
         let peak = self.peak.as_array();
         let restraint = storey.stiffness_n_per_m * s + storey.damper_n_s_per_m * gates[0];
         let slider = force_n.abs() + restraint;
         let moment = of_f.abs() * gates[2] + of_u.abs() * gates[3];
-        u64::from(!(slider <= peak[output::SLIDER])) << output::SLIDER
-            | u64::from(!(moment <= peak[output::OVERTURNING])) << output::OVERTURNING
+        let open = u64::from(!(slider <= peak[output::SLIDER])) << output::SLIDER
+            | u64::from(!(moment <= peak[output::OVERTURNING])) << output::OVERTURNING;
+        (open_gates, open)
     }
 
     /// Outputs behind those of the open gates that pass their limits at a sample, of which the speed is
     /// known.
     #[inline(always)]
-    fn open_in_slip(
+    fn open_at_samples(
         &self,
         samples: &Samples,
         a: &Window,
@@ -161,17 +230,15 @@ impl<S: Simd> Ahead<'_, '_, S> {
             let a = self.window(sample);
             let start = x.to_array();
             let amplitude = storey.amplitude(&start);
-            let size = largest_size(simd, a);
+            let Extent { size, change } = self.of.windows.batch(sample);
+            let size = size + self.slope;
             let base = times4(simd, &quiet.of_amplitude, amplitude);
             let most = base + times4(simd, &quiet.of_acceleration[0], size);
             let within = most.simd_le(limit);
             let quiet_batch = within.all_true() && self.moment_stays(most);
             if quiet_batch && most.as_array()[0] <= holds {
                 if sample + QUIET <= end {
-                    let mut far = size;
-                    for from in (sample + BATCH..sample + QUIET).step_by(BATCH) {
-                        far = greatest(far, largest_size(simd, self.window(from)));
-                    }
+                    let far = self.of.windows.many(sample).size + self.slope;
                     let most = base + times4(simd, &quiet.of_acceleration[1], far);
                     let stays = most.simd_le(limit).all_true() && self.moment_stays(most);
                     if stays && most.as_array()[0] <= holds {
@@ -187,8 +254,8 @@ impl<S: Simd> Ahead<'_, '_, S> {
                 continue;
             }
             let slack = (times4(simd, &of.of_norm, amplitude)
-                + times4(simd, &of.of_acceleration, size))
-                + times4(simd, &of.of_change, largest_change(simd, a));
+                + times4(simd, &of.of_acceleration[0], size))
+                + times4(simd, &of.of_change, change);
             let hidden = storey.participation * slack.as_array()[2];
             // Of the demand without the spring's part.
             let demand = self.row::<false>(&tables.stick.rows[0], start, a, 0.0);
@@ -288,7 +355,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
             }
         }
         let load = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-        combine4(simd, &quiet.power, x) + (times4(simd, &quiet.first, a[0]) + load)
+        self.carried::<false>(&quiet.power, x) + (times4(simd, &quiet.first, a[0]) + load)
     }
 }
 

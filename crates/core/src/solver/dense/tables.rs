@@ -12,7 +12,7 @@ use fearless_simd::prelude::*;
 use super::equations::{OneStorey, unit};
 use super::lanes::{BATCH, Eight, Four};
 use super::outputs::{Gates, Outputs, Shape};
-use super::series::{self, Table};
+use super::series::Table;
 use crate::linear::{QUIET, System};
 use crate::solver::outputs::OutputRow;
 
@@ -31,9 +31,10 @@ const STEP_RATE: f64 = 0.65;
 pub(in crate::solver) struct Tables {
     pub(super) storey: OneStorey,
     pub(super) shape: Shape,
-    /// Equal pieces into which a sample is cut for its Taylor series, and the length of one.
+    /// Equal pieces into which a sample is cut for its Taylor series.
     pub(super) pieces: usize,
-    pub(super) piece_s: f64,
+    /// Length of a batch.
+    pub(super) batch_s: f64,
     pub(super) stick: Phase,
     pub(super) slip: Phase,
     pub(super) quiet: Quiet,
@@ -96,7 +97,7 @@ impl Tables {
         // Filled in place: they are too large to be moved about.
         let mut tables = Box::new(Self::EMPTY);
         (tables.storey, tables.shape) = (OneStorey::new(system), shape);
-        (tables.pieces, tables.piece_s) = (pieces as usize, dt_s / pieces);
+        (tables.pieces, tables.batch_s) = (pieces as usize, BATCH as f64 * dt_s);
         simd.vectorize(
             #[inline(always)]
             || tables.fill(system, rows, dt_s),
@@ -106,10 +107,10 @@ impl Tables {
 
     #[inline(always)]
     fn fill(&mut self, system: &System, rows: [&[OutputRow]; 2], dt_s: f64) {
-        let Self { storey, pieces, piece_s, stick, slip, quiet, shape } = self;
+        let Self { storey, pieces, stick, slip, quiet, shape, .. } = self;
         let mut taps = [Four::ZERO; BATCH + 1];
         for (is_slip, phase) in [(true, slip), (false, &mut *stick)] {
-            series::fill(storey, is_slip, *piece_s, &mut phase.series);
+            phase.series.fill(storey, is_slip, dt_s / *pieces as f64);
             let sample = Sample::new(&phase.series, is_slip, *pieces);
             sample.taps(&mut taps);
             phase.fill(storey, is_slip, &sample, &taps);
@@ -123,7 +124,7 @@ impl Tables {
         storey: OneStorey::NONE,
         shape: Shape { floor: 0.0, arms: [0.0; 2], slope: 0.0 },
         pieces: 0,
-        piece_s: 0.0,
+        batch_s: 0.0,
         stick: Phase::EMPTY,
         slip: Phase::EMPTY,
         quiet: Quiet {
@@ -138,7 +139,7 @@ impl Tables {
 
 impl Phase {
     const EMPTY: Self = Self {
-        series: series::EMPTY,
+        series: Table::EMPTY,
         power: [[Four::ZERO; 4]; BATCH + 1],
         first: [Four::ZERO; BATCH + 1],
         tap: [Four::ZERO; 2 * BATCH],
@@ -262,11 +263,11 @@ struct Sample {
 impl Sample {
     #[inline(always)]
     fn new(table: &Table, slip: bool, pieces: usize) -> Self {
-        let (of_a, of_change) = (Four(series::sum(table, 4)), Four(series::sum(table, 5)));
-        let of_force = if slip { Four(series::sum(table, 6)) } else { Four::ZERO };
+        let (of_a, of_change) = (Four(table.end(4)), Four(table.end(5)));
+        let of_force = if slip { Four(table.end(6)) } else { Four::ZERO };
         let mut piece = [Four::ZERO; 4];
         for (j, column) in piece.iter_mut().enumerate() {
-            *column = sum(Four(series::sum(table, j)), Four(unit(j)));
+            *column = Four(table.end(j));
         }
         // State, constant and ramp of the acceleration, force.
         let mut left = [Four::ZERO; 7];
