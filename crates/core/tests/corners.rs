@@ -392,6 +392,21 @@ fn exact_outputs_beside_a_jump_are_certified() {
     }
 }
 
+/// Two spikes within a hair of time let the block go: all that it spends lies between instants that are
+/// rounded.
+#[test]
+fn exact_spikes_of_any_length_are_certified() {
+    let model = model(&friction([0.1, 0.08]), &contents(40.0, [0.2, 0.15]));
+    for length_s in [1e-5, 1e-7, 1e-9, 1e-11, 1e-13] {
+        let times_s = [0.0, 1.0, 2.0, 3.0].map(|k| 0.5 + k * length_s);
+        let times_s: Vec<f64> = [&[0.0], &times_s[..], &[1.0]].concat();
+        let motion = ground(&times_s, &[0.0, 0.0, 9.0, -9.0, 0.0, 0.0], None);
+        let found = response(&model, &motion);
+        assert_eq!((found.demands.slip_count, found.demands.stick_count), (1, 1));
+        assert_eq!(alarm(&model, &motion, &found), None, "{length_s} s");
+    }
+}
+
 /// A jump at the start that only lets the block go on is no decision.
 #[test]
 fn exact_a_slip_that_goes_on_decides_nothing() {

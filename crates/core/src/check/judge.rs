@@ -735,7 +735,14 @@ impl<'a> Judge<'a> {
     fn recall(&mut self, k: usize, intervals: &IntervalFigures, near: &[Points]) {
         let h = self.h;
         let (modes, times_s) = (h.modes(k), [h.time_s[k], h.time_s[k + 1]]);
-        self.energy.spend(&intervals.spent[k]);
+        let mut spent = intervals.spent[k];
+        let stands_twice = |k: usize| h.time_s.get(k + 1) == Some(&h.time_s[k]);
+        if (k > 0 && stands_twice(k - 1)) || stands_twice(k + 1) {
+            // What the rounding of an event's time makes of the energies spent beside it.
+            let part = (self.instant_s / (times_s[1] - times_s[0])).min(1.0);
+            spent.blur += part * (spent.size + spent.friction.abs() + spent.damping.abs());
+        }
+        self.energy.spend(&spent);
         let leans = self.law.restitution().is_some()
             && self.law.leans(h.sliding_displacement_m[k]) != [false; 2];
         self.totals.add(modes, self.contact(k), times_s[1] - times_s[0], leans);
