@@ -12,7 +12,7 @@ pub(super) struct Books {
     pub(super) kinetic: Vec<f64>,
     pub(super) strain: Vec<f64>,
     pub(super) work: Vec<f64>,
-    /// Size of the work.
+    /// Size of the work and of what springs give back that follow `N`; empty without such.
     pub(super) size: Vec<f64>,
     pub(super) damping: Vec<f64>,
     pub(super) friction: Vec<f64>,
@@ -22,12 +22,16 @@ pub(super) struct Books {
 
 impl Books {
     /// None spent yet, from these energies at knots on, with what a stop has taken.
-    pub(super) fn new([kinetic, strain]: [Vec<f64>; 2], stop_j: f64, varies: bool) -> Self {
+    pub(super) fn new(
+        [kinetic, strain]: [Vec<f64>; 2],
+        stop_j: f64,
+        [varies, follows]: [bool; 2],
+    ) -> Self {
         let zeros = || vec![0.0; kinetic.len()];
         Self {
             initial: [kinetic[0] + strain[0] + stop_j, stop_j],
             work: zeros(),
-            size: zeros(),
+            size: if follows { zeros() } else { Vec::new() },
             damping: zeros(),
             friction: zeros(),
             blur: if varies { zeros() } else { Vec::new() },
@@ -45,7 +49,13 @@ impl Books {
             (&mut self.friction, &spent.friction),
             (&mut self.blur, &spent.blur),
         ];
+        let (first, last) = (knots[0], knots[LANES - 1]);
+        let contiguous = knots.windows(2).all(|pair| pair[1] == pair[0] + 1);
         for (list, values) in lists.into_iter().filter(|(list, _)| !list.is_empty()) {
+            if contiguous {
+                list[first..=last].copy_from_slice(&values.0);
+                continue;
+            }
             for (knot, value) in knots.iter().zip(&values.0) {
                 list[*knot] = *value;
             }
@@ -67,7 +77,7 @@ impl Books {
                 let stored =
                     (self.kinetic[k] - self.kinetic[last]) + (self.strain[k] - self.strain[last]);
                 imbalance += (self.work[last] - self.damping[last] - self.friction[last]) - stored;
-                size += self.size[last];
+                size += self.size.get(last).copied().unwrap_or(self.work[last].abs());
                 damping += self.damping[last];
                 friction += self.friction[last];
                 blur += self.blur.get(last).unwrap_or(&0.0);

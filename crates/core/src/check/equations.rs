@@ -30,11 +30,6 @@ pub(super) struct Now<S: Simd> {
 }
 
 impl LaneJudge<'_> {
-    /// Whether a force on the block follows `N` and `s`.
-    pub(super) fn follows(&self) -> bool {
-        self.law.series.is_some() || self.law.is_pendulum()
-    }
-
     /// Loads at a part of a step.
     #[inline(always)]
     pub(super) fn at<S: Simd>(&self, simd: S, group: &Group, input: &[Eight], part: f64) -> Now<S> {
@@ -49,7 +44,7 @@ impl LaneJudge<'_> {
         Now {
             a: linear(&input[2 * d], &input[2 * d + 1]),
             load: linear(&input[2 * d + 2], &input[2 * d + 3]),
-            rise: if self.follows() {
+            rise: if self.law.follows() {
                 linear(&group.rise[0], &group.rise[1])
             } else {
                 all(simd, 0.0)

@@ -102,7 +102,8 @@ impl<'a> Ground<'a> {
         }
         if from_s == times[i] && end_s == times[i + 1] && self.press(i) * self.press(i + 1) >= 0.0 {
             let [from, to] = [i, i + 1].map(|i| (self.horizontal[i], self.press(i)));
-            let loads = [from, to].map(|now| self.load(now, self.slopes(i)));
+            let slopes = self.slopes(i);
+            let loads = [self.load(from, slopes), self.load(to, slopes)];
             return Piece { to_s: end_s, loads };
         }
         let mut to_s = end_s.min(times[i + 1]);
@@ -120,7 +121,8 @@ impl<'a> Ground<'a> {
                 to.1 = 0.0;
             }
         }
-        Piece { to_s, loads: [from, to].map(|now| self.load(now, self.slopes(i))) }
+        let slopes = self.slopes(i);
+        Piece { to_s, loads: [self.load(from, slopes), self.load(to, slopes)] }
     }
 
     /// All that the table does at one instant: the limit from the left, the samples at that time,

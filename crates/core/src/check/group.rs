@@ -404,6 +404,11 @@ impl Group {
         goes_on
     }
 
+    /// Whether all sliders stick.
+    pub(super) fn sticks(&self) -> bool {
+        self.stuck.0 == [1.0; LANES]
+    }
+
     /// Whether anything sticks.
     pub(super) fn asks(&self) -> bool {
         let sticks = |stuck: &Eight| stuck.0 != Eight::ZERO.0;
@@ -433,7 +438,7 @@ impl Group {
                 *most = most.max(rounding);
             }
         }
-        if !bench.follows() {
+        if !bench.law.follows() {
             return;
         }
         let curvature = bench.law.curvature_per_m();

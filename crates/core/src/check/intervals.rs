@@ -10,7 +10,7 @@ use super::knots::{Knots, LaneJudge, Worst};
 use super::lane::LANES;
 use super::maps::{Maps, Spread};
 use super::margins::{Points, Watch};
-use super::outputs::{STOREYS, VELOCITY};
+use super::outputs::{FRICTION, SLIDER, STOREYS, VELOCITY};
 use super::path::{Pass, Work};
 use super::sweep::{Even, EvenRun, Floors, MOST_STEPS, terms};
 use crate::error::Stopped;
@@ -247,6 +247,7 @@ impl<'a> Judge<'a> {
             });
         let pulls: Vec<f64> = pulls.collect();
         let mut fastest: Vec<f64> = (0..self.h.interfaces).map(|i| self.speed(i)).collect();
+        let margin = self.floor.max(0.0);
         let known = self.law.restitution().is_none() && self.law.series.is_none();
         for kind in kinds {
             let Some(even) = &mut kind.even else { continue };
@@ -260,7 +261,16 @@ impl<'a> Judge<'a> {
                 inputs.extend(&pulls);
                 (outputs, inputs)
             });
-            let (off, largest) = kind.spread.look(batches, &self.attained);
+            // What is held passes no peak of the friction force that is as near to what holds at most.
+            let holds = even.holds()
+                && self.attained[FRICTION] >= (1.0 - margin) * self.law.most() * normal;
+            let alike = self.structure.spring == 0.0 && self.law.curvature_per_m() == 0.0;
+            let settled: &[usize] = match (holds, alike) {
+                (true, true) => &[FRICTION, SLIDER],
+                (true, false) => &[FRICTION],
+                _ => &[],
+            };
+            let (off, largest) = kind.spread.look(batches, (&self.attained, settled));
             even.bound(&off);
             for (i, fastest) in fastest.iter_mut().enumerate() {
                 *fastest = fastest.max(largest[self.place_of_speed(i)]);
@@ -276,7 +286,7 @@ impl<'a> Judge<'a> {
             true => (self.floor * fastest).max(-self.still),
             false => -self.still,
         });
-        Floors { margin: self.floor.max(0.0), speeds: speeds.collect(), drops }
+        Floors { margin, speeds: speeds.collect(), drops }
     }
 
     fn pass<'p>(

@@ -264,7 +264,8 @@ impl<'a> Judge<'a> {
             list.truncate(count);
             core::mem::take(list)
         });
-        let mut books = Books::new(energies, stop_j, self.ground.has_vertical());
+        let mut books =
+            Books::new(energies, stop_j, [self.ground.has_vertical(), self.law.follows()]);
         self.decide();
         self.find_floor();
         let watched = self.side_by_side(&knots, &mut books)?;
@@ -443,7 +444,7 @@ mod tests {
                 let knots = judge.knots().unwrap().unwrap();
                 judge.runs = judge.find_runs();
                 let zeros = || vec![0.0; history.len()];
-                let mut books = Books::new([zeros(), zeros()], 0.0, false);
+                let mut books = Books::new([zeros(), zeros()], 0.0, [false; 2]);
                 judge.side_by_side(&knots, &mut books).unwrap();
                 let (swept, intervals) = (judge.swept, motion.len() - 1);
                 assert!(10 * swept > 9 * intervals, "{n} storeys: {swept} of {intervals}");

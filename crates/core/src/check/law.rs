@@ -154,6 +154,11 @@ impl Law {
         self.radius_m.map_or(0.0, |radius_m| 1.0 / radius_m)
     }
 
+    /// Whether a force on the block follows `N` and `s`.
+    pub(super) fn follows(&self) -> bool {
+        self.series.is_some() || self.is_pendulum()
+    }
+
     /// Whether the spring follows the normal force.
     pub(super) fn is_pendulum(&self) -> bool {
         self.radius_m.is_some()

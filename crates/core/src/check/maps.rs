@@ -72,50 +72,59 @@ pub(super) struct Spread {
     pub(super) longest_s: f64,
     /// Outputs that leave the chord, with the inputs whose sizes make them and by how much.
     pub(super) leaving: Vec<(usize, Vec<(usize, f64)>)>,
-    /// Whether an output may pass its peak in an interval that begins in a batch; empty if unknown.
-    passes: Vec<bool>,
+    /// Which outputs may pass their peaks in intervals that begin in a batch, a bit each, or one of 64;
+    /// empty if unknown.
+    loud: Vec<u64>,
 }
 
 impl Spread {
-    /// Whether no output can pass its peak in intervals of at most this length from these knots on.
-    pub(super) fn is_quiet(&self, knots: &[usize; LANES]) -> bool {
-        let Some(&last) = self.passes.get(knots[LANES - 1] / BATCH) else { return false };
-        !last && knots.iter().all(|k| !self.passes[k / BATCH])
+    /// Which outputs may pass their peaks in intervals of at most this length from these knots on.
+    pub(super) fn loud(&self, knots: &[usize; LANES]) -> u64 {
+        if self.loud.is_empty() {
+            return u64::MAX;
+        }
+        let (first, last) = (knots[0] / BATCH, knots[LANES - 1] / BATCH);
+        if knots[LANES - 1] == knots[0] + LANES - 1 {
+            return self.loud[first] | self.loud[last];
+        }
+        knots.iter().fold(0, |loud, k| loud | self.loud[k / BATCH])
     }
 
     /// Nothing is known of batches.
     pub(super) fn forget(&mut self) {
-        self.passes.clear();
+        self.loud.clear();
     }
 
-    /// Looks at all batches of knots: largest outputs, then largest inputs of the map. Returns how far each
+    /// Looks at all batches of knots: largest outputs, then largest inputs of the map; outputs that are settled
+    /// pass no peak. Returns how far each
     /// output may leave its chord, batch by batch, and the largest that it can be.
     pub(super) fn look<'b>(
         &mut self,
         batches: impl Iterator<Item = (&'b [f64], Vec<f64>)>,
-        attained: &[f64],
+        (attained, settled): (&[f64], &[usize]),
     ) -> (Vec<Vec<f64>>, Vec<f64>) {
         let mut largest = attained.to_vec();
         let mut off = vec![Vec::new(); attained.len()];
-        self.passes.clear();
+        self.loud.clear();
         for (outputs, inputs) in batches {
-            let mut passes = false;
+            let mut loud = 0;
             for off in &mut off {
                 off.push(0.0);
             }
             for (g, bounds) in &self.leaving {
                 let far: f64 = bounds.iter().map(|&(input, bound)| bound * inputs[input]).sum();
-                passes |= !(outputs[*g] + far <= attained[*g] * (1.0 + 1e-12));
+                let passes = !(outputs[*g] + far <= attained[*g] * (1.0 + 1e-12));
+                loud |= u64::from(passes && !settled.contains(g)) << (g % 64);
                 largest[*g] = largest[*g].max(outputs[*g] + far);
                 if let Some(last) = off[*g].last_mut() {
                     *last = far;
                 }
             }
-            self.passes.push(passes);
+            self.loud.push(loud);
         }
         // An interval may end in the next batch.
-        for b in 1..self.passes.len() {
-            self.passes[b - 1] |= self.passes[b];
+        for b in 1..self.loud.len() {
+            self.loud[b - 1] |= self.loud[b];
             for off in &mut off {
                 off[b - 1] = off[b - 1].max(off[b]);
             }
@@ -225,7 +234,7 @@ impl LaneJudge<'_> {
         Units {
             maps: Maps { path: map(&paths), places: map(&places) },
             sums: map(&sums),
-            spread: Spread { longest_s: length_s, leaving, passes: Vec::new() },
+            spread: Spread { longest_s: length_s, leaving, loud: Vec::new() },
         }
     }
 

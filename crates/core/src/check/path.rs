@@ -221,22 +221,20 @@ impl LaneJudge<'_> {
                 work.input[2 * d + 4 + 2 * e + end].store(pull);
             }
         }
-        if !group.affine {
-            self.take_speed(simd, w.abs(), work);
-        }
+        self.take_speed(simd, group, w, work);
         for (e, carried) in group.carried.iter().enumerate() {
             let p = work.input[d + 1 + n + e].load(simd);
             work.input[d + 1 + n + e].store(p * (all(simd, 1.0) - carried.stuck.load(simd)));
         }
     }
 
-    /// Keeps a sliding speed, near which friction by speed is asked for.
+    /// Keeps sliding speeds, near which friction by speed is asked for.
     #[inline(always)]
-    fn take_speed<S: Simd>(&self, simd: S, speed: f64x8<S>, work: &mut Work) {
-        if let Some(rate) = &self.law.rate {
+    fn take_speed<S: Simd>(&self, simd: S, group: &Group, w: f64x8<S>, work: &mut Work) {
+        if let Some(rate) = self.law.rate.as_ref().filter(|_| !group.affine && !group.sticks()) {
             let from = self.inputs();
-            work.input[from].store(speed);
-            work.input[from + 1].store(rate.faded_of(simd, speed));
+            work.input[from].store(w.abs());
+            work.input[from + 1].store(rate.faded_of(simd, w.abs()));
         }
     }
 
@@ -425,7 +423,7 @@ impl LaneJudge<'_> {
             |i| group.stop[i].load(simd),
         );
         let shift = group.stop[2].load(simd);
-        let follows = self.follows();
+        let follows = self.law.follows();
         for node in 0..NODES {
             let v = inlined(
                 #[inline(always)]
@@ -568,25 +566,26 @@ impl LaneJudge<'_> {
     ) {
         let (h, s) = (self.history, self.structure);
         let d = s.degrees();
-        let slides = all(simd, 1.0) - group.stuck.load(simd);
         let drift = all(simd, self.instant_s) * group.drift.load(simd).abs();
         let rounding = group.normal_rounding.load(simd);
         let table = places.read(simd, &h.table_acceleration_m_per_s2, end, [1, 0]);
         let off = (group.table[end].load(simd) - table).abs() - drift;
         keep(simd, &mut pass.worst.table, off);
         let force = places.read(simd, &h.friction_force_n, end, [1, 0]);
-        let s_stored = places.read(simd, &h.sliding_displacement_m, end, [1, 0]);
-        let w = places.read(simd, &h.sliding_velocity_m_per_s, end, [1, 0]);
-        let load = pass.work.input[2 * d + 2 + end].load(simd) - group.stop[2].load(simd);
-        let near = w.abs();
-        self.take_speed(simd, near, pass.work);
-        let mut own = self.sliding_force(simd, group, (w, load), &pass.work.input);
-        if self.law.series.is_some() {
-            own -= group.rise[end].load(simd) * s_stored;
-        }
         let most = all(simd, self.law.most());
-        let off = (force - own).abs() - most * rounding;
-        keep(simd, &mut pass.worst.excess, off * slides);
+        if !group.sticks() {
+            let slides = all(simd, 1.0) - group.stuck.load(simd);
+            let w = places.read(simd, &h.sliding_velocity_m_per_s, end, [1, 0]);
+            let load = pass.work.input[2 * d + 2 + end].load(simd) - group.stop[2].load(simd);
+            self.take_speed(simd, group, w, pass.work);
+            let mut own = self.sliding_force(simd, group, (w, load), &pass.work.input);
+            if self.law.series.is_some() {
+                let s_stored = places.read(simd, &h.sliding_displacement_m, end, [1, 0]);
+                own -= group.rise[end].load(simd) * s_stored;
+            }
+            let off = (force - own).abs() - most * rounding;
+            keep(simd, &mut pass.worst.excess, off * slides);
+        }
         for (e, contents) in s.contents.iter().enumerate() {
             let list = &h.contents_acceleration_m_per_s2;
             let stored =

@@ -26,12 +26,13 @@ impl LaneJudge<'_> {
         pass: &mut Pass<'_, '_>,
     ) {
         let leans = self.leans(simd, group);
-        if leans == 0 && spread.is_some_and(|spread| spread.is_quiet(&group.knots)) {
+        let loud = spread.map_or(u64::MAX, |spread| spread.loud(&group.knots));
+        if leans == 0 && loud == 0 {
             return;
         }
         let passes = leans
             | match spread {
-                Some(spread) if leans != ALL => self.passing(simd, group, spread, pass),
+                Some(spread) if leans != ALL => self.passing(simd, group, (spread, loud), pass),
                 _ => {
                     for end in 0..2 {
                         self.end((group, end), pass.outputs, pass.work);
@@ -73,14 +74,14 @@ impl LaneJudge<'_> {
         smaller(low, high).simd_lt(all(simd, UNBOUNDED)).to_bitmask()
     }
 
-    /// In which lanes an output may pass its peak: by its values at the ends of a step, and how far it may
+    /// In which lanes a loud output may pass its peak: by its values at the ends of a step, and how far it may
     /// leave the chord.
     #[inline(always)]
     pub(super) fn passing<S: Simd>(
         &self,
         simd: S,
         group: &Group,
-        spread: &Spread,
+        (spread, loud): (&Spread, u64),
         pass: &mut Pass<'_, '_>,
     ) -> u64 {
         let Pass { work, attained, outputs, .. } = pass;
@@ -91,7 +92,7 @@ impl LaneJudge<'_> {
         self.sizes(simd, work);
         // Of longer steps nothing is known.
         let mut passes = share.simd_gt(all(simd, 1.0 + 1e-9)).to_bitmask();
-        for (g, bounds) in &spread.leaving {
+        for (g, bounds) in spread.leaving.iter().filter(|(g, _)| loud >> (g % 64) & 1 == 1) {
             let mut off = all(simd, 0.0);
             for &(input, bound) in bounds {
                 off += all(simd, bound) * work.active[input].load(simd);
@@ -162,10 +163,13 @@ impl LaneJudge<'_> {
         // Between two points the polynomial rises above both by less than a tenth of its range.
         let bound = size + (most - least) * all(simd, 0.1);
         let open = bound.simd_gt(all(simd, *peak * (1.0 + 1e-12))).to_bitmask() & passes;
+        if open == 0 {
+            return;
+        }
+        let (first, last) = (ends[0].to_array(), ends[1].to_array());
         for lane in (0..LANES).filter(|lane| open & (1 << lane) != 0) {
             let mut points = [0.0; POINTS];
-            let [first, last] = ends.map(|end| end.to_array()[lane]);
-            (points[0], points[POINTS - 1]) = (first, last);
+            (points[0], points[POINTS - 1]) = (first[lane], last[lane]);
             for (point, node) in points[1..].iter_mut().zip(nodes) {
                 *point = node.0[lane];
             }

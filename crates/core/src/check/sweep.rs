@@ -126,6 +126,11 @@ impl Even {
         Self { way, run: lanes(), rest: lanes() }
     }
 
+    /// What decides about the slider, if it sticks.
+    pub(super) fn holds(&self) -> bool {
+        self.way.deciding[0].sticks
+    }
+
     /// Takes how far outputs may leave their chords, batch by batch.
     pub(super) fn bound(&mut self, off: &[Vec<f64>]) {
         for deciding in &mut self.way.deciding {
@@ -239,8 +244,10 @@ impl LaneJudge<'_> {
             1 => self.eight_of(simd, 1, (way, spread), lanes, floors, pass),
             n => self.eight_of(simd, n, (way, spread), lanes, floors, pass),
         };
-        let count = lanes.group.count;
-        named.extend((0..count).filter(|lane| bits >> lane & 1 == 1).map(|l| lanes.group.knots[l]));
+        let lanes = (0..lanes.group.count).zip(lanes.group.knots);
+        if bits != 0 {
+            named.extend(lanes.filter(|(lane, _)| bits >> lane & 1 == 1).map(|(_, knot)| knot));
+        }
         Ok(())
     }
 
@@ -280,8 +287,9 @@ impl LaneJudge<'_> {
         for i in 0..way.deciding.len() {
             named |= self.near(simd, i, (way, spread), (group, &places), floors, pass.work);
         }
-        if !spread.is_quiet(&group.knots) {
-            named |= self.passing(simd, group, spread, pass);
+        let loud = spread.loud(&group.knots);
+        if loud != 0 {
+            named |= self.passing(simd, group, (spread, loud), pass);
         }
         named
     }
