@@ -29,6 +29,7 @@ mod outputs;
 mod path;
 mod peaks;
 mod rate;
+mod stored;
 mod structure;
 mod sweep;
 

@@ -96,8 +96,8 @@ impl Spread {
     }
 
     /// Looks at all batches of knots: largest outputs, then largest inputs of the map; outputs that are settled
-    /// pass no peak. Returns how far each
-    /// output may leave its chord, batch by batch, and the largest that it can be.
+    /// pass no peak. Returns how far each output may leave its chord, batch by batch, and the largest that it
+    /// can be.
     pub(super) fn look<'b>(
         &mut self,
         batches: impl Iterator<Item = (&'b [f64], Vec<f64>)>,

@@ -100,8 +100,11 @@ impl Judge<'_> {
         self.totals.add(modes, self.contact(from), h.time_s[to] - h.time_s[from], leans);
         for (i, _) in modes.iter().enumerate().filter(|(_, mode)| **mode != Mode::Stick) {
             let at = self.structure.degree_of(i);
-            let [[start, _], [end, _]] = [from, to].map(|k| self.stored(k, at));
-            self.totals.interfaces[i].path_m += (end - start).abs();
+            // Without contact a slip may turn back.
+            for k in from..to {
+                let [[start, _], [end, _]] = [k, k + 1].map(|k| self.stored(k, at));
+                self.totals.interfaces[i].path_m += (end - start).abs();
+            }
         }
         for k in if h.surfaces > 0 { from..to } else { 0..0 } {
             self.surfaces(k);

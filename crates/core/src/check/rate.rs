@@ -128,7 +128,9 @@ impl RateFriction {
             band[0] = corner;
         }
         let slope = self.pieces.iter().find(|piece| piece[0] == band[0]).map_or(0.0, |p| p[2]);
-        let within = (band[0]..=band[1]).contains(&speeds_m_per_s[1]);
+        // A steep line would lose digits of μ_k in c.
+        let keeps = (slope * band[0]).abs() <= 1.0;
+        let within = keeps && (band[0]..=band[1]).contains(&speeds_m_per_s[1]);
         within.then(|| (band, [self.coefficient(band[0]) - slope * band[0], slope]))
     }
 

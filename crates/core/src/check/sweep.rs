@@ -348,6 +348,48 @@ impl LaneJudge<'_> {
         spent
     }
 
+    /// What decides about an interface, as stored at the start (0) or the end (1): `T` or the acceleration of
+    /// contents in stick, the speed in slip.
+    #[inline(always)]
+    fn decides<S: Simd>(
+        &self,
+        simd: S,
+        i: usize,
+        sticks: bool,
+        (group, places, end): (&Group, &Places, usize),
+    ) -> f64x8<S> {
+        let (h, e) = (self.history, self.structure.contents.len());
+        let of = inlined(
+            #[inline(always)]
+            |list: &[f64], place: [usize; 2]| places.read(simd, list, end, place),
+        );
+        match (i.checked_sub(1), sticks) {
+            (None, true) => of(&h.friction_force_n, [1, 0]),
+            (None, false) => group.sign.load(simd) * of(&h.sliding_velocity_m_per_s, [1, 0]),
+            (Some(i), true) => {
+                of(&h.contents_acceleration_m_per_s2, [e, i]) + all(simd, self.slope)
+            }
+            (Some(i), false) => {
+                group.carried[i].sign.load(simd) * of(&h.contents_velocity_m_per_s, [e, i])
+            }
+        }
+    }
+
+    /// In which lanes the largest speed of a slip is between the ends: it tells the peak by which speeds are
+    /// measured.
+    #[inline(always)]
+    fn turns<S: Simd>(&self, simd: S, i: usize, (group, places): (&Group, &Places)) -> u64 {
+        let s = self.structure;
+        let place = (s.masses_kg.len(), s.degree_of(i));
+        let sign = i.checked_sub(1).map_or(&group.sign, |i| &group.carried[i].sign).load(simd);
+        let [first, last] = both(
+            #[inline(always)]
+            |end| sign * self.stored_rate(simd, place, places, end),
+        );
+        let zero = all(simd, 0.0);
+        (first.simd_gt(zero) & last.simd_lt(zero)).to_bitmask()
+    }
+
     /// In which lanes a decision of an interface may be near.
     #[inline(always)]
     fn near<S: Simd>(
@@ -359,35 +401,16 @@ impl LaneJudge<'_> {
         floors: &Floors,
         work: &mut Work,
     ) -> u64 {
-        let (h, s) = (self.history, self.structure);
-        let deciding = &way.deciding[i];
-        let (e, item) = (s.contents.len(), i.checked_sub(1));
+        let (s, deciding) = (self.structure, &way.deciding[i]);
         let [from, to] = both(
             #[inline(always)]
-            |end| {
-                let of = inlined(
-                    #[inline(always)]
-                    |list: &[f64], place: [usize; 2]| places.read(simd, list, end, place),
-                );
-                match (item, deciding.sticks) {
-                    (None, true) => of(&h.friction_force_n, [1, 0]),
-                    (None, false) => {
-                        group.sign.load(simd) * of(&h.sliding_velocity_m_per_s, [1, 0])
-                    }
-                    (Some(i), true) => {
-                        of(&h.contents_acceleration_m_per_s2, [e, i]) + all(simd, self.slope)
-                    }
-                    (Some(i), false) => {
-                        group.carried[i].sign.load(simd) * of(&h.contents_velocity_m_per_s, [e, i])
-                    }
-                }
-            },
+            |end| self.decides(simd, i, deciding.sticks, (group, places, end)),
         );
         let pair = inlined(
             #[inline(always)]
             |pair: &[Eight; 2]| [pair[0].load(simd), pair[1].load(simd)],
         );
-        let [hold, scale] = match item {
+        let [hold, scale] = match i.checked_sub(1) {
             None => [pair(&group.hold), pair(&group.scale)],
             Some(i) => {
                 let fixed = s.contents[i].static_friction / s.total_kg;
@@ -416,18 +439,10 @@ impl LaneJudge<'_> {
         );
         let lanes = (1 << LANES) - 1;
         let off = core::array::from_fn(|lane| deciding.off[places.knot(lane) / BATCH]);
-        // Whose largest speed is between its ends tells the peak that a speed is measured by.
-        let mut turns = 0;
-        if !deciding.sticks && floors.drops[i] {
-            let n = s.masses_kg.len();
-            let sign = item.map_or(group.sign, |i| group.carried[i].sign).load(simd);
-            let [first, last] = both(
-                #[inline(always)]
-                |end| sign * self.stored_rate(simd, (n, s.degree_of(i)), places, end),
-            );
-            let zero = all(simd, 0.0);
-            turns = (first.simd_gt(zero) & last.simd_lt(zero)).to_bitmask();
-        }
+        let turns = match !deciding.sticks && floors.drops[i] {
+            true => self.turns(simd, i, (group, places)),
+            false => 0,
+        };
         let bits = reaches(f64x8::load_array(simd, off)) & lanes;
         if bits == 0 {
             return turns;
