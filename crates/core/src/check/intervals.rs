@@ -261,7 +261,7 @@ impl<'a> Judge<'a> {
                 inputs.extend(&pulls);
                 (outputs, inputs)
             });
-            // What is held passes no peak of the friction force that is as near to what holds at most.
+            // What is held with a margin passes no peak of `T` that is as near to what holds at most.
             let holds = even.holds()
                 && self.attained[FRICTION] >= (1.0 - margin) * self.law.most() * normal;
             let alike = self.structure.spring == 0.0 && self.law.curvature_per_m() == 0.0;
@@ -270,7 +270,8 @@ impl<'a> Judge<'a> {
                 (true, false) => &[FRICTION],
                 _ => &[],
             };
-            let (off, largest) = kind.spread.look(batches, (&self.attained, settled));
+            even.settle(settled);
+            let (off, largest) = kind.spread.look(batches, &self.attained);
             even.bound(&off);
             for (i, fastest) in fastest.iter_mut().enumerate() {
                 *fastest = fastest.max(largest[self.place_of_speed(i)]);

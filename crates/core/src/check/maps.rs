@@ -95,13 +95,12 @@ impl Spread {
         self.loud.clear();
     }
 
-    /// Looks at all batches of knots: largest outputs, then largest inputs of the map; outputs that are settled
-    /// pass no peak. Returns how far each output may leave its chord, batch by batch, and the largest that it
-    /// can be.
+    /// Looks at all batches of knots: largest outputs, then largest inputs of the map. Returns how far each
+    /// output may leave its chord, batch by batch, and the largest that it can be.
     pub(super) fn look<'b>(
         &mut self,
         batches: impl Iterator<Item = (&'b [f64], Vec<f64>)>,
-        (attained, settled): (&[f64], &[usize]),
+        attained: &[f64],
     ) -> (Vec<Vec<f64>>, Vec<f64>) {
         let mut largest = attained.to_vec();
         let mut off = vec![Vec::new(); attained.len()];
@@ -114,7 +113,7 @@ impl Spread {
             for (g, bounds) in &self.leaving {
                 let far: f64 = bounds.iter().map(|&(input, bound)| bound * inputs[input]).sum();
                 let passes = !(outputs[*g] + far <= attained[*g] * (1.0 + 1e-12));
-                loud |= u64::from(passes && !settled.contains(g)) << (g % 64);
+                loud |= u64::from(passes) << (g % 64);
                 largest[*g] = largest[*g].max(outputs[*g] + far);
                 if let Some(last) = off[*g].last_mut() {
                     *last = far;

@@ -67,6 +67,8 @@ struct Way {
     map: Map,
     terms: usize,
     deciding: Vec<Deciding>,
+    /// Outputs that pass no peak where no decision is near, a bit each.
+    settled: u64,
 }
 
 /// What decides about an interface.
@@ -122,13 +124,18 @@ impl Even {
             };
             Deciding { sticks, output, off: Vec::new() }
         });
-        let way = Way { length_s, map, terms, deciding: deciding.collect() };
+        let way = Way { length_s, map, terms, deciding: deciding.collect(), settled: 0 };
         Self { way, run: lanes(), rest: lanes() }
     }
 
     /// What decides about the slider, if it sticks.
     pub(super) fn holds(&self) -> bool {
         self.way.deciding[0].sticks
+    }
+
+    /// Takes the outputs that pass no peak where no decision is near.
+    pub(super) fn settle(&mut self, outputs: &[usize]) {
+        self.way.settled = outputs.iter().fold(0, |bits, g| bits | 1 << g);
     }
 
     /// Takes how far outputs may leave their chords, batch by batch.
@@ -287,7 +294,7 @@ impl LaneJudge<'_> {
         for i in 0..way.deciding.len() {
             named |= self.near(simd, i, (way, spread), (group, &places), floors, pass.work);
         }
-        let loud = spread.loud(&group.knots);
+        let loud = spread.loud(&group.knots) & !way.settled;
         if loud != 0 {
             named |= self.passing(simd, group, (spread, loud), pass);
         }
