@@ -7,22 +7,33 @@
 //! matrices nor modes nor propagators.
 
 mod collocation;
+mod courses;
 mod damping;
 mod decisions;
 mod demands;
 mod energy;
+mod equations;
 mod events;
 mod ground;
 mod group;
+mod intervals;
 mod judge;
 mod knots;
 mod lane;
 mod law;
+mod maps;
+mod margins;
 mod near;
+mod order;
 mod outputs;
+mod path;
+mod peaks;
 mod rate;
+mod stored;
 mod structure;
+mod sweep;
 
+use self::energy::Books;
 use self::judge::Judge;
 use self::law::Law;
 use self::structure::{Phase, Structure};
@@ -83,8 +94,8 @@ pub struct Certificate {
     /// stick the demand beyond its bound, at any instant; in slip `|T + μ_k N sgn ṡ|` with the sign
     /// that `ṡ` really has; at a change of mode, by how much the demand forbids it.
     pub friction_excess: f64,
-    /// Largest imbalance of energy at a knot, over the largest sum of `E₀`, the integral of the size
-    /// of the table's power, what springs that follow the normal force give back, and the four kinds of
+    /// Largest imbalance of energy at a knot, over the largest sum of `E₀`, the sizes of the table's work
+    /// interval by interval, what springs that follow the normal force give back, and the four kinds of
     /// energy.
     pub energy_balance_error: f64,
     /// Largest difference of a printed demand from the one recomputed from the check's own path, over
@@ -97,11 +108,16 @@ pub struct Certificate {
     /// What the first four must stay below: max(1e-10, 100 ε ω_max t_end), with Gershgorin's upper
     /// bound on the fastest rate, sliding or not, as `ω_max`.
     pub bound: f64,
-    /// Energy by kind at every knot.
-    pub energy: EnergyHistory,
+    books: Books,
 }
 
 impl Certificate {
+    /// Energy by kind at every knot; empty where nothing could be judged.
+    #[must_use]
+    pub fn energy(&self) -> EnergyHistory {
+        self.books.history()
+    }
+
     /// Whether the first four figures stay within the bound.
     #[must_use]
     pub fn holds(&self) -> bool {
@@ -190,7 +206,7 @@ fn unjudged(bound: f64) -> Certificate {
         demands_error: f64::INFINITY,
         closest_call: None,
         bound,
-        energy: EnergyHistory::default(),
+        books: Books::default(),
     }
 }
 

@@ -144,7 +144,7 @@ impl Response {
 
     /// Energies at the knots in J.
     fn _energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let energy = &self.outcome.nominal.certificate.energy;
+        let energy = self.outcome.nominal.certificate.energy();
         let columns = PyDict::new(py);
         for (name, values) in [
             ("input_j", &energy.input_j),

@@ -180,7 +180,7 @@ impl Judgement {
         let solved = stepwise.as_ref().and_then(|response| response.as_ref().ok());
         let third = solved.map_or_else(none, of);
         let certificate = &outcome.nominal.certificate;
-        let energy = &certificate.energy;
+        let energy = certificate.energy();
         let mut keys = vec![
             ("text", text.into()),
             ("rows", rows(summary, display)),

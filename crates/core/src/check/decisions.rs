@@ -1,106 +1,133 @@
 //! Decisions at knots: what lets go, what stops, what strikes, and how close it was.
 
-use fearless_simd::dispatch;
+use core::ops::Range;
 
 use super::ClosestCall;
 use super::events::SLOWEST_IMPACT_M_PER_S;
-use super::ground::{Load, of_side};
-use super::group::{Feed, Group, UNBOUNDED, Work};
+use super::ground::{Load, nearest};
+use super::group::{Feed, Group, UNBOUNDED};
 use super::judge::Judge;
-use super::lane::LANES;
 use super::law::StickDemand;
 use super::outputs::{FRICTION, STOREYS};
+use super::path::Work;
 use super::structure::{excess, larger};
 use crate::response::Mode;
 use crate::slider::Direction;
 
-/// A knot at which something changes its mode, and what is asked in modes and under loads that may have
-/// led to it.
-struct Change {
-    knot: usize,
-    before: Vec<Mode>,
-    modes: Vec<Vec<Mode>>,
+/// Changes of modes at knots, and what is asked there in modes and under loads that may have led to them.
+#[derive(Default)]
+struct Asked {
+    changes: Vec<Change>,
+    /// Lists of modes, one after another, and loads.
+    modes: Vec<Mode>,
     loads: Vec<Load>,
-    /// Of every load in every list of modes: `T`, the mass of the block with what sticks to it, the
-    /// accelerations of contents.
-    forces: Vec<Vec<f64>>,
+    /// Of every list of modes of a change under every load: `T`, the mass of the block with what sticks to
+    /// it, the accelerations of contents.
+    forces: Vec<f64>,
+    interfaces: usize,
 }
 
-impl Change {
-    /// Takes modes that are to be asked about.
-    fn ask(&mut self, modes: Vec<Mode>) {
-        if !self.modes.contains(&modes) {
-            self.modes.push(modes);
+/// A knot at which something changes its mode: which lists of modes and loads belong to it.
+struct Change {
+    knot: usize,
+    modes: Range<usize>,
+    loads: Range<usize>,
+    /// The first of its forces.
+    forces: usize,
+}
+
+impl Asked {
+    fn modes(&self, list: usize) -> &[Mode] {
+        &self.modes[list * self.interfaces..][..self.interfaces]
+    }
+
+    /// Adds modes of which one interface perhaps sticks to those of the change from a list on.
+    fn ask(&mut self, first: usize, modes: &[Mode], sticks: Option<usize>) {
+        let from = self.modes.len();
+        self.modes.extend_from_slice(modes);
+        if let Some(i) = sticks {
+            self.modes[from + i] = Mode::Stick;
+        }
+        let last = from / self.interfaces;
+        if (first..last).any(|list| self.modes(list) == self.modes(last)) {
+            self.modes.truncate(from);
         }
     }
 
-    fn forces(&self, modes: &[Mode], load: &Load) -> &[f64] {
-        let of = |modes: Option<usize>, load: Option<usize>| {
-            self.forces.get(modes? * self.loads.len() + load?)
+    /// The forces of a change in modes, of which one interface perhaps sticks, under a load.
+    fn forces(
+        &self,
+        change: &Change,
+        modes: &[Mode],
+        sticks: Option<usize>,
+        load: &Load,
+    ) -> &[f64] {
+        let same = |list: usize| {
+            let pairs = self.modes(list).iter().zip(modes).enumerate();
+            pairs
+                .into_iter()
+                .all(|(i, (own, mode))| *own == if sticks == Some(i) { Mode::Stick } else { *mode })
         };
-        let modes = self.modes.iter().position(|own| own == modes);
-        let load = self.loads.iter().position(|own| own == load);
-        of(modes, load).map_or(&[], |forces| &forces[..])
+        let lists = change.modes.clone().position(same);
+        let load = self.loads[change.loads.clone()].iter().position(|own| own == load);
+        let (Some(list), Some(load)) = (lists, load) else { return &[] };
+        let stride = 1 + self.interfaces;
+        let at = change.forces + (list * change.loads.len() + load) * stride;
+        self.forces.get(at..at + stride).unwrap_or(&[])
     }
-}
-
-/// Modes of which one interface sticks.
-fn held(modes: &[Mode], i: usize) -> Vec<Mode> {
-    let mut modes = modes.to_vec();
-    modes[i] = Mode::Stick;
-    modes
 }
 
 impl Judge<'_> {
     /// Judges all decisions at knots.
     pub(super) fn decide(&mut self) {
-        let mut changes = Vec::new();
-        let before = self.modes_at_start();
-        if before != self.h.modes(0) {
-            changes.push(self.change(0, before));
+        let mut asked = Asked { interfaces: self.h.interfaces, ..Asked::default() };
+        if self.at_start != self.h.modes(0) {
+            self.change(0, &mut asked);
         }
-        for k in 1..self.h.len() {
-            let before = self.h.modes(k - 1);
+        for run in 1..self.runs.len() {
+            let k = self.runs[run].from;
             if self.strikes(k) {
                 self.impact(k);
-            } else if before != self.h.modes(k) {
-                changes.push(self.change(k, before.to_vec()));
+            } else if self.before(k) != self.h.modes(k) {
+                self.change(k, &mut asked);
             }
         }
-        self.ask(&mut changes);
-        for change in &changes {
-            self.changes(change);
-            self.releases(change);
+        self.ask(&mut asked);
+        for change in &asked.changes {
+            self.changes(change, &asked);
+            self.releases(change, &asked);
         }
     }
 
+    /// Modes before a knot.
+    fn before(&self, k: usize) -> &[Mode] {
+        k.checked_sub(1).map_or(&self.at_start[..], |k| self.h.modes(k))
+    }
+
     /// What is to be asked at a knot.
-    fn change(&self, knot: usize, before: Vec<Mode>) -> Change {
-        let mut loads: Vec<Load> = Vec::with_capacity(4);
-        for load in self.ground.instant(self.h.time_s[knot]) {
-            if !loads.contains(&load) {
-                loads.push(load);
+    fn change(&self, knot: usize, asked: &mut Asked) {
+        let (list, load) = (asked.modes.len() / asked.interfaces, asked.loads.len());
+        for now in self.ground.instant(self.h.time_s[knot]) {
+            if !asked.loads[load..].contains(&now) {
+                asked.loads.push(now);
             }
         }
-        let after = self.h.modes(knot);
+        let (before, after) = (self.before(knot), self.h.modes(knot));
         let at_rest = self.at_rest(knot);
-        let mut change =
-            Change { knot, before: before.clone(), modes: Vec::new(), loads, forces: Vec::new() };
         for i in (0..after.len()).filter(|&i| before[i] != after[i]) {
-            for others in [&before[..], after, &at_rest] {
-                change.ask(held(others, i));
+            for others in [before, after, &at_rest] {
+                asked.ask(list, others, Some(i));
             }
         }
-        let gone = gone(&before, after);
+        let gone = gone(before, after);
         if gone.len() > 1 {
-            change.ask(before.clone());
+            asked.ask(list, before, None);
             for &i in &gone {
-                let mut modes = before.clone();
-                modes[i] = after[i];
-                change.ask(modes);
+                asked.ask(list, &let_go(before, after, i), None);
             }
         }
-        change
+        let (modes, loads) = (list..asked.modes.len() / asked.interfaces, load..asked.loads.len());
+        asked.changes.push(Change { knot, modes, loads, forces: 0 });
     }
 
     /// Modes after a knot, of which what has no velocity sticks.
@@ -113,36 +140,42 @@ impl Judge<'_> {
     }
 
     /// Finds the forces of all changes, eight at a time.
-    fn ask(&self, changes: &mut [Change]) {
+    fn ask(&self, asked: &mut Asked) {
         let bench = self.bench();
         let mut work = Work::new(&bench, STOREYS);
         let mut group = Group::new(&bench);
-        let all: Vec<(usize, usize, usize)> = changes
-            .iter()
-            .enumerate()
-            .flat_map(|(c, change)| {
-                let loads = change.loads.len();
-                (0..change.modes.len()).flat_map(move |m| (0..loads).map(move |l| (c, m, l)))
-            })
-            .collect();
-        for part in all.chunks(LANES) {
-            for &(c, m, l) in part {
-                let change = &changes[c];
-                let feed = Feed::instant(change.loads[l]);
-                group.push(&bench, &self.course(change.knot, &change.modes[m], feed));
-            }
+        let stride = 1 + asked.interfaces;
+        let mut count = 0;
+        for change in &mut asked.changes {
+            change.forces = count * stride;
+            count += change.modes.len() * change.loads.len();
+        }
+        let mut forces = Vec::with_capacity(count * stride);
+        let mut find = |group: &mut Group| {
+            let lanes = group.count;
             group.fill();
-            let (level, ground) = (self.level, &self.ground);
-            dispatch!(level, simd => bench.instants(simd, &mut group, ground, &mut work));
-            for (lane, &(c, _, _)) in part.iter().enumerate() {
-                let mut forces =
-                    vec![work.ends[0][FRICTION].0[lane], bench.block_mass(&group, lane)];
+            bench.instants(group, &self.ground, &mut work);
+            for lane in 0..lanes {
+                forces.extend([work.ends[0][FRICTION].0[lane], bench.block_mass(group, lane)]);
                 let contents = 0..self.structure.contents.len();
                 forces.extend(contents.map(|e| bench.acceleration(&work, e, lane)));
-                changes[c].forces.push(forces);
             }
             group.count = 0;
+        };
+        for change in &asked.changes {
+            for list in change.modes.clone() {
+                for load in &asked.loads[change.loads.clone()] {
+                    let course = self.course(change.knot, asked.modes(list), Feed::instant(*load));
+                    if group.push(&bench, &course) {
+                        find(&mut group);
+                    }
+                }
+            }
         }
+        if group.count > 0 {
+            find(&mut group);
+        }
+        asked.forces = forces;
     }
 
     /// What an interface at rest is asked for by a demand or an acceleration of contents.
@@ -188,28 +221,18 @@ impl Judge<'_> {
         }
     }
 
-    /// What an interface held at rest is asked for at a change, with the rounding of it; `leans` where
-    /// rigid stops hold too.
-    fn asked(
-        &self,
-        change: &Change,
-        modes: &[Mode],
-        (i, leans): (usize, bool),
-        load: &Load,
-    ) -> (StickDemand, f64) {
-        let forces = change.forces(modes, load);
-        let of = |place: usize| forces.get(place).copied().unwrap_or(f64::NAN);
-        let (value, mass_kg) = match i.checked_sub(1) {
-            None => (of(0), of(1)),
-            Some(e) => (of(2 + e), self.structure.contents[e].mass_kg),
-        };
-        let stored = self.h.surface_displacements(change.knot);
-        let mut hold = match change.before[0] {
-            Mode::Slip(slid) => self.law.hold(&self.law.off_ends(stored, slid)),
-            Mode::Stick => self.law.hold(stored),
+    /// Between which `T/N` the slider is held after what it did before a knot; `leans` where rigid stops hold
+    /// too.
+    fn hold_at(&self, k: usize, leans: bool) -> [f64; 2] {
+        let stored = self.h.surface_displacements(k);
+        let mut hold = match self.before(k)[0] {
+            Mode::Slip(slid) if self.law.series.is_some() => {
+                self.law.hold(&self.law.off_ends(stored, slid))
+            }
+            _ => self.law.hold(stored),
         };
         if leans {
-            let [positive, negative] = self.law.leans(self.h.sliding_displacement_m[change.knot]);
+            let [positive, negative] = self.law.leans(self.h.sliding_displacement_m[k]);
             if positive {
                 hold[0] = -UNBOUNDED;
             }
@@ -217,37 +240,56 @@ impl Judge<'_> {
                 hold[1] = UNBOUNDED;
             }
         }
+        hold
+    }
+
+    /// What an interface at rest is asked for by the forces at a change, with the rounding of it.
+    fn asked(&self, i: usize, forces: &[f64], hold: [f64; 2], load: &Load) -> (StickDemand, f64) {
+        let of = |place: usize| forces.get(place).copied().unwrap_or(f64::NAN);
+        let (value, mass_kg) = match i.checked_sub(1) {
+            None => (of(0), of(1)),
+            Some(e) => (of(2 + e), self.structure.contents[e].mass_kg),
+        };
         (self.asked_in(i, value, hold, load.normal), self.rounding(i, mass_kg, load))
     }
 
     /// Judges the changes of mode at a knot, at which what changes has no velocity.
-    fn changes(&mut self, change: &Change) {
-        let (k, before, after) = (change.knot, &change.before[..], self.h.modes(change.knot));
-        let all = self.ground.instant(self.h.time_s[k]);
-        let loads = of_side(&all, self.h.table_acceleration_m_per_s2[k]);
+    fn changes(&mut self, change: &Change, asked: &Asked) {
+        let k = change.knot;
+        let (h, time_s) = (self.h, self.h.time_s[k]);
+        let after = h.modes(k);
+        let all = self.ground.instant(time_s);
+        let nearest_s = nearest(&all, h.table_acceleration_m_per_s2[k]);
         let at_rest = self.at_rest(k);
-        let time_s = self.h.time_s[k];
-        for i in (0..after.len()).filter(|&i| before[i] != after[i]) {
+        for i in 0..after.len() {
+            let before = self.before(k);
+            let was = before[i];
+            if was == after[i] {
+                continue;
+            }
+            // A bounce below the rounding of s turns back to the stop: that does not hold it.
+            let hold = self.hold_at(k, after[i] == Mode::Stick);
             // The others may have changed before it or after it, or been held meanwhile.
-            let (mut least, mut nearest) = (f64::INFINITY, f64::INFINITY);
+            let (mut least, mut closest) = (f64::INFINITY, f64::INFINITY);
             let mut margin = None;
-            // What a jump passes on its way lets go too.
-            let passed = if before[i] == Mode::Stick { &all[..] } else { &loads[..] };
-            for load in passed {
-                let others = [before, after, &at_rest];
-                let alone = if after.len() == 1 { 1 } else { others.len() };
-                for (place, others) in others.into_iter().take(alone).enumerate() {
-                    // A bounce below the rounding of s turns back to the stop: that does not hold it.
-                    let leans = after[i] == Mode::Stick;
-                    let (asked, rounding) = self.asked(change, &held(others, i), (i, leans), load);
+            let alone = if after.len() == 1 { 1 } else { 3 };
+            for (load, is_nearest) in all.iter().zip(nearest_s) {
+                // What a jump passes on its way lets go too.
+                if !(is_nearest || was == Mode::Stick) {
+                    continue;
+                }
+                for (place, others) in [before, after, &at_rest].into_iter().take(alone).enumerate()
+                {
+                    let forces = asked.forces(change, others, Some(i), load);
+                    let (asked, rounding) = self.asked(i, forces, hold, load);
                     let beyond = match after[i] {
                         Mode::Stick => asked.beyond(),
                         Mode::Slip(Direction::Positive) => asked.demand - asked.low,
                         Mode::Slip(Direction::Negative) => asked.high - asked.demand,
                     };
                     let beyond = excess(beyond - rounding);
-                    if place == 0 && beyond <= nearest {
-                        nearest = beyond;
+                    if place == 0 && beyond <= closest {
+                        closest = beyond;
                         margin = asked.margin().map(|m| (m.abs(), rounding / asked.bound()));
                     }
                     least = least.min(beyond);
@@ -255,16 +297,17 @@ impl Judge<'_> {
             }
             // Distances that are not numbers leave no candidate.
             self.figures.excess = larger(self.figures.excess, least);
-            if let (true, Some((margin, drift))) = (before[i] != Mode::Stick, margin) {
+            if let (true, Some((margin, drift))) = (was != Mode::Stick, margin) {
                 if i == 0 {
                     self.totals.decided(margin, drift);
                 }
                 self.nearest(ClosestCall { margin, time_s, kind: "stop", interface: i });
             }
         }
-        if before[0] != Mode::Stick
-            && before[0] != after[0]
-            && let Some(margin) = self.law.next_join(self.h.surface_displacements(k), before[0])
+        let was = self.before(k)[0];
+        if was != Mode::Stick
+            && was != after[0]
+            && let Some(margin) = self.law.next_join(h.surface_displacements(k), was)
         {
             self.nearest(ClosestCall { margin, time_s, kind: "join", interface: 0 });
         }
@@ -272,21 +315,28 @@ impl Judge<'_> {
 
     /// Interfaces that let go at one knot: a close call where one of them, had it let go first, would have
     /// held the other back. Along a jump each reaches its bound at a part of the way.
-    fn releases(&mut self, change: &Change) {
-        let (k, before, after) = (change.knot, &change.before, self.h.modes(change.knot));
+    fn releases(&mut self, change: &Change, list: &Asked) {
+        let (k, after) = (change.knot, self.h.modes(change.knot));
+        let before = self.before(k);
         let gone = gone(before, after);
         if gone.len() < 2 {
             return;
         }
         let all = self.ground.instant(self.h.time_s[k]);
-        let side = |table: f64| of_side(&all, table)[0];
+        let side = |table: f64| {
+            let place = nearest(&all, table).iter().position(|is| *is);
+            all[place.unwrap_or(0)]
+        };
         let to = side(self.h.table_acceleration_m_per_s2[k]);
         let from = match k.checked_sub(1).filter(|&j| self.h.time_s[j] == self.h.time_s[k]) {
             Some(j) => side(self.h.table_acceleration_m_per_s2[j]),
             None => all[0],
         };
         let jumps = (from.table, from.normal) != (to.table, to.normal);
-        let at = |load: &Load, modes: &[Mode], i| self.asked(change, modes, (i, false), load).0;
+        let hold = self.hold_at(k, false);
+        let at = |load: &Load, modes: &[Mode], i| {
+            self.asked(i, list.forces(change, modes, None, load), hold, load).0
+        };
         let reached = |i: usize| {
             let [first, last] = [&from, &to].map(|load| at(load, before, i));
             if !jumps {
@@ -299,8 +349,7 @@ impl Judge<'_> {
         };
         let mut calls = Vec::new();
         for &i in &gone {
-            let mut modes = before.clone();
-            modes[i] = after[i];
+            let modes = let_go(before, after, i);
             for &j in gone.iter().filter(|&&j| j != i) {
                 if at(&to, &modes, j).beyond() <= 0.0 {
                     let (a, b) = (reached(i), reached(j));
@@ -377,6 +426,13 @@ impl Judge<'_> {
         }
         calls
     }
+}
+
+/// Modes before a knot, but for one interface, which has let go.
+fn let_go(before: &[Mode], after: &[Mode], i: usize) -> Vec<Mode> {
+    let mut modes = before.to_vec();
+    modes[i] = after[i];
+    modes
 }
 
 /// Interfaces that let go.

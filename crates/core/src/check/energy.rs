@@ -1,83 +1,118 @@
 //! The balance of energy in the frame of the table.
 
 use super::EnergyHistory;
-use super::group::Spent;
-use super::structure::{excess, larger};
+use super::lane::LANES;
+use super::path::Spent;
 
-/// A sum that keeps what rounding drops, so that a long record costs no digits.
-#[derive(Clone, Copy, Default)]
-struct Sum {
-    total: f64,
-    dropped: f64,
+/// Energies at knots, and what the intervals that begin there spend, in J.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Books {
+    /// Initial energy `E₀`, of which a stop has taken a part.
+    pub(super) initial: [f64; 2],
+    pub(super) kinetic: Vec<f64>,
+    pub(super) strain: Vec<f64>,
+    pub(super) work: Vec<f64>,
+    /// Size of the work and of what springs give back that follow `N`; empty without such.
+    pub(super) size: Vec<f64>,
+    pub(super) damping: Vec<f64>,
+    pub(super) friction: Vec<f64>,
+    /// What the rounding of the loads makes of them; empty where `N` is constant.
+    pub(super) blur: Vec<f64>,
 }
 
-impl Sum {
-    fn add(&mut self, value: f64) {
-        // Knuth's sum of two: what `total` lacks, exactly.
-        let total = self.total + value;
-        let taken = total - self.total;
-        self.dropped += (self.total - (total - taken)) + (value - taken);
-        self.total = total;
-    }
-
-    fn value(self) -> f64 {
-        self.total + self.dropped
-    }
-}
-
-/// Work and losses up to now, and the balance at every knot.
-#[derive(Default)]
-pub(super) struct Energy {
-    input: Sum,
-    size: Sum,
-    damping: Sum,
-    friction: Sum,
-    /// What rounding of the loads makes of them so far.
-    blur: f64,
-    difference: f64,
-    scale: f64,
-    pub(super) history: EnergyHistory,
-}
-
-impl Energy {
-    /// Begins with the initial energy `E₀`, of which a stop has taken `stop_j`; `rounding_j` is what the
-    /// rounding of times makes of a system at rest. All in J.
-    pub(super) fn start(&mut self, initial_j: f64, stop_j: f64, rounding_j: f64, knots: usize) {
-        let history = &mut self.history;
-        for list in [&mut history.input_j, &mut history.damping_j, &mut history.friction_j] {
-            list.reserve(knots);
+impl Books {
+    /// None spent yet, from these energies at knots on, with what a stop has taken.
+    pub(super) fn new(
+        [kinetic, strain]: [Vec<f64>; 2],
+        stop_j: f64,
+        [varies, follows]: [bool; 2],
+    ) -> Self {
+        let zeros = || vec![0.0; kinetic.len()];
+        Self {
+            initial: [kinetic[0] + strain[0] + stop_j, stop_j],
+            work: zeros(),
+            size: if follows { zeros() } else { Vec::new() },
+            damping: zeros(),
+            friction: zeros(),
+            blur: if varies { zeros() } else { Vec::new() },
+            kinetic,
+            strain,
         }
-        self.input.add(initial_j);
-        self.size.add(initial_j);
-        self.damping.add(stop_j);
-        self.scale = rounding_j;
     }
 
-    /// Adds what an interval has spent.
-    pub(super) fn spend(&mut self, spent: &Spent<f64>) {
-        self.input.add(spent.work);
-        self.size.add(spent.size);
-        self.damping.add(spent.damping);
-        self.friction.add(spent.friction);
-        self.blur += spent.blur;
+    /// Takes up what eight intervals have spent.
+    pub(super) fn put(&mut self, knots: &[usize; LANES], spent: &Spent) {
+        let lists = [
+            (&mut self.work, &spent.work),
+            (&mut self.size, &spent.size),
+            (&mut self.damping, &spent.damping),
+            (&mut self.friction, &spent.friction),
+            (&mut self.blur, &spent.blur),
+        ];
+        let (first, last) = (knots[0], knots[LANES - 1]);
+        let contiguous = knots.windows(2).all(|pair| pair[1] == pair[0] + 1);
+        for (list, values) in lists.into_iter().filter(|(list, _)| !list.is_empty()) {
+            if contiguous {
+                list[first..=last].copy_from_slice(&values.0);
+                continue;
+            }
+            for (knot, value) in knots.iter().zip(&values.0) {
+                list[*knot] = *value;
+            }
+        }
     }
 
-    /// Balances the books at a knot with this kinetic and strain energy in J.
-    pub(super) fn knot(&mut self, kinetic: f64, strain: f64) {
-        let [input, damping, friction] = [self.input, self.damping, self.friction].map(Sum::value);
-        let difference = input - kinetic - strain - damping - friction;
-        self.difference = larger(self.difference, excess(difference.abs() - self.blur));
-        self.scale = larger(
-            self.scale,
-            self.size.value() + kinetic + strain + damping.abs() + friction.abs(),
-        );
-        self.history.input_j.push(input);
-        self.history.damping_j.push(damping);
-        self.history.friction_j.push(friction);
+    /// The largest imbalance at a knot over the largest sum of all energies; `rounding` is what the rounding
+    /// of times makes of a system at rest, and `unsure` the part of an interval that it may be.
+    ///
+    /// The imbalances of intervals are added up, in which the energies have gone already: rounding grows with
+    /// what is exchanged, not with its sums.
+    pub(super) fn error(&self, rounding: f64, unsure: impl Fn(usize) -> f64) -> f64 {
+        let [initial, stop] = self.initial;
+        let (mut imbalance, mut blur, mut worst) = (0.0_f64, 0.0, 0.0_f64);
+        let (mut size, mut damping, mut friction) = (initial, stop, 0.0);
+        let mut scale = rounding;
+        for k in 0..self.kinetic.len() {
+            if let Some(last) = k.checked_sub(1) {
+                let stored =
+                    (self.kinetic[k] - self.kinetic[last]) + (self.strain[k] - self.strain[last]);
+                imbalance += (self.work[last] - self.damping[last] - self.friction[last]) - stored;
+                let worked = self.size.get(last).copied().unwrap_or(self.work[last].abs());
+                size += worked;
+                damping += self.damping[last];
+                friction += self.friction[last];
+                let spent = worked + self.friction[last].abs() + self.damping[last].abs();
+                blur += self.blur.get(last).unwrap_or(&0.0) + unsure(last) * spent;
+            }
+            worst = worst.max(imbalance.abs() - blur);
+            let held = self.kinetic[k] + self.strain[k];
+            scale = scale.max(size + held + damping.abs() + f64::abs(friction));
+        }
+        // What is not a number stays in the sum.
+        match (worst == 0.0, imbalance.is_nan() || scale.is_nan()) {
+            (_, true) => f64::INFINITY,
+            (true, _) => 0.0,
+            _ => worst / scale,
+        }
     }
 
-    /// The largest difference over the largest sum of everything.
-    pub(super) fn error(&self) -> f64 {
-        if self.difference == 0.0 { 0.0 } else { self.difference / self.scale }
+    /// Energy by kind at every knot.
+    pub(super) fn history(&self) -> EnergyHistory {
+        let sums = |from: f64, list: &[f64]| {
+            let mut sum = from;
+            let spent = list.iter().take(list.len().saturating_sub(1));
+            let sums = spent.map(|spent| {
+                sum += spent;
+                sum
+            });
+            core::iter::once(from).chain(sums).take(list.len()).collect()
+        };
+        EnergyHistory {
+            input_j: sums(self.initial[0], &self.work),
+            kinetic_j: self.kinetic.clone(),
+            strain_j: self.strain.clone(),
+            damping_j: sums(self.initial[1], &self.damping),
+            friction_j: sums(0.0, &self.friction),
+        }
     }
 }

@@ -39,11 +39,11 @@ pub(super) struct Piece {
     pub(super) loads: [Load; 2],
 }
 
-/// Of the loads at an instant those with the table acceleration nearest to one.
-pub(super) fn of_side(all: &[Load; 4], table: f64) -> Vec<Load> {
-    let off = |load: &Load| (load.table - table).abs();
-    let nearest = all.iter().map(off).fold(f64::INFINITY, f64::min);
-    all.iter().filter(|load| off(load) <= nearest).copied().collect()
+/// Which of the loads at an instant have the table acceleration nearest to one.
+pub(super) fn nearest(all: &[Load; 4], table: f64) -> [bool; 4] {
+    let off = all.map(|load| (load.table - table).abs());
+    let least = off.into_iter().fold(f64::INFINITY, f64::min);
+    off.map(|off| off <= least)
 }
 
 /// A motion under a model: its accelerations with the slope, and the normal force.
@@ -81,9 +81,8 @@ impl<'a> Ground<'a> {
         self.blur
     }
 
-    /// The piece from `from_s` on, no longer than to `end_s`; ends where contact is lost or found.
-    /// Quick where the times asked for do not decrease.
-    pub(super) fn piece(&mut self, from_s: f64, end_s: f64) -> Piece {
+    /// Moves to the last sample at or before a time.
+    fn seek(&mut self, from_s: f64) {
         let times = self.times_s;
         if times[self.cursor] > from_s {
             self.cursor = times.partition_point(|&t| t <= from_s).saturating_sub(1);
@@ -91,13 +90,20 @@ impl<'a> Ground<'a> {
         while self.cursor + 1 < times.len() && times[self.cursor + 1] <= from_s {
             self.cursor += 1;
         }
-        let i = self.cursor;
+    }
+
+    /// The piece from `from_s` on, no longer than to `end_s`; ends where contact is lost or found.
+    /// Quick where the times asked for do not decrease.
+    pub(super) fn piece(&mut self, from_s: f64, end_s: f64) -> Piece {
+        self.seek(from_s);
+        let (times, i) = (self.times_s, self.cursor);
         if i + 1 == times.len() {
             return Piece { to_s: end_s, loads: [self.at_rest(); 2] };
         }
         if from_s == times[i] && end_s == times[i + 1] && self.press(i) * self.press(i + 1) >= 0.0 {
             let [from, to] = [i, i + 1].map(|i| (self.horizontal[i], self.press(i)));
-            let loads = [from, to].map(|now| self.load(now, self.slopes(i)));
+            let slopes = self.slopes(i);
+            let loads = [self.load(from, slopes), self.load(to, slopes)];
             return Piece { to_s: end_s, loads };
         }
         let mut to_s = end_s.min(times[i + 1]);
@@ -115,7 +121,8 @@ impl<'a> Ground<'a> {
                 to.1 = 0.0;
             }
         }
-        Piece { to_s, loads: [from, to].map(|now| self.load(now, self.slopes(i))) }
+        let slopes = self.slopes(i);
+        Piece { to_s, loads: [self.load(from, slopes), self.load(to, slopes)] }
     }
 
     /// All that the table does at one instant: the limit from the left, the samples at that time,
@@ -143,12 +150,56 @@ impl<'a> Ground<'a> {
 
     /// Largest `N` and largest `|Ü|` up to a time.
     pub(super) fn largest(&self, end_s: f64) -> (f64, f64) {
-        let rest = self.at_rest();
-        let samples = self.times_s.iter().take_while(|&&t| t <= end_s).count();
-        (0..samples).fold((rest.normal, 0.0), |(normal, table), i| {
-            let load = self.load((self.horizontal[i], self.press(i)), [0.0; 2]);
-            (load.normal.max(normal), load.table.abs().max(table))
-        })
+        let samples = self.times_s.partition_point(|&t| t <= end_s);
+        let most = |list: &[f64], from: f64| list[..samples].iter().fold(from, |m, x| m.max(*x));
+        let table = self.horizontal[..samples].iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let up = self.vertical.map_or(0.0, |vertical| most(vertical, 0.0));
+        (self.load((0.0, self.gravity + up), [0.0; 2]).normal, table)
+    }
+
+    /// From which sample on, and how many, intervals between these times are those of even samples with
+    /// contact kept or lost throughout. Quick where the times asked for do not decrease.
+    pub(super) fn even(&mut self, times_s: &[f64], [step_s, same_s]: [f64; 2]) -> (usize, usize) {
+        self.seek(times_s[0]);
+        let from = self.cursor;
+        let samples = &self.times_s[from..];
+        let most = samples.len().min(times_s.len()) - 1;
+        let keeps = |i: usize| match self.vertical {
+            Some(_) => self.press(from + i) * self.press(from + i + 1) >= 0.0,
+            None => true,
+        };
+        let is_even = |i: &usize| {
+            times_s[*i] == samples[*i]
+                && times_s[i + 1] == samples[i + 1]
+                && (samples[i + 1] - samples[*i] - step_s).abs() <= same_s
+                && keeps(*i)
+        };
+        (from, (0..most).take_while(is_even).count())
+    }
+
+    /// `Ü` at the samples.
+    pub(super) fn horizontal(&self) -> &'a [f64] {
+        self.horizontal
+    }
+
+    /// `Üv` at the samples.
+    pub(super) fn vertical(&self) -> Option<&'a [f64]> {
+        self.vertical
+    }
+
+    /// `g cos θ`.
+    pub(super) fn gravity(&self) -> f64 {
+        self.gravity
+    }
+
+    /// Mass that presses on the surface.
+    pub(super) fn total_kg(&self) -> f64 {
+        self.total_kg
+    }
+
+    /// `N` without vertical motion.
+    pub(super) fn rest_normal(&self) -> f64 {
+        self.at_rest().normal
     }
 
     /// Whether the normal force varies.

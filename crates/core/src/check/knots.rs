@@ -1,7 +1,7 @@
 //! The knots by themselves: the balance of forces, energies, outputs.
 
-use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
+use fearless_simd::{Level, f64x8};
 
 use super::collocation::Rule;
 use super::lane::{Eight, LANES, Places, add_chain, all, chain_form, inlined, keep, larger};
@@ -12,18 +12,8 @@ use crate::error::Stopped;
 use crate::progress::Pulse;
 use crate::response::{History, Mode};
 
-/// Largest sizes of what is stored.
-#[derive(Clone, Copy)]
-pub(super) struct Sizes {
-    /// `s` and `r`.
-    pub(super) place: Eight,
-    /// `q`.
-    pub(super) storey: Eight,
-    /// `q̇` and `ṙ`.
-    pub(super) rate: Eight,
-    /// `Ü`.
-    pub(super) table: Eight,
-}
+/// Knots whose outputs and states are bounded together.
+pub(super) const BATCH: usize = 64;
 
 /// The worst of all lanes so far.
 pub(super) struct Worst {
@@ -35,7 +25,6 @@ pub(super) struct Worst {
     pub(super) sliding: Eight,
     /// What the rounding of `N` makes of places and velocities in an interval.
     pub(super) drift: [Eight; 2],
-    pub(super) sizes: Sizes,
     /// 0, or not a number where something stored is none.
     pub(super) broken: Eight,
 }
@@ -49,12 +38,6 @@ impl Worst {
         excess: Eight::ZERO,
         sliding: Eight::ZERO,
         drift: [Eight::ZERO; 2],
-        sizes: Sizes {
-            place: Eight::ZERO,
-            storey: Eight::ZERO,
-            rate: Eight::ZERO,
-            table: Eight::ZERO,
-        },
         broken: Eight::ZERO,
     };
 }
@@ -70,6 +53,7 @@ pub(super) struct LaneJudge<'a> {
     pub(super) instant_s: f64,
     /// Whether the normal force varies.
     pub(super) vertical: bool,
+    pub(super) level: Level,
 }
 
 /// What else there is to know of knots.
@@ -83,26 +67,44 @@ pub(super) struct Acting<'a> {
     pub(super) passed: &'a [usize],
 }
 
-/// What one look at the knots tells of each.
+/// What one look at the knots tells.
 pub(super) struct Knots {
-    /// Outputs one after another, `stride` values each.
-    pub(super) outputs: Vec<f64>,
-    pub(super) stride: usize,
     pub(super) kinetic_j: Vec<f64>,
     pub(super) strain_j: Vec<f64>,
-    pub(super) attained: Vec<f64>,
+    /// Largest sizes of the outputs, of `x`, `v`, `Ü`, `M⁻¹ K q` and `M⁻¹ K q̇`, batch after batch.
+    batches: Vec<f64>,
+    outputs: usize,
+    width: usize,
 }
 
 impl Knots {
-    pub(super) fn new(knots: usize, outputs: usize) -> Self {
+    pub(super) fn new(knots: usize, outputs: usize, [degrees, storeys]: [usize; 2]) -> Self {
         let stride = knots.next_multiple_of(LANES);
+        let (batches, kinetic_j, strain_j) = (Vec::new(), vec![0.0; stride], vec![0.0; stride]);
         Self {
-            outputs: vec![0.0; outputs * stride],
-            stride,
-            kinetic_j: vec![0.0; stride],
-            strain_j: vec![0.0; stride],
-            attained: vec![0.0; outputs],
+            kinetic_j,
+            strain_j,
+            batches,
+            outputs,
+            width: outputs + 2 * degrees + 1 + 2 * storeys,
         }
+    }
+
+    /// Largest sizes of the outputs, then of `x`, `v`, `Ü`, `M⁻¹ K q` and `M⁻¹ K q̇`, in every batch.
+    pub(super) fn batches(&self) -> impl Iterator<Item = (&[f64], &[f64])> {
+        self.batches.chunks_exact(self.width).map(|batch| batch.split_at(self.outputs))
+    }
+
+    /// The same in all.
+    pub(super) fn largest(&self) -> (Vec<f64>, Vec<f64>) {
+        let mut largest = vec![0.0_f64; self.width];
+        for batch in self.batches.chunks_exact(self.width) {
+            for (largest, size) in largest.iter_mut().zip(batch) {
+                *largest = largest.max(*size);
+            }
+        }
+        let sizes = largest.split_off(self.outputs);
+        (largest, sizes)
     }
 }
 
@@ -153,15 +155,6 @@ impl LaneJudge<'_> {
         all(simd, s.damper) * w * w + storeys
     }
 
-    /// `T` in a slip at a velocity, of a load of sliding.
-    #[inline(always)]
-    pub(super) fn sliding_force<S: Simd>(&self, simd: S, w: f64x8<S>, load: f64x8<S>) -> f64x8<S> {
-        match &self.law.rate {
-            Some(rate) => load * f64x8::load_array(simd, rate.coefficients(w.abs().to_array())),
-            None => load,
-        }
-    }
-
     /// `1ᵀ (C q̇ + K q)`.
     #[inline(always)]
     pub(super) fn base_force<S: Simd>(
@@ -191,22 +184,23 @@ impl LaneJudge<'_> {
     ) -> Result<(), Stopped> {
         let count = self.structure.masses_kg.len();
         let mut bodies = Bodies::new(count, self.structure.contents.len());
-        let mut attained = vec![Eight::ZERO; outputs.len()];
+        let mut largest = vec![Eight::ZERO; knots.width];
         let last = self.history.len() - 1;
         for from in (0..=last).step_by(LANES) {
             pulse.beat(16 * self.structure.degrees() as u32)?;
             let places = Places::new(core::array::from_fn(|lane| (from + lane).min(last)));
             // One storey gets loops of its own.
             let (n, at) = (count, (from, &places));
-            let to = (&mut *knots, &mut bodies, &mut attained[..]);
+            let to = (&mut *knots, &mut bodies, &mut largest[..]);
             if n == 1 {
                 self.eight_knots(simd, 1, at, acting, outputs, worst, to);
             } else {
                 self.eight_knots(simd, n, at, acting, outputs, worst, to);
             }
-        }
-        for (attained, lanes) in knots.attained.iter_mut().zip(&attained) {
-            *attained = lanes.largest();
+            if (from + LANES).is_multiple_of(BATCH) || from + LANES > last {
+                knots.batches.extend(largest.iter().map(Eight::largest));
+                largest.fill(Eight::ZERO);
+            }
         }
         Ok(())
     }
@@ -232,7 +226,7 @@ impl LaneJudge<'_> {
         acting: Acting<'_>,
         outputs: &Outputs,
         worst: &mut Worst,
-        (knots, bodies, attained): (&mut Knots, &mut Bodies, &mut [Eight]),
+        (knots, bodies, largest): (&mut Knots, &mut Bodies, &mut [Eight]),
     ) {
         let (h, structure) = (self.history, self.structure);
         let zero = all(simd, 0.0);
@@ -256,8 +250,11 @@ impl LaneJudge<'_> {
             core::array::from_fn(|lane| if passes { lasts(lane) } else { 1.0 }),
         );
         let mut sum = s + w + block + table + force;
-        keep(simd, &mut worst.sizes.place, s.abs());
-        keep(simd, &mut worst.sizes.table, table.abs());
+        let d = structure.degrees();
+        let (attained, sizes) = largest.split_at_mut(outputs.len());
+        keep(simd, &mut sizes[0], s.abs());
+        keep(simd, &mut sizes[d], w.abs());
+        keep(simd, &mut sizes[2 * d], table.abs());
         for i in 0..n {
             let of = inlined(
                 #[inline(always)]
@@ -266,8 +263,8 @@ impl LaneJudge<'_> {
             let (q, v) = (of(&h.storey_displacement_m), of(&h.storey_velocity_m_per_s));
             let a = of(&h.storey_acceleration_m_per_s2);
             sum += q + v + a;
-            keep(simd, &mut worst.sizes.storey, q.abs());
-            keep(simd, &mut worst.sizes.rate, v.abs());
+            keep(simd, &mut sizes[1 + i], q.abs());
+            keep(simd, &mut sizes[d + 1 + i], v.abs());
             bodies.q[i].store(q);
             bodies.v[i].store(v);
             bodies.a[i].store(a);
@@ -276,6 +273,17 @@ impl LaneJudge<'_> {
         }
         // Eqs (9), (10): the largest defect and the largest single term.
         let mut term = add_chain(simd, n, &structure.stiffnesses, &bodies.q, &mut bodies.elastic);
+        let Bodies { v, elastic, viscous, .. } = &mut *bodies;
+        for (first, forces) in [(2 * d + 1, &mut *elastic), (2 * d + 1 + n, &mut *viscous)] {
+            if first > 2 * d + 1 {
+                add_chain(simd, n, &structure.stiffnesses, v, forces);
+            }
+            for (i, force) in forces.iter_mut().enumerate() {
+                let per_kg = all(simd, 1.0 / structure.masses_kg[i]);
+                keep(simd, &mut sizes[first + i], (force.load(simd) * per_kg).abs());
+            }
+        }
+        viscous.fill(Eight::ZERO);
         match &structure.damping {
             StoreyDamping::Chain(c) => {
                 term = larger(term, add_chain(simd, n, c, &bodies.v, &mut bodies.viscous));
@@ -309,8 +317,8 @@ impl LaneJudge<'_> {
             let p = of(&h.contents_velocity_m_per_s);
             let (r, a) = (of(&h.contents_displacement_m), of(&h.contents_acceleration_m_per_s2));
             sum += r + p + a;
-            keep(simd, &mut worst.sizes.place, r.abs());
-            keep(simd, &mut worst.sizes.rate, p.abs());
+            keep(simd, &mut sizes[1 + n + e], r.abs());
+            keep(simd, &mut sizes[d + 1 + n + e], p.abs());
             let mass = all(simd, contents.mass_kg);
             let inertia = mass * (a + slope);
             balance += inertia;
@@ -362,8 +370,6 @@ impl LaneJudge<'_> {
         let out = inlined(
             #[inline(always)]
             |g: usize, value: f64x8<S>| {
-                let to = g * knots.stride + from;
-                knots.outputs[to..to + LANES].copy_from_slice(&value.to_array());
                 keep(simd, &mut attained[g], value.abs() * lasts);
             },
         );

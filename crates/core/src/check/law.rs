@@ -129,9 +129,14 @@ impl Law {
             kinetic: model.kinetic_friction(),
             rate: RateFriction::new(model),
             series: model.slider().series().cloned(),
-            radius_m: model.slider().pendulum_radius_m(vertical),
+            radius_m: model.slider().pendulum_radius_m(vertical).filter(|_| vertical),
             stop: model.stop().copied(),
         }
+    }
+
+    /// The largest `|p₀|` of a slip: of friction by speed by the line of any of its pieces.
+    pub(super) fn most_sliding(&self) -> f64 {
+        self.rate.as_ref().map_or(self.most(), RateFriction::most)
     }
 
     /// The largest coefficient at rest.
@@ -147,6 +152,11 @@ impl Law {
     /// `1/R` of a spring that follows `N`.
     pub(super) fn curvature_per_m(&self) -> f64 {
         self.radius_m.map_or(0.0, |radius_m| 1.0 / radius_m)
+    }
+
+    /// Whether a force on the block follows `N` and `s`.
+    pub(super) fn follows(&self) -> bool {
+        self.series.is_some() || self.is_pendulum()
     }
 
     /// Whether the spring follows the normal force.
@@ -165,7 +175,7 @@ impl Law {
 
     /// `μ_k` at rest.
     fn kinetic_at_rest(&self, direction: Direction) -> f64 {
-        let factor = self.rate.as_ref().map_or(1.0, |rate| rate.coefficients([0.0])[0]);
+        let factor = self.rate.as_ref().map_or(1.0, |rate| rate.coefficient(0.0));
         self.sliding_load(direction).abs() * factor
     }
 

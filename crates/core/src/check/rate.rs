@@ -1,7 +1,15 @@
 //! Kinetic friction by sliding speed.
 
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::lane::{larger, smaller};
 use crate::model::Model;
 use crate::slider::{Direction, RateCurve};
+
+/// Up to which exponent so many terms of the series of exp leave less than rounding.
+const SERIES: f64 = 0.6;
+const TERMS: usize = 14;
 
 /// `μ_k(|ṡ|)` for a factor of 1:
 ///
@@ -46,23 +54,94 @@ impl RateFriction {
         })
     }
 
-    /// `μ_k` at speeds, for a factor of 1.
+    /// `μ_k` at a speed, for a factor of 1.
+    pub(super) fn coefficient(&self, speed_m_per_s: f64) -> f64 {
+        let slid =
+            |&[from, width, slope]: &[f64; 3]| slope * (speed_m_per_s - from).clamp(0.0, width);
+        let mu = self.base + self.pieces.iter().map(slid).sum::<f64>();
+        if self.drop == 0.0 { mu } else { mu - self.faded(speed_m_per_s) }
+    }
+
+    /// `(μ_fast − μ_slow) exp(−α |ṡ|)`.
+    fn faded(&self, speed_m_per_s: f64) -> f64 {
+        self.drop * libm::exp(-self.rate_s_per_m * speed_m_per_s)
+    }
+
+    /// The same of eight speeds.
     #[inline(always)]
-    pub(super) fn coefficients<const L: usize>(&self, speeds_m_per_s: [f64; L]) -> [f64; L] {
-        let mut mu = [self.base; L];
+    pub(super) fn faded_of<S: Simd>(&self, simd: S, speed: f64x8<S>) -> f64x8<S> {
+        if self.drop == 0.0 {
+            return f64x8::splat(simd, 0.0);
+        }
+        let mut lanes = speed.to_array();
+        for lane in &mut lanes {
+            *lane = self.faded(*lane);
+        }
+        f64x8::load_array(simd, lanes)
+    }
+
+    /// `μ_k` at eight speeds, for a factor of 1, from `[|ṡ|, (μ_fast − μ_slow) exp(−α |ṡ|)]` near them.
+    #[inline(always)]
+    pub(super) fn coefficients<S: Simd>(
+        &self,
+        simd: S,
+        speed: f64x8<S>,
+        [near, faded]: [f64x8<S>; 2],
+    ) -> f64x8<S> {
+        let all = f64x8::splat;
+        let (zero, mut mu) = (all(simd, 0.0), all(simd, self.base));
         for &[from, width, slope] in &self.pieces {
-            for lane in 0..L {
-                let above = speeds_m_per_s[lane] - from;
-                let above = if above > 0.0 { above } else { 0.0 };
-                mu[lane] += slope * if above < width { above } else { width };
-            }
+            let above = larger(zero, speed - all(simd, from));
+            mu += all(simd, slope) * smaller(all(simd, width), above);
         }
         if self.drop != 0.0 {
-            for lane in 0..L {
-                mu[lane] -= self.drop * libm::exp(-self.rate_s_per_m * speeds_m_per_s[lane]);
+            let z = all(simd, self.rate_s_per_m) * (near - speed);
+            if z.abs().simd_le(all(simd, SERIES)).all_true() {
+                // exp(z) = 1 + z (1 + z/2 (1 + z/3 (…))).
+                let mut exp = all(simd, 1.0);
+                for k in (1..=TERMS).rev() {
+                    exp = all(simd, 1.0) + z * all(simd, 1.0 / k as f64) * exp;
+                }
+                mu -= faded * exp;
+            } else {
+                mu -= self.faded_of(simd, speed);
             }
         }
         mu
+    }
+
+    /// The straight piece of `μ_k` in which two speeds lie, for a factor of 1: between which speeds, and
+    /// `μ_k = c + m |ṡ|`.
+    pub(super) fn piece(&self, speeds_m_per_s: [f64; 2]) -> Option<([f64; 2], [f64; 2])> {
+        if self.drop != 0.0 {
+            return None;
+        }
+        let ends = self.pieces.iter().map(|[from, width, _]| from + width);
+        let starts = self.pieces.first().map(|piece| piece[0]);
+        let corners = starts.into_iter().chain(ends);
+        let mut band = [0.0, f64::INFINITY];
+        for corner in corners {
+            if speeds_m_per_s[0] < corner {
+                band[1] = corner;
+                break;
+            }
+            band[0] = corner;
+        }
+        let slope = self.pieces.iter().find(|piece| piece[0] == band[0]).map_or(0.0, |p| p[2]);
+        // A steep line would lose digits of μ_k in c.
+        let keeps = (slope * band[0]).abs() <= 1.0;
+        let within = keeps && (band[0]..=band[1]).contains(&speeds_m_per_s[1]);
+        within.then(|| (band, [self.coefficient(band[0]) - slope * band[0], slope]))
+    }
+
+    /// The largest size of `c` of its pieces, in a direction.
+    pub(super) fn most(&self) -> f64 {
+        let lines = self.pieces.iter().flat_map(|[from, width, slope]| {
+            let mu = self.coefficient(*from);
+            [mu - slope * from, mu + slope * width]
+        });
+        let most = lines.fold(self.base.abs(), |most, c| most.max(c.abs()));
+        most * self.factors[0].max(self.factors[1])
     }
 
     /// Factor on the curve in a direction.
@@ -82,15 +161,15 @@ impl RateFriction {
 
 #[cfg(test)]
 mod tests {
-    use super::RateFriction;
-    use crate::model::Model;
-    use crate::slider::{Direction, Friction, RateCurve, RateLaw};
+    use super::*;
+    use crate::slider::{Friction, RateLaw};
+    use fearless_simd::{Level, dispatch};
 
-    /// As the definition of the law has it, alone and in lanes.
+    /// As the definition of the law has it, alone, in lanes and piece by piece.
     #[test]
     fn exact_is_the_law() {
         let pieces = RateCurve::Pieces {
-            speeds_m_per_s: vec![0.0, 1e-4, 0.05, 0.2],
+            speeds_m_per_s: vec![0.01, 0.02, 0.05, 0.2],
             coefficients: vec![0.1, 0.03, 0.05, 0.06],
         };
         let exponential = RateCurve::Exponential { slow: 0.03, fast: 0.06, rate_s_per_m: 25.0 };
@@ -101,11 +180,22 @@ mod tests {
             let own = RateFriction::new(&model).unwrap();
             for i in 0..200 {
                 let speed = 0.0017 * f64::from(i);
+                let mu = own.coefficient(speed);
                 for way in [Direction::Positive, Direction::Negative] {
-                    let [mu] = own.coefficients([speed]);
                     let (found, expected) = (own.factor(way) * mu, law.at(speed, way));
                     assert!((found - expected).abs() < 1e-16, "{speed}: {found} {expected}");
-                    assert_eq!(own.coefficients([0.01, speed, 0.3])[1], mu);
+                }
+                for near in [0.0, speed - 0.02, speed + 0.02] {
+                    let lanes = dispatch!(Level::new(), simd => {
+                        let [near, speed] = [near, speed].map(|x| f64x8::splat(simd, x));
+                        let faded = own.faded_of(simd, near);
+                        own.coefficients(simd, speed, [near, faded]).to_array()
+                    });
+                    assert!((lanes[3] - mu).abs() < 1e-16, "{speed}: {} {mu}", lanes[3]);
+                }
+                if let Some((band, [c, m])) = own.piece([speed; 2]) {
+                    assert!(band[0] <= speed && speed <= band[1] && own.pieces.len() > 1);
+                    assert!((c + m * speed - mu).abs() < 1e-15, "{speed}: {c} {m} {mu}");
                 }
             }
         }

@@ -29,6 +29,8 @@ pub(super) struct Structure {
     pub(super) block_kg: f64,
     pub(super) total_kg: f64,
     pub(super) masses_kg: Vec<f64>,
+    /// What moves with each degree: the momentum is their sum with the velocities.
+    pub(super) moved_kg: Vec<f64>,
     pub(super) spring: f64,
     pub(super) damper: f64,
     /// Stiffness and damper of the stop.
@@ -62,11 +64,20 @@ impl Structure {
                 (StoreyDamping::Full(full), base)
             }
         };
+        let contents = model.contents();
+        let on =
+            |floor: usize| contents.iter().filter(move |c| c.floor == floor).map(|c| c.mass_kg);
+        let floors = (0..n).map(|i| m[i] + on(1 + i).sum::<f64>());
+        let moved_kg = core::iter::once(model.total_mass_kg())
+            .chain(floors)
+            .chain(contents.iter().map(|c| c.mass_kg))
+            .collect();
         Self {
+            moved_kg,
             block_kg: model.block().mass_kg,
             total_kg: model.total_mass_kg(),
             masses_kg: m.clone(),
-            spring: match model.slider().pendulum_radius_m(vertical) {
+            spring: match model.slider().pendulum_radius_m(vertical).filter(|_| vertical) {
                 Some(_) => 0.0,
                 None => model.slider_stiffness_n_per_m(),
             },
@@ -80,7 +91,7 @@ impl Structure {
             stiffnesses: k.clone(),
             damping,
             base_damping,
-            contents: model.contents().to_vec(),
+            contents: contents.to_vec(),
         }
     }
 

@@ -7,7 +7,7 @@ use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
 
 /// Energy by kind, stacked up to the input; none where the certificate has no energies.
 pub fn by_kind(scene: &Scene) -> Option<Drawn> {
-    let energy = &scene.report.certificate.energy;
+    let energy = scene.report.certificate.energy();
     let kinds = [&energy.friction_j, &energy.damping_j, &energy.strain_j, &energy.kinetic_j];
     let knots = scene.history.len();
     if kinds.iter().any(|kind| kind.len() != knots) || energy.input_j.len() != knots {
