@@ -262,14 +262,11 @@ impl<'a> Judge<'a> {
                 (outputs, inputs)
             });
             // What is held with a margin passes no peak of `T` that is as near to what holds at most.
-            let holds = even.holds()
-                && self.attained[FRICTION] >= (1.0 - margin) * self.law.most() * normal;
-            let alike = self.structure.spring == 0.0 && self.law.curvature_per_m() == 0.0;
-            let settled: &[usize] = match (holds, alike) {
-                (true, true) => &[FRICTION, SLIDER],
-                (true, false) => &[FRICTION],
-                _ => &[],
-            };
+            let held_n = (1.0 - margin) * self.law.most() * normal;
+            let alike = self.structure.spring == 0.0 && kind.key.push == [0.0; 2];
+            let outputs = if alike { &[FRICTION, SLIDER][..] } else { &[FRICTION] };
+            let holds = even.holds();
+            let settled = outputs.iter().filter(|&&g| holds && self.attained[g] >= held_n);
             even.settle(settled);
             let (off, largest) = kind.spread.look(batches, &self.attained);
             even.bound(&off);

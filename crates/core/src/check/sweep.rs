@@ -134,8 +134,8 @@ impl Even {
     }
 
     /// Takes the outputs that pass no peak where no decision is near.
-    pub(super) fn settle(&mut self, outputs: &[usize]) {
-        self.way.settled = outputs.iter().fold(0, |bits, g| bits | 1 << g);
+    pub(super) fn settle<'o>(&mut self, outputs: impl Iterator<Item = &'o usize>) {
+        self.way.settled = outputs.fold(0, |bits, g| bits | 1 << g);
     }
 
     /// Takes how far outputs may leave their chords, batch by batch.
