@@ -2,7 +2,6 @@
 
 use fearless_simd::dispatch;
 
-use super::ClosestCall;
 use super::events::SLOWEST_IMPACT_M_PER_S;
 use super::ground::{Load, of_side};
 use super::group::{Feed, Group, UNBOUNDED, Work};
@@ -11,6 +10,7 @@ use super::lane::LANES;
 use super::law::StickDemand;
 use super::outputs::{FRICTION, STOREYS};
 use super::structure::{excess, larger};
+use super::{ClosestCall, DecisionKind};
 use crate::response::Mode;
 use crate::slider::Direction;
 
@@ -259,14 +259,19 @@ impl Judge<'_> {
                 if i == 0 {
                     self.totals.decided(margin, drift);
                 }
-                self.nearest(ClosestCall { margin, time_s, kind: "stop", interface: i });
+                self.nearest(ClosestCall {
+                    margin,
+                    time_s,
+                    kind: DecisionKind::Stop,
+                    interface: i,
+                });
             }
         }
         if before[0] != Mode::Stick
             && before[0] != after[0]
             && let Some(margin) = self.law.next_join(self.h.surface_displacements(k), before[0])
         {
-            self.nearest(ClosestCall { margin, time_s, kind: "join", interface: 0 });
+            self.nearest(ClosestCall { margin, time_s, kind: DecisionKind::Join, interface: 0 });
         }
     }
 
@@ -306,7 +311,12 @@ impl Judge<'_> {
                     let (a, b) = (reached(i), reached(j));
                     let margin = if jumps { (a - b).abs() } else { a.max(b) };
                     let time_s = self.h.time_s[k];
-                    calls.push(ClosestCall { margin, time_s, kind: "release", interface: j });
+                    calls.push(ClosestCall {
+                        margin,
+                        time_s,
+                        kind: DecisionKind::Release,
+                        interface: j,
+                    });
                 }
             }
         }
@@ -345,7 +355,7 @@ impl Judge<'_> {
         if before.abs() >= SLOWEST_IMPACT_M_PER_S {
             let margin = before.abs() / self.figures.velocity[1];
             let time_s = self.h.time_s[k];
-            self.nearest(ClosestCall { margin, time_s, kind: "impact", interface: 0 });
+            self.nearest(ClosestCall { margin, time_s, kind: DecisionKind::Impact, interface: 0 });
         }
     }
 
@@ -372,7 +382,7 @@ impl Judge<'_> {
             let turns = turns.filter(|(s, _)| *s < gap_m);
             if let Some((s, k)) = turns.reduce(|a, b| if b.0 > a.0 { b } else { a }) {
                 let (margin, time_s) = (1.0 - s / gap_m, h.time_s[k]);
-                calls.push(ClosestCall { margin, time_s, kind: "miss", interface: 0 });
+                calls.push(ClosestCall { margin, time_s, kind: DecisionKind::Miss, interface: 0 });
             }
         }
         calls
