@@ -33,6 +33,8 @@ mod stored;
 mod structure;
 mod sweep;
 
+use core::fmt;
+
 use self::energy::Books;
 use self::judge::Judge;
 use self::law::Law;
@@ -47,6 +49,48 @@ use crate::response::{History, Response, interface_name};
 /// steps of half a radian, so this also bounds the work.
 const MAX_RADIANS: f64 = 1e9;
 
+/// What was decided, and what its margin is a part of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum DecisionKind {
+    /// The demand where the block came to rest, `||demand| − bound|/bound`.
+    Stop,
+    /// A maximum of the demand while it held, `1 − |demand|/bound`.
+    Stick,
+    /// A minimum of `|ṡ|` over its peak in that slip, where `μ_k < μ_s`.
+    Slip,
+    /// The speed at a rigid stop over the largest.
+    Impact,
+    /// The way left to a rigid stop over the gap.
+    Miss,
+    /// Of surfaces in series, the force left to the next one.
+    Join,
+    /// How far apart two let go of which one alone would have held the other back.
+    Release,
+}
+
+impl DecisionKind {
+    /// Its name in JSON, tables and texts.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Stop => "stop",
+            Self::Stick => "stick",
+            Self::Slip => "slip",
+            Self::Impact => "impact",
+            Self::Miss => "miss",
+            Self::Join => "join",
+            Self::Release => "release",
+        }
+    }
+}
+
+impl fmt::Display for DecisionKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
 /// The decision that came closest to going the other way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosestCall {
@@ -54,12 +98,8 @@ pub struct ClosestCall {
     pub margin: f64,
     /// When, in s.
     pub time_s: f64,
-    /// `stop`: the demand where the block came to rest, `||demand| − bound|/bound`; `stick`: a maximum
-    /// of the demand while it held, `1 − |demand|/bound`; `slip`: a minimum of `|ṡ|` over its peak in
-    /// that slip, where `μ_k < μ_s`; `impact`, `miss`: of a rigid stop, the speed over the largest and
-    /// the way left over the gap; `join`: of surfaces in series, the force left to the next one;
-    /// `release`: how far apart two let go of which one alone would have held the other back.
-    pub kind: &'static str,
+    /// What was decided.
+    pub kind: DecisionKind,
     /// What decided: the slider (0) or contents counted from 1.
     pub interface: usize,
 }
@@ -75,7 +115,7 @@ impl ClosestCall {
     #[must_use]
     pub fn decision(&self) -> String {
         match self.interface {
-            0 => self.kind.to_owned(),
+            0 => self.kind.name().to_owned(),
             _ => format!("{} of {}", self.kind, self.interface_name()),
         }
     }

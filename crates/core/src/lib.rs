@@ -42,7 +42,8 @@
 //! | a ground motion: samples, made motions, spectra, intensity measures, processing | [`motion`] |
 //! | records of strong-motion networks, from bytes | [`record`] |
 //! | one analysis; the same model or motion many times | [`solver`] |
-//! | what comes of it: demands, events, histories, warnings | [`response`] |
+//! | what comes of it: demands, events, histories | [`response`] |
+//! | what to know of a result or a record, and how grave it is | [`notice`] |
 //! | the certificate of an answer | [`check`] |
 //! | one model over many records, levels and designs | [`study`] |
 //! | incremental dynamic analysis, fragility, design, suites | [`assessment`] |
@@ -71,6 +72,7 @@ pub mod laboratory;
 pub mod linear;
 pub mod model;
 pub mod motion;
+pub mod notice;
 #[doc(hidden)]
 pub mod numerics;
 pub mod progress;

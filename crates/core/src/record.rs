@@ -44,11 +44,12 @@ use std::collections::BTreeMap;
 
 use crate::error::{MotionError, RecordError};
 use crate::motion::{GroundMotion, MAX_STEP_S, Series};
+use crate::notice::Notice;
 
 pub(crate) use delimited::bracket;
 pub use delimited::{Column, Columns};
 pub use origin::Origin;
-pub use quality::{REST_KINDS, is_note, rest};
+pub use quality::{REST_KINDS, rest};
 pub(crate) use sampling::of_times;
 use text::Text;
 pub use unit::{Quantity, Units};
@@ -166,15 +167,6 @@ pub struct Options {
     pub dt_s: Option<f64>,
 }
 
-/// Something a reader of the record should know: a short stable name and one sentence.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct RecordWarning {
-    /// Short stable name, such as `times_rounded`.
-    pub kind: &'static str,
-    /// One sentence.
-    pub message: String,
-}
-
 /// When the values of a channel were sampled.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Sampling {
@@ -215,7 +207,7 @@ pub struct Channel {
     /// Filter, where stated.
     pub filter: FilterCorners,
     /// What to know about this channel.
-    pub warnings: Vec<RecordWarning>,
+    pub warnings: Vec<Notice>,
 }
 
 /// A file that was understood.
@@ -228,7 +220,7 @@ pub struct Record {
     /// Its channels, at least one, in the order of the file.
     pub channels: Vec<Channel>,
     /// What to know about the whole file.
-    pub warnings: Vec<RecordWarning>,
+    pub warnings: Vec<Notice>,
 }
 
 impl Record {
@@ -260,14 +252,6 @@ impl Record {
         };
         let numbered = || self.channels.get(name.parse::<usize>().ok()?.checked_sub(1)?);
         named.or_else(bare).or_else(numbered)
-    }
-}
-
-impl RecordWarning {
-    /// Whether it says how something was read and changes no decision.
-    #[must_use]
-    pub fn is_note(&self) -> bool {
-        is_note(self.kind)
     }
 }
 

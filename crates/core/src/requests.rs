@@ -22,7 +22,8 @@ use crate::assessment::{AssessmentError, refuse};
 use crate::error::{ChoiceError, MeasureError, UnitError};
 use crate::input::{Analysis, Bound, FrictionBounds, Override};
 use crate::motion::intensity::Measure;
-use crate::response::{DemandColumn, Warning};
+use crate::notice::Notice;
+use crate::response::DemandColumn;
 use crate::study::engine::Engine;
 use crate::table::Table;
 use crate::units::{Dimension, parse_quantity};
@@ -49,7 +50,7 @@ pub struct On<'a> {
     /// The records.
     pub suite: &'a Suite,
     /// What reading them gave notice of.
-    pub warnings: &'a [Warning],
+    pub warnings: &'a [Notice],
 }
 
 /// A table of runs that a fragility is asked of.
@@ -75,7 +76,7 @@ pub struct Answer {
     /// How they were scaled, in words.
     pub scaled: String,
     /// What reading them gave notice of.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
     /// What came of it.
     pub found: Results,
 }

@@ -10,7 +10,7 @@ pub use registry::{
     DEMANDS, Demand, DemandColumn, DemandKind, DemandOf, DemandShape, PrintedRow, demand_values,
 };
 
-use crate::record;
+use crate::notice::Notice;
 use crate::slider::Direction;
 
 pub use crate::slider::Contact;
@@ -389,31 +389,6 @@ pub struct Iterations {
     pub max: u32,
 }
 
-/// Something that the reader of a result must know.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Warning {
-    /// Short stable name, such as `gap_exceeded`.
-    pub kind: &'static str,
-    /// When, in s, if it has a time.
-    pub time_s: Option<f64>,
-    /// One sentence.
-    pub message: String,
-}
-
-impl Warning {
-    /// Whether it says how something was read and changes no decision.
-    #[must_use]
-    pub fn is_note(&self) -> bool {
-        record::is_note(self.kind)
-    }
-
-    /// What stands before it in a text.
-    #[must_use]
-    pub fn label(&self) -> &'static str {
-        if self.is_note() { "Note" } else { "Warning" }
-    }
-}
-
 /// The result of one analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
@@ -430,5 +405,5 @@ pub struct Response {
     /// Iterations, of the stepwise method only.
     pub iterations: Option<Iterations>,
     /// What the solver noticed.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
 }

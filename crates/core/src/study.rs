@@ -30,6 +30,7 @@ use crate::input::{Bound, FrictionBounds, MAX_RUNS, Parts, Variation};
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{IntensityMeasures, Measure};
 use crate::motion::target::{Matched, TargetSpectrum, matching_periods, maximum_direction};
+use crate::notice::NoticeKind;
 use crate::numerics::random::{GOLDEN, mix};
 use crate::response::DemandShape;
 
@@ -46,7 +47,7 @@ pub struct Record {
     /// The motion as it was recorded, unscaled, with its vertical component.
     pub motion: GroundMotion,
     /// Kinds of what reading it gave notice of.
-    pub warnings: Vec<&'static str>,
+    pub warnings: Vec<NoticeKind>,
     /// Number of the pair of horizontal components that it is one of, the other beside it.
     pub pair: Option<usize>,
 }
@@ -114,7 +115,7 @@ struct Sample {
     /// Frequency of the highest mode of the model; 0 without a model.
     highest_hz: f64,
     /// Kinds of what is hardly meant in it.
-    suspicious: Vec<&'static str>,
+    suspicious: Vec<NoticeKind>,
 }
 
 impl Study {

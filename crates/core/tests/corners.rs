@@ -11,6 +11,7 @@ use slipstick::error::SolveError;
 use slipstick::input;
 use slipstick::model::{Contents, Model};
 use slipstick::motion::GroundMotion;
+use slipstick::notice::NoticeKind;
 use slipstick::numerics::random::Random;
 use slipstick::response::{Demands, Response};
 use slipstick::solver::exact;
@@ -147,7 +148,7 @@ fn exact_contents_that_let_go_hold_the_block_back() {
     let model = model(&slider, &contents(7.4, [0.066; 2]));
     let jump = response(&model, &ground(&[0.0, 0.5, 1.0], &[4.3, 4.3, 0.0], None));
     assert_eq!(jump.demands.slip_count, 0);
-    assert!(!jump.warnings.iter().any(|w| w.kind == "slips_at_start"), "the contents slip");
+    assert!(!jump.warnings.iter().any(|w| w.kind == NoticeKind::SlipsAtStart), "the contents slip");
     let later = ground(&[0.0, 0.25, 0.25, 0.5, 1.0], &[0.0, 0.0, 4.3, 4.3, 0.0], None);
     assert_eq!(response(&model, &later).demands.slip_count, 0);
 }

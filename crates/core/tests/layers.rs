@@ -8,9 +8,10 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// From left to right.
-const ORDER: [&str; 18] = [
+const ORDER: [&str; 19] = [
     "error",
     "progress",
+    "notice",
     "units",
     "table",
     "numerics",

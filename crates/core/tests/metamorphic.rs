@@ -17,7 +17,7 @@ use std::ops::Range;
 use common::random::Random;
 use common::sensible::{self, system};
 use common::sketch::Sketch;
-use slipstick::check::{Certificate, check};
+use slipstick::check::{Certificate, DecisionKind, check};
 use slipstick::error::SolveError;
 use slipstick::model::{Contents, Stop, StopKind};
 use slipstick::response::{Contact, DemandColumn, Event, EventKind, Mode, Response};
@@ -171,7 +171,7 @@ fn first_other(a: &Response, b: &Response, units: Units, part: f64) -> Option<St
 /// The first figure of a certificate that is not the same; impacts below 1 mm/s are no close calls.
 fn other_certificate(a: &Certificate, b: &Certificate, units: Units) -> Option<String> {
     let [x, y] = [a, b].map(|c| c.closest_call.map(|call| call.kind));
-    let of_impact = units.velocity() != 1.0 && [x, y].contains(&Some("impact"));
+    let of_impact = units.velocity() != 1.0 && [x, y].contains(&Some(DecisionKind::Impact));
     let figures = |c: &Certificate| {
         let call = c.closest_call.filter(|_| !of_impact);
         [

@@ -7,6 +7,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use slipstick::notice::NoticeKind;
 use slipstick::record::{self, Channel, Format, Options, Quantity, Record, Sampling, Units};
 
 const G: f64 = 9.80665;
@@ -282,7 +283,7 @@ fn records_headers_of_samples_are_understood() {
         let corners = (channel.filter.high_pass_hz, channel.filter.low_pass_hz);
         assert_eq!(corners, filter, "{file}");
         assert_eq!(channel.station.as_deref(), Some(station), "{file}");
-        let other = |kind: &str| !record::REST_KINDS.contains(&kind);
+        let other = |kind: NoticeKind| !record::REST_KINDS.contains(&kind);
         assert!(channel.warnings.iter().all(|w| !other(w.kind)), "{file}: {:?}", channel.warnings);
     }
     let bytes = fs::read(folder.join("formats/smc/0111a.smc")).unwrap();
@@ -313,10 +314,10 @@ fn records_rounded_times_are_doubted_and_can_be_replaced() {
     let bytes = fs::read(folder.join(file)).unwrap();
     let options = Options { units: Units::parse("g"), ..Options::default() };
     let record = record::read(file, &bytes, &options).unwrap();
-    assert_eq!(record.warnings[0].kind, "times_rounded");
+    assert_eq!(record.warnings[0].kind, NoticeKind::TimesRounded);
     let record = record::read(file, &bytes, &Options { dt_s: Some(0.0025), ..options }).unwrap();
     assert_eq!(record.channels[0].sampling, Sampling::Dt(0.0025));
-    assert_eq!(record.warnings[0].kind, "times_replaced");
+    assert_eq!(record.warnings[0].kind, NoticeKind::TimesReplaced);
 }
 
 /// Numbers that are a little random and the same on every machine.

@@ -4,6 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use slipstick::notice::{Notice, NoticeKind};
 use slipstick::record::{self, Options, Record, Sampling, Units};
 
 const G: f64 = 9.80665;
@@ -72,7 +73,7 @@ fn exact_what_the_samples_say_beside_their_values() {
         (along.name.as_str(), up.values[1]),
         ("acceleration_m_per_s2", -along.values[1] / 2.0)
     );
-    assert_eq!(read("rounded-times.txt", &g_at(None)).warnings[0].kind, "times_rounded");
+    assert_eq!(read("rounded-times.txt", &g_at(None)).warnings[0].kind, NoticeKind::TimesRounded);
 }
 
 #[test]
@@ -117,7 +118,7 @@ fn exact_every_format_holds_the_same_motion() {
             let (found, expected) = (found / G, factor * expected);
             assert!((found - expected).abs() <= 0.501 * digit_g, "{name}: {found} {expected}");
         }
-        let rest = |w: &record::RecordWarning| record::REST_KINDS.contains(&w.kind);
+        let rest = |w: &Notice| record::REST_KINDS.contains(&w.kind);
         assert!(channel.warnings.iter().all(rest), "{name}: {:?}", channel.warnings);
     }
 }
@@ -272,8 +273,9 @@ fn exact_changed_headers_are_never_overlooked() {
         for end in 0..last.trim_end_matches(['\r', '\n', '\x1a']).len() {
             if let Ok(start) = record::read(name, &whole.as_bytes()[..end], &Options::default()) {
                 let channels = &start.channels;
-                let said =
-                    channels.iter().any(|c| c.warnings.iter().any(|w| w.kind == "truncated"));
+                let said = channels
+                    .iter()
+                    .any(|c| c.warnings.iter().any(|w| w.kind == NoticeKind::Truncated));
                 // A file cut between two channels is whole files of fewer.
                 assert!(said || record.channels.starts_with(channels), "{name}: {end}");
             }

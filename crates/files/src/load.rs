@@ -133,7 +133,7 @@ mod tests {
     }
 
     fn kinds(loaded: &LoadedMotion) -> Vec<&str> {
-        loaded.warnings.iter().map(|w| w.kind).collect()
+        loaded.warnings.iter().map(|w| w.kind.name()).collect()
     }
 
     #[test]

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use slipstick::assessment::suite::Suite;
 use slipstick::error::{ChoiceError, Stopped};
+use slipstick::notice::{Notice, NoticeKind};
 use slipstick::record::Units;
-use slipstick::response::Warning;
 use slipstick::study::engine::Engine;
 
 use crate::error::FileError;
@@ -52,7 +52,7 @@ pub struct OpenSuite {
     /// Files read: path, SHA-256, what they are.
     pub sources: Vec<(String, String, String)>,
     /// What reading them gave notice of, each kind once.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
 }
 
 impl OpenSuite {
@@ -110,9 +110,9 @@ impl OpenSuite {
         for (i, record) in open.suite.records.iter_mut().enumerate() {
             record.pair = pairs.then_some(i / 2);
         }
-        let warning = |kind| move |message| Warning { kind, time_s: None, message };
-        open.warnings.extend(named_twice(&again).map(warning("record_named_twice")));
-        open.warnings.extend(same.into_iter().map(warning("same_motion")));
+        let warning = |kind| move |message| Notice::new(kind, message);
+        open.warnings.extend(named_twice(&again).map(warning(NoticeKind::RecordNamedTwice)));
+        open.warnings.extend(same.into_iter().map(warning(NoticeKind::SameMotion)));
         Ok(open)
     }
 

@@ -1,8 +1,6 @@
 //! `Motion`.
 
-use std::collections::BTreeSet;
 use std::path::PathBuf;
-use std::sync::{Mutex, PoisonError};
 
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -10,8 +8,8 @@ use pyo3::types::{PyFloat, PyInt, PyString};
 use slipstick::error::MotionError;
 use slipstick::input::loaded::Loaded;
 use slipstick::motion::GroundMotion;
+use slipstick::notice::{Notice, NoticeKind};
 use slipstick::record::Units;
-use slipstick::response::Warning;
 use slipstick::units::{Dimension, parse_quantity, parse_unit};
 use slipstick_files::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
 
@@ -295,7 +293,11 @@ impl Motion {
     /// What its reader should know, as (kind, message).
     #[getter]
     fn warnings(&self) -> Vec<(&'static str, String)> {
-        self.0.warnings.iter().map(|warning| (warning.kind, warning.message.clone())).collect()
+        self.0
+            .warnings
+            .iter()
+            .map(|warning| (warning.kind.name(), warning.message.clone()))
+            .collect()
     }
 
     fn __len__(&self) -> usize {
@@ -323,7 +325,7 @@ impl Motion {
             motion
                 .warnings
                 .iter()
-                .map(|w| (w.kind.to_owned(), w.time_s, w.message.clone()))
+                .map(|w| (w.kind.name().to_owned(), w.time_s, w.message.clone()))
                 .collect(),
         );
         Ok((make, parts))
@@ -343,12 +345,12 @@ impl Motion {
             (samples("times_s", times_s)?, samples("acceleration", horizontal)?);
         let motion = GroundMotion::new(times_s, horizontal, vertical);
         let motion = made(motion.map_err(|error| of_motion(py, &error))?);
-        let warning = |(kind, time_s, message): (String, Option<f64>, String)| Warning {
-            kind: kept(&kind),
-            time_s,
-            message,
+        let warning = |(name, time_s, message): (String, Option<f64>, String)| {
+            let kind = NoticeKind::from_name(&name)
+                .ok_or_else(|| of_argument(py, "warnings", "a known kind of warning", &name))?;
+            Ok(Notice { kind, time_s, message })
         };
-        let warnings = warnings.into_iter().map(warning).collect();
+        let warnings = warnings.into_iter().map(warning).collect::<PyResult<_>>()?;
         let loaded = Loaded { description, warnings, ..motion.loaded };
         Ok(Self(LoadedMotion { loaded, ..motion }))
     }
@@ -362,15 +364,3 @@ type Pickled<'py> = (
     Vec<String>,
     Vec<(String, Option<f64>, String)>,
 );
-
-/// The name of a kind of warning for as long as the program runs, as those of the core are.
-fn kept(kind: &str) -> &'static str {
-    static KINDS: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
-    let mut kinds = KINDS.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(known) = kinds.get(kind) {
-        return known;
-    }
-    let new: &'static str = Box::leak(kind.to_owned().into_boxed_str());
-    kinds.insert(new);
-    new
-}

@@ -4,8 +4,6 @@ pub(crate) mod inputs;
 mod results;
 mod verdict;
 
-use slipstick::response::Warning;
-
 use crate::VERSION;
 use crate::display::DisplayUnits;
 use crate::figures::{self, Drawn};
@@ -13,6 +11,7 @@ use crate::markup::Markup;
 use crate::number::{compact, typeset};
 use crate::report::Report;
 use crate::summary::method_name;
+use slipstick::notice::Notice;
 
 /// The whole page.
 pub fn page(report: &Report) -> String {
@@ -108,7 +107,7 @@ fn warnings(out: &mut Markup, report: &Report) {
 /// Warnings, each with the run it belongs to, or a line that says there are none; then notes.
 pub(crate) fn warning_list(
     out: &mut Markup,
-    warnings: &[(Option<&'static str>, &Warning)],
+    warnings: &[(Option<&'static str>, &Notice)],
     display: DisplayUnits,
 ) {
     let (notes, warnings): (Vec<_>, Vec<_>) =
@@ -127,10 +126,10 @@ pub(crate) fn warning_list(
     }
 }
 
-fn told(out: &mut Markup, warnings: &[(Option<&'static str>, &Warning)], display: DisplayUnits) {
+fn told(out: &mut Markup, warnings: &[(Option<&'static str>, &Notice)], display: DisplayUnits) {
     out.raw("<ul>\n");
     for (run, warning) in warnings {
-        out.raw("<li>").element("strong", warning.kind.replace('_', " "));
+        out.raw("<li>").element("strong", warning.kind.words());
         if let Some(name) = run {
             out.text(format!(" ({name} friction)"));
         }

@@ -8,7 +8,8 @@ use slipstick::check::{Certificate, ClosestCall};
 use slipstick::input::Names;
 use slipstick::model::Model;
 use slipstick::motion::{Figures, GroundMotion};
-use slipstick::response::{Demands, Iterations, Method, Response, Warning};
+use slipstick::notice::Notice;
+use slipstick::response::{Demands, Iterations, Method, Response};
 
 /// What a [`Summary`] is made from.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +29,7 @@ pub struct SummaryInputs<'a> {
     /// Factor on both coefficients of friction: 1 but for lower- and upper-bound runs.
     pub friction_factor: f64,
     /// What reading the model and the record gave notice of.
-    pub warnings: &'a [Warning],
+    pub warnings: &'a [Notice],
 }
 
 /// Figures that certify a response, without the energy histories.
@@ -101,7 +102,7 @@ pub struct Summary {
     /// The certificate's figures.
     pub checks: Checks,
     /// All that a reader must know, the gravest first.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
     /// The runs with lower- and upper-bound friction, where they were asked for.
     pub bounds: Option<Box<Bounds>>,
     /// Response spectra of table, block and floors, where they were asked for.
@@ -201,7 +202,7 @@ impl Summary {
     /// The warnings of all runs: those of the nominal run first, with `None`; then those of the
     /// bounds that it does not share, with the name of the run.
     #[must_use]
-    pub fn all_warnings(&self) -> Vec<(Option<&'static str>, &Warning)> {
+    pub fn all_warnings(&self) -> Vec<(Option<&'static str>, &Notice)> {
         let mut all: Vec<_> = self.warnings.iter().map(|warning| (None, warning)).collect();
         for (name, run) in self.runs().into_iter().filter(|(name, _)| *name != "nominal") {
             let own = run.warnings.iter().filter(|warning| !self.warnings.contains(warning));

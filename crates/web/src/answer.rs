@@ -3,6 +3,7 @@
 use slipstick::assessment::single::{Job, Judged, Outcome};
 use slipstick::error::SolveError;
 use slipstick::input::{Input, MotionSource};
+use slipstick::notice::Notice;
 use slipstick::response::{Demands, EventKind, History, Response};
 use slipstick::units::{Dimension, parse_unit};
 use slipstick_report::display::{DisplayUnits, Quantity};
@@ -457,10 +458,10 @@ fn rows(summary: &Summary, display: DisplayUnits) -> Json {
 
 fn warnings(summary: &Summary, display: DisplayUnits) -> Json {
     let all = summary.all_warnings();
-    let one = |(run, warning): &(Option<&'static str>, &slipstick::response::Warning)| {
+    let one = |(run, warning): &(Option<&'static str>, &Notice)| {
         Json::Object(vec![
             ("label", warning.label().into()),
-            ("kind", Json::Text(warning.kind.replace('_', " "))),
+            ("kind", Json::Text(warning.kind.words())),
             ("run", run.map_or(Json::Null, Json::from)),
             ("time_s", warning.time_s.into()),
             ("message", Json::Text(display.sentence(&warning.message))),

@@ -8,9 +8,10 @@ use slipstick::assessment::suite::Suite;
 use slipstick::input::loaded::{Loaded, Wanted};
 use slipstick::input::plan::Plan;
 use slipstick::input::{Analysis, MotionSource};
+use slipstick::notice::Notice;
 use slipstick::record::Options;
 use slipstick::requests::{Kind, On, Request, Results, Runs};
-use slipstick::response::{Method, Warning};
+use slipstick::response::Method;
 use slipstick::study::engine::Engine;
 use slipstick::study::summary::{Rows, Take};
 use slipstick::study::{Record, Study};
@@ -71,10 +72,10 @@ impl Page {
                 ("rows", Json::List(rows.collect())),
             ])
         };
-        let warning = |warning: &Warning| {
+        let warning = |warning: &Notice| {
             Json::Object(vec![
                 ("label", warning.label().into()),
-                ("kind", Json::Text(warning.kind.replace('_', " "))),
+                ("kind", Json::Text(warning.kind.words())),
                 ("run", Json::Null),
                 ("time_s", warning.time_s.into()),
                 ("message", Json::Text(sheet.display.sentence(&warning.message))),
@@ -216,7 +217,7 @@ fn suite(
     settings: &Settings<'_>,
     analysis: &Analysis,
     text: &str,
-) -> Result<(Suite, Vec<Warning>), Failure> {
+) -> Result<(Suite, Vec<Notice>), Failure> {
     let mut read = Vec::new();
     for Asks { name, units, dt, channel } in settings.records() {
         let options = crate::records::options(units, dt)?;

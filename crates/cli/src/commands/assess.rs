@@ -54,7 +54,7 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
     if let Results::Fragility { curves: Curves::One(run), .. } = &answer.found
         && let Some((.., kind)) = sources.first_mut()
     {
-        run.kind.clone_into(kind);
+        run.kind.name().clone_into(kind);
     }
     let folder = folder(&args.result, &inputs)?;
     tell(&args.result, folder, answer, &sources, &[])

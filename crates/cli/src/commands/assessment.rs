@@ -6,8 +6,9 @@ use std::process::ExitCode;
 use slipstick::assessment::suite::Suite;
 use slipstick::assessment::{AssessmentError, ChoiceError};
 use slipstick::input::{self, Analysis, Override};
+use slipstick::notice::Notice;
 use slipstick::requests::On;
-use slipstick::response::{Method, Warning};
+use slipstick::response::Method;
 use slipstick::study::engine::Engine;
 use slipstick::table::Table;
 use slipstick_files::{
@@ -32,7 +33,7 @@ pub struct Opened {
     overrides: Vec<Override>,
     pub suite: Suite,
     /// What reading the records gave notice of.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
     sources: Vec<(String, String, String)>,
 }
 

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use slipstick::input;
 use slipstick::laboratory::compare::{Within, compare as compared};
 use slipstick::laboratory::measured::Measured;
+use slipstick::notice::Notice;
 use slipstick_files::{
     OutputFolder, SourceFile, TextFile, read_mapping, read_measured, sha256_hex, time_left,
 };
@@ -84,7 +85,7 @@ pub(super) fn output(
 }
 
 /// Warnings, where standard output did not show them, and where the results are.
-pub(super) fn tell(args: &ResultArgs, warnings: &[slipstick::response::Warning]) {
+pub(super) fn tell(args: &ResultArgs, warnings: &[Notice]) {
     if args.quiet {
         return;
     }

@@ -8,7 +8,8 @@ use super::suite::Suite;
 use crate::error::{MotionError, RunError, Stopped};
 use crate::input::Parts;
 use crate::motion::GroundMotion;
-use crate::response::{Response, Warning, flat_geometry};
+use crate::notice::{Notice, NoticeKind};
+use crate::response::{Response, flat_geometry};
 use crate::solver::{PreparedMotion, Workspace};
 use crate::study::engine::{Engine, Running};
 
@@ -34,7 +35,7 @@ pub struct Ran<R> {
     /// What was kept of its response, or why there is none.
     pub kept: Result<R, RunError>,
     /// Kinds of what was noticed of it.
-    pub noticed: Vec<&'static str>,
+    pub noticed: Vec<NoticeKind>,
 }
 
 /// What the runs of an analysis share: the records, and each of them times the factor that it has in most
@@ -152,21 +153,21 @@ pub(super) fn noticed<R>(
     ran: &[Ran<R>],
     suite: &Suite,
     design: impl Fn(usize) -> String,
-) -> Vec<Warning> {
-    let mut kinds: Vec<(&'static str, usize, Case)> = Vec::new();
+) -> Vec<Notice> {
+    let mut kinds: Vec<(NoticeKind, usize, Case)> = Vec::new();
     for Ran { case, noticed, .. } in ran {
-        for kind in noticed {
-            match kinds.iter_mut().find(|(seen, ..)| seen == kind) {
+        for &kind in noticed {
+            match kinds.iter_mut().find(|(seen, ..)| *seen == kind) {
                 Some((_, count, _)) => *count += 1,
                 None => kinds.push((kind, 1, *case)),
             }
         }
     }
-    let told = |(kind, count, case): (&'static str, usize, Case)| {
+    let told = |(kind, count, case): (NoticeKind, usize, Case)| {
         let what = super::times(&suite.records[case.record].name, case.scale);
         let design = design(case.design);
         let message = format!("{count} of {} runs, the first of them {what}{design}", ran.len());
-        Warning { kind, time_s: None, message }
+        Notice::new(kind, message)
     };
     kinds.into_iter().map(told).collect()
 }

@@ -22,10 +22,11 @@ use super::suite::{Scaling, Suite};
 use super::{AssessmentError, FailedRun};
 use crate::error::{FitError, RunError, Stopped};
 use crate::input::Parts;
+use crate::notice::Notice;
 use crate::numerics::fractile::{held_by, needed, sorted};
 use crate::numerics::sort;
 use crate::numerics::unit_points;
-use crate::response::{Warning, demand_values};
+use crate::response::demand_values;
 use crate::study::engine::Engine;
 use crate::table::Table;
 
@@ -298,7 +299,7 @@ pub struct DesignRun {
     /// Runs of the search without an answer.
     pub failures: Vec<FailedRun>,
     /// What was noticed of runs of the search.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
     /// Both figures over the two main variables; `None` where fewer than two vary.
     pub map: Option<DesignMap>,
     /// The front, a row a design.

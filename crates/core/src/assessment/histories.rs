@@ -8,8 +8,9 @@ use super::{AssessmentError, FailedRun};
 use crate::error::RunError;
 use crate::input::{Analysis, Bound, Names};
 use crate::motion::target::Matched;
+use crate::notice::Notice;
 use crate::record::Origin;
-use crate::response::{DemandColumn, DemandShape, Demands, Method, Warning, flat_geometry, struck};
+use crate::response::{DemandColumn, DemandShape, Demands, Method, flat_geometry, struck};
 use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
 
@@ -46,7 +47,7 @@ pub struct OnRecord {
     /// Times in s and sliding displacements in m with nominal friction.
     pub sliding: [Vec<f64>; 2],
     /// What was noticed of it.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
 }
 
 impl OnRecord {
@@ -289,11 +290,11 @@ impl OnRecord {
     /// Takes what the tables and the figure tell of a run.
     fn keep(&mut self, bound: &Bound, several: bool, job: &Job, judged: Judged) -> (Demands, bool) {
         let Judged { model, response, certificate, .. } = judged;
-        let of_bound = |warning: Warning| match several {
+        let of_bound = |warning: Notice| match several {
             false => warning,
             true => {
                 let message = format!("{} friction: {}", bound.name, warning.message);
-                Warning { message, ..warning }
+                Notice { message, ..warning }
             }
         };
         if self.pga_m_per_s2.is_nan() {

@@ -16,9 +16,10 @@ use crate::error::{FitError, RunError, Stopped};
 use crate::input::{Bound, Parts};
 use crate::motion::GroundMotion;
 use crate::motion::intensity::Measure;
+use crate::notice::Notice;
 use crate::numerics::fractile;
 use crate::numerics::sort;
-use crate::response::{Response, Warning, demand_values};
+use crate::response::{Response, demand_values};
 use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
 
@@ -275,7 +276,7 @@ pub struct IdaRun {
     /// Runs without an answer.
     pub failures: Vec<FailedRun>,
     /// What was noticed of runs.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
     /// A row a run: record, level, scale, design, all demands.
     pub rows: Table,
     /// A row a record and design, where there is a limit.

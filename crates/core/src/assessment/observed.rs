@@ -8,7 +8,7 @@ mod runs;
 use super::fragility::{Capacity, CloudPoint, Fragility, Stripe};
 use super::{AssessmentError, refuse};
 use crate::error::FitError;
-use crate::response::Warning;
+use crate::notice::{Notice, NoticeKind};
 use crate::study::engine::Engine;
 use crate::table::{Cells, Table};
 
@@ -55,13 +55,37 @@ pub struct FragilityRequest<'a> {
     pub bootstrap: Option<(u32, u64)>,
 }
 
+/// What a table of fragility data holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum TableKind {
+    /// Counts of exceedances at levels.
+    Stripes,
+    /// Levels at which records reach the limit.
+    Capacities,
+    /// Single runs, a row each.
+    Runs,
+}
+
+impl TableKind {
+    /// Its name, as the list of files read gives it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Stripes => "stripes",
+            Self::Capacities => "capacities",
+            Self::Runs => "runs",
+        }
+    }
+}
+
 /// What came of it.
 #[derive(Clone, Debug)]
 pub struct FragilityRun {
     /// The data that the curve was fitted to.
     pub data: Data,
-    /// What the table held: `stripes`, `capacities` or `runs`.
-    pub kind: &'static str,
+    /// What the table held.
+    pub kind: TableKind,
     /// Why it was fitted to those data.
     pub why: String,
     /// Designs that the curve averages over.
@@ -75,7 +99,7 @@ pub struct FragilityRun {
     /// Its SI unit.
     pub measure_unit: String,
     /// Choices that were made.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
 }
 
 /// The fragility of the rows in which a column has one value.
@@ -215,14 +239,14 @@ fn fit(
     let (data, of_data, kind, why) = if columns.has("runs") && columns.has("exceeded") {
         let stripes = stripes(columns, &intensity)?;
         let why = "the table holds counts".to_owned();
-        (Data::Stripes(stripes), clusters.clone(), "stripes", why)
+        (Data::Stripes(stripes), clusters.clone(), TableKind::Stripes, why)
     } else if columns.has("reached") && columns.intensity("capacity").is_some() {
         let capacities = capacities(columns, &intensity)?;
         let why = "the table holds capacities".to_owned();
-        (Data::Capacities(capacities), clusters.clone(), "capacities", why)
+        (Data::Capacities(capacities), clusters.clone(), TableKind::Capacities, why)
     } else {
         let of_runs = runs::of_runs(request, columns, &intensity, &mut warnings)?;
-        (of_runs.data, of_runs.clusters, "runs", of_runs.why)
+        (of_runs.data, of_runs.clusters, TableKind::Runs, of_runs.why)
     };
     let of_data = of_data.map_or_else(Vec::new, |clusters| clusters.of_row);
     let fragility = match &data {
@@ -236,10 +260,10 @@ fn fit(
     let unit = intensity.unit.clone();
     let mut fragility = fragility.map_err(|error| AssessmentError::Fragility { error, unit })?;
     let counts = matches!(data, Data::Stripes(_));
-    let mut warn = |kind, message| warnings.push(Warning { kind, time_s: None, message });
+    let mut warn = |kind, message| warnings.push(Notice::new(kind, message));
     if clusters.is_none() && counts {
         warn(
-            "independent_runs",
+            NoticeKind::IndependentRuns,
             "the table does not say which runs share a record: they are taken as independent, so \
              the intervals are too narrow where records were run more than once; a column record \
              says it"
@@ -258,7 +282,7 @@ fn fit(
     match fragility.certainty() {
         C::Clustered { records } | C::Bootstrap { records, .. } if *records < ENOUGH_RECORDS => {
             warn(
-                "few_records",
+                NoticeKind::FewRecords,
                 format!(
                     "{records} {clustered_by}s: intervals over so few {clustered_by}s are rough"
                 ),
@@ -271,7 +295,7 @@ fn fit(
         let message = format!(
             "{failed} of {all} draws of {clustered_by}s tell no curve and are left out of the intervals"
         );
-        warn("failed_draws", message);
+        warn(NoticeKind::FailedDraws, message);
     }
     // Counts of one level are one row of the report, whatever their records.
     let data = match data {

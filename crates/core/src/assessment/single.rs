@@ -6,8 +6,9 @@ use crate::error::{InputError, MotionError, SolveError, Stopped};
 use crate::input::{Analysis, Bound, MotionSource};
 use crate::model::Model;
 use crate::motion::{GroundMotion, spectrum};
+use crate::notice::Notice;
 use crate::progress::{GoOn, UNWATCHED};
-use crate::response::{History, Response, Warning};
+use crate::response::{History, Response};
 use crate::solver;
 use crate::study::notices::{coarse_sampling, highest_hz, longest_step_s, suspicious};
 
@@ -27,7 +28,7 @@ pub struct Job {
     /// The motion with its tail: what is solved.
     pub motion: GroundMotion,
     /// What was noticed of model and motion.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
 }
 
 /// A response with its certificate.
@@ -77,7 +78,7 @@ impl Job {
     pub fn new(
         analysis: Analysis,
         bare: GroundMotion,
-        noticed: Vec<Warning>,
+        noticed: Vec<Notice>,
     ) -> Result<Self, InputError> {
         let motion = match analysis.tail_s {
             0.0 => bare.clone(),

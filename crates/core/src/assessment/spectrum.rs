@@ -11,8 +11,9 @@ use crate::error::{ModelError, MotionError, RunError, Stopped};
 use crate::input::{Bound, Parts};
 use crate::model::{InitialState, Model, Slider};
 use crate::motion::GroundMotion;
+use crate::notice::Notice;
 use crate::numerics::fractile::fractiles;
-use crate::response::{DemandColumn, Warning, demand_values};
+use crate::response::{DemandColumn, demand_values};
 use crate::slider::{Ends, Friction};
 use crate::study::engine::Engine;
 use crate::table::Table;
@@ -126,7 +127,7 @@ pub struct SpectrumRun {
     /// Runs without an answer.
     pub failures: Vec<FailedRun>,
     /// What was noticed of runs.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
     /// Number of runs, those of the fixed-base models apart.
     pub runs: usize,
     /// Fractiles, a row a value and group.

@@ -8,8 +8,8 @@ use crate::input::loaded::Loaded;
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{LevelMeasure, Measure};
 use crate::motion::target::{Matched, TargetSpectrum, matching_periods, maximum_direction};
+use crate::notice::Notice;
 use crate::record::Origin;
-use crate::response::Warning;
 use crate::study::engine::{Engine, made_motion, scaled_with_tail};
 use crate::table::{Column, Table};
 
@@ -109,12 +109,9 @@ impl Suite {
     /// Records that were read, by their names, each alone; and what reading them gave notice of, each kind once
     /// with the record that gave it first.
     #[must_use]
-    pub fn of(
-        read: impl IntoIterator<Item = (String, Loaded)>,
-        made: bool,
-    ) -> (Self, Vec<Warning>) {
+    pub fn of(read: impl IntoIterator<Item = (String, Loaded)>, made: bool) -> (Self, Vec<Notice>) {
         let mut suite = Self { records: Vec::new(), made };
-        let mut noticed: Vec<(Warning, usize)> = Vec::new();
+        let mut noticed: Vec<(Notice, usize)> = Vec::new();
         for (name, Loaded { motion, origin, warnings, .. }) in read {
             for warning in warnings {
                 match noticed.iter_mut().find(|(seen, _)| seen.kind == warning.kind) {
@@ -122,17 +119,17 @@ impl Suite {
                     None => {
                         let message = format!("{name}: {}", warning.message);
                         let time_s = None;
-                        noticed.push((Warning { message, time_s, ..warning }, 0));
+                        noticed.push((Notice { message, time_s, ..warning }, 0));
                     }
                 }
             }
             suite.records.push(SuiteRecord { name, motion, pair: None, origin });
         }
-        let told = |(warning, more): (Warning, usize)| match more {
+        let told = |(warning, more): (Notice, usize)| match more {
             0 => warning,
             _ => {
                 let message = format!("{} (and {more} of the other records)", warning.message);
-                Warning { message, ..warning }
+                Notice { message, ..warning }
             }
         };
         (suite, noticed.into_iter().map(told).collect())

@@ -2,7 +2,6 @@
 
 use core::ops::Range;
 
-use super::ClosestCall;
 use super::events::SLOWEST_IMPACT_M_PER_S;
 use super::ground::{Load, nearest};
 use super::group::{Feed, Group, UNBOUNDED};
@@ -11,6 +10,7 @@ use super::law::StickDemand;
 use super::outputs::{FRICTION, STOREYS};
 use super::path::Work;
 use super::structure::{excess, larger};
+use super::{ClosestCall, DecisionKind};
 use crate::response::Mode;
 use crate::slider::Direction;
 
@@ -301,7 +301,12 @@ impl Judge<'_> {
                 if i == 0 {
                     self.totals.decided(margin, drift);
                 }
-                self.nearest(ClosestCall { margin, time_s, kind: "stop", interface: i });
+                self.nearest(ClosestCall {
+                    margin,
+                    time_s,
+                    kind: DecisionKind::Stop,
+                    interface: i,
+                });
             }
         }
         let was = self.before(k)[0];
@@ -309,7 +314,7 @@ impl Judge<'_> {
             && was != after[0]
             && let Some(margin) = self.law.next_join(h.surface_displacements(k), was)
         {
-            self.nearest(ClosestCall { margin, time_s, kind: "join", interface: 0 });
+            self.nearest(ClosestCall { margin, time_s, kind: DecisionKind::Join, interface: 0 });
         }
     }
 
@@ -355,7 +360,12 @@ impl Judge<'_> {
                     let (a, b) = (reached(i), reached(j));
                     let margin = if jumps { (a - b).abs() } else { a.max(b) };
                     let time_s = self.h.time_s[k];
-                    calls.push(ClosestCall { margin, time_s, kind: "release", interface: j });
+                    calls.push(ClosestCall {
+                        margin,
+                        time_s,
+                        kind: DecisionKind::Release,
+                        interface: j,
+                    });
                 }
             }
         }
@@ -394,7 +404,7 @@ impl Judge<'_> {
         if before.abs() >= SLOWEST_IMPACT_M_PER_S {
             let margin = before.abs() / self.figures.velocity[1];
             let time_s = self.h.time_s[k];
-            self.nearest(ClosestCall { margin, time_s, kind: "impact", interface: 0 });
+            self.nearest(ClosestCall { margin, time_s, kind: DecisionKind::Impact, interface: 0 });
         }
     }
 
@@ -421,7 +431,7 @@ impl Judge<'_> {
             let turns = turns.filter(|(s, _)| *s < gap_m);
             if let Some((s, k)) = turns.reduce(|a, b| if b.0 > a.0 { b } else { a }) {
                 let (margin, time_s) = (1.0 - s / gap_m, h.time_s[k]);
-                calls.push(ClosestCall { margin, time_s, kind: "miss", interface: 0 });
+                calls.push(ClosestCall { margin, time_s, kind: DecisionKind::Miss, interface: 0 });
             }
         }
         calls

@@ -1,7 +1,7 @@
 //! Decisions that came close: between knots, and in which order.
 
-use super::ClosestCall;
 use super::collocation::POINTS;
+use super::{ClosestCall, DecisionKind};
 
 /// The least of the inner values, if it is below both ends.
 pub(super) fn dip(values: &[f64; POINTS]) -> Option<usize> {
@@ -87,13 +87,18 @@ impl Dips {
     /// The least minimum of an interface's margin in stick.
     pub(super) fn least(&self, interface: usize) -> Option<ClosestCall> {
         let (margin, time_s) = self.least?;
-        Some(ClosestCall { margin, time_s, kind: "stick", interface })
+        Some(ClosestCall { margin, time_s, kind: DecisionKind::Stick, interface })
     }
 
     /// The least minimum of an interface's speed in slip over its largest value.
     pub(super) fn least_of_peak(&self, interface: usize) -> Option<ClosestCall> {
         let (least, time_s) = self.least?;
         let margin = least / self.peak;
-        (self.peak > 0.0).then_some(ClosestCall { margin, time_s, kind: "slip", interface })
+        (self.peak > 0.0).then_some(ClosestCall {
+            margin,
+            time_s,
+            kind: DecisionKind::Slip,
+            interface,
+        })
     }
 }

@@ -4,8 +4,8 @@
 use super::Scale;
 use crate::error::MotionError;
 use crate::motion::{Figures, GroundMotion};
+use crate::notice::{Notice, NoticeKind};
 use crate::record::{self, Channel, Origin, Quantity, Record};
-use crate::response::Warning;
 
 /// The column that becomes the vertical component of its neighbour without being asked for.
 const VERTICAL_COLUMN: &str = "vertical_acceleration_m_per_s2";
@@ -33,7 +33,7 @@ pub struct Loaded {
     /// Figures of the horizontal component as analysed.
     pub figures: Figures,
     /// What the reader should know.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
 }
 
 /// Why records make no motion.
@@ -153,26 +153,26 @@ fn motion(channel: &Channel) -> Result<GroundMotion, MotionError> {
 }
 
 /// What the reader says; how the motion starts and ends is said of it as it is used.
-fn of_reader(file: &Record, channel: &Channel) -> Vec<Warning> {
+fn of_reader(file: &Record, channel: &Channel) -> Vec<Notice> {
     let all = file.warnings.iter().chain(&channel.warnings);
     let of_file = all.filter(|w| !record::REST_KINDS.contains(&w.kind));
-    of_file.map(|w| Warning { kind: w.kind, time_s: None, message: w.message.clone() }).collect()
+    of_file.cloned().collect()
 }
 
 /// What an engineer asks first of a record: does it start from rest, and does it drift.
-fn of_motion(motion: &GroundMotion, figures: &Figures, lengths_differ: bool) -> Vec<Warning> {
+fn of_motion(motion: &GroundMotion, figures: &Figures, lengths_differ: bool) -> Vec<Notice> {
     let mut warnings = Vec::new();
-    let mut warn = |kind, time_s, message| warnings.push(Warning { kind, time_s, message });
+    let mut warn = |kind, time_s, message| warnings.push(Notice { kind, time_s, message });
     let first = motion.horizontal_m_per_s2()[0];
     let Figures { pga_m_per_s2, pgv_m_per_s, end_velocity_m_per_s, .. } = *figures;
     for w in record::rest(first, pga_m_per_s2, end_velocity_m_per_s, pgv_m_per_s) {
-        let at_start = w.kind != record::REST_KINDS[2];
+        let at_start = w.kind != NoticeKind::RecordDrift;
         warn(w.kind, Some(if at_start { 0.0 } else { motion.duration_s() }), w.message);
     }
     if lengths_differ {
         let message = "the vertical component and the horizontal one differ in length: the \
                        shorter is zero after its end";
-        warn("lengths_differ", None, message.to_owned());
+        warn(NoticeKind::LengthsDiffer, None, message.to_owned());
     }
     warnings
 }

@@ -7,7 +7,8 @@ use crate::error::{MotionError, RecordError, SolveError};
 use crate::input::Channel;
 use crate::model::Model;
 use crate::motion::GroundMotion;
-use crate::response::{History, Method, Response, Warning};
+use crate::notice::{Notice, NoticeKind};
+use crate::response::{History, Method, Response};
 use crate::solver;
 use crate::table::Table;
 
@@ -41,7 +42,7 @@ pub struct Comparison {
     pub alignment: String,
     /// What was noticed of file, motion and prediction, and what looks like a wrong unit, sign or
     /// clock.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
 }
 
 /// Why there is nothing to compare.
@@ -485,7 +486,7 @@ pub fn alignment(measured: &Measured, start_s: f64, pairs: &[Pair]) -> String {
 
 /// What the measured values themselves give notice of: a table that does not start or end at rest,
 /// histories that do not start from zero.
-fn offsets(motion: &GroundMotion, pairs: &[Pair]) -> Vec<Warning> {
+fn offsets(motion: &GroundMotion, pairs: &[Pair]) -> Vec<Notice> {
     let mut warnings = Vec::new();
     let figures = motion.figures();
     if figures.end_velocity_m_per_s.abs() > 0.05 * figures.pgv_m_per_s {
@@ -495,8 +496,7 @@ fn offsets(motion: &GroundMotion, pairs: &[Pair]) -> Vec<Warning> {
             figures.end_velocity_m_per_s,
             100.0 * figures.end_velocity_m_per_s.abs() / figures.pgv_m_per_s
         );
-        let time_s = Some(motion.duration_s());
-        warnings.push(Warning { kind: "record_drift", time_s, message });
+        warnings.push(Notice::new(NoticeKind::RecordDrift, message).at(motion.duration_s()));
     }
     let table = ("table acceleration".to_owned(), motion.horizontal_m_per_s2());
     let names =
@@ -509,7 +509,7 @@ fn offsets(motion: &GroundMotion, pairs: &[Pair]) -> Vec<Warning> {
             let message = format!(
                 "the measured {name} starts at {share:.0} % of its peak; nothing was subtracted"
             );
-            warnings.push(Warning { kind: "does_not_start_at_zero", time_s: Some(0.0), message });
+            warnings.push(Notice::new(NoticeKind::DoesNotStartAtZero, message).at(0.0));
         }
     }
     warnings

@@ -22,10 +22,10 @@ mod rate;
 mod stroke;
 
 use super::estimate::{Estimate, mean_interval, mean_interval_with_common};
+use crate::notice::{Notice, NoticeKind};
 use crate::numerics::algebra::linear_fit;
 use crate::numerics::distribution::student_quantile;
 use crate::numerics::fractile::upper_median;
-use crate::response::Warning;
 pub use rate::{CurvePoint, RateFit};
 use stroke::{Breakaway, Stroke, strokes};
 
@@ -179,24 +179,23 @@ pub struct Drift {
 impl CyclicFit {
     /// What a reader must know of it.
     #[must_use]
-    pub fn warnings(&self) -> Vec<Warning> {
+    pub fn warnings(&self) -> Vec<Notice> {
         self.drift_warning().into_iter().chain(self.unit_warning()).collect()
     }
 
     /// Strokes that no test rig has.
-    fn unit_warning(&self) -> Option<Warning> {
+    fn unit_warning(&self) -> Option<Notice> {
         let stroke_m = self.cycles.iter().fold(0.0, |most: f64, cycle| most.max(cycle.stroke_m));
-        (stroke_m > LONGEST_STROKE_M).then(|| Warning {
-            kind: "unit_suspect",
-            time_s: None,
-            message: format!(
+        (stroke_m > LONGEST_STROKE_M).then(|| {
+            let message = format!(
                 "the strokes are {stroke_m:.1} m long: if the displacement is in mm, say so with --map \
                  \"displacement=… [mm]\""
-            ),
+            );
+            Notice::new(NoticeKind::UnitSuspect, message)
         })
     }
 
-    fn drift_warning(&self) -> Option<Warning> {
+    fn drift_warning(&self) -> Option<Notice> {
         let Drift { n_per_s, interval_n_per_s: [low, high], over_test_n } = self.drift?;
         let message = format!(
             "the middle of the force loop drifts by {over_test_n:.3} N over the test ({:.3} N/min, 95 % \
@@ -206,7 +205,7 @@ impl CyclicFit {
             60.0 * low,
             60.0 * high
         );
-        Some(Warning { kind: "force_drift", time_s: None, message })
+        Some(Notice::new(NoticeKind::ForceDrift, message))
     }
 }
 
@@ -711,15 +710,11 @@ fn static_friction(
 
 /// What a reader must know of tests whose sensors may be off by a constant.
 #[must_use]
-pub fn zero_not_stated(fits: &[&CyclicFit]) -> Option<Warning> {
+pub fn zero_not_stated(fits: &[&CyclicFit]) -> Option<Notice> {
     let message = "friction by direction is not told: an offset of the force cell, or of the \
                    displacement of a spring, looks the same; state the zeros of the sensors with \
                    --map \"zero=first 2 s\", \"force=COLUMN - 12 N\" or \"zero=as measured\"";
-    fits.iter().any(|fit| !fit.zero_known).then(|| Warning {
-        kind: "zero_not_stated",
-        time_s: None,
-        message: message.to_owned(),
-    })
+    fits.iter().any(|fit| !fit.zero_known).then(|| Notice::new(NoticeKind::ZeroNotStated, message))
 }
 
 /// Whether friction by direction can be told from a drift of the force.

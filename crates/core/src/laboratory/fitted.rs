@@ -2,7 +2,7 @@
 
 use super::estimate::{Estimate, Outcome};
 use crate::input::Override;
-use crate::response::Warning;
+use crate::notice::{Notice, NoticeKind};
 
 /// Significant digits of a fitted value in a model: far more than any test tells.
 const DIGITS: usize = 6;
@@ -16,10 +16,10 @@ const DIGITS: usize = 6;
 /// - A spring or damper whose interval reaches below 0 is left out.
 /// - What the data do not tell is left as the model has it.
 #[must_use]
-pub fn overrides(estimates: &[Estimate]) -> (Vec<Override>, Vec<Warning>) {
+pub fn overrides(estimates: &[Estimate]) -> (Vec<Override>, Vec<Notice>) {
     let mut set = Vec::new();
     let mut warnings = Vec::new();
-    let mut warn = |kind, message| warnings.push(Warning { kind, time_s: None, message });
+    let mut warn = |kind, message| warnings.push(Notice::new(kind, message));
     let told = |path: &str| estimates.iter().find(|e| e.path == path).and_then(Estimate::value);
     let here = |path: &str| estimates.iter().any(|e| e.path == path);
     let both = ["slider.kinetic_friction", "slider.static_friction"];
@@ -71,7 +71,7 @@ pub fn overrides(estimates: &[Estimate]) -> (Vec<Override>, Vec<Warning>) {
                     let message = format!(
                         "{limit} {why} the kinetic friction: taken as large in the fitted model"
                     );
-                    warn("static_taken_as_kinetic", message);
+                    warn(NoticeKind::StaticTakenAsKinetic, message);
                 }
                 _ => {}
             }
@@ -81,7 +81,7 @@ pub fn overrides(estimates: &[Estimate]) -> (Vec<Override>, Vec<Warning>) {
                     "{limit} is told and the kinetic friction is not: both are left as the model \
                      has them"
                 );
-                warn("kinetic_not_told", message);
+                warn(NoticeKind::KineticNotTold, message);
             } else {
                 push(&limit, value);
             }
@@ -100,7 +100,7 @@ pub fn overrides(estimates: &[Estimate]) -> (Vec<Override>, Vec<Warning>) {
         if elastic && (low < 0.0 || value <= 0.0) {
             let message =
                 format!("{} is not clear of 0: left out of the fitted model", estimate.path);
-            warn("not_clear_of_zero", message);
+            warn(NoticeKind::NotClearOfZero, message);
             continue;
         }
         push(&estimate.path, value);
@@ -143,7 +143,7 @@ mod tests {
     fn paths(estimates: &[Estimate]) -> (Vec<String>, Vec<&'static str>) {
         let (set, warnings) = overrides(estimates);
         let text = set.iter().map(|o| o.path().to_owned()).collect();
-        (text, warnings.iter().map(|w| w.kind).collect())
+        (text, warnings.iter().map(|w| w.kind.name()).collect())
     }
 
     #[test]

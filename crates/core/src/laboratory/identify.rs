@@ -15,7 +15,7 @@ use super::shaking_table::{
 };
 use crate::error::{ChoiceError, InputError, RecordError, similar};
 use crate::input::{self, Analysis, Channel, Override};
-use crate::response::Warning;
+use crate::notice::Notice;
 use crate::study::engine::Engine;
 use crate::table::Table;
 
@@ -36,7 +36,7 @@ impl ModelText<'_> {
     }
 
     /// The model with what was told, and what had to be decided for it.
-    fn fitted(&self, estimates: &[Estimate]) -> Result<(Analysis, Vec<Warning>), InputError> {
+    fn fitted(&self, estimates: &[Estimate]) -> Result<(Analysis, Vec<Notice>), InputError> {
         let (told, warnings) = fitted::overrides(estimates);
         let set: Vec<Override> = self.set.iter().cloned().chain(told).collect();
         Ok((input::parse(self.name, self.text, &set)?, warnings))
@@ -58,7 +58,7 @@ pub struct Identified {
     /// The given model with what was told.
     pub model: Option<Analysis>,
     /// What a reader must know.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
     /// What only one of the jobs has.
     pub found: Found,
 }
@@ -345,10 +345,10 @@ pub fn cyclic(
     let largest_n = forces.fold(0.0, |m: f64, f| m.max(f.abs()));
     let together = estimates(&all, largest_n, normal_force_n);
     // Of several files each warning names its own.
-    let of_file = |measured: &Measured, warning: Warning| match histories.len() {
+    let of_file = |measured: &Measured, warning: Notice| match histories.len() {
         1 => warning,
         _ => {
-            Warning { message: format!("{}: {}", measured.source_name, warning.message), ..warning }
+            Notice { message: format!("{}: {}", measured.source_name, warning.message), ..warning }
         }
     };
     let read = measured.iter().flat_map(|m| m.warnings.iter().cloned().map(move |w| (m, w)));
@@ -356,7 +356,7 @@ pub fn cyclic(
         .iter()
         .zip(&fits)
         .flat_map(|(m, fit)| fit.warnings().into_iter().map(move |w| (m, w)));
-    let mut warnings: Vec<Warning> = read.chain(fitted).map(|(m, w)| of_file(m, w)).collect();
+    let mut warnings: Vec<Notice> = read.chain(fitted).map(|(m, w)| of_file(m, w)).collect();
     warnings.extend(zero_not_stated(&all));
     let kinetic = match &together.rate {
         Some(rate) => rate.estimates.iter().all(|estimate| estimate.value().is_some()),

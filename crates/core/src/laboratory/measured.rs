@@ -2,9 +2,9 @@
 
 use crate::error::{InputError, RecordError, similar};
 use crate::input::{Channel, ColumnRef, MappedColumn, Mapping, Zero};
+use crate::notice::Notice;
 use crate::numerics::fractile::upper_median;
 use crate::record::{self, Column, Columns, Sampling, bracket};
-use crate::response::Warning;
 use crate::units::{Dimension, Unit};
 
 /// One measured quantity.
@@ -32,7 +32,7 @@ pub struct Measured {
     /// The quantities, in the order of the file's columns.
     pub series: Vec<Series>,
     /// What the reader of a result must know.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
     /// Names of the file's columns, for messages.
     names: String,
 }
@@ -364,7 +364,7 @@ fn of_format(source_name: &str, bytes: &[u8], error: RecordError) -> RecordError
     }
 }
 
-type Clock = (Vec<f64>, Option<f64>, Vec<Warning>);
+type Clock = (Vec<f64>, Option<f64>, Vec<Notice>);
 
 /// The times of the rows in s from the first.
 fn clock(
@@ -405,14 +405,8 @@ fn clock(
         let found = format!("a gap from {from} s to {to} s");
         return Err(columns.error(row, column + 1, expected, found));
     }
-    let (sampling, doubts) = record::of_times(times_s, None)
+    let (sampling, warnings) = record::of_times(times_s, None)
         .map_err(|own| columns.error(0, column + 1, "evenly spaced times", own))?;
-    let warning = |doubt: record::RecordWarning| Warning {
-        kind: doubt.kind,
-        time_s: None,
-        message: doubt.message,
-    };
-    let warnings = doubts.into_iter().map(warning).collect();
     Ok(match sampling {
         Sampling::Dt(dt_s) => (even(dt_s), Some(dt_s), warnings),
         Sampling::Times(times_s) => {

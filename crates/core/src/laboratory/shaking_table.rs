@@ -27,8 +27,9 @@ use crate::error::{RecordError, Stopped};
 use crate::input::Channel;
 use crate::model::Model;
 use crate::motion::GroundMotion;
+use crate::notice::{Notice, NoticeKind};
 use crate::numerics::distribution::student_quantile;
-use crate::response::{Method, Warning};
+use crate::response::Method;
 use crate::slider::Friction;
 use crate::solver;
 use crate::study::engine::Engine;
@@ -79,7 +80,7 @@ pub struct TableFit {
     /// Standard deviation of the noise of the table acceleration, in m/s².
     pub table_noise_m_per_s2: f64,
     /// What a reader must know.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
 }
 
 /// Why nothing was fitted.
@@ -214,11 +215,7 @@ fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
     if tilted && table.is_some_and(|series| !series.zero_known) {
         let message = "the zero of table_acceleration is not stated, and 1 mg of it is 1 mrad of \
                        slider.tilt: what is fitted is their sum; --map \"zero=first 2 s\" states the zero";
-        warnings.push(Warning {
-            kind: "zero_not_stated",
-            time_s: None,
-            message: message.to_owned(),
-        });
+        warnings.push(Notice::new(NoticeKind::ZeroNotStated, message));
     }
     Ok(TableFit {
         estimates,
@@ -253,7 +250,7 @@ fn warnings(
     measured: &Measured,
     offsets: &[(Channel, f64)],
     length: f64,
-) -> Vec<Warning> {
+) -> Vec<Notice> {
     const CLEAR: f64 = 5.0;
     let mut all = Vec::new();
     for (left, series) in raw.iter().zip(&measured.series) {
@@ -270,7 +267,7 @@ fn warnings(
                 "the sensor of {name} is off by {offset:.4e} {unit}, which was fitted with the rest: \
                  --map \"{name}=… - {offset:.4e} {unit}\" or \"zero=first 2 s\" states its zero"
             );
-            all.push(Warning { kind: "sensor_offset", time_s: None, message });
+            all.push(Notice::new(NoticeKind::SensorOffset, message));
         }
         if series.channel != Channel::FrictionForce {
             continue;
@@ -285,7 +282,7 @@ fn warnings(
                  cell moves",
                 2.0 * slope
             );
-            all.push(Warning { kind: "force_drift", time_s: None, message });
+            all.push(Notice::new(NoticeKind::ForceDrift, message));
         }
     }
     all

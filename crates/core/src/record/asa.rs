@@ -7,9 +7,8 @@ use super::component::azimuth;
 use super::fixed::{Cursor, Fields};
 use super::keys::{self, Field, Keys};
 use super::text::{Line, Text};
-use super::{
-    Channel, FilterCorners, Format, Options, Record, RecordError, RecordWarning, Sampling, to_si,
-};
+use super::{Channel, FilterCorners, Format, Options, Record, RecordError, Sampling, to_si};
+use crate::notice::{Notice, NoticeKind};
 
 /// Lines among which the data are looked for.
 const MAX_HEADER_LINES: usize = 200;
@@ -88,7 +87,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
     for (i, name) in names.iter().enumerate() {
         let count = counts[i].count(text, what)?;
         let values: Vec<f64> = table.iter().skip(i).step_by(n).take(count).copied().collect();
-        let mut warnings: Vec<RecordWarning> = extra.clone().into_iter().collect();
+        let mut warnings: Vec<Notice> = extra.clone().into_iter().collect();
         // Peaks are stated in gal, whatever the values are.
         let gal: Vec<f64> = values.iter().map(|v| v * units.si() / 0.01).collect();
         warnings.extend(keys::check_peak(text, stated.get(i), &gal, "gal", keys::PEAK_FACTOR)?);
@@ -152,7 +151,7 @@ fn extra_rows(
     last: &[f64],
     rows: usize,
     announced: &Line,
-) -> Result<Option<RecordWarning>, RecordError> {
+) -> Result<Option<Notice>, RecordError> {
     let mut extra = 0;
     while let Some(line) = cursor.peek() {
         let words = line.words().map(|word| cursor.text.number(&line, &word).ok());
@@ -164,11 +163,13 @@ fn extra_rows(
         cursor.next("")?;
     }
     keys::end(cursor, rows, announced)?;
-    Ok((extra > 0).then(|| RecordWarning {
-        kind: "duplicate_rows",
-        message: format!(
-            "{extra} rows past the {rows} that line {} states repeat the last one: left out",
-            announced.number
-        ),
+    Ok((extra > 0).then(|| {
+        Notice::new(
+            NoticeKind::DuplicateRows,
+            format!(
+                "{extra} rows past the {rows} that line {} states repeat the last one: left out",
+                announced.number
+            ),
+        )
     }))
 }

@@ -7,6 +7,7 @@
 //!
 //! Layout: COSMOS Strong Motion Programs Board, Strong Motion Data Format 1.20, 2001.
 
+use crate::notice::{Notice, NoticeKind};
 use core::ops::Range;
 
 use super::component::azimuth;
@@ -14,8 +15,8 @@ use super::fixed::{Cursor, Fields};
 use super::text::{Line, Text};
 use super::volume::{agree, count, stated_number};
 use super::{
-    Channel, FilterCorners, Format, Options, Quantity, Record, RecordError, RecordWarning,
-    Sampling, Units, keys_to_add, quality, sampling, to_si,
+    Channel, FilterCorners, Format, Options, Quantity, Record, RecordError, Sampling, Units,
+    keys_to_add, quality, sampling, to_si,
 };
 
 /// Lines of text where the first does not say how many.
@@ -298,14 +299,14 @@ fn block(
             "integer 70 of the header states {stated} values, line {} {npts}, which stand there",
             line.number
         );
-        channel.warnings.push(RecordWarning { kind: "header_differs", message });
+        channel.warnings.push(Notice::new(NoticeKind::HeaderDiffers, message));
     }
     let series_s = head.real(real::LENGTH_S).filter(|s| *s > 0.0);
     if let Some(series_s) = series_s.filter(|s| (s - length_s).abs() > 2.0 * dt_s + 1e-3 * s) {
         let message = format!(
             "real 63 states a length of {series_s} s, {npts} values at {dt_s} s make {length_s} s"
         );
-        channel.warnings.push(RecordWarning { kind: "header_differs", message });
+        channel.warnings.push(Notice::new(NoticeKind::HeaderDiffers, message));
     }
     // Real 64 has six decimals at most; it is that of the first block.
     let is_first = !matches!(units.quantity(), Quantity::Velocity | Quantity::Displacement)
@@ -383,7 +384,7 @@ fn end_of_channel(cursor: &mut Cursor, channels: &mut [Channel]) -> Result<(), R
             let message = "the file ends without its line \"End-of-data\": it may be cut, and \
                            channels may be missing"
                 .to_owned();
-            channel.warnings.push(RecordWarning { kind: "truncated", message });
+            channel.warnings.push(Notice::new(NoticeKind::Truncated, message));
         }
         return Ok(());
     };

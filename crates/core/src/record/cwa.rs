@@ -7,9 +7,8 @@ use super::component::azimuth;
 use super::fixed::{Cursor, Fields};
 use super::keys::{self, Field, Keys};
 use super::text::Text;
-use super::{
-    Channel, FilterCorners, Format, Options, Record, RecordError, RecordWarning, Sampling, to_si,
-};
+use super::{Channel, FilterCorners, Format, Options, Record, RecordError, Sampling, to_si};
+use crate::notice::Notice;
 
 /// More lines than any header has.
 const MAX_HEADER_LINES: usize = 100;
@@ -133,7 +132,7 @@ fn check_range(
     name: &str,
     values: &[f64],
     symbol: &str,
-) -> Result<Vec<RecordWarning>, RecordError> {
+) -> Result<Vec<Notice>, RecordError> {
     let Some(field) = header.get(&format!("AmplitudeMAX. {name}")) else { return Ok(vec![]) };
     let parts = field.split(b'~');
     let size = |part: &&Field| part.number().map_or(0.0, |(value, _)| value.abs());

@@ -14,9 +14,10 @@ mod table;
 
 use super::text::Text;
 use super::{
-    Channel, FilterCorners, Format, Options, Record, RecordError, RecordWarning, Sampling, Units,
-    keys_to_add, sampling, to_si,
+    Channel, FilterCorners, Format, Options, Record, RecordError, Sampling, Units, keys_to_add,
+    sampling, to_si,
 };
+use crate::notice::{Notice, NoticeKind};
 pub(super) use columns::read as read_columns;
 pub use columns::{Column, Columns};
 pub(crate) use header::bracket;
@@ -81,14 +82,14 @@ fn series(
     table: &Table,
     layout: &Layout,
     given: Option<Units>,
-) -> Result<(Vec<Series>, Vec<RecordWarning>), RecordError> {
+) -> Result<(Vec<Series>, Vec<Notice>), RecordError> {
     let mut warnings = Vec::new();
     if layout.wrapped {
         let message = format!(
             "{} values a line without header and times were read along the lines as one series",
             table.columns
         );
-        warnings.push(RecordWarning { kind: "read_along_lines", message });
+        warnings.push(Notice::new(NoticeKind::ReadAlongLines, message));
         let (name, values) = ("column 1".to_owned(), table.cells.clone());
         return Ok((vec![Series { name, values, units: given }], warnings));
     }
@@ -101,7 +102,7 @@ fn series(
                 let message = format!(
                     "the column \"{name}\" is no acceleration, velocity or displacement: skipped"
                 );
-                warnings.push(RecordWarning { kind: "column_skipped", message });
+                warnings.push(Notice::new(NoticeKind::ColumnSkipped, message));
                 continue;
             }
             (Some(Unit::Motion(stated)), Some(given))

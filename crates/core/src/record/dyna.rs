@@ -12,6 +12,7 @@ use super::text::{Text, number};
 use super::{
     Channel, FilterCorners, Format, Options, Quantity, Record, RecordError, Sampling, Units, to_si,
 };
+use crate::notice::Notice;
 
 /// More lines than any version has.
 const MAX_HEADER_LINES: usize = 200;
@@ -94,7 +95,7 @@ fn check_peak(
     header: &Keys,
     units: Units,
     values: &[f64],
-) -> Result<Option<super::RecordWarning>, RecordError> {
+) -> Result<Option<Notice>, RecordError> {
     let key = match units.quantity() {
         Quantity::Acceleration => "PGA_CM/S^2",
         Quantity::Velocity => "PGV_CM/S",

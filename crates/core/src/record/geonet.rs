@@ -8,10 +8,8 @@ use super::component::azimuth;
 use super::fixed::{Cursor, Fields};
 use super::keys::{self, Field};
 use super::text::{Line, Text, number};
-use super::{
-    Channel, FilterCorners, Format, Options, Record, RecordError, RecordWarning, Sampling, Units,
-    to_si,
-};
+use super::{Channel, FilterCorners, Format, Options, Record, RecordError, Sampling, Units, to_si};
+use crate::notice::{Notice, NoticeKind};
 
 /// Lines of text before the numbers of the header.
 const TEXT_LINES: usize = 16;
@@ -62,7 +60,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
             "the file ends after {components} of the three components that an accelerograph has: it \
              may be cut"
         );
-        last.warnings.push(RecordWarning { kind: "truncated", message });
+        last.warnings.push(Notice::new(NoticeKind::Truncated, message));
     }
     let layout = layout.to_owned();
     Ok(Record { format: Format::GeoNet, layout, channels, warnings: vec![] })
@@ -144,7 +142,7 @@ fn component(
         } else {
             check_units(text, &lines[13 + block], unit)?;
         }
-        let mut warnings: Vec<RecordWarning> = missing(text, &announced, &mut values)?;
+        let mut warnings: Vec<Notice> = missing(text, &announced, &mut values)?;
         let symbol = units.to_string();
         // The raw peak of a V1A stands in mm/s², whatever one reading is.
         let scaled: Vec<f64> = values.iter().map(|v| v * units.si() * 1000.0).collect();
@@ -216,7 +214,7 @@ fn missing(
     text: &Text,
     announced: &Field,
     values: &mut Vec<f64>,
-) -> Result<Vec<RecordWarning>, RecordError> {
+) -> Result<Vec<Notice>, RecordError> {
     let is_missing = |value: &f64| MISSING.contains(value);
     let before = values.iter().take_while(|v| is_missing(v)).count();
     let after = values.iter().rev().take_while(|v| is_missing(v)).count();
@@ -233,5 +231,5 @@ fn missing(
         "{before} values at the start and {after} at the end are marked as missing and were left \
          out: this component starts {before} steps later than its file"
     );
-    Ok(vec![RecordWarning { kind: "missing_values", message }])
+    Ok(vec![Notice::new(NoticeKind::MissingValues, message)])
 }

@@ -4,10 +4,8 @@ use super::component::azimuth;
 use super::fixed::{Cursor, Fields};
 use super::keys::{self, Field, Keys};
 use super::text::Text;
-use super::{
-    Channel, FilterCorners, Format, Options, Record, RecordError, RecordWarning, Sampling, Units,
-    to_si,
-};
+use super::{Channel, FilterCorners, Format, Options, Record, RecordError, Sampling, Units, to_si};
+use crate::notice::Notice;
 
 /// Lines of the header.
 const HEADER_LINES: usize = 10;
@@ -73,7 +71,7 @@ fn check_peak(
     header: &Keys,
     units: Units,
     values: &[f64],
-) -> Result<Option<RecordWarning>, RecordError> {
+) -> Result<Option<Notice>, RecordError> {
     let Some(line) = header.lines.iter().find(|line| line.find("PG", 0) == Some(0)) else {
         return Ok(None);
     };

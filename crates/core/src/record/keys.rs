@@ -4,8 +4,9 @@ use core::ops::Range;
 
 use super::fixed::Cursor;
 use super::text::{Line, Text, number};
-use super::{Options, Quantity, RecordError, RecordWarning, Units};
+use super::{Options, Quantity, RecordError, Units};
 use crate::motion::MAX_SAMPLES;
+use crate::notice::{Notice, NoticeKind};
 
 /// A value in a header and where it stands; blanks around it are not part of it.
 #[derive(Clone)]
@@ -276,7 +277,7 @@ pub(super) fn check_peak(
     values: &[f64],
     units: &str,
     factor: f64,
-) -> Result<Option<RecordWarning>, RecordError> {
+) -> Result<Option<Notice>, RecordError> {
     let Some((field, (peak, last_digit))) = stated.and_then(|f| Some((f, f.number()?))) else {
         return Ok(None);
     };
@@ -293,25 +294,21 @@ pub(super) fn check_peak(
         "line {} states a peak of {peak} {units}, the values have {found:.6} {units}",
         field.line.number
     );
-    Ok(Some(RecordWarning { kind: "peak_differs", message }))
+    Ok(Some(Notice::new(NoticeKind::PeakDiffers, message)))
 }
 
 /// Compares the duration that a header states in s with a number of steps or of values.
-pub(super) fn check_duration(
-    stated: Option<&Field>,
-    count: usize,
-    dt_s: f64,
-) -> Option<RecordWarning> {
+pub(super) fn check_duration(stated: Option<&Field>, count: usize, dt_s: f64) -> Option<Notice> {
     let field = stated?;
     let (stated_s, last_digit) = field.number().filter(|(duration_s, _)| *duration_s > 0.0)?;
     let duration_s = count as f64 * dt_s;
     let slack_s = last_digit + 1.5 * dt_s + 1e-9 * duration_s;
-    ((stated_s - duration_s).abs() > slack_s).then(|| RecordWarning {
-        kind: "duration_differs",
-        message: format!(
+    ((stated_s - duration_s).abs() > slack_s).then(|| {
+        let message = format!(
             "line {} states a duration of {stated_s} s, {count} values at {dt_s} s last {duration_s} s",
             field.line.number
-        ),
+        );
+        Notice::new(NoticeKind::DurationDiffers, message)
     })
 }
 

@@ -7,10 +7,8 @@
 use super::fixed::{Cursor, Fields};
 use super::keys::{self, Field};
 use super::text::{Text, number};
-use super::{
-    Channel, FilterCorners, Format, Options, Record, RecordError, RecordWarning, Sampling, Units,
-    to_si,
-};
+use super::{Channel, FilterCorners, Format, Options, Record, RecordError, Sampling, Units, to_si};
+use crate::notice::{Notice, NoticeKind};
 
 /// Lines of the header.
 const HEADER_LINES: usize = 17;
@@ -78,13 +76,13 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
     // Counts are whole numbers: their sum is exact.
     let mean = counts.iter().sum::<f64>() / count as f64;
     let values: Vec<f64> = counts.iter().map(|n| (n - mean) * gal_per_count).collect();
-    let mut warnings = vec![RecordWarning {
-        kind: "mean_removed",
-        message: format!(
+    let mut warnings = vec![Notice::new(
+        NoticeKind::MeanRemoved,
+        format!(
             "the mean of {:.3} gal was taken off, as the format defines acceleration",
             mean * gal_per_count
         ),
-    }];
+    )];
     let peak = value(*peak);
     warnings.extend(keys::check_peak(text, Some(&peak), &values, "gal", keys::PEAK_FACTOR)?);
 

@@ -14,10 +14,11 @@ mod version3;
 use super::bytes::Bytes;
 use super::keys;
 use super::{
-    Channel, FilterCorners, Format, Options, Record, RecordError, RecordWarning, Sampling, Units,
-    counts_to_add, to_si,
+    Channel, FilterCorners, Format, Options, Record, RecordError, Sampling, Units, counts_to_add,
+    to_si,
 };
 use crate::motion::MAX_SAMPLES;
+use crate::notice::{Notice, NoticeKind};
 use decode::Encoding;
 use segments::{Segment, Streams};
 
@@ -78,13 +79,13 @@ pub(super) fn read_bytes(
                 let found = format!("{} bytes", all.len());
                 return Err(bytes.error(all.len(), "the whole of the first record", &found));
             }
-            warnings.push(RecordWarning {
-                kind: "truncated",
-                message: format!(
+            warnings.push(Notice::new(
+                NoticeKind::Truncated,
+                format!(
                     "from byte {at} on, {} bytes are no whole record and were left out",
                     rest.len()
                 ),
-            });
+            ));
             break;
         };
         length = record.length;

@@ -6,10 +6,8 @@ use super::component::azimuth;
 use super::fixed::Cursor;
 use super::keys::{self, Keys};
 use super::text::Text;
-use super::{
-    Channel, FilterCorners, Format, Options, Record, RecordError, RecordWarning, Sampling, Units,
-    to_si,
-};
+use super::{Channel, FilterCorners, Format, Options, Record, RecordError, Sampling, Units, to_si};
+use crate::notice::Notice;
 
 /// Lines among which the names of the columns are looked for.
 const HEADER_LINES: usize = 40;
@@ -86,7 +84,7 @@ fn check_peak(
     name: &str,
     values: &[f64],
     units: Units,
-) -> Result<Option<RecordWarning>, RecordError> {
+) -> Result<Option<Notice>, RecordError> {
     let after = format!("({name})").to_ascii_uppercase();
     let field = line.find(&after, 0).map(|at| keys::Field::from(line, at + after.len()));
     keys::check_peak(text, field.as_ref(), values, &units.to_string(), 5.0)

@@ -10,10 +10,11 @@ use core::ops::Range;
 use super::component::azimuth;
 use super::text::{Line, Text, number};
 use super::{
-    Channel, FilterCorners, Format, Options, Quantity, Record, RecordError, RecordWarning,
-    Sampling, Units, keys_to_add, sampling, to_si,
+    Channel, FilterCorners, Format, Options, Quantity, Record, RecordError, Sampling, Units,
+    keys_to_add, sampling, to_si,
 };
 use crate::motion::MAX_SAMPLES;
+use crate::notice::{Notice, NoticeKind};
 
 /// Lines among which the count and step are looked for.
 const HEADER_LINES: usize = 10;
@@ -72,7 +73,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
 
 /// A warning where a line above says another count than the last one: `1559 points at equal spacing`,
 /// or count and step, `2500 0.0100000`.
-fn other_count(header: &[Line], last: &Line, count: usize, dt_s: f64) -> Option<RecordWarning> {
+fn other_count(header: &[Line], last: &Line, count: usize, dt_s: f64) -> Option<Notice> {
     header.iter().find_map(|line| {
         let mut words = line.words();
         let (first, second) = (words.next()?, words.next()?);
@@ -81,12 +82,14 @@ fn other_count(header: &[Line], last: &Line, count: usize, dt_s: f64) -> Option<
         let is_step = number(&line.bytes[second.clone()])
             .is_some_and(|step_s| (step_s - dt_s).abs() <= 1e-3 * dt_s);
         let is_count = is_step || line.str(&second).eq_ignore_ascii_case("points");
-        (is_count && stated != count as f64).then(|| RecordWarning {
-            kind: "header_differs",
-            message: format!(
-                "line {} states {stated} values, line {} {count}, which stand there",
-                line.number, last.number
-            ),
+        (is_count && stated != count as f64).then(|| {
+            Notice::new(
+                NoticeKind::HeaderDiffers,
+                format!(
+                    "line {} states {stated} values, line {} {count}, which stand there",
+                    line.number, last.number
+                ),
+            )
         })
     })
 }

@@ -1,21 +1,19 @@
 //! What is looked for in every channel, whatever its format: a start that is not at rest, drift,
 //! clipped peaks, gaps and repeated rows.
 
+use crate::notice::{Notice, NoticeKind};
 use crate::numerics::fractile::upper_median;
 use crate::units::STANDARD_GRAVITY_M_PER_S2;
 
-use super::{Channel, Quantity, RecordWarning, Sampling, Units};
+use super::{Channel, Quantity, Sampling, Units};
 
 /// Values at a peak that follow one another unchanged: fewer happen by rounding.
 const CLIPPED_RUN: usize = 4;
 
 /// The warnings of [`rest`]: what is said of a motion as it is used, scaled or processed, rather
 /// than of the file.
-pub const REST_KINDS: [&str; 3] = ["first_sample_not_zero", "first_sample_small", "record_drift"];
-
-/// Kinds that say how a file was read and change no decision.
-const NOTE_KINDS: [&str; 4] =
-    ["first_sample_small", "column_skipped", "read_along_lines", "mean_removed"];
+pub const REST_KINDS: [NoticeKind; 3] =
+    [NoticeKind::FirstSampleNotZero, NoticeKind::FirstSampleSmall, NoticeKind::RecordDrift];
 
 /// Share of the peak up to which a first sample is worth a note only.
 const SMALL_FIRST_SAMPLE: f64 = 0.01;
@@ -25,12 +23,6 @@ const SMALL_FIRST_SAMPLE: f64 = 0.01;
 const ABSURD_PEAKS_M_PER_S2: [f64; 2] =
     [5e-5 * STANDARD_GRAVITY_M_PER_S2, 5.0 * STANDARD_GRAVITY_M_PER_S2];
 
-/// Whether a kind of warning is a note: it says how something was read and changes no decision.
-#[must_use]
-pub fn is_note(kind: &str) -> bool {
-    NOTE_KINDS.contains(&kind)
-}
-
 /// Warnings about a motion that does not begin or end at rest: a first acceleration other than 0, which
 /// up to 1 % of the peak is a note, and a velocity at the end beyond 5 % of the peak velocity.
 #[must_use]
@@ -39,7 +31,7 @@ pub fn rest(
     pga_m_per_s2: f64,
     end_velocity_m_per_s: f64,
     pgv_m_per_s: f64,
-) -> Vec<RecordWarning> {
+) -> Vec<Notice> {
     let mut warnings = Vec::new();
     let [not_zero, small, drift] = REST_KINDS;
     if first_m_per_s2 != 0.0 {
@@ -49,7 +41,7 @@ pub fn rest(
              the motion",
             figures(first_m_per_s2)
         );
-        warnings.push(RecordWarning { kind: if is_small { small } else { not_zero }, message });
+        warnings.push(Notice::new(if is_small { small } else { not_zero }, message));
     }
     if end_velocity_m_per_s.abs() > 0.05 * pgv_m_per_s {
         let percent = 100.0 * end_velocity_m_per_s.abs() / pgv_m_per_s;
@@ -58,22 +50,24 @@ pub fn rest(
              {percent:.0} % of its peak; nothing was corrected",
             figures(end_velocity_m_per_s)
         );
-        warnings.push(RecordWarning { kind: drift, message });
+        warnings.push(Notice::new(drift, message));
     }
     warnings
 }
 
 /// A peak that the values can only have in another unit.
-fn absurd(pga_m_per_s2: f64, units: &Units) -> Option<RecordWarning> {
+fn absurd(pga_m_per_s2: f64, units: &Units) -> Option<Notice> {
     let [least, largest] = ABSURD_PEAKS_M_PER_S2;
     let is_absurd = pga_m_per_s2 > largest || (pga_m_per_s2 > 0.0 && pga_m_per_s2 < least);
-    is_absurd.then(|| RecordWarning {
-        kind: "absurd_peak",
-        message: format!(
-            "the largest acceleration is {:.4} {units}, {:.3e} g: check the units",
-            pga_m_per_s2 / units.si(),
-            pga_m_per_s2 / STANDARD_GRAVITY_M_PER_S2
-        ),
+    is_absurd.then(|| {
+        Notice::new(
+            NoticeKind::AbsurdPeak,
+            format!(
+                "the largest acceleration is {:.4} {units}, {:.3e} g: check the units",
+                pga_m_per_s2 / units.si(),
+                pga_m_per_s2 / STANDARD_GRAVITY_M_PER_S2
+            ),
+        )
     })
 }
 
@@ -110,13 +104,15 @@ pub(super) fn peak_differs(
     ulp: f64,
     unit: Units,
     line: usize,
-) -> Option<RecordWarning> {
+) -> Option<Notice> {
     let peak = channel.values.iter().fold(0.0_f64, |peak, value| peak.max(value.abs()));
     let peak = peak / unit.si();
     let differs = (peak - stated.abs()).abs() > 3.0 * ulp + 0.005 * stated.abs();
-    differs.then(|| RecordWarning {
-        kind: "peak_differs",
-        message: format!("line {line} states a peak of {stated} {unit}, the values have {peak:.6}"),
+    differs.then(|| {
+        Notice::new(
+            NoticeKind::PeakDiffers,
+            format!("line {line} states a peak of {stated} {unit}, the values have {peak:.6}"),
+        )
     })
 }
 
@@ -140,7 +136,7 @@ fn velocity(channel: &Channel) -> (f64, f64) {
 
 /// A recorder at the end of its range holds its largest value. Two plateaus at the same extreme, far
 /// above the resolution, are taken for that; a made-up rectangle or one flat top is not.
-fn clipped(values: &[f64], si: f64) -> Option<RecordWarning> {
+fn clipped(values: &[f64], si: f64) -> Option<Notice> {
     let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     for extreme in [largest, least] {
@@ -161,14 +157,14 @@ fn clipped(values: &[f64], si: f64) -> Option<RecordWarning> {
                  the recorder was probably clipped there",
                 extreme / si
             );
-            return Some(RecordWarning { kind: "clipped", message });
+            return Some(Notice::new(NoticeKind::Clipped, message));
         }
     }
     None
 }
 
 /// One step far longer than the others, which are alike.
-fn gap(times_s: &[f64]) -> Option<RecordWarning> {
+fn gap(times_s: &[f64]) -> Option<Notice> {
     let steps = || times_s.windows(2).map(|t| t[1] - t[0]);
     let usual = upper_median(steps())?;
     let long = |step: &f64| *step > 1.5 * usual;
@@ -185,7 +181,7 @@ fn gap(times_s: &[f64]) -> Option<RecordWarning> {
             round(step),
             round(usual)
         );
-        RecordWarning { kind: "gap", message }
+        Notice::new(NoticeKind::Gap, message)
     })
 }
 
@@ -195,13 +191,13 @@ fn round(t: f64) -> f64 {
 }
 
 /// Rows that stand twice, time and value alike.
-fn repeated(times_s: &[f64], values: &[f64]) -> Option<RecordWarning> {
+fn repeated(times_s: &[f64], values: &[f64]) -> Option<Notice> {
     let pairs = || times_s.windows(2).zip(values.windows(2));
     let same = |(t, a): &(&[f64], &[f64])| t[0] == t[1] && a[0] == a[1];
     let count = pairs().filter(same).count();
     let (t, _) = pairs().find(same)?;
     let message = format!("{count} row(s) repeat the row before, the first at {} s", t[1]);
-    Some(RecordWarning { kind: "duplicate_rows", message })
+    Some(Notice::new(NoticeKind::DuplicateRows, message))
 }
 
 #[cfg(test)]
@@ -223,7 +219,7 @@ mod tests {
             warnings: vec![],
         };
         inspect(&mut channel);
-        channel.warnings.iter().map(|w| w.kind).collect()
+        channel.warnings.iter().map(|w| w.kind.name()).collect()
     }
 
     #[test]
@@ -233,7 +229,6 @@ mod tests {
         assert_eq!(kinds(&[0.0, 1.0, 0.0], Sampling::Dt(0.1)), ["record_drift"]);
         assert_eq!(kinds(&[0.01, 1.0, -1.0], Sampling::Dt(0.1))[0], "first_sample_small");
         assert_eq!(kinds(&[0.0101, 1.0, -1.0], Sampling::Dt(0.1))[0], "first_sample_not_zero");
-        assert!(is_note("first_sample_small") && !is_note("first_sample_not_zero"));
         let messages =
             rest(0.5, 2.0, -0.02, 0.1).into_iter().map(|w| w.message).collect::<Vec<_>>();
         assert!(messages[0].starts_with("the first sample is 0.5000 m/s²"), "{messages:?}");

@@ -13,10 +13,11 @@ use super::keys;
 use super::sampling;
 use super::text::{Line, Text};
 use super::{
-    Channel, FilterCorners, Format, Options, Quantity, Record, RecordError, RecordWarning,
-    Sampling, counts_to_add, to_si,
+    Channel, FilterCorners, Format, Options, Quantity, Record, RecordError, Sampling,
+    counts_to_add, to_si,
 };
 use crate::motion::MAX_SAMPLES;
+use crate::notice::{Notice, NoticeKind};
 use header::{Header, TEXT_LINES};
 
 /// Bytes of a binary header.
@@ -195,10 +196,10 @@ fn trace(
         return Err(error(Place::Header(header::IDEP), expected, &idep.to_string()));
     };
     if let Some(stated) = stated.filter(|stated| *stated != units.quantity()) {
-        warnings.push(RecordWarning {
-            kind: "quantity_differs",
-            message: format!("the header's IDEP says {}, {units} was given", stated.name()),
-        });
+        warnings.push(Notice::new(
+            NoticeKind::QuantityDiffers,
+            format!("the header's IDEP says {}, {units} was given", stated.name()),
+        ));
     }
     let sampling = if layout.even {
         let dt_s = double_dt_s.unwrap_or(header.floats[header::DELTA]);

@@ -3,8 +3,9 @@
 use core::ops::Range;
 
 use super::text::{Line, Text, last_digit, number};
-use super::{RecordError, RecordWarning, Sampling};
+use super::{RecordError, Sampling};
 use crate::motion::constant_step;
+use crate::notice::{Notice, NoticeKind};
 
 /// How the times of a column are spaced, with a warning where that had to be judged.
 ///
@@ -19,7 +20,7 @@ use crate::motion::constant_step;
 pub(crate) fn of_times(
     times_s: Vec<f64>,
     given_s: Option<f64>,
-) -> Result<(Sampling, Vec<RecordWarning>), String> {
+) -> Result<(Sampling, Vec<Notice>), String> {
     let from_zero: Vec<f64> = times_s.iter().map(|t| t - times_s[0]).collect();
     let resolution_s = resolution(&times_s);
     let even = constant_step(&from_zero);
@@ -43,16 +44,16 @@ pub(crate) fn of_times(
         let message = format!(
             "the times are rounded to {resolution_s} s: taken as evenly spaced at {dt_s} s"
         );
-        return Ok((Sampling::Dt(dt_s), vec![RecordWarning { kind: "times_rounded", message }]));
+        return Ok((Sampling::Dt(dt_s), vec![Notice::new(NoticeKind::TimesRounded, message)]));
     }
     let steps = || from_zero.windows(2).map(|t| t[1] - t[0]);
     let spread_s = steps().fold(0.0, f64::max) - steps().fold(f64::INFINITY, f64::min);
-    let warning = (spread_s <= 1.01 * resolution_s).then(|| RecordWarning {
-        kind: "times_rounded",
-        message: format!(
+    let warning = (spread_s <= 1.01 * resolution_s).then(|| {
+        let message = format!(
             "the time steps differ by their last decimal, {resolution_s} s, only and were taken \
              as they stand: if the times were rounded, give the true step as dt"
-        ),
+        );
+        Notice::new(NoticeKind::TimesRounded, message)
     });
     Ok((Sampling::Times(times_s), warning.into_iter().collect()))
 }
@@ -108,22 +109,22 @@ pub(super) fn disorder(times_s: &[f64]) -> Option<usize> {
     })
 }
 
-fn replaced(given_s: f64) -> RecordWarning {
+fn replaced(given_s: f64) -> Notice {
     let message = format!("the times of the file were replaced by the given step of {given_s} s");
-    RecordWarning { kind: "times_replaced", message }
+    Notice::new(NoticeKind::TimesReplaced, message)
 }
 
 /// A warning where a step read from few decimals is no whole number of samples a second.
-fn odd_step(dt_s: f64, resolution_s: f64) -> Option<RecordWarning> {
+fn odd_step(dt_s: f64, resolution_s: f64) -> Option<Notice> {
     let rate = 1.0 / dt_s;
     let whole = (rate - libm::round(rate)).abs() <= 1e-6 * rate;
     let coarse = resolution_s > 0.009 * dt_s;
-    (coarse && !whole && dt_s < 1.0).then(|| RecordWarning {
-        kind: "times_rounded",
-        message: format!(
+    (coarse && !whole && dt_s < 1.0).then(|| {
+        let message = format!(
             "a step of {dt_s} s is no whole number of samples a second: if the times were rounded, \
              give the true step as dt"
-        ),
+        );
+        Notice::new(NoticeKind::TimesRounded, message)
     })
 }
 
@@ -187,7 +188,7 @@ mod tests {
         let mut times_s = rounded(0.02, 1e5, 100);
         times_s[40] -= 1e-5;
         let (sampling, warnings) = of_times(times_s, None).unwrap();
-        assert_eq!((sampling, warnings[0].kind), (Sampling::Dt(0.02), "times_rounded"));
+        assert_eq!((sampling, warnings[0].kind), (Sampling::Dt(0.02), NoticeKind::TimesRounded));
     }
 
     #[test]
@@ -205,9 +206,9 @@ mod tests {
     fn exact_rounded_step_is_doubted_and_may_be_replaced() {
         let times_s = rounded(0.003, 1e3, 100);
         let (sampling, warnings) = of_times(times_s.clone(), None).unwrap();
-        assert_eq!((sampling, warnings[0].kind), (Sampling::Dt(0.003), "times_rounded"));
+        assert_eq!((sampling, warnings[0].kind), (Sampling::Dt(0.003), NoticeKind::TimesRounded));
         let (sampling, warnings) = of_times(times_s.clone(), Some(0.0025)).unwrap();
-        assert_eq!((sampling, warnings[0].kind), (Sampling::Dt(0.0025), "times_replaced"));
+        assert_eq!((sampling, warnings[0].kind), (Sampling::Dt(0.0025), NoticeKind::TimesReplaced));
         assert_eq!(of_times(times_s.clone(), Some(0.003)).unwrap().1, vec![]);
         assert_eq!(of_times(times_s, Some(0.01)).unwrap_err(), "0.003 s");
     }

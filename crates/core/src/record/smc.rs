@@ -14,10 +14,11 @@ use super::fixed::{Cursor, Fields};
 use super::text::{Line, Text};
 use super::volume::agree;
 use super::{
-    Channel, FilterCorners, Format, Options, Quantity, Record, RecordError, RecordWarning,
-    Sampling, Units, keys_to_add, quality, to_si,
+    Channel, FilterCorners, Format, Options, Quantity, Record, RecordError, Sampling, Units,
+    keys_to_add, quality, to_si,
 };
 use crate::motion::MAX_SAMPLES;
+use crate::notice::{Notice, NoticeKind};
 
 const TEXT_LINES: usize = 11;
 const INTEGERS: usize = 48;
@@ -129,7 +130,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
     }
     if integer(18) == Some(1.0) {
         let message = "the header marks the record as having a problem: read its comments";
-        let warning = RecordWarning { kind: "problem_marked", message: message.to_owned() };
+        let warning = Notice::new(NoticeKind::ProblemMarked, message);
         channel.warnings.push(warning);
     }
     let layout = "SMC".to_owned();

@@ -1,6 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::notice::NoticeKind;
 
 const NOTHING: Options = Options { format: None, units: None, dt_s: None };
 
@@ -225,7 +226,7 @@ fn exact_units_in_brackets() {
     let [a, v] = record.channels.as_slice() else { panic!("{record:?}") };
     assert_eq!((a.values[1], v.values[1]), (4.0 * 9.80665, 5.0));
     assert_eq!(a.sampling, Sampling::Dt(0.01));
-    assert_eq!(record.warnings[0].kind, "column_skipped");
+    assert_eq!(record.warnings[0].kind, NoticeKind::ColumnSkipped);
     assert!(message(text, &Options { units: Units::parse("gal"), ..NOTHING }).contains("leave"));
     let record = ok("# Time (s),Acceleration (g's)\n0.0,1E-4\n0.01,2E-4\n", &NOTHING);
     assert_eq!(values(&record.channels[0]), [1e-4, 2e-4]);
@@ -254,7 +255,7 @@ fn exact_values_along_the_lines() {
         values(&record.channels[0]),
         [1., 2., 3., 4., 3., 2., 1., 0., -1., 0., 1., 2., 1., 0.]
     );
-    assert_eq!(record.warnings[0].kind, "read_along_lines");
+    assert_eq!(record.warnings[0].kind, NoticeKind::ReadAlongLines);
     // Components side by side are not one series.
     let text = "1 90 -50\n2 91 -51\n1 92 -52\n2 90 -51\n";
     assert!(message(text, &g_at(0.5)).contains("look like components side by side"));

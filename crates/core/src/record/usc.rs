@@ -9,7 +9,8 @@ use super::csmip;
 use super::fixed::Cursor;
 use super::text::{Line, Text};
 use super::volume::{Head, Names, end_of_channel};
-use super::{Format, Options, Record, RecordError, RecordWarning};
+use super::{Format, Options, Record, RecordError};
+use crate::notice::{Notice, NoticeKind};
 
 /// Where the text of a line ends and its length stands.
 const TEXT_WIDTH: usize = 72;
@@ -36,7 +37,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
         if let (true, 1..VOLUME_TWO, Some(last)) = (corrected, own.len(), own.last_mut()) {
             let message = "the component has no velocity or no displacement, which a volume II has \
                            after its acceleration: the file may be cut";
-            last.warnings.push(RecordWarning { kind: "truncated", message: message.to_owned() });
+            last.warnings.push(Notice::new(NoticeKind::Truncated, message));
         }
         channels.append(&mut own);
     }

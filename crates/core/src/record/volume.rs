@@ -11,10 +11,11 @@ use core::ops::Range;
 use super::fixed::{Cursor, Fields};
 use super::text::{Line, Text, number};
 use super::{
-    Channel, FilterCorners, Options, Quantity, RecordError, RecordWarning, Sampling, Units,
-    quality, sampling, to_si,
+    Channel, FilterCorners, Options, Quantity, RecordError, Sampling, Units, quality, sampling,
+    to_si,
 };
 use crate::motion::MAX_SAMPLES;
+use crate::notice::{Notice, NoticeKind};
 
 /// Most lines of text before the integers.
 const TEXT_LINES: usize = 40;
@@ -140,7 +141,7 @@ impl<'a> Head<'a> {
                 "integer {place} of line {} states {stated} values, {count} stand there",
                 line.number
             );
-            channel.warnings.push(RecordWarning { kind: "header_differs", message });
+            channel.warnings.push(Notice::new(NoticeKind::HeaderDiffers, message));
         }
     }
 
@@ -443,7 +444,7 @@ fn check_text(
             "line {} states {} values, line {} {}, which stand there",
             count.line.number, count.value, heading.line.number, heading.count
         );
-        channel.warnings.push(RecordWarning { kind: "header_differs", message });
+        channel.warnings.push(Notice::new(NoticeKind::HeaderDiffers, message));
     }
     if acceleration {
         head.check_count(heading.count, channel);
@@ -474,7 +475,7 @@ pub(super) fn end_of_channel(
         if let (true, Some(channel)) = (marked, channels.last_mut()) {
             let message = "the file ends without its line \"/&\" at the end of a channel: it may \
                            be cut, and channels may be missing";
-            channel.warnings.push(RecordWarning { kind: "truncated", message: message.to_owned() });
+            channel.warnings.push(Notice::new(NoticeKind::Truncated, message));
         }
         return Ok(());
     };
@@ -497,7 +498,7 @@ pub(super) fn pairs(
     count: usize,
     announced: &Line,
     given_s: Option<f64>,
-) -> Result<(Vec<f64>, Sampling, Vec<RecordWarning>), RecordError> {
+) -> Result<(Vec<f64>, Sampling, Vec<Notice>), RecordError> {
     let first = cursor.peek();
     let width = first.map_or(0, |line| line.bytes.trim_ascii_end().len());
     let per_line = (width / 7).clamp(2, 20) / 2 * 2;

@@ -1,7 +1,8 @@
 //! What a response lies beyond.
 
-use super::{Demands, Warning};
+use super::Demands;
 use crate::model::Model;
+use crate::notice::{Notice, NoticeKind};
 
 /// Displacement over radius beyond which flat geometry is said to be one.
 const FLAT: f64 = 0.2;
@@ -9,7 +10,7 @@ const FLAT: f64 = 0.2;
 /// Warning for a pendulum, or a surface of several, that slides beyond 0.2 of its radius: the force `N s/R`
 /// of flat geometry is that of the dish, `N s/√(R² − s²)`, times `√(1 − (s/R)²)`.
 #[must_use]
-pub fn flat_geometry(model: &Model, demands: &Demands) -> Option<Warning> {
+pub fn flat_geometry(model: &Model, demands: &Demands) -> Option<Notice> {
     let slider = model.slider();
     let series = slider.series().map_or(&[][..], |series| series.surfaces());
     let of_surfaces = series.iter().zip(&demands.surfaces).enumerate();
@@ -32,18 +33,18 @@ pub fn flat_geometry(model: &Model, demands: &Demands) -> Option<Warning> {
     let message = format!(
         "{what} slides {ratio:.2} of its radius: flat geometry holds to {FLAT}, and there {short}"
     );
-    Some(Warning { kind: "flat_geometry", time_s: None, message })
+    Some(Notice::new(NoticeKind::FlatGeometry, message))
 }
 
 /// What the slider comes to the end of, which a table of sliding displacements does not tell: its gap, its
 /// stop, the travel of a surface.
 #[must_use]
-pub fn struck(model: &Model, demands: &Demands) -> Vec<Warning> {
+pub fn struck(model: &Model, demands: &Demands) -> Vec<Notice> {
     let mut found = Vec::new();
-    let mut say = |kind, message| found.push(Warning { kind, time_s: None, message });
+    let mut say = |kind, message| found.push(Notice::new(kind, message));
     if let Some(ratio) = demands.gap_ratio.filter(|ratio| *ratio > 1.0) {
         say(
-            "gap_exceeded",
+            NoticeKind::GapExceeded,
             format!(
                 "the block slides past its gap: {ratio:.2} of it; what it strikes there is not modelled"
             ),
@@ -57,7 +58,7 @@ pub fn struck(model: &Model, demands: &Demands) -> Vec<Warning> {
             force_n => format!(", with {:.3} of the weight", force_n / model.weight_n()),
         };
         say(
-            "stop_struck",
+            NoticeKind::StopStruck,
             format!("the block strikes its stop {times} times, at up to {speed:.3} m/s{force}"),
         );
     }
@@ -65,7 +66,7 @@ pub fn struck(model: &Model, demands: &Demands) -> Vec<Warning> {
     let ended: Vec<String> = ended.map(|(i, _)| (i + 1).to_string()).collect();
     if !ended.is_empty() {
         let message = format!("the end of its travel is reached by surface {}", ended.join(", "));
-        say("travel_reached", message);
+        say(NoticeKind::TravelReached, message);
     }
     found
 }
@@ -87,7 +88,7 @@ mod tests {
         let pendulum = block().radius("2 m").build().unwrap();
         assert_eq!(flat_geometry(&pendulum, &slid(0.4)), None);
         let found = flat_geometry(&pendulum, &slid(1.2)).unwrap();
-        assert_eq!(found.kind, "flat_geometry");
+        assert_eq!(found.kind, NoticeKind::FlatGeometry);
         assert_eq!(
             found.message,
             "the block slides 0.60 of its radius: flat geometry holds to 0.2, and there its restoring \

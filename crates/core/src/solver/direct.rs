@@ -23,8 +23,9 @@ use super::walk::Walk;
 use crate::error::SolveError;
 use crate::linear::polynomial::{DEGREE, Polynomial};
 use crate::model::Model;
+use crate::notice::{Notice, NoticeKind};
 use crate::progress::{GoOn, Pulse};
-use crate::response::{ContentsDemands, Event, EventKind, History, Mode, Warning};
+use crate::response::{ContentsDemands, Event, EventKind, History, Mode};
 use crate::slider::{Coefficient, Hold, Law, Restraint, SlipForce};
 
 use super::summary::Outcome;
@@ -36,7 +37,7 @@ pub(super) struct Stepped {
     pub(super) peaks: Vec<f64>,
     pub(super) contents: Vec<ContentsDemands>,
     pub(super) history: Option<History>,
-    pub(super) warnings: Vec<Warning>,
+    pub(super) warnings: Vec<Notice>,
 }
 
 /// Solves a model with devices.
@@ -94,12 +95,13 @@ fn stepped(walk: Walk<'_, Direct<'_>>) -> Stepped {
     let contents = phase.body.part_of.iter().map(of_part).collect();
     let mut outcome = walk.outcome(phase.peaks.overturns);
     outcome.events = events_of_items(&phase.body, &outcome.events);
-    let warnings = outcome.first_impact_s.map(|time_s| Warning {
-        kind: "impulses_excluded",
-        time_s: Some(time_s),
-        message: "the block strikes a rigid stop: peak accelerations and forces are those of the \
-                  motion between impacts, without the impulses"
-            .to_owned(),
+    let warnings = outcome.first_impact_s.map(|time_s| {
+        Notice::new(
+            NoticeKind::ImpulsesExcluded,
+            "the block strikes a rigid stop: peak accelerations and forces are those of the \
+                  motion between impacts, without the impulses",
+        )
+        .at(time_s)
     });
     Stepped {
         outcome,

@@ -3,9 +3,8 @@
 use super::course::Sliding;
 use super::outputs::output;
 use crate::model::Model;
-use crate::response::{
-    Demands, Event, EventKind, StopDemands, StoreyDemands, SurfaceDemands, Warning,
-};
+use crate::notice::{Notice, NoticeKind};
+use crate::response::{Demands, Event, EventKind, StopDemands, StoreyDemands, SurfaceDemands};
 use crate::slider::Direction;
 
 /// What an analysis leaves behind besides its peaks.
@@ -84,40 +83,38 @@ pub(super) fn warnings(
     model: &Model,
     events: &[Event],
     contact_loss_s: &[[f64; 2]],
-) -> Vec<Warning> {
+) -> Vec<Notice> {
     let mut warnings = Vec::new();
     let first = events.iter().find(|e| e.interface == 0);
     if let Some(start) = first.filter(|e| e.time_s == 0.0 && e.kind == EventKind::Slip) {
-        warnings.push(Warning {
-            kind: "slips_at_start",
-            time_s: Some(start.time_s),
-            message: "friction cannot hold the block at t = 0: it slips at once".into(),
-        });
+        warnings.push(
+            Notice::new(
+                NoticeKind::SlipsAtStart,
+                "friction cannot hold the block at t = 0: it slips at once",
+            )
+            .at(start.time_s),
+        );
     }
     let tilt_rad = model.slider().tilt_rad;
     let downhill = if tilt_rad > 0.0 { Direction::Negative } else { Direction::Positive };
     let kinetic = downhill.of(model.kinetic_friction());
     if libm::tan(tilt_rad).abs() > kinetic && model.slider_stiffness_n_per_m() == 0.0 {
-        warnings.push(Warning {
-            kind: "slide_need_not_stop",
-            time_s: None,
-            message: format!(
+        warnings.push(Notice::new(
+            NoticeKind::SlideNeedNotStop,
+            format!(
                 "the slope {:.4} is above the kinetic friction {kinetic} downhill and no spring \
                  holds the block: a slide need not stop",
                 libm::tan(tilt_rad).abs()
             ),
-        });
+        ));
     }
     if let (Some([from_s, _]), Some([_, to_s])) = (contact_loss_s.first(), contact_loss_s.last()) {
-        warnings.push(Warning {
-            kind: "contact_lost",
-            time_s: Some(*from_s),
-            message: format!(
-                "contact is lost {} times between {from_s:.4} s and {to_s:.4} s: friction is zero \
-                 there, and what the model says of that time is void",
-                contact_loss_s.len()
-            ),
-        });
+        let message = format!(
+            "contact is lost {} times between {from_s:.4} s and {to_s:.4} s: friction is zero \
+             there, and what the model says of that time is void",
+            contact_loss_s.len()
+        );
+        warnings.push(Notice::new(NoticeKind::ContactLost, message).at(*from_s));
     }
     warnings
 }

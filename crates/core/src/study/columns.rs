@@ -77,7 +77,7 @@ impl Study {
         cells.extend(self.shape.columns().iter().enumerate().map(|(i, column)| {
             Cells::of_numbers(column.demand.kind.into(), rows.iter().map(|row| of(&row.demands, i)))
         }));
-        cells.push(texts(&|row| row.warnings.join(";")));
+        cells.push(texts(&Row::kinds));
         cells.push(texts(&|row| {
             row.error.as_ref().map_or_else(|| "ok".to_owned(), ToString::to_string)
         }));

@@ -3,7 +3,7 @@
 use crate::linear::shear_frame_frequencies;
 use crate::model::{Damping, Model};
 use crate::motion::GroundMotion;
-use crate::response::Warning;
+use crate::notice::{Notice, NoticeKind};
 
 /// Nyquist frequencies of the motion in the highest mode of a model that has a rigid link in it.
 const RIGID_LINK: f64 = 100.0;
@@ -18,27 +18,25 @@ const SMALL_RADIUS_M: f64 = 0.05;
 const HIGH_DAMPING: f64 = 0.3;
 
 /// Values that are possible and hardly meant.
-pub(crate) fn suspicious(model: &Model) -> Vec<Warning> {
+pub(crate) fn suspicious(model: &Model) -> Vec<Notice> {
     let coefficient = model.static_friction().into_iter().fold(0.0, f64::max);
     let ratio = match model.frame().damping {
         Damping::Ratio(ratio) if model.storeys() > 0 => ratio,
         _ => 0.0,
     };
-    let high_friction = (coefficient > HIGH_FRICTION).then(|| Warning {
-        kind: "high_friction",
-        time_s: None,
-        message: format!(
+    let high_friction = (coefficient > HIGH_FRICTION).then(|| {
+        let message = format!(
             "the static friction is {coefficient}: above {HIGH_FRICTION} nothing is made to slide; \
              was percent meant?"
-        ),
+        );
+        Notice::new(NoticeKind::HighFriction, message)
     });
-    let high_damping = (ratio > HIGH_DAMPING).then(|| Warning {
-        kind: "high_damping",
-        time_s: None,
-        message: format!(
+    let high_damping = (ratio > HIGH_DAMPING).then(|| {
+        let message = format!(
             "the storeys' damping ratio is {ratio}: above {HIGH_DAMPING} is no structure's; was \
              percent meant?"
-        ),
+        );
+        Notice::new(NoticeKind::HighDamping, message)
     });
     [high_friction, high_damping, small_radius(model), inner_friction(model)]
         .into_iter()
@@ -47,38 +45,36 @@ pub(crate) fn suspicious(model: &Model) -> Vec<Warning> {
 }
 
 /// A radius that no slider has.
-fn small_radius(model: &Model) -> Option<Warning> {
+fn small_radius(model: &Model) -> Option<Notice> {
     let slider = model.slider();
     let surfaces = slider.series().map_or(&[][..], |series| series.surfaces());
     let radii = surfaces.iter().filter_map(|surface| surface.radius_m).chain(slider.radius_m());
     let least_m = radii.fold(f64::INFINITY, f64::min);
-    (least_m < SMALL_RADIUS_M).then(|| Warning {
-        kind: "small_radius",
-        time_s: None,
-        message: format!(
+    (least_m < SMALL_RADIUS_M).then(|| {
+        let message = format!(
             "a radius is {least_m} m: below {SMALL_RADIUS_M} m is no pendulum slider's; were metres meant?"
-        ),
+        );
+        Notice::new(NoticeKind::SmallRadius, message)
     })
 }
 
 /// A surface of a smaller radius that holds longer than one of a larger: inner surfaces are made to slide
 /// first.
-fn inner_friction(model: &Model) -> Option<Warning> {
+fn inner_friction(model: &Model) -> Option<Notice> {
     let surfaces = model.slider().series()?.surfaces();
     let curved = || surfaces.iter().filter_map(|on| Some((on.radius_m?, on.friction)));
     let (inner, outer) = curved().find_map(|inner| {
         let outer = curved().find(|outer| inner.0 < outer.0 && inner.1 > outer.1)?;
         Some((inner, outer))
     })?;
-    Some(Warning {
-        kind: "inner_friction_high",
-        time_s: None,
-        message: format!(
+    Some(Notice::new(
+        NoticeKind::InnerFrictionHigh,
+        format!(
             "the surface of radius {} m has the friction {}, that of {} m only {}: inner surfaces are \
              made to slide first; were the surfaces written in another order?",
             inner.0, inner.1, outer.0, outer.1
         ),
-    })
+    ))
 }
 
 /// Frequency of the highest mode, or of the block on its spring, in Hz.
@@ -95,18 +91,17 @@ pub(crate) fn longest_step_s(motion: &GroundMotion) -> f64 {
 }
 
 /// Samples further apart than a tenth of the shortest period say little of the highest mode.
-pub(crate) fn coarse_sampling(highest_hz: f64, longest_step_s: f64) -> Option<Warning> {
+pub(crate) fn coarse_sampling(highest_hz: f64, longest_step_s: f64) -> Option<Notice> {
     let nyquist_hz = 0.5 / longest_step_s;
     let rigid = match highest_hz > RIGID_LINK * nyquist_hz {
         true => "; a storey or spring as stiff as that is a rigid link: leave it out",
         false => "",
     };
-    (nyquist_hz < 5.0 * highest_hz).then(|| Warning {
-        kind: "coarse_sampling",
-        time_s: None,
-        message: format!(
+    (nyquist_hz < 5.0 * highest_hz).then(|| {
+        let message = format!(
             "the Nyquist frequency of the motion, {nyquist_hz:.4} Hz, is below 5 times the highest \
              mode, {highest_hz:.4} Hz: the motion may lack what excites that mode{rigid}"
-        ),
+        );
+        Notice::new(NoticeKind::CoarseSampling, message)
     })
 }

@@ -11,7 +11,7 @@ use crate::input::{MotionSource, Parts};
 use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{IntensityMeasures, Measure};
-use crate::record::is_note;
+use crate::notice::{NoticeKind, Severity};
 use crate::response::{Response, demand_values, flat_geometry};
 use crate::solver::{PreparedMotion, Workspace};
 
@@ -36,9 +36,18 @@ pub struct Row {
     /// where the run failed.
     pub demands: Vec<f64>,
     /// Kinds of warnings, each once.
-    pub warnings: Vec<&'static str>,
+    pub warnings: Vec<NoticeKind>,
     /// Why the run failed, where it did.
     pub error: Option<RunError>,
+}
+
+impl Row {
+    /// The names of its kinds of warnings, joined by `;`.
+    #[must_use]
+    pub fn kinds(&self) -> String {
+        let names: Vec<&str> = self.warnings.iter().map(|kind| kind.name()).collect();
+        names.join(";")
+    }
 }
 
 /// A motion as it is solved, and what rows say of it.
@@ -222,10 +231,10 @@ impl Study {
     pub(super) fn noticed(
         &self,
         case: Case,
-        suspicious: &[&'static str],
+        suspicious: &[NoticeKind],
         highest_hz: f64,
         longest_step_s: f64,
-    ) -> Vec<&'static str> {
+    ) -> Vec<NoticeKind> {
         let of_record = self.records.get(case.record as usize).map(|record| &record.warnings);
         let of_model = coarse_sampling(highest_hz, longest_step_s);
         let of_model = of_model.into_iter().map(|warning| warning.kind);
@@ -278,20 +287,20 @@ impl Study {
 
 /// Kinds of warnings that a run gives without its certificate, each once.
 pub(super) fn warnings(
-    of_record: &[&'static str],
+    of_record: &[NoticeKind],
     model: Option<&Model>,
     response: &Response,
-) -> Vec<&'static str> {
+) -> Vec<NoticeKind> {
     let flat = model.and_then(|model| flat_geometry(model, &response.demands));
     let flat = flat.map(|warning| warning.kind);
     let gap = response.demands.gap_ratio.is_some_and(|ratio| ratio > 1.0);
-    let gap = gap.then_some("gap_exceeded");
+    let gap = gap.then_some(NoticeKind::GapExceeded);
     let slides = response.demands.slip_count > 0 || response.demands.sliding_path_m > 0.0;
-    let gap = gap.into_iter().chain((!slides).then_some("nothing_slides"));
+    let gap = gap.into_iter().chain((!slides).then_some(NoticeKind::NothingSlides));
     let of_solver = response.warnings.iter().map(|warning| warning.kind);
     let mut kinds = Vec::new();
     for kind in of_record.iter().copied().chain(gap).chain(flat).chain(of_solver) {
-        if !kinds.contains(&kind) && !is_note(kind) {
+        if !kinds.contains(&kind) && kind.severity() != Severity::Note {
             kinds.push(kind);
         }
     }

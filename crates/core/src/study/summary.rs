@@ -379,6 +379,7 @@ fn quantiles<E>(
 mod tests {
     use super::*;
     use crate::input::plan::Plan;
+    use crate::notice::NoticeKind;
     use crate::study::{Record, Row};
 
     /// Quantiles, means and largest values against those of the sorted rows in memory.
@@ -412,12 +413,12 @@ mod tests {
             Ok(())
         };
         let warnings = |take: &mut dyn FnMut(u64, &str)| {
-            rows.iter().for_each(|row| take(row.run, &row.warnings.join(";")));
+            rows.iter().for_each(|row| take(row.run, &row.kinds()));
             Ok(())
         };
         let passes = Rows { solved: &solved, demand: &demand, warnings: &warnings };
         let summary = study.summary("s", &passes, &engine).unwrap();
-        let slid = |row: &Row| !row.warnings.contains(&"nothing_slides");
+        let slid = |row: &Row| !row.warnings.contains(&NoticeKind::NothingSlides);
         let still = rows.iter().filter(|row| !slid(row)).count() as u64;
         let told = summary.warned.iter().find(|(kind, ..)| kind == "nothing_slides");
         assert_eq!(told.map_or(0, |(_, runs, _)| *runs), still);

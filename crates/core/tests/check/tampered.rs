@@ -1,7 +1,7 @@
 //! Tampered histories: each must push a figure above 1e-9.
 
 use crate::systems::*;
-use slipstick::check::check;
+use slipstick::check::{DecisionKind, check};
 use slipstick::model::{Block, Contents, Damping, Frame, Model};
 use slipstick::motion::GroundMotion;
 use slipstick::response::{Demands, EventKind, History, Mode, Response};
@@ -248,7 +248,11 @@ fn prop_closest_call_does_not_know_the_samples() {
         });
         assert_eq!(call.kind, same.kind, "{}", system.name);
         // The peak of a velocity is that of knots and nodes; all else is rounding.
-        let part = if ["slip", "impact"].contains(&call.kind) { 1e-3 } else { 1e-9 };
+        let part = if [DecisionKind::Slip, DecisionKind::Impact].contains(&call.kind) {
+            1e-3
+        } else {
+            1e-9
+        };
         let off = (call.margin - same.margin).abs();
         assert!(off < part * call.margin, "{}: {call:?} {same:?}", system.name);
         assert!((call.time_s - same.time_s).abs() < 1e-6, "{}: {call:?} {same:?}", system.name);
@@ -288,7 +292,7 @@ fn exact_excess_between_samples_shows() {
         let held = System { model, ..system.clone() };
         let history = history_of(&held);
         let call = judge(&held, &history).closest_call.unwrap();
-        assert_eq!(call.kind, "stick");
+        assert_eq!(call.kind, DecisionKind::Stick);
         let inside = |t: &f64| (t - call.time_s).abs() > 1e-3;
         assert!(held.motion.times_s().iter().all(inside), "between samples");
         for (part, shows) in [(1.0 - 1e-8, true), (1.0 + 1e-8, false)] {

@@ -1,7 +1,7 @@
 //! True histories pass, and so does what only rounding moves.
 
 use crate::systems::*;
-use slipstick::check::check;
+use slipstick::check::{DecisionKind, check};
 use slipstick::model::{Contents, Damping, Frame, InitialState, Model, Slider, Stop, StopKind};
 use slipstick::motion::GroundMotion;
 use slipstick::response::{
@@ -103,7 +103,7 @@ fn exact_newmark_block_passes() {
     assert!(worst(&c) < 1e-15, "{}", figures(&c));
     assert_eq!(c.bound, 1e-10);
     let call = c.closest_call.unwrap();
-    assert_eq!((call.margin, call.time_s, call.kind), (1.0, 1.0, "stop"));
+    assert_eq!((call.margin, call.time_s, call.kind), (1.0, 1.0, DecisionKind::Stop));
     // All that the table put in went into friction: μ M g times 0.49 m.
     let spent = 0.2 * 124.0 * G * 0.05 * G;
     let energies = c.energy();
@@ -153,7 +153,7 @@ fn exact_free_vibration_with_friction_passes() {
     assert!(worst(&c) < 1e-14, "{}", figures(&c));
     // |s| at the turning points over the friction: 5.5, 3.5, 1.5, 0.5 bounds.
     let call = c.closest_call.unwrap();
-    assert!((call.margin - 0.5).abs() < 1e-12 && call.kind == "stop", "{call:?}");
+    assert!((call.margin - 0.5).abs() < 1e-12 && call.kind == DecisionKind::Stop, "{call:?}");
 }
 
 /// A block that never slides: the oscillator on a ramp, y = −(j/ω²)(t − sin ωt/ω).
@@ -380,7 +380,7 @@ fn exact_dip_of_velocity_between_knots_counts() {
         let call = above.closest_call.unwrap();
         let expected = depth / (c * end_s / 4.0 + depth);
         assert!((call.margin - expected).abs() < 1e-14, "{}", figures(&above));
-        assert_eq!(call.kind, "slip");
+        assert_eq!(call.kind, DecisionKind::Slip);
         let below = dips(-depth);
         let expected = 2.0 * kinetic / fixed;
         assert!((below.friction_excess - expected).abs() < 1e-14, "{}", figures(&below));
@@ -690,10 +690,10 @@ fn exact_close_decisions_of_contents_count() {
     let peak = 0.5 * (3.0 - kinetic * G);
     let back_s = (1.0 - 1e-8) * peak / (kinetic * G);
     for (kind, times_s, values) in [
-        ("stick", vec![0.0, 1.0, 2.0, 3.0], vec![0.0, near, 0.0, 0.0]),
-        ("stop", vec![0.0, 0.5, 0.5, 2.0, 3.0], vec![3.0, 3.0, -near, -near, 0.0]),
+        (DecisionKind::Stick, vec![0.0, 1.0, 2.0, 3.0], vec![0.0, near, 0.0, 0.0]),
+        (DecisionKind::Stop, vec![0.0, 0.5, 0.5, 2.0, 3.0], vec![3.0, 3.0, -near, -near, 0.0]),
         (
-            "slip",
+            DecisionKind::Slip,
             vec![0.0, 0.5, 0.5, 0.5 + back_s, 0.5 + back_s, 1.0 + back_s],
             vec![3.0, 3.0, 0.0, 0.0, 3.0, 3.0],
         ),

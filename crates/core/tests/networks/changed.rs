@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use slipstick::notice::NoticeKind;
 use slipstick::record::{self, Format, Options, Record};
 
 use super::{NOTHING, ROWS, bytes, folder, given, kinds, samples};
@@ -117,7 +118,9 @@ fn exact_second_counts_are_compared() {
         let differs = |text: &str| {
             let record = record::read(file, text.as_bytes(), &NOTHING).unwrap();
             let all = record.channels[0].warnings.clone().into_iter();
-            all.filter(|w| w.kind == "header_differs").map(|w| w.message).collect::<Vec<_>>()
+            all.filter(|w| w.kind == NoticeKind::HeaderDiffers)
+                .map(|w| w.message)
+                .collect::<Vec<_>>()
         };
         assert_eq!(differs(&text), Vec::<String>::new(), "{file}");
         let changed = change(&text);

@@ -1,5 +1,6 @@
 //! The small samples, all of one motion.
 
+use slipstick::notice::NoticeKind;
 use slipstick::record::{self, Sampling};
 
 use super::{G, NOTHING, given, kinds, read, samples};
@@ -89,7 +90,7 @@ fn exact_knet_samples() {
             let expected = share * (g - mean) * G;
             assert!((found - expected).abs() < 6.4e-6, "{file}: {found} {expected}");
         }
-        assert_eq!(channel.warnings[0].kind, "mean_removed");
+        assert_eq!(channel.warnings[0].kind, NoticeKind::MeanRemoved);
         assert_eq!(channel.event.as_deref(), Some("2000/01/01 00:00:00 M5.0"));
     }
 }

@@ -45,7 +45,7 @@ fn peak(channel: &Channel) -> f64 {
 }
 
 fn kinds(channel: &Channel) -> Vec<&str> {
-    channel.warnings.iter().map(|w| w.kind).collect()
+    channel.warnings.iter().map(|w| w.kind.name()).collect()
 }
 
 /// File, channel, units, step, count, PGA in g and peak in the file's units: rows of the index.

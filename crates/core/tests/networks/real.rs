@@ -1,5 +1,6 @@
 //! Real files.
 
+use slipstick::notice::NoticeKind;
 use slipstick::record::{self, Sampling};
 
 use super::{G, NOTHING, ROWS, bytes, folder, given, kinds, peak, read};
@@ -105,7 +106,7 @@ fn records_miniseed_traps() {
     let gaps = read(&folder, "miniseed/gaps.mseed", &NOTHING);
     assert!(gaps.channels.iter().all(|c| kinds(c).contains(&"gap")));
     let broken = read(&folder, "miniseed/brokenlastrecord.mseed", &NOTHING);
-    assert_eq!(broken.warnings[0].kind, "truncated");
+    assert_eq!(broken.warnings[0].kind, NoticeKind::Truncated);
     let message = |file: &str| {
         record::read(file, &bytes(&folder, &format!("miniseed/{file}")), &NOTHING)
             .unwrap_err()

@@ -5,7 +5,7 @@ mod figures;
 use slipstick::assessment::design::{Bounded, DesignRun, Figures, Point, Target};
 use slipstick::assessment::grid::Axis;
 use slipstick::assessment::sensitivity::Index;
-use slipstick::response::Warning;
+use slipstick::notice::{Notice, NoticeKind};
 
 use super::key::title;
 use super::sheet::{Sheet, cell, failed};
@@ -33,7 +33,7 @@ pub struct DesignReport<'a> {
     /// Confidence of intervals.
     pub confidence: f64,
     /// What reading the records gave notice of.
-    pub warnings: &'a [Warning],
+    pub warnings: &'a [Notice],
     /// Units to show results in.
     pub display: DisplayUnits,
 }
@@ -149,18 +149,18 @@ impl DesignReport<'_> {
         verdict
     }
 
-    fn failed_runs(&self) -> Option<Warning> {
+    fn failed_runs(&self) -> Option<Notice> {
         let records = self.records as u64;
         let bounded = self.bounded().map_or(0, |(_, bounded)| 2 * bounded.len() as u64 * records);
         failed(&self.run.failures, self.run.found.runs + bounded, "count as beyond the gap")
     }
 
-    fn all_warnings(&self) -> Vec<Warning> {
-        let mut all: Vec<Warning> = self.failed_runs().into_iter().collect();
-        let mut warn = |kind, message| all.push(Warning { kind, time_s: None, message });
+    fn all_warnings(&self) -> Vec<Notice> {
+        let mut all: Vec<Notice> = self.failed_runs().into_iter().collect();
+        let mut warn = |kind, message| all.push(Notice::new(kind, message));
         if self.run.found.front.is_empty() {
             warn(
-                "no_feasible_design",
+                NoticeKind::NoFeasibleDesign,
                 format!(
                     "no design of the grid keeps the gap in {} % of the records; the least \
                      displacement that any design reaches is given instead",
@@ -186,12 +186,12 @@ impl DesignReport<'_> {
                     "the chosen design lies at an end of the range of {}: a better one may lie beyond",
                     edges.join(" and ")
                 );
-                warn("edge_of_range", message);
+                warn(NoticeKind::EdgeOfRange, message);
             }
             let robust = self.robust();
             if self.bounds.is_some() && robust != Some(chosen) {
                 warn(
-                    "not_robust",
+                    NoticeKind::NotRobust,
                     match robust {
                         Some(_) => "the chosen design passes the gap with lower- or upper-bound friction; \
                                     the robust one keeps it"
@@ -205,7 +205,7 @@ impl DesignReport<'_> {
         let needed = slipstick::assessment::design::records_needed(&self.target, self.records);
         if needed == self.records && self.target.probability < 1.0 {
             warn(
-                "few_records",
+                NoticeKind::FewRecords,
                 format!(
                     "with {} records a share of {} asks all of them to keep the gap",
                     self.records,

@@ -8,6 +8,7 @@ use slipstick::assessment::fragility::{
     Capacity, Certainty, CloudPoint, Stripe, test_counts, test_normality,
 };
 use slipstick::assessment::observed::{Data, FragilityRun};
+use slipstick::notice::NoticeKind;
 
 use super::key::{of_measure, quantity, title};
 use super::sheet::{Sheet, cell};
@@ -128,7 +129,7 @@ impl FragilityReport<'_> {
 
     /// Whether every run has a demand.
     fn complete(&self) -> bool {
-        !self.run.warnings.iter().any(|warning| warning.kind == "failed_runs")
+        !self.run.warnings.iter().any(|warning| warning.kind == NoticeKind::FailedRuns)
     }
 
     /// Median with its interval, and dispersion.

@@ -4,8 +4,9 @@ use slipstick::assessment::FailedRun;
 use slipstick::assessment::histories::{Histories, ModelHistories, OnRecord, RECORDS_OF_A_MEAN};
 use slipstick::assessment::lateral::{LEAST_TOTAL, LateralForce};
 use slipstick::input::{Bound, Names};
+use slipstick::notice::{Notice, NoticeKind};
 use slipstick::record::Origin;
-use slipstick::response::{DemandColumn, DemandOf, Warning};
+use slipstick::response::{DemandColumn, DemandOf};
 use slipstick::table::{Cells, Column, Table};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
@@ -27,7 +28,7 @@ pub struct HistoriesReport<'a> {
     /// How the records were scaled, in words.
     pub scaled: &'a str,
     /// What reading the records gave notice of.
-    pub warnings: &'a [Warning],
+    pub warnings: &'a [Notice],
     /// Units to show results in.
     pub display: DisplayUnits,
 }
@@ -363,7 +364,7 @@ impl HistoriesReport<'_> {
     }
 
     /// Factors that no longer make another earthquake of a record.
-    fn far_factors(&self) -> Option<Warning> {
+    fn far_factors(&self) -> Option<Notice> {
         let records = &self.histories.models.first()?.records;
         let far = |on: &&OnRecord| !FACTORS.contains(&on.scale.abs());
         let count = records.iter().filter(far).count();
@@ -379,7 +380,7 @@ impl HistoriesReport<'_> {
             farthest.record,
             cell(farthest.scale)
         );
-        Some(Warning { kind: "factor_far", time_s: None, message })
+        Some(Notice::new(NoticeKind::FactorFar, message))
     }
 
     /// How it was computed.
@@ -423,7 +424,7 @@ impl HistoriesReport<'_> {
     }
 
     /// Warnings of reading and of the runs, each kind once with the record that gave it first.
-    fn warnings(&self) -> Vec<Warning> {
+    fn warnings(&self) -> Vec<Notice> {
         let models = &self.histories.models;
         let runs =
             models.iter().map(|model| model.records.len() * model.bounds.len()).sum::<usize>();
@@ -433,7 +434,7 @@ impl HistoriesReport<'_> {
         let unanswered = failed(&unanswered, runs as u64, count_as);
         let far = self.far_factors().filter(|_| !self.scaled.is_empty());
         let of_reading = unanswered.iter().chain(&far).chain(self.warnings);
-        let mut all: Vec<(Warning, usize)> =
+        let mut all: Vec<(Notice, usize)> =
             of_reading.map(|warning| (warning.clone(), 0)).collect();
         for on in self.histories.models.iter().flat_map(|model| &model.records) {
             for warning in &on.warnings {
@@ -441,14 +442,14 @@ impl HistoriesReport<'_> {
                     Some((_, more)) => *more += 1,
                     None => {
                         let message = format!("{}: {}", on.record, warning.message);
-                        all.push((Warning { message, ..warning.clone() }, 0));
+                        all.push((Notice { message, ..warning.clone() }, 0));
                     }
                 }
             }
         }
-        let told = |(warning, more): (Warning, usize)| match more {
+        let told = |(warning, more): (Notice, usize)| match more {
             0 => warning,
-            _ => Warning { message: format!("{} (and {more} more)", warning.message), ..warning },
+            _ => Notice { message: format!("{} (and {more} more)", warning.message), ..warning },
         };
         all.into_iter().map(told).collect()
     }

@@ -6,8 +6,8 @@ use slipstick::assessment::FailedRun;
 use slipstick::assessment::fragility::Fragility;
 use slipstick::assessment::ida::{Crossing, Curve, demand_fractiles, level_fractiles};
 use slipstick::assessment::observed::Averaged;
+use slipstick::notice::{Notice, NoticeKind};
 use slipstick::numerics::fractile::SHARES;
-use slipstick::response::Warning;
 
 pub use family::IdaFamily;
 
@@ -45,7 +45,7 @@ pub struct IdaReport<'a> {
     /// Runs without an answer.
     pub failures: &'a [FailedRun],
     /// What reading the records gave notice of.
-    pub warnings: &'a [Warning],
+    pub warnings: &'a [Notice],
     /// Units to show results in.
     pub display: DisplayUnits,
 }
@@ -193,8 +193,8 @@ impl IdaReport<'_> {
         by_level.last().map(of).into_iter().collect()
     }
 
-    fn all_warnings(&self) -> Vec<Warning> {
-        let mut all: Vec<Warning> =
+    fn all_warnings(&self) -> Vec<Notice> {
+        let mut all: Vec<Notice> =
             failed(self.failures, self.runs() as u64, BEYOND).into_iter().collect();
         if self.limit.is_some() {
             let back: Vec<String> = self
@@ -213,7 +213,7 @@ impl IdaReport<'_> {
                     })
                 })
                 .collect();
-            all.extend(counted("resurrection", &back));
+            all.extend(counted(NoticeKind::Resurrection, &back));
             let never = self.crossings().iter().filter(|crossing| !crossing.reached).count();
             if never > 0 {
                 let message = format!(
@@ -222,7 +222,7 @@ impl IdaReport<'_> {
                     self.records.len(),
                     self.each()
                 );
-                all.push(Warning { kind: "limit_not_reached", time_s: None, message });
+                all.push(Notice::new(NoticeKind::LimitNotReached, message));
             }
         }
         all.extend(self.warnings.iter().cloned());

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use slipstick::assessment::FailedRun;
-use slipstick::response::Warning;
+use slipstick::notice::{Notice, NoticeKind};
 
 use crate::VERSION;
 use crate::display::DisplayUnits;
@@ -32,7 +32,7 @@ pub struct Sheet {
     /// Units of the quantities in warnings.
     pub display: DisplayUnits,
     /// All that a reader must know.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
     /// Headings with their tables: the first row are heads, the first column names.
     pub tables: Vec<(String, Vec<Vec<String>>)>,
     /// Sentences below the tables.
@@ -160,19 +160,19 @@ pub(crate) fn cell(value: f64) -> String {
 }
 
 /// Runs without an answer, of so many, as one warning; what they count as is the analysis's to say.
-pub(super) fn failed(runs: &[FailedRun], of: u64, count_as: &str) -> Option<Warning> {
+pub(super) fn failed(runs: &[FailedRun], of: u64, count_as: &str) -> Option<Notice> {
     let first = runs.first()?;
     let message =
         format!("{} of {of} runs have no answer and {count_as}; the first: {first}", runs.len());
-    Some(Warning { kind: "failed_runs", time_s: None, message })
+    Some(Notice::new(NoticeKind::FailedRuns, message))
 }
 
 /// A heading for a list of warnings from the messages of runs: each message once, with its count.
-pub(super) fn counted(kind: &'static str, messages: &[impl Display]) -> Option<Warning> {
+pub(super) fn counted(kind: NoticeKind, messages: &[impl Display]) -> Option<Notice> {
     let first = messages.first()?;
     let more = match messages.len() - 1 {
         0 => String::new(),
         more => format!(" (and {more} more)"),
     };
-    Some(Warning { kind, time_s: None, message: format!("{first}{more}") })
+    Some(Notice::new(kind, format!("{first}{more}")))
 }

@@ -1,7 +1,7 @@
 //! Sliding spectra and frequency response curves.
 
 use slipstick::assessment::spectrum::{DemandCurves, SpectrumRun};
-use slipstick::response::Warning;
+use slipstick::notice::Notice;
 
 use super::key::{quantity, title};
 use super::lines::{BAND, FRACTILES, GROUPS, RECORD, band, line, panel, share_names, stacked};
@@ -23,7 +23,7 @@ pub struct SpectrumReport<'a> {
     /// How the records were scaled, in words.
     pub scaled: &'a str,
     /// What reading the records gave notice of.
-    pub warnings: &'a [Warning],
+    pub warnings: &'a [Notice],
     /// Units to show results in.
     pub display: DisplayUnits,
 }

@@ -3,7 +3,7 @@
 use slipstick::laboratory::estimate::{Estimate, Outcome};
 use slipstick::laboratory::identify::{Found, Identified, cyclic_histories};
 use slipstick::laboratory::measured::Measured;
-use slipstick::response::Warning;
+use slipstick::notice::Notice;
 
 use super::compare::number_table;
 use super::text::{aligned, field};
@@ -43,7 +43,7 @@ pub struct IdentifyReport<'a> {
     /// The figures of the page.
     pub figures: Vec<Drawn>,
     /// What was noticed.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
     /// Texts that people wrote: model and mapping.
     pub inputs: &'a [InputText<'a>],
     /// Files read, with their hashes.

@@ -2,7 +2,8 @@
 
 use slipstick::error::visible;
 use slipstick::motion::intensity::IntensityMeasures;
-use slipstick::record::{Channel, Quantity, Record, RecordWarning, Sampling};
+use slipstick::notice::{Notice, NoticeKind};
+use slipstick::record::{Channel, Quantity, Record, Sampling};
 
 use crate::display::{DisplayUnits, Quantity as Shown};
 use crate::json::Json;
@@ -45,7 +46,7 @@ pub struct ChannelInfo {
     /// Station, where stated.
     pub station: Option<String>,
     /// What to know of the file and the channel.
-    pub warnings: Vec<RecordWarning>,
+    pub warnings: Vec<Notice>,
 }
 
 impl ChannelInfo {
@@ -60,7 +61,7 @@ impl ChannelInfo {
                 (None, times_s.last().zip(times_s.first()).map_or(0.0, |(b, a)| b - a))
             }
         };
-        let mut warnings: Vec<RecordWarning> =
+        let mut warnings: Vec<Notice> =
             record.warnings.iter().chain(&channel.warnings).cloned().collect();
         let measures = match channel.motion() {
             Some(Ok(motion)) => {
@@ -68,7 +69,7 @@ impl ChannelInfo {
             }
             Some(Err(error)) => {
                 let message = format!("no measures: {error}");
-                warnings.push(RecordWarning { kind: "no_measures", message });
+                warnings.push(Notice::new(NoticeKind::NoMeasures, message));
                 None
             }
             None => None,
@@ -98,7 +99,10 @@ impl ChannelInfo {
         let text = |value: &Option<String>| value.as_deref().map_or(Json::Null, Json::from);
         let listed = |notes: bool| {
             let all = self.warnings.iter().filter(|warning| warning.is_note() == notes).map(|w| {
-                Json::Object(vec![("kind", w.kind.into()), ("message", w.message.as_str().into())])
+                Json::Object(vec![
+                    ("kind", w.kind.name().into()),
+                    ("message", w.message.as_str().into()),
+                ])
             });
             Json::List(all.collect())
         };
@@ -212,7 +216,7 @@ fn file_table(out: &mut String, channels: &[ChannelInfo], display: DisplayUnits)
         out.push_str(cells.join("  ").trim_end());
         out.push('\n');
     }
-    let mut told: Vec<&RecordWarning> = Vec::new();
+    let mut told: Vec<&Notice> = Vec::new();
     for channel in channels {
         for warning in &channel.warnings {
             // What is said of the file is said once.
@@ -227,7 +231,7 @@ fn file_table(out: &mut String, channels: &[ChannelInfo], display: DisplayUnits)
             };
             out.push_str(&format!(
                 "{}  {of}{}: {}\n",
-                if warning.is_note() { "Note" } else { "Warning" },
+                warning.label(),
                 warning.kind,
                 visible(&warning.message)
             ));

@@ -68,7 +68,7 @@ fn channel(
         out.raw("\n<ul>\n");
         for warning in all {
             out.raw("<li>")
-                .element("strong", warning.kind.replace('_', " "))
+                .element("strong", warning.kind.words())
                 .raw(": ")
                 .text(&warning.message)
                 .raw("</li>\n");

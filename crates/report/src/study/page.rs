@@ -1,7 +1,8 @@
 //! A study as a page: the answer, how demands grow with the level, the tables.
 
+use slipstick::notice::{Notice, NoticeKind};
 use slipstick::numerics::sort;
-use slipstick::response::{DemandColumn, Warning};
+use slipstick::response::DemandColumn;
 use slipstick::study::{LevelSummary, Study, StudySummary};
 
 use super::{level, level_number, level_unit, said, shown};
@@ -144,13 +145,13 @@ impl StudyReport<'_> {
         said
     }
 
-    fn warnings(&self) -> Vec<Warning> {
-        let warn = |kind, message| Warning { kind, time_s: None, message };
+    fn warnings(&self) -> Vec<Notice> {
+        let warn = |kind, message| Notice::new(kind, message);
         let failures = self.summary.failures();
         let failed = (failures > 0).then(|| {
             let message =
                 format!("{} runs failed: see the column status of the parts", count(failures));
-            warn("failed_runs", message)
+            warn(NoticeKind::FailedRuns, message)
         });
         let rows: u64 = {
             let first = self.summary.rows.first().map(|row| row.demand);
@@ -159,10 +160,10 @@ impl StudyReport<'_> {
         };
         let missing = (rows < self.study.runs()).then(|| {
             let all = count(self.study.runs());
-            warn("incomplete", format!("{} of {all} runs are in the folder", count(rows)))
+            warn(NoticeKind::Incomplete, format!("{} of {all} runs are in the folder", count(rows)))
         });
-        let warned = said(self.summary).into_iter().map(|message| warn("runs", message));
-        let noticed = self.notices.iter().map(|notice| warn("inputs", notice.clone()));
+        let warned = said(self.summary).into_iter().map(|message| warn(NoticeKind::Runs, message));
+        let noticed = self.notices.iter().map(|notice| warn(NoticeKind::Inputs, notice.clone()));
         failed.into_iter().chain(missing).chain(warned).chain(noticed).collect()
     }
 

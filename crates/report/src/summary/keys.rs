@@ -2,7 +2,8 @@
 
 use slipstick::assessment::single::FloorSpectra;
 use slipstick::motion::Figures;
-use slipstick::response::{DEMANDS, DemandColumn, DemandKind, DemandOf, Demands, Warning};
+use slipstick::notice::Notice;
+use slipstick::response::{DEMANDS, DemandColumn, DemandKind, DemandOf, Demands};
 
 use slipstick::input::Names;
 
@@ -134,13 +135,13 @@ fn json(kind: DemandKind, value: Option<f64>) -> Json {
 }
 
 /// The warnings among some, or the notes.
-pub(crate) fn listed(all: &[Warning], notes: bool) -> Json {
+pub(crate) fn listed(all: &[Notice], notes: bool) -> Json {
     Json::List(all.iter().filter(|warning| warning.is_note() == notes).map(warning).collect())
 }
 
-fn warning(warning: &Warning) -> Json {
+fn warning(warning: &Notice) -> Json {
     Json::Object(vec![
-        ("kind", warning.kind.into()),
+        ("kind", warning.kind.name().into()),
         ("time_s", warning.time_s.into()),
         ("message", warning.message.as_str().into()),
     ])
@@ -151,7 +152,7 @@ fn checks(checks: &Checks) -> Json {
         Json::Object(vec![
             ("margin", call.margin.into()),
             ("time_s", call.time_s.into()),
-            ("kind", call.kind.into()),
+            ("kind", call.kind.name().into()),
             ("interface", Json::Text(call.interface_name())),
         ])
     });

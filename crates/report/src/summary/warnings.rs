@@ -1,8 +1,9 @@
 //! Warnings from all sources in one list, the gravest first.
 
 use slipstick::check::Certificate;
+use slipstick::notice::{Notice, NoticeKind};
 use slipstick::numerics::sort;
-use slipstick::response::{Method, Response, Warning, flat_geometry};
+use slipstick::response::{Method, Response, flat_geometry};
 
 use super::{SummaryInputs, exceeds};
 use crate::number::{compact, rounded, significant};
@@ -11,7 +12,7 @@ use crate::number::{compact, rounded, significant};
 const CLOSE_CALL_MARGIN: f64 = 1e-6;
 
 /// Those that follow from the figures, then the solver's, then those given; each once, notes last.
-pub fn assemble(inputs: &SummaryInputs) -> Vec<Warning> {
+pub fn assemble(inputs: &SummaryInputs) -> Vec<Notice> {
     let derived = [
         inputs.certificate.and_then(|certificate| check_failed(inputs.response, certificate)),
         gap_exceeded(inputs),
@@ -19,13 +20,15 @@ pub fn assemble(inputs: &SummaryInputs) -> Vec<Warning> {
         nothing_slides(inputs.response),
         flat_geometry(inputs.model, &inputs.response.demands),
     ];
-    let mut all: Vec<Warning> = derived.into_iter().flatten().collect();
+    let mut all: Vec<Notice> = derived.into_iter().flatten().collect();
     for warning in inputs.response.warnings.iter().chain(inputs.warnings) {
         // What the solver says of a kind that is derived here would only say it twice.
         let told = all.iter().any(|seen| {
             seen.kind == warning.kind
-                && (matches!(seen.kind, "check_failed" | "gap_exceeded" | "close_call")
-                    || seen == warning)
+                && (matches!(
+                    seen.kind,
+                    NoticeKind::CheckFailed | NoticeKind::GapExceeded | NoticeKind::CloseCall
+                ) || seen == warning)
         });
         if !told {
             all.push(warning.clone());
@@ -36,19 +39,18 @@ pub fn assemble(inputs: &SummaryInputs) -> Vec<Warning> {
 }
 
 /// A motion under which the slider might as well be fixed.
-fn nothing_slides(response: &Response) -> Option<Warning> {
+fn nothing_slides(response: &Response) -> Option<Notice> {
     let demands = &response.demands;
-    (demands.slip_count == 0 && demands.sliding_path_m == 0.0).then(|| Warning {
-        kind: "nothing_slides",
-        time_s: None,
-        message: format!(
+    (demands.slip_count == 0 && demands.sliding_path_m == 0.0).then(|| {
+        let message = format!(
             "the block never slides under this motion: the friction force reaches {} of the weight",
             significant(demands.friction_coefficient_used, 3)
-        ),
+        );
+        Notice::new(NoticeKind::NothingSlides, message)
     })
 }
 
-fn check_failed(response: &Response, certificate: &Certificate) -> Option<Warning> {
+fn check_failed(response: &Response, certificate: &Certificate) -> Option<Notice> {
     if response.method != Method::Exact || certificate.holds() {
         return None;
     }
@@ -62,19 +64,18 @@ fn check_failed(response: &Response, certificate: &Certificate) -> Option<Warnin
     .filter(|(_, figure)| exceeds(*figure, certificate.bound))
     .map(|(name, figure)| format!("{name} {}", significant(figure, 2)))
     .collect();
-    Some(Warning {
-        kind: "check_failed",
-        time_s: None,
-        message: format!(
+    Some(Notice::new(
+        NoticeKind::CheckFailed,
+        format!(
             "the independent check does not confirm this response: {} above the bound {}",
             failed.join(", "),
             rounded(certificate.bound, 2)
         ),
-    })
+    ))
 }
 
 /// Passing the gap, at the first instant known to be beyond it.
-fn gap_exceeded(inputs: &SummaryInputs) -> Option<Warning> {
+fn gap_exceeded(inputs: &SummaryInputs) -> Option<Notice> {
     let gap_m = inputs.model.slider().gap_m()?;
     let demands = &inputs.response.demands;
     let peak_m = demands.peak_sliding_displacement_m;
@@ -95,29 +96,28 @@ fn gap_exceeded(inputs: &SummaryInputs) -> Option<Warning> {
         .into_iter()
         .flatten()
         .fold(demands.peak_sliding_displacement_time_s, f64::min);
-    Some(Warning {
-        kind: "gap_exceeded",
-        time_s: Some(time_s),
-        message: format!(
-            "the block slides past its gap of {} mm: peak {} mm, {} of the gap; what it strikes \
-             there is not modelled",
-            compact(1e3 * gap_m),
-            significant(1e3 * peak_m, 4),
-            significant(peak_m / gap_m, 4),
-        ),
-    })
+    let message = format!(
+        "the block slides past its gap of {} mm: peak {} mm, {} of the gap; what it strikes \
+         there is not modelled",
+        compact(1e3 * gap_m),
+        significant(1e3 * peak_m, 4),
+        significant(peak_m / gap_m, 4),
+    );
+    Some(Notice::new(NoticeKind::GapExceeded, message).at(time_s))
 }
 
-fn close_call(response: &Response, certificate: &Certificate) -> Option<Warning> {
+fn close_call(response: &Response, certificate: &Certificate) -> Option<Notice> {
     let call = certificate.closest_call.filter(|_| response.method == Method::Exact)?;
-    (call.margin < CLOSE_CALL_MARGIN).then(|| Warning {
-        kind: "close_call",
-        time_s: Some(call.time_s),
-        message: format!(
-            "a decision between sticking and sliding ({}) had a margin of only {}: a slightly \
+    (call.margin < CLOSE_CALL_MARGIN).then(|| {
+        Notice::new(
+            NoticeKind::CloseCall,
+            format!(
+                "a decision between sticking and sliding ({}) had a margin of only {}: a slightly \
              different record would tell another story",
-            call.decision(),
-            significant(call.margin, 2)
-        ),
+                call.decision(),
+                significant(call.margin, 2)
+            ),
+        )
+        .at(call.time_s)
     })
 }

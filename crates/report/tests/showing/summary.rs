@@ -2,8 +2,9 @@
 
 use crate::support::{Case, frame_model, rough_motion, run, run_times, summarise};
 use serde_json::Value;
-use slipstick::check::ClosestCall;
-use slipstick::response::{Iterations, Method, Warning};
+use slipstick::check::{ClosestCall, DecisionKind};
+use slipstick::notice::{Notice, NoticeKind};
+use slipstick::response::{Iterations, Method};
 
 fn case() -> Case {
     run("mock-up", frame_model(2, 1.0), rough_motion(10.0, 0.01))
@@ -110,12 +111,12 @@ fn exact_a_stepwise_run_reports_iterations_and_is_never_judged() {
     assert!(kinds(&summary.warnings).iter().all(|kind| *kind != "check_failed"));
 }
 
-fn summarise_again(case: &Case, given: &[Warning]) -> slipstick_report::Summary {
+fn summarise_again(case: &Case, given: &[Notice]) -> slipstick_report::Summary {
     summarise("m", &case.model, &case.motion, &case.response, &case.certificate, 1.0, given)
 }
 
-fn kinds(warnings: &[Warning]) -> Vec<&'static str> {
-    warnings.iter().map(|warning| warning.kind).collect()
+fn kinds(warnings: &[Notice]) -> Vec<&'static str> {
+    warnings.iter().map(|warning| warning.kind.name()).collect()
 }
 
 #[test]
@@ -125,20 +126,20 @@ fn exact_warnings_come_from_figures_solver_and_record() {
 
     case.certificate.energy_balance_error = f64::NAN;
     case.certificate.closest_call =
-        Some(ClosestCall { margin: 9e-7, time_s: 2.5, kind: "slip", interface: 0 });
-    let solver = Warning { kind: "slips_at_start", time_s: Some(0.0), message: "it slips".into() };
-    let record = Warning { kind: "first_sample", time_s: None, message: "it jumps".into() };
+        Some(ClosestCall { margin: 9e-7, time_s: 2.5, kind: DecisionKind::Slip, interface: 0 });
+    let solver = Notice::new(NoticeKind::SlipsAtStart, "it slips").at(0.0);
+    let record = Notice::new(NoticeKind::FirstSampleNotZero, "it jumps");
     case.response.warnings = vec![solver.clone(), solver];
     let summary = summarise_again(&case, std::slice::from_ref(&record));
     assert_eq!(
         kinds(&summary.warnings),
-        ["check_failed", "gap_exceeded", "close_call", "slips_at_start", "first_sample"]
+        ["check_failed", "gap_exceeded", "close_call", "slips_at_start", "first_sample_not_zero"]
     );
     assert!(summary.warnings[0].message.contains("energy balance error n/a above the bound 1e-10"));
     assert!(summary.check_failed());
     assert_eq!(summary.warnings[2].time_s, Some(2.5));
     let object = parsed(&summary.to_json());
-    assert_eq!(object["warnings"][4]["kind"], "first_sample");
+    assert_eq!(object["warnings"][4]["kind"], "first_sample_not_zero");
     assert!(object["warnings"][4]["time_s"].is_null());
     assert_eq!(object["checks"]["holds"], false);
 }
@@ -161,9 +162,10 @@ fn exact_the_gap_is_passed_at_the_first_knot_beyond_it() {
 fn exact_warnings_of_the_bounds_are_told_apart() {
     let nominal = case();
     let mut lower = nominal.summary.clone();
-    let own = Warning { kind: "contact_lost", time_s: Some(1.0), message: "lifted".into() };
+    let own = Notice::new(NoticeKind::ContactLost, "lifted").at(1.0);
     lower.warnings.push(own);
     let summary = nominal.summary.clone().with_bounds(lower, nominal.summary.clone());
-    let all: Vec<_> = summary.all_warnings().into_iter().map(|(run, w)| (run, w.kind)).collect();
+    let all: Vec<_> =
+        summary.all_warnings().into_iter().map(|(run, w)| (run, w.kind.name())).collect();
     assert_eq!(all, [(None, "gap_exceeded"), (Some("lower"), "contact_lost")]);
 }

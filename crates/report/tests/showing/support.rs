@@ -4,7 +4,8 @@ use slipstick::assessment::single::FloorSpectra;
 use slipstick::check::{Certificate, check};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::{GroundMotion, spectrum};
-use slipstick::response::{Response, Warning};
+use slipstick::notice::Notice;
+use slipstick::response::Response;
 use slipstick::slider::{Ends, Friction};
 use slipstick::solver;
 use slipstick_report::{DisplayUnits, FileNote, InputText, Report, Summary, SummaryInputs};
@@ -66,7 +67,7 @@ pub fn summarise(
     response: &Response,
     certificate: &Certificate,
     friction_factor: f64,
-    warnings: &[Warning],
+    warnings: &[Notice],
 ) -> Summary {
     Summary::new(&SummaryInputs {
         name,

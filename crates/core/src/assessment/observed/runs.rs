@@ -9,7 +9,7 @@ use crate::assessment::censored::Known;
 use crate::assessment::fragility::{Capacity, CloudPoint, Stripe};
 use crate::assessment::ida::Curve;
 use crate::assessment::{AssessmentError, refuse};
-use crate::response::Warning;
+use crate::notice::{Notice, NoticeKind};
 
 /// What single runs were made into, and why.
 pub(super) struct OfRuns {
@@ -26,7 +26,7 @@ pub(super) fn of_runs(
     request: &FragilityRequest<'_>,
     columns: Columns<'_>,
     intensity: &Intensity,
-    warnings: &mut Vec<Warning>,
+    warnings: &mut Vec<Notice>,
 ) -> Result<OfRuns, AssessmentError> {
     if !columns.has(request.demand) {
         return Err(columns.lacking("demand", request.demand));
@@ -50,7 +50,7 @@ pub(super) fn of_runs(
         (None, true) => (FitTo::Capacities, "the levels were hunted for each record".to_owned()),
         (None, false) => natural(&levels, records.as_ref()),
     };
-    let mut warn = |kind, message| warnings.push(Warning { kind, time_s: None, message });
+    let mut warn = |kind, message| warnings.push(Notice::new(kind, message));
     if fit_to == FitTo::Capacities {
         let Some(records) = records else { return Err(columns.lacking("fit-to", "record")) };
         let (capacities, row_of) = crossings(columns, &records, &levels, &demands, limit)?;
@@ -61,7 +61,7 @@ pub(super) fn of_runs(
     let failed = demands.iter().filter(|demand| demand.is_nan()).count();
     if failed > 0 {
         warn(
-            "failed_runs",
+            NoticeKind::FailedRuns,
             format!("{failed} of {} runs have no demand and are left out", demands.len()),
         );
     }

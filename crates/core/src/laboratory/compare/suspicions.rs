@@ -4,7 +4,7 @@ use super::Compared;
 use crate::input::Channel;
 use crate::laboratory::measured::Measured;
 use crate::laboratory::metrics::{peak, rms_error};
-use crate::response::Warning;
+use crate::notice::{Notice, NoticeKind};
 use crate::units::{Dimension, STANDARD_GRAVITY_M_PER_S2};
 
 /// How near a ratio must be to that of two units.
@@ -18,7 +18,7 @@ const NEAR: f64 = 0.08;
 /// - A sign: a correlation below −0.5, or one that is negative and the larger with the other sign.
 /// - A clock: a correlation that a shift raises by 0.05 or more, to above 0.8.
 #[must_use]
-pub fn suspicions(measured: &Measured, compared: &[Compared]) -> Vec<Warning> {
+pub fn suspicions(measured: &Measured, compared: &[Compared]) -> Vec<Notice> {
     let mut warnings = accelerations(measured);
     for Compared { pair, metrics } in compared {
         let name = pair.channel.name();
@@ -28,51 +28,48 @@ pub fn suspicions(measured: &Measured, compared: &[Compared]) -> Vec<Warning> {
         let wrong_sign =
             correlation < -0.5 || (correlation < -0.2 && flipped < 0.7 * metrics.rms_error);
         if wrong_sign {
-            warnings.push(Warning {
-                kind: "sign_suspect",
-                time_s: None,
-                message: format!(
+            warnings.push(Notice::new(
+                NoticeKind::SignSuspect,
+                format!(
                     "the measured {name} runs against the prediction (correlation \
                      {correlation:.2}): if its sensor points the other way, say so with \
                      --map \"{name}=… * -1\""
                 ),
-            });
+            ));
         }
         let ratio = metrics.peak_ratio.filter(|_| correlation.abs() > 0.8);
         if let Some((words, factor)) =
             ratio.and_then(|ratio| unit_ratio(ratio, pair.channel.dimension()))
         {
-            warnings.push(Warning {
-                kind: "unit_suspect",
-                time_s: None,
-                message: format!(
+            warnings.push(Notice::new(
+                NoticeKind::UnitSuspect,
+                format!(
                     "the prediction of {name} is {:.3} times the measured one, as {words} would \
                      make it ({factor}): check the unit of {}",
                     ratio.unwrap_or(0.0),
                     pair.origin
                 ),
-            });
+            ));
         }
         let better = metrics.lagged_correlation.unwrap_or(0.0);
         let lag_s = metrics.arrival_lag_s.unwrap_or(0.0);
         if !wrong_sign && better > 0.8 && better > correlation + 0.05 {
-            warnings.push(Warning {
-                kind: "clock_suspect",
-                time_s: None,
-                message: format!(
+            warnings.push(Notice::new(
+                NoticeKind::ClockSuspect,
+                format!(
                     "the measured {name} comes {lag_s:+.4} s after the prediction (correlation \
                      {correlation:.2}, {better:.2} with that shift): if its clock is wrong, say so \
                      with --map \"{name}=… @ {:.4} s\"",
                     -lag_s
                 ),
-            });
+            ));
         }
     }
     warnings
 }
 
 /// Measured accelerations whose peaks stand in the ratio of g to m/s².
-fn accelerations(measured: &Measured) -> Vec<Warning> {
+fn accelerations(measured: &Measured) -> Vec<Notice> {
     let peaks: Vec<(Channel, f64)> = measured
         .series
         .iter()
@@ -89,15 +86,14 @@ fn accelerations(measured: &Measured) -> Vec<Warning> {
         let near = [STANDARD_GRAVITY_M_PER_S2, 1.0 / STANDARD_GRAVITY_M_PER_S2]
             .into_iter()
             .any(|factor| (ratio / factor - 1.0).abs() < NEAR);
-        (channel != table && near).then(|| Warning {
-            kind: "unit_suspect",
-            time_s: None,
-            message: format!(
+        (channel != table && near).then(|| {
+            let message = format!(
                 "the peak of {} is {ratio:.3} times that of {}: if one of them is in g and the \
-                 other in m/s², say so in the mapping",
+                     other in m/s², say so in the mapping",
                 channel.name(),
                 table.name()
-            ),
+            );
+            Notice::new(NoticeKind::UnitSuspect, message)
         })
     };
     peaks.iter().filter_map(suspect).collect()

@@ -124,7 +124,7 @@ fn exact_columns_of_accelerations_in_the_ratio_of_g() {
     let text = "time_s,table_acceleration_m_per_s2,block_acceleration_m_per_s2\n0,0,0\n1,0.5,4.9\n2,-0.4,1\n";
     let measured = Measured::read("m.csv", text.as_bytes(), &Mapping::default()).unwrap();
     let warnings = suspicions(&measured, &[]);
-    assert_eq!(warnings[0].kind, "unit_suspect");
+    assert_eq!(warnings[0].kind, NoticeKind::UnitSuspect);
     assert!(warnings[0].message.contains("9.800 times that of table_acceleration"));
 }
 

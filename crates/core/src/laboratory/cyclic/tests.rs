@@ -279,7 +279,7 @@ fn exact_friction_by_direction_needs_the_zero() {
     let expected = [&force("kinetic"), &force("static"), "slider.spring", "slider.damper"];
     assert_eq!(paths, expected);
     let fit = cyclic(&CyclicTest { zero_known: false, ..test(&made) }).unwrap();
-    assert_eq!(zero_not_stated(&[&fit]).unwrap().kind, "zero_not_stated");
+    assert_eq!(zero_not_stated(&[&fit]).unwrap().kind, NoticeKind::ZeroNotStated);
     // A drift is told from neither.
     let last_s = made.times_s[made.times_s.len() - 1];
     made.force_n.iter_mut().zip(&made.times_s).for_each(|(f, t)| *f += 8.0 * t / last_s);

@@ -191,9 +191,9 @@ fn exact_an_offset_of_a_sensor_is_no_tilt() {
     let (channel, offset_m) = off.offsets[0];
     assert_eq!(channel, Channel::SlidingDisplacement);
     assert!((offset_m - 0.0123).abs() < 1e-4, "{offset_m}");
-    assert!(off.warnings.iter().any(|w| w.kind == "sensor_offset"), "{:?}", off.warnings);
+    assert!(off.warnings.iter().any(|w| w.kind == NoticeKind::SensorOffset), "{:?}", off.warnings);
     // What the accelerometer of the table is off by is tilt all the same, and that is said.
-    let kinds: Vec<_> = plain.warnings.iter().map(|warning| warning.kind).collect();
+    let kinds: Vec<_> = plain.warnings.iter().map(|warning| warning.kind.name()).collect();
     assert_eq!(kinds, ["zero_not_stated"]);
     assert!(plain.warnings[0].message.contains("1 mg of it is 1 mrad"), "{:?}", plain.warnings);
 }

@@ -3,8 +3,8 @@
 use super::DataRecord;
 use super::decode::samples;
 use crate::error::RecordError;
+use crate::notice::{Notice, NoticeKind};
 use crate::numerics::sort;
-use crate::record::RecordWarning;
 use crate::record::bytes::Bytes;
 
 /// What a record's time may be off by its rounding, in s.
@@ -24,7 +24,7 @@ pub(super) struct Segment {
     /// Samples as the file has them.
     pub values: Vec<f64>,
     /// What to know about it.
-    pub warnings: Vec<RecordWarning>,
+    pub warnings: Vec<Notice>,
 }
 
 /// A record with its samples.
@@ -77,11 +77,10 @@ impl Streams {
     }
 
     /// The segments, and a warning for each stream that was left out.
-    pub fn finish(self) -> (Vec<Segment>, Vec<RecordWarning>) {
+    pub fn finish(self) -> (Vec<Segment>, Vec<Notice>) {
         let mut segments = Vec::new();
-        let skip = |what: &str, id: &str| RecordWarning {
-            kind: "channel_skipped",
-            message: format!("{what} in {id}, left out"),
+        let skip = |what: &str, id: &str| {
+            Notice::new(NoticeKind::ChannelSkipped, format!("{what} in {id}, left out"))
         };
         let mut skipped: Vec<_> = self.skipped.iter().map(|(id, what)| skip(what, id)).collect();
         for (id, blocks) in self.streams {
@@ -134,12 +133,14 @@ fn joined(id: &str, mut blocks: Vec<Block>) -> Vec<Segment> {
         if let Some(segment) = segments.last_mut() {
             drift.look(&block, segment.values.len());
             segment.values.extend_from_slice(&block.values);
-            if block.record.clipped && segment.warnings.iter().all(|w| w.kind != "clipped") {
+            if block.record.clipped
+                && segment.warnings.iter().all(|w| w.kind != NoticeKind::Clipped)
+            {
                 let at = block.record.offset;
-                segment.warnings.push(RecordWarning {
-                    kind: "clipped",
-                    message: format!("the record at byte {at} is marked as saturated or clipped"),
-                });
+                segment.warnings.push(Notice::new(
+                    NoticeKind::Clipped,
+                    format!("the record at byte {at} is marked as saturated or clipped"),
+                ));
             }
         }
     }
@@ -154,32 +155,38 @@ fn joined(id: &str, mut blocks: Vec<Block>) -> Vec<Segment> {
 fn finish(segments: &mut [Segment], sorted: bool, repeated: usize) {
     let count = segments.len();
     for (i, segment) in segments.iter_mut().enumerate() {
-        let mut warn = |kind, message| segment.warnings.push(RecordWarning { kind, message });
+        let mut warn = |kind, message| segment.warnings.push(Notice::new(kind, message));
         if count > 1 {
-            warn("gap", format!("segment {} of {count}: gaps are not bridged", i + 1));
+            warn(NoticeKind::Gap, format!("segment {} of {count}: gaps are not bridged", i + 1));
             segment.name = format!("{} {}", segment.id, i + 1);
         }
-        let mut warn = |kind, message| segment.warnings.push(RecordWarning { kind, message });
+        let mut warn = |kind, message| segment.warnings.push(Notice::new(kind, message));
         if !sorted {
-            warn("records_sorted", "the records were put in the order of their times".to_owned());
+            warn(
+                NoticeKind::RecordsSorted,
+                "the records were put in the order of their times".to_owned(),
+            );
         }
         if repeated > 0 {
             let message = format!("{repeated} records that stand twice were taken once");
-            warn("duplicate_records", message);
+            warn(NoticeKind::DuplicateRecords, message);
         }
     }
 }
 
 /// What comes between a segment and the next.
-fn interruption(count: usize, late_s: f64, dt_s: f64) -> RecordWarning {
+fn interruption(count: usize, late_s: f64, dt_s: f64) -> Notice {
     if late_s.abs() <= 0.5 * dt_s + CLOCK_S {
         let message = format!("after its {count} samples the step changes");
-        return RecordWarning { kind: "gap", message };
+        return Notice::new(NoticeKind::Gap, message);
     }
-    let (kind, what) =
-        if late_s > 0.0 { ("gap", "a gap of") } else { ("overlap", "an overlap of") };
+    let (kind, what) = if late_s > 0.0 {
+        (NoticeKind::Gap, "a gap of")
+    } else {
+        (NoticeKind::Overlap, "an overlap of")
+    };
     let message = format!("after its {count} samples {what} {:.6} s", late_s.abs());
-    RecordWarning { kind, message }
+    Notice::new(kind, message)
 }
 
 /// How far the times of records run away from equal steps within a segment.
@@ -200,13 +207,11 @@ impl Drift {
 
     fn end(&self, segment: &mut Segment) {
         if self.late_s.abs() > 0.5 * segment.dt_s {
-            segment.warnings.push(RecordWarning {
-                kind: "clock_drift",
-                message: format!(
-                    "the records' times run up to {:.6} s away from steps of {} s, which were taken",
-                    self.late_s, segment.dt_s
-                ),
-            });
+            let message = format!(
+                "the records' times run up to {:.6} s away from steps of {} s, which were taken",
+                self.late_s, segment.dt_s
+            );
+            segment.warnings.push(Notice::new(NoticeKind::ClockDrift, message));
         }
     }
 }

@@ -1,5 +1,6 @@
 use super::decode::differences;
 use super::nanoseconds;
+use crate::notice::NoticeKind;
 use crate::record::bytes::Order;
 use crate::record::{Options, Record, RecordError, Units, read};
 
@@ -147,7 +148,7 @@ fn exact_gaps_overlaps_order_and_repetitions() {
     let at = |start, samples: [i16; 3]| record(start, &samples, 2000, [100, 1]);
     let join = |records: &[Vec<u8>]| counts(&records.concat()).unwrap();
     let kinds = |record: &Record, i: usize| -> Vec<&str> {
-        record.channels[i].warnings.iter().map(|w| w.kind).collect()
+        record.channels[i].warnings.iter().map(|w| w.kind.name()).collect()
     };
     let [a, b, c] = [at(0, [0, 1, 2]), at(300, [3, 4, 5]), at(600, [6, 7, 0])];
     let whole = join(&[a.clone(), b.clone(), c.clone()]);
@@ -176,7 +177,7 @@ fn exact_gaps_overlaps_order_and_repetitions() {
     let mut cut = [a.clone(), b.clone()].concat();
     cut.truncate(400);
     let cut = counts(&cut).unwrap();
-    assert_eq!((cut.channels[0].values.len(), cut.warnings[0].kind), (3, "truncated"));
+    assert_eq!((cut.channels[0].values.len(), cut.warnings[0].kind), (3, NoticeKind::Truncated));
     assert!(counts(&[a.clone(), vec![b' '; 256]].concat()).unwrap().warnings.is_empty());
     let garbage = counts(&[a.clone(), vec![b'x'; 256]].concat()).unwrap_err().to_string();
     assert_eq!(garbage, "f, byte 256: expected a MiniSEED data record, found \"xxxxxxxx\"");

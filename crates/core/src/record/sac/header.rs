@@ -1,6 +1,6 @@
 //! The header of a SAC file: 70 numbers with a point, 40 whole numbers, 192 characters.
 
-use crate::record::RecordWarning;
+use crate::notice::{Notice, NoticeKind};
 use crate::record::bytes::{Order, f32_at, i32_at, text_at};
 use crate::record::text::{Text, number};
 
@@ -119,41 +119,43 @@ impl Header {
     }
 
     /// A warning where the times of the first and last value are not as many steps apart.
-    pub fn check_end(&self, count: usize, dt_s: f64) -> Option<RecordWarning> {
+    pub fn check_end(&self, count: usize, dt_s: f64) -> Option<Notice> {
         let (begin_s, end_s) = (self.float(B)?, self.float(E)?);
         let span_s = (count - 1) as f64 * dt_s;
         // Both have seven digits.
         let slack_s = 0.5 * dt_s + 1e-6 * (begin_s.abs() + end_s.abs());
-        ((end_s - begin_s - span_s).abs() > slack_s).then(|| RecordWarning {
-            kind: "duration_differs",
-            message: format!(
-                "the header's B and E are {} s apart, {count} values at {dt_s} s {span_s} s",
-                end_s - begin_s
-            ),
+        ((end_s - begin_s - span_s).abs() > slack_s).then(|| {
+            Notice::new(
+                NoticeKind::DurationDiffers,
+                format!(
+                    "the header's B and E are {} s apart, {count} values at {dt_s} s {span_s} s",
+                    end_s - begin_s
+                ),
+            )
         })
     }
 
     /// A warning where the least and largest value are not those that the header states.
-    pub fn check_range(&self, values: &[f64]) -> Option<RecordWarning> {
+    pub fn check_range(&self, values: &[f64]) -> Option<Notice> {
         let (low, high) = (self.float(DEPMIN)?, self.float(DEPMAX)?);
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
         let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let slack = 1e-5 * least.abs().max(largest.abs());
         let differ = (low - least).abs() > slack || (high - largest).abs() > slack;
-        (differ && low <= high).then(|| RecordWarning {
-            kind: "peak_differs",
-            message: format!(
+        (differ && low <= high).then(|| {
+            let message = format!(
                 "the header states values from {low} to {high}, they go from {least} to {largest}"
-            ),
+            );
+            Notice::new(NoticeKind::PeakDiffers, message)
         })
     }
 
     /// A warning where a factor is stated, which SAC itself does not use.
-    pub fn scale_unused(&self) -> Option<RecordWarning> {
+    pub fn scale_unused(&self) -> Option<Notice> {
         let scale = self.float(SCALE).filter(|scale| *scale != 1.0)?;
-        Some(RecordWarning {
-            kind: "scale_unused",
-            message: format!("the header states a factor of {scale} (SCALE), which was not used"),
-        })
+        Some(Notice::new(
+            NoticeKind::ScaleUnused,
+            format!("the header states a factor of {scale} (SCALE), which was not used"),
+        ))
     }
 }

@@ -1,7 +1,7 @@
 //! Fragilities of the same table by the values of a path.
 
 use slipstick::assessment::observed::{Averaged, FragilityGroup, FragilityRun};
-use slipstick::response::Warning;
+use slipstick::notice::{Notice, NoticeKind};
 
 use super::{FragilityReport, POINTS};
 use crate::assessment::lines::{GROUPS, line, panel, single};
@@ -75,20 +75,20 @@ impl FragilityFamily<'_> {
         let unit = first.unit();
         let fitted = first.fitted();
         let fitted = fitted.split("; averaged").next().unwrap_or(&fitted);
-        let mut warnings: Vec<Warning> = Vec::new();
+        let mut warnings: Vec<Notice> = Vec::new();
         for (group, report) in &reports {
             for warning in &report.run.warnings {
                 let said = warnings.iter().any(|w| w.kind == warning.kind);
                 if !said {
                     let message = format!("{}: {}", self.label(group), warning.message);
-                    warnings.push(Warning { message, ..warning.clone() });
+                    warnings.push(Notice { message, ..warning.clone() });
                 }
             }
         }
         for group in self.groups {
             if let Err(error) = &group.run {
                 let message = format!("{} = {}: {error}", self.by, self.label(group));
-                warnings.push(Warning { kind: "no_curve", time_s: None, message });
+                warnings.push(Notice::new(NoticeKind::NoCurve, message));
             }
         }
         let averaged = |averaged: &Averaged| match averaged.designs {

@@ -3,7 +3,7 @@
 use slipstick::assessment::FailedRun;
 use slipstick::assessment::ida::{IdaGroup, IdaRun, level_fractiles};
 use slipstick::motion::intensity::Measure;
-use slipstick::response::Warning;
+use slipstick::notice::Notice;
 
 use super::{BEYOND, IdaReport};
 use crate::assessment::key::title;
@@ -31,7 +31,7 @@ pub struct IdaFamily<'a> {
     /// What came of it.
     pub run: &'a IdaRun,
     /// What reading the records gave notice of.
-    pub warnings: &'a [Warning],
+    pub warnings: &'a [Notice],
     /// Units to show results in.
     pub display: DisplayUnits,
 }
@@ -99,10 +99,10 @@ impl Groups<'_> {
         let first = self.reports.first();
         let averaged = first.map(|report| report.averaged).filter(|averaged| averaged.designs > 1);
         let averaged = averaged.map_or_else(String::new, |averaged| format!("; each {averaged}"));
-        let mut warnings: Vec<Warning> =
+        let mut warnings: Vec<Notice> =
             failed(&family.run.failures, runs as u64, BEYOND).into_iter().collect();
         for (label, report) in self.each() {
-            let of_group = |warning: Warning| Warning {
+            let of_group = |warning: Notice| Notice {
                 message: format!("{} = {label}: {}", self.by, warning.message),
                 ..warning
             };
