@@ -139,9 +139,7 @@ impl Recorder {
     ) {
         let h = &mut self.history;
         let (first, end) = (h.time_s.len(), h.time_s.len() + times_s.len());
-        for row in first..end {
-            h.rows.push(row);
-        }
+        h.rows.extend(first..end);
         h.time_s.extend_from_slice(times_s);
         h.mode.resize(end, mode);
         if self.stop {

@@ -203,7 +203,8 @@ impl<S: Simd> Ahead<'_, '_, S> {
             let d = halley(sign * velocities.as_array()[0], g1, g2);
             let y = series.state(t, velocities);
             t += d;
-            if d.abs() < SHORT {
+            // At the zero at the start the speed rises.
+            if d.abs() < SHORT && g1 < 0.0 {
                 let y = later(simd, y, derivatives, d);
                 return self.event::<true>(segment, at_sample, &series, (t, y), [force_n; 2]);
             }

@@ -57,10 +57,12 @@ impl<S: Simd> Ahead<'_, '_, S> {
                 );
                 let (slope, f0) = (shape.slope, storey.restoring(&x));
                 let has_storey = shape.floor != 0.0;
-                let mut f = eight(simd, 0.0);
+                let (mut eta, mut rate) = (eight(simd, 0.0), eight(simd, 0.0));
                 if has_storey {
-                    f = self.row::<SLIP>(&rows[3], x, a, force_n);
+                    eta = self.row::<SLIP>(&rows[2], x, a, force_n);
+                    rate = self.row::<SLIP>(&rows[4], x, a, force_n);
                 }
+                let f = eight(simd, storey.omega2) * eta + eight(simd, storey.decay) * rate;
                 let [s, w, block, friction];
                 if SLIP {
                     let of_s = self.row::<SLIP>(&rows[0], x, a, force_n);
@@ -82,8 +84,6 @@ impl<S: Simd> Ahead<'_, '_, S> {
                 }
                 let mut of_storey = None;
                 if has_storey {
-                    let eta = self.row::<SLIP>(&rows[2], x, a, force_n);
-                    let rate = self.row::<SLIP>(&rows[4], x, a, force_n);
                     let floor = eight(simd, shape.floor);
                     let acceleration = -(floor * f) - eight(simd, slope);
                     of_storey = Some([

@@ -5,7 +5,7 @@ use fearless_simd::{f64x4, f64x8};
 
 use super::ahead::Ahead;
 use super::lanes::{BATCH, Four, eight, four, greatest, larger4, least, times4};
-use super::outputs::{BEHIND, BEHIND_ANY};
+use super::outputs::{BEHIND, behind};
 use super::peaks::Samples;
 use super::windows::Extent;
 use crate::linear::{QUIET, Window};
@@ -102,7 +102,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
                 let slack = slack * four(simd, PER_SAMPLE);
                 let samples = Samples { sample, steps, mode, x: start };
                 open |= self.open_at_samples(&samples, a, force_n, open_gates, speed, slack);
-                open |= BEHIND_ANY * u64::from(!self.within(gates, slack).all_true());
+                open |= behind(!self.within(gates, slack).to_bitmask());
                 if open != 0 {
                     self.look_over::<true>(&samples, open, slack);
                 }
@@ -269,8 +269,9 @@ impl<S: Simd> Ahead<'_, '_, S> {
             }
             if !quiet_batch {
                 let open_gates = !within.to_bitmask() & 0b1111;
+                let u = f64x8::from_slice(simd, &a[1..]);
                 let first_gates = self.gates::<false>(x, a[0]);
-                let mut open = BEHIND_ANY * u64::from(!self.within(first_gates, slack).all_true());
+                let mut open = behind(!self.within(first_gates, slack).to_bitmask());
                 open |= u64::from(!self.moment_stays(most)) << output::OVERTURNING;
                 let (low, high) = ((self.low + slack).to_array(), (self.high - slack).to_array());
                 if open_gates & 0b0001 != 0 {
@@ -292,12 +293,13 @@ impl<S: Simd> Ahead<'_, '_, S> {
                     }
                 }
                 if open_gates & 0b0100 != 0 {
-                    let f = self.row::<false>(&tables.stick.rows[3], start, a, 0.0);
+                    // L·f = M1 a − T, without the spring's part.
+                    let shear = eight(simd, storey.block_mass_kg) * u - demand;
+                    let f = shear * eight(simd, 1.0 / storey.participation);
                     if passes(simd, f, [low[2], high[2]], steps) {
                         open |= BEHIND[2];
                     }
                 }
-                let u = f64x8::from_slice(simd, &a[1..]);
                 if open_gates & 0b1000 != 0 && passes(simd, u, [low[3], high[3]], steps) {
                     open |= BEHIND[3];
                 }
@@ -348,13 +350,13 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let (simd, quiet) = (self.simd, &self.of.tables.quiet);
         let acceleration = &self.of.ground.acceleration[sample..];
         let Some(a) = acceleration.first_chunk::<{ QUIET + 1 }>() else { return x };
-        let mut sums = [four(simd, 0.0); 4];
-        for m in (0..QUIET).step_by(4) {
-            for i in 0..4 {
-                sums[i] += times4(simd, &quiet.tap[QUIET - 1 - m - i], a[1 + m + i]);
-            }
+        let (mut eta, mut rate) = (eight(simd, 0.0), eight(simd, 0.0));
+        for i in 0..QUIET / BATCH {
+            let a = f64x8::from_slice(simd, &a[1 + i * BATCH..][..BATCH]);
+            eta += quiet.taps[0][i].load(simd) * a;
+            rate += quiet.taps[1][i].load(simd) * a;
         }
-        let load = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+        let load = f64x4::load_array(simd, [0.0, 0.0, eta.reduce_sum(), rate.reduce_sum()]);
         self.carried::<false>(&quiet.power, x) + (times4(simd, &quiet.first, a[0]) + load)
     }
 }

@@ -72,7 +72,8 @@ pub(super) struct Row {
 pub(super) struct Quiet {
     pub(super) power: [Four; 4],
     pub(super) first: Four,
-    pub(super) tap: [Four; QUIET],
+    /// What a unit of acceleration at each sample after the first leaves of `η` and of `η̇`.
+    pub(super) taps: [[Eight; QUIET / BATCH]; 2],
     /// Bounds on the sizes of the demand without the spring's part, of `η`, `f` and `a`: of the amplitude at
     /// the start, and of the largest acceleration in a batch and in all the samples.
     pub(super) of_amplitude: Four,
@@ -130,7 +131,7 @@ impl Tables {
         quiet: Quiet {
             power: [Four::ZERO; 4],
             first: Four::ZERO,
-            tap: [Four::ZERO; QUIET],
+            taps: [[Eight::ZERO; QUIET / BATCH]; 2],
             of_amplitude: Four::ZERO,
             of_acceleration: [Four::ZERO; 2],
         },
@@ -229,10 +230,16 @@ impl Quiet {
         }
         // The first sample's ramp down has all the samples before it.
         self.first = times(&by_16, times(&by_8, stick.first[BATCH]));
-        self.tap[..=BATCH].copy_from_slice(taps);
         // From the sample after it on what a unit has left moves on by itself.
+        let mut left = [Four::ZERO; QUIET];
+        left[..=BATCH].copy_from_slice(taps);
         for j in BATCH + 1..QUIET {
-            self.tap[j] = times(&by_8, self.tap[j - BATCH]);
+            left[j] = times(&by_8, left[j - BATCH]);
+        }
+        for (j, left) in left.iter().rev().enumerate() {
+            for (taps, of) in self.taps.iter_mut().zip([2, 3]) {
+                taps[j / BATCH].0[j % BATCH] = left.0[of];
+            }
         }
         let l = storey.participation.abs();
         let of_f = system.dual_norm(false, &[0.0, 0.0, storey.omega2, storey.decay]);

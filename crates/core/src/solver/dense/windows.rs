@@ -76,3 +76,40 @@ impl Extent {
         Self { size: greatest(self.size, other.size), change: greatest(self.change, other.change) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::Level;
+
+    use super::*;
+
+    /// At every sample the extents are at least those of the samples from there on, and no more than those of
+    /// the eights that these touch.
+    #[test]
+    fn exact_extents_of_every_window() {
+        let mut x = 1_u32;
+        let table: Vec<f64> = (0..203)
+            .map(|_| {
+                x = x.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                f64::from(x >> 8) - 8e6
+            })
+            .collect();
+        let windows = fearless_simd::dispatch!(Level::new(), simd => Windows::new(simd, &table));
+        let largest = |from: usize, to: usize| {
+            let of = &table[from..(to + 1).min(table.len())];
+            let size = of.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
+            let change = of.windows(2).fold(0.0, |most: f64, a| most.max((a[1] - a[0]).abs()));
+            [size, change]
+        };
+        for sample in 0..table.len() - 1 {
+            let ways = [(windows.batch(sample), BATCH), (windows.many(sample), QUIET)];
+            for (Extent { size, change }, samples) in ways {
+                let from = sample / BATCH * BATCH;
+                let (least, most) =
+                    (largest(sample, sample + samples), largest(from, from + samples + BATCH));
+                assert!(least[0] <= size && size <= most[0], "{sample} {samples}");
+                assert!(least[1] <= change && change <= most[1], "{sample} {samples}");
+            }
+        }
+    }
+}
