@@ -169,7 +169,7 @@ mod tests {
     #[test]
     fn exact_is_the_law() {
         let pieces = RateCurve::Pieces {
-            speeds_m_per_s: vec![0.01, 0.02, 0.05, 0.2],
+            speeds_m_per_s: vec![0.0, 1e-4, 0.05, 0.2],
             coefficients: vec![0.1, 0.03, 0.05, 0.06],
         };
         let exponential = RateCurve::Exponential { slow: 0.03, fast: 0.06, rate_s_per_m: 25.0 };
