@@ -354,10 +354,10 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
             }
         }
         for i in 0..self.course.interfaces() {
-            if self.course.mode(i) == Mode::Stick {
-                if let Some((at, direction)) = self.first_release(i, segment.part) {
-                    take(Some(at), End::Release(Release { interface: i, direction }));
-                }
+            if self.course.mode(i) == Mode::Stick
+                && let Some((at, direction)) = self.first_release(i, segment.part)
+            {
+                take(Some(at), End::Release(Release { interface: i, direction }));
             }
         }
         if self.leans_since_s.is_some() && !self.walks_jump {

@@ -28,8 +28,8 @@ pub(super) const BEHIND: [u64; 4] = [
 /// Outputs behind those gates whose bits are set.
 #[inline(always)]
 pub(super) fn behind(gates: u64) -> u64 {
-    (BEHIND[0] * (gates & 1) | BEHIND[1] * (gates >> 1 & 1))
-        | (BEHIND[2] * (gates >> 2 & 1) | BEHIND[3] * (gates >> 3 & 1))
+    ((BEHIND[0] * (gates & 1)) | (BEHIND[1] * ((gates >> 1) & 1)))
+        | ((BEHIND[2] * ((gates >> 2) & 1)) | (BEHIND[3] * ((gates >> 3) & 1)))
 }
 
 /// What turns `f` and `u` into outputs: `Φ`, what `f` and `u` add to the overturning moment, `g sin θ`.
