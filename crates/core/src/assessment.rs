@@ -27,6 +27,7 @@ mod tests;
 
 pub use crate::error::ChoiceError;
 use crate::error::{CellError, FitError, InputError, MotionError, RunError, Stopped};
+pub use crate::numerics::fractile::SHARES;
 
 /// What ends an analysis over a suite.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

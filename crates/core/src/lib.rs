@@ -67,14 +67,11 @@ pub mod check;
 pub mod error;
 pub mod input;
 pub mod laboratory;
-// Not for users: what the workspace's other crates and the tests of the bounds need of them.
-#[doc(hidden)]
-pub mod linear;
+mod linear;
 pub mod model;
 pub mod motion;
 pub mod notice;
-#[doc(hidden)]
-pub mod numerics;
+mod numerics;
 pub mod progress;
 pub mod record;
 pub mod requests;

@@ -5,6 +5,8 @@
 //! their solution, [`Maps`] the same solution over eight samples; [`polynomial`] finds the first root
 //! and the extremes of what is made of them.
 
+#[cfg(test)]
+mod bounds;
 mod frame;
 pub mod lanes;
 mod maps;
@@ -15,6 +17,6 @@ mod system;
 
 pub use frame::{FrameModes, shear_frame_frequencies, shear_frame_modes};
 pub use maps::{BATCH, Force, Maps, QUIET, Row, Units, Window};
-pub use series::{Load, MAX_RATE_STEP, Series, advance, fading_part, orders};
+pub use series::{Load, MAX_RATE_STEP, Series, fading_part, orders};
 pub use solution::Solution;
 pub use system::{StoreyDamping, System};

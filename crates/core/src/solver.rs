@@ -22,6 +22,7 @@ use crate::motion::GroundMotion;
 use crate::progress::{GoOn, UNWATCHED};
 use crate::response::{Method, Response};
 
+pub use crate::linear::{FrameModes, shear_frame_modes};
 pub use prepared::{InstructionSet, Prepared, PreparedMotion};
 pub use walk::EVENTS_PER_INTERVAL_LIMIT;
 pub use workspace::Workspace;

@@ -20,6 +20,8 @@ pub use rows::Row;
 pub use summary::{LevelSummary, StudySummary};
 pub use verify::Verdict;
 
+pub use crate::numerics::random::Random;
+
 use std::sync::OnceLock;
 
 use engine::Engine;

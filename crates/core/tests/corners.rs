@@ -12,9 +12,9 @@ use slipstick::input;
 use slipstick::model::{Contents, Model};
 use slipstick::motion::GroundMotion;
 use slipstick::notice::NoticeKind;
-use slipstick::numerics::random::Random;
 use slipstick::response::{Demands, Response};
 use slipstick::solver::exact;
+use slipstick::study::Random;
 
 /// Part of the peak by which figures of systems that are the same but for rounding may differ.
 const SAME: f64 = 1e-8;

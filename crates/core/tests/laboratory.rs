@@ -14,7 +14,6 @@ use slipstick::laboratory::free_vibration::free_vibration;
 use slipstick::laboratory::measured::Measured;
 use slipstick::laboratory::metrics;
 use slipstick::laboratory::shaking_table::{Builder, Parameter, TableTest, shaking_table};
-use slipstick::numerics::distribution::student_quantile;
 use slipstick::study::engine::Engine;
 
 /// The folder, or `None` and a line that says so.
@@ -66,15 +65,6 @@ fn peer_metrics() {
         // The peer's response spectra are peaks at twenty points a step.
         let slack = if key == "response_spectrum" { 0.02 } else { 1e-8 };
         assert!((found - expected).abs() < slack, "{key}: {found} {expected}");
-    }
-}
-
-#[test]
-fn peer_student() {
-    for case in reference("student.json")["cases"].as_array().unwrap() {
-        let [p, freedom, t] = [0, 1, 2].map(|i| case[i].as_f64().unwrap());
-        let found = student_quantile(p, freedom);
-        assert!((found / t - 1.0).abs() < 1e-9, "{p} {freedom}: {found} {t}");
     }
 }
 
@@ -197,8 +187,8 @@ fn file_isolated_building_on_a_shaking_table() {
 #[test]
 fn prop_any_text_ends_well() {
     use slipstick::laboratory::compare::{Within, compare};
-    use slipstick::numerics::random::Random;
     use slipstick::response::Method;
+    use slipstick::study::Random;
 
     let model =
         "[block]\nmass = \"1 t\"\n[slider]\nstatic_friction = 0.2\nkinetic_friction = 0.1\n";

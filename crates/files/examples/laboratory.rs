@@ -11,8 +11,8 @@ use std::path::Path;
 use slipstick::input;
 use slipstick::input::Scale;
 use slipstick::motion::GroundMotion;
-use slipstick::numerics::random::Random;
 use slipstick::solver;
+use slipstick::study::Random;
 use slipstick_files::{RecordRequest, load_record, write_whole};
 
 /// The mock-up as it "is": the block of section 3 of the paper, on a surface that is not quite level.

@@ -6,9 +6,9 @@ use crate::library::{Experiment, Library, Shake, with_asymmetry, with_frequency,
 use crate::{Claim, Grid, PaperError, Verdict};
 use slipstick::model::Model;
 use slipstick::motion::{GroundMotion, Sine};
-use slipstick::numerics::random::Random;
 use slipstick::response::Demands;
 use slipstick::solver;
+use slipstick::study::Random;
 
 /// Steps of the stepwise program in s.
 const STEPS_S: [f64; 5] = [0.001, 0.002, 0.005, 0.01, 0.02];

@@ -3,10 +3,10 @@
 use core::fmt::Write;
 
 use slipstick::error::ChoiceError;
-use slipstick::linear::shear_frame_modes;
 use slipstick::model::{Damping, Frame, InitialState, Model, StopKind};
 use slipstick::motion::GroundMotion;
 use slipstick::slider::{Direction, RateCurve, Surface, SurfacesInSeries};
+use slipstick::solver::shear_frame_modes;
 
 // Functions of the script, below the model's numbers: those of the slider, of what presses it down, of
 // stops and contents, and of the analysis.

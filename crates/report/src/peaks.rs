@@ -1,6 +1,5 @@
 //! The rows of the tables of demands, shared by the plain-text table and the report.
 
-use slipstick::numerics::sort;
 use slipstick::response::{DemandColumn, DemandKind, DemandOf, PrintedRow};
 
 use crate::display::{DisplayUnits, Unit};
@@ -51,7 +50,7 @@ fn demand_rows(
     };
     let mut rows: Vec<(PrintedRow, DemandColumn)> =
         shape.columns().into_iter().filter_map(shown).collect();
-    sort(&mut rows, |a, b| a.0.place.cmp(&b.0.place));
+    rows.sort_by_key(|row| row.0.place);
     rows.iter().map(|(printed, column)| row(summary, display, printed, column)).collect()
 }
 

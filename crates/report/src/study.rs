@@ -6,7 +6,6 @@ pub use page::StudyReport;
 
 use std::fmt::Write as _;
 
-use slipstick::numerics::sort;
 use slipstick::response::DemandColumn;
 use slipstick::study::{LevelSummary, StudySummary};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
@@ -109,7 +108,7 @@ fn shown(summary: &StudySummary) -> Vec<DemandColumn> {
             shown.push(row.demand);
         }
     }
-    sort(&mut shown, |a, b| a.demand.study_place.cmp(&b.demand.study_place));
+    shown.sort_by_key(|column| column.demand.study_place);
     shown
 }
 

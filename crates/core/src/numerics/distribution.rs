@@ -269,6 +269,18 @@ pub(crate) fn ln_normal_density(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::Value;
+
+    #[test]
+    fn peer_student() {
+        let text = include_str!("../../../../data/reference/laboratory/student.json");
+        let reference: Value = serde_json::from_str(text).unwrap();
+        for case in reference["cases"].as_array().unwrap() {
+            let [p, freedom, t] = [0, 1, 2].map(|i| case[i].as_f64().unwrap());
+            let found = student_quantile(p, freedom);
+            assert!((found / t - 1.0).abs() < 1e-9, "{p} {freedom}: {found} {t}");
+        }
+    }
 
     /// √2 erfinv(2u − 1) by mpmath 1.3 with 40 digits, of the doubles nearest to these u.
     #[test]

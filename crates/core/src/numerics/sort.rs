@@ -6,13 +6,6 @@ use core::cmp::Ordering;
 ///
 /// As `slice::sort_by`, but with one copy of the sort for all types: one for each of them took a
 /// thirtieth of the page's module.
-///
-/// # Examples
-/// ```
-/// let mut runs = [("b", 2.0_f64), ("c", 1.0), ("a", 2.0)];
-/// slipstick::numerics::sort(&mut runs, |a, b| a.1.total_cmp(&b.1));
-/// assert_eq!(runs.map(|run| run.0), ["c", "b", "a"]);
-/// ```
 pub fn sort<T>(all: &mut [T], compare: impl Fn(&T, &T) -> Ordering) {
     let mut from: Vec<usize> = (0..all.len()).collect();
     sort_numbers(&mut from, &|i, j| compare(&all[i], &all[j]));

@@ -3,11 +3,11 @@
 mod family;
 
 use slipstick::assessment::FailedRun;
+use slipstick::assessment::SHARES;
 use slipstick::assessment::fragility::Fragility;
 use slipstick::assessment::ida::{Crossing, Curve, demand_fractiles, level_fractiles};
 use slipstick::assessment::observed::Averaged;
 use slipstick::notice::{Notice, NoticeKind};
-use slipstick::numerics::fractile::SHARES;
 
 pub use family::IdaFamily;
 

@@ -1,6 +1,6 @@
 //! Lines that all figures of many runs share.
 
-use slipstick::numerics::fractile::SHARES;
+use slipstick::assessment::SHARES;
 
 use crate::figures::Drawn;
 use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};

@@ -5,7 +5,6 @@ use crate::markup::Markup;
 use crate::number::{compact, count, printed, typeset};
 use crate::report::Report;
 use crate::summary::Summary;
-use slipstick::numerics::sort;
 
 /// Gap used, governing run and certificate.
 pub fn section(out: &mut Markup, report: &Report) {
@@ -33,7 +32,7 @@ fn governing_by<'a>(
     let size = |run: &Summary| demand(run).abs();
     let mut runs = summary.runs();
     // Of equal ones the nominal run.
-    sort(&mut runs, |a, b| (a.0 != "nominal").cmp(&(b.0 != "nominal")));
+    runs.sort_by_key(|run| run.0 != "nominal");
     let mut governing = runs[0];
     for run in &runs[1..] {
         if size(run.1) > size(governing.1) {

@@ -1,7 +1,6 @@
 //! A study as a page: the answer, how demands grow with the level, the tables.
 
 use slipstick::notice::{Notice, NoticeKind};
-use slipstick::numerics::sort;
 use slipstick::response::DemandColumn;
 use slipstick::study::{LevelSummary, Study, StudySummary};
 
@@ -255,7 +254,7 @@ impl StudyReport<'_> {
         for (i, bound) in bounds.iter().enumerate() {
             let mut own: Vec<&LevelSummary> =
                 rows.iter().copied().filter(|row| row.friction == *bound).collect();
-            sort(&mut own, |a, b| level_number(a).total_cmp(&level_number(b)));
+            own.sort_by(|a, b| level_number(a).total_cmp(&level_number(b)));
             let x: Vec<f64> = own.iter().map(|row| at.of(level_number(row))).collect();
             let of = |pick: &dyn Fn(&LevelSummary) -> f64| -> Vec<f64> {
                 own.iter().map(|row| unit.of(pick(row))).collect()

@@ -2,7 +2,6 @@
 
 use slipstick::check::Certificate;
 use slipstick::notice::{Notice, NoticeKind};
-use slipstick::numerics::sort;
 use slipstick::response::{Method, Response, flat_geometry};
 
 use super::{SummaryInputs, exceeds};
@@ -34,7 +33,8 @@ pub fn assemble(inputs: &SummaryInputs) -> Vec<Notice> {
             all.push(warning.clone());
         }
     }
-    sort(&mut all, |a, b| a.is_note().cmp(&b.is_note()));
+    let (notes, mut all): (Vec<Notice>, Vec<Notice>) = all.into_iter().partition(Notice::is_note);
+    all.extend(notes);
     all
 }
 

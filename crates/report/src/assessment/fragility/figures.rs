@@ -2,7 +2,6 @@
 
 use slipstick::assessment::censored::Known;
 use slipstick::assessment::fragility::{Capacity, CloudPoint};
-use slipstick::numerics::sort;
 
 use super::{Data, FragilityReport};
 use crate::assessment::key::title;
@@ -132,7 +131,7 @@ fn clip_at(mark: &[[f64; 2]], x: &[f64]) -> Vec<[f64; 2]> {
 /// that are lower.
 fn empirical(capacities: &[Capacity], unit: Unit) -> Vec<[f64; 2]> {
     let mut sorted: Vec<Capacity> = capacities.to_vec();
-    sort(&mut sorted, |a, b| a.level.total_cmp(&b.level).then(b.reached.cmp(&a.reached)));
+    sorted.sort_by(|a, b| a.level.total_cmp(&b.level).then(b.reached.cmp(&a.reached)));
     // The product-limit estimate of Kaplan and Meier, half a step back.
     let (mut survival, n) = (1.0, sorted.len());
     let mut points = Vec::new();

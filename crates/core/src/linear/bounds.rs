@@ -2,13 +2,10 @@
 //! holds for random systems, and each has a case that reaches it, so that none is larger than it
 //! need be.
 
-// Helpers of tests may panic as tests do.
-#![allow(clippy::expect_used)]
-
 mod norms;
 mod polynomials;
 #[allow(dead_code)]
-#[path = "../common/random.rs"]
+#[path = "../../tests/common/random.rs"]
 mod random;
 mod systems;
 mod taylor;

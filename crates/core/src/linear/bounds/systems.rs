@@ -1,11 +1,11 @@
 //! Random systems, states and loads, and what is asked of them.
 
-use crate::random::Random;
-use slipstick::linear::lanes::Many;
-use slipstick::linear::polynomial::{DEGREE, Polynomial, value};
-use slipstick::linear::{Load, StoreyDamping};
+use super::random::Random;
+use crate::linear::lanes::Many;
+use crate::linear::polynomial::{DEGREE, Polynomial, value};
+use crate::linear::{Load, StoreyDamping};
 
-pub use slipstick::linear::System;
+pub use crate::linear::System;
 
 /// `s, ṡ, η, η̇`.
 #[derive(Clone)]
@@ -135,7 +135,7 @@ impl Rates {
 }
 
 pub fn series(system: &System, slip: bool, state: &State, load: &Load, length_s: f64) -> Series {
-    let mut series = slipstick::linear::Series::new(system, DEGREE);
+    let mut series = crate::linear::Series::new(system, DEGREE);
     let mut x = state.0.clone();
     let components = x.len();
     x.resize(components.div_ceil(4) * 4, 0.0);

@@ -1,12 +1,12 @@
 //! (b) the norm of the second derivative, (c) kinks, (d) dual norms, (k) amplitudes of the modes and
 //! (l) their chords.
 
-use crate::systems::{
+use super::systems::{
     Rates, SYSTEMS, State, System, assert_near, bend, dot, norm, rate, restoring, row, series,
     state, streams, system,
 };
-use slipstick::linear::MAX_RATE_STEP;
-use slipstick::linear::polynomial::value;
+use crate::linear::MAX_RATE_STEP;
+use crate::linear::polynomial::value;
 
 /// (b) Under loads that are linear in time the norm of `ẍ` does not grow, and without dampers it
 /// stays; past a zero of the sliding velocity too, the friction force going on as it was.

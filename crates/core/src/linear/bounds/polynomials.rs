@@ -1,8 +1,8 @@
 //! (a) the chord and (e) extremes.
 
-use crate::random::Random;
-use crate::systems::streams;
-use slipstick::linear::polynomial::{
+use super::random::Random;
+use super::systems::streams;
+use crate::linear::polynomial::{
     DEGREE, Polynomial, ZERO, curvature_bound, first_root, largest, value,
 };
 

@@ -1,11 +1,11 @@
 //! (f) truncation and (g) the rates.
 
-use crate::systems::{
+use super::systems::{
     Rates, State, System, assert_near, bend, coefficient, derivative, norm, rate, series, state,
     streams, system,
 };
-use slipstick::linear::polynomial::{DEGREE, value};
-use slipstick::linear::{MAX_RATE_STEP, Solution, StoreyDamping, orders};
+use crate::linear::polynomial::{DEGREE, value};
+use crate::linear::{MAX_RATE_STEP, Solution, StoreyDamping, orders};
 
 /// (g) `‖A x‖ ≤ rate · ‖x‖` in stick and slip.
 #[test]
@@ -91,7 +91,7 @@ fn prop_parts_of_an_interval_agree_with_the_whole_series() {
             }
             let start = [&x.0[..], &[0.0; 4][..row.len() - components]].concat();
             let mut out = row.clone();
-            let mut room = slipstick::linear::Series::new(system, DEGREE);
+            let mut room = crate::linear::Series::new(system, DEGREE);
             let (of_a, of_force) = (random.unit(), if slip { random.unit() } else { 0.0 });
             let of_row = whole.row(&row[..components]);
             for _ in 0..10 {
