@@ -2,7 +2,7 @@
 //! floor acceleration.
 //!
 //! Every design is judged by two figures over the suite, both counted
-//! ([`fractile::held_by`](crate::numerics::fractile::held_by)): the sliding displacement that a share
+//! (`numerics/fractile.rs`): the sliding displacement that a share
 //! `probability` of the records does not exceed, and the floor acceleration that a share
 //! `acceleration_share` of them does not. A design is *feasible* where the first is within the gap.
 //! The *front* is the feasible designs that no other feasible design beats: none is at least as good in

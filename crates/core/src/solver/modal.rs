@@ -577,14 +577,13 @@ impl<'a, S: Simd, W: Width> Phase<'a> for Modal<'a, S, W> {
     fn rounding_m_per_s2(&self, _: &Course<'a>, motion: &Motion, _: usize) -> f64 {
         let InForce { mode, tables, friction, stop, .. } = self.now;
         let (mass_kg, Motion { number, load, segment, .. }) = (self.block_kg(), motion);
-        let a = load.acceleration.abs() + load.acceleration_change.abs();
-        let normal_n = motion.normal[0].abs() + motion.normal[1].abs();
+        let Segment { unit_s, part, .. } = *segment;
+        let a = load.acceleration.abs() + part * load.acceleration_change.abs();
+        let normal_n = motion.normal[0].abs() + part * motion.normal[1].abs();
         let springs_n = tables.system.stiffness_n_per_m * self.x[0].abs() + stop.abs();
         let own_n = match mode {
-            Mode::Stick => number[0].abs() + number[1].abs() + self.hold.largest_n(normal_n),
-            Mode::Slip(_) => {
-                mass_kg * (number[1].abs() / segment.unit_s) + friction.abs() * normal_n
-            }
+            Mode::Stick => number[0].abs() + part * number[1].abs() + self.hold.largest_n(normal_n),
+            Mode::Slip(_) => mass_kg * (number[1].abs() / unit_s) + friction.abs() * normal_n,
         };
         let balanced_n = mass_kg * a + springs_n + own_n;
         let pull_n = balanced_n.max(self.peaks.attained(output::BASE_SHEAR));

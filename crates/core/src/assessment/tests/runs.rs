@@ -310,7 +310,7 @@ fn exact_one_analysis_is_stopped_wherever_it_is() {
         ("events", long("static_friction = 0.2\nkinetic_friction = 0.1", "", 500_000)),
         (
             "storeys",
-            long("static_friction = 0.2\nkinetic_friction = 0.1", &storeys.repeat(20), 4000),
+            long("static_friction = 0.2\nkinetic_friction = 0.1", &storeys.repeat(20), 8000),
         ),
         ("rate", long(&format!("static_friction = 0.05\n{rate}"), contents, 2000)),
         (

@@ -66,8 +66,9 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         let mut of_terms = self.phase.rounding_m_per_s2(&self.course, series, i);
         if i == 0 {
             let [normal, rise] = self.phase.normal(series, i).map(f64::abs);
+            let normal_n = normal + self.phase.segment(series).part * rise;
             let hold = self.phase.hold(&self.course, i);
-            of_terms = of_terms * self.phase.block_kg() + ROUNDING * hold.largest_n(normal + rise);
+            of_terms = of_terms * self.phase.block_kg() + ROUNDING * hold.largest_n(normal_n);
         }
         of_terms + self.rounding_of_time(series) * distance[1].abs()
     }
