@@ -403,18 +403,18 @@ impl<'a> Phase<'a> for Direct<'a> {
         self.look_at_outputs(course, segment.part);
     }
 
-    fn record(&mut self, course: &Course<'a>, stretch: &Stretch, at_s: f64, row: bool) {
-        if self.history.is_none() {
-            return;
-        }
-        let interval = stretch.interval;
-        if at_s == 0.0 {
-            self.record_sample(course, interval, row);
-            return;
-        }
-        let time_s = self.ground.times_s[interval] + at_s;
-        let table = self.ground.table_at(interval, at_s);
-        self.record_knot(course, [time_s, table], &Loads::at(stretch, at_s), row);
+    fn records(&self) -> bool {
+        self.history.is_some()
+    }
+
+    fn record_between(
+        &mut self,
+        course: &Course<'a>,
+        knot: [f64; 2],
+        (stretch, at_s): (&Stretch, f64),
+        row: bool,
+    ) {
+        self.record_knot(course, knot, &Loads::at(stretch, at_s), row);
     }
 
     fn record_sample(&mut self, course: &Course<'a>, sample: usize, row: bool) {

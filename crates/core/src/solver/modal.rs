@@ -610,27 +610,25 @@ impl<'a, S: Simd, W: Width> Phase<'a> for Modal<'a, S, W> {
     }
 
     #[inline(always)]
-    fn record(&mut self, course: &Course<'a>, stretch: &Stretch, at_s: f64, row: bool) {
-        if self.recorder.is_none() {
-            return;
-        }
-        let interval = stretch.interval;
-        if at_s == 0.0 {
-            self.record_sample(course, interval, row);
-            return;
-        }
-        let time_s = self.ground.times_s[interval] + at_s;
-        let table = self.ground.table_at(interval, at_s);
+    fn records(&self) -> bool {
+        self.recorder.is_some()
+    }
+
+    fn record_between(
+        &mut self,
+        course: &Course<'a>,
+        [time_s, table]: [f64; 2],
+        (stretch, at_s): (&Stretch, f64),
+        row: bool,
+    ) {
         let (a, normal) = (stretch.acceleration_at(at_s), stretch.normal_at(at_s));
         self.record_knot(course, time_s, [table, a, normal], row);
     }
 
     #[inline(never)]
     fn record_sample(&mut self, course: &Course<'a>, sample: usize, row: bool) {
-        if self.recorder.is_some() {
-            let normal = self.ground.normal_at(sample).max(0.0);
-            let (table, a) = (self.ground.table[sample], self.ground.acceleration[sample]);
-            self.record_knot(course, self.ground.times_s[sample], [table, a, normal], row);
-        }
+        let normal = self.ground.normal_at(sample).max(0.0);
+        let (table, a) = (self.ground.table[sample], self.ground.acceleration[sample]);
+        self.record_knot(course, self.ground.times_s[sample], [table, a, normal], row);
     }
 }

@@ -6,6 +6,7 @@ use super::walk::Walk;
 use crate::error::SolveError;
 use crate::linear::lanes::least;
 use crate::linear::polynomial::Polynomial;
+use crate::response::Mode;
 use crate::slider::Hold;
 
 /// A segment of a stretch: one series long at most.
@@ -135,6 +136,16 @@ pub(super) trait Phase<'a>: Sized {
         interface: usize,
     ) -> f64;
 
+    /// Where the slider rests against a rigid stop: how much of its push friction cannot take, positive
+    /// where the stop takes some; and the sign of that push.
+    fn beyond_friction(&self, course: &Course<'a>) -> Option<(f64, Polynomial)> {
+        if course.block.mode != Mode::Stick {
+            return None;
+        }
+        let (series, hold) = (self.series(), self.hold(course, 0));
+        hold.beyond_friction(self.asked(series, 0), self.normal(series, 0))
+    }
+
     /// Largest velocity of an interface so far.
     fn peak_velocity(&self, interface: usize) -> f64;
 
@@ -146,11 +157,20 @@ pub(super) trait Phase<'a>: Sized {
     /// Looks for peaks in the part of the series just gone through.
     fn look(&mut self, course: &mut Course<'a>, stretch: &Stretch, segment: &Segment);
 
-    /// Records the present state as a knot, perhaps as a row of the history.
-    fn record(&mut self, course: &Course<'a>, stretch: &Stretch, at_s: f64, row: bool);
+    /// Whether a history is wanted.
+    fn records(&self) -> bool;
 
-    /// The same at a sample.
+    /// Records the present state as a knot at a sample, perhaps as a row of the history.
     fn record_sample(&mut self, course: &Course<'a>, sample: usize, row: bool);
+
+    /// The same between samples, at a time with the acceleration of the table there.
+    fn record_between(
+        &mut self,
+        course: &Course<'a>,
+        knot: [f64; 2],
+        at: (&Stretch, f64),
+        row: bool,
+    );
 }
 
 /// The length over which a series is expanded, and the part of it that the series serves, at most 1.

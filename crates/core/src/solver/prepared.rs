@@ -139,7 +139,7 @@ impl Prepared {
         self.demands_in(&mut Workspace::default(), motion)
     }
 
-    /// [`Prepared::demands`] in workspace that analyses before it have left.
+    /// [`Prepared::demands`] in a workspace that analyses before it have left.
     ///
     /// # Errors
     /// [`SolveError`] with time and cause.

@@ -137,9 +137,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     fn finish(&mut self, last: usize) -> Result<(), SolveError> {
         let end_s = self.ground.times_s[last];
         self.must_be_finite(end_s)?;
-        let is_due = !self.course.released.is_empty()
-            || (0..self.course.interfaces()).any(|i| self.has_stopped(i));
-        if is_due {
+        if !self.course.released.is_empty() || self.has_any_stopped() {
             // A decision at the very end is made by the limit from the left.
             let interval = (0..last).rev().find(|&i| self.ground.times_s[i] < end_s);
             if let Some(interval) = interval {
@@ -210,6 +208,11 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         interface.mode != Mode::Stick && interface.start.is_none() && self.phase.place(i)[1] == 0.0
     }
 
+    /// Whether any does.
+    pub(super) fn has_any_stopped(&self) -> bool {
+        (0..self.course.interfaces()).any(|i| self.has_stopped(i))
+    }
+
     /// Whether nothing waits to be decided: neither a slip that has just started nor what has stopped or
     /// reached its bound.
     pub(super) fn is_settled(&self) -> bool {
@@ -219,17 +222,6 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
             && !self.leant
             && self.course.slider.just.is_none()
             && !starts
-    }
-
-    /// Where the slider rests against a rigid stop: how much of its push friction cannot take, positive
-    /// where the stop takes some; and the sign of that push.
-    fn beyond_friction(&self) -> Option<(f64, Polynomial)> {
-        if self.course.block.mode != Mode::Stick {
-            return None;
-        }
-        let (phase, series) = (&self.phase, self.phase.series());
-        let hold = phase.hold(&self.course, 0);
-        hold.beyond_friction(phase.asked(series, 0), phase.normal(series, 0))
     }
 
     // ---- steps ----------------------------------------------------------------------------------
@@ -488,12 +480,23 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     /// Records the present state as a knot.
     #[inline(always)]
     fn record(&mut self, stretch: &Stretch, at_s: f64, row: bool) {
-        self.phase.record(&self.course, stretch, at_s, row);
+        if !self.phase.records() {
+            return;
+        }
+        let (ground, interval) = (&self.ground, stretch.interval);
+        if at_s == 0.0 {
+            self.phase.record_sample(&self.course, interval, row);
+        } else {
+            let knot = [ground.times_s[interval] + at_s, ground.table_at(interval, at_s)];
+            self.phase.record_between(&self.course, knot, (stretch, at_s), row);
+        }
     }
 
     /// Records the present state as a row of the history.
     fn record_sample(&mut self, sample: usize) {
-        self.phase.record_sample(&self.course, sample, true);
+        if self.phase.records() {
+            self.phase.record_sample(&self.course, sample, true);
+        }
     }
 
     /// Records the knot before an event at an instant that no segment has led to.

@@ -5,6 +5,7 @@ use core::ops::Range;
 use super::super::course::Course;
 use super::super::ground::Ground;
 use super::super::outputs::output;
+use super::super::phase::Phase;
 use super::Direct;
 use super::body::{Body, Expansion, Loads};
 use crate::linear::polynomial::{
@@ -186,11 +187,8 @@ impl<'a> Direct<'a> {
 
     /// Friction takes what it can where the block leans on a rigid stop, the stop the rest.
     fn look_at_friction(&mut self, course: &mut Course<'_>, part: f64) {
-        let Expansion { friction, normal: [normal, rise, ..], .. } = &self.series;
-        let beyond = (self.modes[0] == Mode::Stick)
-            .then(|| course.hold(self.x.s).beyond_friction(friction, [*normal, *rise]))
-            .flatten()
-            .filter(|(_, p)| value(p, 0.5 * part) > 0.0);
+        let beyond = self.beyond_friction(course).filter(|(_, p)| value(p, 0.5 * part) > 0.0);
+        let friction = &self.series.friction;
         let peak = &mut self.peaks.values[output::FRICTION];
         let Some((sign, beyond)) = beyond else {
             raise(peak, friction, part);
@@ -227,9 +225,6 @@ impl<'a> Direct<'a> {
         loads: &Loads,
         row: bool,
     ) {
-        if self.history.is_none() {
-            return;
-        }
         self.look_at_orders(0, loads);
         let [mut states, mut outputs] = core::mem::take(&mut self.knot);
         states.resize(self.x.count(), [0.0]);

@@ -252,7 +252,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     /// Decides about all interfaces by their series.
     #[inline(never)]
     fn decide_by_series(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool {
-        let stopped = (0..self.course.interfaces()).any(|i| self.has_stopped(i));
+        let stopped = self.has_any_stopped();
         let reached = core::mem::take(&mut self.course.released);
         let due = stopped || !reached.is_empty();
         if !(due || self.is_any_at_bound(stretch, at_s)) {
@@ -485,7 +485,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
             self.phase.set_unit_s(stretch.to_s - at_s);
             while at_s < stretch.to_s {
                 let due = !self.course.released.is_empty()
-                    || (0..resting.len()).any(|i| self.has_stopped(i))
+                    || self.has_any_stopped()
                     || self.is_any_at_bound(&stretch, at_s);
                 if due {
                     let reached = core::mem::take(&mut self.course.released);

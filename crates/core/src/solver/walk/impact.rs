@@ -84,7 +84,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     /// Where friction takes all of the push against a rigid stop, or no longer does.
     #[inline(never)]
     pub(super) fn first_lean(&mut self, part: f64) -> Option<f64> {
-        let (_, mut beyond) = self.beyond_friction()?;
+        let (_, mut beyond) = self.phase.beyond_friction(&self.course)?;
         if core::mem::take(&mut self.leant) {
             beyond[0] = 0.0;
         }
