@@ -83,6 +83,20 @@ impl InitialState {
     }
 }
 
+/// What is along y where the table moves in two horizontal directions: the frame has the masses that it
+/// has along x and does not twist, the slider is the same in all directions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AlongY {
+    /// Stiffness of each storey in N/m.
+    pub stiffnesses_n_per_m: Vec<f64>,
+    /// Damping.
+    pub damping: Damping,
+    /// Width of the block in m; with storey heights the overturning ratio is reported.
+    pub width_m: Option<f64>,
+    /// State at t = 0.
+    pub initial: InitialState,
+}
+
 /// Something that stands unfastened on the block or on a floor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contents {
@@ -127,6 +141,7 @@ pub struct Model {
     frame: Frame,
     gravity_m_per_s2: f64,
     initial: InitialState,
+    along_y: Option<AlongY>,
     contents: Vec<Contents>,
 }
 
@@ -173,8 +188,7 @@ impl Model {
         if let Some(heights_m) = &frame.heights_m {
             each("storey heights_m", n, heights_m, positive)?;
         }
-        finite("initial sliding_displacement_m", initial.sliding_displacement_m)?;
-        finite("initial sliding_velocity_m_per_s", initial.sliding_velocity_m_per_s)?;
+        check_start(&initial, n)?;
         if let Some(Stop { gap_m: [positive, negative], kind: StopKind::Rigid { .. } }) =
             slider.stop()
         {
@@ -183,14 +197,44 @@ impl Model {
             let expected = "a place between the rigid stops";
             in_range("initial sliding_displacement_m", expected, start_m, within)?;
         }
-        if let Some(q) = &initial.storey_displacement_m {
-            each("initial storey_displacement_m", n, q, finite)?;
-        }
-        if let Some(v) = &initial.storey_velocity_m_per_s {
-            each("initial storey_velocity_m_per_s", n, v, finite)?;
-        }
-        let model = Self { block, slider, frame, gravity_m_per_s2, initial, contents: Vec::new() };
+        let model = Self {
+            block,
+            slider,
+            frame,
+            gravity_m_per_s2,
+            initial,
+            along_y: None,
+            contents: Vec::new(),
+        };
         model.with_contents(Vec::new())
+    }
+
+    /// The same model with another structure or start along y; without it y is as x, and starts at rest.
+    ///
+    /// # Errors
+    /// [`ModelError`] as [`Model::new`].
+    pub fn with_along_y(mut self, along_y: AlongY) -> Result<Self, ModelError> {
+        let n = self.storeys();
+        optional_positive("block width_y_m", along_y.width_m)?;
+        each("storey stiffnesses_y_n_per_m", n, &along_y.stiffnesses_n_per_m, positive)?;
+        match &along_y.damping {
+            Damping::Ratio(ratio) => not_negative("storey damping_ratio_y", *ratio)?,
+            Damping::Dampers(c) => each("storey dampers_y_n_s_per_m", n, c, not_negative)?,
+        }
+        check_start(&along_y.initial, n)?;
+        self.along_y = Some(along_y);
+        Ok(self)
+    }
+
+    /// What is along y: as given, or as along x and at rest.
+    #[must_use]
+    pub fn along_y(&self) -> AlongY {
+        self.along_y.clone().unwrap_or_else(|| AlongY {
+            stiffnesses_n_per_m: self.frame.stiffnesses_n_per_m.clone(),
+            damping: self.frame.damping.clone(),
+            width_m: None,
+            initial: InitialState::rest(),
+        })
     }
 
     /// The same model with contents, in the place of those that it had.
@@ -459,6 +503,18 @@ fn in_range(
     holds: bool,
 ) -> Result<(), ModelError> {
     if holds { Ok(()) } else { Err(ModelError::OutOfRange { quantity, expected, found }) }
+}
+
+fn check_start(initial: &InitialState, storeys: usize) -> Result<(), ModelError> {
+    finite("initial sliding_displacement_m", initial.sliding_displacement_m)?;
+    finite("initial sliding_velocity_m_per_s", initial.sliding_velocity_m_per_s)?;
+    if let Some(q) = &initial.storey_displacement_m {
+        each("initial storey_displacement_m", storeys, q, finite)?;
+    }
+    if let Some(v) = &initial.storey_velocity_m_per_s {
+        each("initial storey_velocity_m_per_s", storeys, v, finite)?;
+    }
+    Ok(())
 }
 
 fn each(

@@ -59,6 +59,7 @@ const SHORTEST_USUAL_S: f64 = 1e-3;
 pub struct GroundMotion {
     times_s: Arc<Vec<f64>>,
     horizontal_m_per_s2: Arc<Vec<f64>>,
+    horizontal_y_m_per_s2: Option<Arc<Vec<f64>>>,
     vertical_m_per_s2: Option<Arc<Vec<f64>>>,
     dt_s: Option<f64>,
 }
@@ -118,9 +119,20 @@ impl GroundMotion {
         Self {
             times_s: Arc::new(times_s),
             horizontal_m_per_s2: Arc::new(horizontal),
+            horizontal_y_m_per_s2: None,
             vertical_m_per_s2: vertical.map(Arc::new),
             dt_s,
         }
+    }
+
+    /// The same motion with an acceleration along y at its samples, Ü_y in m/s².
+    ///
+    /// # Errors
+    /// [`MotionError`] for a list of another length, and values that are not finite or larger than
+    /// [`LARGEST`].
+    pub fn with_y(self, horizontal_y: Vec<f64>) -> Result<Self, MotionError> {
+        check_component(self.len(), "horizontal acceleration along y", &horizontal_y)?;
+        Ok(Self { horizontal_y_m_per_s2: Some(Arc::new(horizontal_y)), ..self })
     }
 
     /// A motion with samples at `0, dt, 2 dt, …`.
@@ -157,6 +169,13 @@ impl GroundMotion {
     #[must_use]
     pub fn horizontal_m_per_s2(&self) -> &[f64] {
         &self.horizontal_m_per_s2
+    }
+
+    /// Acceleration along y at the samples, Ü_y in m/s², where the table moves in two horizontal
+    /// directions.
+    #[must_use]
+    pub fn horizontal_y_m_per_s2(&self) -> Option<&[f64]> {
+        self.horizontal_y_m_per_s2.as_deref().map(Vec::as_slice)
     }
 
     /// Acceleration normal to the sliding surface at the samples, Üv in m/s², positive upwards.
@@ -197,22 +216,22 @@ fn check_values(n: usize, horizontal: &[f64], vertical: Option<&[f64]>) -> Resul
     if n > MAX_SAMPLES {
         return Err(MotionError::TooLong { found: n as f64 });
     }
-    for (quantity, values) in
-        [("horizontal acceleration", Some(horizontal)), ("vertical acceleration", vertical)]
-    {
-        let Some(values) = values else { continue };
-        if values.len() != n {
-            return Err(MotionError::TooShort { found: values.len() });
-        }
-        let wrong = |a: &f64| !(a.abs() <= LARGEST);
-        if let Some((index, &found)) = values.iter().enumerate().find(|(_, a)| wrong(a)) {
-            return Err(match found.is_finite() {
-                true => MotionError::TooLarge { index, quantity, found, limit: LARGEST },
-                false => MotionError::NotFinite { index, quantity, found },
-            });
-        }
+    check_component(n, "horizontal acceleration", horizontal)?;
+    vertical.map_or(Ok(()), |vertical| check_component(n, "vertical acceleration", vertical))
+}
+
+fn check_component(n: usize, quantity: &'static str, values: &[f64]) -> Result<(), MotionError> {
+    if values.len() != n {
+        return Err(MotionError::TooShort { found: values.len() });
     }
-    Ok(())
+    let wrong = |a: &f64| !(a.abs() <= LARGEST);
+    match values.iter().enumerate().find(|(_, a)| wrong(a)) {
+        Some((index, &found)) if found.is_finite() => {
+            Err(MotionError::TooLarge { index, quantity, found, limit: LARGEST })
+        }
+        Some((index, &found)) => Err(MotionError::NotFinite { index, quantity, found }),
+        None => Ok(()),
+    }
 }
 
 /// A step that makes a motion longer than its samples can tell of.

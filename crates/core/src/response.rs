@@ -15,7 +15,8 @@ use crate::slider::Direction;
 
 pub use crate::slider::Contact;
 
-/// Whether the block is held by friction or slides, and which way.
+/// Whether the block is held by friction or slides, and which way; in two horizontal directions a slip is
+/// positive along its own velocity ([`EventInPlane`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// The block moves with the table.
@@ -389,6 +390,53 @@ pub struct Iterations {
     pub max: u32,
 }
 
+/// What an event in two horizontal directions has besides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EventInPlane {
+    /// Unit vector of the first sliding velocity after it; 0, 0 where the block sticks.
+    pub direction: [f64; 2],
+    /// Sliding displacement along y then, in m.
+    pub sliding_displacement_y_m: f64,
+}
+
+/// The part of a history that is along y, at the knots of [`History`] and in its order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct HistoryAlongY {
+    /// Table acceleration in m/s², on the knot's side of a jump.
+    pub table_acceleration_m_per_s2: Vec<f64>,
+    /// `s` in m.
+    pub sliding_displacement_m: Vec<f64>,
+    /// `ṡ` in m/s.
+    pub sliding_velocity_m_per_s: Vec<f64>,
+    /// Total acceleration of the block in m/s².
+    pub block_acceleration_m_per_s2: Vec<f64>,
+    /// Force of the table on the block by friction in N.
+    pub friction_force_n: Vec<f64>,
+    /// `q_i` in m, relative to the block.
+    pub storey_displacement_m: Vec<f64>,
+    /// `q̇_i` in m/s, relative to the block.
+    pub storey_velocity_m_per_s: Vec<f64>,
+    /// Total acceleration of the floors in m/s².
+    pub storey_acceleration_m_per_s2: Vec<f64>,
+}
+
+/// What a response in two horizontal directions has besides. [`Response::demands`] are then of resultants,
+/// the norm over x and y at each instant: [`Demands::residual_sliding_displacement_m`] is a norm, largest and
+/// smallest `s` are those along x.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct InPlane {
+    /// Demands along x and along y; counts, times, path and what else belongs to no axis are 0 or absent.
+    pub axes: [Demands; 2],
+    /// Direction of `s` at its peak, from x towards y, in rad.
+    pub peak_sliding_displacement_direction_rad: f64,
+    /// Least local minimum of the sliding speed within slips, in m/s.
+    pub least_sliding_speed_m_per_s: Option<f64>,
+    /// Of each event of [`Response::events`].
+    pub events: Vec<EventInPlane>,
+    /// Of [`Response::history`], where that was asked for.
+    pub history: Option<HistoryAlongY>,
+}
+
 /// The result of one analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
@@ -406,4 +454,6 @@ pub struct Response {
     pub iterations: Option<Iterations>,
     /// What the solver noticed.
     pub warnings: Vec<Notice>,
+    /// Of a motion in two horizontal directions.
+    pub in_plane: Option<Box<InPlane>>,
 }

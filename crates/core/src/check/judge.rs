@@ -434,6 +434,7 @@ mod tests {
             contact_loss_s: Vec::new(),
             iterations: None,
             warnings: Vec::new(),
+            in_plane: None,
         };
         (model, motion, response)
     }

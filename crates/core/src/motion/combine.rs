@@ -8,7 +8,7 @@ use crate::error::MotionError;
 use crate::numerics::fractile::upper_median;
 
 impl GroundMotion {
-    /// The same motion with both components times `factor`, which may be negative.
+    /// The same motion with all components times `factor`, which may be negative.
     ///
     /// # Errors
     /// [`MotionError::OutOfRange`] for a factor that is not finite, [`MotionError::NotFinite`] and
@@ -22,20 +22,33 @@ impl GroundMotion {
         let horizontal = times(&self.horizontal_m_per_s2);
         let vertical = self.vertical_m_per_s2().map(times);
         super::check_values(horizontal.len(), &horizontal, vertical.as_deref())?;
-        Ok(Self {
+        let scaled = Self {
             times_s: self.times_s.clone(),
             horizontal_m_per_s2: Arc::new(horizontal),
+            horizontal_y_m_per_s2: None,
             vertical_m_per_s2: vertical.map(Arc::new),
             dt_s: self.dt_s,
-        })
+        };
+        scaled.with_y_if(self.horizontal_y_m_per_s2().map(times))
+    }
+
+    /// [`GroundMotion::with_y`] where there is such a component.
+    fn with_y_if(self, horizontal_y: Option<Vec<f64>>) -> Result<Self, MotionError> {
+        match horizontal_y {
+            Some(horizontal_y) => self.with_y(horizontal_y),
+            None => Ok(self),
+        }
     }
 
     /// The first samples of the motion, two or more of them; `None` for fewer, or more than there are.
     #[must_use]
     pub fn first(&self, samples: usize) -> Option<Self> {
         let cut = |values: &[f64]| values.get(..samples).map(<[f64]>::to_vec);
-        let vertical = self.vertical_m_per_s2().map(cut);
-        Self::new(cut(&self.times_s)?, cut(&self.horizontal_m_per_s2)?, vertical.flatten()).ok()
+        let [horizontal_y, vertical] =
+            [self.horizontal_y_m_per_s2(), self.vertical_m_per_s2()].map(|v| v.and_then(cut));
+        Self::new(cut(&self.times_s)?, cut(&self.horizontal_m_per_s2)?, vertical)
+            .and_then(|motion| motion.with_y_if(horizontal_y))
+            .ok()
     }
 
     /// The motion scaled so that its largest horizontal acceleration is `peak_m_per_s2`; the
@@ -71,6 +84,7 @@ impl GroundMotion {
         Ok(Self {
             times_s: self.times_s.clone(),
             horizontal_m_per_s2: Arc::new(horizontal),
+            horizontal_y_m_per_s2: None,
             vertical_m_per_s2: None,
             dt_s: self.dt_s,
         })
@@ -99,13 +113,16 @@ impl GroundMotion {
         let samples = steps(tail_s, dt_s, n + 1)?;
 
         let mut times_s = self.times_s.to_vec();
-        let mut horizontal = self.horizontal_m_per_s2.to_vec();
-        let mut vertical = self.vertical_m_per_s2().map(<[f64]>::to_vec);
-        let at_rest = horizontal[n - 1] == 0.0 && vertical.as_ref().is_none_or(|v| v[n - 1] == 0.0);
+        let mut components = [
+            Some(self.horizontal_m_per_s2()),
+            self.horizontal_y_m_per_s2(),
+            self.vertical_m_per_s2(),
+        ]
+        .map(|component| component.map(<[f64]>::to_vec));
+        let at_rest = components.iter().flatten().all(|component| component[n - 1] == 0.0);
         if !at_rest && times_s[n - 2] == end_s {
             // It ends with a jump, whose right side holds for no time.
-            horizontal[n - 1] = 0.0;
-            vertical.iter_mut().for_each(|v| v[n - 1] = 0.0);
+            components.iter_mut().flatten().for_each(|component| component[n - 1] = 0.0);
         } else if !at_rest {
             times_s.push(end_s);
         }
@@ -114,9 +131,9 @@ impl GroundMotion {
         let from_s = if self.dt_s.is_some() { 0.0 } else { end_s };
         times_s.extend((1..samples).map(|k| from_s + (first + k) as f64 * dt_s));
         times_s.push(end_s + tail_s);
-        horizontal.resize(times_s.len(), 0.0);
-        vertical.iter_mut().for_each(|v| v.resize(times_s.len(), 0.0));
-        Self::new(times_s, horizontal, vertical)
+        components.iter_mut().flatten().for_each(|v| v.resize(times_s.len(), 0.0));
+        let [horizontal, horizontal_y, vertical] = components;
+        Self::new(times_s, horizontal.unwrap_or_default(), vertical)?.with_y_if(horizontal_y)
     }
 
     /// This motion with `factor` times the horizontal component of `other` as its vertical one

@@ -119,6 +119,7 @@ impl Series {
         (self.quantity == Quantity::Acceleration).then(|| GroundMotion {
             times_s: self.times_s.clone(),
             horizontal_m_per_s2: self.values.clone(),
+            horizontal_y_m_per_s2: None,
             vertical_m_per_s2: None,
             dt_s: self.dt_s,
         })
@@ -139,6 +140,7 @@ impl Series {
         let as_motion = |series: &Self| GroundMotion {
             times_s: series.times_s.clone(),
             horizontal_m_per_s2: series.values.clone(),
+            horizontal_y_m_per_s2: None,
             vertical_m_per_s2: None,
             dt_s: series.dt_s,
         };
@@ -204,6 +206,7 @@ impl GroundMotion {
         Self {
             times_s: self.times_s.clone(),
             horizontal_m_per_s2: Arc::new(sum.collect()),
+            horizontal_y_m_per_s2: None,
             vertical_m_per_s2: None,
             dt_s: constant_step(&self.times_s).or(self.dt_s),
         }

@@ -334,6 +334,7 @@ fn solve(
         contact_loss_s,
         iterations: None,
         warnings,
+        in_plane: None,
     })
 }
 
@@ -359,6 +360,7 @@ fn stepped(
         contact_loss_s,
         iterations: None,
         warnings,
+        in_plane: None,
     })
 }
 

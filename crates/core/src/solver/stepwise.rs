@@ -171,6 +171,7 @@ pub(super) fn solve(
         contact_loss_s,
         iterations: Some(Iterations { mean: total as f64 / (motion.len() - 1) as f64, max: most }),
         warnings,
+        in_plane: None,
     })
 }
 

@@ -144,6 +144,7 @@ pub fn judge(system: &System, history: &History) -> Certificate {
         contact_loss_s: Vec::new(),
         iterations: None,
         warnings: Vec::new(),
+        in_plane: None,
     };
     check(&system.model, &system.motion, &response)
 }

@@ -497,6 +497,7 @@ fn struck() -> (System, Response) {
         contact_loss_s: Vec::new(),
         iterations: None,
         warnings: Vec::new(),
+        in_plane: None,
     };
     (System { name: "block against a stop", model, motion }, response)
 }
