@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let options = Options { format: None, units: source.units, dt_s: source.dt_s };
     let record = record::read(&source.path, bytes, &options)?;
     let wanted = Wanted { record: &record, channel: None };
-    let loaded = Loaded::recorded(wanted, None, Some(source.scale))?;
+    let loaded = Loaded::recorded(wanted, Some(source.scale))?;
     let motion = PreparedMotion::new(loaded.motion.with_tail(analysis.tail_s)?);
     let prepared = Prepared::new(analysis.model, motion.dt_s());
     let mut best_ms = f64::INFINITY;

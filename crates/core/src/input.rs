@@ -35,7 +35,7 @@ pub use edit::with_keys;
 pub use json_schema::{json_schema, plan_json_schema};
 pub use keys::MAX_STOREYS;
 pub use mapping::{Channel, ColumnRef, MappedColumn, Mapping, Zero};
-pub use motion::{MotionSource, RecordSource, Scale};
+pub use motion::{MotionSource, PairOf, RecordAlongY, RecordSource, Scale};
 pub use overrides::{InputValue, Override, dimension_of};
 pub use plan_keys::MAX_RUNS;
 pub use variation::Variation;
@@ -325,6 +325,20 @@ impl Analysis {
     /// The error for a motion that cannot be made or scaled, at the key that caused it.
     pub fn motion_error(&self, error: &MotionError) -> InputError {
         motion::error(&self.values, self.motion.as_ref(), error)
+    }
+
+    /// Refuses a motion in two horizontal directions where one is asked for.
+    ///
+    /// # Errors
+    /// [`InputError`] at the key that gives the motion along y.
+    pub fn in_one_direction(&self, what: &str) -> Result<(), InputError> {
+        match self.motion.as_ref().and_then(MotionSource::key_of_y) {
+            Some(key) => {
+                let expected = format!("a motion in one direction, which {what}");
+                Err(self.error_at(key, expected, "one in two"))
+            }
+            None => Ok(()),
+        }
     }
 
     /// How the table moves.

@@ -7,7 +7,8 @@ mod registry;
 pub use limits::{flat_geometry, struck};
 
 pub use registry::{
-    DEMANDS, Demand, DemandColumn, DemandKind, DemandOf, DemandShape, PrintedRow, demand_values,
+    DEMANDS, Demand, DemandColumn, DemandKind, DemandOf, DemandShape, InDirections, PrintedRow,
+    demand_values,
 };
 
 use crate::notice::Notice;

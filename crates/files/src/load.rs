@@ -3,8 +3,8 @@
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
-use slipstick::input::Scale;
-use slipstick::input::loaded::{LoadError, Loaded, Wanted};
+use slipstick::input::loaded::{Component, Components, LoadError, Loaded, Wanted};
+use slipstick::input::{PairOf, Scale};
 use slipstick::record::{self, Format, Options, Record, Units};
 
 use crate::error::FileError;
@@ -25,8 +25,25 @@ pub struct RecordRequest {
     pub channel: Option<String>,
     /// Scale; as it stands where `None`.
     pub scale: Option<Scale>,
+    /// The file with the component along y.
+    pub along_y: Option<AlongYRequest>,
     /// The file with the vertical component.
     pub vertical: Option<VerticalRequest>,
+}
+
+/// A record whose horizontal component acts along y.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AlongYRequest {
+    /// The file.
+    pub path: PathBuf,
+    /// Units, where the file does not state them.
+    pub units: Option<Units>,
+    /// Time step in s, where the file does not state it.
+    pub dt_s: Option<f64>,
+    /// Name or number (from 1) of its channel.
+    pub channel: Option<String>,
+    /// How the two make a pair.
+    pub pair: PairOf,
 }
 
 /// A record whose horizontal component acts vertically; format, units and time step as beside it.
@@ -66,7 +83,7 @@ impl Deref for LoadedMotion {
     }
 }
 
-/// Opens a record, adds its vertical component and scales it.
+/// Opens a record, adds its other components and scales it.
 ///
 /// # Errors
 /// [`FileError`] where a file cannot be read or understood, where the channel is not one that can
@@ -74,31 +91,46 @@ impl Deref for LoadedMotion {
 pub fn load_record(request: &RecordRequest) -> Result<LoadedMotion, FileError> {
     let mut sources = Vec::new();
     let path = &request.path;
-    let record = open(path, request, &mut sources)?;
-    let up = match &request.vertical {
-        Some(vertical) => Some((open(&vertical.path, request, &mut sources)?, vertical)),
-        None => None,
-    };
-    let horizontal = Wanted { record: &record, channel: request.channel.as_deref() };
-    let vertical = up.as_ref().map(|(record, vertical)| {
-        (Wanted { record, channel: vertical.channel.as_deref() }, vertical.factor)
+    let options = Options { format: request.format, units: request.units, dt_s: request.dt_s };
+    let record = open(path, &options, &mut sources)?;
+    let second = request.along_y.as_ref().map(|y| {
+        let options = Options { format: request.format, units: y.units, dt_s: y.dt_s };
+        Ok::<_, FileError>((open(&y.path, &options, &mut sources)?, y))
     });
-    let of = |is_vertical: bool| match &request.vertical {
-        Some(vertical) if is_vertical => vertical.path.clone(),
-        _ => path.clone(),
+    let second = second.transpose()?;
+    let up = request.vertical.as_ref();
+    let up = up.map(|up| Ok::<_, FileError>((open(&up.path, &options, &mut sources)?, up)));
+    let up = up.transpose()?;
+    let components = Components {
+        horizontal: Wanted { record: &record, channel: request.channel.as_deref() },
+        along_y: second
+            .as_ref()
+            .map(|(record, y)| (Wanted { record, channel: y.channel.as_deref() }, y.pair)),
+        vertical: up
+            .as_ref()
+            .map(|(record, up)| (Wanted { record, channel: up.channel.as_deref() }, up.factor)),
     };
-    let loaded = Loaded::recorded(horizontal, vertical, request.scale);
+    let of = |component: Component| {
+        let other = match component {
+            Component::X => None,
+            Component::Y => request.along_y.as_ref().map(|y| &y.path),
+            Component::Vertical => request.vertical.as_ref().map(|up| &up.path),
+        };
+        other.unwrap_or(path).clone()
+    };
+    let loaded = Loaded::recorded(components, request.scale);
     let loaded = loaded.map_err(|error| match error {
-        LoadError::Channel { expected, key, channels, vertical } => {
+        LoadError::Channel { expected, key, channels, component } => {
+            let key = key.filter(|_| component != Component::Y);
             let option = key.map_or_else(String::new, |key| format!(" (or --{key})"));
             FileError::Channel {
-                path: of(vertical),
+                path: of(component),
                 expected: format!("{expected}{option}"),
                 channels,
             }
         }
-        LoadError::Motion { error, vertical } => {
-            FileError::Motion { path: of(vertical), source: error }
+        LoadError::Motion { error, component } => {
+            FileError::Motion { path: of(component), source: error }
         }
     })?;
     Ok(LoadedMotion { loaded, sources })
@@ -106,13 +138,12 @@ pub fn load_record(request: &RecordRequest) -> Result<LoadedMotion, FileError> {
 
 fn open(
     path: &Path,
-    request: &RecordRequest,
+    options: &Options,
     sources: &mut Vec<SourceFile>,
 ) -> Result<Record, FileError> {
     let bytes = read_bytes(path)?;
     sources.push(SourceFile { path: path.to_owned(), sha256: sha256_hex(&bytes) });
-    let options = Options { format: request.format, units: request.units, dt_s: request.dt_s };
-    Ok(record::read(&path.display().to_string(), &bytes, &options)?)
+    Ok(record::read(&path.display().to_string(), &bytes, options)?)
 }
 
 #[cfg(test)]

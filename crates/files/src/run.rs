@@ -13,7 +13,7 @@ use slipstick::progress::GoOn;
 use slipstick_report::Summary;
 
 use crate::error::{FileError, reason};
-use crate::load::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
+use crate::load::{AlongYRequest, LoadedMotion, RecordRequest, VerticalRequest, load_record};
 use crate::parquet::Table;
 use crate::read::resolve;
 
@@ -179,7 +179,12 @@ pub fn record_path(
 fn of_model(analysis: &Analysis, record: &RecordRequest, error: FileError) -> JobError {
     let key = |path: &Path| {
         let vertical = record.vertical.as_ref().is_some_and(|vertical| vertical.path == path);
-        if vertical { "motion.vertical" } else { "motion.record" }
+        let along_y = record.along_y.as_ref().is_some_and(|y| y.path == path);
+        match (vertical, along_y) {
+            (true, _) => "motion.vertical",
+            (_, true) => "motion.record_y",
+            _ => "motion.record",
+        }
     };
     match &error {
         FileError::Read { path, source } => {
@@ -207,6 +212,13 @@ pub(crate) fn request(record: &RecordSource, folder: &Path) -> RecordRequest {
         dt_s: record.dt_s,
         channel: record.channel.clone(),
         scale: Some(record.scale),
+        along_y: record.along_y.as_ref().map(|y| AlongYRequest {
+            path: resolve(folder, &y.path),
+            units: y.units,
+            dt_s: y.dt_s,
+            channel: y.channel.clone(),
+            pair: y.pair,
+        }),
         vertical: record.vertical.as_ref().map(|path| VerticalRequest {
             path: resolve(folder, path),
             channel: None,

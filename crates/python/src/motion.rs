@@ -179,7 +179,7 @@ impl Motion {
         let dt_s = dt.map(|dt| quantity("dt", dt, Dimension::Time, true)).transpose()?;
         let vertical = vertical.map(|path| VerticalRequest { path, channel: None, factor: 1.0 });
         let request =
-            RecordRequest { path, format: None, units, dt_s, channel, scale: None, vertical };
+            RecordRequest { path, units, dt_s, channel, vertical, ..RecordRequest::default() };
         let loaded = py.detach(|| load_record(&request));
         loaded.map(Self).map_err(|error| of_file(py, &error))
     }

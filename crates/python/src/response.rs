@@ -28,6 +28,14 @@ pub(crate) fn run(
     motion: Option<&Motion>,
     floor_spectra: bool,
 ) -> PyResult<Response> {
+    let in_plane = match motion {
+        None => model.analysis.motion.as_ref().is_some_and(|source| source.key_of_y().is_some()),
+        Some(Motion(loaded)) => loaded.motion.horizontal_y_m_per_s2().is_some(),
+    };
+    if floor_spectra && in_plane {
+        let expected = "False with a motion in two directions";
+        return Err(of_argument(py, "floor_spectra", expected, "True"));
+    }
     let work = |go_on: GoOn<'_>| -> Result<Response, JobError> {
         let start = Instant::now();
         // Copies of long motions take their time too.
@@ -105,7 +113,7 @@ impl Response {
         } else {
             &history.rows
         };
-        for (name, values) in history.columns(rows) {
+        for (name, values) in self.outcome.nominal.response.columns(rows) {
             columns.set_item(name, values.into_pyarray(py))?;
         }
         Ok(columns)

@@ -265,6 +265,15 @@ pub fn storey_rows(
     (n > 0).then_some((header, rows))
 }
 
+/// Which way the block slides after an event in two horizontal directions: an angle from x towards y.
+#[must_use]
+pub fn event_bearing([x, y]: [f64; 2]) -> String {
+    if [x, y] == [0.0; 2] {
+        return "stuck".to_owned();
+    }
+    format!("towards {:.1}° from x", libm::atan2(y, x).to_degrees() + 0.0)
+}
+
 /// Which way the block slides after an event.
 #[must_use]
 pub fn event_direction(event: &Event) -> &'static str {

@@ -4,6 +4,7 @@ mod devices;
 mod energy;
 mod force;
 mod histories;
+mod plane;
 mod spectra;
 mod trace;
 
@@ -35,6 +36,12 @@ pub fn all(report: &Report) -> Vec<Drawn> {
     let history = report.response.history.as_ref().filter(|history| history.len() > 1);
     let Some(history) = history else { return Vec::new() };
     let scene = Scene::new(report, history);
+    let along_y = report.response.in_plane.as_ref().and_then(|plane| plane.history.as_ref());
+    if let Some(along_y) = along_y {
+        let mut figures = plane::all(&scene, along_y);
+        figures.extend(energy::by_kind(&scene));
+        return figures;
+    }
     [
         Some(histories::sliding_displacement(&scene)),
         Some(force::loops(&scene)),

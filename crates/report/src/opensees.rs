@@ -355,6 +355,9 @@ fn expressible(model: &Model, motion: &GroundMotion) -> Result<SliderElement, Ch
         let expected = "none beside surfaces in series under vertical motion";
         return no("contents", expected, "contents");
     }
+    if motion.horizontal_y_m_per_s2().is_some() {
+        return no("motion.record_y", "a motion in one direction", "one in two");
+    }
     if slider.tilt_rad != 0.0 {
         return no("slider.tilt", "a level surface", &format!("{} rad", slider.tilt_rad));
     }

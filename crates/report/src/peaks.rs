@@ -1,6 +1,6 @@
 //! The rows of the tables of demands, shared by the plain-text table and the report.
 
-use slipstick::response::{DemandColumn, DemandKind, DemandOf, PrintedRow};
+use slipstick::response::{DemandColumn, DemandKind, DemandOf, Demands, InDirections, PrintedRow};
 
 use crate::display::{DisplayUnits, Unit};
 use crate::markup::shortened;
@@ -44,14 +44,50 @@ fn demand_rows(
     let shape = demands.shape();
     let shown = |column: DemandColumn| {
         let printed = column.demand.row?;
-        let has_value = column.value(demands).is_some();
+        let all = [demands, along_x(summary), along_y(summary)];
+        let has_value = all.into_iter().any(|demands| column.value(demands).is_some());
         let fits = has_value && (shape.storeys > 0 || !printed.needs_storeys);
         (fits && wanted(column.demand.kind)).then_some((printed, column))
     };
     let mut rows: Vec<(PrintedRow, DemandColumn)> =
         shape.columns().into_iter().filter_map(shown).collect();
     rows.sort_by_key(|row| row.0.place);
-    rows.iter().map(|(printed, column)| row(summary, display, printed, column)).collect()
+    rows.iter()
+        .flat_map(|(printed, column)| directions(summary, display, printed, column))
+        .collect()
+}
+
+/// The row of a demand; in two horizontal directions that of the resultant, and one an axis below it.
+fn directions(
+    summary: &Summary,
+    display: DisplayUnits,
+    printed: &PrintedRow,
+    column: &DemandColumn,
+) -> Vec<Row> {
+    let row = |of: fn(&Summary) -> &Demands| row(summary, display, printed, column, of);
+    let of_resultant = || row(|run| &run.demands);
+    let along = || [("along x", row(along_x)), ("along y", row(along_y))];
+    match column.demand.in_directions {
+        _ if summary.by_axis.is_none() => vec![of_resultant()],
+        InDirections::Resultant => vec![of_resultant()],
+        InDirections::Both => {
+            let below = along().map(|(axis, row)| Row { label: format!("  {axis}"), ..row });
+            [of_resultant()].into_iter().chain(below).collect()
+        }
+        InDirections::Axis => {
+            let named =
+                |(axis, row): (&str, Row)| Row { label: format!("{} {axis}", row.label), ..row };
+            along().map(named).into()
+        }
+    }
+}
+
+fn along_x(run: &Summary) -> &Demands {
+    run.by_axis.as_ref().map_or(&run.demands, |by_axis| &by_axis.demands[0])
+}
+
+fn along_y(run: &Summary) -> &Demands {
+    run.by_axis.as_ref().map_or(&run.demands, |by_axis| &by_axis.demands[1])
 }
 
 fn row(
@@ -59,8 +95,9 @@ fn row(
     display: DisplayUnits,
     printed: &PrintedRow,
     column: &DemandColumn,
+    of: fn(&Summary) -> &Demands,
 ) -> Row {
-    let of_run = |(_, run): (_, &Summary)| column.value(&run.demands).unwrap_or(f64::NAN);
+    let of_run = |(_, run): (_, &Summary)| column.value(of(run)).unwrap_or(f64::NAN);
     let values: Vec<f64> = summary.runs().into_iter().map(of_run).collect();
     let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
     let Unit { in_si, symbol } = display.unit(column.dimension().into(), largest);

@@ -153,6 +153,8 @@ pub enum Layout {
     Stacked,
     /// Side by side, each with its own x axis.
     Beside,
+    /// Side by side, each as high as it is wide.
+    Square,
 }
 
 /// One or more panels.

@@ -74,6 +74,19 @@ pub struct Bounds {
     pub upper: Summary,
 }
 
+/// What a summary has besides where the table moves in two horizontal directions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ByAxis {
+    /// Demands along x and along y.
+    pub demands: [Demands; 2],
+    /// Figures of the motion along x and along y.
+    pub record: [Figures; 2],
+    /// Direction of the sliding displacement at its peak, from x towards y, in rad.
+    pub peak_sliding_displacement_direction_rad: f64,
+    /// Least local minimum of the sliding speed within slips, in m/s.
+    pub least_sliding_speed_m_per_s: Option<f64>,
+}
+
 /// One analysis in figures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
@@ -93,8 +106,10 @@ pub struct Summary {
     pub friction_factor: f64,
     /// Figures of the motion.
     pub record: Figures,
-    /// Peaks, residuals and counts.
+    /// Peaks, residuals and counts; of the resultant in two horizontal directions.
     pub demands: Demands,
+    /// By axis, where there are two horizontal directions.
+    pub by_axis: Option<Box<ByAxis>>,
     /// Intervals in which contact was lost, in s.
     pub contact_loss_s: Vec<[f64; 2]>,
     /// Iterations, of the stepwise method only.
@@ -131,6 +146,7 @@ impl Summary {
             friction_factor: inputs.friction_factor,
             record,
             demands: response.demands.clone(),
+            by_axis: by_axis(response, motion),
             contact_loss_s: response.contact_loss_s.clone(),
             iterations: response.iterations,
             checks: certificate.map_or(Checks::NONE, |certificate| Checks {
@@ -217,6 +233,16 @@ impl Summary {
     pub fn to_json(&self) -> String {
         keys::object(self).to_pretty()
     }
+}
+
+fn by_axis(response: &Response, motion: &GroundMotion) -> Option<Box<ByAxis>> {
+    let plane = response.in_plane.as_ref()?;
+    Some(Box::new(ByAxis {
+        demands: plane.axes.clone(),
+        record: motion.figures_by_axis()?,
+        peak_sliding_displacement_direction_rad: plane.peak_sliding_displacement_direction_rad,
+        least_sliding_speed_m_per_s: plane.least_sliding_speed_m_per_s,
+    }))
 }
 
 /// Whether a figure is above its bound; NaN is.

@@ -2,19 +2,20 @@
 
 use std::io::{self, Write};
 
-use slipstick::response::{Event, History};
+use slipstick::response::{EventInPlane, Response};
 
 /// Writes the history: a header, then a row a sample with 17 significant digits, ended by LF.
 ///
-/// The columns are those of [`History::columns`].
+/// The columns are those of [`Response::columns`].
 ///
 /// # Errors
 /// Those of the writer.
-pub fn history_csv(history: &History, to: &mut impl Write) -> io::Result<()> {
+pub fn history_csv(response: &Response, to: &mut impl Write) -> io::Result<()> {
     let mut rows = csv::Writer::from_writer(to);
-    let columns = history.columns(&history.rows);
+    let samples = response.history.as_ref().map_or(&[][..], |history| &history.rows);
+    let columns = response.columns(samples);
     rows.write_record(columns.iter().map(|(name, _)| name)).map_err(of_file)?;
-    for row in 0..history.rows.len() {
+    for row in 0..samples.len() {
         let cells = columns.iter().map(|(_, values)| digits(values[row]));
         rows.write_record(cells).map_err(of_file)?;
     }
@@ -35,19 +36,38 @@ fn digits(value: f64) -> String {
 }
 
 /// Writes the events: `direction` is that of the sliding after it, 1 towards +x, −1 towards −x, 0
-/// stuck; `interface` is where it happened.
+/// stuck; `interface` is where it happened. In two horizontal directions the direction is a unit vector and
+/// stands with the displacement along x and along y.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn events_csv(events: &[Event], to: &mut impl Write) -> io::Result<()> {
+pub fn events_csv(response: &Response, to: &mut impl Write) -> io::Result<()> {
     let mut rows = csv::Writer::from_writer(to);
+    let in_plane = response.in_plane.as_ref();
     let header = ["time_s", "kind", "direction", "sliding_displacement_m", "interface"];
+    let header: Vec<&str> = match in_plane {
+        None => header.to_vec(),
+        Some(_) => [
+            &header[..3],
+            &["direction_y"],
+            &header[3..4],
+            &["sliding_displacement_y_m"],
+            &header[4..],
+        ]
+        .concat(),
+    };
     rows.write_record(header).map_err(of_file)?;
-    for event in events {
-        let direction = event.mode.sign().to_string();
-        let (time, s) = (digits(event.time_s), digits(event.sliding_displacement_m));
-        let interface = event.interface_name();
-        let row = [&time, event.kind.name(), &direction, &s, &interface];
+    for (i, event) in response.events.iter().enumerate() {
+        let mut row = vec![digits(event.time_s), event.kind.name().to_owned()];
+        match in_plane.and_then(|plane| plane.events.get(i)) {
+            None => {
+                row.extend([event.mode.sign().to_string(), digits(event.sliding_displacement_m)])
+            }
+            Some(EventInPlane { direction: [x, y], sliding_displacement_y_m }) => row.extend(
+                [*x, *y, event.sliding_displacement_m, *sliding_displacement_y_m].map(digits),
+            ),
+        }
+        row.push(event.interface_name());
         rows.write_record(row).map_err(of_file)?;
     }
     rows.flush()
@@ -56,8 +76,21 @@ pub fn events_csv(events: &[Event], to: &mut impl Write) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use slipstick::response::{EventKind, Mode};
+    use slipstick::response::{Event, EventKind, History, Method, Mode};
     use slipstick::slider::Direction;
+
+    fn response(events: Vec<Event>, history: Option<History>) -> Response {
+        Response {
+            method: Method::Exact,
+            demands: Default::default(),
+            events,
+            history,
+            contact_loss_s: Vec::new(),
+            iterations: None,
+            warnings: Vec::new(),
+            in_plane: None,
+        }
+    }
 
     #[test]
     fn exact_history_has_its_rows_and_columns() {
@@ -79,7 +112,7 @@ mod tests {
             ..History::default()
         };
         let mut text = Vec::new();
-        history_csv(&history, &mut text).unwrap();
+        history_csv(&response(Vec::new(), Some(history)), &mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(lines.len(), 3);
@@ -114,7 +147,7 @@ mod tests {
             event(EventKind::Stick, Mode::Stick),
         ];
         let mut text = Vec::new();
-        events_csv(&events, &mut text).unwrap();
+        events_csv(&response(events.to_vec(), None), &mut text).unwrap();
         assert_eq!(
             String::from_utf8(text).unwrap(),
             "time_s,kind,direction,sliding_displacement_m,interface\n\

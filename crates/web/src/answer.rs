@@ -247,17 +247,15 @@ impl Made<'_> {
     ) -> Result<String, Failure> {
         let nominal = &self.outcome.nominal;
         let written = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).into_owned();
-        let empty = History::default();
-        let history = nominal.response.history.as_ref().unwrap_or(&empty);
         let mut bytes = Vec::new();
         match name {
             "summary.json" => return Ok(self.summary.to_json()),
             "history.csv" => {
-                history_csv(history, &mut bytes).map_err(Failure::of)?;
+                history_csv(&nominal.response, &mut bytes).map_err(Failure::of)?;
                 return Ok(written(bytes));
             }
             "events.csv" => {
-                events_csv(&nominal.response.events, &mut bytes).map_err(Failure::of)?;
+                events_csv(&nominal.response, &mut bytes).map_err(Failure::of)?;
                 return Ok(written(bytes));
             }
             _ => {}
@@ -310,7 +308,7 @@ fn state(job: &Job, words: &str, summary: &Summary, display: DisplayUnits) -> Js
     let slider = model.slider();
     let kind = match &analysis.motion {
         Some(MotionSource::Record(_)) => "record",
-        Some(MotionSource::Sine(_)) => "sine",
+        Some(MotionSource::Sine(_) | MotionSource::Sines { .. }) => "sine",
         Some(MotionSource::Sweep(_)) => "sweep",
         Some(MotionSource::Pulse(_)) => "pulse",
         None => "",

@@ -2,7 +2,7 @@
 
 use slipstick::assessment::single::described;
 use slipstick::error::RecordError;
-use slipstick::input::loaded::{LoadError, Loaded, Wanted};
+use slipstick::input::loaded::{Components, LoadError, Loaded, Wanted};
 use slipstick::input::{Analysis, MotionSource, RecordSource};
 use slipstick::record::{self, Options, Quantity, Record, Sampling, Units};
 use slipstick::units::{Dimension, parse_quantity};
@@ -60,6 +60,7 @@ impl Records {
     pub fn motion(&mut self, analysis: &Analysis, text: &str) -> Result<Loaded, Failure> {
         let of_input = |error| Failure::input(&error, text);
         let source = analysis.required_motion().map_err(of_input)?;
+        analysis.in_one_direction("the page shows").map_err(of_input)?;
         if let MotionSource::Record(record) = source {
             return self.recorded(analysis, record, text);
         }
@@ -92,10 +93,14 @@ impl Records {
                     .map_err(Failure::of)?,
             ),
         };
-        let along = Wanted { record: &horizontal, channel: source.channel.as_deref() };
-        let up = vertical
-            .map(|record| (Wanted { record, channel: None }, source.vertical_scale.unwrap_or(1.0)));
-        Loaded::recorded(along, up, Some(source.scale)).map_err(|error| match &error {
+        let components = Components {
+            horizontal: Wanted { record: &horizontal, channel: source.channel.as_deref() },
+            along_y: None,
+            vertical: vertical.map(|record| {
+                (Wanted { record, channel: None }, source.vertical_scale.unwrap_or(1.0))
+            }),
+        };
+        Loaded::recorded(components, Some(source.scale)).map_err(|error| match &error {
             LoadError::Motion { error, .. } => Failure::input(&analysis.motion_error(error), text),
             LoadError::Channel { key, .. } => {
                 let key = format!("motion.{}", key.unwrap_or("channel"));
@@ -126,7 +131,7 @@ impl Records {
                 ("words", Json::Text(record.describe(channel))),
             ])
         });
-        let plain = Loaded::recorded(Wanted { record, channel: None }, None, None).is_ok();
+        let plain = Loaded::recorded(Wanted { record, channel: None }, None).is_ok();
         Ok(Json::Object(vec![
             ("layout", record.layout.as_str().into()),
             ("plain", plain.into()),

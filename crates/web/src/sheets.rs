@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use slipstick::assessment::suite::Suite;
-use slipstick::input::loaded::{Loaded, Wanted};
+use slipstick::input::loaded::{Components, Loaded, Wanted};
 use slipstick::input::plan::Plan;
 use slipstick::input::{Analysis, MotionSource};
 use slipstick::notice::Notice;
@@ -247,9 +247,9 @@ fn recorded(
         Some((name, factor)) => Some((read(records, name, options)?.clone(), factor)),
         None => None,
     };
-    let up = up.as_ref().map(|(record, factor)| (Wanted { record, channel: None }, *factor));
-    let record = read(records, name, options)?;
-    let loaded = Loaded::recorded(Wanted { record, channel }, up, None);
+    let vertical = up.as_ref().map(|(record, factor)| (Wanted { record, channel: None }, *factor));
+    let horizontal = Wanted { record: read(records, name, options)?, channel };
+    let loaded = Loaded::recorded(Components { horizontal, along_y: None, vertical }, None);
     loaded.map_err(|error| Failure::of(format!("{name}: {error}")))
 }
 

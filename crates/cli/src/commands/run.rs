@@ -8,7 +8,6 @@ use slipstick::assessment::single::Outcome;
 use slipstick::error::InputError;
 use slipstick::input::{self, Analysis, Override, Scale};
 use slipstick::record;
-use slipstick::response::History;
 use slipstick::units::Dimension;
 use slipstick_files::{
     FileError, OpenJob, OutputFolder, RecordRequest, events_csv, history_csv, read_at_most,
@@ -55,6 +54,10 @@ fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
     let piece = |bytes: &[u8]| drop(record::read("", bytes, &record::Options::default()));
     let open = || OpenJob::new(&model.path, analysis, record.as_ref());
     let job = reading(file.as_deref(), args.result.quiet, &piece, open).map_err(in_model)?;
+    if args.floor_spectrum && job.job.motion.horizontal_y_m_per_s2().is_some() {
+        let message = "--floor-spectrum: expected a motion in one direction, found one in two";
+        return Err(Failure::Message(message.to_owned()));
+    }
     // An output folder that cannot be written is told before the work, not after it.
     let folder = args
         .result
@@ -208,6 +211,7 @@ fn record_request(args: &RunArgs, path: &Path) -> Result<RecordRequest, Failure>
         dt_s: options.dt_s,
         channel: options.channel,
         scale,
+        along_y: None,
         vertical: None,
     })
 }
@@ -280,11 +284,9 @@ fn write_files(
     };
     folder.replaces(&["runs.csv", "governing.csv", "histories.svg", "shares.svg"]);
     folder.write("summary.json", summary.to_json().as_bytes())?;
-    let empty = History::default();
-    let history = outcome.nominal.response.history.as_ref().unwrap_or(&empty);
-    folder.write_with("history.csv", |to| history_csv(history, &mut Lines { to, written }))?;
-    let events = &outcome.nominal.response.events;
-    folder.write_with("events.csv", |to| events_csv(events, &mut Lines { to, written }))?;
+    let response = &outcome.nominal.response;
+    folder.write_with("history.csv", |to| history_csv(response, &mut Lines { to, written }))?;
+    folder.write_with("events.csv", |to| events_csv(response, &mut Lines { to, written }))?;
     folder.write("report.html", report.to_html().as_bytes())?;
     folder.commit()
 }

@@ -5,7 +5,7 @@ use crate::check::{self, Certificate};
 use crate::error::{InputError, MotionError, SolveError, Stopped};
 use crate::input::{Analysis, Bound, MotionSource};
 use crate::model::Model;
-use crate::motion::{GroundMotion, spectrum};
+use crate::motion::{GroundMotion, Sine, spectrum};
 use crate::notice::Notice;
 use crate::progress::{GoOn, UNWATCHED};
 use crate::response::{History, Response};
@@ -168,29 +168,25 @@ fn short(value: f64) -> f64 {
 /// # Errors
 /// [`MotionError`] for one that cannot be.
 pub fn described(source: &MotionSource) -> Result<Option<(GroundMotion, String)>, MotionError> {
-    Ok(Some(match source {
+    let words = match source {
         MotionSource::Record(_) => return Ok(None),
-        MotionSource::Sine(sine) => (
-            sine.motion()?,
-            format!(
-                "sine, {} Hz, {} m/s²",
-                short(sine.frequency_hz),
-                short(sine.amplitude_m_per_s2)
-            ),
-        ),
-        MotionSource::Sweep(sweep) => (
-            sweep.motion()?,
-            format!(
-                "sweep, {} to {} Hz, {} m/s²",
-                short(sweep.from_hz),
-                short(sweep.to_hz),
-                short(sweep.amplitude_m_per_s2)
-            ),
-        ),
-        MotionSource::Pulse(pulse) => {
-            (pulse.motion()?, format!("pulse, {} m/s²", short(pulse.amplitude_m_per_s2)))
+        MotionSource::Sine(sine) => of_sine(sine),
+        MotionSource::Sines { sines: [x, y], .. } => {
+            format!("along x {}; along y {}", of_sine(x), of_sine(y))
         }
-    }))
+        MotionSource::Sweep(sweep) => format!(
+            "sweep, {} to {} Hz, {} m/s²",
+            short(sweep.from_hz),
+            short(sweep.to_hz),
+            short(sweep.amplitude_m_per_s2)
+        ),
+        MotionSource::Pulse(pulse) => format!("pulse, {} m/s²", short(pulse.amplitude_m_per_s2)),
+    };
+    Ok(source.made()?.map(|motion| (motion, words)))
+}
+
+fn of_sine(sine: &Sine) -> String {
+    format!("sine, {} Hz, {} m/s²", short(sine.frequency_hz), short(sine.amplitude_m_per_s2))
 }
 
 /// What is wrong with a tail, at its key.

@@ -37,9 +37,17 @@ pub(super) fn parts(values: &Values) -> Result<Parts, InputError> {
     let floors_kg = frame.masses_kg.iter().fold(block.mass_kg, |sum, m| sum + m);
     let total_kg = contents.iter().fold(floors_kg, |sum, contents| sum + contents.mass_kg);
     let slider = slider(values, &block, total_kg, gravity_m_per_s2)?;
-    let initial = initial(values, frame.masses_kg.len())?;
+    let [initial, initial_y] = initial(values, frame.masses_kg.len())?;
+    let along_y = frame::along_y(values, &frame, initial_y)?;
+    if along_y.is_some() {
+        refuse_in_plane(values)?;
+    }
     let model = Model::new(block, slider, frame, gravity_m_per_s2, initial)
         .and_then(|model| model.with_contents(contents))
+        .and_then(|model| match along_y {
+            Some(along_y) => model.with_along_y(along_y),
+            None => Ok(model),
+        })
         .map_err(|error| model_error(values, &error))?;
     let tail_s = values.number("analysis.tail").unwrap_or(0.0);
     Ok(Parts { model, motion: motion::motion(values)?, tail_s })
@@ -392,28 +400,76 @@ pub(super) fn friction_bounds(values: &Values) -> Result<Option<FrictionBounds>,
     Ok(Some(FrictionBounds { lower, upper }))
 }
 
-fn initial(values: &Values, storeys: usize) -> Result<InitialState, InputError> {
-    let list = |path: &str| match values.numbers(path) {
+/// The state at t = 0 along x and along y.
+fn initial(values: &Values, storeys: usize) -> Result<[InitialState; 2], InputError> {
+    let paths =
+        ["sliding_displacement", "sliding_velocity", "storey_displacement", "storey_velocity"]
+            .map(|name| format!("initial.{name}"));
+    let is_pair = |path: &String| values.has(path) && values.number(path).is_none();
+    for path in &paths {
+        let items = (1..=storeys).map(|i| format!("{path}.{i}"));
+        let of_storey = path.contains("storey");
+        let pair = if of_storey { items.into_iter().find(is_pair) } else { Some(path.clone()) };
+        if let Some(path) = pair.filter(is_pair).filter(|_| !motion::in_plane(values)) {
+            return Err(motion::only_in_plane(values, &path));
+        }
+    }
+    let list = |path: &str| match values.vectors(path) {
         Some(list) if list.len() != storeys => {
             let expected = format!("one value a storey, {storeys} in all");
             Err(values.error(path, expected, list.len().to_string()))
         }
         list => Ok(list),
     };
-    Ok(InitialState {
-        sliding_displacement_m: values.number("initial.sliding_displacement").unwrap_or(0.0),
-        sliding_velocity_m_per_s: values.number("initial.sliding_velocity").unwrap_or(0.0),
-        storey_displacement_m: list("initial.storey_displacement")?,
-        storey_velocity_m_per_s: list("initial.storey_velocity")?,
-    })
+    let [s, w, q, v] = &paths;
+    let [s, w] = [s, w].map(|path| values.vector(path).unwrap_or_default());
+    let (q, v) = (list(q)?, list(v)?);
+    let of = |list: &Option<Vec<[f64; 2]>>, axis: usize| {
+        list.as_ref().map(|list| list.iter().map(|pair| pair[axis]).collect())
+    };
+    Ok([0, 1].map(|axis| InitialState {
+        sliding_displacement_m: s[axis],
+        sliding_velocity_m_per_s: w[axis],
+        storey_displacement_m: of(&q, axis),
+        storey_velocity_m_per_s: of(&v, axis),
+    }))
+}
+
+/// Refuses what is not solved in two directions.
+fn refuse_in_plane(values: &Values) -> Result<(), InputError> {
+    let mut keys = vec![
+        "slider.tilt",
+        "slider.asymmetry",
+        "slider.static_friction.positive",
+        "slider.kinetic_friction.positive",
+        "slider.kinetic_friction.slow",
+        "slider.kinetic_friction.velocity",
+        "slider.stop",
+        "slider.surface",
+        "slider.triple",
+        "contents",
+    ];
+    if values.text("analysis.method") == Some("stepwise") {
+        keys.push("analysis.method");
+    }
+    match keys.into_iter().find(|path| values.has(path)) {
+        Some(path) => {
+            let expected = "a model that is solved in two directions: one level surface with constant \
+                            friction that is the same in all directions, without stop or contents, by \
+                            the exact method";
+            Err(values.error(path, expected, path))
+        }
+        None => Ok(()),
+    }
 }
 
 /// The model's objection at the key that caused it.
 fn model_error(values: &Values, error: &ModelError) -> InputError {
     // What the constructors call a quantity, and the keys that it may come from.
-    const KEYS: [(&str, &[&str]); 29] = [
+    const KEYS: [(&str, &[&str]); 33] = [
         ("block mass_kg", &["block.mass", "block.weight"]),
         ("block width_m", &["block.width"]),
+        ("block width_y_m", &["block.width_y"]),
         ("block height_m", &["block.height"]),
         ("slider stiffness_n_per_m", &["slider.spring", "slider.radius", "slider.period"]),
         ("slider damper_n_s_per_m", &["slider.damper", "slider.damping_ratio"]),
@@ -425,8 +481,11 @@ fn model_error(values: &Values, error: &ModelError) -> InputError {
         ("gravity_m_per_s2", &["analysis.gravity"]),
         ("storey masses_kg", &["storey"]),
         ("storey stiffnesses_n_per_m", &["storey"]),
+        ("storey stiffnesses_y_n_per_m", &["storey"]),
+        ("storey damping_ratio_y", &["storey.1.damping_ratio_y", "storey.1.damping_ratio"]),
         ("storey damping_ratio", &["storey.1.damping_ratio"]),
         ("storey dampers_n_s_per_m", &["storey"]),
+        ("storey dampers_y_n_s_per_m", &["storey"]),
         ("storey heights_m", &["storey"]),
         ("initial sliding_displacement_m", &["initial.sliding_displacement"]),
         ("initial sliding_velocity_m_per_s", &["initial.sliding_velocity"]),

@@ -126,6 +126,12 @@ fn key(key: &Key) -> Json {
             entries.push(("maxItems", Json::Number(*most as f64)));
             entries.push(("items", Json::Object(quantity(*dimension))));
         }
+        Kind::Vector(dimension, _) => entries.push(vector(*dimension)),
+        Kind::Vectors(dimension, _, most) => {
+            entries.push(("type", Json::text("array")));
+            entries.push(("maxItems", Json::Number(*most as f64)));
+            entries.push(("items", Json::Object(vec![vector(*dimension)])));
+        }
         Kind::Section(inner) => {
             if let Json::Object(inner) = section(inner) {
                 entries.extend(inner);
@@ -222,6 +228,17 @@ fn quantity(dimension: Dimension) -> Vec<(&'static str, Json)> {
         ("pattern", Json::Text(pattern)),
         ("examples", Json::texts([dimension.example()])),
     ]
+}
+
+/// A quantity, or two of it.
+fn vector(dimension: Dimension) -> (&'static str, Json) {
+    let pair = vec![
+        ("type", Json::text("array")),
+        ("minItems", Json::Number(2.0)),
+        ("maxItems", Json::Number(2.0)),
+        ("items", Json::Object(quantity(dimension))),
+    ];
+    ("anyOf", Json::List(vec![Json::Object(quantity(dimension)), Json::Object(pair)]))
 }
 
 /// The dimension's units, in every way in which the reader takes them.

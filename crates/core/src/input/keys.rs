@@ -64,6 +64,11 @@ static BLOCK: Section = Section {
              is reported.",
         ),
         Key::optional(
+            "width_y",
+            Kind::Quantity(Length, Range::Positive),
+            "Width along y, of a motion in two directions.",
+        ),
+        Key::optional(
             "height",
             Kind::Quantity(Length, Range::Positive),
             "Height of the block: its own inertia then counts for overturning. Without it the block \
@@ -375,6 +380,31 @@ static STOREY: Section = Section {
             "Damper between this floor and the one below.",
         ),
         Key::optional(
+            "frequency_y",
+            Kind::Quantity(Frequency, Range::Positive),
+            "Fixed-base frequency along y, where it is another.",
+        ),
+        Key::optional(
+            "period_y",
+            Kind::Quantity(Time, Range::Positive),
+            "Fixed-base period along y, where it is another.",
+        ),
+        Key::optional(
+            "stiffness_y",
+            Kind::QuantityOrRatio(Stiffness, Range::Positive),
+            "Stiffness along y, where it is another.",
+        ),
+        Key::optional(
+            "damping_ratio_y",
+            Kind::Number(Range::NotNegative),
+            "Ratio of critical damping along y, where it is another.",
+        ),
+        Key::optional(
+            "damper_y",
+            Kind::Quantity(Damper, Range::NotNegative),
+            "Damper along y, where it is another.",
+        ),
+        Key::optional(
             "height",
             Kind::Quantity(Length, Range::Positive),
             "Height of the storey: drift ratio and overturning are reported.",
@@ -384,15 +414,24 @@ static STOREY: Section = Section {
         Exclusive::one_of(&["mass", "weight"]),
         Exclusive::one_of(&["frequency", "period", "stiffness"]),
         Exclusive::one_of(&["damping_ratio", "damper"]),
+        Exclusive::at_most(&["frequency_y", "period_y", "stiffness_y"]),
+        Exclusive::at_most(&["damping_ratio_y", "damper_y"]),
     ],
 };
 
 static FRAME: Section = Section {
-    keys: &[Key::optional(
-        "period",
-        Kind::Quantity(Time, Range::Positive),
-        "First fixed-base period to which the storeys' stiffnesses are scaled.",
-    )],
+    keys: &[
+        Key::optional(
+            "period",
+            Kind::Quantity(Time, Range::Positive),
+            "First fixed-base period to which the storeys' stiffnesses are scaled.",
+        ),
+        Key::optional(
+            "period_y",
+            Kind::Quantity(Time, Range::Positive),
+            "First fixed-base period along y, where it is another.",
+        ),
+    ],
     choices: &[],
 };
 
@@ -444,7 +483,50 @@ static MOTION: Section = Section {
         )
         .beside("record"),
         VERTICAL_SCALE,
+        Key::optional(
+            "record_y",
+            Kind::Text("records/taft-y.txt"),
+            "File of the motion along y, perhaps the same: the table then moves in two horizontal \
+             directions.",
+        )
+        .beside("record"),
+        Key::optional(
+            "units_y",
+            Kind::UnitOf(Acceleration),
+            "Unit of the record along y, where it is not that of the record along x.",
+        )
+        .beside("record_y"),
+        Key::optional(
+            "dt_y",
+            Kind::Quantity(Time, Range::Positive),
+            "Time step of the record along y, where it is not that of the record along x.",
+        )
+        .beside("record_y"),
+        Key::optional(
+            "channel_y",
+            Kind::NameOrIndex,
+            "Which of the channels of the record along y, by name or counted from 1.",
+        )
+        .beside("record_y"),
+        Key::optional(
+            "scale_y",
+            Kind::Number(Range::Any),
+            "Factor on the motion along y besides that of both; default 1.",
+        )
+        .beside("record_y"),
+        Key::optional(
+            "rotate",
+            Kind::Quantity(Angle, Range::Any),
+            "Angle by which the motion in two directions is turned, x towards y, after scaling; \
+             default 0 deg.",
+        ),
         Key::optional("sine", Kind::Section(&SINE), "A sine of constant frequency."),
+        Key::optional(
+            "sine_y",
+            Kind::Section(&SINE),
+            "A sine along y: the table then moves in two horizontal directions.",
+        )
+        .beside("sine"),
         Key::optional("sweep", Kind::Section(&SWEEP), "A sine whose frequency changes."),
         Key::optional("pulse", Kind::Section(&PULSE), "A single pulse."),
     ],
@@ -529,22 +611,23 @@ static INITIAL: Section = Section {
     keys: &[
         Key::optional(
             "sliding_displacement",
-            Kind::Quantity(Length, Range::Any),
-            "Displacement of the block relative to the table; the spring is unstressed at 0.",
+            Kind::Vector(Length, Range::Any),
+            "Displacement of the block relative to the table; the spring is unstressed at 0. A list of \
+             two is along x and along y.",
         ),
         Key::optional(
             "sliding_velocity",
-            Kind::Quantity(Velocity, Range::Any),
+            Kind::Vector(Velocity, Range::Any),
             "Velocity of the block relative to the table.",
         ),
         Key::optional(
             "storey_displacement",
-            Kind::Quantities(Length, Range::Any, MAX_STOREYS),
+            Kind::Vectors(Length, Range::Any, MAX_STOREYS),
             "Displacements of the floors relative to the block, one a storey.",
         ),
         Key::optional(
             "storey_velocity",
-            Kind::Quantities(Velocity, Range::Any, MAX_STOREYS),
+            Kind::Vectors(Velocity, Range::Any, MAX_STOREYS),
             "Velocities of the floors relative to the block, one a storey.",
         ),
     ],

@@ -1,7 +1,7 @@
 //! From records that were read to the motion that is analysed: the choice of channel, the vertical
 //! component, the scale, and what is to be said of all that.
 
-use super::Scale;
+use super::{PairOf, Scale};
 use crate::error::MotionError;
 use crate::motion::{Figures, GroundMotion};
 use crate::notice::{Notice, NoticeKind};
@@ -17,6 +17,46 @@ pub struct Wanted<'a> {
     pub record: &'a Record,
     /// Name or number (from 1) of the channel; not needed where one is acceleration.
     pub channel: Option<&'a str>,
+}
+
+/// Records of the components of one motion.
+#[derive(Clone, Copy, Debug)]
+pub struct Components<'a> {
+    /// Along the surface, along x in two directions.
+    pub horizontal: Wanted<'a>,
+    /// Along y, and how the two make a pair.
+    pub along_y: Option<(Wanted<'a>, PairOf)>,
+    /// Normal to the surface, and its factor besides that of all.
+    pub vertical: Option<(Wanted<'a>, f64)>,
+}
+
+impl<'a> From<Wanted<'a>> for Components<'a> {
+    fn from(horizontal: Wanted<'a>) -> Self {
+        Self { horizontal, along_y: None, vertical: None }
+    }
+}
+
+/// A component of a motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Component {
+    /// Horizontal, along x in two directions.
+    X,
+    /// Horizontal, along y.
+    Y,
+    /// Vertical.
+    Vertical,
+}
+
+impl Component {
+    /// The key of a model's motion that names its file.
+    #[must_use]
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::X => "record",
+            Self::Y => "record_y",
+            Self::Vertical => "vertical",
+        }
+    }
 }
 
 /// A motion ready for analysis, and what is to be said of it.
@@ -48,16 +88,16 @@ pub enum LoadError {
         key: Option<&'static str>,
         /// The channels there are.
         channels: String,
-        /// Whether it is the vertical record.
-        vertical: bool,
+        /// Of which component.
+        component: Component,
     },
     /// Samples that are no ground motion, or that cannot be scaled.
     #[error("{error}")]
     Motion {
         /// Why.
         error: MotionError,
-        /// Whether it is the vertical record.
-        vertical: bool,
+        /// Of which component.
+        component: Component,
     },
 }
 
@@ -72,33 +112,46 @@ impl Loaded {
         Self { motion, channel, origin, description, figures, warnings: vec![] }
     }
 
-    /// A record along the surface, perhaps one normal to it times a factor, both scaled as one.
+    /// Records as one motion, scaled as one: the factor, or the peak of the larger horizontal component,
+    /// is of all; then the pair has its own factor and is turned.
     ///
     /// # Errors
     /// [`LoadError`] where the channel is not one that can be told, and where scaling has no answer.
-    pub fn recorded(
-        horizontal: Wanted<'_>,
-        vertical: Option<(Wanted<'_>, f64)>,
+    pub fn recorded<'a>(
+        components: impl Into<Components<'a>>,
         scale: Option<Scale>,
     ) -> Result<Self, LoadError> {
-        let of_vertical = |vertical| move |error| LoadError::Motion { error, vertical };
-        let (record, channel) = (horizontal.record, choose(horizontal, false)?);
+        let Components { horizontal, along_y, vertical } = components.into();
+        let of = |component| move |error| LoadError::Motion { error, component };
+        let (record, channel) = (horizontal.record, choose(horizontal, Component::X)?);
         let mut description = vec![record.describe(channel)];
         let mut warnings = of_reader(record, channel);
-        let mut motion = motion(channel).map_err(of_vertical(false))?;
-        let mut lengths_differ = false;
+        let mut motion = motion(channel).map_err(of(Component::X))?;
+        let mut differ = Vec::new();
+        if let Some((second, _)) = along_y {
+            let channel = choose(second, Component::Y)?;
+            description.push(format!("along y: {}", second.record.describe(channel)));
+            warnings.extend(of_reader(second.record, channel));
+            let second = self::motion(channel).map_err(of(Component::Y))?;
+            let lengths_differ;
+            (motion, lengths_differ) = motion.with_along_y(&second).map_err(of(Component::Y))?;
+            differ.extend(lengths_differ.then_some("the components along x and along y"));
+        }
         if let Some((up, factor)) = vertical {
-            let channel = choose(up, true)?;
+            let channel = choose(up, Component::Vertical)?;
             description.push(format!("vertical: {}", up.record.describe(channel)));
             warnings.extend(of_reader(up.record, channel));
-            let up = self::motion(channel).map_err(of_vertical(true))?;
+            let up = self::motion(channel).map_err(of(Component::Vertical))?;
+            let lengths_differ;
             (motion, lengths_differ) =
-                motion.with_vertical(&up, factor).map_err(of_vertical(true))?;
+                motion.with_vertical(&up, factor).map_err(of(Component::Vertical))?;
+            differ
+                .extend(lengths_differ.then_some("the vertical component and the horizontal one"));
         } else if let Some(up) = record.channels.iter().find(|c| c.name == VERTICAL_COLUMN)
             && up.name != channel.name
         {
-            let up = self::motion(up).map_err(of_vertical(false))?;
-            (motion, _) = motion.with_vertical(&up, 1.0).map_err(of_vertical(false))?;
+            let up = self::motion(up).map_err(of(Component::X))?;
+            (motion, _) = motion.with_vertical(&up, 1.0).map_err(of(Component::X))?;
             description.push(format!("vertical: column {VERTICAL_COLUMN}"));
         }
         let motion = match scale {
@@ -106,16 +159,20 @@ impl Loaded {
             Some(Scale::Factor(factor)) => motion.scaled(factor),
             Some(Scale::Peak(peak)) => motion.scaled_to_peak(peak),
         };
-        let motion = motion.map_err(of_vertical(false))?;
+        let motion = match along_y {
+            None => motion,
+            Some((_, pair)) => motion.and_then(|m| m.turned(pair.scale_y, pair.rotate_rad)),
+        };
+        let motion = motion.map_err(of(Component::X))?;
         let figures = motion.figures();
-        warnings.extend(of_motion(&motion, &figures, lengths_differ));
+        warnings.extend(of_motion(&motion, &figures, &differ));
         let (channel, origin) = (channel.name.clone(), Origin::of(channel));
         Ok(Self { motion, channel, origin, description, figures, warnings })
     }
 }
 
 /// The channel asked for, else the only one that is acceleration along the surface.
-fn choose(wanted: Wanted<'_>, vertical: bool) -> Result<&Channel, LoadError> {
+fn choose(wanted: Wanted<'_>, component: Component) -> Result<&Channel, LoadError> {
     let record = wanted.record;
     let is_acceleration = |c: &&Channel| c.units.quantity() == Quantity::Acceleration;
     let error = |expected: String, key| {
@@ -123,7 +180,7 @@ fn choose(wanted: Wanted<'_>, vertical: bool) -> Result<&Channel, LoadError> {
             format!("{} {:?} ({})", i + 1, c.name, c.units.quantity().name())
         };
         let channels: Vec<_> = record.channels.iter().enumerate().map(describe).collect();
-        LoadError::Channel { expected, key, channels: channels.join(", "), vertical }
+        LoadError::Channel { expected, key, channels: channels.join(", "), component }
     };
     if let Some(name) = wanted.channel {
         let channel = record.channel(name).filter(is_acceleration);
@@ -140,9 +197,9 @@ fn choose(wanted: Wanted<'_>, vertical: bool) -> Result<&Channel, LoadError> {
         (None, ..) => Err(error("a channel of acceleration".to_owned(), None)),
         (Some(first), Some(_), _) => {
             let name = &first.name;
-            let expected =
-                format!("one channel of acceleration: add channel = {name:?} to [motion]");
-            Err(error(expected, Some("channel")))
+            let key = if component == Component::Y { "channel_y" } else { "channel" };
+            let expected = format!("one channel of acceleration: add {key} = {name:?} to [motion]");
+            Err(error(expected, Some(key)))
         }
     }
 }
@@ -160,19 +217,26 @@ fn of_reader(file: &Record, channel: &Channel) -> Vec<Notice> {
 }
 
 /// What an engineer asks first of a record: does it start from rest, and does it drift.
-fn of_motion(motion: &GroundMotion, figures: &Figures, lengths_differ: bool) -> Vec<Notice> {
+fn of_motion(motion: &GroundMotion, figures: &Figures, differ: &[&str]) -> Vec<Notice> {
     let mut warnings = Vec::new();
-    let mut warn = |kind, time_s, message| warnings.push(Notice { kind, time_s, message });
-    let first = motion.horizontal_m_per_s2()[0];
-    let Figures { pga_m_per_s2, pgv_m_per_s, end_velocity_m_per_s, .. } = *figures;
-    for w in record::rest(first, pga_m_per_s2, end_velocity_m_per_s, pgv_m_per_s) {
-        let at_start = w.kind != NoticeKind::RecordDrift;
-        warn(w.kind, Some(if at_start { 0.0 } else { motion.duration_s() }), w.message);
+    let by_axis = motion.figures_by_axis();
+    let axes = match (&by_axis, motion.horizontal_y_m_per_s2()) {
+        (Some([x, y]), Some(second)) => {
+            vec![(x, motion.horizontal_m_per_s2(), "along x: "), (y, second, "along y: ")]
+        }
+        _ => vec![(figures, motion.horizontal_m_per_s2(), "")],
+    };
+    for (figures, samples, axis) in axes {
+        let Figures { pga_m_per_s2, pgv_m_per_s, end_velocity_m_per_s, .. } = *figures;
+        for w in record::rest(samples[0], pga_m_per_s2, end_velocity_m_per_s, pgv_m_per_s) {
+            let at_start = w.kind != NoticeKind::RecordDrift;
+            let time_s = Some(if at_start { 0.0 } else { motion.duration_s() });
+            warnings.push(Notice { time_s, message: format!("{axis}{}", w.message), ..w });
+        }
     }
-    if lengths_differ {
-        let message = "the vertical component and the horizontal one differ in length: the \
-                       shorter is zero after its end";
-        warn(NoticeKind::LengthsDiffer, None, message.to_owned());
-    }
+    warnings.extend(differ.iter().map(|components| {
+        let message = format!("{components} differ in length: the shorter is zero after its end");
+        Notice::new(NoticeKind::LengthsDiffer, message)
+    }));
     warnings
 }

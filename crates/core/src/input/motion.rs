@@ -2,7 +2,7 @@
 
 use super::reader::{Given, Values};
 use crate::error::{InputError, MotionError};
-use crate::motion::{Pulse, PulseShape, Sine, Sweep, SweepKind};
+use crate::motion::{GroundMotion, Pulse, PulseShape, Sine, Sweep, SweepKind};
 use crate::record::Units;
 
 /// How the table moves, before any record is opened.
@@ -12,10 +12,46 @@ pub enum MotionSource {
     Record(RecordSource),
     /// A sine of constant frequency.
     Sine(Sine),
+    /// A sine along x and one along y, turned.
+    Sines {
+        /// Along x and along y.
+        sines: [Sine; 2],
+        /// Angle by which both are turned, x towards y, in rad.
+        rotate_rad: f64,
+    },
     /// A sine whose frequency changes.
     Sweep(Sweep),
     /// A single pulse.
     Pulse(Pulse),
+}
+
+impl MotionSource {
+    /// The key by which the table moves in two horizontal directions, if it does.
+    #[must_use]
+    pub fn key_of_y(&self) -> Option<&'static str> {
+        match self {
+            Self::Record(record) => record.along_y.as_ref().map(|_| "motion.record_y"),
+            Self::Sines { .. } => Some("motion.sine_y"),
+            _ => None,
+        }
+    }
+
+    /// The motion that it makes, without its tail; `None` for a record.
+    ///
+    /// # Errors
+    /// [`MotionError`] for one that cannot be.
+    pub fn made(&self) -> Result<Option<GroundMotion>, MotionError> {
+        Ok(Some(match self {
+            Self::Record(_) => return Ok(None),
+            Self::Sine(sine) => sine.motion()?,
+            Self::Sines { sines: [x, y], rotate_rad } => {
+                let (motion, _) = x.motion()?.with_along_y(&y.motion()?)?;
+                motion.turned(1.0, *rotate_rad)?
+            }
+            Self::Sweep(sweep) => sweep.motion()?,
+            Self::Pulse(pulse) => pulse.motion()?,
+        }))
+    }
 }
 
 /// A file of a recorded motion and what the file does not say of itself.
@@ -35,6 +71,32 @@ pub struct RecordSource {
     pub vertical: Option<String>,
     /// Factor on `vertical` besides that of the horizontal motion; 1 where `None`.
     pub vertical_scale: Option<f64>,
+    /// The motion along y, where the table moves in two horizontal directions.
+    pub along_y: Option<RecordAlongY>,
+}
+
+/// The record of the motion along y; what it does not say is as of the record along x.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordAlongY {
+    /// Its path as written, relative to the model file.
+    pub path: String,
+    /// Unit of its values.
+    pub units: Option<Units>,
+    /// Its time step in s.
+    pub dt_s: Option<f64>,
+    /// Which of its channels, by name or by number from 1.
+    pub channel: Option<String>,
+    /// How the pair is put together.
+    pub pair: PairOf,
+}
+
+/// How two horizontal components make a motion, after the scale that both have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairOf {
+    /// Factor on the component along y.
+    pub scale_y: f64,
+    /// Angle by which both are turned, x towards y, in rad.
+    pub rotate_rad: f64,
 }
 
 /// How a record is scaled.
@@ -48,10 +110,17 @@ pub enum Scale {
 
 /// The motion that the checked values describe, if any.
 pub(super) fn motion(values: &Values) -> Result<Option<MotionSource>, InputError> {
+    let rotate_rad = values.number("motion.rotate");
+    if rotate_rad.is_some() && !in_plane(values) {
+        return Err(only_in_plane(values, "motion.rotate"));
+    }
     let source = if values.has("motion.record") {
         MotionSource::Record(record(values))
+    } else if values.has("motion.sine_y") {
+        let sines = [sine(values, "motion.sine")?, sine(values, "motion.sine_y")?];
+        MotionSource::Sines { sines, rotate_rad: rotate_rad.unwrap_or(0.0) }
     } else if values.has("motion.sine") {
-        MotionSource::Sine(sine(values)?)
+        MotionSource::Sine(sine(values, "motion.sine")?)
     } else if values.has("motion.sweep") {
         MotionSource::Sweep(sweep(values)?)
     } else if values.has("motion.pulse") {
@@ -62,38 +131,62 @@ pub(super) fn motion(values: &Values) -> Result<Option<MotionSource>, InputError
     Ok(Some(source))
 }
 
+/// Whether the table moves in two horizontal directions.
+pub(super) fn in_plane(values: &Values) -> bool {
+    values.has("motion.record_y") || values.has("motion.sine_y")
+}
+
+/// The error for a key that means something in two horizontal directions alone.
+pub(super) fn only_in_plane(values: &Values, path: &str) -> InputError {
+    let expected = "a motion in two directions, motion.record_y or motion.sine_y, of which this is";
+    values.error(path, expected, "a motion in one")
+}
+
 fn record(values: &Values) -> RecordSource {
     let text = |path| values.text(path).map(str::to_owned);
-    let channel = values.leaf("motion.channel").map(|leaf| leaf.written.clone());
-    let units = values.leaf("motion.units").and_then(|leaf| match leaf.given {
-        // As written, perhaps with the value of one count before it.
-        Given::Unit(unit) => Units::parse(&leaf.written).or_else(|| Units::parse(unit.name())),
-        _ => None,
-    });
+    let channel = |path| values.leaf(path).map(|leaf| leaf.written.clone());
+    let units = |path| {
+        values.leaf(path).and_then(|leaf| match leaf.given {
+            // As written, perhaps with the value of one count before it.
+            Given::Unit(unit) => Units::parse(&leaf.written).or_else(|| Units::parse(unit.name())),
+            _ => None,
+        })
+    };
     let scale = match values.number("motion.scale_to") {
         Some(peak) => Scale::Peak(peak),
         None => Scale::Factor(values.number("motion.scale").unwrap_or(1.0)),
     };
     RecordSource {
         path: text("motion.record").unwrap_or_default(),
-        units,
+        units: units("motion.units"),
         dt_s: values.number("motion.dt"),
-        channel,
+        channel: channel("motion.channel"),
         scale,
         vertical: text("motion.vertical"),
         vertical_scale: values.number("motion.vertical_scale"),
+        along_y: text("motion.record_y").map(|path| RecordAlongY {
+            path,
+            units: units("motion.units_y").or(units("motion.units")),
+            dt_s: values.number("motion.dt_y").or(values.number("motion.dt")),
+            channel: channel("motion.channel_y"),
+            pair: PairOf {
+                scale_y: values.number("motion.scale_y").unwrap_or(1.0),
+                rotate_rad: values.number("motion.rotate").unwrap_or(0.0),
+            },
+        }),
     }
 }
 
-fn sine(values: &Values) -> Result<Sine, InputError> {
+fn sine(values: &Values, table: &str) -> Result<Sine, InputError> {
+    let key = |name: &str| format!("{table}.{name}");
     Ok(Sine {
-        frequency_hz: values.required("motion.sine.frequency")?,
-        amplitude_m_per_s2: values.required("motion.sine.amplitude")?,
-        duration_s: values.required("motion.sine.duration")?,
-        dt_s: values.required("motion.sine.dt")?,
-        phase_rad: values.number("motion.sine.phase").unwrap_or(0.0),
-        ramp_s: values.number("motion.sine.ramp").unwrap_or(0.0),
-        decay_s: values.number("motion.sine.decay").unwrap_or(0.0),
+        frequency_hz: values.required(&key("frequency"))?,
+        amplitude_m_per_s2: values.required(&key("amplitude"))?,
+        duration_s: values.required(&key("duration"))?,
+        dt_s: values.required(&key("dt"))?,
+        phase_rad: values.number(&key("phase")).unwrap_or(0.0),
+        ramp_s: values.number(&key("ramp")).unwrap_or(0.0),
+        decay_s: values.number(&key("decay")).unwrap_or(0.0),
     })
 }
 
@@ -136,7 +229,7 @@ pub(super) fn error(
     error: &MotionError,
 ) -> InputError {
     let table = match source {
-        Some(MotionSource::Sine(_)) => "motion.sine",
+        Some(MotionSource::Sine(_) | MotionSource::Sines { .. }) => "motion.sine",
         Some(MotionSource::Sweep(_)) => "motion.sweep",
         Some(MotionSource::Pulse(_)) => "motion.pulse",
         Some(MotionSource::Record(_)) => "motion.record",

@@ -175,7 +175,9 @@ fn si_unit(path: &str) -> &'static str {
             Kind::Quantity(dimension, _)
             | Kind::QuantityOr(dimension, ..)
             | Kind::QuantityOrRatio(dimension, _)
-            | Kind::Quantities(dimension, ..),
+            | Kind::Quantities(dimension, ..)
+            | Kind::Vector(dimension, _)
+            | Kind::Vectors(dimension, ..),
         ) => dimension.si_unit(),
         _ => "",
     }
@@ -204,7 +206,8 @@ pub fn dimension_of(path: &str) -> Result<Option<Dimension>, InputError> {
         Ok(
             Kind::Quantity(dimension, _)
             | Kind::QuantityOr(dimension, ..)
-            | Kind::QuantityOrRatio(dimension, _),
+            | Kind::QuantityOrRatio(dimension, _)
+            | Kind::Vector(dimension, _),
         ) => Ok(Some(*dimension)),
         Ok(Kind::Number(_) | Kind::NumberOr(..)) => Ok(None),
         found => {
@@ -244,11 +247,9 @@ fn set(
         return Ok(());
     }
     let index = index.unwrap_or_else(|| {
-        let empty = match key.kind {
-            Kind::Sections(..) | Kind::Quantities(..) | Kind::Numbers(..) => {
-                Value::List(Vec::new())
-            }
-            _ => Value::Table(Table(Vec::new())),
+        let empty = match key.kind.is_list() {
+            true => Value::List(Vec::new()),
+            false => Value::Table(Table(Vec::new())),
         };
         let node = Node { spot: spot.clone(), value: empty };
         table.0.push(Entry { name: (*name).to_owned(), key: spot.clone(), node });
@@ -272,34 +273,52 @@ fn set(
     match (&mut entry.node.value, key.kind.section()) {
         (Value::Table(inner), Some(section)) => set(inner, section, rest, spot, value, put),
         (Value::List(items), inner) => {
-            let [number, rest @ ..] = rest else { return Ok(()) };
-            if grows && *number == (items.len() + 1).to_string() {
-                let empty = Value::Table(Table(Vec::new()));
-                items.push(Node { spot: spot.clone(), value: empty });
-            }
-            let count = items.len();
-            let item = number.parse::<usize>().ok().and_then(|n| items.get_mut(n.wrapping_sub(1)));
-            match (item, inner) {
-                (None, _) => {
-                    let expected = match count {
-                        0 => format!("{name}.1, for there is none yet"),
-                        _ if grows => format!("a number from 1 to {}", count + 1),
-                        1 => format!("{name}.1, for there is only one"),
-                        _ => format!("a number from 1 to {count}"),
-                    };
-                    Err((expected, format!("\"{number}\"")))
-                }
-                (Some(item), _) if rest.is_empty() => {
-                    *item = value;
-                    Ok(())
-                }
-                (Some(Node { value: Value::Table(inner), .. }), Some(section)) => {
-                    set(inner, section, rest, spot, value, put)
-                }
-                (Some(item), _) => Err(("a table".to_owned(), item.found())),
-            }
+            set_item(items, inner, (name, rest), spot, value, (put, grows))
         }
         _ => Err((key.kind.expected(), entry.node.found())),
+    }
+}
+
+/// Sets an item of a list of that name, or something inside it.
+fn set_item(
+    items: &mut Vec<Node>,
+    inner: Option<&'static Section>,
+    (name, path): (&str, &[&str]),
+    spot: &Spot,
+    value: Node,
+    (put, grows): (Put, bool),
+) -> Result<(), Mismatch> {
+    let [number, rest @ ..] = path else { return Ok(()) };
+    if grows && *number == (items.len() + 1).to_string() {
+        let empty = match inner {
+            Some(_) => Value::Table(Table(Vec::new())),
+            None => Value::List(Vec::new()),
+        };
+        items.push(Node { spot: spot.clone(), value: empty });
+    }
+    let count = items.len();
+    let item = number.parse::<usize>().ok().and_then(|n| items.get_mut(n.wrapping_sub(1)));
+    match (item, inner) {
+        (None, _) => {
+            let expected = match count {
+                0 => format!("{name}.1, for there is none yet"),
+                _ if grows => format!("a number from 1 to {}", count + 1),
+                1 => format!("{name}.1, for there is only one"),
+                _ => format!("a number from 1 to {count}"),
+            };
+            Err((expected, format!("\"{number}\"")))
+        }
+        (Some(item), _) if rest.is_empty() => {
+            *item = value;
+            Ok(())
+        }
+        (Some(Node { value: Value::Table(inner), .. }), Some(section)) => {
+            set(inner, section, rest, spot, value, put)
+        }
+        (Some(Node { value: Value::List(pair), .. }), None) => {
+            set_item(pair, None, (number, rest), spot, value, (put, grows))
+        }
+        (Some(item), _) => Err(("a table".to_owned(), item.found())),
     }
 }
 
@@ -352,7 +371,7 @@ pub(super) fn find_kind(path: &str) -> Result<&'static Kind, (String, Option<Str
         if keys.peek().is_none() {
             return Ok(&key.kind);
         }
-        if matches!(key.kind, Kind::Sections(..) | Kind::Quantities(..) | Kind::Numbers(..)) {
+        if key.kind.is_list() {
             let number = keys.next().unwrap_or("");
             if number.parse::<usize>().is_ok_and(|number| number > 0) {
                 known = join(&known, number);
@@ -365,6 +384,10 @@ pub(super) fn find_kind(path: &str) -> Result<&'static Kind, (String, Option<Str
                     Err(_) => valid_or_start(first, keys),
                 };
                 return Err((format!("a number from 1 after {known}"), Some(nearest)));
+            }
+            let is_number = |key: &&str| key.parse::<usize>().is_ok_and(|number| number > 0);
+            if matches!(key.kind, Kind::Vectors(..)) && keys.peek().is_some_and(is_number) {
+                known = join(&known, keys.next().unwrap_or(""));
             }
             if keys.peek().is_none() {
                 return Ok(&key.kind);

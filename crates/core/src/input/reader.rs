@@ -122,6 +122,21 @@ impl Values {
         Some((1..=*count).filter_map(|item| self.number(&format!("{path}.{item}"))).collect())
     }
 
+    /// Components along x and y of a vector, in SI: a single number is along x.
+    pub fn vector(&self, path: &str) -> Option<[f64; 2]> {
+        let component = |i: usize| self.number(&format!("{path}.{i}"));
+        match self.number(path) {
+            Some(x) => Some([x, 0.0]),
+            None => Some([component(1)?, component(2)?]),
+        }
+    }
+
+    /// The same of a list of vectors.
+    pub fn vectors(&self, path: &str) -> Option<Vec<[f64; 2]>> {
+        let (_, count) = self.tables.get(path)?;
+        (1..=*count).map(|item| self.vector(&format!("{path}.{item}"))).collect()
+    }
+
     /// The texts of a list, or the one text that stands for it.
     pub fn texts(&self, path: &str) -> Option<Vec<String>> {
         if let Some(text) = self.text(path) {
@@ -270,6 +285,25 @@ impl Values {
                 }
                 Ok(())
             }
+            (Kind::Vector(dimension, range), Value::List(pair)) => {
+                self.read_vector(path, node, pair, *dimension, *range)
+            }
+            (Kind::Vectors(dimension, range, most), Value::List(nodes)) => {
+                self.begin_list(path, node, nodes, *most)?;
+                for (index, item) in nodes.iter().enumerate() {
+                    let path = join(path, &(index + 1).to_string());
+                    match &item.value {
+                        Value::List(pair) => {
+                            self.read_vector(&path, item, pair, *dimension, *range)?;
+                        }
+                        _ => {
+                            let given = self.quantity(&path, item, *dimension, *range)?;
+                            self.insert(path, item, given, dimension.si_unit());
+                        }
+                    }
+                }
+                Ok(())
+            }
             (Kind::Texts(_), Value::List(nodes)) => {
                 Arc::make_mut(&mut self.tables)
                     .insert(path.to_owned(), (node.spot.clone(), nodes.len()));
@@ -300,6 +334,28 @@ impl Values {
             }
             _ => self.read_leaf(path, node, kind),
         }
+    }
+
+    /// Reads the two components of a vector, along x and along y.
+    fn read_vector(
+        &mut self,
+        path: &str,
+        node: &Node,
+        pair: &[Node],
+        dimension: units::Dimension,
+        range: Range,
+    ) -> Result<(), InputError> {
+        if pair.len() != 2 {
+            let expected = "two values, along x and along y";
+            return Err(self.sources.error(&node.spot, path, expected, pair.len().to_string()));
+        }
+        self.begin_list(path, node, pair, 2)?;
+        for (index, item) in pair.iter().enumerate() {
+            let path = join(path, &(index + 1).to_string());
+            let given = self.quantity(&path, item, dimension, range)?;
+            self.insert(path, item, given, dimension.si_unit());
+        }
+        Ok(())
     }
 
     /// Keeps the length of a list, which has no more items than its key takes.
@@ -366,7 +422,12 @@ impl Values {
                 return Err(self.sources.error(&node.spot, path, expected, format!("[[{path}]]")));
             }
             (Kind::QuantityOr(dimension, range, _), Value::Text(_) | Value::Si(..))
-            | (Kind::Quantity(dimension, range) | Kind::QuantityOrRatio(dimension, range), _) => {
+            | (
+                Kind::Quantity(dimension, range)
+                | Kind::QuantityOrRatio(dimension, range)
+                | Kind::Vector(dimension, range),
+                _,
+            ) => {
                 unit = dimension.si_unit();
                 self.quantity(path, node, *dimension, *range)?
             }

@@ -62,6 +62,10 @@ pub enum Kind {
     QuantityOrRatio(Dimension, Range),
     /// A list of numbers with their units, and how many at most.
     Quantities(Dimension, Range, usize),
+    /// A number with its unit, or a list of two, along x and along y.
+    Vector(Dimension, Range),
+    /// A list of such, one a storey, and how many at most.
+    Vectors(Dimension, Range, usize),
     /// A section of its own.
     Section(&'static Section),
     /// Sections of the same form, and how many at most.
@@ -158,6 +162,19 @@ impl Kind {
         }
     }
 
+    /// Whether it is a list, whose items a path counts from 1.
+    #[must_use]
+    pub fn is_list(&self) -> bool {
+        matches!(
+            self,
+            Self::Sections(..)
+                | Self::Quantities(..)
+                | Self::Numbers(..)
+                | Self::Vector(..)
+                | Self::Vectors(..)
+        )
+    }
+
     /// What to write, in words.
     #[must_use]
     pub fn expected(&self) -> String {
@@ -193,11 +210,14 @@ impl Kind {
             Self::QuantityOrRatio(dimension, _) => {
                 format!("{} (or a ratio, where a period is given)", with_unit(dimension))
             }
-            Self::Quantities(dimension, Range::Positive | Range::NotNegative, _) => {
+            Self::Quantities(dimension, ..) => {
                 let (what, example) = (dimension.with_article(), dimension.example());
                 format!("a list, each {what} with its unit, such as [\"{example}\"]")
             }
-            Self::Quantities(dimension, ..) => {
+            Self::Vector(dimension, _) => {
+                format!("{} (or a list of two, along x and along y)", with_unit(dimension))
+            }
+            Self::Vectors(dimension, ..) => {
                 let (what, example) = (dimension.with_article(), dimension.example());
                 format!("a list with {what} for each storey, such as [\"{example}\"]")
             }

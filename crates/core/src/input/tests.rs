@@ -1,6 +1,7 @@
 //! What the reader takes, what it refuses and in which words.
 
 mod errors;
+mod in_plane;
 mod overrides;
 mod plans;
 mod properties;

@@ -18,15 +18,23 @@ pub(super) enum Motion<'a> {
 /// A list within a section: its key, and its items by their numbers.
 struct List {
     key: String,
-    items: Vec<(String, Vec<String>)>,
-    of_tables: bool,
+    items: Vec<(String, Item, Vec<String>)>,
+}
+
+/// What an item of a list is.
+#[derive(Clone, Copy)]
+enum Item {
+    Value,
+    Pair,
+    Table,
 }
 
 impl List {
     fn line(&self) -> String {
-        let item = |(_, entries): &(String, Vec<String>)| match self.of_tables {
-            true => format!("{{ {} }}", entries.join(", ")),
-            false => entries.join(", "),
+        let item = |(_, item, entries): &(String, Item, Vec<String>)| match item {
+            Item::Value => entries.join(", "),
+            Item::Pair => format!("[{}]", entries.join(", ")),
+            Item::Table => format!("{{ {} }}", entries.join(", ")),
         };
         let items: Vec<String> = self.items.iter().map(item).collect();
         format!("{} = [{}]\n", self.key, items.join(", "))
@@ -59,16 +67,15 @@ pub(super) fn toml(values: &Values, motion: Motion<'_>) -> String {
             text.push_str(&format!("{key} = {}\n", value(leaf)));
             continue;
         };
-        let list = open.get_or_insert_with(|| List {
-            key: name.to_owned(),
-            items: Vec::new(),
-            of_tables: !inner.is_empty(),
-        });
-        let entry =
-            if inner.is_empty() { value(leaf) } else { format!("{inner} = {}", value(leaf)) };
+        let list = open.get_or_insert_with(|| List { key: name.to_owned(), items: Vec::new() });
+        let (item, entry) = match inner {
+            "" => (Item::Value, value(leaf)),
+            inner if inner.parse::<usize>().is_ok() => (Item::Pair, value(leaf)),
+            inner => (Item::Table, format!("{inner} = {}", value(leaf))),
+        };
         match list.items.last_mut() {
-            Some((last, entries)) if last == number => entries.push(entry),
-            _ => list.items.push((number.to_owned(), vec![entry])),
+            Some((last, _, entries)) if last == number => entries.push(entry),
+            _ => list.items.push((number.to_owned(), item, vec![entry])),
         }
     }
     if let Some(list) = open {

@@ -1,4 +1,4 @@
-//! Motions made from motions: scaled, with a tail, with a vertical component.
+//! Motions made from motions: scaled, with a tail, with a component along y or a vertical one.
 
 use std::sync::Arc;
 
@@ -51,8 +51,8 @@ impl GroundMotion {
             .ok()
     }
 
-    /// The motion scaled so that its largest horizontal acceleration is `peak_m_per_s2`; the
-    /// vertical component takes the same factor.
+    /// The motion scaled so that its largest horizontal acceleration, of the larger component in two
+    /// directions, is `peak_m_per_s2`; the others take the same factor.
     ///
     /// # Errors
     /// [`MotionError::OutOfRange`] unless the peak is finite and > 0, [`MotionError::ZeroPeak`]
@@ -65,7 +65,9 @@ impl GroundMotion {
                 found: peak_m_per_s2,
             });
         }
-        let found = peak(&self.horizontal_m_per_s2);
+        let found = [Some(self.horizontal_m_per_s2()), self.horizontal_y_m_per_s2()]
+            .map(|component| component.map_or(0.0, peak));
+        let found = found[0].max(found[1]);
         if found == 0.0 {
             return Err(MotionError::ZeroPeak);
         }
@@ -147,36 +149,99 @@ impl GroundMotion {
     /// [`MotionError::OutOfRange`] for a factor that is not finite, [`MotionError::TooLong`] for
     /// more than [`MAX_SAMPLES`] times in the union, and as [`GroundMotion::scaled`].
     pub fn with_vertical(&self, other: &Self, factor: f64) -> Result<(Self, bool), MotionError> {
-        let other = other.scaled(factor)?;
+        let Union { times_s, own, other, lengths_differ } = self.union(&other.scaled(factor)?)?;
+        let mut own = own.into_iter();
+        let along = own.next().unwrap_or_default();
+        let joined = Self::new(times_s, along, Some(other))?.with_y_if(own.next())?;
+        Ok((joined, lengths_differ))
+    }
+
+    /// This motion with the horizontal component of `other` as that along y, and whether the two differ
+    /// in length; times as of [`GroundMotion::with_vertical`]. Vertical components are left out.
+    ///
+    /// # Errors
+    /// As [`GroundMotion::with_vertical`].
+    pub fn with_along_y(&self, other: &Self) -> Result<(Self, bool), MotionError> {
+        let own = Self { horizontal_y_m_per_s2: None, ..self.clone() };
+        let Union { times_s, own, other, lengths_differ } = own.union(other)?;
+        let along = own.into_iter().next().unwrap_or_default();
+        Ok((Self::new(times_s, along, None)?.with_y(other)?, lengths_differ))
+    }
+
+    /// The motion in two horizontal directions with another factor on y, then turned, x towards y.
+    ///
+    /// # Errors
+    /// [`MotionError::OutOfRange`] for a factor or an angle that is not finite, and as
+    /// [`GroundMotion::scaled`].
+    pub fn turned(&self, scale_y: f64, angle_rad: f64) -> Result<Self, MotionError> {
+        for (quantity, found) in [("scale_y", scale_y), ("rotate in rad", angle_rad)] {
+            if !found.is_finite() {
+                let expected = "a finite number";
+                return Err(MotionError::OutOfRange { quantity, expected, found });
+            }
+        }
+        let Some(y) = self.horizontal_y_m_per_s2() else { return Ok(self.clone()) };
+        let [cos, sin] = direction(angle_rad.to_degrees());
+        // x cos φ − y sin φ, x sin φ + y cos φ
+        let pairs = || self.horizontal_m_per_s2.iter().zip(y.iter().map(|y| scale_y * y));
+        let x: Vec<f64> = pairs().map(|(x, y)| x * cos - y * sin).collect();
+        let y: Vec<f64> = pairs().map(|(x, y)| x * sin + y * cos).collect();
+        super::check_values(x.len(), &x, None)?;
+        Self { horizontal_m_per_s2: Arc::new(x), ..self.clone() }.with_y(y)
+    }
+
+    /// The horizontal components of this motion, then that of another, on the union of their times.
+    fn union(&self, other: &Self) -> Result<Union, MotionError> {
         let (own, up) = (&self.times_s, &other.times_s);
         if own.len() + up.len() > MAX_SAMPLES {
             return Err(MotionError::TooLong { found: (own.len() + up.len()) as f64 });
         }
         let slack_s = 8.0 * f64::EPSILON * self.duration_s().max(other.duration_s());
-        let differ = (self.duration_s() - other.duration_s()).abs() > slack_s;
-        let mut horizontal = Reader::new(own, &self.horizontal_m_per_s2, slack_s);
-        let mut vertical = Reader::new(up, &other.horizontal_m_per_s2, slack_s);
+        let lengths_differ = (self.duration_s() - other.duration_s()).abs() > slack_s;
+        let mut readers: Vec<Reader> =
+            [Some(self.horizontal_m_per_s2()), self.horizontal_y_m_per_s2()]
+                .into_iter()
+                .flatten()
+                .map(|values| Reader::new(own, values, slack_s))
+                .collect();
+        readers.push(Reader::new(up, &other.horizontal_m_per_s2, slack_s));
         let capacity = own.len().max(up.len());
         let mut times_s = Vec::with_capacity(capacity);
-        let mut along = Vec::with_capacity(capacity);
-        let mut normal = Vec::with_capacity(capacity);
-        while let Some(t) = earlier(horizontal.next_s(), vertical.next_s(), slack_s) {
-            let mut limits = [horizontal.limits(t), vertical.limits(t)];
-            let has_ended = [&horizontal, &vertical].map(|reader| reader.next_s().is_none());
-            if has_ended != [true; 2] {
-                for (limits, has_ended) in limits.iter_mut().zip(has_ended) {
-                    limits[1] = if has_ended { 0.0 } else { limits[1] };
+        let mut values = vec![Vec::with_capacity(capacity); readers.len()];
+        let mut limits = vec![[0.0; 2]; readers.len()];
+        while let Some(t) =
+            earlier(readers[0].next_s(), readers[readers.len() - 1].next_s(), slack_s)
+        {
+            for (limits, reader) in limits.iter_mut().zip(&mut readers) {
+                *limits = reader.limits(t);
+            }
+            let has_ended = |reader: &Reader| reader.next_s().is_none();
+            if !readers.iter().all(has_ended) {
+                for (limits, _) in limits.iter_mut().zip(&readers).filter(|(_, r)| has_ended(r)) {
+                    limits[1] = 0.0;
                 }
             }
             let jumps = limits.iter().any(|[left, right]| left != right);
             for side in 0..1 + usize::from(jumps) {
                 times_s.push(t);
-                along.push(limits[0][side]);
-                normal.push(limits[1][side]);
+                values
+                    .iter_mut()
+                    .zip(&limits)
+                    .for_each(|(values, limits)| values.push(limits[side]));
             }
         }
-        Ok((Self::new(times_s, along, Some(normal))?, differ))
+        let other = values.pop().unwrap_or_default();
+        Ok(Union { times_s, own: values, other, lengths_differ })
     }
+}
+
+/// Components of two motions on the union of their times.
+struct Union {
+    times_s: Vec<f64>,
+    /// Along x, perhaps along y.
+    own: Vec<Vec<f64>>,
+    other: Vec<f64>,
+    lengths_differ: bool,
 }
 
 /// Cosine and sine of an angle in degrees, exact at whole quarters.

@@ -1,6 +1,7 @@
 //! Peaks of acceleration, velocity and displacement of a piecewise-linear acceleration.
 
 use super::GroundMotion;
+use crate::linear::polynomial::{self, largest};
 
 /// What an engineer looks at first: peaks of the motion, and the velocity left at its end.
 ///
@@ -14,15 +15,26 @@ pub struct Figures {
     pub pgv_m_per_s: f64,
     /// Largest |U| in m (PGD).
     pub pgd_m: f64,
-    /// U̇ at the last sample in m/s, signed: not 0 where the record drifts.
+    /// U̇ at the last sample in m/s, signed (a norm in two directions): not 0 where the record drifts.
     pub end_velocity_m_per_s: f64,
 }
 
 impl GroundMotion {
-    /// Figures of the horizontal acceleration.
+    /// Figures of the horizontal acceleration; in two directions of the resultant, the norm at each
+    /// instant.
     #[must_use]
     pub fn figures(&self) -> Figures {
-        Figures::of(&self.times_s, &self.horizontal_m_per_s2)
+        match self.horizontal_y_m_per_s2() {
+            None => Figures::of(&self.times_s, &self.horizontal_m_per_s2),
+            Some(y) => Figures::of_resultant(&self.times_s, [&self.horizontal_m_per_s2, y]),
+        }
+    }
+
+    /// Figures along x and along y of a motion in two horizontal directions.
+    #[must_use]
+    pub fn figures_by_axis(&self) -> Option<[Figures; 2]> {
+        let y = self.horizontal_y_m_per_s2()?;
+        Some([&self.horizontal_m_per_s2, y].map(|a| Figures::of(&self.times_s, a)))
     }
 }
 
@@ -45,6 +57,45 @@ impl Figures {
         }
         figures.end_velocity_m_per_s = v0;
         figures
+    }
+}
+
+impl Figures {
+    /// The same of the norm of two components; between samples its square is a polynomial of the time.
+    fn of_resultant(times_s: &[f64], components: [&[f64]; 2]) -> Self {
+        let (mut velocity, mut displacement) = ([0.0; 2], [0.0; 2]);
+        let (mut largest_v2, mut largest_u2) = (0.0, 0.0);
+        for (k, t) in times_s.windows(2).enumerate() {
+            let h = t[1] - t[0];
+            let (mut v2, mut u2) = (polynomial::ZERO, polynomial::ZERO);
+            for (axis, a) in components.iter().enumerate() {
+                let (a0, a1) = (a[k], a[k + 1]);
+                let (u0, v0) = (displacement[axis], velocity[axis]);
+                add_square(&mut v2, &[v0, a0 * h, 0.5 * (a1 - a0) * h]);
+                add_square(&mut u2, &[u0, v0 * h, 0.5 * a0 * h * h, (a1 - a0) * h * h / 6.0]);
+                let piece = Piece { u0, v0, a0, a1, h };
+                (velocity[axis], displacement[axis]) = (piece.velocity(h), piece.displacement(h));
+            }
+            (largest_v2, largest_u2) =
+                (largest(&v2, 1.0, largest_v2), largest(&u2, 1.0, largest_u2));
+        }
+        let [x, y] = components;
+        let pga = x.iter().zip(y).map(|(x, y)| libm::hypot(*x, *y)).fold(0.0, f64::max);
+        Self {
+            pga_m_per_s2: pga,
+            pgv_m_per_s: largest_v2.sqrt(),
+            pgd_m: largest_u2.sqrt(),
+            end_velocity_m_per_s: libm::hypot(velocity[0], velocity[1]),
+        }
+    }
+}
+
+/// Adds the square of a short polynomial to another.
+fn add_square(sum: &mut polynomial::Polynomial, c: &[f64]) {
+    for (i, a) in c.iter().enumerate() {
+        for (j, b) in c.iter().enumerate() {
+            sum[i + j] += a * b;
+        }
     }
 }
 

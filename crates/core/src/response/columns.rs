@@ -1,7 +1,57 @@
 //! The columns of a history, named as the files name them.
 
-use super::History;
+use super::{History, HistoryAlongY, Response};
 use crate::model::Model;
+
+impl Response {
+    /// Names and values of all columns of the history at some knots, as [`History::columns`]; in two
+    /// horizontal directions each that is along x is followed by the same along y, `…_y_m`. None where no
+    /// history was asked for.
+    #[must_use]
+    pub fn columns(&self, knots: &[usize]) -> Vec<(String, Vec<f64>)> {
+        let Some(history) = &self.history else { return Vec::new() };
+        let along_x = history.columns(knots);
+        let Some(y) = self.in_plane.as_ref().and_then(|plane| plane.history.as_ref()) else {
+            return along_x;
+        };
+        let as_along_x = y.as_along_x(history);
+        let along_y = as_along_x.columns(knots).into_iter();
+        let pairs = along_x.into_iter().zip(along_y);
+        let both = pairs.flat_map(|(x, (name, values))| {
+            let twin = (name != "time_s").then(|| (along_y_name(&name), values));
+            [Some(x), twin].into_iter().flatten()
+        });
+        both.collect()
+    }
+}
+
+/// `sliding_displacement_m` along y: `sliding_displacement_y_m`.
+fn along_y_name(name: &str) -> String {
+    const UNITS: [&str; 4] = ["_m_per_s2", "_m_per_s", "_m", "_n"];
+    let unit = UNITS.into_iter().find(|unit| name.ends_with(unit)).unwrap_or("");
+    format!("{}_y{unit}", name.trim_end_matches(unit))
+}
+
+impl HistoryAlongY {
+    /// A history whose quantities are those along y.
+    fn as_along_x(&self, x: &History) -> History {
+        let y = self.clone();
+        History {
+            storeys: x.storeys,
+            interfaces: x.interfaces,
+            time_s: x.time_s.clone(),
+            table_acceleration_m_per_s2: y.table_acceleration_m_per_s2,
+            sliding_displacement_m: y.sliding_displacement_m,
+            sliding_velocity_m_per_s: y.sliding_velocity_m_per_s,
+            block_acceleration_m_per_s2: y.block_acceleration_m_per_s2,
+            friction_force_n: y.friction_force_n,
+            storey_displacement_m: y.storey_displacement_m,
+            storey_velocity_m_per_s: y.storey_velocity_m_per_s,
+            storey_acceleration_m_per_s2: y.storey_acceleration_m_per_s2,
+            ..History::default()
+        }
+    }
+}
 
 impl History {
     /// Force of the block on its slider at a knot in N, friction, spring, damper and stop together: it

@@ -70,6 +70,17 @@ pub struct PrintedRow {
     pub needs_storeys: bool,
 }
 
+/// Of what a demand is where the table moves in two horizontal directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InDirections {
+    /// Of the resultant and by axis.
+    Both,
+    /// Of the resultant, or of neither axis, alone.
+    Resultant,
+    /// By axis alone.
+    Axis,
+}
+
 /// A demand.
 #[derive(Debug)]
 pub struct Demand {
@@ -90,6 +101,8 @@ pub struct Demand {
     pub study_place: u8,
     /// Whether it is a key of the summary; what is not stands there in another form.
     pub in_summary: bool,
+    /// Of what it is in two horizontal directions.
+    pub in_directions: InDirections,
     /// Its value, of the storey with that index from 0; `None` where it does not exist.
     value: fn(&Demands, usize) -> Option<f64>,
 }
@@ -102,8 +115,18 @@ impl Demand {
         dimension: Option<Dimension>,
         value: fn(&Demands, usize) -> Option<f64>,
     ) -> Self {
-        let (of, row) = (DemandOf::Run, None);
-        Self { key, words, dimension, kind, of, row, study_place: 0, in_summary: true, value }
+        Self {
+            key,
+            words,
+            dimension,
+            kind,
+            of: DemandOf::Run,
+            row: None,
+            study_place: 0,
+            in_summary: true,
+            in_directions: InDirections::Both,
+            value,
+        }
     }
 
     const fn number(
@@ -168,6 +191,14 @@ impl Demand {
         Self { study_place, ..self }
     }
 
+    const fn of_resultant(self) -> Self {
+        Self { in_directions: InDirections::Resultant, ..self }
+    }
+
+    const fn by_axis(self) -> Self {
+        Self { in_directions: InDirections::Axis, ..self }
+    }
+
     const fn not_in_summary(self) -> Self {
         Self { in_summary: false, ..self }
     }
@@ -199,15 +230,18 @@ pub static DEMANDS: [Demand; 43] = [
         Time,
         |d, _| Some(d.peak_sliding_displacement_time_s),
     )
-    .note(2, "  at time"),
+    .note(2, "  at time")
+    .of_resultant(),
     Demand::number("max_sliding_displacement_m", "max sliding displacement", Length, |d, _| {
         Some(d.max_sliding_displacement_m)
     })
-    .note(4, "Largest towards +x"),
+    .note(4, "Largest towards +x")
+    .by_axis(),
     Demand::number("min_sliding_displacement_m", "min sliding displacement", Length, |d, _| {
         Some(d.min_sliding_displacement_m)
     })
-    .note(5, "Largest towards −x"),
+    .note(5, "Largest towards −x")
+    .by_axis(),
     Demand::number(
         "residual_sliding_displacement_m",
         "residual sliding displacement",
@@ -219,22 +253,28 @@ pub static DEMANDS: [Demand; 43] = [
     Demand::new("sliding_at_end", "sliding at end", DemandKind::Flag, None, |d, _| {
         Some(f64::from(u8::from(d.sliding_at_end)))
     })
-    .note(53, "Sliding at the end"),
+    .note(53, "Sliding at the end")
+    .of_resultant(),
     Demand::number("sliding_path_m", "sliding path", Length, |d, _| Some(d.sliding_path_m))
-        .row(6, "Sliding path"),
+        .row(6, "Sliding path")
+        .of_resultant(),
     Demand::number("peak_sliding_velocity_m_per_s", "peak sliding velocity", Velocity, |d, _| {
         Some(d.peak_sliding_velocity_m_per_s)
     })
     .row(7, "Peak sliding velocity")
     .in_study(4),
     Demand::number("sliding_time_s", "sliding time", Time, |d, _| Some(d.sliding_time_s))
-        .note(8, "Time spent sliding"),
+        .note(8, "Time spent sliding")
+        .of_resultant(),
     Demand::count("slip_count", "slip count", |d, _| Some(d.slip_count as f64))
-        .note(50, "Slips (stick to slip)"),
+        .note(50, "Slips (stick to slip)")
+        .of_resultant(),
     Demand::count("reversal_count", "reversal count", |d, _| Some(d.reversal_count as f64))
-        .note(51, "Reversals without a stick"),
+        .note(51, "Reversals without a stick")
+        .of_resultant(),
     Demand::count("stick_count", "stick count", |d, _| Some(d.stick_count as f64))
-        .note(52, "Sticks (slip to stick)"),
+        .note(52, "Sticks (slip to stick)")
+        .of_resultant(),
     Demand::number(
         "block.peak_acceleration_m_per_s2",
         "block peak acceleration",
@@ -290,10 +330,14 @@ pub static DEMANDS: [Demand; 43] = [
     .row(35, "  over the weight"),
     Demand::ratio("gap_ratio", "gap ratio", |d, _| d.gap_ratio)
         .row(36, "Peak sliding over gap")
-        .in_study(3),
+        .in_study(3)
+        .of_resultant(),
     Demand::ratio("overturning_ratio", "overturning ratio", |d, _| d.overturning_ratio)
-        .row(43, "Overturning ratio"),
-    Demand::ratio("closest_stop", "closest stop", |d, _| d.closest_stop).not_in_summary(),
+        .row(43, "Overturning ratio")
+        .by_axis(),
+    Demand::ratio("closest_stop", "closest stop", |d, _| d.closest_stop)
+        .not_in_summary()
+        .of_resultant(),
     Demand::count("stop.contact_count", "stop contact count", |d, _| {
         of_stop(d, |stop| stop.contact_count as f64)
     })

@@ -177,12 +177,7 @@ impl<'a> Running<'a> {
 /// # Errors
 /// [`RunError`] for no motion, one that is a record, and one that cannot be.
 pub fn made_motion(source: Option<&MotionSource>) -> Result<GroundMotion, RunError> {
-    Ok(match source {
-        Some(MotionSource::Sine(sine)) => sine.motion()?,
-        Some(MotionSource::Sweep(sweep)) => sweep.motion()?,
-        Some(MotionSource::Pulse(pulse)) => pulse.motion()?,
-        Some(MotionSource::Record(_)) | None => return Err(RunError::NoMotion),
-    })
+    source.map(MotionSource::made).transpose()?.flatten().ok_or(RunError::NoMotion)
 }
 
 /// A motion times a factor, with a tail of free vibration.

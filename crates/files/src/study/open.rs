@@ -274,6 +274,7 @@ fn own_record(
     let name = portable(&plan.model);
     // What is wrong with the model itself the study says, with the varied values in it.
     let Ok(analysis) = input::from_bytes(&name, model_bytes, &[]) else { return Ok(Vec::new()) };
+    analysis.in_one_direction("a study varies").map_err(in_model)?;
     let Some(MotionSource::Record(source)) = &analysis.motion else { return Ok(Vec::new()) };
     let folder = model_path.parent().unwrap_or(Path::new(""));
     let request = request(source, folder);

@@ -3,7 +3,7 @@
 use slipstick::response::Event;
 
 use super::table_head;
-use crate::describe::event_direction;
+use crate::describe::{event_bearing, event_direction};
 use crate::display::{Quantity, Unit};
 use crate::markup::Markup;
 use crate::number::{compact, count, decimals, printed, rounded, significant, typeset};
@@ -105,19 +105,26 @@ pub fn events(out: &mut Markup, report: &Report) {
                 ("Time (s)".to_owned(), true),
                 ("Event".to_owned(), false),
                 ("then".to_owned(), false),
-                (unit.label("s"), true),
+                (unit.label(if report.response.in_plane.is_some() { "|s|" } else { "s" }), true),
             ],
         );
         let first = if hidden > 0 { EVENT_ROWS - LAST_EVENTS } else { events.len() };
-        for event in &events[..first] {
-            event_row(out, event, unit, places);
+        let way = |i: usize, event: &Event| match &report.response.in_plane {
+            None => event_direction(event).to_owned(),
+            Some(plane) => event_bearing(plane.events[i].direction),
+        };
+        let row = |out: &mut Markup, i: usize, event: &Event| {
+            event_row(out, event, &way(i, event), size(report, i, event), (unit, places));
+        };
+        for (i, event) in events[..first].iter().enumerate() {
+            row(out, i, event);
         }
         if hidden > 0 {
             out.raw("<tr><td class=\"number\">…</td><td colspan=\"3\">")
                 .text(format!("{} more in events.csv", count(hidden as u64)))
                 .raw("</td></tr>\n");
-            for event in &events[events.len() - LAST_EVENTS..] {
-                event_row(out, event, unit, places);
+            for (i, event) in events.iter().enumerate().skip(events.len() - LAST_EVENTS) {
+                row(out, i, event);
             }
         }
         out.raw("</tbody>\n</table>\n</div>\n");
@@ -137,15 +144,22 @@ fn event_line(run: &Summary) -> String {
     )
 }
 
-fn event_row(out: &mut Markup, event: &Event, unit: Unit, places: usize) {
+/// Sliding displacement at an event; in two horizontal directions its size.
+fn size(report: &Report, i: usize, event: &Event) -> f64 {
+    let s = event.sliding_displacement_m;
+    let plane = report.response.in_plane.as_ref();
+    plane.map_or(s, |plane| libm::hypot(s, plane.events[i].sliding_displacement_y_m))
+}
+
+fn event_row(out: &mut Markup, event: &Event, way: &str, s: f64, (unit, places): (Unit, usize)) {
     out.raw("<tr><td class=\"number\">")
         .text(format!("{:.6}", event.time_s))
         .raw("</td><td>")
         .raw(event.kind.name())
         .raw("</td><td>")
-        .raw(event_direction(event))
+        .text(way)
         .raw("</td><td class=\"number\">")
-        .text(typeset(&format!("{:.places$}", unit.of(event.sliding_displacement_m) + 0.0)))
+        .text(typeset(&format!("{:.places$}", unit.of(s) + 0.0)))
         .raw("</td></tr>\n");
 }
 

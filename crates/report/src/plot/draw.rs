@@ -48,7 +48,7 @@ pub fn figure(figure: &Figure) -> (Markup, f64) {
     let mut body = Markup::new();
     let height = match figure.layout {
         Layout::Stacked => stacked(&mut body, figure),
-        Layout::Beside => beside(&mut body, figure),
+        Layout::Beside | Layout::Square => beside(&mut body, figure),
     };
     let mut svg = Markup::new();
     svg.raw("<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\"")
@@ -98,7 +98,8 @@ fn beside(out: &mut Markup, figure: &Figure) -> f64 {
     let mut bottom: f64 = 0.0;
     for (i, (panel, width)) in figure.panels.iter().zip(widths).enumerate() {
         let left = i as f64 * share + left_margin(panel);
-        let frame = Frame { left, top: header, width, height: panel.height };
+        let height = if figure.layout == Layout::Square { width } else { panel.height };
+        let frame = Frame { left, top: header, width, height };
         draw_panel(out, panel, frame, &figure.shaded, true);
         bottom = bottom.max(frame.bottom());
     }

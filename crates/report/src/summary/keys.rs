@@ -3,14 +3,16 @@
 use slipstick::assessment::single::FloorSpectra;
 use slipstick::motion::Figures;
 use slipstick::notice::Notice;
-use slipstick::response::{DEMANDS, DemandColumn, DemandKind, DemandOf, Demands};
+use slipstick::response::{
+    DEMANDS, Demand, DemandColumn, DemandKind, DemandOf, Demands, InDirections,
+};
 
 use slipstick::input::Names;
 
 use super::{Checks, Summary, method_name};
 use crate::json::Json;
 
-/// The object; `stop`, `surfaces`, `contents`, `iterations`, `floor_spectrum` and `bounds` only where there are any.
+/// The object; `x`, `y`, `stop`, `surfaces`, `contents`, `iterations`, `floor_spectrum` and `bounds` only where there are any.
 pub fn object(summary: &Summary) -> Json {
     let mut keys = vec![
         ("slipstick", summary.slipstick.into()),
@@ -22,7 +24,21 @@ pub fn object(summary: &Summary) -> Json {
         ("friction_factor", summary.friction_factor.into()),
         ("record", record(&summary.record)),
     ];
-    keys.extend(demands(&summary.demands, &summary.names));
+    let by_axis = summary.by_axis.as_ref();
+    let absent = by_axis.map(|_| InDirections::Axis);
+    keys.extend(demands(&summary.demands, &summary.names, |demand| {
+        Some(demand.in_directions) != absent
+    }));
+    if let Some(by_axis) = by_axis {
+        let direction = by_axis.peak_sliding_displacement_direction_rad;
+        keys.push(("peak_sliding_displacement_direction_rad", direction.into()));
+        keys.push(("least_sliding_speed_m_per_s", by_axis.least_sliding_speed_m_per_s.into()));
+        for (i, axis) in ["x", "y"].into_iter().enumerate() {
+            let mut object = vec![("record", record(&by_axis.record[i]))];
+            object.extend(axis_demands(&by_axis.demands[i], &summary.names));
+            keys.push((axis, Json::Object(object)));
+        }
+    }
     keys.extend([
         (
             "contact_loss_s",
@@ -80,11 +96,29 @@ fn floor_spectrum(spectra: &FloorSpectra) -> Json {
     ])
 }
 
+/// Those of an axis, without what is of neither.
+fn axis_demands(demands: &Demands, names: &Names) -> Vec<(&'static str, Json)> {
+    let all = self::demands(demands, names, |_| true);
+    let of_resultant = |key: &str| {
+        let of = |demand: &&Demand| demand.key == key && demand.of == DemandOf::Run;
+        let demand = DEMANDS.iter().find(of);
+        demand.is_some_and(|demand| demand.in_directions == InDirections::Resultant)
+    };
+    all.into_iter().filter(|(key, _)| !of_resultant(key)).collect()
+}
+
 /// The demands in the order of the registry; `block.x` is `x` in the object `block`. Block and storeys
-/// have their names, where the model gives them.
-fn demands(demands: &Demands, names: &Names) -> Vec<(&'static str, Json)> {
+/// have their names, where the model gives them; what has no value here is null.
+fn demands(
+    demands: &Demands,
+    names: &Names,
+    has_value: impl Fn(&Demand) -> bool,
+) -> Vec<(&'static str, Json)> {
     let name = |name: &Option<String>| name.as_ref().map(|name| ("name", name.as_str().into()));
-    let json = |column: DemandColumn| json(column.demand.kind, column.value(demands));
+    let json = |column: DemandColumn| {
+        let value = column.value(demands).filter(|_| has_value(column.demand));
+        json(column.demand.kind, value)
+    };
     let of_part = |of: DemandOf, part: usize| {
         let own = DEMANDS.iter().filter(|demand| demand.of == of);
         let own = own.map(|demand| (demand.key, json(DemandColumn { demand, part })));

@@ -83,15 +83,18 @@ fn gap_exceeded(inputs: &SummaryInputs) -> Option<Notice> {
         return None;
     }
     let knot_s = inputs.response.history.as_ref().and_then(|history| {
-        let beyond = history.sliding_displacement_m.iter().position(|s| s.abs() > gap_m)?;
+        let along_y = inputs.response.in_plane.as_ref().and_then(|plane| plane.history.as_ref());
+        let beyond = (0..history.len()).position(|knot| {
+            let y = along_y.map_or(0.0, |y| y.sliding_displacement_m[knot]);
+            history.sliding_displacement_m[knot].hypot(y) > gap_m
+        })?;
         Some(history.time_s[beyond])
     });
-    let event_s = inputs
-        .response
-        .events
-        .iter()
-        .find(|event| event.sliding_displacement_m.abs() > gap_m)
-        .map(|event| event.time_s);
+    let in_plane = inputs.response.in_plane.as_ref();
+    let event_s = inputs.response.events.iter().enumerate().find_map(|(i, event)| {
+        let y = in_plane.map_or(0.0, |plane| plane.events[i].sliding_displacement_y_m);
+        (event.sliding_displacement_m.hypot(y) > gap_m).then_some(event.time_s)
+    });
     let time_s = [knot_s, event_s]
         .into_iter()
         .flatten()

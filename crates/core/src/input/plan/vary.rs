@@ -71,7 +71,7 @@ fn walk(
 /// Whether a table holds keys of the model rather than a distribution.
 fn goes_deeper(path: &str, table: &Table) -> bool {
     match find_kind(path) {
-        Ok(Kind::Section(_) | Kind::Sections(..) | Kind::Quantities(..)) => {
+        Ok(Kind::Section(_) | Kind::Sections(..) | Kind::Quantities(..) | Kind::Vectors(..)) => {
             table.0.iter().all(|entry| DISTRIBUTION.key(&entry.name).is_none())
         }
         Ok(Kind::NumberOr(_, both) | Kind::QuantityOr(_, _, both)) => {
@@ -131,7 +131,10 @@ fn takes(values: &Values, path: &str, key: &Spot) -> Result<Takes, InputError> {
             (Some(*dimension), false, *range)
         }
         Kind::QuantityOrRatio(dimension, range) => (Some(*dimension), true, *range),
-        Kind::Quantities(dimension, range, _) if numbered => (Some(*dimension), false, *range),
+        Kind::Vector(dimension, range) => (Some(*dimension), false, *range),
+        Kind::Quantities(dimension, range, _) | Kind::Vectors(dimension, range, _) if numbered => {
+            (Some(*dimension), false, *range)
+        }
         _ => return Err(refuse("the path of a number", None)),
     };
     Ok(Takes { dimension, or_ratio, range })

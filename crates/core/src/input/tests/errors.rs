@@ -41,7 +41,7 @@ fn exact_unknown_keys_at_any_depth() {
     assert_eq!(
         changed("height = ", "hieght = "),
         "m.toml:21:1: storey.1.hieght: expected one of the keys mass, weight, name, frequency, \
-         period, stiffness, damping_ratio, damper, height, found \"hieght\"; nearest is \"height\""
+         period, stiffness, damping_ratio, damper, frequency_y, period_y, stiffness_y, damping_ratio_y, damper_y, height, found \"hieght\"; nearest is \"height\""
     );
     // A key of another section: its whole path.
     assert!(changed("width = ", "gravity = ").ends_with("; nearest is \"analysis.gravity\""));

@@ -55,6 +55,7 @@ fn exact_full_example() {
         scale: Scale::Peak(0.3 * 9.80665),
         vertical: Some("records/taft-up.txt".to_owned()),
         vertical_scale: None,
+        along_y: None,
     };
     assert_eq!(analysis.required_motion(), Ok(&MotionSource::Record(record)));
     assert_eq!(analysis.method, Method::Exact);

@@ -1,0 +1,166 @@
+//! Motions in two horizontal directions.
+
+use super::*;
+use crate::input::{MotionSource, PairOf, RecordAlongY, Scale};
+use crate::model::Damping;
+
+const BLOCK: &str =
+    "[block]\nmass = \"300 kg\"\n[slider]\nstatic_friction = 0.06\nkinetic_friction = 0.05\n";
+const PAIR: &str = "[motion]\nrecord = \"x.at2\"\nrecord_y = \"y.at2\"\n";
+
+fn message(text: &str) -> String {
+    parse("m.toml", text, &[]).unwrap_err().to_string()
+}
+
+/// A storey and a frame are along y as along x but for what is given with `_y`.
+#[test]
+fn exact_frame_along_y() {
+    let storey = "[[storey]]\nmass = \"40 kg\"\nstiffness = \"36 kN/m\"\ndamping_ratio = 0.02\n";
+    let along_y = |more: &str, frame: &str| {
+        let text = format!("{BLOCK}{storey}{more}{frame}{PAIR}");
+        parse("m.toml", &text, &[]).unwrap().model.along_y()
+    };
+    assert_eq!(along_y("", "").stiffnesses_n_per_m, [36e3]);
+    assert_eq!(along_y("", "").damping, Damping::Ratio(0.02));
+    let own = along_y("stiffness_y = \"52 kN/m\"\ndamping_ratio_y = 0.03\n", "");
+    assert_eq!((own.stiffnesses_n_per_m, own.damping), (vec![52e3], Damping::Ratio(0.03)));
+    let damper = along_y("damper_y = \"2 kN s/m\"\n", "");
+    assert_eq!(damper.damping, Damping::Dampers(vec![2e3]));
+    // k = m (2π f)²
+    let k = 40.0 * (core::f64::consts::TAU * 2.0_f64).powi(2);
+    for key in ["frequency_y = \"2 Hz\"\n", "period_y = \"0.5 s\"\n"] {
+        assert!((along_y(key, "").stiffnesses_n_per_m[0] - k).abs() < 1e-10);
+    }
+    let frame = "[frame]\nperiod = \"0.6 s\"\nperiod_y = \"0.5 s\"\n";
+    assert!((along_y("", frame).stiffnesses_n_per_m[0] - k).abs() < 1e-10);
+    let same = "[frame]\nperiod = \"0.5 s\"\n";
+    assert!((along_y("", same).stiffnesses_n_per_m[0] - k).abs() < 1e-10);
+}
+
+/// Everything of the second record, which else is read as the first.
+#[test]
+fn exact_pair_of_records() {
+    let source = |more: &str| {
+        let analysis = parse("m.toml", &format!("{BLOCK}{PAIR}{more}"), &[]).unwrap();
+        let Some(MotionSource::Record(record)) = analysis.motion else { panic!("no record") };
+        record.along_y.unwrap()
+    };
+    let plain = RecordAlongY {
+        path: "y.at2".to_owned(),
+        units: None,
+        dt_s: None,
+        channel: None,
+        pair: PairOf { scale_y: 1.0, rotate_rad: 0.0 },
+    };
+    assert_eq!(source(""), plain);
+    assert_eq!(source("dt = \"0.01 s\"\n").dt_s, Some(0.01));
+    let own = source("dt_y = \"0.02 s\"\nchannel_y = 2\nscale_y = -1.5\nrotate = \"90 deg\"\n");
+    assert_eq!((own.dt_s, own.channel.as_deref()), (Some(0.02), Some("2")));
+    assert_eq!((own.pair.scale_y, own.pair.rotate_rad.to_degrees()), (-1.5, 90.0));
+    let both = parse("m.toml", &format!("{BLOCK}{PAIR}scale_to = \"0.3 g\"\n"), &[]).unwrap();
+    let Some(MotionSource::Record(record)) = both.motion else { panic!("no record") };
+    assert!(matches!(record.scale, Scale::Peak(_)));
+}
+
+/// Sines along x and y, turned by a quarter: x takes −y, y takes x.
+#[test]
+fn exact_sines_in_two_directions() {
+    let sine = |amplitude: &str| {
+        format!(
+            "{{ frequency = \"1 Hz\", amplitude = \"{amplitude}\", duration = \"2 s\", dt = \"0.25 s\" }}"
+        )
+    };
+    let text = |rotate: &str| {
+        let (x, y) = (sine("1 m/s2"), sine("3 m/s2"));
+        format!("{BLOCK}[motion]\nsine = {x}\nsine_y = {y}\n{rotate}")
+    };
+    let motion = |text: &str| {
+        let source = parse("m.toml", text, &[]).unwrap().motion.unwrap();
+        source.made().unwrap().unwrap()
+    };
+    let plain = motion(&text(""));
+    assert_eq!(plain.horizontal_m_per_s2()[1], 1.0);
+    assert_eq!(plain.horizontal_y_m_per_s2().unwrap()[1], 3.0);
+    let turned = motion(&text("rotate = \"90 deg\"\n"));
+    assert_eq!(turned.horizontal_m_per_s2()[1], -3.0);
+    assert_eq!(turned.horizontal_y_m_per_s2().unwrap()[1], 1.0);
+}
+
+/// A start along x, or along both; what is written reads back the same.
+#[test]
+fn exact_start_in_two_directions() {
+    let storeys =
+        "[[storey]]\nmass = \"40 kg\"\nstiffness = \"36 kN/m\"\ndamping_ratio = 0.02\n".repeat(2);
+    let initial = "[initial]\nsliding_displacement = [\"10 mm\", \"-2 mm\"]\nsliding_velocity = \"0.1 m/s\"\n\
+                   storey_displacement = [\"1 mm\", [\"2 mm\", \"3 mm\"]]\n";
+    let first = parse("m.toml", &format!("{BLOCK}{storeys}{PAIR}{initial}"), &[]).unwrap();
+    let (x, y) = (first.model.initial(), first.model.along_y().initial);
+    assert_eq!((x.sliding_displacement_m, y.sliding_displacement_m), (0.01, -0.002));
+    assert_eq!((x.sliding_velocity_m_per_s, y.sliding_velocity_m_per_s), (0.1, 0.0));
+    assert_eq!(x.storey_displacement_m.as_deref(), Some(&[0.001, 0.002][..]));
+    assert_eq!(y.storey_displacement_m.as_deref(), Some(&[0.0, 0.003][..]));
+    assert_eq!(y.storey_velocity_m_per_s, None);
+    let written = first.to_toml_with_motion();
+    let second = parse("m.toml", &written, &[]).unwrap();
+    assert_eq!((first.model, first.motion), (second.model, second.motion), "{written}");
+}
+
+/// What speaks of y where there is no y, and what is not solved in two directions.
+#[test]
+fn exact_keys_of_one_direction_or_two() {
+    let one = "[motion]\nrecord = \"x.at2\"\n";
+    let expected = "expected a motion in two directions, motion.record_y or motion.sine_y, of which this \
+                    is, found a motion in one";
+    let storey = "[[storey]]\nmass = \"40 kg\"\nstiffness = \"36 kN/m\"\ndamping_ratio = 0.02\n";
+    for (text, at) in [
+        (format!("{BLOCK}{one}rotate = \"30 deg\"\n"), "8:10: motion.rotate"),
+        (format!("{BLOCK}{storey}period_y = \"1 s\"\n{one}"), "10:12: storey.1.period_y"),
+        (format!("{BLOCK}{storey}damper_y = \"1 N s/m\"\n{one}"), "10:12: storey.1.damper_y"),
+        (format!("{BLOCK}{storey}[frame]\nperiod_y = \"1 s\"\n{one}"), "11:12: frame.period_y"),
+        (
+            format!("{BLOCK}{one}[initial]\nsliding_velocity = [\"1 m/s\", \"0 m/s\"]\n"),
+            "9:20: initial.sliding_velocity",
+        ),
+        (
+            format!("{BLOCK}{storey}{one}[initial]\nstorey_velocity = [[\"1 m/s\", \"0 m/s\"]]\n"),
+            "13:20: initial.storey_velocity.1",
+        ),
+    ] {
+        assert_eq!(message(&text), format!("m.toml:{at}: {expected}"));
+    }
+    let alone = message(&format!("{BLOCK}{one}scale_y = 2\n"));
+    assert_eq!(
+        alone,
+        "m.toml:8:1: motion.scale_y: expected this key only beside \"record_y\", found \"scale_y\" alone"
+    );
+    let three = message(&format!("{BLOCK}{PAIR}[initial]\nsliding_velocity = [\"1 m/s\"]\n"));
+    assert!(three.ends_with("expected two values, along x and along y, found 1"), "{three}");
+    for (text, key) in [
+        (format!("{BLOCK}tilt = \"1 deg\"\n{PAIR}"), "slider.tilt"),
+        (format!("{BLOCK}asymmetry = 0.1\n{PAIR}"), "slider.asymmetry"),
+        (format!("{BLOCK}stop = {{ gap = \"0.1 m\", restitution = 0 }}\n{PAIR}"), "slider.stop"),
+        (format!("{BLOCK}{PAIR}[analysis]\nmethod = \"stepwise\"\n"), "analysis.method"),
+        (
+            format!(
+                "{BLOCK}[[contents]]\nfloor = 0\nmass = \"1 kg\"\nstatic_friction = 0.3\n\
+                 kinetic_friction = 0.3\n{PAIR}"
+            ),
+            "contents",
+        ),
+        (
+            format!(
+                "{}{PAIR}",
+                BLOCK.replace("= 0.05", "= { slow = 0.03, fast = 0.05, rate = \"25 s/m\" }")
+            ),
+            "slider.kinetic_friction.slow",
+        ),
+        (
+            format!("{}{PAIR}", BLOCK.replace("= 0.05", "= { positive = 0.03, negative = 0.05 }")),
+            "slider.kinetic_friction.positive",
+        ),
+    ] {
+        let found = message(&text);
+        let expected = format!(": {key}: expected a model that is solved in two directions");
+        assert!(found.contains(&expected) && found.ends_with(&format!("found {key}")), "{found}");
+    }
+}

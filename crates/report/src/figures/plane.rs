@@ -1,0 +1,226 @@
+//! Motions in two horizontal directions: orbits, and histories of the resultant and by axis.
+
+use core::f64::consts::TAU;
+
+use slipstick::response::{Demands, History, HistoryAlongY};
+
+use super::histories::{SHADING, history_panel, over_time};
+use super::trace::Trace;
+use super::{Drawn, Scene, drawn, shown_note, shown_storeys};
+use crate::display::{Quantity, Unit};
+use crate::markup::shortened;
+use crate::number::{compact, printed};
+use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
+
+const AXES: [&str; 2] = ["x", "y"];
+
+/// A quantity at the knots along x and along y.
+type Vector<'a> = [&'a [f64]; 2];
+
+/// All figures but that of energies.
+pub fn all(scene: &Scene, y: &HistoryAlongY) -> Vec<Drawn> {
+    let x = scene.history;
+    let s = [&x.sliding_displacement_m[..], &y.sliding_displacement_m];
+    let friction = [&x.friction_force_n[..], &y.friction_force_n];
+    let mut figures =
+        vec![sliding_displacement(scene, s), orbits(scene, s, friction), accelerations(scene, y)];
+    figures.extend(drifts(scene, y));
+    figures
+}
+
+/// `|s|(t)` with its gap, then `s` along x and along y.
+fn sliding_displacement(scene: &Scene, s: Vector) -> Drawn {
+    let report = scene.report;
+    let demands = &report.summary.demands;
+    let peak_m = demands.peak_sliding_displacement_m;
+    let gap_m = report.model.slider().gap_m().filter(|gap| *gap <= 4.0 * peak_m);
+    let unit = report.display.unit(Quantity::Length, gap_m.unwrap_or(peak_m).max(peak_m));
+    let norm = Trace::with_peak(scene.over_time(unit, |knot| norm(s, knot)), unit.of(peak_m));
+    let largest = gap_m.map_or(0.0, |gap| unit.of(gap));
+    let y = Axis::from_zero(unit.label("Sliding displacement |s|"), norm.values().chain([largest]));
+    let mut resultant = Panel { y, ..history_panel(scene, "", norm, unit) };
+    resultant.limits.extend(gap_m.map(|gap| {
+        let label = format!("gap {} {}", compact(unit.of(gap)), unit.symbol);
+        Limit { value: unit.of(gap), label, style: Style::LIMIT }
+    }));
+    let mut panels = vec![resultant];
+    panels.extend(by_axis(scene, "Sliding displacement s", unit, s, |axis| {
+        axis.peak_sliding_displacement_m
+    }));
+    let caption = format!(
+        "Sliding displacement of the block relative to the ground: its size, along x and along y. \
+         {SHADING}{}",
+        demands.gap_ratio.map_or(String::new(), |ratio| format!(
+            " Its peak uses {} % of the gap.",
+            printed(100.0 * ratio, 3)
+        ))
+    );
+    over_time(scene, ("sliding-displacement", "Sliding displacement over time"), panels, caption)
+}
+
+/// The orbit of `s` inside its gap, and that of the friction force inside `μ_s N`.
+fn orbits(scene: &Scene, s: Vector, friction: Vector) -> Drawn {
+    let (report, model) = (scene.report, scene.report.model);
+    let demands = &report.summary.demands;
+    let gap_m =
+        model.slider().gap_m().filter(|gap| *gap <= 4.0 * demands.peak_sliding_displacement_m);
+    let [static_n, kinetic_n] =
+        [model.static_friction(), model.kinetic_friction()].map(|[mu, _]| mu * model.normal_n());
+    let length = report.display.unit(Quantity::Length, demands.peak_sliding_displacement_m);
+    let force = report.display.unit(Quantity::Force, demands.peak_friction_force_n);
+    let gap = gap_m.map(|gap| ("gap", Style::LIMIT, length.of(gap)));
+    let mut bounds = vec![("static friction μₛ N", Style::DASHED, force.of(static_n))];
+    if kinetic_n != static_n {
+        bounds.push(("kinetic friction μₖ N", Style::DOTTED, force.of(kinetic_n)));
+    }
+    let panels = vec![
+        orbit("Sliding displacement s", length, s, &Vec::from_iter(gap)),
+        orbit("Friction force T", force, friction, &bounds),
+    ];
+    let varies = if report.motion.vertical_m_per_s2().is_some() {
+        " The circles are those of the weight; the vertical motion changes the normal force."
+    } else {
+        ""
+    };
+    let caption = format!(
+        "Left: the path of the block over the ground, seen from above{}. Right: the force of the ground \
+         on the block by friction, which stays inside the circle of static friction while the block \
+         sticks and lies on that of kinetic friction, against the velocity, while it slides.{varies}",
+        if gap_m.is_some() { ", inside its gap" } else { "" }
+    );
+    let figure = Figure {
+        id: "orbits",
+        title: "Orbits of sliding displacement and friction force".to_owned(),
+        description: caption.clone(),
+        layout: Layout::Square,
+        panels,
+        shaded: Vec::new(),
+    };
+    drawn(&figure, caption)
+}
+
+/// The orbit of a vector, with circles around it.
+fn orbit(label: &str, unit: Unit, vector: Vector, circles: &[(&str, Style, f64)]) -> Panel {
+    let [x, y] = vector;
+    let points: Vec<[f64; 2]> = x.iter().zip(y).map(|(x, y)| [unit.of(*x), unit.of(*y)]).collect();
+    let radii = circles.iter().map(|(.., radius)| *radius);
+    let largest: Vec<f64> = points.iter().flatten().copied().chain(radii).collect();
+    let axis = |name: &str| {
+        Axis::symmetric(unit.label(&format!("{label} along {name}")), largest.iter().copied())
+    };
+    let circle = |(label, style, radius): &(&str, Style, f64)| Series {
+        label: (*label).to_owned(),
+        style: *style,
+        shape: Shape::Curve,
+        points: (0..=120)
+            .map(|i| {
+                let (sin, cos) = libm::sincos(TAU * f64::from(i) / 120.0);
+                [radius * cos, radius * sin]
+            })
+            .collect(),
+    };
+    let mut series: Vec<Series> = circles.iter().map(circle).collect();
+    let (style, shape) = (Style::MAIN, Shape::Curve);
+    series.push(Series { label: String::new(), style, shape, points });
+    Panel {
+        x: axis("x"),
+        y: axis("y"),
+        height: 0.0,
+        series,
+        limits: Vec::new(),
+        peak: None,
+        note: String::new(),
+    }
+}
+
+/// Total accelerations of ground, block and floors along x and along y.
+fn accelerations(scene: &Scene, y: &HistoryAlongY) -> Drawn {
+    let (report, x) = (scene.report, scene.history);
+    let names = &report.summary.names;
+    let unit = report.display.unit(Quantity::Acceleration, report.summary.record.pga_m_per_s2);
+    let of = |name: &str| format!("{} acceleration", shortened(name, 24));
+    let ground = [&x.table_acceleration_m_per_s2[..], &y.table_acceleration_m_per_s2];
+    let block = [&x.block_acceleration_m_per_s2[..], &y.block_acceleration_m_per_s2];
+    let mut panels = by_axis(scene, "Ground acceleration", unit, ground, |_| 0.0);
+    let block_peak = |axis: &Demands| axis.peak_block_acceleration_m_per_s2;
+    panels.extend(by_axis(scene, &of(names.block()), unit, block, block_peak));
+    let peaks: Vec<f64> = storey_peaks(scene, |storey| storey.peak_acceleration_m_per_s2);
+    let shown = shown_storeys(&peaks);
+    for &i in &shown {
+        let floor = [&x.storey_acceleration_m_per_s2, &y.storey_acceleration_m_per_s2]
+            .map(|all| of_storey(x, all, i));
+        let name = of(&names.storey(i + 1));
+        let vector = [&floor[0][..], &floor[1]];
+        panels.extend(by_axis(scene, &name, unit, vector, |axis| {
+            axis.storeys[i].peak_acceleration_m_per_s2
+        }));
+    }
+    let caption = format!(
+        "Total accelerations along x and along y, each on its own scale. {SHADING}{}",
+        shown_note(&shown, x.storeys)
+    );
+    let title = "Accelerations of ground, block and storeys over time";
+    over_time(scene, ("accelerations", title), panels, caption)
+}
+
+/// Drift of storeys along x and along y; none without storeys.
+fn drifts(scene: &Scene, y: &HistoryAlongY) -> Option<Drawn> {
+    let (report, x) = (scene.report, scene.history);
+    let peaks = storey_peaks(scene, |storey| storey.peak_drift_m);
+    let unit = report.display.unit(Quantity::Length, peaks.iter().copied().fold(0.0, f64::max));
+    let shown = shown_storeys(&peaks);
+    let mut panels = Vec::new();
+    for &i in &shown {
+        let drift = [&x.storey_displacement_m, &y.storey_displacement_m].map(|all| {
+            let (own, below) =
+                (of_storey(x, all, i), i.checked_sub(1).map(|i| of_storey(x, all, i)));
+            match below {
+                None => own,
+                Some(below) => own.iter().zip(below).map(|(own, below)| own - below).collect(),
+            }
+        });
+        let name = format!("{} drift", shortened(&report.summary.names.storey(i + 1), 24));
+        panels.extend(by_axis(scene, &name, unit, [&drift[0], &drift[1]], |axis| {
+            axis.storeys[i].peak_drift_m
+        }));
+    }
+    let caption = format!(
+        "Drift of each storey along x and along y: displacement of its floor relative to the floor below \
+         (storey 1: relative to the block). {SHADING}{}",
+        shown_note(&shown, x.storeys)
+    );
+    (!panels.is_empty())
+        .then(|| over_time(scene, ("drifts", "Storey drifts over time"), panels, caption))
+}
+
+fn storey_peaks(scene: &Scene, of: fn(&slipstick::response::StoreyDemands) -> f64) -> Vec<f64> {
+    scene.report.summary.demands.storeys.iter().map(of).collect()
+}
+
+/// A storey's quantity at the knots, of what is stored knot by knot.
+fn of_storey(history: &History, all: &[f64], storey: usize) -> Vec<f64> {
+    all.iter().skip(storey).step_by(history.storeys).copied().collect()
+}
+
+fn norm([x, y]: Vector, knot: usize) -> f64 {
+    libm::hypot(x[knot], y[knot])
+}
+
+/// A panel an axis, whose peaks are those of the demands by axis.
+fn by_axis(
+    scene: &Scene,
+    quantity: &str,
+    unit: Unit,
+    vector: Vector,
+    peak: impl Fn(&Demands) -> f64,
+) -> Vec<Panel> {
+    let demands = scene.report.summary.by_axis.as_ref();
+    (0..2)
+        .map(|axis| {
+            let points = scene.over_time(unit, |knot| vector[axis][knot]);
+            let peak = demands.map_or(0.0, |demands| peak(&demands.demands[axis]));
+            let trace = Trace::with_peak(points, unit.of(peak));
+            history_panel(scene, &format!("{quantity} along {}", AXES[axis]), trace, unit)
+        })
+        .collect()
+}
