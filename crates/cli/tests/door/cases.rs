@@ -7,15 +7,15 @@ use serde_json::Value;
 
 use super::support::{Folder, cells, column, text};
 
-fn number(value: &Value) -> f64 {
+pub fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("expected a number, found {value}"))
 }
 
-fn numbers(value: &Value) -> Vec<f64> {
+pub fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(number).collect()
 }
 
-fn name(value: &Value) -> &str {
+pub fn name(value: &Value) -> &str {
     value.as_str().unwrap()
 }
 

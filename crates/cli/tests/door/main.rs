@@ -13,6 +13,7 @@ mod json;
 mod laboratory;
 mod options;
 mod paper;
+mod plane;
 mod readme;
 mod record;
 mod records;
