@@ -66,11 +66,11 @@ fn a_slip_between_two_knots_raises_no_alarm() {
 }
 
 /// A jump that asks less after it than before, a last pass that changed a rate by 1e-10, a block held
-/// because its contents slide, friction that had faded and came back within a series, and bounces 1e-12 s
-/// apart.
+/// because its contents slide, friction that had faded and came back within a series, bounces 1e-12 s
+/// apart, and surfaces whose springs add to the force at rest.
 #[test]
 fn systems_that_once_raised_an_alarm_raise_none() {
-    for seed in [453, 979, 5731, 5945, 7650, 11095, 18775, 19146, 28686, 33625] {
+    for seed in [453, 979, 5731, 5945, 7556, 7650, 11095, 18775, 19146, 25664, 28686, 33625] {
         assert_eq!(alarm(seed), None, "{seed}");
     }
 }

@@ -261,11 +261,12 @@ impl<'a> Judge<'a> {
                 inputs.extend(&pulls);
                 (outputs, inputs)
             });
-            // What is held with a margin passes no peak of `T` that is as near to what holds at most.
+            // What is held with a margin passes no peak of `T` that is as near to what holds at most. The
+            // springs of surfaces in series add to that without limit.
             let held_n = (1.0 - margin) * self.law.most() * normal;
             let alike = self.structure.spring == 0.0 && kind.key.push == [0.0; 2];
             let outputs = if alike { &[FRICTION, SLIDER][..] } else { &[FRICTION] };
-            let holds = even.holds();
+            let holds = even.holds() && self.law.series.is_none();
             let settled = outputs.iter().filter(|&&g| holds && self.attained[g] >= held_n);
             even.settle(settled);
             let (off, largest) = kind.spread.look(batches, &self.attained);
