@@ -40,7 +40,7 @@ PARTS: list[tuple[str, list[tuple[str, Any]]]] = [
         "Suites of records",
         [
             (f"slipstick.{name}", getattr(ss, name))
-            for name in ["spectrum", "ida", "fragility", "design", "Assessment"]
+            for name in ["suite", "spectrum", "ida", "fragility", "design", "Assessment"]
         ],
     ),
     (

@@ -1,16 +1,18 @@
 //! What is typed: commands, options and the help that teaches them.
 
 mod assessment;
+mod fields;
 mod laboratory;
 
 pub use assessment::{AssessArgs, FragilityArgs, SuiteArgs};
-pub use laboratory::{
-    CompareArgs, CyclicArgs, FreeVibrationArgs, IdentifyCommand, Part, ResultArgs, ShakingTableArgs,
-};
+pub use fields::Fields;
+pub use laboratory::{CompareArgs, IdentifyCommand, ResultArgs, TestArgs};
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use slipstick::record::{Quantity, Units};
+use slipstick::requests::Kind;
 use slipstick::units::{Dimension, Unit, parse_quantity};
 use slipstick_files::RecordOptions;
 use slipstick_report::DisplayUnits;
@@ -111,16 +113,16 @@ pub enum Command {
     Compare(CompareArgs),
     /// Compute sliding spectra over a suite of records, or response over excitation frequency
     #[command(after_help = assessment::SPECTRUM_EXAMPLES)]
-    Spectrum(AssessArgs<{ assessment::SPECTRUM }>),
+    Spectrum(AssessArgs<{ Kind::Spectrum as usize }>),
     /// Raise the intensity of every record of a suite until a demand reaches its limit
     #[command(after_help = assessment::IDA_EXAMPLES)]
-    Ida(AssessArgs<{ assessment::IDA }>),
+    Ida(AssessArgs<{ Kind::Ida as usize }>),
     /// Fit fragility curves, the probability of exceeding a limit, with confidence intervals
     #[command(after_help = assessment::FRAGILITY_EXAMPLES)]
     Fragility(FragilityArgs),
     /// Find the friction and stiffness that stay within a gap with a given probability
     #[command(after_help = assessment::DESIGN_EXAMPLES)]
-    Design(AssessArgs<{ assessment::DESIGN }>),
+    Design(AssessArgs<{ Kind::Design as usize }>),
     /// Inspect, convert, process and plot records
     #[command(subcommand, after_help = crate::record_args::EXAMPLES)]
     Record(crate::record_args::RecordCommand),
@@ -175,44 +177,41 @@ pub struct RunArgs {
     #[arg(long, value_name = "PATTERN", num_args = 1.., help_heading = "Ground motion")]
     pub second: Vec<String>,
     /// Spectrum that pairs are scaled to: a CSV with the columns period_s and sa_g
-    #[arg(long, value_name = "FILE", requires = "second", requires = "periods", conflicts_with_all = ["scale", "scale_to"], help_heading = "Ground motion")]
+    #[arg(long, value_name = "FILE", requires = "second", help_heading = "Ground motion")]
     pub target: Option<PathBuf>,
-    /// The same in the shape of ASCE/SEI 7: "sds = 1.2 g, sd1 = 0.8 g, tl = 8 s"
-    #[arg(long, value_name = "VALUES", requires = "second", requires = "periods", conflicts_with_all = ["target", "scale", "scale_to"], help_heading = "Ground motion")]
-    pub code_spectrum: Option<String>,
-    /// First and last period of the range in which pairs are scaled to the spectrum: "0.6 s..3.8 s"
-    #[arg(long, value_name = "FROM..TO", requires = "second", help_heading = "Ground motion")]
-    pub periods: Option<String>,
-    /// Number of threads of a suite; default: one per processor
-    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub jobs: Option<u16>,
     /// What the file does not state
     #[command(flatten)]
     pub record: RecordArgs,
-    /// Factor on the record, that of the model or of --motion; may be negative
-    #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, help_heading = "Ground motion")]
-    pub scale: Option<String>,
-    /// Peak acceleration to scale the record to: "0.3 g"; of a suite the value of --measure
-    #[arg(long, value_name = "PEAK", conflicts_with = "scale", help_heading = "Ground motion")]
-    pub scale_to: Option<String>,
-    /// Intensity measure by which a suite is scaled: PGA where none is given, Sa(1.2 s), of pairs
-    /// RotD50(1.2 s), …
-    #[arg(long, value_name = "NAME", requires = "scale_to", help_heading = "Ground motion")]
-    pub measure: Option<String>,
-
-    /// Method: exact, or stepwise as in the program of the paper
-    #[arg(long, value_enum)]
-    pub method: Option<MethodName>,
+    /// Number of threads of a suite
+    #[command(flatten)]
+    pub threads: Threads,
+    /// What is asked of one motion
+    #[command(flatten)]
+    pub one: Fields<{ Kind::Run as usize }>,
+    /// What is asked of a suite
+    #[command(flatten)]
+    pub suite: Fields<{ Kind::Suite as usize }>,
     /// Set a key of the model by its path, such as slider.gap="150 mm"; may be repeated, the last one counts
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// Add 5 % floor response spectra of ground, block and storeys to report and JSON
-    #[arg(long)]
-    pub floor_spectrum: bool,
-
     /// What becomes of the result
     #[command(flatten)]
     pub result: ResultArgs,
+}
+
+/// The threads that share out runs.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Threads {
+    /// Number of threads; default: one per processor
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+}
+
+impl Threads {
+    /// Their number, where it is given.
+    pub fn number(self) -> Option<usize> {
+        self.jobs.map(usize::from)
+    }
 }
 
 /// The value of an option, in SI.
@@ -296,9 +295,9 @@ pub struct StudyArgs {
     /// Start over: remove what an earlier study wrote into this folder
     #[arg(long)]
     pub force: bool,
-    /// Number of threads; default: one per processor
-    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub jobs: Option<u16>,
+    /// Number of threads
+    #[command(flatten)]
+    pub threads: Threads,
     /// Run only shard i of n, counted from 1
     #[arg(long, value_name = "i/n")]
     pub shard: Option<String>,
@@ -312,8 +311,8 @@ pub struct StudyArgs {
     #[arg(long, conflicts_with_all = ["dry_run", "repeat"])]
     pub report: bool,
     /// Units of table and page; other files are always SI
-    #[arg(long, value_name = "SYSTEM", value_enum, default_value = "si")]
-    pub display_units: UnitSystem,
+    #[arg(long, value_name = "SYSTEM", value_parser = unit_systems(), default_value = "si")]
+    pub display_units: DisplayUnits,
     /// Print nothing on standard error but errors
     #[arg(short, long)]
     pub quiet: bool,
@@ -376,44 +375,16 @@ pub struct SchemaArgs {
     /// Print the schema of a study plan, instead of that of a model
     #[arg(long, conflicts_with = "units")]
     pub plan: bool,
-    /// Print what may be asked of spectrum, ida, fragility and design, with the defaults
+    /// Print what may be asked of every analysis, with the defaults
     #[arg(long, conflicts_with_all = ["units", "plan"])]
     pub requests: bool,
 }
 
-/// Methods by their names in the model file.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum MethodName {
-    /// Linear phases exactly, events located
-    Exact,
-    /// The paper's trapezoidal rule with iteration
-    Stepwise,
-}
-
-/// Systems of units for what people read.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum UnitSystem {
-    /// m, m/s, m/s², N
-    Si,
-    /// As si, accelerations in g
-    #[value(name = "si-g")]
-    SiG,
-    /// kN and mm
-    #[value(name = "kN-mm", alias = "kn-mm")]
-    KnMm,
-    /// kip and in
-    Us,
-}
-
-impl From<UnitSystem> for DisplayUnits {
-    fn from(system: UnitSystem) -> Self {
-        match system {
-            UnitSystem::Si => Self::Si,
-            UnitSystem::SiG => Self::SiG,
-            UnitSystem::KnMm => Self::KnMm,
-            UnitSystem::Us => Self::Us,
-        }
-    }
+/// The systems of units for what people read, by their names.
+pub fn unit_systems() -> impl TypedValueParser<Value = DisplayUnits> {
+    let value = |(name, _, about)| PossibleValue::new(name).help(about);
+    let of_name = |name: String| DisplayUnits::of_name(&name).unwrap_or_default();
+    PossibleValuesParser::new(DisplayUnits::NAMES.map(value)).map(of_name)
 }
 
 /// Example models.

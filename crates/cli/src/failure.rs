@@ -5,8 +5,10 @@ use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
-use slipstick::error::{InputError, is_hidden, visible};
+use slipstick::assessment::AssessmentError;
+use slipstick::error::{ChoiceError, InputError, is_hidden, visible};
 use slipstick::record;
+use slipstick::requests::Door;
 use slipstick_files::{FileError, JobError, LaboratoryError, StudyError};
 
 /// Bad input, or an output that nobody reads any more.
@@ -109,9 +111,28 @@ fn excerpt(error: &InputError, text: &str) -> Option<String> {
     Some(renderer.render(&[Level::ERROR.primary_title(&error.found).element(snippet)]))
 }
 
+impl From<ChoiceError> for Failure {
+    fn from(error: ChoiceError) -> Self {
+        Self::Message(Door::Command.says(&error).to_string())
+    }
+}
+
+/// An error of an analysis that has no model text to point into.
+impl From<AssessmentError> for Failure {
+    fn from(error: AssessmentError) -> Self {
+        match error {
+            AssessmentError::Choice(error) => error.into(),
+            other => Self::Message(other.to_string()),
+        }
+    }
+}
+
 impl From<LaboratoryError> for Failure {
     fn from(error: LaboratoryError) -> Self {
-        Self::Message(error.to_string())
+        match error {
+            LaboratoryError::Choice(error) => error.into(),
+            other => Self::Message(other.to_string()),
+        }
     }
 }
 

@@ -3,7 +3,9 @@
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
-use crate::args::{RecordArgs, UnitSystem};
+use slipstick_report::DisplayUnits;
+
+use crate::args::{RecordArgs, unit_systems};
 
 /// Below the help of `slipstick record`.
 pub const EXAMPLES: &str = "\
@@ -71,8 +73,8 @@ pub struct InfoArgs {
     #[arg(long)]
     pub json: bool,
     /// Units of the table; JSON is always SI
-    #[arg(long, value_name = "SYSTEM", value_enum, default_value = "si")]
-    pub display_units: UnitSystem,
+    #[arg(long, value_name = "SYSTEM", value_parser = unit_systems(), default_value = "si")]
+    pub display_units: DisplayUnits,
 }
 
 /// `slipstick record convert`.
@@ -180,6 +182,6 @@ pub struct PlotArgs {
     #[arg(long, value_name = "DAMPING")]
     pub damping: Vec<String>,
     /// Units of the axes
-    #[arg(long, value_name = "SYSTEM", value_enum, default_value = "si")]
-    pub display_units: UnitSystem,
+    #[arg(long, value_name = "SYSTEM", value_parser = unit_systems(), default_value = "si")]
+    pub display_units: DisplayUnits,
 }

@@ -5,11 +5,19 @@
 //! its own words.
 
 mod fields;
+mod kinds;
+mod laboratory;
+mod single;
+mod suite;
 
-pub use fields::{Field, Kind, Request, Takes, table};
+pub use fields::{Door, Field, Request, Takes};
+pub use kinds::{Kind, NOT_OFFERED, table};
+pub use laboratory::Comparing;
+pub use single::Single;
 
 use crate::assessment::design::{DesignRequest, DesignRun, Target, run_design};
 use crate::assessment::grid::levels;
+use crate::assessment::histories::Histories;
 use crate::assessment::ida::{IdaLevels, IdaRequest, IdaRun, run_ida};
 use crate::assessment::models::Models;
 use crate::assessment::observed::{
@@ -19,14 +27,14 @@ use crate::assessment::observed::{
 use crate::assessment::spectrum::{SpectrumRequest, SpectrumRun, run_spectrum};
 use crate::assessment::suite::{Scaling, Suite, times};
 use crate::assessment::{AssessmentError, refuse};
-use crate::error::{ChoiceError, MeasureError, UnitError};
+use crate::error::{ChoiceError, MeasureError};
 use crate::input::{Analysis, Bound, FrictionBounds, Override};
 use crate::motion::intensity::Measure;
 use crate::notice::Notice;
 use crate::response::DemandColumn;
 use crate::study::engine::Engine;
 use crate::table::Table;
-use crate::units::{Dimension, parse_quantity};
+use crate::units::Dimension;
 
 /// The demand that gaps limit.
 const SLIDING: &str = "peak_sliding_displacement_m";
@@ -85,6 +93,8 @@ pub struct Answer {
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant, reason = "there is one of it an analysis")]
 pub enum Results {
+    /// Models on the records of suites, side by side.
+    Suite(Histories),
     /// A sliding spectrum.
     Spectrum(SpectrumRun),
     /// An incremental dynamic analysis.
@@ -149,11 +159,18 @@ impl Request {
     /// # Errors
     /// [`AssessmentError`], a choice by the name of its field.
     pub fn run(&self, on: &On<'_>, engine: &Engine<'_>) -> Result<Answer, AssessmentError> {
+        if on.suite.has_pairs() && self.kind() != Kind::Ida {
+            let expected = "an analysis that knows what a pair is: ida or response histories";
+            return Err(refuse("second", expected, self.kind().name()));
+        }
         let (found, scaled) = match self.kind() {
             Kind::Spectrum => self.spectrum(on, engine)?,
             Kind::Ida => (self.ida(on, engine)?, String::new()),
             Kind::Design => self.design(on, engine)?,
-            Kind::Fragility => return Err(refuse("source", "a table of runs", "a model")),
+            kind => {
+                let expected = "an analysis over a suite: spectrum, ida or design";
+                return Err(refuse("kind", expected, kind.name()));
+            }
         };
         Ok(Answer {
             name: on.name.to_owned(),
@@ -274,7 +291,7 @@ impl Request {
     ) -> Result<IdaLevels, AssessmentError> {
         if let Some(text) = self.given("scale-to") {
             if self.given("between").is_some() {
-                return Err(refuse("between", "a hunt, without scale-to", "both"));
+                return Err(refuse("between", "a hunt, without `scale-to`", "both"));
             }
             return Ok(IdaLevels::Fixed(levels("scale-to", text, measure)?));
         }
@@ -297,7 +314,7 @@ impl Request {
         engine: &Engine<'_>,
     ) -> Result<(Results, String), AssessmentError> {
         if self.given("friction").is_none() && self.given("vary").is_none() {
-            let expected = "something to vary, friction or slider.radius=1..5m:50";
+            let expected = "something to vary, `friction` or slider.radius=1..5m:50";
             return Err(refuse("vary", expected, "nothing"));
         }
         let models = self.models(on, None)?;
@@ -356,19 +373,14 @@ impl Request {
     }
 
     fn measure(&self) -> Result<Measure, AssessmentError> {
-        let name = self.one("measure");
-        Measure::parse(name).map_err(|error| {
-            let MeasureError { expected, found, nearest } = error;
-            let (what, found) = ("measure".to_owned(), format!("{found:?}"));
-            AssessmentError::Choice(ChoiceError { what, expected, found, nearest })
-        })
+        Ok(Measure::parse(self.one("measure")).map_err(of_measure)?)
     }
 
     /// How records are scaled, and that in words.
     fn scaling(&self) -> Result<(Scaling, String), AssessmentError> {
         if let Some(level) = self.given("scale-to") {
             if self.given("scale").is_some() {
-                return Err(refuse("scale", "only one of scale and scale-to", "both"));
+                return Err(self.two_scales().into());
             }
             return Scaling::to_level("scale-to", self.measure()?, level);
         }
@@ -381,33 +393,13 @@ impl Request {
         let wanted = Some(self.one("bounds")).filter(|name| *name != "all");
         Ok(FrictionBounds::chosen(on.analysis.friction_bounds, wanted)?)
     }
+}
 
-    fn number(
-        &self,
-        name: &str,
-        expected: &str,
-        fits: impl Fn(f64) -> bool,
-    ) -> Result<f64, AssessmentError> {
-        let text = self.one(name);
-        let number = text.trim().parse::<f64>().ok().filter(|n| n.is_finite() && fits(*n));
-        number.ok_or_else(|| refuse(name, expected, format!("{text:?}")))
-    }
-
-    /// A share strictly between 0 and 1.
-    fn share(&self, name: &str) -> Result<f64, AssessmentError> {
-        self.number(name, "a share between 0 and 1", |share| share > 0.0 && share < 1.0)
-    }
-
-    fn count(&self, name: &str, least: u64, most: u64) -> Result<u64, AssessmentError> {
-        let text = self.one(name);
-        let count = text.trim().parse::<u64>().ok().filter(|n| (least..=most).contains(n));
-        let expected = || format!("a whole number from {least} to {most}");
-        count.ok_or_else(|| refuse(name, expected(), format!("{text:?}")))
-    }
-
-    fn seed(&self) -> Result<u64, AssessmentError> {
-        self.count("seed", 0, u64::MAX)
-    }
+/// A measure that is none.
+fn of_measure(error: MeasureError) -> ChoiceError {
+    let MeasureError { expected, found, nearest } = error;
+    let (what, found) = ("measure".to_owned(), format!("{found:?}"));
+    ChoiceError { what, expected, found, nearest }
 }
 
 /// Two factors on friction that rise, `0.8,1.3`.
@@ -445,12 +437,7 @@ pub fn measured(key: &str) -> (Option<Dimension>, &str) {
 fn limit(what: &str, text: &str, demand: &str) -> Result<f64, AssessmentError> {
     let refused = |expected: &str| refuse(what, expected, format!("{text:?}"));
     let value = match measured(demand).0 {
-        Some(dimension) => {
-            parse_quantity(text, dimension).map_err(|UnitError { expected, found, nearest }| {
-                let what = what.to_owned();
-                AssessmentError::Choice(ChoiceError { what, expected, found, nearest })
-            })?
-        }
+        Some(dimension) => fields::quantity(what, text, dimension)?,
         None => text.trim().parse().map_err(|_| refused("a number"))?,
     };
     if value.is_finite() && value > 0.0 { Ok(value) } else { Err(refused("a limit > 0")) }

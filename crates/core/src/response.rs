@@ -46,6 +46,17 @@ pub enum Method {
     Stepwise,
 }
 
+impl Method {
+    /// Its name in the model file.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Stepwise => "stepwise",
+        }
+    }
+}
+
 /// What happened at an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EventKind {

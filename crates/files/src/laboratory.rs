@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use slipstick::error::InputError;
+use slipstick::error::{ChoiceError, InputError};
 use slipstick::input::{MAX_TEXT_BYTES, Mapping};
 use slipstick::laboratory::measured::{Measured, MeasuredError};
 use slipstick::record::{Column, Columns};
@@ -25,6 +25,9 @@ pub enum LaboratoryError {
     /// The mapping.
     #[error(transparent)]
     Mapping(#[from] InputError),
+    /// What is said of columns.
+    #[error(transparent)]
+    Choice(#[from] ChoiceError),
 }
 
 /// A text file that was read.
@@ -36,19 +39,26 @@ pub struct TextFile {
     pub text: String,
 }
 
-/// Reads a mapping file, if there is one, and the options that add to it.
+/// Reads what is said of columns: `QUANTITY=COLUMN`, and the path of a mapping file that says more.
 ///
 /// # Errors
-/// [`LaboratoryError`] where the file cannot be read, and for faults of either.
-pub fn read_mapping(
-    path: Option<&Path>,
-    options: &[String],
-) -> Result<(Mapping, Option<TextFile>), LaboratoryError> {
-    let Some(path) = path else { return Ok((Mapping::parse(None, options)?, None)) };
-    let bytes = read_at_most(path, MAX_TEXT_BYTES as u64)?;
+/// [`LaboratoryError`] where the file cannot be read, for a second file, and for faults of either.
+pub fn read_mapping(said: &[String]) -> Result<(Mapping, Option<TextFile>), LaboratoryError> {
+    let (columns, files): (Vec<String>, Vec<String>) =
+        said.iter().cloned().partition(|text| text.contains('='));
+    let [path, more @ ..] = files.as_slice() else {
+        return Ok((Mapping::parse(None, &columns)?, None));
+    };
+    if let Some(found) = more.first() {
+        let (what, expected) =
+            ("mapping".to_owned(), "one mapping file, or QUANTITY=COLUMN".to_owned());
+        let found = format!("{found:?}");
+        return Err(ChoiceError { what, expected, found, nearest: None }.into());
+    }
+    let bytes = read_at_most(Path::new(path), MAX_TEXT_BYTES as u64)?;
     let text = String::from_utf8_lossy(&bytes).into_owned();
-    let mapping = Mapping::parse(Some((&path.display().to_string(), &text)), options)?;
-    let source = SourceFile { path: path.to_owned(), sha256: sha256_hex(&bytes) };
+    let mapping = Mapping::parse(Some((path, &text)), &columns)?;
+    let source = SourceFile { path: path.into(), sha256: sha256_hex(&bytes) };
     Ok((mapping, Some(TextFile { source, text })))
 }
 

@@ -107,8 +107,8 @@ impl OpenSuite {
         let read: Vec<_> = files.iter().map(PathBuf::as_path).zip(&loaded).collect();
         let same = refuse_unfit(&read, request.channel.is_some(), pairs)?;
         let mut open = Self::of(&stems_or_paths(&files), loaded, false);
-        for (i, record) in open.suite.records.iter_mut().enumerate() {
-            record.pair = pairs.then_some(i / 2);
+        if pairs {
+            open.suite.pair_up();
         }
         let warning = |kind| move |message| Notice::new(kind, message);
         open.warnings.extend(named_twice(&again).map(warning(NoticeKind::RecordNamedTwice)));

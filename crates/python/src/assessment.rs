@@ -6,10 +6,11 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slipstick::assessment::AssessmentError;
 use slipstick::assessment::suite::Suite;
+use slipstick::notice::Notice;
 use slipstick::record::Units;
-use slipstick::requests::{Answer, Field, Kind, On, Request, Runs, Takes};
+use slipstick::requests::{Answer, Kind, On, Runs};
 use slipstick_files::{
-    OpenSuite, SuiteError, SuiteRequest, files_of_runs, limit_of_ida, read_runs,
+    OpenSuite, SuiteError, SuiteRequest, files_of_runs, limit_of_ida, read_runs, read_target,
 };
 use slipstick_report::DisplayUnits;
 use slipstick_report::assessment::{Sheet, Went, answer};
@@ -17,6 +18,7 @@ use slipstick_report::assessment::{Sheet, Went, answer};
 use crate::errors::{of_argument, of_assessment, of_file};
 use crate::model::Model;
 use crate::motion::Motion;
+use crate::requests::{Asked, asked};
 use crate::table::Table;
 use crate::work::followed;
 
@@ -35,6 +37,7 @@ impl Assessment {
             Kind::Ida => "slipstick.ida(model, records)",
             Kind::Design => "slipstick.design(model, records, vary)",
             Kind::Fragility => "slipstick.fragility(table)",
+            _ => "slipstick.suite(models, records)",
         };
         let sheet = answer::sheet(&answer, DisplayUnits::Si);
         let new = |tabled: answer::Tabled| Ok((tabled.name, Py::new(py, Table(tabled.table))?));
@@ -105,31 +108,79 @@ pub(crate) fn read_suite(
     Ok(records.map(|record| (record.name, Motion::of(record.motion))).collect())
 }
 
+/// Records by their names.
+type Named = Vec<(String, Motion)>;
+
+/// The suite of records, of pairs with their other components; and what reading them gave notice of.
+fn suite_of(py: Python<'_>, records: Named, second: Named) -> PyResult<(Suite, Vec<Notice>)> {
+    let pairs = !second.is_empty();
+    if pairs && second.len() != records.len() {
+        let expected = format!("one other component for each of {} records", records.len());
+        return Err(of_argument(py, "second", &expected, &second.len().to_string()));
+    }
+    let mut others = second.into_iter();
+    let both = records.into_iter().flat_map(|first| [Some(first), others.next()]);
+    let read = both.flatten().map(|(name, motion)| (name, motion.0.loaded));
+    let (mut suite, warnings) = Suite::of(read, false);
+    if pairs {
+        suite.pair_up();
+    }
+    Ok((suite, warnings))
+}
+
+/// A model on a suite.
+fn on<'a>(name: &'a str, model: &'a Model, suite: &'a Suite, warnings: &'a [Notice]) -> On<'a> {
+    let (source, text, analysis) = (&model.source, model.text(), &model.analysis);
+    On { name, source, text, set: &[], analysis, suite, warnings }
+}
+
 /// An analysis of a model over records: a spectrum, an incremental dynamic analysis or a design.
 #[pyfunction]
-#[pyo3(signature = (kind, model, records, given, *, jobs = None, progress = None))]
+#[pyo3(signature = (kind, model, records, second, given, *, jobs = None, progress = None))]
+#[expect(clippy::too_many_arguments, reason = "the package calls it")]
 pub(crate) fn assess(
     py: Python<'_>,
     kind: &str,
     model: &Model,
-    records: Vec<(String, Motion)>,
-    given: Vec<(String, String)>,
+    records: Named,
+    second: Named,
+    given: Asked,
     jobs: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Assessment> {
-    let asked = asked(py, kind, &given)?;
-    let records = records.into_iter().map(|(name, motion)| (name, motion.0.loaded));
-    let (suite, warnings) = Suite::of(records, false);
-    let on = On {
-        name: model.name(),
-        source: &model.source,
-        text: model.text(),
-        set: &[],
-        analysis: &model.analysis,
-        suite: &suite,
-        warnings: &warnings,
-    };
+    let asked = asked(py, kind, given)?;
+    let (suite, warnings) = suite_of(py, records, second)?;
+    let on = on(model.name(), model, &suite, &warnings);
     let answer = followed(py, jobs, progress, |engine| asked.run(&on, engine))?;
+    Assessment::new(py, asked.kind(), answer.map_err(|error| of_assessment(py, &error))?)
+}
+
+/// Models on the same records, side by side.
+#[pyfunction]
+#[pyo3(signature = (models, records, second, given, *, target = None, jobs = None, progress = None))]
+#[expect(clippy::too_many_arguments, reason = "the package calls it")]
+pub(crate) fn suite(
+    py: Python<'_>,
+    models: Vec<(String, Model)>,
+    records: Named,
+    second: Named,
+    given: Asked,
+    target: Option<PathBuf>,
+    jobs: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Assessment> {
+    let asked = asked(py, Kind::Suite.name(), given)?;
+    let target = target.map(|path| {
+        let expected = "a CSV with the columns period_s and sa_g";
+        let read = read_target(&path).map_err(|found| of_argument(py, "target", expected, &found));
+        read.map(|(spectrum, _)| (path.display().to_string(), spectrum))
+    });
+    let target = target.transpose()?;
+    let (suite, warnings) = suite_of(py, records, second)?;
+    let on: Vec<On<'_>> =
+        models.iter().map(|(name, model)| on(name, model, &suite, &warnings)).collect();
+    let target = target.as_ref().map(|(name, spectrum)| (name.as_str(), spectrum.clone()));
+    let answer = followed(py, jobs, progress, |engine| asked.suite(&on, target, engine))?;
     Assessment::new(py, asked.kind(), answer.map_err(|error| of_assessment(py, &error))?)
 }
 
@@ -139,36 +190,15 @@ pub(crate) fn assess(
 pub(crate) fn fit(
     py: Python<'_>,
     table: &Table,
-    given: Vec<(String, String)>,
+    given: Asked,
     limit: Option<f64>,
     jobs: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Assessment> {
-    let asked = asked(py, Kind::Fragility.name(), &given)?;
+    let asked = asked(py, Kind::Fragility.name(), given)?;
     let runs = Runs { name: "table", source: "table", table: &table.0, limit };
     let answer = followed(py, jobs, progress, |engine| asked.fit(&runs, engine))?;
     Assessment::new(py, asked.kind(), answer.map_err(|error| of_assessment(py, &error))?)
-}
-
-fn asked(py: Python<'_>, kind: &str, given: &[(String, String)]) -> PyResult<Request> {
-    let names = Kind::ALL.map(Kind::name).join(", ");
-    let known = Kind::ALL.into_iter().find(|known| known.name() == kind);
-    let kind = known.ok_or_else(|| of_argument(py, "kind", &names, kind))?;
-    let given: Vec<(String, String)> =
-        given.iter().map(|(name, text)| (name.replace('_', "-"), text.clone())).collect();
-    let given = given.iter().map(|(name, text)| (name.as_str(), text.clone()));
-    Request::new(kind, given).map_err(|error| of_assessment(py, &AssessmentError::Choice(error)))
-}
-
-/// The fields of an analysis: name, whether it may be repeated, default, what it is.
-#[pyfunction]
-pub(crate) fn fields(kind: &str) -> Vec<(String, bool, &'static str, &'static str)> {
-    let kind = Kind::ALL.into_iter().find(|known| known.name() == kind);
-    let of = |field: &Field| {
-        let many = field.takes == Takes::Many;
-        (field.name.replace('-', "_"), many, field.default, field.about)
-    };
-    kind.map_or_else(Vec::new, |kind| kind.fields().iter().map(of).collect())
 }
 
 /// Reads the runs of a table or of a command's folder, and the limit on a demand that they were made for.
@@ -179,7 +209,7 @@ pub(crate) fn runs_of(
     source: PathBuf,
     demand: Option<&str>,
 ) -> PyResult<(Table, Option<f64>)> {
-    let asked = asked(py, Kind::Fragility.name(), &[])?;
+    let asked = asked(py, Kind::Fragility.name(), Vec::new())?;
     let limit = limit_of_ida(&source, demand.unwrap_or(asked.demand()));
     let read = py.detach(|| read_runs(&files_of_runs(&source)?));
     Ok((Table(read.map_err(|error| of_file(py, &error))?.table), limit))

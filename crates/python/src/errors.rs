@@ -7,11 +7,12 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slipstick::assessment::AssessmentError;
-use slipstick::error::{InputError, MotionError, RecordError, SolveError, UnitError};
+use slipstick::error::{ChoiceError, InputError, MotionError, RecordError, SolveError, UnitError};
 use slipstick::laboratory::compare::CompareError;
 use slipstick::laboratory::identify::IdentifyError;
 use slipstick::laboratory::measured::MeasuredError;
-use slipstick::laboratory::shaking_table::{ParameterError, TableError};
+use slipstick::laboratory::shaking_table::TableError;
+use slipstick::requests::Door;
 use slipstick_files::{FileError, JobError, LaboratoryError, StudyError};
 
 /// An exception of the package with fields.
@@ -45,30 +46,21 @@ pub(crate) fn of_input(py: Python<'_>, error: &InputError) -> PyErr {
 
 /// An argument that cannot be.
 pub(crate) fn of_argument(py: Python<'_>, path: &str, expected: &str, found: &str) -> PyErr {
-    of_choice(py, path, expected, found, None)
+    let (what, expected) = (path.to_owned(), expected.to_owned());
+    of_choice(py, &ChoiceError { what, expected, found: found.to_owned(), nearest: None })
 }
 
-/// An argument that cannot be, and what was probably meant.
-pub(crate) fn of_choice(
-    py: Python<'_>,
-    path: &str,
-    expected: &str,
-    found: &str,
-    nearest: Option<&str>,
-) -> PyErr {
-    let hint = nearest.map_or(String::new(), |nearest| format!("; nearest is \"{nearest}\""));
-    let message = format!("{path}: expected {expected}, found {found}{hint}");
-    exception(py, "InputError", &message, |fields| {
-        fields.set_item("path", path)?;
-        fields.set_item("expected", expected)?;
-        fields.set_item("found", found)?;
-        fields.set_item("nearest", nearest)
-    })
-}
-
+/// The same of an argument that is a quantity.
 pub(crate) fn of_unit(py: Python<'_>, path: &str, error: &UnitError) -> PyErr {
-    exception(py, "InputError", &format!("{path}: {error}"), |fields| {
-        fields.set_item("path", path)?;
+    let UnitError { expected, found, nearest } = error.clone();
+    of_choice(py, &ChoiceError { what: path.to_owned(), expected, found, nearest })
+}
+
+/// A field of a request that cannot be: it is a keyword here.
+pub(crate) fn of_choice(py: Python<'_>, error: &ChoiceError) -> PyErr {
+    let error = Door::Python.says(error);
+    exception(py, "InputError", &error.to_string(), |fields| {
+        fields.set_item("path", &error.what)?;
         fields.set_item("expected", &error.expected)?;
         fields.set_item("found", &error.found)?;
         fields.set_item("nearest", &error.nearest)
@@ -148,6 +140,7 @@ pub(crate) fn of_laboratory(py: Python<'_>, error: &LaboratoryError) -> PyErr {
         LaboratoryError::Measured(MeasuredError::File(error)) => of_record(py, error),
         LaboratoryError::Measured(MeasuredError::Mapping(error))
         | LaboratoryError::Mapping(error) => of_input(py, error),
+        LaboratoryError::Choice(error) => of_choice(py, error),
     }
 }
 
@@ -161,19 +154,11 @@ pub(crate) fn of_compare(py: Python<'_>, error: &CompareError) -> PyErr {
 
 pub(crate) fn of_identify(py: Python<'_>, error: &IdentifyError) -> PyErr {
     match error {
-        IdentifyError::Input(error) | IdentifyError::Parameter(ParameterError::Path(error)) => {
-            of_input(py, error)
-        }
-        IdentifyError::Parameter(ParameterError::Range { text, expected, found }) => {
-            of_argument(py, &format!("fit: {text}"), expected, found)
-        }
+        IdentifyError::Input(error) => of_input(py, error),
         IdentifyError::Measured(error) | IdentifyError::Table(TableError::Measured(error)) => {
             of_record(py, error)
         }
-        IdentifyError::Choice(error) => {
-            let path = error.what.replace('-', "_");
-            of_choice(py, &path, &error.expected, &error.found, error.nearest.as_deref())
-        }
+        IdentifyError::Choice(error) => of_choice(py, error),
         IdentifyError::Table(TableError::Compare(error)) => of_compare(py, error),
         IdentifyError::Table(TableError::Stopped(_)) => PyKeyboardInterrupt::new_err(()),
         other => exception(py, "StudyError", &other.to_string(), |_| Ok(())),
@@ -183,11 +168,7 @@ pub(crate) fn of_identify(py: Python<'_>, error: &IdentifyError) -> PyErr {
 pub(crate) fn of_assessment(py: Python<'_>, error: &AssessmentError) -> PyErr {
     match error {
         AssessmentError::Input(error) => of_input(py, error),
-        AssessmentError::Choice(error) => {
-            // A field is a keyword here.
-            let path = error.what.replace('-', "_");
-            of_choice(py, &path, &error.expected, &error.found, error.nearest.as_deref())
-        }
+        AssessmentError::Choice(error) => of_choice(py, error),
         AssessmentError::Motion(error) => of_motion(py, error),
         AssessmentError::Stopped(_) => PyKeyboardInterrupt::new_err(()),
         other => exception(py, "StudyError", &other.to_string(), |_| Ok(())),

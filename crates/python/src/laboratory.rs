@@ -7,24 +7,19 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slipstick::input::Mapping;
 use slipstick::laboratory::compare::{self, Comparison as Compared, Within};
-use slipstick::laboratory::cyclic::KineticLaw;
 use slipstick::laboratory::estimate::Outcome;
-use slipstick::laboratory::identify::{
-    self, CyclicRequest, FreeVibrationRequest, Identified as Found, IdentifyError, ModelText,
-    ShakingTableRequest,
-};
+use slipstick::laboratory::identify::{Identified as Found, IdentifyError, ModelText};
 use slipstick::laboratory::measured::Measured;
 use slipstick::record::{Column, Columns};
+use slipstick::requests::{Comparing, Kind};
 use slipstick::table;
-use slipstick::units::{Dimension, parse_quantity};
 use slipstick_files::{SourceFile, TextFile, expand_all, read_mapping, read_measured, sha256_hex};
 use slipstick_report::{CompareReport, DisplayUnits, FileNote, IdentifyReport, InputText};
 
-use crate::errors::{
-    of_argument, of_choice, of_compare, of_file, of_identify, of_laboratory, of_unit,
-};
+use crate::errors::{of_choice, of_compare, of_file, of_identify, of_laboratory};
 use crate::model::Model;
 use crate::motion::Motion;
+use crate::requests::{Asked, asked};
 use crate::response::display_units;
 use crate::table::Table;
 use crate::work::followed;
@@ -43,9 +38,8 @@ pub(crate) struct Columned {
 }
 
 impl Columned {
-    fn new(py: Python<'_>, file: Option<&Path>, options: &[String]) -> PyResult<Self> {
-        let (mapping, file) =
-            read_mapping(file, options).map_err(|error| of_laboratory(py, &error))?;
+    fn new(py: Python<'_>, said: &[String]) -> PyResult<Self> {
+        let (mapping, file) = read_mapping(said).map_err(|error| of_laboratory(py, &error))?;
         Ok(Self { mapping, file })
     }
 
@@ -199,30 +193,26 @@ impl Comparison {
 
 /// Predicts a measured test and compares.
 #[pyfunction]
-#[pyo3(signature = (measured, model, *, mapping_file = None, mapping = Vec::new(), within = Vec::new()))]
+#[pyo3(signature = (measured, model, given))]
 pub(crate) fn compare_with(
     py: Python<'_>,
     measured: Given<'_>,
-    model: &Model,
-    mapping_file: Option<PathBuf>,
-    mapping: Vec<String>,
-    within: Vec<String>,
+    mut model: Model,
+    given: Asked,
 ) -> PyResult<Comparison> {
-    let within = within.iter().map(|text| {
-        Within::parse(text)
-            .map_err(|e| of_choice(py, "within", &e.expected, &e.found, e.nearest.as_deref()))
-    });
-    let within: Vec<Within> = within.collect::<PyResult<_>>()?;
-    let columned = Columned::new(py, mapping_file.as_deref(), &mapping)?;
+    let asked = asked(py, Kind::Compare.name(), given)?;
+    let Comparing { within, method } = asked.comparing().map_err(|error| of_choice(py, &error))?;
+    model.analysis.method = method.unwrap_or(model.analysis.method);
+    let columned = Columned::new(py, &asked.mapping())?;
     let (measured, source) = columned.read(py, &measured)?;
     let (of, method) = (&model.analysis.model, model.analysis.method);
     let comparison = followed(py, Some(1), None, |_| compare::compare(&measured, of, method))?;
     Ok(Comparison {
-        model: model.clone(),
         measured: measured.source_name,
         comparison: comparison.map_err(|error| of_compare(py, &error))?,
         within,
-        went_in: WentIn::of(Some(model), &[source], &columned),
+        went_in: WentIn::of(Some(&model), &[source], &columned),
+        model,
     })
 }
 
@@ -329,51 +319,20 @@ impl Identified {
     }
 }
 
-fn quantity(
-    py: Python<'_>,
-    name: &str,
-    text: Option<&str>,
-    dimension: Dimension,
-) -> PyResult<Option<f64>> {
-    let read = text.map(|text| parse_quantity(text, dimension)).transpose();
-    read.map_err(|error| of_unit(py, name, &error))
-}
-
-fn text_of(model: &Model) -> ModelText<'_> {
-    ModelText { name: &model.source, text: model.text(), set: &[] }
-}
-
-/// Friction, spring and damper from cyclic tests.
+/// Parameters of a model from tests: cyclic tests, free vibration or a shaking-table record.
 #[pyfunction]
-#[pyo3(signature = (
-    tests, *, mass = None, normal_force = None, model = None, spring = true, damper = true,
-    slack = None, law = "coulomb", mapping_file = None, mapping = Vec::new()
-))]
-#[expect(clippy::too_many_arguments, reason = "they have names in Python")]
-pub(crate) fn identify_cyclic(
+#[pyo3(signature = (kind, tests, model, given, *, jobs = None, progress = None))]
+pub(crate) fn identify(
     py: Python<'_>,
+    kind: &str,
     tests: Vec<Given<'_>>,
-    mass: Option<&str>,
-    normal_force: Option<&str>,
     model: Option<Model>,
-    spring: bool,
-    damper: bool,
-    slack: Option<&str>,
-    law: &str,
-    mapping_file: Option<PathBuf>,
-    mapping: Vec<String>,
+    given: Asked,
+    jobs: Option<usize>,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<Identified> {
-    let columned = Columned::new(py, mapping_file.as_deref(), &mapping)?;
-    quantity(py, "mass", mass, Dimension::Mass)?;
-    let normal_force_n = quantity(py, "normal_force", normal_force, Dimension::Force)?;
-    let slack_m = quantity(py, "slack", slack, Dimension::Length)?;
-    let Some(law) = KineticLaw::ALL.into_iter().find(|known| known.name() == law) else {
-        let expected = KineticLaw::ALL.map(|known| format!("{:?}", known.name())).join(" or ");
-        return Err(of_argument(py, "law", &expected, &format!("{law:?}")));
-    };
-    if mass.is_some() && model.is_some() {
-        return Err(of_argument(py, "mass", "mass or model", "both"));
-    }
+    let asked = asked(py, kind, given)?;
+    let columned = Columned::new(py, &asked.mapping())?;
     let (mut measured, mut sources) = (Vec::new(), Vec::new());
     for test in tests {
         let expanded = match test {
@@ -390,77 +349,14 @@ pub(crate) fn identify_cyclic(
             sources.push(source);
         }
     }
-    if measured.is_empty() {
-        return Err(of_argument(py, "tests", "at least one cyclic test", "none"));
-    }
-    let block = mass.map(identify::block_text);
-    let base = match (&model, &block) {
-        (Some(model), _) => Some(text_of(model)),
-        (None, Some(text)) => Some(ModelText { name: "mass", text, set: &[] }),
-        (None, None) => None,
-    };
-    let request = CyclicRequest { model: base, normal_force_n, slack_m, spring, damper, law };
-    let found = followed(py, Some(1), None, |_| identify::cyclic(&request, &measured))?;
+    let on = model.as_ref();
+    let on = on.map(|model| ModelText { name: &model.source, text: model.text(), set: &[] });
+    let found = followed(py, jobs, progress, |engine| asked.identify(on, &measured, engine))?;
     let went_in = WentIn::of(model.as_ref(), &sources, &columned);
-    Identified::new(py, "slipstick.identify.cyclic(tests)", measured, found, went_in)
-}
-
-/// Frequency and damping ratio from free vibration.
-#[pyfunction]
-#[pyo3(signature = (
-    measured, *, channel = None, start = None, end = None, model = None, mapping_file = None,
-    mapping = Vec::new()
-))]
-#[expect(clippy::too_many_arguments, reason = "they have names in Python")]
-pub(crate) fn identify_free_vibration(
-    py: Python<'_>,
-    measured: Given<'_>,
-    channel: Option<&str>,
-    start: Option<&str>,
-    end: Option<&str>,
-    model: Option<Model>,
-    mapping_file: Option<PathBuf>,
-    mapping: Vec<String>,
-) -> PyResult<Identified> {
-    let columned = Columned::new(py, mapping_file.as_deref(), &mapping)?;
-    let start_s = quantity(py, "start", start, Dimension::Time)?.unwrap_or(f64::NEG_INFINITY);
-    let end_s = quantity(py, "end", end, Dimension::Time)?.unwrap_or(f64::INFINITY);
-    let (measured, source) = columned.read(py, &measured)?;
-    let base = model.as_ref().map(text_of);
-    let request = FreeVibrationRequest { model: base, channel, span_s: [start_s, end_s] };
-    let found = followed(py, Some(1), None, |_| identify::free_vibration(&request, &measured))?;
-    let went_in = WentIn::of(model.as_ref(), &[source], &columned);
-    let call = "slipstick.identify.free_vibration(measured)";
-    Identified::new(py, call, vec![measured], found, went_in)
-}
-
-/// Keys of a model from a shaking-table record.
-#[pyfunction]
-#[pyo3(signature = (
-    measured, model, fit, *, using = Vec::new(), seed = 1, mapping_file = None,
-    mapping = Vec::new(), progress = None
-))]
-#[expect(clippy::too_many_arguments, reason = "they have names in Python")]
-pub(crate) fn identify_shaking_table(
-    py: Python<'_>,
-    measured: Given<'_>,
-    model: &Model,
-    fit: Vec<String>,
-    using: Vec<String>,
-    seed: u64,
-    mapping_file: Option<PathBuf>,
-    mapping: Vec<String>,
-    progress: Option<Py<PyAny>>,
-) -> PyResult<Identified> {
-    let columned = Columned::new(py, mapping_file.as_deref(), &mapping)?;
-    let (measured, source) = columned.read(py, &measured)?;
-    let fit: Vec<&str> = fit.iter().map(String::as_str).collect();
-    let using: Vec<&str> = using.iter().map(String::as_str).collect();
-    let request = ShakingTableRequest { model: text_of(model), fit: &fit, using: &using, seed };
-    let found = followed(py, Some(1), progress, |engine| {
-        identify::shaking_table(&request, &measured, engine)
-    })?;
-    let went_in = WentIn::of(Some(model), &[source], &columned);
-    let call = "slipstick.identify.shaking_table(measured, model, fit)";
-    Identified::new(py, call, vec![measured], found, went_in)
+    let call = match asked.kind() {
+        Kind::Cyclic => "slipstick.identify.cyclic(tests)",
+        Kind::FreeVibration => "slipstick.identify.free_vibration(measured)",
+        _ => "slipstick.identify.shaking_table(measured, model, fit)",
+    };
+    Identified::new(py, call, measured, found, went_in)
 }

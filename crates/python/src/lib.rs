@@ -5,6 +5,7 @@ mod errors;
 mod laboratory;
 mod model;
 mod motion;
+mod requests;
 mod response;
 mod study;
 mod table;
@@ -16,16 +17,15 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use super::assessment::{Assessment, assess, fields, fit, read_suite, runs_of};
+    use super::assessment::{Assessment, assess, fit, read_suite, runs_of, suite};
     #[pymodule_export]
-    use super::laboratory::{
-        Comparison, Identified, compare_with, identify_cyclic, identify_free_vibration,
-        identify_shaking_table,
-    };
+    use super::laboratory::{Comparison, Identified, compare_with, identify};
     #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]
     use super::motion::Motion;
+    #[pymodule_export]
+    use super::requests::{fields, levels};
     #[pymodule_export]
     use super::response::{Response, run};
     #[pymodule_export]

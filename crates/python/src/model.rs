@@ -12,7 +12,7 @@ use slipstick::units::Dimension;
 use slipstick_files::read_at_most;
 use slipstick_report::opensees::script;
 
-use crate::errors::{of_argument, of_choice, of_file, of_input};
+use crate::errors::{of_argument, of_file, of_input};
 use crate::motion::{Motion, quantity};
 
 /// A checked model: block, slider, storeys, perhaps its own motion and the method.
@@ -312,7 +312,7 @@ impl Model {
         let job = Job::new(self.analysis.clone(), loaded.motion.clone(), Vec::new());
         let job = job.map_err(|error| of_input(py, &error))?;
         script(&self.title(), &self.analysis.model, &job.motion, k_init)
-            .map_err(|e| of_choice(py, &e.what, &e.expected, &e.found, None))
+            .map_err(|e| of_argument(py, &e.what, &e.expected, &e.found))
     }
 
     fn __eq__(&self, other: &Self) -> bool {

@@ -21,12 +21,12 @@ use crate::work::interruptible;
 
 /// Runs a model on a motion, on its own where none is given.
 #[pyfunction]
-#[pyo3(signature = (model, motion = None, *, floor_spectra = false))]
+#[pyo3(signature = (model, motion = None, *, floor_spectrum = false))]
 pub(crate) fn run(
     py: Python<'_>,
     model: &Model,
     motion: Option<&Motion>,
-    floor_spectra: bool,
+    floor_spectrum: bool,
 ) -> PyResult<Response> {
     let in_plane = match motion {
         None => model.analysis.motion.as_ref().is_some_and(|source| source.key_of_y().is_some()),
@@ -55,7 +55,7 @@ pub(crate) fn run(
             }
         };
         ask()?;
-        let (outcome, summary) = job.run_while(floor_spectra, go_on)?;
+        let (outcome, summary) = job.run_while(floor_spectrum, go_on)?;
         Ok(Response { job, outcome, summary, took: start.elapsed() })
     };
     interruptible(py, work)?.map_err(|error| of_job(py, &error))
@@ -63,15 +63,9 @@ pub(crate) fn run(
 
 /// Units to show results in.
 pub(crate) fn display_units(py: Python<'_>, name: &str) -> PyResult<DisplayUnits> {
-    Ok(match name {
-        "si" => DisplayUnits::Si,
-        "si-g" => DisplayUnits::SiG,
-        "kn-mm" => DisplayUnits::KnMm,
-        "us" => DisplayUnits::Us,
-        _ => {
-            let expected = "\"si\", \"si-g\", \"kn-mm\" or \"us\"";
-            return Err(of_argument(py, "units", expected, &format!("{name:?}")));
-        }
+    DisplayUnits::of_name(name).ok_or_else(|| {
+        let names = DisplayUnits::NAMES.map(|(name, ..)| format!("{name:?}")).join(", ");
+        of_argument(py, "units", &format!("one of {names}"), &format!("{name:?}"))
     })
 }
 

@@ -79,7 +79,7 @@ def test_cyclic_tests_are_identified_as_by_the_command(tmp_path: Path) -> None:
     assert found.model is not None and found.model.toml == (out / "model.toml").read_text()
     assert len(found.tables["cycles"]) == sum(len(test["cycles"]) for test in found.summary["tests"])
     assert set(found.curves) == {str(path) for path in CYCLIC}
-    forces = ss.identify.cyclic(CYCLIC[2], spring=False, mapping={"zero": "as measured"})
+    forces = ss.identify.cyclic(CYCLIC[2], without=["spring"], mapping={"zero": "as measured"})
     assert "slider.kinetic_friction_force.positive" in forces.estimates and forces.model is None
 
 
@@ -99,7 +99,7 @@ def test_friction_that_follows_the_speed_is_identified_as_by_the_command() -> No
 
 def test_free_vibration_is_identified_as_by_the_command() -> None:
     found = ss.identify.free_vibration(PULL_BACK, start="1 s")
-    printed = command("identify", "free-vibration", PULL_BACK, "--from", "1 s", "--json", "-q")
+    printed = command("identify", "free-vibration", PULL_BACK, "--start", "1 s", "--json", "-q")
     assert found._core._summary_json() == printed
     assert found.estimates["storey.1.frequency"].value == pytest.approx(1.625, rel=1e-2)
     curve = found.curves["storey1_acceleration"]

@@ -407,9 +407,9 @@ def test_figures_return_axes(tmp_path: Path) -> None:
     plot = response.plot
     for draw in [plot.history, plot.acceleration, plot.energy, plot.drift, plot.demand]:
         assert draw().get_xlabel() == "time [s]"
-    with pytest.raises(ValueError, match="floor_spectra=True"):
+    with pytest.raises(ValueError, match="floor_spectrum=True"):
         plot.floor_spectra()
-    spectra = ss.run(response.model, floor_spectra=True).plot.floor_spectra()
+    spectra = ss.run(response.model, floor_spectrum=True).plot.floor_spectra()
     assert len(spectra.lines) == 3
     with pytest.raises(ValueError, match="contents"):
         plot.contents()
@@ -450,11 +450,49 @@ def test_ida_and_fragility_are_those_of_the_command(tmp_path: Path) -> None:
 
 
 def test_keywords_are_the_fields_of_the_request() -> None:
-    functions = [("spectrum", ss.spectrum), ("ida", ss.ida), ("fragility", ss.fragility)]
-    for kind, function in [*functions, ("design", ss.design)]:
-        keywords = set(inspect.signature(function).parameters)
-        keywords -= {"model", "records", "source", "jobs", "progress"}
-        assert keywords == {name for name, *_ in _core.fields(kind)}, kind
+    functions = [ss.run, ss.suite, ss.spectrum, ss.ida, ss.fragility, ss.design, ss.compare]
+    functions += [ss.identify.cyclic, ss.identify.free_vibration, ss.identify.shaking_table]
+    what_goes_in = {"model", "models", "motion", "records", "second", "target", "source", "tests", "measured"}
+    for function in functions:
+        keywords = inspect.signature(function).parameters
+        fields = {name: default for name, _, default, _ in _core.fields(function.__name__.replace("_", "-"))}
+        assert set(keywords) - what_goes_in - {"jobs", "progress"} == set(fields), function
+        # Defaults stand in the core alone.
+        for name in fields:
+            assert keywords[name].default in (None, (), False, inspect.Parameter.empty), name
+
+
+def test_a_suite_is_that_of_the_command(tmp_path: Path) -> None:
+    model, records = ss.Model.read(EXAMPLES / "taft.toml"), suite()
+    found = ss.suite(model, records, measure="PGV", scale_to="0.3 m/s")
+    path = tmp_path / "out"
+    names = [str(EXAMPLES / "records" / name) for name in ["taft-*.txt", "el-centro-180.txt"]]
+    files = ["--records", *names, "--units", "g", "--dt", "0.01 s"]
+    asked = ["--measure", "PGV", "--scale-to", "0.3 m/s", "--out", path, "--json", "-q"]
+    assert found._core._summary_json() == command("run", EXAMPLES / "taft.toml", *files, *asked)
+    assert found.table.to_csv() == (path / "runs.csv").read_text()
+    pairs = {name: records[name] for name in list(records)[:2]}
+    other = dict(reversed(pairs.items()))
+    both = ss.suite({"a": model, "b": model}, pairs, second=other, scale=2.0)
+    assert len(both.table) == 2 * 4 * 3 and "pair" in both.table.columns
+    with pytest.raises(ss.InputError, match="^scale: expected only one of scale and scale_to, found both$"):
+        ss.suite(model, records, scale=2.0, scale_to="0.3 g")
+    with pytest.raises(ss.InputError, match="^periods: expected target or code_spectrum beside them"):
+        ss.suite(model, records, periods="1 s..2 s")
+    with pytest.raises(ss.InputError, match="^second: expected one other component for each of 3"):
+        ss.ida(model, records, second=pairs)
+
+
+def test_levels_are_text_or_a_list() -> None:
+    model, records = ss.Model.read(EXAMPLES / "taft.toml"), suite()
+    text, listed = "0.1, 0.2 g", ["0.1 g", "0.2 g"]
+    by_text, by_list = (ss.ida(model, records, scale_to=levels) for levels in (text, listed))
+    assert by_text.table == by_list.table
+    plans = [ss.Plan(model, records, measure="PGA", levels=levels) for levels in (text, listed)]
+    by_text, by_list = (ss.study(plan).table for plan in plans)
+    assert by_text == by_list
+    ranged = ss.Plan(model, records, measure="PGA", levels="0.1..0.3 g:3")
+    assert ss.study(ranged).runs == 9
 
 
 def test_a_folder_is_a_source_and_knows_its_limit(tmp_path: Path) -> None:

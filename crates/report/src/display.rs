@@ -93,6 +93,20 @@ pub const POUND_KG: f64 = 0.453_592_37;
 pub const KIP_N: f64 = 1000.0 * POUND_KG * STANDARD_GRAVITY_M_PER_S2;
 
 impl DisplayUnits {
+    /// The systems with their names, and what they are in.
+    pub const NAMES: [(&str, Self, &str); 4] = [
+        ("si", Self::Si, "m, m/s, m/s², N"),
+        ("si-g", Self::SiG, "As si, accelerations in g"),
+        ("kN-mm", Self::KnMm, "kN and mm"),
+        ("us", Self::Us, "kip and in"),
+    ];
+
+    /// The system of a name.
+    #[must_use]
+    pub fn of_name(name: &str) -> Option<Self> {
+        Self::NAMES.into_iter().find(|(known, ..)| *known == name).map(|(_, system, _)| system)
+    }
+
     /// The unit for values of a quantity up to `largest_si` in size.
     ///
     /// Only SI chooses by size; the other systems have one unit a quantity.

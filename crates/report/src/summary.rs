@@ -253,8 +253,5 @@ pub(crate) fn exceeds(figure: f64, bound: f64) -> bool {
 /// The name that files and tables give a method.
 #[must_use]
 pub fn method_name(method: Method) -> &'static str {
-    match method {
-        Method::Exact => "exact",
-        Method::Stepwise => "stepwise",
-    }
+    method.name()
 }

@@ -3,7 +3,8 @@
 use std::fmt::Display;
 
 use slipstick::assessment::AssessmentError;
-use slipstick::error::InputError;
+use slipstick::error::{ChoiceError, InputError};
+use slipstick::requests::Door;
 use slipstick_report::json::Json;
 use wasm_bindgen::JsValue;
 
@@ -34,8 +35,14 @@ impl Failure {
     pub fn assessment(error: &AssessmentError, text: &str) -> Self {
         match error {
             AssessmentError::Input(error) => Self::input(error, text),
+            AssessmentError::Choice(error) => Self::choice(error),
             other => Self::of(other),
         }
+    }
+
+    /// A field of a form that cannot be.
+    pub fn choice(error: &ChoiceError) -> Self {
+        Self::of(Door::Page.says(error))
     }
 }
 

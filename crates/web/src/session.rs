@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use slipstick::assessment::models::Models;
 use slipstick::assessment::single::{Job, Outcome};
 use slipstick::assessment::spectrum::{fixed_base, without_vertical};
 use slipstick::assessment::sweep::Sweep;
@@ -10,6 +9,7 @@ use slipstick::input::loaded::Loaded;
 use slipstick::input::{self, Analysis, MotionSource, Override};
 use slipstick::motion::processing::{Step, process};
 use slipstick::motion::{Figures, Quantity};
+use slipstick::requests::{Kind, Request};
 use slipstick::response::{Method, Response};
 use slipstick::solver::{self, Prepared, PreparedMotion};
 use slipstick_report::json::Json;
@@ -256,11 +256,11 @@ impl Session {
             let analysis = parse(text)?;
             self.load(&analysis, text)?;
             let Some(ground) = &self.ground else { return Err(Failure::of("no motion").into()) };
-            let options = [("over", over.to_owned())];
-            let models = Models::new(MODEL, text, &[], &options, true)
-                .map_err(|error| Failure::assessment(&error, text))?;
             let motion = ground.with_tail.motion().clone();
-            self.sweep = Some((key, Sweep::new(models, motion)));
+            let asked = Request::new(Kind::Sweep, [("over", over.to_owned())]);
+            let asked = asked.map_err(|error| Failure::choice(&error))?;
+            let sweep = asked.sweep(MODEL, text, motion);
+            self.sweep = Some((key, sweep.map_err(|error| Failure::assessment(&error, text))?));
         }
         let Some((_, sweep)) = &mut self.sweep else { return Ok(Vec::new()) };
         let values: Vec<f64> = match sweep.models().grid().axes() {
@@ -275,8 +275,8 @@ impl Session {
         Ok(values.iter().skip(from).zip(&demands).flat_map(row).collect())
     }
 
-    /// An analysis over a suite: `spectrum`, `ida`, `fragility` or `design`. The options are those of
-    /// the command, as `[name, value, …]`; `record` names a record and may be repeated.
+    /// An analysis over a suite: `suite`, `spectrum`, `ida`, `fragility` or `design`. The options are fields
+    /// of its request, as `[name, value, …]`; `records` names a record and may be repeated.
     ///
     /// # Errors
     /// One message, with the place in the model's text where it has one.
@@ -288,6 +288,12 @@ impl Session {
         display: &str,
     ) -> Result<Page, JsValue> {
         Ok(sheets::assess(&mut self.records, what, text, &options, display_units(display))?)
+    }
+
+    /// The form of an analysis: `{about, fields: [{name, label, takes, words, default, start, about}]}`.
+    #[must_use]
+    pub fn form(&self, what: &str) -> String {
+        sheets::form(what).to_pretty()
     }
 
     /// Prepares a study: a plan, the model that it names, and the records that its patterns match among
@@ -394,12 +400,7 @@ pub(crate) fn parse(text: &str) -> Result<Analysis, Failure> {
 }
 
 fn display_units(name: &str) -> DisplayUnits {
-    match name {
-        "kN-mm" => DisplayUnits::KnMm,
-        "us" => DisplayUnits::Us,
-        "si-g" => DisplayUnits::SiG,
-        _ => DisplayUnits::Si,
-    }
+    DisplayUnits::of_name(name).unwrap_or_default()
 }
 
 /// A list of texts.

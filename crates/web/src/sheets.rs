@@ -10,7 +10,7 @@ use slipstick::input::plan::Plan;
 use slipstick::input::{Analysis, MotionSource};
 use slipstick::notice::Notice;
 use slipstick::record::Options;
-use slipstick::requests::{Kind, On, Request, Results, Runs};
+use slipstick::requests::{Door, Field, Kind, On, Request, Results, Runs, Takes};
 use slipstick::response::Method;
 use slipstick::study::engine::Engine;
 use slipstick::study::summary::{Rows, Take};
@@ -129,7 +129,8 @@ impl Settings<'_> {
     fn asked(&self, kind: Kind) -> Result<Request, Failure> {
         let field = |name: &str| kind.fields().iter().any(|field| field.name == name);
         let given = self.pairs().filter(|(name, _)| field(name));
-        Request::new(kind, given.map(|(name, text)| (name, text.to_owned()))).map_err(Failure::of)
+        let asked = Request::new(kind, given.map(|(name, text)| (name, text.to_owned())));
+        asked.map_err(|error| Failure::choice(&error))
     }
 
     /// What was asked, as the command takes it.
@@ -140,6 +141,47 @@ impl Settings<'_> {
         let options: String = self.pairs().map(option).collect();
         format!("slipstick {what} {MODEL}{options}")
     }
+}
+
+/// The requests that a tab makes, one after the other.
+fn requests(what: &str) -> Vec<Kind> {
+    match Kind::of_name(what) {
+        // A fragility is fitted to the analysis that it asks for.
+        Some(Kind::Fragility) => vec![Kind::Ida, Kind::Fragility],
+        kind => kind.into_iter().collect(),
+    }
+}
+
+/// The form of an analysis: what it is, and its fields.
+pub fn form(what: &str) -> Json {
+    let mut fields: Vec<&Field> = Vec::new();
+    for field in requests(what).into_iter().flat_map(|kind| kind.offered(Door::Page)) {
+        if fields.iter().all(|known| known.name != field.name) {
+            fields.push(field);
+        }
+    }
+    let shown = |field: &&Field| {
+        let (takes, words): (_, &[&str]) = match field.takes {
+            Takes::One => ("one", &[]),
+            Takes::Many => ("many", &[]),
+            Takes::Flag => ("flag", &[]),
+            Takes::Choice(words) => ("choice", words),
+        };
+        let start = if field.default.is_empty() { field.sample } else { field.default };
+        Json::Object(vec![
+            ("name", field.name.into()),
+            ("label", field.label.into()),
+            ("takes", takes.into()),
+            ("words", texts(words.iter().copied())),
+            ("default", field.default.into()),
+            ("start", start.into()),
+            ("about", field.about.into()),
+        ])
+    };
+    Json::Object(vec![
+        ("about", Kind::of_name(what).map_or("", Kind::about).into()),
+        ("fields", Json::List(fields.iter().map(shown).collect())),
+    ])
 }
 
 /// Runs something with an engine that tells the page of its progress.
@@ -166,7 +208,7 @@ pub fn assess(
     display: DisplayUnits,
 ) -> Result<Page, Failure> {
     let settings = Settings(options);
-    let Some(kind) = Kind::ALL.into_iter().find(|kind| kind.name() == what) else {
+    let Some(kind) = Kind::of_name(what) else {
         return Err(Failure::of(format!("expected an analysis over a suite, found {what:?}")));
     };
     let analysis = parse(text)?;
@@ -196,6 +238,7 @@ pub fn assess(
             let runs = Runs { name: &name, source, table: &run.rows, limit: *limit };
             settings.asked(kind)?.fit(&runs, engine).map_err(failed)
         }
+        Kind::Suite => settings.asked(kind)?.suite(&[on], None, engine).map_err(failed),
         kind => settings.asked(kind)?.run(&on, engine).map_err(failed),
     })?;
     let sheet = answer::sheet(&answer, display);

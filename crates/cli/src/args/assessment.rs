@@ -2,19 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::builder::PossibleValuesParser;
-use clap::parser::ValueSource;
-use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
-use slipstick::error::ChoiceError;
-use slipstick::requests::{Field, Kind, Request, Takes};
+use clap::Args;
+use slipstick::requests::Kind;
 
-use super::{RecordArgs, ResultArgs};
-
-/// Places in [`Kind::ALL`].
-pub const SPECTRUM: usize = 0;
-pub const IDA: usize = 1;
-pub const FRAGILITY: usize = 2;
-pub const DESIGN: usize = 3;
+use super::{Fields, RecordArgs, ResultArgs, Threads};
 
 pub const SPECTRUM_EXAMPLES: &str = "\
 Examples:
@@ -104,67 +95,12 @@ pub struct SuiteArgs {
     /// Set a key of the model by its path, such as slider.gap="150 mm"; may be repeated, the last one counts
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// Number of threads; default: one per processor
-    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub jobs: Option<u16>,
+    /// Number of threads
+    #[command(flatten)]
+    pub threads: Threads,
     /// What becomes of the result
     #[command(flatten)]
     pub result: ResultArgs,
-}
-
-/// The fields of a request, by its place in [`Kind::ALL`], as options.
-#[derive(Clone, Debug)]
-pub struct Fields<const KIND: usize>(Vec<(&'static str, String)>);
-
-impl<const KIND: usize> Fields<KIND> {
-    /// What is asked for.
-    pub fn asked(&self) -> Result<Request, ChoiceError> {
-        Request::new(Kind::ALL[KIND], self.0.iter().cloned())
-    }
-}
-
-/// The option of a field.
-fn option(field: &'static Field) -> Arg {
-    let scaling = ["measure", "scale", "scale-to"].contains(&field.name);
-    let arg = Arg::new(field.name)
-        .long(field.name)
-        .value_name(field.value)
-        .help(field.about)
-        .help_heading(scaling.then_some("Ground motion"))
-        .allow_negative_numbers(true);
-    let arg = match field.takes {
-        Takes::Many => arg.action(ArgAction::Append),
-        Takes::One => arg.action(ArgAction::Set),
-        Takes::Choice(words) => arg.value_parser(PossibleValuesParser::new(words)),
-    };
-    if field.default.is_empty() { arg } else { arg.default_value(field.default) }
-}
-
-impl<const KIND: usize> Args for Fields<KIND> {
-    fn augment_args(command: Command) -> Command {
-        command.args(Kind::ALL[KIND].fields().iter().map(option))
-    }
-
-    fn augment_args_for_update(command: Command) -> Command {
-        Self::augment_args(command)
-    }
-}
-
-impl<const KIND: usize> FromArgMatches for Fields<KIND> {
-    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
-        let typed =
-            |field: &&Field| matches.value_source(field.name) == Some(ValueSource::CommandLine);
-        let texts = |field: &'static Field| {
-            let texts = matches.get_many::<String>(field.name).into_iter().flatten();
-            texts.map(|text| (field.name, text.clone())).collect::<Vec<_>>()
-        };
-        Ok(Self(Kind::ALL[KIND].fields().iter().filter(typed).flat_map(texts).collect()))
-    }
-
-    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
-        *self = Self::from_arg_matches(matches)?;
-        Ok(())
-    }
 }
 
 /// `slipstick spectrum`, `ida`, `design`.
@@ -185,7 +121,10 @@ pub struct FragilityArgs {
     pub source: PathBuf,
     /// What is asked
     #[command(flatten)]
-    pub fields: Fields<FRAGILITY>,
+    pub fields: Fields<{ Kind::Fragility as usize }>,
+    /// Number of threads
+    #[command(flatten)]
+    pub threads: Threads,
     /// What becomes of the result
     #[command(flatten)]
     pub result: ResultArgs,

@@ -5,27 +5,23 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use slipstick::assessment::AssessmentError;
-use slipstick::requests::{Answer, Curves, Kind, Results, Runs};
+use slipstick::requests::{Answer, Curves, Results, Runs};
 use slipstick::study::engine::Engine;
 use slipstick::table::Table;
 use slipstick_files::{
-    OutputFolder, ReadTable, files_of_runs, limit_of_ida, read_bytes, read_csv, read_runs,
-    read_table, reading_time, sha256_hex, time_left,
+    OutputFolder, ReadTable, files_of_runs, limit_of_ida, on_threads, read_bytes, read_csv,
+    read_runs, read_table, reading_time, sha256_hex, time_left,
 };
 use slipstick_report::assessment::answer;
 
-use super::assessment::{Opened, choice, conclude, failure, folder, message};
+use super::assessment::{Opened, conclude, folder};
 use crate::args::{AssessArgs, FragilityArgs, ResultArgs};
 use crate::failure::Failure;
 use crate::progress::{TRIAL, counted, estimated};
 
 /// Runs, prints and writes; status 1 where a run has no answer, or no design is found.
 pub fn assess<const KIND: usize>(args: &AssessArgs<KIND>) -> Result<ExitCode, Failure> {
-    let asked = args.fields.asked().map_err(|error| choice(&error))?;
-    if !args.suite.second.is_empty() && asked.kind() != Kind::Ida {
-        let expected = "ida or run, which know what a pair is";
-        return Err(message("--second", expected, asked.kind().name()));
-    }
+    let asked = args.fields.asked()?;
     let opened = Opened::open(&args.suite)?;
     let result = &args.suite.result;
     let folder = opened.folder(result)?;
@@ -35,7 +31,7 @@ pub fn assess<const KIND: usize>(args: &AssessArgs<KIND>) -> Result<ExitCode, Fa
 
 /// Fits, prints and writes.
 pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
-    let asked = args.fields.asked().map_err(|error| choice(&error))?;
+    let asked = args.fields.asked()?;
     let quiet = args.result.quiet;
     let estimate = || reading_left(&args.source);
     let (mut sources, read) = estimated("reading", quiet, &estimate, || read(&args.source))?;
@@ -46,10 +42,10 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
         table: &read.table,
         limit: limit_of_ida(&args.source, asked.demand()),
     };
-    let fit = |engine: &Engine<'_>| asked.fit(&runs, engine);
+    let fit = |engine: &Engine<'_>| on_threads(args.threads.number(), || asked.fit(&runs, engine));
     let answer = counted("fitting", quiet, fit).map_err(|error| match error {
-        AssessmentError::Cell(error) => read.cell_error(&error).into(),
-        other => failure(other),
+        AssessmentError::Cell(error) => Failure::from(read.cell_error(&error)),
+        other => other.into(),
     })?;
     if let Results::Fragility { curves: Curves::One(run), .. } = &answer.found
         && let Some((.., kind)) = sources.first_mut()
@@ -61,14 +57,14 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
 }
 
 /// Prints and writes an answer.
-fn tell(
+pub(super) fn tell(
     args: &ResultArgs,
     folder: Option<OutputFolder>,
     answer: Answer,
     sources: &[Source],
     inputs: &[(String, String)],
 ) -> Result<ExitCode, Failure> {
-    let sheet = answer::sheet(&answer, args.display_units.into());
+    let sheet = answer::sheet(&answer, args.display_units);
     let tables = answer::tables(answer);
     let files: Vec<(String, &Table)> = tables
         .iter()
@@ -82,7 +78,7 @@ fn tell(
 }
 
 /// A file that was read: its path, its hash, what it is.
-type Source = (String, String, String);
+pub(super) type Source = (String, String, String);
 
 /// Time that reading a source may take, from its first lines or its first parts.
 fn reading_left(source: &Path) -> Option<Duration> {

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use slipstick::assessment::AssessmentError;
 use slipstick::assessment::suite::Suite;
-use slipstick::assessment::{AssessmentError, ChoiceError};
 use slipstick::input::{self, Analysis, Override};
 use slipstick::notice::Notice;
 use slipstick::requests::On;
@@ -49,7 +49,7 @@ impl Opened {
         records: impl FnOnce() -> Result<Option<OpenSuite>, Failure>,
     ) -> Result<Self, Failure> {
         let file = read_model(&args.model)?;
-        let overrides = overrides(&args.set, None)?;
+        let overrides = overrides(&args.set)?;
         let analysis = input::from_bytes(&file.name, &file.bytes, &overrides)
             .map_err(|error| Failure::input(error, &file.text()))?;
         tell_replaced(&file, &overrides, &analysis, args.result.quiet);
@@ -90,7 +90,7 @@ impl Opened {
     pub fn failure(&self, error: AssessmentError) -> Failure {
         match error {
             AssessmentError::Input(error) => Failure::input(error, &self.file.text()),
-            other => failure(other),
+            other => other.into(),
         }
     }
 
@@ -100,7 +100,7 @@ impl Opened {
         args: &SuiteArgs,
         work: impl FnOnce(&Engine<'_>) -> Result<T, AssessmentError> + Send,
     ) -> Result<T, Failure> {
-        let work = |engine: &Engine<'_>| on_threads(jobs(args), || work(engine));
+        let work = |engine: &Engine<'_>| on_threads(args.threads.number(), || work(engine));
         counted("computing", args.result.quiet, work).map_err(|error| self.failure(error))
     }
 
@@ -129,32 +129,16 @@ pub fn open_records(args: &SuiteArgs) -> Result<Option<OpenSuite>, Failure> {
         return Ok(None);
     }
     let request = suite_request(args)?;
-    let read = |engine: &Engine<'_>| on_threads(jobs(args), || OpenSuite::open(&request, engine));
+    let read = |engine: &Engine<'_>| {
+        on_threads(args.threads.number(), || OpenSuite::open(&request, engine))
+    };
     let opened =
         counted("reading records", args.result.quiet, read).map_err(|error| match error {
-            SuiteError::Choice(error) => choice(&error),
+            SuiteError::Choice(error) => error.into(),
             SuiteError::File(error) => error.into(),
             SuiteError::Stopped(error) => Failure::Message(error.to_string()),
         })?;
     Ok(Some(opened))
-}
-
-/// The number of threads asked for.
-fn jobs(args: &SuiteArgs) -> Option<usize> {
-    args.jobs.map(usize::from)
-}
-
-/// An error of an analysis that has no model text to point into.
-pub fn failure(error: AssessmentError) -> Failure {
-    match error {
-        AssessmentError::Choice(error) => choice(&error),
-        other => Failure::Message(other.to_string()),
-    }
-}
-
-/// What was chosen wrongly is an option of the command: only here does it get its dashes.
-pub fn choice(error: &ChoiceError) -> Failure {
-    Failure::Message(format!("--{error}"))
 }
 
 /// The folder for results, made before any work is done.
@@ -173,11 +157,6 @@ fn suite_request(args: &SuiteArgs) -> Result<SuiteRequest, Failure> {
         dt_s: options.dt_s,
         channel: options.channel,
     })
-}
-
-/// What was expected of an option, and what was found.
-pub fn message(option: &str, expected: &str, found: &str) -> Failure {
-    Failure::Message(format!("{option}: expected {expected}, found {found:?}"))
 }
 
 /// Writes tables, figures, summary and report, and prints the result; status 1 where it is not complete.

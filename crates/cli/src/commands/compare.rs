@@ -4,9 +4,10 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use slipstick::input;
-use slipstick::laboratory::compare::{Within, compare as compared};
+use slipstick::laboratory::compare::compare as compared;
 use slipstick::laboratory::measured::Measured;
 use slipstick::notice::Notice;
+use slipstick::requests::Comparing;
 use slipstick_files::{
     OutputFolder, SourceFile, TextFile, read_mapping, read_measured, sha256_hex, time_left,
 };
@@ -20,15 +21,13 @@ use crate::progress::{TRIAL, estimated, reading};
 
 /// Compares, prints and writes; status 1 where a bound is missed.
 pub fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
-    let within = args.within.iter().map(|text| Within::parse(text));
-    let within = within
-        .collect::<Result<Vec<_>, _>>()
-        .map_err(|error| Failure::Message(error.to_string()))?;
+    let asked = args.fields.asked()?;
+    let Comparing { within, method } = asked.comparing()?;
     let model = read_model(&args.model)?;
-    let overrides = overrides(&args.set, args.method)?;
-    let analysis = input::from_bytes(&model.name, &model.bytes, &overrides)
+    let mut analysis = input::from_bytes(&model.name, &model.bytes, &overrides(&args.set)?)
         .map_err(|error| Failure::input(error, &model.text()))?;
-    let (mapping, mapping_file) = read_mapping(args.mapping.mapping.as_deref(), &args.mapping.map)?;
+    analysis.method = method.unwrap_or(analysis.method);
+    let (mapping, mapping_file) = read_mapping(&asked.mapping())?;
     let piece = |bytes: &[u8]| drop(Measured::read("", bytes, &mapping));
     let read = || read_measured(&args.measured, &mapping);
     let (measured, source) = reading(Some(&args.measured), args.result.quiet, &piece, read)?;
@@ -49,7 +48,7 @@ pub fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
         inputs: &went_in.inputs(),
         files: &went_in.files(),
         command_line: &command_line(),
-        display: args.result.display_units.into(),
+        display: args.result.display_units,
     };
     if let Some(mut folder) = folder {
         folder.write("comparison.json", report.to_json().as_bytes())?;

@@ -3,33 +3,28 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use slipstick::assessment::histories::{ModelOn, run_histories};
-use slipstick::assessment::suite::{PairScaling, times};
 use slipstick::input;
-use slipstick::motion::intensity::LevelMeasure;
-use slipstick::motion::target::TargetSpectrum;
-use slipstick::units::Dimension;
+use slipstick::requests::{Kind, On};
 use slipstick_files::{read_target, stems_or_paths};
-use slipstick_report::assessment::histories::HistoriesReport;
 
-use super::assessment::{Opened, conclude, failure, folder, message, open_records};
-use super::run::{read_model, scale_factor};
-use crate::args::{MethodName, RunArgs, SuiteArgs, quantity};
+use super::assess::{Source, tell};
+use super::assessment::{Opened, folder, open_records};
+use super::run::read_model;
+use crate::args::{RunArgs, SuiteArgs};
 use crate::failure::Failure;
 
 /// Runs, prints and writes; status 1 where a certificate does not hold.
 pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
-    if args.floor_spectrum {
-        let expected = "--floor-spectrum: expected one model and one record beside it";
-        return Err(Failure::Message(expected.to_owned()));
-    }
-    if matches!(args.method, Some(MethodName::Stepwise)) {
-        let expected = "--method: expected exact, the only one over a suite, found stepwise";
-        return Err(Failure::Message(expected.to_owned()));
-    }
-    let factor = args.scale.as_deref().map(scale_factor).transpose()?;
-    let measure = args.measure.as_deref().unwrap_or("PGA");
-    let (scaling, scaled, target) = scaling(args, measure, factor)?;
+    args.one.none_beside(Kind::Suite, "one model and one record beside it")?;
+    let asked = args.suite.asked()?;
+    let target = args.target.as_deref().map(|path| {
+        let (spectrum, sha256) = read_target(path).map_err(|found| {
+            let expected = "a CSV with the columns period_s and sa_g";
+            Failure::Message(format!("--target: expected {expected}, found {found}"))
+        })?;
+        Ok::<_, Failure>((path.display().to_string(), spectrum, sha256))
+    });
+    let target = target.transpose()?;
     let suites: Vec<SuiteArgs> = args.models.iter().map(|model| suite_of(args, model)).collect();
     // A record among the models is told before a model that lacks one.
     for model in args.models.iter().filter(|path| path.extension().is_some_and(|e| e != "toml")) {
@@ -47,112 +42,29 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
         };
         opened.push(Opened::open_with(suite, read)?);
     }
-    let mut sources: Vec<(String, String, String)> = target.into_iter().collect();
-    let mut warnings = Vec::new();
-    for opened in &opened {
-        for source in opened.sources() {
-            if !sources.contains(&source) {
-                sources.push(source);
-            }
-        }
-        for warning in &opened.warnings {
-            if !warnings.contains(warning) {
-                warnings.push(warning.clone());
-            }
+    let of_target = |(path, _, sha256): &(String, _, String)| {
+        (path.clone(), sha256.clone(), "target spectrum".to_owned())
+    };
+    let mut sources: Vec<Source> = target.iter().map(of_target).collect();
+    for source in opened.iter().flat_map(Opened::sources) {
+        if !sources.contains(&source) {
+            sources.push(source);
         }
     }
     let inputs: Vec<PathBuf> = sources.iter().map(|(path, ..)| path.into()).collect();
     let folder = folder(&args.result, &inputs)?;
     let names = names(&opened);
-    let models: Vec<ModelOn<'_>> = opened
-        .iter()
-        .zip(&names)
-        .map(|(opened, name)| ModelOn { name, analysis: &opened.analysis, suite: &opened.suite })
-        .collect();
+    let on: Vec<On<'_>> =
+        opened.iter().zip(&names).map(|(opened, name)| On { name, ..opened.on() }).collect();
     let first = opened.first().zip(suites.first());
     let (first, suite) = first.ok_or_else(|| Failure::Message("expected a model".to_owned()))?;
-    let histories = first.compute(suite, |engine| run_histories(&models, &scaling, engine))?;
-    let report = HistoriesReport {
-        histories: &histories,
-        scaled: if opened.iter().all(|opened| opened.suite.made) { "" } else { &scaled },
-        warnings: &warnings,
-        display: args.result.display_units.into(),
-    };
-    let sheet = report.sheet();
-    let tables = [("runs.csv", &histories.runs), ("governing.csv", &histories.governing)];
+    let target = target.map(|(path, spectrum, _)| (path, spectrum));
+    let answer = first.compute(suite, |engine| {
+        let target = target.as_ref().map(|(path, spectrum)| (path.as_str(), spectrum.clone()));
+        asked.suite(&on, target, engine)
+    })?;
     let texts: Vec<(String, String)> = opened.iter().flat_map(Opened::inputs).collect();
-    conclude(&args.result, folder, &sheet, &tables, &sources, &texts)
-}
-
-/// A file that went in: path, hash, what it is.
-type Source = (String, String, String);
-
-/// How the suite is scaled, that in words, and the file of a target spectrum.
-fn scaling(
-    args: &RunArgs,
-    name: &str,
-    factor: Option<f64>,
-) -> Result<(PairScaling, String, Option<Source>), Failure> {
-    let range = args.periods.as_deref().map(|text| {
-        let wrong = || message("--periods", "two periods, the shorter first: 0.6 s..3.8 s", text);
-        let (from, to) = text.split_once("..").ok_or_else(wrong)?;
-        let [from_s, to_s] =
-            [from, to].map(|text| quantity("--periods", text.trim(), Dimension::Time));
-        let range = [from_s?, to_s?];
-        if 0.0 < range[0] && range[0] < range[1] { Ok(range) } else { Err(wrong()) }
-    });
-    let range = range.transpose()?;
-    let (spectrum, words, source) = match (&args.target, &args.code_spectrum) {
-        (Some(path), _) => {
-            let (spectrum, sha256) = read_target(path).map_err(|found| {
-                let expected = "a CSV with the columns period_s and sa_g";
-                Failure::Message(format!("--target: expected {expected}, found {found}"))
-            })?;
-            let path = path.display().to_string();
-            (spectrum, path.clone(), Some((path, sha256, "target spectrum".to_owned())))
-        }
-        (None, Some(text)) => (code_spectrum(text)?, format!("the spectrum {text}"), None),
-        (None, None) => {
-            if let Some(text) = &args.periods {
-                let expected = "--target or --code-spectrum beside them";
-                return Err(message("--periods", expected, text));
-            }
-            let Some(level) = &args.scale_to else {
-                let factor = factor.unwrap_or(1.0);
-                if !(factor.is_finite() && factor != 0.0) {
-                    return Err(message("--scale", "a factor other than 0", &factor.to_string()));
-                }
-                return Ok((PairScaling::Factor(factor), times(factor), None));
-            };
-            let measure = LevelMeasure::parse(name)
-                .map_err(|error| Failure::Message(format!("--measure: {error}")))?;
-            let scaling = PairScaling::to_level("scale-to", measure, level).map_err(failure)?;
-            return Ok((scaling, format!(" scaled to {measure} = {}", level.trim()), None));
-        }
-    };
-    let range = range.ok_or_else(|| message("--periods", "the range of periods", "nothing"))?;
-    let words = format!(" scaled to {words}");
-    Ok((PairScaling::Target(spectrum, range), words, source))
-}
-
-/// The shape of a code from its three parameters.
-fn code_spectrum(text: &str) -> Result<TargetSpectrum, Failure> {
-    let expected = "three parameters: sds = 1.2 g, sd1 = 0.8 g, tl = 8 s";
-    let wrong = || message("--code-spectrum", expected, text);
-    let mut values = [None; 3];
-    for part in text.split(',') {
-        let (key, value) = part.split_once('=').ok_or_else(wrong)?;
-        let place = ["sds", "sd1", "tl"].iter().position(|name| *name == key.trim());
-        let place = place.ok_or_else(wrong)?;
-        let dimension = if place == 2 { Dimension::Time } else { Dimension::Acceleration };
-        let value = quantity("--code-spectrum", value.trim(), dimension)?;
-        if !(value.is_finite() && value > 0.0) || values[place].is_some() {
-            return Err(wrong());
-        }
-        values[place] = Some(value);
-    }
-    let [Some(sds_m_per_s2), Some(sd1_m_per_s2), Some(tl_s)] = values else { return Err(wrong()) };
-    Ok(TargetSpectrum::Code { sds_m_per_s2, sd1_m_per_s2, tl_s })
+    tell(&args.result, folder, answer, &sources, &texts)
 }
 
 /// The options of a model with the suite; one motion is a suite of one.
@@ -165,7 +77,7 @@ fn suite_of(args: &RunArgs, model: &Path) -> SuiteArgs {
         second: args.second.clone(),
         record: args.record.clone(),
         set: args.set.clone(),
-        jobs: args.jobs,
+        threads: args.threads,
         result: args.result.clone(),
     }
 }

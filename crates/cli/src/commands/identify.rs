@@ -1,42 +1,114 @@
 //! `slipstick identify`: parameters from tests.
 
-mod cyclic;
-mod free_vibration;
-mod shaking_table;
-
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use slipstick::input::{self, Mapping};
-use slipstick::laboratory::identify::{Identified, IdentifyError};
+use slipstick::input;
+use slipstick::laboratory::identify::{Identified, IdentifyError, ModelText};
 use slipstick::laboratory::measured::Measured;
-use slipstick_files::{LaboratoryError, OutputFolder, SourceFile, TextFile, read_measured};
+use slipstick::requests::{Kind, Request};
+use slipstick::study::engine::Engine;
+use slipstick_files::{
+    LaboratoryError, OutputFolder, SourceFile, TextFile, expand_all, on_threads, read_mapping,
+    read_measured, time_left,
+};
 use slipstick_report::IdentifyReport;
 
-use super::assessment::choice;
 use super::compare::WentIn;
-use super::run::{ModelFile, command_line};
-use crate::args::{IdentifyCommand, ResultArgs};
+use super::run::{ModelFile, command_line, overrides, read_model};
+use crate::args::{IdentifyCommand, ResultArgs, TestArgs};
 use crate::failure::{Failure, print, say};
-use crate::progress::reading;
+use crate::progress::{TRIAL, counted, estimated, reading};
 
 /// Runs one of the three jobs.
 pub fn identify(command: &IdentifyCommand) -> Result<ExitCode, Failure> {
     match command {
-        IdentifyCommand::Cyclic(args) => cyclic::cyclic(args),
-        IdentifyCommand::FreeVibration(args) => free_vibration::free_vibration(args),
-        IdentifyCommand::ShakingTable(args) => shaking_table::shaking_table(args),
+        IdentifyCommand::Cyclic(args) => Job::of(args)?.run(None),
+        IdentifyCommand::FreeVibration(args) => Job::of(args)?.run(None),
+        IdentifyCommand::ShakingTable(args) => Job {
+            asked: args.fields.asked()?,
+            files: core::slice::from_ref(&args.file),
+            model: Some(&args.model),
+            set: &args.set,
+            result: &args.result,
+        }
+        .run(args.threads.number()),
     }
 }
 
-/// A measured file, with the time left where it takes long.
-fn read(
-    path: &Path,
-    mapping: &Mapping,
-    quiet: bool,
-) -> Result<(Measured, SourceFile), LaboratoryError> {
-    let piece = |bytes: &[u8]| drop(Measured::read("", bytes, mapping));
-    reading(Some(path), quiet, &piece, || read_measured(path, mapping))
+/// What is asked, and of what.
+struct Job<'a> {
+    asked: Request,
+    files: &'a [String],
+    model: Option<&'a Path>,
+    set: &'a [String],
+    result: &'a ResultArgs,
+}
+
+impl<'a> Job<'a> {
+    fn of<const KIND: usize>(args: &'a TestArgs<KIND>) -> Result<Self, Failure> {
+        Ok(Self {
+            asked: args.fields.asked()?,
+            files: &args.files,
+            model: args.model.as_deref(),
+            set: &[],
+            result: &args.result,
+        })
+    }
+
+    /// Reads, identifies, prints and writes.
+    fn run(&self, jobs: Option<usize>) -> Result<ExitCode, Failure> {
+        let quiet = self.result.quiet;
+        let model = self.model.map(read_model).transpose()?;
+        let (set, text) = (overrides(self.set)?, model.as_ref().map(text).transpose()?);
+        let (mapping, mapping_file) = read_mapping(&self.asked.mapping())?;
+        let read = |path: &PathBuf| -> Result<(Measured, SourceFile), LaboratoryError> {
+            let piece = |bytes: &[u8]| drop(Measured::read("", bytes, &mapping));
+            reading(Some(path), quiet, &piece, || read_measured(path, &mapping))
+        };
+        let files = expand_all(Path::new(""), self.files)?;
+        let read: Result<Vec<_>, _> = files.iter().map(read).collect();
+        let (measured, sources): (Vec<Measured>, Vec<SourceFile>) = read?.into_iter().unzip();
+        let inputs = Inputs {
+            model: model.as_ref(),
+            sources: &sources.iter().collect::<Vec<_>>(),
+            mapping: mapping_file.as_ref(),
+        };
+        let folder = output(self.result, &inputs.paths())?;
+        let on = model.as_ref().zip(text.as_deref());
+        let on = on.map(|(model, text)| ModelText { name: &model.name, text, set: &set });
+        let identified = self.identified(on, &measured, jobs);
+        let identified =
+            identified.map_err(|error| failure(error, text.as_deref().unwrap_or_default()))?;
+        finish(self.result, folder, &inputs, &measured, &identified)
+    }
+
+    fn identified(
+        &self,
+        on: Option<ModelText<'_>>,
+        measured: &[Measured],
+        jobs: Option<usize>,
+    ) -> Result<Identified, IdentifyError> {
+        let (asked, quiet) = (&self.asked, self.result.quiet);
+        let fit = |measured: &[Measured]| asked.identify(on, measured, &Engine::unwatched());
+        let samples = measured.iter().map(Measured::samples).max().unwrap_or(0);
+        let least = match asked.kind() {
+            Kind::ShakingTable => {
+                return counted("fitting", quiet, |engine| {
+                    on_threads(jobs, || asked.identify(on, measured, engine))
+                });
+            }
+            // Less than half of a test may lack the cycles that a fit needs.
+            Kind::Cyclic => samples / 2,
+            _ => 1024,
+        };
+        let first = |samples: usize| {
+            let first: Vec<Measured> = measured.iter().map(|one| one.first(samples)).collect();
+            fit(&first).ok().map(|_| ())
+        };
+        let estimate = || time_left([least, samples], TRIAL, first);
+        estimated("fitting", quiet, &estimate, || fit(measured))
+    }
 }
 
 /// The text of a model file.
@@ -53,7 +125,7 @@ fn text(model: &ModelFile) -> Result<String, Failure> {
 fn failure(error: IdentifyError, model: &str) -> Failure {
     match error {
         IdentifyError::Input(error) => Failure::input(error, model),
-        IdentifyError::Choice(error) => choice(&error),
+        IdentifyError::Choice(error) => error.into(),
         IdentifyError::Cyclic { .. } => Failure::CannotTell(error.to_string()),
         error => Failure::Message(error.to_string()),
     }
@@ -95,7 +167,7 @@ fn finish(
         inputs: &went_in.inputs(),
         files: &went_in.files(),
         command_line: &command_line(),
-        ..IdentifyReport::of(measured, identified, args.display_units.into())
+        ..IdentifyReport::of(measured, identified, args.display_units)
     };
     let more = identified.files();
     if let Some(mut folder) = folder {

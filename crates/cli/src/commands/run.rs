@@ -8,7 +8,7 @@ use slipstick::assessment::single::Outcome;
 use slipstick::error::InputError;
 use slipstick::input::{self, Analysis, Override, Scale};
 use slipstick::record;
-use slipstick::units::Dimension;
+use slipstick::requests::Kind;
 use slipstick_files::{
     FileError, OpenJob, OutputFolder, RecordRequest, events_csv, history_csv, read_at_most,
     record_path, sha256_hex,
@@ -16,7 +16,7 @@ use slipstick_files::{
 use slipstick_report::{FileNote, InputText, Report, Summary, table};
 
 use super::histories::histories;
-use crate::args::{MethodName, RunArgs, quantity};
+use crate::args::RunArgs;
 use crate::failure::{Failure, print, say};
 use crate::progress::{Lines, TRIAL, estimated, reading, writing};
 
@@ -34,27 +34,26 @@ fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
         let mend = "a suite beside it, --records <PATTERN>, whose other components these are";
         return Err(Failure::Message(format!("--second: expected {mend}")));
     }
-    if args.measure.is_some() {
-        let mend = "a suite beside it, --records <PATTERN>: one record is scaled by its peak";
-        return Err(Failure::Message(format!("--measure: expected {mend}")));
-    }
+    args.suite.none_beside(Kind::Run, "a suite beside it, --records <PATTERN>")?;
+    let asked = args.one.asked()?.single()?;
     let model = read_model(model)?;
-    let mut overrides = overrides(&args.set, args.method)?;
-    if args.motion.is_none() {
-        overrides.extend(scale_of_model(args)?);
-    }
+    let mut overrides = overrides(&args.set)?;
+    let keys = asked.keys(args.motion.is_none());
+    overrides.extend(keys.map_err(|error| Failure::Message(error.to_string()))?);
     let analysis = input::from_bytes(&model.name, &model.bytes, &overrides).map_err(|error| {
-        of_scale(&error).unwrap_or_else(|| Failure::input(error, &model.text()))
+        let of_scale = asked.of_scale(&error).map(Failure::from);
+        of_scale.unwrap_or_else(|| Failure::input(error, &model.text()))
     })?;
     tell_replaced(&model, &overrides, &analysis, args.result.quiet);
     args.record.only_with("--motion <FILE>", args.motion.is_some())?;
-    let record = args.motion.as_deref().map(|path| record_request(args, path)).transpose()?;
+    let record = args.motion.as_deref().map(|path| record_request(args, path, asked.scale));
+    let record = record.transpose()?;
     let in_model = |error| Failure::job(error, &model.name, &model.text());
     let file = record_path(&model.path, &analysis, record.as_ref());
     let piece = |bytes: &[u8]| drop(record::read("", bytes, &record::Options::default()));
     let open = || OpenJob::new(&model.path, analysis, record.as_ref());
     let job = reading(file.as_deref(), args.result.quiet, &piece, open).map_err(in_model)?;
-    if args.floor_spectrum && job.job.motion.horizontal_y_m_per_s2().is_some() {
+    if asked.floor_spectrum && job.job.motion.horizontal_y_m_per_s2().is_some() {
         let message = "--floor-spectrum: expected a motion in one direction, found one in two";
         return Err(Failure::Message(message.to_owned()));
     }
@@ -71,7 +70,7 @@ fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
         .transpose()?;
     let (outcome, summary) =
         estimated("computing", args.result.quiet, &|| job.estimate(TRIAL), || {
-            job.run(args.floor_spectrum)
+            job.run(asked.floor_spectrum)
         })
         .map_err(in_model)?;
     if let Some(folder) = folder {
@@ -126,41 +125,10 @@ pub(super) fn read_model(path: &Path) -> Result<ModelFile, Failure> {
 }
 
 /// The options that set keys of the model.
-pub(super) fn overrides(
-    set: &[String],
-    method: Option<MethodName>,
-) -> Result<Vec<Override>, Failure> {
-    let method = method.map(|method| match method {
-        MethodName::Exact => "analysis.method=exact".to_owned(),
-        MethodName::Stepwise => "analysis.method=stepwise".to_owned(),
-    });
-    let set = set.iter().cloned().chain(method);
-    set.map(|text| {
-        Override::of_option("--set", &text).map_err(|error| Failure::Message(error.to_string()))
-    })
-    .collect()
-}
-
-/// Without `--motion` the scale is that of the model's own motion.
-fn scale_of_model(args: &RunArgs) -> Result<Option<Override>, Failure> {
-    let (option, key, value) = match (&args.scale, &args.scale_to) {
-        (Some(factor), _) => ("--scale", "motion.scale", factor),
-        (None, Some(peak)) => ("--scale-to", "motion.scale_to", peak),
-        (None, None) => return Ok(None),
-    };
-    let set = Override::of_option(option, &format!("{key}={value}"));
-    set.map(Some).map_err(|error| Failure::Message(error.to_string()))
-}
-
-/// What is wrong with `--scale` or `--scale-to` where the model's motion is made.
-fn of_scale(error: &InputError) -> Option<Failure> {
-    let option = error.place.source_name.split(' ').next()?;
-    let key = error.path.strip_prefix("motion.scale")?;
-    (["--scale", "--scale-to"].contains(&option) && ["", "_to"].contains(&key)).then(|| {
-        let expected = "a record to scale, that of the model or of --motion";
-        let mend = "--set changes the amplitude of a made motion";
-        Failure::Message(format!("{option}: expected {expected}, found {} ({mend})", error.found))
-    })
+pub(super) fn overrides(set: &[String]) -> Result<Vec<Override>, Failure> {
+    let read = |text: &String| Override::of_option("--set", text);
+    let all: Result<_, InputError> = set.iter().map(read).collect();
+    all.map_err(|error| Failure::Message(error.to_string()))
 }
 
 /// Says what a key that was set takes the place of.
@@ -183,26 +151,12 @@ pub(super) fn tell_replaced(
     }
 }
 
-/// The factor of `--scale`.
-pub(super) fn scale_factor(text: &str) -> Result<f64, Failure> {
-    let factor = text.trim().parse::<f64>().ok().filter(|factor| factor.is_finite());
-    factor.ok_or_else(|| Failure::Message(format!("--scale: expected a factor, found {text:?}")))
-}
-
 /// The record of `--motion`, completed by the options beside it.
-fn record_request(args: &RunArgs, path: &Path) -> Result<RecordRequest, Failure> {
-    let refuse = |option: &str, reason: String| Failure::Message(format!("{option}: {reason}"));
-    let scale = match (&args.scale, &args.scale_to) {
-        (Some(factor), _) => Some(Scale::Factor(scale_factor(factor)?)),
-        (None, Some(peak)) => {
-            let peak_m_per_s2 = quantity("--scale-to", peak, Dimension::Acceleration)?;
-            if !(peak_m_per_s2 > 0.0) {
-                return Err(refuse("--scale-to", format!("expected a peak > 0, found {peak:?}")));
-            }
-            Some(Scale::Peak(peak_m_per_s2))
-        }
-        (None, None) => None,
-    };
+fn record_request(
+    args: &RunArgs,
+    path: &Path,
+    scale: Option<Scale>,
+) -> Result<RecordRequest, Failure> {
     let options = args.record.options(true)?;
     Ok(RecordRequest {
         path: path.to_owned(),
@@ -223,7 +177,7 @@ fn show(args: &RunArgs, job: &OpenJob, summary: &Summary) -> Result<(), Failure>
         print(&summary.to_json())?;
     } else {
         let record = job.loaded.description.join("; ");
-        let display = args.result.display_units.into();
+        let display = args.result.display_units;
         print(&table::table(summary, &job.job.analysis.model, &record, display))?;
     }
     if args.result.quiet {
@@ -280,7 +234,7 @@ fn write_files(
         inputs: &inputs,
         files: &files,
         command_line: &command_line,
-        display: args.result.display_units.into(),
+        display: args.result.display_units,
     };
     folder.replaces(&["runs.csv", "governing.csv", "histories.svg", "shares.svg"]);
     folder.write("summary.json", summary.to_json().as_bytes())?;

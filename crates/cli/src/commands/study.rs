@@ -35,7 +35,7 @@ pub fn study(args: &StudyArgs) -> Result<ExitCode, Failure> {
         return Err(Failure::Message("expected a study plan, found none".to_owned()));
     };
     let shard = shard(args)?;
-    on_threads(args.jobs.map(usize::from), || planned(args, plan, shard))
+    on_threads(args.threads.number(), || planned(args, plan, shard))
 }
 
 /// What is asked of a plan, in the pool of its threads.
@@ -111,7 +111,7 @@ fn run(args: &StudyArgs, study: &OpenStudy, shard: Shard, out: &Path) -> Result<
         say(format_args!("warning: {notice}"));
     }
     let summary = counted("summarising", args.quiet, |engine| conclude(study, out, engine))?;
-    print(&table(&summary, args.display_units.into()))?;
+    print(&table(&summary, args.display_units))?;
     for warning in said(&summary).iter().filter(|_| !args.quiet) {
         say(format_args!("warning: {warning}"));
     }
@@ -148,7 +148,7 @@ fn report(
         summary,
         checked,
         notices: &study.notices,
-        display: args.display_units.into(),
+        display: args.display_units,
     };
     let what = |i: usize| ["plan", "model"].get(i).copied().unwrap_or("record");
     let named = study.inputs.iter().enumerate();

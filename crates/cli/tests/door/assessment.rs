@@ -479,7 +479,7 @@ fn exact_what_is_wrong_is_said() {
         ),
         (
             with(&["design", "model.toml", "--gap", "1 mm"]),
-            "--vary: expected something to vary, friction or slider.radius=1..5m:50",
+            "--vary: expected something to vary, --friction or slider.radius=1..5m:50",
         ),
         (
             vec!["fragility", "none.csv", "--measure", "PGA"],

@@ -185,7 +185,12 @@ fn exact_what_a_suite_cannot_be_asked() {
     let folder = folder("histories-refused", 1);
     for (options, expected) in [
         (["--floor-spectrum"].as_slice(), "expected one model and one record"),
-        (&["--method", "stepwise"], "expected exact, the only one over a suite"),
+        (&["--method", "stepwise"], "--method: expected one model and one record beside it"),
+        (&["--measure", "PGV"], "--measure: expected --scale-to beside it, found \"PGV\""),
+        (
+            &["--scale", "2", "--scale-to", "1 g"],
+            "--scale: expected only one of --scale and --scale-to",
+        ),
         (&["--scale-to", "fast"], "--scale-to"),
         (&["--scale", "x"], "--scale: expected a factor"),
     ] {

@@ -73,7 +73,7 @@ fn exact_bad_input_is_status_2_with_its_place() {
         (vec!["compare", "none.csv", "model.toml"], "none.csv: cannot be read"),
         (vec!["compare", "gap.csv", "model.toml"], "gap.csv:3:3: "),
         (
-            vec!["compare", "test.csv", "model.toml", "--map", "force = nothing [N]"],
+            vec!["compare", "test.csv", "model.toml", "--mapping", "force = nothing [N]"],
             "expected one of the columns",
         ),
         (vec!["compare", "test.csv", "model.toml", "--within", "peak=1..2"], "METRIC.QUANTITY"),
@@ -185,15 +185,15 @@ fn exact_zeros_of_sensors_are_stated() {
     let (unknown, said) = of("off.csv", &[]);
     assert!(said.contains("zero_not_stated") && !said.contains("force_drift"), "{said}");
     assert!(unknown.iter().all(|(path, _)| !path.ends_with("tive")), "{unknown:?}");
-    let (right, _) = of("test.csv", &["--map", "zero=as measured"]);
+    let (right, _) = of("test.csv", &["--mapping", "zero=as measured"]);
     assert!(right.iter().any(|(path, _)| path.ends_with(".positive")), "{right:?}");
-    let (stated, said) = of("off.csv", &["--map", "force=force - 30 N"]);
+    let (stated, said) = of("off.csv", &["--mapping", "force=force - 30 N"]);
     assert!(!said.contains("zero_not_stated"), "{said}");
     for ((path, found), (_, expected)) in stated.iter().zip(&right) {
         assert!((found / expected - 1.0).abs() < 1e-9, "{path}: {found} for {expected}");
     }
     assert!((unknown[0].1 / right[0].1 - 1.0).abs() < 1e-9);
-    let refused = folder.refused(&["identify", "cyclic", "off.csv", "--map", "zero=first 2"]);
+    let refused = folder.refused(&["identify", "cyclic", "off.csv", "--mapping", "zero=first 2"]);
     assert!(refused.contains("zero: expected \"first 2 s\""), "{refused}");
 }
 
@@ -266,8 +266,8 @@ fn exact_what_is_suspicious_of_a_cyclic_test_is_said() {
     assert_eq!((output.status.code(), text(&output.stdout)), (Some(1), String::new()));
     let said = stderr(&output);
     assert!(said.contains("reversed.csv: friction comes out negative, -18"), "{said}");
-    assert!(said.contains("--map \"force=… * -1\""), "{said}");
-    folder.stdout(&[&cyclic[..], &["reversed.csv", "--map", "force=force * -1"]].concat());
+    assert!(said.contains("the mapping \"force=… * -1\""), "{said}");
+    folder.stdout(&[&cyclic[..], &["reversed.csv", "--mapping", "force=force * -1"]].concat());
     // Displacements in mm under a head that says m.
     folder.write("metres.csv", made.replace("displacement (mm)", "displacement (m)"));
     let said = stderr(&folder.output(&[&cyclic[..], &["metres.csv", "--json"]].concat()));

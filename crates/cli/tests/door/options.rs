@@ -1,5 +1,7 @@
 //! Commands beside `run`, help, units of the table, what is said and what is not.
 
+use slipstick::requests::{Door, Kind};
+
 use super::support::{BLOCK, Folder, RECORD, RECORDED, text};
 
 #[test]
@@ -37,6 +39,44 @@ fn exact_schema_is_json_and_units_a_table() {
     for unit in ["kip", "gal", "kN/mm", "mrad", "N s/m"] {
         assert!(units.contains(unit), "{unit} in {units}");
     }
+}
+
+/// What the command offers is the table of fields; what it does not, the table says.
+#[test]
+fn exact_options_are_the_fields_of_the_requests() {
+    let folder = Folder::new("fields");
+    for kind in Kind::ALL {
+        let command: &[&str] = match kind {
+            Kind::Sweep => continue,
+            Kind::Suite => &["run"],
+            Kind::Cyclic | Kind::FreeVibration | Kind::ShakingTable => &["identify", kind.name()],
+            _ => &[kind.name()],
+        };
+        let help = folder.stdout(&[command, &["--help"]].concat());
+        let options: Vec<&str> = help
+            .lines()
+            .filter_map(|line| line.trim_start().trim_start_matches("-j, ").strip_prefix("--"))
+            .filter_map(|line| line.split(|c: char| !(c.is_alphanumeric() || c == '-')).next())
+            .collect();
+        for field in kind.offered(Door::Command) {
+            assert!(options.contains(&field.name), "{command:?} lacks --{}", field.name);
+        }
+        // Besides them: what goes in, and what becomes of the answer.
+        let files = ["motion", "records", "vertical", "second", "target", "units", "dt", "channel"];
+        let others = ["set", "model", "jobs", "json", "display-units", "help", "version", "quiet"];
+        let fields = || Kind::ALL.into_iter().flat_map(Kind::fields).map(|field| field.name);
+        for option in options.iter().filter(|option| **option != "out") {
+            let known = files.contains(option) || others.contains(option);
+            let own = kind.offered(Door::Command).any(|field| field.name == *option);
+            let of_run = command == ["run"] && fields().any(|name| name == *option);
+            assert!(known || own || of_run, "{command:?} has --{option}");
+        }
+    }
+    let table = folder.stdout(&["schema", "--requests"]);
+    assert!(
+        table.contains("Python   run scale             Motion.scaled scales a motion"),
+        "{table}"
+    );
 }
 
 #[test]
@@ -120,8 +160,8 @@ fn exact_scale_without_a_motion_is_that_of_the_model() {
     assert_eq!(twice["record"]["pga_m_per_s2"], 10.0);
     folder.write("sine.toml", BLOCK);
     let found = folder.refused(&["run", "sine.toml", "--scale-to", "0.3 g"]);
-    let expected = "--scale-to: expected a record to scale, that of the model or of --motion, found \
-                    \"scale_to\" beside \"sine\"";
+    let expected = "--scale-to: expected a record to scale; of a made motion the amplitude is a key of \
+                    the model, found \"scale_to\" beside \"sine\"";
     assert!(found.starts_with(expected), "{found}");
 }
 

@@ -135,6 +135,19 @@ impl Suite {
         (suite, noticed.into_iter().map(told).collect())
     }
 
+    /// Takes records that stand beside each other as the two components of pairs.
+    pub fn pair_up(&mut self) {
+        for (i, record) in self.records.iter_mut().enumerate() {
+            record.pair = Some(i / 2);
+        }
+    }
+
+    /// Whether there are pairs among the records.
+    #[must_use]
+    pub fn has_pairs(&self) -> bool {
+        self.records.iter().any(|record| record.pair.is_some())
+    }
+
     /// Names of the records.
     #[must_use]
     pub fn names(&self) -> Vec<String> {
@@ -229,7 +242,7 @@ impl Suite {
     ) -> Result<Scaled, AssessmentError> {
         let groups = self.scaled_together();
         let paired = groups.iter().all(|group| group.len() == 2);
-        let pairs = "the other components of all records beside it, --second";
+        let pairs = "the other components of all records beside it, `second`";
         let mut matched = None;
         let of_groups: Vec<f64> = match scaling {
             PairScaling::Factor(factor) => vec![*factor; groups.len()],

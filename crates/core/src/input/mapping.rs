@@ -205,7 +205,7 @@ impl Mapping {
             }
         }
         for option in options {
-            let source = mapping.sources.add(&format!("--map {}", cut(option)), option);
+            let source = mapping.sources.add(&format!("mapping {}", cut(option)), option);
             let Some((name, value)) = option.split_once('=') else {
                 let spot = Spot { source, span: option.len()..option.len() };
                 return Err(mapping.sources.error(&spot, "", "QUANTITY=COLUMN", "no \"=\""));
@@ -520,7 +520,7 @@ mod tests {
         );
         assert_eq!(
             option("force=F * x").unwrap_err(),
-            "--map force=F * x:1:10: force: expected a factor that is not 0, such as -1, found \
+            "mapping force=F * x:1:10: force: expected a factor that is not 0, such as -1, found \
              \"x\""
         );
         assert!(option("force=").unwrap_err().contains("expected the name of a column"));

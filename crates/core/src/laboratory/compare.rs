@@ -16,7 +16,7 @@ mod suspicions;
 mod within;
 
 pub use suspicions::suspicions;
-pub use within::{Within, WithinError};
+pub use within::Within;
 
 /// One quantity with its figures.
 #[derive(Clone, Debug, PartialEq)]

@@ -188,7 +188,7 @@ impl CyclicFit {
         let stroke_m = self.cycles.iter().fold(0.0, |most: f64, cycle| most.max(cycle.stroke_m));
         (stroke_m > LONGEST_STROKE_M).then(|| {
             let message = format!(
-                "the strokes are {stroke_m:.1} m long: if the displacement is in mm, say so with --map \
+                "the strokes are {stroke_m:.1} m long: if the displacement is in mm, say so with the mapping \
                  \"displacement=… [mm]\""
             );
             Notice::new(NoticeKind::UnitSuspect, message)
@@ -232,7 +232,7 @@ pub enum CyclicError {
     /// A force that pushes where it should brake.
     #[error(
         "friction comes out negative, {friction_n:.4} N in the mean: the force points the other way; \
-         say so with --map \"force=… * -1\""
+         say so with the mapping \"force=… * -1\""
     )]
     Reversed {
         /// Mean kinetic friction in N.
@@ -713,7 +713,7 @@ fn static_friction(
 pub fn zero_not_stated(fits: &[&CyclicFit]) -> Option<Notice> {
     let message = "friction by direction is not told: an offset of the force cell, or of the \
                    displacement of a spring, looks the same; state the zeros of the sensors with \
-                   --map \"zero=first 2 s\", \"force=COLUMN - 12 N\" or \"zero=as measured\"";
+                   the mapping \"zero=first 2 s\", \"force=COLUMN - 12 N\" or \"zero=as measured\"";
     fits.iter().any(|fit| !fit.zero_known).then(|| Notice::new(NoticeKind::ZeroNotStated, message))
 }
 

@@ -11,7 +11,7 @@ use super::fitted;
 use super::free_vibration::{FreeVibration, free_vibration as fit_free_vibration};
 use super::measured::{Measured, Series};
 use super::shaking_table::{
-    Builder, Parameter, ParameterError, TableError, TableFit, TableTest, shaking_table as fit_table,
+    Builder, Parameter, TableError, TableFit, TableTest, shaking_table as fit_table,
 };
 use crate::error::{ChoiceError, InputError, RecordError, similar};
 use crate::input::{self, Analysis, Channel, Override};
@@ -259,9 +259,6 @@ pub enum IdentifyError {
     /// Something chosen that cannot be.
     #[error(transparent)]
     Choice(#[from] ChoiceError),
-    /// A key to fit.
-    #[error(transparent)]
-    Parameter(#[from] ParameterError),
     /// A cyclic test that says nothing.
     #[error("{source_name}: {error}")]
     Cyclic {
@@ -421,7 +418,7 @@ fn chosen<'a>(measured: &'a Measured, name: Option<&str>) -> Result<&'a Series, 
         let names: Vec<String> = measured.series.iter().map(|s| s.channel.name()).collect();
         let expected = match names.as_slice() {
             [] => format!(
-                "a quantity in {}, such as --map \"storey1_acceleration = COLUMN [g]\"",
+                "a quantity in {}, such as the mapping \"storey1_acceleration = COLUMN [g]\"",
                 measured.source_name
             ),
             _ => format!("one of the quantities {} of {}", names.join(", "), measured.source_name),

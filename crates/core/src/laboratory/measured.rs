@@ -182,7 +182,7 @@ impl Measured {
                 offset: None,
                 expected: format!(
                     "a column of {name}: name it {} in the header, or say which it is with \
-                     --map \"{name}=COLUMN [{unit}]\"",
+                     the mapping \"{name}=COLUMN [{unit}]\"",
                     column_name(channel)
                 ),
                 found: format!("the columns {}", self.names),
@@ -378,8 +378,8 @@ fn clock(
         return match mapping.dt_s {
             Some(dt_s) => Ok((even(dt_s), Some(dt_s), vec![])),
             None => {
-                let expected = "a column of times (time_s), or --map \"time=COLUMN [s]\", or \
-                                --map \"time=0.01 s\" for a time step";
+                let expected = "a column of times (time_s), or the mapping \"time=COLUMN [s]\", or \
+                                \"time=0.01 s\" for a time step";
                 Err(columns.error(0, 1, expected, format!("the columns {}", columns.names())))
             }
         };
@@ -496,7 +496,7 @@ mod tests {
         let text = "time_s,acc_block\n0,1\n1,2\n";
         assert_eq!(
             read(text, &["block_acceleration=acc_blok [g]"]).unwrap_err(),
-            "--map block_acceleration=acc_blok [g]:1:20: block_acceleration: expected one of the \
+            "mapping block_acceleration=acc_blok [g]:1:20: block_acceleration: expected one of the \
              columns \"time_s\", \"acc_block\" of m.csv, found \"acc_blok\"; nearest is \
              \"acc_block\""
         );

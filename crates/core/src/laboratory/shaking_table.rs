@@ -16,7 +16,7 @@ mod parameter;
 
 use core::cell::Cell;
 
-pub use parameter::{Builder, Parameter, ParameterError};
+pub use parameter::{Builder, Parameter};
 
 use super::compare::{self, CompareError, Comparison};
 use super::estimate::{Estimate, correlation_length};
@@ -214,7 +214,7 @@ fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
     let table = test.measured.series.iter().find(|s| s.channel == Channel::TableAcceleration);
     if tilted && table.is_some_and(|series| !series.zero_known) {
         let message = "the zero of table_acceleration is not stated, and 1 mg of it is 1 mrad of \
-                       slider.tilt: what is fitted is their sum; --map \"zero=first 2 s\" states the zero";
+                       slider.tilt: what is fitted is their sum; the mapping \"zero=first 2 s\" states the zero";
         warnings.push(Notice::new(NoticeKind::ZeroNotStated, message));
     }
     Ok(TableFit {
@@ -265,7 +265,7 @@ fn warnings(
         {
             let message = format!(
                 "the sensor of {name} is off by {offset:.4e} {unit}, which was fitted with the rest: \
-                 --map \"{name}=… - {offset:.4e} {unit}\" or \"zero=first 2 s\" states its zero"
+                 the mapping \"{name}=… - {offset:.4e} {unit}\" or \"zero=first 2 s\" states its zero"
             );
             all.push(Notice::new(NoticeKind::SensorOffset, message));
         }

@@ -1,6 +1,9 @@
-//! What may be asked: a table from which every door makes its options, keywords or form.
+//! What is asked of an analysis, as texts by the names of fields; every door fills it, and says errors in its
+//! own words.
 
-use crate::error::{ChoiceError, similar};
+use super::kinds::Kind;
+use crate::error::{ChoiceError, UnitError, similar};
+use crate::units::{Dimension, parse_quantity};
 
 /// How often a field is given, and what its text is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,6 +14,8 @@ pub enum Takes {
     Many,
     /// One of some words.
     Choice(&'static [&'static str]),
+    /// `true` or nothing.
+    Flag,
 }
 
 /// A field of a request.
@@ -18,267 +23,93 @@ pub enum Takes {
 pub struct Field {
     /// Its name: with `--` before it an option, with `_` for `-` a keyword.
     pub name: &'static str,
+    /// What a form calls it.
+    pub label: &'static str,
     /// What stands for its text in a help: `VALUES`.
     pub value: &'static str,
     /// How often it is given.
     pub takes: Takes,
     /// The text where none is given; empty where nothing stands for it.
     pub default: &'static str,
+    /// A text to start from in a form, where there is no default; empty where it may stay so.
+    pub sample: &'static str,
     /// What it is, with what follows where it is not given.
     pub about: &'static str,
 }
 
 impl Field {
-    const fn new(name: &'static str, value: &'static str, about: &'static str) -> Self {
-        Self { name, value, takes: Takes::One, default: "", about }
+    pub(super) const fn new(
+        name: &'static str,
+        label: &'static str,
+        value: &'static str,
+        about: &'static str,
+    ) -> Self {
+        Self { name, label, value, takes: Takes::One, default: "", sample: "", about }
     }
 
-    const fn many(self) -> Self {
+    pub(super) const fn many(self) -> Self {
         Self { takes: Takes::Many, ..self }
     }
 
-    const fn or(self, default: &'static str) -> Self {
+    pub(super) const fn flag(self) -> Self {
+        Self { takes: Takes::Flag, ..self }
+    }
+
+    pub(super) const fn or(self, default: &'static str) -> Self {
         Self { default, ..self }
     }
 
-    const fn of(self, words: &'static [&'static str]) -> Self {
+    pub(super) const fn sample(self, sample: &'static str) -> Self {
+        Self { sample, ..self }
+    }
+
+    pub(super) const fn of(self, words: &'static [&'static str]) -> Self {
         Self { takes: Takes::Choice(words), ..self }
     }
 }
 
-const PATH_VALUES: &str = "PATH=VALUES";
-
-const MEASURE: Field = Field::new(
-    "measure",
-    "NAME",
-    "Intensity measure: PGA, PGV, Sa(1.2 s), Sa(1.2 s, 2 %), Sa_avg(0.5 s, 3 s), …",
-)
-.or("PGA");
-const SCALE_TO: Field = Field::new(
-    "scale-to",
-    "LEVEL",
-    "Scale every record to this value of the measure: \"0.4 g\"; as recorded if left out",
-);
-const SCALE: Field = Field::new("scale", "FACTOR", "Scale every record by this factor").or("1");
-const VARY: Field = Field::new(
-    "vary",
-    PATH_VALUES,
-    "Parameter to vary: slider.radius=\"1, 2, 3 m\" or slider.radius=1..5m:200; may be repeated",
-)
-.many();
-const FRICTION: Field = Field::new(
-    "friction",
-    "VALUES",
-    "Kinetic friction to vary, the model's ratio of static to kinetic kept: 0.02,0.05,0.10",
-);
-const BOUNDS: Field = Field::new(
-    "bounds",
-    "BOUNDS",
-    "Which of the model's slider.bounds are run, each with curves of its own",
-)
-.of(&["all", "lower", "nominal", "upper"])
-.or("all");
-const DEMAND: Field =
-    Field::new("demand", "KEY", "Key of the demand").or("peak_sliding_displacement_m");
-const KEEP: Field = Field::new(
-    "where",
-    "PATH=VALUE|FROM..TO",
-    "Only designs with this value or within this range: slider.radius=\"1..2 m\", friction=upper; \
-     may be repeated",
-)
-.many();
-const BY: Field = Field::new(
-    "by",
-    "PATH",
-    "Curves of their own for each value of this path, else averaged over: slider.radius, friction",
-);
-const CONFIDENCE: Field =
-    Field::new("confidence", "SHARE", "Confidence of intervals and band").or("0.9");
-
-/// Fields of a sliding spectrum.
-const SPECTRUM: &[Field] = &[
-    Field::new(
-        "over",
-        PATH_VALUES,
-        "Parameter along the axis: storey.1.period=0.1..3s:30, isolator.period=1..5s:40, …",
-    )
-    .or("isolator.period=1..5s:40"),
-    FRICTION,
-    VARY,
-    MEASURE,
-    SCALE_TO,
-    SCALE,
-    Field::new(
-        "demand",
-        "KEY",
-        "Further demands, besides displacement, residual, path and roof acceleration; may be repeated",
-    )
-    .many(),
-    BOUNDS,
-];
-
-/// Fields of an incremental dynamic analysis.
-const IDA: &[Field] = &[
-    MEASURE,
-    Field::new(
-        "scale-to",
-        "LEVELS",
-        "Levels for all records: \"0.1, 0.2, 0.4 g\" or \"0.1..1.5 g:15\"; hunted, record by record, if \
-         left out",
-    ),
-    Field::new(
-        "between",
-        "FROM..TO",
-        "First and highest level of the hunt: \"0.05..10 g\"; a twentieth and twenty times the records' \
-         median if left out",
-    ),
-    DEMAND,
-    Field::new(
-        "limit",
-        "LIMIT",
-        "Limit on the demand: \"150 mm\"; of sliding, slider.gap of the model if left out",
-    ),
-    FRICTION,
-    VARY,
-    KEEP,
-    BY,
-    BOUNDS,
-];
-
-/// Fields of a fragility.
-const FRAGILITY: &[Field] = &[
-    DEMAND,
-    Field::new(
-        "limit",
-        "LIMIT",
-        "Limit on the demand: \"150 mm\"; that of the analysis if left out, and of none where the table has \
-         counts or capacities",
-    ),
-    Field::new(
-        "measure",
-        "NAME",
-        "Intensity measure, where it is not that of the levels: PGV, Sa(1.2 s), or a column's name",
-    ),
-    Field::new(
-        "units",
-        "UNIT",
-        "Unit of the intensities, where the table does not state it: g, m/s2, cm/s, …",
-    ),
-    Field::new("fit-to", "DATA", "What the curve is fitted to; by the kind of data if left out")
-        .of(&["counts", "capacities", "cloud"]),
-    Field::new(
-        "where",
-        "PATH=VALUE|FROM..TO",
-        "Only rows with this value or within this range: slider.radius=\"1..2 m\", record=taft-111; may be \
-         repeated",
-    )
-    .many(),
-    Field::new("by", "PATH", "One curve for each value of this column: slider.radius"),
-    Field::new(
-        "bootstrap",
-        "DRAWS",
-        "Intervals from this many draws of the records (50 to 100000) instead of the sandwich",
-    ),
-    Field::new("seed", "SEED", "Seed of these draws").or("1"),
-    Field::new(
-        "floor",
-        "LIMIT",
-        "Demands below this count as below it only, in a cloud: \"1 mm\"",
-    ),
-    Field::new("cap", "LIMIT", "Demands above this count as above it only, in a cloud"),
-    CONFIDENCE,
-];
-
-/// Fields of a design.
-const DESIGN: &[Field] = &[
-    FRICTION,
-    VARY,
-    MEASURE,
-    SCALE_TO,
-    SCALE,
-    Field::new(
-        "gap",
-        "LENGTH",
-        "Sliding displacement not to be exceeded; slider.gap of the model if left out",
-    ),
-    Field::new("probability", "SHARE", "Share of the records that must stay within the gap")
-        .or("0.9"),
-    Field::new(
-        "demand",
-        "KEY",
-        "Key of the acceleration to minimise; the roof's, or the block's, if left out",
-    ),
-    Field::new("share", "SHARE", "Share of the records that must not exceed that acceleration")
-        .or("0.5"),
-    Field::new(
-        "bounds",
-        "LOWER,UPPER",
-        "Factors on friction for the robustness check: 0.8,1.3; slider.bounds of the model if left out",
-    ),
-    Field::new("sensitivity", "N", "Sample points of the sensitivity (Sobol' indices); 0 for none")
-        .or("256"),
-    Field::new("seed", "SEED", "Seed of those points").or("1"),
-    CONFIDENCE,
-];
-
-/// An analysis that is asked for by fields.
+/// Where a request comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// A sliding spectrum, or response over excitation frequency.
-    Spectrum,
-    /// An incremental dynamic analysis.
-    Ida,
-    /// A lognormal fragility of a table of runs.
-    Fragility,
-    /// The friction and stiffness that keep a gap.
-    Design,
+pub enum Door {
+    /// Options of the command.
+    Command,
+    /// Keywords in Python.
+    Python,
+    /// The form of the page.
+    Page,
 }
 
-impl Kind {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::Spectrum, Self::Ida, Self::Fragility, Self::Design];
-
-    /// Its name, which is that of the command.
+impl Door {
+    /// What is wrong, in the words of the door: the field, and every other that is named in backticks, as it is
+    /// called there.
     #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Spectrum => "spectrum",
-            Self::Ida => "ida",
-            Self::Fragility => "fragility",
-            Self::Design => "design",
-        }
+    pub fn says(self, error: &ChoiceError) -> ChoiceError {
+        let what = match error.what.split_once(' ') {
+            Some((field, rest)) => format!("{} {rest}", self.calls(field)),
+            None => self.calls(&error.what),
+        };
+        let (expected, found) = (self.reads(&error.expected), self.reads(&error.found));
+        ChoiceError { what, expected, found, nearest: error.nearest.clone() }
     }
 
-    /// Its fields, in the order of a help.
+    /// What it calls a field.
     #[must_use]
-    pub fn fields(self) -> &'static [Field] {
+    pub fn calls(self, field: &str) -> String {
         match self {
-            Self::Spectrum => SPECTRUM,
-            Self::Ida => IDA,
-            Self::Fragility => FRAGILITY,
-            Self::Design => DESIGN,
+            Self::Command => format!("--{field}"),
+            Self::Python => field.replace('-', "_"),
+            Self::Page => {
+                let mut fields = Kind::ALL.into_iter().flat_map(Kind::fields);
+                let known = fields.find(|known| known.name == field);
+                known.map_or(field, |known| known.label).to_owned()
+            }
         }
     }
-}
 
-/// All fields of all analyses as text, a line each: name, what it takes, its default, what it is.
-#[must_use]
-pub fn table() -> String {
-    let mut text = String::new();
-    for kind in Kind::ALL {
-        let rule = if text.is_empty() { "" } else { "\n" };
-        text.push_str(&format!("{rule}{}\n", kind.name()));
-        for Field { name, value, takes, default, about } in kind.fields() {
-            let value = match takes {
-                Takes::Choice(words) => words.join("|"),
-                Takes::One | Takes::Many => (*value).to_owned(),
-            };
-            let default =
-                if default.is_empty() { String::new() } else { format!(" [default: {default}]") };
-            text.push_str(&format!("  {name:<12}{value:<21} {about}{default}\n"));
-        }
+    fn reads(self, text: &str) -> String {
+        let parts = text.split('`').enumerate();
+        parts.map(|(i, part)| if i % 2 == 0 { part.to_owned() } else { self.calls(part) }).collect()
     }
-    text
 }
 
 /// What is asked of an analysis: texts by the names of its fields.
@@ -307,10 +138,15 @@ impl Request {
                     nearest: similar(name, kind.fields().iter().map(|field| field.name)),
                 });
             };
-            if let Takes::Choice(words) = field.takes
-                && !words.contains(&text.as_str())
-                && !text.is_empty()
-            {
+            let words = match field.takes {
+                Takes::Choice(words) => words,
+                Takes::Flag => &["true", "false"],
+                Takes::One | Takes::Many => &[],
+            };
+            if text.trim().is_empty() || (field.takes == Takes::Flag && text == "false") {
+                continue;
+            }
+            if !words.is_empty() && !words.contains(&text.as_str()) {
                 return Err(ChoiceError {
                     what: name.to_owned(),
                     expected: format!("one of {}", words.join(", ")),
@@ -318,9 +154,7 @@ impl Request {
                     nearest: similar(&text, words.iter().copied()),
                 });
             }
-            if !text.trim().is_empty() {
-                asked.given.push((field, text));
-            }
+            asked.given.push((field, text));
         }
         Ok(asked)
     }
@@ -343,6 +177,11 @@ impl Request {
         self.given.iter().filter(of).map(|(_, text)| text.as_str())
     }
 
+    /// All texts of a field, each of which may be several with commas between.
+    pub(super) fn listed(&self, name: &str) -> Vec<&str> {
+        self.all(name).flat_map(|text| text.split(',')).map(str::trim).collect()
+    }
+
     /// The last text of a field.
     pub(super) fn given(&self, name: &str) -> Option<&str> {
         self.all(name).last()
@@ -353,25 +192,63 @@ impl Request {
         let field = self.kind.fields().iter().find(|field| field.name == name);
         self.given(name).or(field.map(|field| field.default)).unwrap_or_default()
     }
+
+    /// A number that fits, in the text of a field.
+    pub(super) fn number(
+        &self,
+        name: &str,
+        expected: &str,
+        fits: impl Fn(f64) -> bool,
+    ) -> Result<f64, ChoiceError> {
+        let text = self.one(name);
+        let number = text.trim().parse::<f64>().ok().filter(|n| n.is_finite() && fits(*n));
+        number.ok_or_else(|| wrong(name, expected, text))
+    }
+
+    /// A share strictly between 0 and 1.
+    pub(super) fn share(&self, name: &str) -> Result<f64, ChoiceError> {
+        self.number(name, "a share between 0 and 1", |share| share > 0.0 && share < 1.0)
+    }
+
+    pub(super) fn count(&self, name: &str, least: u64, most: u64) -> Result<u64, ChoiceError> {
+        let text = self.one(name);
+        let count = text.trim().parse::<u64>().ok().filter(|n| (least..=most).contains(n));
+        count.ok_or_else(|| wrong(name, &format!("a whole number from {least} to {most}"), text))
+    }
+
+    pub(super) fn seed(&self) -> Result<u64, ChoiceError> {
+        self.count("seed", 0, u64::MAX)
+    }
+
+    /// A quantity with its unit, in SI; `None` where none is given.
+    pub(super) fn quantity(
+        &self,
+        name: &str,
+        dimension: Dimension,
+    ) -> Result<Option<f64>, ChoiceError> {
+        self.given(name).map(|text| quantity(name, text, dimension)).transpose()
+    }
+}
+
+/// A quantity in the text of a field, in SI.
+pub(super) fn quantity(name: &str, text: &str, dimension: Dimension) -> Result<f64, ChoiceError> {
+    parse_quantity(text, dimension).map_err(|UnitError { expected, found, nearest }| ChoiceError {
+        what: name.to_owned(),
+        expected,
+        found,
+        nearest,
+    })
+}
+
+/// A text that is not what a field expects.
+pub(super) fn wrong(name: &str, expected: &str, found: &str) -> ChoiceError {
+    let (what, expected) = (name.to_owned(), expected.to_owned());
+    ChoiceError { what, expected, found: format!("{found:?}"), nearest: None }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn exact_fields_have_one_name_each_and_defaults_that_may_be_given() {
-        for kind in Kind::ALL {
-            let fields = kind.fields();
-            for (i, field) in fields.iter().enumerate() {
-                assert!(fields[..i].iter().all(|other| other.name != field.name), "{}", field.name);
-                let given = (field.name, field.default.to_owned());
-                let asked = Request::new(kind, [given]).unwrap();
-                assert_eq!(asked.one(field.name), field.default, "{}", field.name);
-            }
-        }
-        assert!(table().contains("  scale-to    LEVELS                Levels for all records"));
-    }
 
     #[test]
     fn exact_what_is_no_field_is_said_with_the_nearest() {
@@ -385,6 +262,32 @@ mod tests {
         assert_eq!(
             error(Kind::Ida, "bounds", "uper"),
             "bounds: expected one of all, lower, nominal, upper, found \"uper\"; nearest is \"upper\""
+        );
+        let flag = |text: &str| Request::new(Kind::Run, [("floor-spectrum", text.to_owned())]);
+        assert_eq!(flag("false"), flag(""));
+        assert!(flag("true").unwrap().given("floor-spectrum").is_some() && flag("yes").is_err());
+    }
+
+    #[test]
+    fn exact_each_door_says_a_field_in_its_own_words() {
+        let error = ChoiceError {
+            what: "scale-to slider.gap".to_owned(),
+            expected: "`scale-to` or `code-spectrum`".to_owned(),
+            found: "both".to_owned(),
+            nearest: None,
+        };
+        let says = |door: Door| door.says(&error).to_string();
+        assert_eq!(
+            says(Door::Command),
+            "--scale-to slider.gap: expected --scale-to or --code-spectrum, found both"
+        );
+        assert_eq!(
+            says(Door::Python),
+            "scale_to slider.gap: expected scale_to or code_spectrum, found both"
+        );
+        assert_eq!(
+            says(Door::Page),
+            "Scaled to slider.gap: expected Scaled to or Spectrum of the code, found both"
         );
     }
 }

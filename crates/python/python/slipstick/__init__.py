@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from . import identify
-from ._assessment import Assessment, design, fragility, ida, read_suite, spectrum
+from ._assessment import Assessment, design, fragility, ida, read_suite, spectrum, suite
 from ._core import Model, Motion, Table, __version__
 from ._errors import InputError, RecordError, SolveError, StudyError
 from ._laboratory import Comparison, Estimate, Identified, compare
@@ -65,6 +65,7 @@ __all__ = [
     "run",
     "spectrum",
     "study",
+    "suite",
     "widget",
 ]
 

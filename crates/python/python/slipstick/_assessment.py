@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from os import PathLike, fspath
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from . import _core
+from ._request import given, paths
 from ._result import Result, write
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Sequence
+    from os import PathLike
 
-    Values = str | Sequence[str] | Sequence[float]
-    Varied = Mapping[str, Values]
+    from ._request import Values, Varied
+
     Progress = Callable[[int, int], object]
+    Records = Mapping[str, _core.Motion]
 
 
 class Assessment(Result):
@@ -76,14 +78,86 @@ def read_suite(
     """
     return dict(
         _core.read_suite(
-            _texts(patterns), channel=channel, units=units, dt_s=dt_s, vertical=_texts(vertical)
+            paths(patterns), channel=channel, units=units, dt_s=dt_s, vertical=paths(vertical)
+        )
+    )
+
+
+def suite(
+    models: _core.Model | Mapping[str, _core.Model],
+    records: Records,
+    *,
+    second: Records | None = None,
+    measure: str | None = None,
+    scale_to: str | None = None,
+    scale: float | None = None,
+    target: str | PathLike[str] | None = None,
+    code_spectrum: str | None = None,
+    periods: str | None = None,
+    jobs: int | None = None,
+    progress: Progress | None = None,
+) -> Assessment:
+    """Run models on the records of a suite, side by side: what governs, with lower- and upper-bound friction.
+
+    Parameters
+    ----------
+    models
+        A model, or several by name.
+    records
+        The motions by name, such as from ``read_suite``.
+    second
+        Other components of the records, as many and in the same order: both components of a pair take one
+        factor.
+    measure, scale_to
+        All records, or pairs, are scaled so that the measure takes this value; as recorded if left out.
+    scale
+        A factor on all records instead.
+    target, code_spectrum, periods
+        A spectrum to which pairs are brought instead, between two periods, ``"0.6 s..3.8 s"``: a CSV with the
+        columns ``period_s`` and ``sa_g``, or the shape of ASCE/SEI 7, ``"sds = 1.2 g, sd1 = 0.8 g, tl = 8 s"``.
+    jobs, progress
+        As in ``study``.
+
+    Returns
+    -------
+    Assessment
+        Tables ``runs``, one row a run, and ``governing``.
+
+    Raises
+    ------
+    InputError
+        For records that cannot be scaled so, and a choice that cannot be.
+    KeyboardInterrupt
+        At Ctrl-C.
+
+    Examples
+    --------
+    >>> import slipstick as ss
+    >>> model = ss.Model({"block.mass": "325 kg", "slider.static_friction": 0.06,
+    ...                   "slider.kinetic_friction": 0.05, "slider.radius": "2 m"})
+    >>> records = {name: ss.Motion([0.0, 0.3, -0.3, 0.0], dt=dt, units="g")
+    ...            for name, dt in [("short", 0.2), ("middle", 0.25), ("long", 0.3)]}
+    >>> found = ss.suite(model, records, scale_to="0.2 g")
+    >>> len(found.table), found.tables["governing"].columns[:3]
+    (3, ['model', 'friction', 'statistic'])
+    """
+    several = models if isinstance(models, Mapping) else {models.name or "model": models}
+    return Assessment(
+        _core.suite(
+            list(several.items()),
+            list(records.items()),
+            list((second or {}).items()),
+            given("suite", locals()),
+            target=None if target is None else Path(target),
+            jobs=jobs,
+            progress=progress,
         )
     )
 
 
 def spectrum(
     model: _core.Model,
-    records: Mapping[str, _core.Motion],
+    records: Records,
     over: Varied | None = None,
     *,
     friction: Values | None = None,
@@ -143,23 +217,15 @@ def spectrum(
     >>> len(found.tables["runs"])
     9
     """
-    asked: dict[str, object] = {
-        "over": over,
-        "friction": friction,
-        "vary": vary,
-        "measure": measure,
-        "scale_to": scale_to,
-    }
-    asked |= {"scale": scale, "demand": demand, "bounds": bounds}
-    return _assess("spectrum", model, records, asked, jobs, progress)
+    return _assess("spectrum", model, records, None, locals(), jobs, progress)
 
 
 def ida(
     model: _core.Model,
-    records: Mapping[str, _core.Motion],
+    records: Records,
     *,
     measure: str | None = None,
-    scale_to: str | None = None,
+    scale_to: Values | None = None,
     between: str | None = None,
     demand: str | None = None,
     limit: str | None = None,
@@ -168,6 +234,7 @@ def ida(
     where: Sequence[str] = (),
     by: str | None = None,
     bounds: str | None = None,
+    second: Records | None = None,
     jobs: int | None = None,
     progress: Progress | None = None,
 ) -> Assessment:
@@ -180,8 +247,8 @@ def ida(
     measure
         The intensity measure.
     scale_to
-        Levels of the measure for all records: ``"0.1..1 g:10"``; each record's own capacity is hunted if left
-        out.
+        Levels of the measure for all records: ``"0.1..1 g:10"``, or a list; each record's own capacity is hunted
+        if left out.
     between
         First and highest level of the hunt, ``"0.05..2 g"``.
     demand, limit
@@ -192,6 +259,9 @@ def ida(
         Designs that are kept, and the path whose values have curves of their own.
     bounds
         Which of the model's ``slider.bounds`` are run: ``"all"``, ``"lower"``, ``"nominal"``, ``"upper"``.
+    second
+        Other components of the records, as many and in the same order: both components of a pair take one
+        factor, and certainty is clustered by pair.
     jobs, progress
         As in ``study``.
 
@@ -218,15 +288,7 @@ def ida(
     >>> len(found.table), len(found.tables["capacities"])
     (12, 3)
     """
-    asked: dict[str, object] = {
-        "measure": measure,
-        "scale_to": scale_to,
-        "between": between,
-        "demand": demand,
-        "limit": limit,
-    }
-    asked |= {"friction": friction, "vary": vary, "where": where, "by": by, "bounds": bounds}
-    return _assess("ida", model, records, asked, jobs, progress)
+    return _assess("ida", model, records, second, locals(), jobs, progress)
 
 
 def fragility(
@@ -293,15 +355,7 @@ def fragility(
     >>> curve.table.columns
     ['level', 'probability', 'band_low', 'band_high']
     """
-    asked: dict[str, object] = {
-        "demand": demand,
-        "limit": limit,
-        "measure": measure,
-        "units": units,
-        "fit_to": fit_to,
-    }
-    asked |= {"where": where, "by": by, "bootstrap": bootstrap, "seed": seed, "floor": floor, "cap": cap}
-    given = _given(asked | {"confidence": confidence})
+    asked = given("fragility", locals())
     known = None
     if isinstance(source, Assessment):
         known = source.summary.get("limit")
@@ -311,12 +365,12 @@ def fragility(
         table = source
     else:
         table, known = _core.read_runs(Path(source), demand)
-    return Assessment(_core.fit(table, given, limit=known, jobs=jobs, progress=progress))
+    return Assessment(_core.fit(table, asked, limit=known, jobs=jobs, progress=progress))
 
 
 def design(
     model: _core.Model,
-    records: Mapping[str, _core.Motion],
+    records: Records,
     vary: Varied | None = None,
     *,
     friction: Values | None = None,
@@ -385,53 +439,18 @@ def design(
     >>> list(found.tables)
     ['front', 'runs']
     """
-    asked: dict[str, object] = {
-        "vary": vary,
-        "friction": friction,
-        "measure": measure,
-        "scale_to": scale_to,
-        "scale": scale,
-    }
-    asked |= {"gap": gap, "probability": probability, "demand": demand, "share": share, "bounds": bounds}
-    asked |= {"sensitivity": sensitivity, "seed": seed, "confidence": confidence}
-    return _assess("design", model, records, asked, jobs, progress)
+    return _assess("design", model, records, None, locals(), jobs, progress)
 
 
 def _assess(
     kind: str,
     model: _core.Model,
-    records: Mapping[str, _core.Motion],
+    records: Records,
+    second: Records | None,
     asked: Mapping[str, object],
     jobs: int | None,
     progress: Progress | None,
 ) -> Assessment:
-    answer = _core.assess(kind, model, list(records.items()), _given(asked), jobs=jobs, progress=progress)
+    of, others = list(records.items()), list((second or {}).items())
+    answer = _core.assess(kind, model, of, others, given(kind, asked), jobs=jobs, progress=progress)
     return Assessment(answer)
-
-
-#: Lists of these are one text each; those of others are one text together.
-_MANY = ("vary", "where", "demand")
-
-
-def _given(asked: Mapping[str, object]) -> list[tuple[str, str]]:
-    """Return what is given as texts; what is left out has its default in the core."""
-    given: list[tuple[str, str]] = []
-    for name, value in asked.items():
-        if isinstance(value, str) or not isinstance(value, (Mapping, Sequence)):
-            texts = [] if value is None else [str(value)]
-        elif isinstance(value, Mapping):
-            texts = [f"{path}={_values(values)}" for path, values in value.items()]
-        else:
-            texts = [str(item) for item in value] if name in _MANY else [_values(value)]
-        given += [(name, text) for text in texts]
-    return given
-
-
-def _texts(paths: str | PathLike[str] | Iterable[str | PathLike[str]]) -> list[str]:
-    if isinstance(paths, (str, PathLike)):
-        return [fspath(paths)]
-    return [fspath(path) for path in paths]
-
-
-def _values(values: Values) -> str:
-    return values if isinstance(values, str) else ", ".join(str(value) for value in values)

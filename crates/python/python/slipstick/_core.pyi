@@ -165,7 +165,7 @@ class Study:
     @property
     def notices(self) -> list[str]: ...
 
-def run(model: Model, motion: Motion | None = None, *, floor_spectra: bool = False) -> Response: ...
+def run(model: Model, motion: Motion | None = None, *, floor_spectrum: bool = False) -> Response: ...
 def study(
     plan: str | PathLike[str] | Path,
     folder: str | PathLike[str] | Path,
@@ -197,13 +197,25 @@ def read_suite(
     vertical: list[str] = ...,
 ) -> list[tuple[str, Motion]]: ...
 def read_runs(source: Path, demand: str | None) -> tuple[Table, float | None]: ...
+def levels(text: str, measure: str) -> list[str]: ...
 def fields(kind: str) -> list[tuple[str, bool, str, str]]: ...
 def assess(
     kind: str,
     model: Model,
     records: list[tuple[str, Motion]],
+    second: list[tuple[str, Motion]],
     given: list[tuple[str, str]],
     *,
+    jobs: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Assessment: ...
+def suite(
+    models: list[tuple[str, Model]],
+    records: list[tuple[str, Motion]],
+    second: list[tuple[str, Motion]],
+    given: list[tuple[str, str]],
+    *,
+    target: Path | None = None,
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Assessment: ...
@@ -260,42 +272,14 @@ class Identified:
 def compare_with(
     measured: _Given,
     model: Model,
-    *,
-    mapping_file: Path | None = None,
-    mapping: list[str] = ...,
-    within: list[str] = ...,
+    given: list[tuple[str, str]],
 ) -> Comparison: ...
-def identify_cyclic(
+def identify(
+    kind: str,
     tests: list[_Given],
+    model: Model | None,
+    given: list[tuple[str, str]],
     *,
-    mass: str | None = None,
-    normal_force: str | None = None,
-    model: Model | None = None,
-    spring: bool = True,
-    damper: bool = True,
-    slack: str | None = None,
-    law: str = "coulomb",
-    mapping_file: Path | None = None,
-    mapping: list[str] = ...,
-) -> Identified: ...
-def identify_free_vibration(
-    measured: _Given,
-    *,
-    channel: str | None = None,
-    start: str | None = None,
-    end: str | None = None,
-    model: Model | None = None,
-    mapping_file: Path | None = None,
-    mapping: list[str] = ...,
-) -> Identified: ...
-def identify_shaking_table(
-    measured: _Given,
-    model: Model,
-    fit: list[str],
-    *,
-    using: list[str] = ...,
-    seed: int = 1,
-    mapping_file: Path | None = None,
-    mapping: list[str] = ...,
+    jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Identified: ...

@@ -6,21 +6,22 @@ from collections.abc import Iterator, Mapping, Sequence
 from os import PathLike, fspath
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
 from . import _core
+from ._request import given
 from ._result import UNITS, Result, write
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
+    from ._request import Columns
     from ._result import Key
 
     Measured = str | PathLike[str] | Mapping[str, ArrayLike]
-    Columns = str | PathLike[str] | Mapping[str, str]
     Bound = str | tuple[float | None, float | None]
 
 
@@ -73,7 +74,7 @@ class _Test(Result):
         Parameters
         ----------
         units
-            ``"si"``, ``"si-g"``, ``"kn-mm"`` or ``"us"``.
+            ``"si"``, ``"si-g"``, ``"kN-mm"`` or ``"us"``.
         """
         return str(self._tell("_text", units))
 
@@ -85,7 +86,7 @@ class _Test(Result):
         path
             The file.
         units
-            ``"si"``, ``"si-g"``, ``"kn-mm"`` or ``"us"``.
+            ``"si"``, ``"si-g"``, ``"kN-mm"`` or ``"us"``.
         """
         return write(path, self._tell("_report_html", units))
 
@@ -171,7 +172,7 @@ class Identified(_Test):
         return f"<slipstick.Identified {', '.join(self.estimates)}>"
 
 
-def given(measured: Measured) -> Any:
+def _test(measured: Measured) -> Any:
     """A file, or columns by name as the extension takes them."""
     if isinstance(measured, (str, PathLike)):
         return Path(fspath(measured))
@@ -180,20 +181,12 @@ def given(measured: Measured) -> Any:
     return [(name, np.ascontiguousarray(values, dtype="f8")) for name, values in numbers]
 
 
-def mapped(mapping: Columns | None) -> dict[str, Any]:
-    """A mapping file, or what a mapping says of each quantity."""
-    if mapping is None:
-        return {}
-    if isinstance(mapping, (str, PathLike)):
-        return {"mapping_file": Path(mapping)}
-    return {"mapping": [f"{quantity}={column}" for quantity, column in mapping.items()]}
-
-
 def compare(
     measured: Measured,
     model: _core.Model,
     *,
     mapping: Columns | None = None,
+    method: Literal["exact", "stepwise"] | None = None,
     within: Mapping[str, Bound] | None = None,
 ) -> Comparison:
     """Compare what a model predicts with what was measured on a shaking table.
@@ -210,6 +203,8 @@ def compare(
         The model; its own motion and tail play no part.
     mapping
         Which column is which quantity: ``{"sliding_displacement": "X1 - U [mm]"}``, or a mapping file.
+    method
+        ``"exact"`` or ``"stepwise"``; that of the model if left out.
     within
         Bounds on figures, in SI: ``{"peak_ratio.sliding_displacement": (0.9, 1.1)}``; None leaves an end
         open.
@@ -239,8 +234,9 @@ def compare(
     >>> comparison.summary["quantities"][0]["peak_ratio"]
     1.0
     """
-    bounds = [f"{figure}={_range(bound)}" for figure, bound in (within or {}).items()]
-    return Comparison(_core.compare_with(given(measured), model, within=bounds, **mapped(mapping)))
+    ranges = {figure: _range(bound) for figure, bound in (within or {}).items()}
+    asked = given("compare", {"method": method, "within": ranges, "mapping": mapping})
+    return Comparison(_core.compare_with(_test(measured), model, asked))
 
 
 def _range(bound: Bound) -> str:
@@ -252,5 +248,5 @@ def _range(bound: Bound) -> str:
 def several(tests: Measured | Sequence[Measured]) -> list[Any]:
     """One test or several."""
     if isinstance(tests, Sequence) and not isinstance(tests, str):
-        return [given(test) for test in tests]
-    return [given(tests)]
+        return [_test(test) for test in tests]
+    return [_test(tests)]

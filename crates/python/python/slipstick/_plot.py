@@ -140,7 +140,7 @@ class Plotter:
         return _over_time(ax, "friction force [kN]")
 
     def floor_spectra(self, ax: Axes | None = None) -> Axes:
-        """Response spectra of table, block and floors, of ``run(..., floor_spectra=True)``.
+        """Response spectra of table, block and floors, of ``run(..., floor_spectrum=True)``.
 
         Raises
         ------
@@ -149,7 +149,7 @@ class Plotter:
         """
         spectra, ax = self._response.summary.get("floor_spectrum"), axes_or_new(ax)
         if spectra is None:
-            raise ValueError("expected a response of run(..., floor_spectra=True), found one without")
+            raise ValueError("expected a response of run(..., floor_spectrum=True), found one without")
         lines = [("table", spectra["table_acceleration_m_per_s2"]), ("block", spectra["block_acceleration_m_per_s2"])]
         lines += [(f"floor {i}", values) for i, values in enumerate(spectra["storeys_acceleration_m_per_s2"], 1)]
         for label, values in lines:

@@ -38,7 +38,7 @@ class Event(NamedTuple):
 
 
 def run(
-    model: _core.Model, motion: _core.Motion | None = None, *, floor_spectra: bool = False
+    model: _core.Model, motion: _core.Motion | None = None, *, floor_spectrum: bool = False
 ) -> Response:
     """Analyse a model on a motion, exactly, and judge the answer.
 
@@ -48,7 +48,7 @@ def run(
         The model; its ``analysis.method`` and ``analysis.tail`` hold.
     motion
         The motion of the table; the model's own if left out.
-    floor_spectra
+    floor_spectrum
         Whether response spectra of table, block and floors are wanted in ``summary``.
 
     Returns
@@ -75,7 +75,7 @@ def run(
     >>> float(abs(response.knots["friction_force_n"]).max()) == 0.1 * 325 * 9.80665
     True
     """
-    return Response(_core.run(model, motion, floor_spectra=floor_spectra), model, floor_spectra)
+    return Response(_core.run(model, motion, floor_spectrum=floor_spectrum), model, floor_spectrum)
 
 
 def _frozen(columns: dict[str, NDArray[np.float64]]) -> Columns:
@@ -90,10 +90,10 @@ class Response:
     Two are equal where model and motion are. A response pickles as those, and is computed again.
     """
 
-    def __init__(self, core: _core.Response, model: _core.Model, floor_spectra: bool) -> None:
+    def __init__(self, core: _core.Response, model: _core.Model, floor_spectrum: bool) -> None:
         self._core = core
         self._model = model
-        self._floor_spectra = floor_spectra
+        self._floor_spectrum = floor_spectrum
 
     @property
     def model(self) -> _core.Model:
@@ -106,12 +106,12 @@ class Response:
         return self._core.motion
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _again, (self._model, self.motion, self._floor_spectra)
+        return _again, (self._model, self.motion, self._floor_spectrum)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Response):
             return NotImplemented
-        same = self._model == other._model and self._floor_spectra == other._floor_spectra
+        same = self._model == other._model and self._floor_spectrum == other._floor_spectrum
         return same and self.motion == other.motion
 
     def __hash__(self) -> int:
@@ -210,7 +210,7 @@ class Response:
         path
             The file.
         units
-            ``"si"``, ``"si-g"``, ``"kn-mm"`` or ``"us"``.
+            ``"si"``, ``"si-g"``, ``"kN-mm"`` or ``"us"``.
         """
         target = Path(path)
         target.write_text(self._core._report_html(units), encoding="utf-8")
@@ -224,8 +224,8 @@ class Response:
         return f"<slipstick.Response {self._core.name!r}, {len(self.events)} events>"
 
 
-def _again(model: _core.Model, motion: _core.Motion, floor_spectra: bool) -> Response:
-    return run(model, motion, floor_spectra=floor_spectra)
+def _again(model: _core.Model, motion: _core.Motion, floor_spectrum: bool) -> Response:
+    return run(model, motion, floor_spectrum=floor_spectrum)
 
 
 _UNITS = {"_m": "m", "_m_per_s": "m/s", "_m_per_s2": "m/s²", "_n": "N", "_s": "s"}

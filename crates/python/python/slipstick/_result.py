@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     Key = tuple[str, ...]
 
 #: Systems of units that results are shown in
-UNITS = ("si", "si-g", "kn-mm", "us")
+UNITS = ("si", "si-g", "kN-mm", "us")
 
 
 class Result:

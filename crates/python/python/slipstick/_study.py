@@ -46,8 +46,8 @@ class Plan:
     samples, seed, method
         Number of samples, their seed, and ``"sobol"``, ``"latin-hypercube"`` or ``"grid"``.
     measure, levels, scale
-        Each record is scaled so that the measure takes each of the levels, ``["0.1 g", "0.2 g"]``; or by
-        each of the factors of ``scale``.
+        Each record is scaled so that the measure takes each of the levels, ``["0.1 g", "0.2 g"]`` or
+        ``"0.1..0.4 g:4"``; or by each of the factors of ``scale``.
     bounds
         Which of the model's ``slider.bounds`` are run: ``"all"``, ``"lower"``, ``"nominal"``, ``"upper"``.
     name
@@ -75,7 +75,7 @@ class Plan:
     seed: int | None = None
     method: str = "sobol"
     measure: str | None = None
-    levels: Sequence[str] | None = None
+    levels: str | Sequence[str] | None = None
     scale: Sequence[float] | None = None
     bounds: str | None = None
     name: str | None = None
@@ -111,7 +111,10 @@ class Plan:
         text = rows({"name": self.name, "model": "model.toml", "bounds": self.bounds})
         if self.records is not None:
             records = [_record(name) for name in self.records]
-            measured = {"measure": self.measure, "levels": self.levels, "scale": self.scale}
+            levels = self.levels
+            if isinstance(levels, str):
+                levels = _core.levels(levels, self.measure or "PGA")
+            measured = {"measure": self.measure, "levels": levels, "scale": self.scale}
             text += ["[records]", *rows({"files": records, **measured})]
         if self.vary:
             varied = {k: v if isinstance(v, Mapping) else {"values": v} for k, v in self.vary.items()}

@@ -5,14 +5,14 @@ Every parameter comes with its 95 % confidence interval, or with the reason why 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Literal
 
 from . import _core
-from ._laboratory import Identified, given, mapped, several
+from ._laboratory import Identified, several
+from ._request import given
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping, Sequence
 
     from ._laboratory import Columns, Measured
 
@@ -25,10 +25,9 @@ def cyclic(
     mass: str | None = None,
     normal_force: str | None = None,
     model: _core.Model | None = None,
-    spring: bool = True,
-    damper: bool = True,
+    law: Literal["coulomb", "slow-fast-rate"] | None = None,
+    without: Sequence[Literal["spring", "damper"]] = (),
     slack: str | None = None,
-    law: Literal["coulomb", "slow-fast-rate"] = "coulomb",
     mapping: Columns | None = None,
 ) -> Identified:
     """Identify friction, spring and damper from cyclic tests: displacement and force over time.
@@ -45,15 +44,15 @@ def cyclic(
         Force that presses the block on its surface, ``"1200 N"``, where it is not the weight.
     model
         A model that takes what was found, in place of ``mass``.
-    spring, damper
-        Whether they are fitted beside friction.
+    law
+        How kinetic friction follows the sliding speed: ``"coulomb"``, not at all, which it is if left out;
+        ``"slow-fast-rate"``, by slow and fast coefficients and the rate between them, which takes tests at
+        several speeds and leaves out the damper.
+    without
+        What is not fitted beside friction: ``"spring"``, ``"damper"``.
     slack
         Travel after each reversal that is left out, ``"0.5 mm"`` (backlash); found from the force if left
         out.
-    law
-        How kinetic friction follows the sliding speed: ``"coulomb"``, not at all; ``"slow-fast-rate"``, by
-        slow and fast coefficients and the rate between them, which takes tests at several speeds and
-        leaves out the damper.
     mapping
         As in ``compare``.
 
@@ -80,19 +79,7 @@ def cyclic(
     >>> round(found.estimates["slider.kinetic_friction"].value, 3)  # 150 N over the weight
     0.153
     """
-    return Identified(
-        _core.identify_cyclic(
-            several(tests),
-            mass=mass,
-            normal_force=normal_force,
-            model=model,
-            spring=spring,
-            damper=damper,
-            slack=slack,
-            law=law,
-            **mapped(mapping),
-        )
-    )
+    return _identified("cyclic", tests, model, locals())
 
 
 def free_vibration(
@@ -140,11 +127,7 @@ def free_vibration(
     >>> round(found.estimates["storey.1.frequency"].value, 2)
     1.6
     """
-    return Identified(
-        _core.identify_free_vibration(
-            given(measured), channel=channel, start=start, end=end, model=model, **mapped(mapping)
-        )
-    )
+    return _identified("free-vibration", measured, model, locals())
 
 
 def shaking_table(
@@ -153,8 +136,9 @@ def shaking_table(
     fit: Sequence[str] | Mapping[str, str | None],
     *,
     using: Sequence[str] = (),
-    seed: int = 1,
+    seed: int | None = None,
     mapping: Columns | None = None,
+    jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Identified:
     """Identify keys of a model from a shaking-table record.
@@ -174,8 +158,8 @@ def shaking_table(
         Of the random starts.
     mapping
         As in ``compare``.
-    progress
-        Called with the runs of the model done and planned.
+    jobs, progress
+        As in ``study``.
 
     Returns
     -------
@@ -191,18 +175,18 @@ def shaking_table(
     KeyboardInterrupt
         At Ctrl-C.
     """
-    if isinstance(fit, Mapping):
-        keys = [path if ends is None else f"{path}={ends}" for path, ends in fit.items()]
-    else:
-        keys = [fit] if isinstance(fit, str) else list(fit)
+    return _identified("shaking-table", measured, model, locals(), jobs, progress)
+
+
+def _identified(
+    kind: str,
+    tests: Measured | Sequence[Measured],
+    model: _core.Model | None,
+    asked: Mapping[str, object],
+    jobs: int | None = 1,
+    progress: Callable[[int, int], object] | None = None,
+) -> Identified:
+    asked_for = given(kind, asked)
     return Identified(
-        _core.identify_shaking_table(
-            given(measured),
-            model,
-            keys,
-            using=list(using),
-            seed=seed,
-            progress=progress,
-            **mapped(mapping),
-        )
+        _core.identify(kind, several(tests), model, asked_for, jobs=jobs, progress=progress)
     )

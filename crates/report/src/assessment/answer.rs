@@ -1,10 +1,12 @@
 //! Answers to requests, laid out, and their tables.
 
+use slipstick::assessment::histories::Histories;
 use slipstick::requests::{Answer, Curves, Results};
 use slipstick::table::Table;
 
 use super::design::DesignReport;
 use super::fragility::{FragilityFamily, FragilityReport};
+use super::histories::HistoriesReport;
 use super::ida::IdaFamily;
 use super::sheet::Sheet;
 use super::spectrum::SpectrumReport;
@@ -26,6 +28,9 @@ pub struct Tabled {
 pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
     let Answer { name, records, scaled, warnings, found } = answer;
     match found {
+        Results::Suite(histories) => {
+            HistoriesReport { histories, scaled, warnings, display }.sheet()
+        }
         Results::Spectrum(run) => {
             SpectrumReport { name, records, scaled, run, warnings, display }.sheet()
         }
@@ -81,6 +86,9 @@ pub fn tables(answer: Answer) -> Vec<Tabled> {
     const BOTH: &[&str] = &["csv", "parquet"];
     let tabled = |name, forms, table| Tabled { name, forms, table };
     match answer.found {
+        Results::Suite(Histories { runs, governing, .. }) => {
+            vec![tabled("runs", &BOTH[..1], runs), tabled("governing", &BOTH[..1], governing)]
+        }
         Results::Spectrum(run) => {
             vec![tabled("spectrum", BOTH, run.table), tabled("runs", &BOTH[1..], run.rows)]
         }

@@ -1,27 +1,39 @@
-/** Spectrum, IDA, fragility and design: an analysis over a suite, by the options of its command. */
+/** Spectrum, IDA, fragility and so on: an analysis over a suite, by the fields of its request. */
 
 import { Ended, Helper, ModuleError } from "./desk";
 import { download, fill, h } from "./dom";
 import { type Page, Progress, sheetElement, type Tab, value } from "./tab";
-import type { Setting, Sheet, State } from "./types";
+import type { FormField, Setting, Sheet, State } from "./types";
 
-export interface Field {
-  name: string;
-  label: string;
-  value: (state: State) => string;
-  hint?: string;
+/** What is typed or chosen in the form for a field. */
+type Entry = HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement;
+
+function entry({ name, takes, words, default: usual, start }: FormField): Entry {
+  const typed = { name, autocomplete: "off", spellcheck: "false" };
+  switch (takes) {
+    case "choice":
+      return h("select", { name }, ...(usual ? [] : [h("option", { value: "" }, "as it comes")]), ...words.map((word) => h("option", { value: word, selected: word === start }, word)));
+    case "flag":
+      return h("input", { type: "checkbox", name, value: "true" });
+    case "many": {
+      const lines = h("textarea", { ...typed, rows: 1 });
+      lines.value = start;
+      return lines;
+    }
+    default:
+      return h("input", { ...typed, type: "text", value: start });
+  }
 }
 
-export const friction = (state: State) => value(state, "slider.kinetic_friction")?.value ?? 0.05;
-
-/** An analysis over a suite, by the options of its command. */
+/** An analysis over a suite, by the fields of its request. */
 export class SuiteTab implements Tab {
   readonly element: HTMLElement;
-  private readonly fields = new Map<string, HTMLInputElement>();
+  private fields: [FormField, Entry][] = [];
+  private readonly asked = h("div", {}, h("p", { class: "drop-hint" }, "Loading"));
   private readonly suite = h("ul", { class: "records" });
   private readonly progress = new Progress();
   private readonly result = h("div", {});
-  private readonly go = h("button", { type: "submit", class: "main" }, "Run");
+  private readonly go = h("button", { type: "submit", class: "main", disabled: true }, "Run");
   private readonly chosen = new Map<string, boolean>();
   private helper: Helper | undefined;
   private opened = false;
@@ -30,19 +42,13 @@ export class SuiteTab implements Tab {
     private readonly page: Page,
     readonly id: string,
     readonly label: string,
-    about: string,
-    private readonly wanted: Field[],
-    private readonly plan: ((tab: SuiteTab, state: State) => string) | null = null,
   ) {
-    const form = h("form", {}, h("p", { class: "drop-hint" }, about));
-    for (const field of wanted) {
-      const input = h("input", { type: "text", name: field.name, autocomplete: "off", spellcheck: "false" });
-      this.fields.set(field.name, input);
-      form.append(h("label", { class: "field" }, h("span", {}, field.label), input, field.hint ? h("small", { class: "drop-hint" }, field.hint) : ""));
-    }
-    form.append(
+    const form = h(
+      "form",
+      {},
+      this.asked,
       h("fieldset", { class: "group" }, h("legend", {}, "Records"), this.suite),
-      h("div", { class: "actions" }, this.go, this.plan ? h("button", { type: "button", onclick: () => this.exportPlan() }, "Plan (TOML)") : ""),
+      h("div", { class: "actions" }, this.go, h("button", { type: "button", onclick: () => this.exportPlan() }, "Plan (TOML)")),
       this.progress.element,
     );
     form.addEventListener("submit", (event) => {
@@ -54,8 +60,26 @@ export class SuiteTab implements Tab {
     fill(this.result, h("p", { class: "card empty" }, "Press Run: the records are analysed in a worker of their own, and the page stays free."));
   }
 
+  /** Makes the form; what need not be said stands folded below. */
+  private async build(): Promise<void> {
+    const { about, fields } = await this.page.desk.helper.call("form", this.id);
+    this.fields = fields.map((field) => [field, entry(field)]);
+    const label = ([field, input]: [FormField, Entry]) => h("label", { class: "field" }, h("span", {}, field.label), input, h("small", { class: "drop-hint" }, field.about));
+    const [first, more] = [this.fields.filter(([field]) => field.start), this.fields.filter(([field]) => !field.start)];
+    fill(this.asked, h("p", { class: "drop-hint" }, about), ...first.map(label), more.length > 0 ? h("details", { class: "fold" }, h("summary", {}, "More"), ...more.map(label)) : "");
+    this.go.disabled = false;
+  }
+
+  /** What is said for a field, a line each where it may be repeated. */
+  private said([{ takes }, input]: [FormField, Entry]): string[] {
+    if (input instanceof HTMLInputElement && input.type === "checkbox") return input.checked ? [input.value] : [];
+    const text = input.value.trim();
+    return takes === "many" ? text.split("\n").map((line) => line.trim()).filter(Boolean) : [text].filter(Boolean);
+  }
+
   option(name: string): string {
-    return this.fields.get(name)?.value.trim() ?? "";
+    const field = this.fields.find(([field]) => field.name === name);
+    return field ? (this.said(field)[0] ?? "") : "";
   }
 
   records(): string[] {
@@ -67,7 +91,7 @@ export class SuiteTab implements Tab {
     if (!state) return;
     if (!this.opened) {
       this.opened = true;
-      for (const field of this.wanted) this.fields.get(field.name)!.value = field.value(state);
+      void this.build();
     }
     fill(
       this.suite,
@@ -88,7 +112,8 @@ export class SuiteTab implements Tab {
     this.progress.begin();
     this.go.disabled = true;
     const options: Setting[] = [
-      ...this.wanted.map((field): Setting => [field.name, this.option(field.name)]),
+      // What stands there of itself is not said.
+      ...this.fields.flatMap((field) => this.said(field).filter((text) => text !== field[0].default).map((text): Setting => [field[0].name, text])),
       ...this.records().map((name): Setting => {
         const { units = "", dt = "", channel = "" } = this.page.choice(name);
         return ["records", [name, units, dt, channel].join("\n")];
@@ -126,7 +151,7 @@ export class SuiteTab implements Tab {
 
   private exportPlan(): void {
     const state = this.page.state();
-    if (state && this.plan) download("plan.toml", this.plan(this, state), "application/toml");
+    if (state) download("plan.toml", planOf(this, state), "application/toml");
   }
 }
 
@@ -156,7 +181,7 @@ export function planOf(tab: SuiteTab, state: State): string {
   } else lines.push("scale = [1.0]");
   const varied: string[] = [];
   const frictionText = tab.option("friction");
-  const ratio = (value(state, "slider.static_friction")?.value ?? 1) / friction(state);
+  const ratio = (value(state, "slider.static_friction")?.value ?? 1) / (value(state, "slider.kinetic_friction")?.value ?? 1);
   if (frictionText) {
     varied.push(`"slider.kinetic_friction" = { ${list(frictionText)} }`);
     varied.push(`"slider.static_friction" = { factor_of = "slider.kinetic_friction", values = [${Number(ratio.toPrecision(12))}] }`);

@@ -147,6 +147,18 @@ export interface Sheet {
   json: string;
 }
 
+/** A field of a form. */
+export interface FormField {
+  name: string;
+  label: string;
+  takes: "one" | "many" | "choice" | "flag";
+  words: string[];
+  default: string;
+  /** What stands there at first. */
+  start: string;
+  about: string;
+}
+
 /** What is in a dropped record. */
 export interface Inspected {
   layout: string;
@@ -191,6 +203,7 @@ export interface Calls {
   judge: (stepwise: boolean) => Judgement;
   file: (name: string, text: string, command: string) => string;
   sweep: (text: string, over: string, from: number, to: number) => Float64Array;
+  form: (what: string) => { about: string; fields: FormField[] };
   assess: (what: string, text: string, options: Setting[], display: Display) => Sheet;
   /** Number of runs, and of the numbers of a row. */
   studySize: (plan: string, text: string, names: string[]) => [number, number];

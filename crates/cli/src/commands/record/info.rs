@@ -24,7 +24,7 @@ pub fn info(args: &InfoArgs) -> Result<ExitCode, Failure> {
     if args.json {
         print(&info_json(&infos))?;
     } else if !infos.is_empty() {
-        print(&info_table(&infos, args.display_units.into()))?;
+        print(&info_table(&infos, args.display_units))?;
     }
     Ok(many.status())
 }

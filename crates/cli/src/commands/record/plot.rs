@@ -20,7 +20,7 @@ const COUNT: usize = 240;
 /// Draws every acceleration channel asked for.
 pub fn plot(args: &PlotArgs) -> Result<ExitCode, Failure> {
     let options = read_options(&args.read)?;
-    let display: DisplayUnits = args.display_units.into();
+    let display: DisplayUnits = args.display_units;
     let damping = damping_ratios(&args.damping)?;
     let extension = args.out.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     let as_page = match extension.as_deref() {

@@ -159,7 +159,7 @@ fn few_enough(columns: Columns<'_>, by: &str, groups: &[Group]) -> Result<(), As
         return Ok(());
     }
     let expected = format!(
-        "a column of {} with at most {MOST_GROUPS} values; --where {by}=FROM..TO takes a part of it",
+        "a column of {} with at most {MOST_GROUPS} values; `where` {by}=FROM..TO takes a part of it",
         columns.source_name
     );
     Err(refuse("by", expected, format!("{by:?} with more")))

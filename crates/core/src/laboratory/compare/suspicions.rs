@@ -33,7 +33,7 @@ pub fn suspicions(measured: &Measured, compared: &[Compared]) -> Vec<Notice> {
                 format!(
                     "the measured {name} runs against the prediction (correlation \
                      {correlation:.2}): if its sensor points the other way, say so with \
-                     --map \"{name}=… * -1\""
+                     the mapping \"{name}=… * -1\""
                 ),
             ));
         }
@@ -59,7 +59,7 @@ pub fn suspicions(measured: &Measured, compared: &[Compared]) -> Vec<Notice> {
                 format!(
                     "the measured {name} comes {lag_s:+.4} s after the prediction (correlation \
                      {correlation:.2}, {better:.2} with that shift): if its clock is wrong, say so \
-                     with --map \"{name}=… @ {:.4} s\"",
+                     with the mapping \"{name}=… @ {:.4} s\"",
                     -lag_s
                 ),
             ));

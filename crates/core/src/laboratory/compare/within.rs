@@ -1,7 +1,7 @@
 //! Bounds that a comparison must keep: `peak_ratio.sliding_displacement=0.9..1.1`.
 
 use super::Metrics;
-use crate::error::{cut, similar};
+use crate::error::{ChoiceError, cut, similar};
 use crate::input::Channel;
 
 /// A bound on one figure of one quantity.
@@ -17,29 +17,15 @@ pub struct Within {
     pub most: f64,
 }
 
-/// Text that is no bound.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("--within {text}: expected {expected}, found {found}{}", nearest.as_ref().map_or(String::new(), |n| format!("; nearest is \"{n}\"")))]
-pub struct WithinError {
-    /// The text.
-    pub text: String,
-    /// What was expected.
-    pub expected: String,
-    /// What was found.
-    pub found: String,
-    /// What was probably meant.
-    pub nearest: Option<String>,
-}
-
 impl Within {
     /// Reads `METRIC.QUANTITY=LEAST..MOST`; either end may be left out.
     ///
     /// # Errors
-    /// [`WithinError`] for an unknown figure or quantity, and for ends that are no numbers or in
+    /// [`ChoiceError`] for an unknown figure or quantity, and for ends that are no numbers or in
     /// the wrong order.
-    pub fn parse(text: &str) -> Result<Self, WithinError> {
-        let fault = |expected: String, found: &str, nearest: Option<String>| WithinError {
-            text: cut(text),
+    pub fn parse(text: &str) -> Result<Self, ChoiceError> {
+        let fault = |expected: String, found: &str, nearest: Option<String>| ChoiceError {
+            what: format!("within {}", cut(text)),
             expected,
             found: format!("\"{}\"", cut(found)),
             nearest,

@@ -1,6 +1,6 @@
 //! What is fitted: keys of a model, each with a range.
 
-use crate::error::{InputError, cut};
+use crate::error::{ChoiceError, InputError, cut};
 use crate::input::{self, Analysis, Override, dimension_of};
 use crate::model::Model;
 use crate::units::{Dimension, parse_quantity};
@@ -21,24 +21,6 @@ pub struct Parameter {
     pub natural: [bool; 2],
 }
 
-/// Text that is no parameter.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum ParameterError {
-    /// The path.
-    #[error("--fit: {0}")]
-    Path(#[from] InputError),
-    /// The range.
-    #[error("--fit {text}: expected {expected}, found {found}")]
-    Range {
-        /// The text.
-        text: String,
-        /// What was expected.
-        expected: String,
-        /// What was found.
-        found: String,
-    },
-}
-
 impl Parameter {
     /// Reads `PATH` or `PATH=LEAST..MOST`, the ends with their units.
     ///
@@ -49,18 +31,23 @@ impl Parameter {
     /// that is not fitted, static friction down to the kinetic one.
     ///
     /// # Errors
-    /// [`ParameterError`] for a path that no model has, a range that is none, or a value of 0
+    /// [`ChoiceError`] for a path that no model has, a range that is none, or a value of 0
     /// without a range.
-    pub fn parse(text: &str, analysis: &Analysis, all: &[&str]) -> Result<Self, ParameterError> {
+    pub fn parse(text: &str, analysis: &Analysis, all: &[&str]) -> Result<Self, ChoiceError> {
         let (path, range) = match text.split_once('=') {
             Some((path, range)) => (path.trim(), Some(range)),
             None => (text.trim(), None),
         };
-        let dimension = dimension_of(path)?;
-        let fault = |expected: &str, found: &str| ParameterError::Range {
-            text: cut(text),
+        let what = || format!("fit {}", cut(text));
+        let dimension = dimension_of(path).map_err(|error| {
+            let InputError { expected, found, nearest, .. } = error;
+            ChoiceError { what: what(), expected, found, nearest }
+        })?;
+        let fault = |expected: &str, found: &str| ChoiceError {
+            what: what(),
             expected: expected.to_owned(),
             found: format!("\"{}\"", cut(found)),
+            nearest: None,
         };
         let [low, high] = match range {
             Some(range) => {
