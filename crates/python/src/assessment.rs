@@ -102,7 +102,7 @@ pub(crate) fn read_suite(
         SuiteError::Stopped(error) => of_assessment(py, &AssessmentError::Stopped(error)),
     })?;
     let records = open.suite.records.into_iter();
-    Ok(records.map(|record| (record.name, Motion::of(record.motion))).collect())
+    Ok(records.map(|record| (record.name.clone(), Motion::recorded(record))).collect())
 }
 
 /// An analysis of a model over records: a spectrum, an incremental dynamic analysis or a design.
@@ -119,7 +119,7 @@ pub(crate) fn assess(
 ) -> PyResult<Assessment> {
     let asked = asked(py, kind, &given)?;
     let records = records.into_iter().map(|(name, motion)| (name, motion.0.loaded));
-    let (suite, warnings) = Suite::of(records, false);
+    let suite = Suite::of(records, false);
     let on = On {
         name: model.name(),
         source: &model.source,
@@ -127,7 +127,6 @@ pub(crate) fn assess(
         set: &[],
         analysis: &model.analysis,
         suite: &suite,
-        warnings: &warnings,
     };
     let answer = followed(py, jobs, progress, |engine| asked.run(&on, engine))?;
     Assessment::new(py, asked.kind(), answer.map_err(|error| of_assessment(py, &error))?)

@@ -48,16 +48,10 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
         opened.push(Opened::open_with(suite, read)?);
     }
     let mut sources: Vec<(String, String, String)> = target.into_iter().collect();
-    let mut warnings = Vec::new();
     for opened in &opened {
         for source in opened.sources() {
             if !sources.contains(&source) {
                 sources.push(source);
-            }
-        }
-        for warning in &opened.warnings {
-            if !warnings.contains(warning) {
-                warnings.push(warning.clone());
             }
         }
     }
@@ -75,7 +69,6 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
     let report = HistoriesReport {
         histories: &histories,
         scaled: if opened.iter().all(|opened| opened.suite.made) { "" } else { &scaled },
-        warnings: &warnings,
         display: args.result.display_units.into(),
     };
     let sheet = report.sheet();

@@ -1,5 +1,6 @@
 //! Answers to requests, laid out, and their tables.
 
+use slipstick::notice::Notice;
 use slipstick::requests::{Answer, Curves, Results};
 use slipstick::table::Table;
 
@@ -24,9 +25,11 @@ pub struct Tabled {
 /// An answer laid out.
 #[must_use]
 pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
-    let Answer { name, records, scaled, warnings, found } = answer;
-    match found {
+    let Answer { name, model_hash, records, scaled, warnings, found } = answer;
+    let names: Vec<String> = records.iter().map(|record| record.name.clone()).collect();
+    let sheet = match found {
         Results::Spectrum(run) => {
+            let records = &names;
             SpectrumReport { name, records, scaled, run, warnings, display }.sheet()
         }
         Results::Ida { measure, demand, limit, fixed_levels, run } => IdaFamily {
@@ -72,7 +75,10 @@ pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
                 .sheet(),
             }
         }
-    }
+    };
+    let mut sheet = Sheet { model_hash: model_hash.clone(), suite: records.clone(), ..sheet };
+    Notice::sort(&mut sheet.warnings);
+    sheet
 }
 
 /// The tables of an answer, its own first.
