@@ -6,6 +6,7 @@
 //! paths, because all three read one description.
 
 use crate::error::{ChoiceError, InputError, MotionError, Place};
+use crate::hash::sha256_hex;
 use crate::model::Model;
 use crate::response::Method;
 
@@ -303,6 +304,15 @@ impl Analysis {
     #[must_use]
     pub fn to_toml_with_motion(&self) -> String {
         write::toml(&self.values, write::Motion::AsWritten)
+    }
+
+    /// A short hash of the model in use, keys set from outside the file in it, comments, layout and the record
+    /// not: the first 12 hexadecimal digits of the SHA-256 of [`Analysis::to_toml`].
+    #[must_use]
+    pub fn hash(&self) -> String {
+        let mut hash = sha256_hex(self.to_toml(None).as_bytes());
+        hash.truncate(12);
+        hash
     }
 
     /// The number written at a path, in SI where it has a unit; `None` where none is written.

@@ -65,6 +65,7 @@
 pub mod assessment;
 pub mod check;
 pub mod error;
+pub mod hash;
 pub mod input;
 pub mod laboratory;
 mod linear;

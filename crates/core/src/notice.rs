@@ -15,6 +15,28 @@ pub enum Severity {
     Severe,
 }
 
+impl Severity {
+    /// Its name in JSON and in Python: `note`, `warning` or `severe`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Note => "note",
+            Self::Warning => "warning",
+            Self::Severe => "severe",
+        }
+    }
+
+    /// What stands before a notice in a text: `Note`, `Warning` or `Severe`.
+    #[must_use]
+    pub const fn label(self) -> &'static str {
+        match self {
+            Self::Note => "Note",
+            Self::Warning => "Warning",
+            Self::Severe => "Severe",
+        }
+    }
+}
+
 /// Declares the kinds: what each says, its variant, its stable name, its severity.
 macro_rules! kinds {
     ($($(#[$doc:meta])+ $kind:ident $name:literal $severity:ident,)+) => {
@@ -242,16 +264,27 @@ impl Notice {
         Self { time_s: Some(time_s), ..self }
     }
 
+    /// How much it weighs.
+    #[must_use]
+    pub const fn severity(&self) -> Severity {
+        self.kind.severity()
+    }
+
     /// Whether it says how something was read and changes no decision.
     #[must_use]
     pub fn is_note(&self) -> bool {
-        self.kind.severity() == Severity::Note
+        self.severity() == Severity::Note
     }
 
     /// What stands before it in a text.
     #[must_use]
-    pub fn label(&self) -> &'static str {
-        if self.is_note() { "Note" } else { "Warning" }
+    pub const fn label(&self) -> &'static str {
+        self.severity().label()
+    }
+
+    /// Puts the gravest first; those of one severity keep their order.
+    pub fn sort(all: &mut [Self]) {
+        all.sort_by_key(|notice| core::cmp::Reverse(notice.severity()));
     }
 }
 
@@ -286,5 +319,6 @@ mod tests {
         let notice = Notice::new(NoticeKind::MeanRemoved, "the mean was removed");
         assert_eq!((notice.label(), notice.at(1.0).time_s), ("Note", Some(1.0)));
         assert_eq!(Notice::new(NoticeKind::Gap, "a gap").label(), "Warning");
+        assert_eq!(Notice::new(NoticeKind::GapExceeded, "beyond").label(), "Severe");
     }
 }

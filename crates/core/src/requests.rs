@@ -25,7 +25,7 @@ use crate::assessment::observed::{
     usual_by,
 };
 use crate::assessment::spectrum::{SpectrumRequest, SpectrumRun, run_spectrum};
-use crate::assessment::suite::{Scaling, Suite, times};
+use crate::assessment::suite::{Recorded, Scaling, Suite, times};
 use crate::assessment::{AssessmentError, refuse};
 use crate::error::{ChoiceError, MeasureError};
 use crate::input::{Analysis, Bound, FrictionBounds, Override};
@@ -57,8 +57,6 @@ pub struct On<'a> {
     pub analysis: &'a Analysis,
     /// The records.
     pub suite: &'a Suite,
-    /// What reading them gave notice of.
-    pub warnings: &'a [Notice],
 }
 
 /// A table of runs that a fragility is asked of.
@@ -79,8 +77,10 @@ pub struct Runs<'a> {
 pub struct Answer {
     /// Name of the model or the table.
     pub name: String,
-    /// Names of the records.
-    pub records: Vec<String>,
+    /// Hash of the model; none of a table.
+    pub model_hash: Option<String>,
+    /// The records.
+    pub records: Vec<Recorded>,
     /// How they were scaled, in words.
     pub scaled: String,
     /// What reading them gave notice of.
@@ -174,9 +174,10 @@ impl Request {
         };
         Ok(Answer {
             name: on.name.to_owned(),
-            records: on.suite.names(),
+            model_hash: Some(on.analysis.hash()),
+            records: on.suite.recorded(),
             scaled: if on.suite.made { String::new() } else { scaled },
-            warnings: on.warnings.to_vec(),
+            warnings: on.suite.noticed(),
             found,
         })
     }
@@ -230,6 +231,7 @@ impl Request {
         let demand = demand.to_owned();
         Ok(Answer {
             name: runs.name.to_owned(),
+            model_hash: None,
             records: Vec::new(),
             scaled: String::new(),
             warnings: Vec::new(),

@@ -8,8 +8,9 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// From left to right.
-const ORDER: [&str; 19] = [
+const ORDER: [&str; 20] = [
     "error",
+    "hash",
     "progress",
     "notice",
     "units",

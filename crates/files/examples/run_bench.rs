@@ -22,10 +22,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let mut told = Vec::with_capacity(count);
         for _ in 0..count {
             let start = Instant::now();
-            let loaded = &open.loaded;
-            let analysis = open.job.analysis.clone();
-            let job = Job::new(analysis, loaded.motion.clone(), loaded.warnings.clone())?;
-            let again = OpenJob { name: open.name.clone(), job, loaded: loaded.clone() };
+            let job = Job::new(open.job.analysis.clone(), open.job.loaded.clone())?;
+            let again = OpenJob { job, ..open.clone() };
             let outcome = again.run(false)?;
             told.push(start.elapsed().as_nanos().to_string());
             drop(outcome);

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use slipstick::error::{ChoiceError, InputError};
+use slipstick::hash::sha256_hex;
 use slipstick::input::{MAX_TEXT_BYTES, Mapping};
 use slipstick::laboratory::measured::{Measured, MeasuredError};
 use slipstick::record::{Column, Columns};
@@ -11,7 +12,7 @@ use slipstick::table;
 use crate::error::FileError;
 use crate::load::SourceFile;
 use crate::parquet;
-use crate::read::{read_at_most, read_bytes, sha256_hex};
+use crate::read::{read_at_most, read_bytes};
 
 /// Why a measured file is of no use.
 #[derive(Debug, thiserror::Error)]

@@ -3,12 +3,13 @@
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
+use slipstick::hash::sha256_hex;
 use slipstick::input::loaded::{Component, Components, LoadError, Loaded, Wanted};
 use slipstick::input::{PairOf, Scale};
 use slipstick::record::{self, Format, Options, Record, Units};
 
 use crate::error::FileError;
-use crate::read::{read_bytes, sha256_hex};
+use crate::read::read_bytes;
 
 /// A record to be opened, and what it may not say itself.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,8 +4,6 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use sha2::{Digest, Sha256};
-
 use crate::error::FileError;
 
 /// Largest file that is read: 1 GiB, ten bytes for each sample that a motion may have.
@@ -46,12 +44,6 @@ pub fn read_at_most(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     Ok(bytes)
 }
 
-/// SHA-256 of some bytes in hexadecimal digits.
-#[must_use]
-pub fn sha256_hex(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
 /// A path written in a model file, relative to the model's folder; `\` divides as `/` does.
 #[must_use]
 pub fn resolve(folder: &Path, written: &str) -> PathBuf {
@@ -65,13 +57,6 @@ pub fn resolve(folder: &Path, written: &str) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn exact_sha256_of_the_standard() {
-        // FIPS 180-4, example of one block.
-        let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
-        assert_eq!(sha256_hex(b"abc"), expected);
-    }
 
     #[test]
     fn exact_what_cannot_be_read() {

@@ -13,7 +13,9 @@ use slipstick::progress::GoOn;
 use slipstick_report::Summary;
 
 use crate::error::{FileError, reason};
-use crate::load::{AlongYRequest, LoadedMotion, RecordRequest, VerticalRequest, load_record};
+use crate::load::{
+    AlongYRequest, LoadedMotion, RecordRequest, SourceFile, VerticalRequest, load_record,
+};
 use crate::parquet::Table;
 use crate::read::resolve;
 
@@ -24,8 +26,8 @@ pub struct OpenJob {
     pub name: String,
     /// Model and motion, ready to be solved.
     pub job: Job,
-    /// The motion as it was read, factors applied, without its tail.
-    pub loaded: LoadedMotion,
+    /// The files that the motion comes from.
+    pub sources: Vec<SourceFile>,
 }
 
 /// Why a job could not be made ready or solved.
@@ -75,8 +77,8 @@ impl OpenJob {
         };
         let stem = model_path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let name = analysis.name.clone().or(stem).unwrap_or_else(|| "model".to_owned());
-        let job = Job::new(analysis, loaded.motion.clone(), loaded.warnings.clone())?;
-        Ok(Self { name, job, loaded })
+        let LoadedMotion { loaded, sources } = loaded;
+        Ok(Self { name, job: Job::new(analysis, loaded)?, sources })
     }
 
     /// Time that [`OpenJob::run`] may take, from the first samples, of which more and more are solved
@@ -113,7 +115,7 @@ impl OpenJob {
     }
 
     fn summed(&self, outcome: Outcome) -> (Outcome, Summary) {
-        let summary = Summary::of(&self.name, &self.job, self.loaded.figures, &outcome);
+        let summary = Summary::of(&self.name, &self.job, &outcome);
         (outcome, summary)
     }
 }

@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 
 use slipstick::assessment::suite::Suite;
 use slipstick::error::{ChoiceError, Stopped};
+use slipstick::input::loaded::Loaded;
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::record::Units;
 use slipstick::study::engine::Engine;
 
 use crate::error::FileError;
 use crate::globs::{expand_all, expand_once, named_twice};
-use crate::load::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
+use crate::load::{LoadedMotion, RecordRequest, SourceFile, VerticalRequest, load_record};
 use crate::unfit::refuse_unfit;
 
 /// Why the records of a suite cannot be used.
@@ -51,8 +52,6 @@ pub struct OpenSuite {
     pub suite: Suite,
     /// Files read: path, SHA-256, what they are.
     pub sources: Vec<(String, String, String)>,
-    /// What reading them gave notice of, each kind once.
-    pub warnings: Vec<Notice>,
 }
 
 impl OpenSuite {
@@ -110,16 +109,18 @@ impl OpenSuite {
         if pairs {
             open.suite.pair_up();
         }
+        let notices = &mut open.suite.notices;
         let warning = |kind| move |message| Notice::new(kind, message);
-        open.warnings.extend(named_twice(&again).map(warning(NoticeKind::RecordNamedTwice)));
-        open.warnings.extend(same.into_iter().map(warning(NoticeKind::SameMotion)));
+        notices.extend(named_twice(&again).map(warning(NoticeKind::RecordNamedTwice)));
+        notices.extend(same.into_iter().map(warning(NoticeKind::SameMotion)));
         Ok(open)
     }
 
     /// The motion of a model as its only record.
     #[must_use]
-    pub fn single(name: &str, loaded: LoadedMotion, made: bool) -> Self {
-        Self::of(&[name.to_owned()], vec![loaded], made)
+    pub fn single(name: &str, loaded: Loaded, sources: Vec<SourceFile>) -> Self {
+        let made = sources.is_empty();
+        Self::of(&[name.to_owned()], vec![LoadedMotion { loaded, sources }], made)
     }
 
     fn of(names: &[String], loaded: Vec<LoadedMotion>, made: bool) -> Self {
@@ -130,8 +131,7 @@ impl OpenSuite {
             }));
         }
         let read = names.iter().cloned().zip(loaded.into_iter().map(|loaded| loaded.loaded));
-        let (suite, warnings) = Suite::of(read, made);
-        Self { suite, sources, warnings }
+        Self { suite: Suite::of(read, made), sources }
     }
 }
 

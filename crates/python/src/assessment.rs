@@ -6,7 +6,6 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slipstick::assessment::AssessmentError;
 use slipstick::assessment::suite::Suite;
-use slipstick::notice::Notice;
 use slipstick::record::Units;
 use slipstick::requests::{Answer, Kind, On, Runs};
 use slipstick_files::{
@@ -105,14 +104,14 @@ pub(crate) fn read_suite(
         SuiteError::Stopped(error) => of_assessment(py, &AssessmentError::Stopped(error)),
     })?;
     let records = open.suite.records.into_iter();
-    Ok(records.map(|record| (record.name, Motion::of(record.motion))).collect())
+    Ok(records.map(|record| (record.name.clone(), Motion::recorded(record))).collect())
 }
 
 /// Records by their names.
 type Named = Vec<(String, Motion)>;
 
-/// The suite of records, of pairs with their other components; and what reading them gave notice of.
-fn suite_of(py: Python<'_>, records: Named, second: Named) -> PyResult<(Suite, Vec<Notice>)> {
+/// The suite of records, of pairs with their other components.
+fn suite_of(py: Python<'_>, records: Named, second: Named) -> PyResult<Suite> {
     let pairs = !second.is_empty();
     if pairs && second.len() != records.len() {
         let expected = format!("one other component for each of {} records", records.len());
@@ -121,17 +120,17 @@ fn suite_of(py: Python<'_>, records: Named, second: Named) -> PyResult<(Suite, V
     let mut others = second.into_iter();
     let both = records.into_iter().flat_map(|first| [Some(first), others.next()]);
     let read = both.flatten().map(|(name, motion)| (name, motion.0.loaded));
-    let (mut suite, warnings) = Suite::of(read, false);
+    let mut suite = Suite::of(read, false);
     if pairs {
         suite.pair_up();
     }
-    Ok((suite, warnings))
+    Ok(suite)
 }
 
 /// A model on a suite.
-fn on<'a>(name: &'a str, model: &'a Model, suite: &'a Suite, warnings: &'a [Notice]) -> On<'a> {
+fn on<'a>(name: &'a str, model: &'a Model, suite: &'a Suite) -> On<'a> {
     let (source, text, analysis) = (&model.source, model.text(), &model.analysis);
-    On { name, source, text, set: &[], analysis, suite, warnings }
+    On { name, source, text, set: &[], analysis, suite }
 }
 
 /// An analysis of a model over records: a spectrum, an incremental dynamic analysis or a design.
@@ -149,8 +148,8 @@ pub(crate) fn assess(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Assessment> {
     let asked = asked(py, kind, given)?;
-    let (suite, warnings) = suite_of(py, records, second)?;
-    let on = on(model.name(), model, &suite, &warnings);
+    let suite = suite_of(py, records, second)?;
+    let on = on(model.name(), model, &suite);
     let answer = followed(py, jobs, progress, |engine| asked.run(&on, engine))?;
     Assessment::new(py, asked.kind(), answer.map_err(|error| of_assessment(py, &error))?)
 }
@@ -176,9 +175,8 @@ pub(crate) fn suite(
         read.map(|(spectrum, _)| (path.display().to_string(), spectrum))
     });
     let target = target.transpose()?;
-    let (suite, warnings) = suite_of(py, records, second)?;
-    let on: Vec<On<'_>> =
-        models.iter().map(|(name, model)| on(name, model, &suite, &warnings)).collect();
+    let suite = suite_of(py, records, second)?;
+    let on: Vec<On<'_>> = models.iter().map(|(name, model)| on(name, model, &suite)).collect();
     let target = target.as_ref().map(|(name, spectrum)| (name.as_str(), spectrum.clone()));
     let answer = followed(py, jobs, progress, |engine| asked.suite(&on, target, engine))?;
     Assessment::new(py, asked.kind(), answer.map_err(|error| of_assessment(py, &error))?)

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use slipstick::hash::sha256_hex;
 use slipstick::input::Mapping;
 use slipstick::laboratory::compare::{self, Comparison as Compared, Within};
 use slipstick::laboratory::estimate::Outcome;
@@ -13,7 +14,7 @@ use slipstick::laboratory::measured::Measured;
 use slipstick::record::{Column, Columns};
 use slipstick::requests::{Comparing, Kind};
 use slipstick::table;
-use slipstick_files::{SourceFile, TextFile, expand_all, read_mapping, read_measured, sha256_hex};
+use slipstick_files::{SourceFile, TextFile, expand_all, read_mapping, read_measured};
 use slipstick_report::{CompareReport, DisplayUnits, FileNote, IdentifyReport, InputText};
 
 use crate::errors::{of_choice, of_compare, of_file, of_identify, of_laboratory};

@@ -308,8 +308,7 @@ impl Model {
         k_init: &Bound<'_, PyAny>,
     ) -> PyResult<String> {
         let k_init = quantity("k_init", k_init, Dimension::Stiffness, false)?;
-        let loaded = &motion.0;
-        let job = Job::new(self.analysis.clone(), loaded.motion.clone(), Vec::new());
+        let job = Job::new(self.analysis.clone(), motion.0.loaded.clone());
         let job = job.map_err(|error| of_input(py, &error))?;
         script(&self.title(), &self.analysis.model, &job.motion, k_init)
             .map_err(|e| of_argument(py, &e.what, &e.expected, &e.found))

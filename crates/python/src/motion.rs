@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
-use pyo3::types::{PyFloat, PyInt, PyString};
+use pyo3::types::{PyDict, PyFloat, PyInt, PyString};
+use slipstick::assessment::suite::SuiteRecord;
 use slipstick::error::MotionError;
 use slipstick::input::loaded::Loaded;
 use slipstick::motion::GroundMotion;
 use slipstick::notice::{Notice, NoticeKind};
-use slipstick::record::Units;
+use slipstick::record::{Origin, Units};
 use slipstick::units::{Dimension, parse_quantity, parse_unit};
 use slipstick_files::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
 
@@ -105,10 +106,18 @@ impl Motion {
         Self(made(motion))
     }
 
+    /// A record of a suite.
+    pub(crate) fn recorded(record: SuiteRecord) -> Self {
+        let LoadedMotion { loaded, sources } = made(record.motion);
+        let loaded = Loaded { origin: record.origin, warnings: record.notices, ..loaded };
+        Self(LoadedMotion { loaded, sources })
+    }
+
     fn derived(&self, py: Python<'_>, motion: Result<GroundMotion, MotionError>) -> PyResult<Self> {
         let motion = motion.map_err(|error| of_motion(py, &error))?;
         let (figures, old) = (motion.figures(), self.0.clone());
-        let loaded = Loaded { motion, figures, ..old.loaded };
+        let factor = old.factor * figures.pga_m_per_s2 / old.figures.pga_m_per_s2;
+        let loaded = Loaded { motion, factor, figures, ..old.loaded };
         Ok(Self(LoadedMotion { loaded, sources: old.sources }))
     }
 }
@@ -293,11 +302,20 @@ impl Motion {
     /// What its reader should know, as (kind, message).
     #[getter]
     fn warnings(&self) -> Vec<(&'static str, String)> {
-        self.0
-            .warnings
-            .iter()
-            .map(|warning| (warning.kind.name(), warning.message.clone()))
-            .collect()
+        let notices = self.0.warnings.iter();
+        notices.map(|notice| (notice.kind.name(), notice.message.clone())).collect()
+    }
+
+    /// What its file says of where it was recorded: ``event``, ``station``, ``component``, ``azimuth_deg``.
+    #[getter]
+    fn origin<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let Origin { event, station, component, azimuth_deg } = &self.0.origin;
+        let said = PyDict::new(py);
+        for (key, text) in [("event", event), ("station", station), ("component", component)] {
+            said.set_item(key, text)?;
+        }
+        said.set_item("azimuth_deg", azimuth_deg)?;
+        Ok(said)
     }
 
     fn __len__(&self) -> usize {
@@ -327,6 +345,11 @@ impl Motion {
                 .iter()
                 .map(|w| (w.kind.name().to_owned(), w.time_s, w.message.clone()))
                 .collect(),
+            motion.factor,
+            {
+                let Origin { event, station, component, azimuth_deg } = motion.origin.clone();
+                (event, station, component, azimuth_deg)
+            },
         );
         Ok((make, parts))
     }
@@ -339,6 +362,8 @@ impl Motion {
         vertical: Option<&Bound<'_, PyAny>>,
         description: Vec<String>,
         warnings: Vec<(String, Option<f64>, String)>,
+        factor: f64,
+        origin: OriginParts,
     ) -> PyResult<Self> {
         let vertical = vertical.map(|values| samples("vertical", values)).transpose()?;
         let (times_s, horizontal) =
@@ -351,7 +376,9 @@ impl Motion {
             Ok(Notice { kind, time_s, message })
         };
         let warnings = warnings.into_iter().map(warning).collect::<PyResult<_>>()?;
-        let loaded = Loaded { description, warnings, ..motion.loaded };
+        let (event, station, component, azimuth_deg) = origin;
+        let origin = Origin { event, station, component, azimuth_deg };
+        let loaded = Loaded { description, warnings, factor, origin, ..motion.loaded };
         Ok(Self(LoadedMotion { loaded, ..motion }))
     }
 }
@@ -363,4 +390,9 @@ type Pickled<'py> = (
     Option<Bound<'py, PyArray1<f64>>>,
     Vec<String>,
     Vec<(String, Option<f64>, String)>,
+    f64,
+    OriginParts,
 );
+
+/// Event, station, component and azimuth in degrees.
+type OriginParts = (Option<String>, Option<String>, Option<String>, Option<f64>);

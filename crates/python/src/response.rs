@@ -11,7 +11,7 @@ use slipstick::assessment::single::{Job, Outcome};
 use slipstick::error::{SolveError, Stopped};
 use slipstick::progress::GoOn;
 use slipstick::response::History;
-use slipstick_files::{JobError, OpenJob};
+use slipstick_files::{JobError, LoadedMotion, OpenJob};
 use slipstick_report::{DisplayUnits, FileNote, InputText, Report, Summary};
 
 use crate::errors::{of_argument, of_job};
@@ -32,9 +32,9 @@ pub(crate) fn run(
         None => model.analysis.motion.as_ref().is_some_and(|source| source.key_of_y().is_some()),
         Some(Motion(loaded)) => loaded.motion.horizontal_y_m_per_s2().is_some(),
     };
-    if floor_spectra && in_plane {
+    if floor_spectrum && in_plane {
         let expected = "False with a motion in two directions";
-        return Err(of_argument(py, "floor_spectra", expected, "True"));
+        return Err(of_argument(py, "floor_spectrum", expected, "True"));
     }
     let work = |go_on: GoOn<'_>| -> Result<Response, JobError> {
         let start = Instant::now();
@@ -46,12 +46,12 @@ pub(crate) fn run(
         let analysis = model.analysis.clone();
         let job = match motion {
             None => OpenJob::new(model.path(), analysis, None)?,
-            Some(Motion(loaded)) => {
-                let bare = loaded.motion.clone();
+            Some(Motion(LoadedMotion { loaded, sources })) => {
+                let loaded = loaded.clone();
                 ask()?;
-                let job = Job::new(analysis, bare, loaded.warnings.clone())?;
+                let job = Job::new(analysis, loaded)?;
                 ask()?;
-                OpenJob { name: model.title(), job, loaded: loaded.clone() }
+                OpenJob { name: model.title(), job, sources: sources.clone() }
             }
         };
         ask()?;
@@ -141,7 +141,10 @@ impl Response {
     /// The motion as it was read, without a tail.
     #[getter]
     fn motion(&self) -> Motion {
-        Motion(self.job.loaded.clone())
+        Motion(LoadedMotion {
+            loaded: self.job.job.loaded.clone(),
+            sources: self.job.sources.clone(),
+        })
     }
 
     /// Energies at the knots in J.
@@ -180,13 +183,14 @@ impl Response {
     /// The report as one page of HTML.
     fn _report_html(&self, py: Python<'_>, units: &str) -> PyResult<String> {
         let display = display_units(py, units)?;
-        let (outcome, loaded) = (&self.outcome, &self.job.loaded);
+        let (outcome, loaded) = (&self.outcome, &self.job.job.loaded);
         let record = loaded.description.join("; ");
         let toml = self.job.job.analysis.to_toml_with_motion();
         let inputs = [InputText { path: &self.job.name, text: &toml }];
         let paths: Vec<String> =
-            loaded.sources.iter().map(|file| Path::display(&file.path).to_string()).collect();
-        let files: Vec<FileNote<'_>> = loaded
+            self.job.sources.iter().map(|file| Path::display(&file.path).to_string()).collect();
+        let files: Vec<FileNote<'_>> = self
+            .job
             .sources
             .iter()
             .zip(&paths)

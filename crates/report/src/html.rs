@@ -11,7 +11,7 @@ use crate::markup::Markup;
 use crate::number::{compact, typeset};
 use crate::report::Report;
 use crate::summary::method_name;
-use slipstick::notice::Notice;
+use slipstick::notice::{Notice, Severity};
 
 /// The whole page.
 pub fn page(report: &Report) -> String {
@@ -36,9 +36,10 @@ pub fn page(report: &Report) -> String {
         title_end: ": sliding response",
         name: &summary.model,
         line: &format!(
-            "Slipstick {}, {} method; ground motion: {}",
+            "Slipstick {}, {} method{}; ground motion: {}",
             summary.slipstick,
             method_name(summary.method),
+            summary.model_hash.as_ref().map_or(String::new(), |hash| format!(", model {hash}")),
             report.record
         ),
         command_line: report.command_line,
@@ -129,7 +130,9 @@ pub(crate) fn warning_list(
 fn told(out: &mut Markup, warnings: &[(Option<&'static str>, &Notice)], display: DisplayUnits) {
     out.raw("<ul>\n");
     for (run, warning) in warnings {
-        out.raw("<li>").element("strong", warning.kind.words());
+        let severe = warning.severity() == Severity::Severe;
+        let label = if severe { format!("{}: ", warning.label()) } else { String::new() };
+        out.raw("<li>").element("strong", label + &warning.kind.words());
         if let Some(name) = run {
             out.text(format!(" ({name} friction)"));
         }

@@ -9,6 +9,7 @@ use slipstick::input::Names;
 use slipstick::model::Model;
 use slipstick::motion::{Figures, GroundMotion};
 use slipstick::notice::Notice;
+use slipstick::record::Origin;
 use slipstick::response::{Demands, Iterations, Method, Response};
 
 /// What a [`Summary`] is made from.
@@ -94,6 +95,8 @@ pub struct Summary {
     pub slipstick: &'static str,
     /// Name of the model, else the stem of its file.
     pub model: String,
+    /// Hash of the model, where it was read from a text or from values.
+    pub model_hash: Option<String>,
     /// How it was computed.
     pub method: Method,
     /// Rows of the history.
@@ -106,6 +109,10 @@ pub struct Summary {
     pub friction_factor: f64,
     /// Figures of the motion.
     pub record: Figures,
+    /// What its file says of where it was recorded.
+    pub origin: Origin,
+    /// Factor on the record.
+    pub record_factor: f64,
     /// Peaks, residuals and counts; of the resultant in two horizontal directions.
     pub demands: Demands,
     /// By axis, where there are two horizontal directions.
@@ -137,6 +144,7 @@ impl Summary {
         Self {
             slipstick: env!("CARGO_PKG_VERSION"),
             model: name.to_owned(),
+            model_hash: None,
             method: response.method,
             samples: history.map_or(motion.len(), |history| history.rows.len()),
             dt_s: motion.dt_s(),
@@ -145,6 +153,8 @@ impl Summary {
                 .unwrap_or_else(|| motion.duration_s()),
             friction_factor: inputs.friction_factor,
             record,
+            origin: Origin::default(),
+            record_factor: 1.0,
             demands: response.demands.clone(),
             by_axis: by_axis(response, motion),
             contact_loss_s: response.contact_loss_s.clone(),
@@ -165,23 +175,45 @@ impl Summary {
         }
     }
 
-    /// The figures of all that came of a job; `record` is of its motion without the tail.
+    /// The figures of a response to a job, which is not judged without a certificate.
     #[must_use]
-    pub fn of(name: &str, job: &Job, record: Figures, outcome: &Outcome) -> Self {
-        let one = |judged: &Judged| {
-            let summary = Self::new(&SummaryInputs {
-                name,
-                model: &judged.model,
-                motion: &job.motion,
-                record,
-                response: &judged.response,
-                certificate: Some(&judged.certificate),
-                friction_factor: judged.friction_factor,
-                warnings: &job.warnings,
-            });
+    pub fn of_response(
+        name: &str,
+        job: &Job,
+        (model, friction_factor): (&Model, f64),
+        response: &Response,
+        certificate: Option<&Certificate>,
+    ) -> Self {
+        let Job { analysis, loaded, motion, warnings } = job;
+        let record = loaded.figures;
+        let summary = Self::new(&SummaryInputs {
+            name,
+            model,
+            motion,
+            record,
+            response,
+            certificate,
+            friction_factor,
+            warnings,
+        });
+        Self {
+            model_hash: Some(analysis.hash()),
             // The step is that of the record: a tail may start with a jump or end between two steps.
-            let names = job.analysis.names.clone();
-            Self { dt_s: job.bare.dt_s(), names, ..summary }
+            dt_s: loaded.motion.dt_s(),
+            origin: loaded.origin.clone(),
+            record_factor: loaded.factor,
+            names: analysis.names.clone(),
+            ..summary
+        }
+    }
+
+    /// The figures of all that came of a job.
+    #[must_use]
+    pub fn of(name: &str, job: &Job, outcome: &Outcome) -> Self {
+        let one = |judged: &Judged| {
+            let Judged { friction_factor, model, response, certificate } = judged;
+            let of = (model, *friction_factor);
+            Self::of_response(name, job, of, response, Some(certificate))
         };
         let summary = one(&outcome.nominal);
         let summary = match &outcome.bounds {

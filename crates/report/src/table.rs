@@ -24,8 +24,15 @@ const WIDTH: usize = 96;
 pub fn table(summary: &Summary, model: &Model, record: &str, display: DisplayUnits) -> String {
     let mut out = Lines::default();
     let method = method_name(summary.method);
-    out.line(&format!("{}  (slipstick {}, {method})", summary.model, summary.slipstick));
+    let hash = summary.model_hash.iter().map(|hash| format!(", model {hash}"));
+    let hash: String = hash.collect();
+    out.line(&format!("{}  (slipstick {}, {method}{hash})", summary.model, summary.slipstick));
     out.field("Record", record);
+    let said: Vec<String> =
+        summary.origin.said().iter().map(|(name, text)| format!("{name} {text}")).collect();
+    if !said.is_empty() {
+        out.field("", &said.join(", "));
+    }
     out.field("", &record_figures(summary, display));
     out.field("Model", &model_line(model, display));
     out.line("");
@@ -65,7 +72,11 @@ fn record_figures(summary: &Summary, display: DisplayUnits) -> String {
     let show = |quantity, si: f64| show_as(quantity, si, si);
     let dt = summary.dt_s.map_or("uneven samples".to_owned(), |dt| format!("step {dt} s"));
     format!(
-        "PGA {}, PGV {}, PGD {}{}, end velocity {}, {dt}, {} in all",
+        "{}PGA {}, PGV {}, PGD {}{}, end velocity {}, {dt}, {} in all",
+        match summary.record_factor {
+            1.0 => String::new(),
+            factor => format!("× {}: ", significant(factor, 4)),
+        },
         show(Quantity::Acceleration, record.pga_m_per_s2),
         show(Quantity::Velocity, record.pgv_m_per_s),
         show(Quantity::Length, record.pgd_m),

@@ -32,6 +32,5 @@ pub fn version() -> String {
 #[wasm_bindgen]
 #[must_use]
 pub fn sha256(bytes: &[u8]) -> String {
-    use sha2::{Digest, Sha256};
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    slipstick::hash::sha256_hex(bytes)
 }

@@ -7,13 +7,13 @@ use slipstick::assessment::spectrum::{fixed_base, without_vertical};
 use slipstick::assessment::sweep::Sweep;
 use slipstick::input::loaded::Loaded;
 use slipstick::input::{self, Analysis, MotionSource, Override};
+use slipstick::motion::Quantity;
 use slipstick::motion::processing::{Step, process};
-use slipstick::motion::{Figures, Quantity};
 use slipstick::requests::{Kind, Request};
 use slipstick::response::{Method, Response};
 use slipstick::solver::{self, Prepared, PreparedMotion};
 use slipstick_report::json::Json;
-use slipstick_report::{DisplayUnits, Summary, SummaryInputs};
+use slipstick_report::{DisplayUnits, Summary};
 use wasm_bindgen::prelude::*;
 
 use crate::answer::{self, Answer, Judgement};
@@ -41,8 +41,6 @@ struct Last {
     job: Job,
     name: String,
     words: String,
-    /// Of the record as it is analysed, without the tail.
-    figures: Figures,
     /// The model's text, and the keys set in it.
     text: String,
     set: Vec<Override>,
@@ -113,7 +111,7 @@ impl Session {
         self.load(&analysis, text)?;
         let Some(ground) = &self.ground else { return Err(Failure::of("no motion").into()) };
         let loaded = &ground.loaded;
-        let job = Job::new(analysis, loaded.motion.clone(), loaded.warnings.clone())
+        let job = Job::new(analysis, Loaded::clone(loaded))
             .map_err(|error| Failure::input(&error, text))?;
         let model = &job.analysis.model;
         let response = match job.analysis.method {
@@ -131,24 +129,10 @@ impl Session {
         let response = response.map_err(Failure::of)?;
         let name = job.analysis.name.clone().unwrap_or_else(|| "Model".to_owned());
         let words = loaded.description.join("; ");
-        let figures = loaded.figures;
-        let summary = Summary {
-            dt_s: job.bare.dt_s(),
-            names: job.analysis.names.clone(),
-            ..Summary::new(&SummaryInputs {
-                name: &name,
-                model,
-                motion: &job.motion,
-                record: figures,
-                response: &response,
-                certificate: None,
-                friction_factor: 1.0,
-                warnings: &job.warnings,
-            })
-        };
+        let summary = Summary::of_response(&name, &job, (model, 1.0), &response, None);
         let answer = Answer::new(&job, &words, &response, &summary, display, ground.number);
         let (text, judged) = (text.to_owned(), None);
-        self.last = Some(Last { job, name, words, figures, text, set, response, judged, display });
+        self.last = Some(Last { job, name, words, text, set, response, judged, display });
         Ok(answer)
     }
 
@@ -160,7 +144,7 @@ impl Session {
     pub fn judge(&mut self, stepwise: bool) -> Result<Judgement, JsValue> {
         let last = self.last.as_mut().ok_or_else(|| Failure::of("nothing was analysed"))?;
         let outcome = last.job.run_on(last.response.clone(), false).map_err(Failure::of)?;
-        let summary = Summary::of(&last.name, &last.job, last.figures, &outcome);
+        let summary = Summary::of(&last.name, &last.job, &outcome);
         let text = input::with_keys(MODEL, &last.text, &last.set)
             .map_err(|error| Failure::input(&error, &last.text))?;
         let model = &last.job.analysis.model;

@@ -217,17 +217,9 @@ pub fn assess(
         let error = analysis.error_at("analysis.method", expected, "\"stepwise\"");
         return Err(Failure::input(&error, text));
     }
-    let (suite, warnings) = suite(records, &settings, &analysis, text)?;
+    let suite = suite(records, &settings, &analysis, text)?;
     let name = analysis.name.clone().unwrap_or_else(|| "Model".to_owned());
-    let on = On {
-        name: &name,
-        source: MODEL,
-        text,
-        set: &[],
-        analysis: &analysis,
-        suite: &suite,
-        warnings: &warnings,
-    };
+    let on = On { name: &name, source: MODEL, text, set: &[], analysis: &analysis, suite: &suite };
     let failed = |error| Failure::assessment(&error, text);
     let answer = followed(|engine| match kind {
         // The incremental dynamic analysis, and the curve that fits it.
@@ -254,13 +246,13 @@ pub fn assess(
     Ok(Page::new(&sheet, &inputs, &files, &settings.command(what)))
 }
 
-/// The records that were asked for, else the model's own motion; and what reading them gave notice of.
+/// The records that were asked for, else the model's own motion.
 fn suite(
     records: &mut Records,
     settings: &Settings<'_>,
     analysis: &Analysis,
     text: &str,
-) -> Result<(Suite, Vec<Notice>), Failure> {
+) -> Result<Suite, Failure> {
     let mut read = Vec::new();
     for Asks { name, units, dt, channel } in settings.records() {
         let options = crate::records::options(units, dt)?;

@@ -5,12 +5,13 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use slipstick::assessment::AssessmentError;
+use slipstick::hash::sha256_hex;
 use slipstick::requests::{Answer, Curves, Results, Runs};
 use slipstick::study::engine::Engine;
 use slipstick::table::Table;
 use slipstick_files::{
     OutputFolder, ReadTable, files_of_runs, limit_of_ida, on_threads, read_bytes, read_csv,
-    read_runs, read_table, reading_time, sha256_hex, time_left,
+    read_runs, read_table, reading_time, time_left,
 };
 use slipstick_report::assessment::answer;
 

@@ -5,15 +5,14 @@ use std::process::ExitCode;
 
 use slipstick::assessment::AssessmentError;
 use slipstick::assessment::suite::Suite;
+use slipstick::hash::sha256_hex;
 use slipstick::input::{self, Analysis, Override};
-use slipstick::notice::Notice;
 use slipstick::requests::On;
 use slipstick::response::Method;
 use slipstick::study::engine::Engine;
 use slipstick::table::Table;
 use slipstick_files::{
-    OpenJob, OpenSuite, OutputFolder, SuiteError, SuiteRequest, on_threads, sha256_hex, to_csv,
-    to_parquet,
+    OpenJob, OpenSuite, OutputFolder, SuiteError, SuiteRequest, on_threads, to_csv, to_parquet,
 };
 use slipstick_report::assessment::{Sheet, Went};
 use slipstick_report::{FileNote, InputText};
@@ -32,8 +31,6 @@ pub struct Opened {
     pub analysis: Analysis,
     overrides: Vec<Override>,
     pub suite: Suite,
-    /// What reading the records gave notice of.
-    pub warnings: Vec<Notice>,
     sources: Vec<(String, String, String)>,
 }
 
@@ -59,18 +56,17 @@ impl Opened {
             return Err(Failure::input(error, &file.text()));
         }
         let name = model_name(&file, analysis.name.as_deref());
-        let OpenSuite { suite, sources, warnings } = match records()? {
+        let OpenSuite { suite, sources } = match records()? {
             Some(records) => records,
             None => {
                 let job = OpenJob::new(&file.path, analysis.clone(), None)
                     .map_err(|error| Failure::job(error, &file.name, &file.text()))?;
-                let made = job.loaded.sources.is_empty();
-                let record = job.loaded.description.join("; ");
-                OpenSuite::single(&record, job.loaded, made)
+                let record = job.job.loaded.description.join("; ");
+                OpenSuite::single(&record, job.job.loaded, job.sources)
             }
         };
         let text = file.text();
-        Ok(Self { file, text, name, analysis, overrides, suite, warnings, sources })
+        Ok(Self { file, text, name, analysis, overrides, suite, sources })
     }
 
     /// What is asked of.
@@ -82,7 +78,6 @@ impl Opened {
             set: &self.overrides,
             analysis: &self.analysis,
             suite: &self.suite,
-            warnings: &self.warnings,
         }
     }
 
@@ -197,7 +192,8 @@ pub fn conclude(
     }
     if args.json {
         for warning in &sheet.warnings {
-            say(format_args!("warning: {}: {}", warning.kind, warning.message));
+            let label = warning.severity().name();
+            say(format_args!("{label}: {}: {}", warning.kind, warning.message));
         }
     }
     if let Some(out) = &args.out {

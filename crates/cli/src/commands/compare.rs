@@ -3,14 +3,13 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use slipstick::hash::sha256_hex;
 use slipstick::input;
 use slipstick::laboratory::compare::compare as compared;
 use slipstick::laboratory::measured::Measured;
 use slipstick::notice::Notice;
 use slipstick::requests::Comparing;
-use slipstick_files::{
-    OutputFolder, SourceFile, TextFile, read_mapping, read_measured, sha256_hex, time_left,
-};
+use slipstick_files::{OutputFolder, SourceFile, TextFile, read_mapping, read_measured, time_left};
 use slipstick_report::laboratory::CompareReport;
 use slipstick_report::{FileNote, InputText};
 
@@ -90,7 +89,7 @@ pub(super) fn tell(args: &ResultArgs, warnings: &[Notice]) {
     }
     if args.json {
         for warning in warnings {
-            let label = warning.label().to_lowercase();
+            let label = warning.severity().name();
             say(format_args!("{label}: {}: {}", warning.kind, warning.message));
         }
     }

@@ -6,12 +6,13 @@ use std::process::ExitCode;
 
 use slipstick::assessment::single::Outcome;
 use slipstick::error::InputError;
+use slipstick::hash::sha256_hex;
 use slipstick::input::{self, Analysis, Override, Scale};
 use slipstick::record;
 use slipstick::requests::Kind;
 use slipstick_files::{
     FileError, OpenJob, OutputFolder, RecordRequest, events_csv, history_csv, read_at_most,
-    record_path, sha256_hex,
+    record_path,
 };
 use slipstick_report::{FileNote, InputText, Report, Summary, table};
 
@@ -63,7 +64,7 @@ fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
         .out
         .as_deref()
         .map(|out| {
-            let records = job.loaded.sources.iter().map(|source| source.path.clone());
+            let records = job.sources.iter().map(|source| source.path.clone());
             let inputs: Vec<PathBuf> = records.chain([model.path.clone()]).collect();
             OutputFolder::create(out, &inputs)
         })
@@ -176,7 +177,7 @@ fn show(args: &RunArgs, job: &OpenJob, summary: &Summary) -> Result<(), Failure>
     if args.result.json {
         print(&summary.to_json())?;
     } else {
-        let record = job.loaded.description.join("; ");
+        let record = job.job.loaded.description.join("; ");
         let display = args.result.display_units;
         print(&table::table(summary, &job.job.analysis.model, &record, display))?;
     }
@@ -186,7 +187,7 @@ fn show(args: &RunArgs, job: &OpenJob, summary: &Summary) -> Result<(), Failure>
     if args.result.json {
         for (run, warning) in summary.all_warnings() {
             let run = run.map_or(String::new(), |run| format!(" ({run} friction)"));
-            let label = warning.label().to_lowercase();
+            let label = warning.severity().name();
             say(format_args!("{label}: {}{run}: {}", warning.kind, warning.message));
         }
     }
@@ -205,14 +206,13 @@ fn write_files(
     summary: &Summary,
     written: &dyn Fn(u64),
 ) -> Result<(), FileError> {
-    let record = job.loaded.description.join("; ");
+    let record = job.job.loaded.description.join("; ");
     let (text, sha256) = (model.text(), sha256_hex(&model.bytes));
     let inputs = [InputText { path: &model.name, text: &text }];
     let sources: Vec<(String, &str, &str)> = job
-        .loaded
         .sources
         .iter()
-        .zip(&job.loaded.description)
+        .zip(&job.job.loaded.description)
         .map(|(file, what)| (file.path.display().to_string(), file.sha256.as_str(), what.as_str()))
         .collect();
     let mut files = vec![FileNote { path: &model.name, sha256: &sha256, description: "model" }];

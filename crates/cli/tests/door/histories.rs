@@ -352,7 +352,7 @@ fn exact_report_of_a_suite_says_what_it_is_of() {
     let text = folder.stdout(&[&["run", "model.toml"], &arguments[..], &spectrum[..]].concat());
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     for said in [
-        "Records Record Earthquake Station Component Factor PGA (g) RSN1_A000 ",
+        "Records Record Earthquake Station Component Azimuth Factor PGA (g) RSN1_A000 ",
         "Nowhere Fire Station",
         "Effective damping β_M (%)",
         "Displacement D_M (mm)",
@@ -363,8 +363,10 @@ fn exact_report_of_a_suite_says_what_it_is_of() {
     }
     let summary: serde_json::Value =
         serde_json::from_str(&folder.read("out/summary.json")).unwrap();
-    let record = &summary["records"][1];
+    let record = &summary["suite"][1];
     assert_eq!(record["station"], "Nowhere Fire Station");
+    assert_eq!(record["azimuth_deg"], 90.0);
+    assert_eq!(summary["model_hash"].as_str().unwrap().len(), 12);
     let lateral = &summary["lateral_force"][1];
     let number = |key: &str| lateral[key].as_f64().unwrap();
     // D = Sa(T) (T/2π)²/B with Sa = 0.8 g/T, T from the stiffness under the mass of 500 kg.
@@ -390,4 +392,55 @@ fn exact_far_factors_are_said() {
             .contains("factor_far: 3 of 3 factors are outside 0.25 to 4")
     };
     assert!(warned("0.2") && warned("-5") && !warned("4") && !warned("-0.25"));
+}
+
+/// What reading two files said stands in the answer with each of them, weighed; the sentence above names the
+/// first.
+#[test]
+fn exact_notices_of_every_record_of_a_suite_are_kept() {
+    let folder = folder("histories-noticed", 3);
+    for i in 0..2 {
+        // A first sample that is not 0, and a velocity left at the end.
+        let rest =
+            folder.read(&format!("records/r{i}.csv")).replace("\n0.00,0.000000\n", "\n0.00,0.9\n");
+        folder.write(&format!("records/r{i}.csv"), rest);
+    }
+    let run = ["run", "model.toml", "--records", "records", "--out", "out", "--json"];
+    let summary: serde_json::Value = serde_json::from_str(&folder.stdout(&run)).unwrap();
+    let kinds = |i: usize| -> Vec<&str> {
+        let notices = summary["suite"][i]["notices"].as_array().unwrap();
+        notices.iter().map(|notice| notice["kind"].as_str().unwrap()).collect()
+    };
+    assert!(kinds(0).contains(&"first_sample_not_zero"), "{summary}");
+    assert!(kinds(1).contains(&"first_sample_not_zero"), "{summary}");
+    assert!(!kinds(2).contains(&"first_sample_not_zero"), "{summary}");
+    let warnings = summary["warnings"].as_array().unwrap();
+    let first = warnings.iter().find(|w| w["kind"] == "first_sample_not_zero").unwrap();
+    assert_eq!(first["severity"], "warning");
+    let said = first["message"].as_str().unwrap();
+    assert!(said.starts_with("r0: ") && said.ends_with("(and 1 of the other records)"), "{said}");
+    let page = folder.read("out/report.html");
+    assert!(page.contains("<strong>r1</strong>: warning, first sample not zero: "), "{page}");
+    assert!(page.contains(&format!("model {}", summary["model_hash"].as_str().unwrap())));
+}
+
+/// A single run says which model and which record it is of, the gravest notice first.
+#[test]
+fn exact_a_run_says_what_it_is_of() {
+    let folder = folder("histories-one", 1);
+    let run = |more: &[&str]| {
+        folder.json(&[&["model.toml", "--motion", "records/r0.csv", "--scale", "3"], more].concat())
+    };
+    let summary = run(&[]);
+    assert_eq!(summary["record"]["factor"], 3.0);
+    assert_eq!(summary["warnings"][0]["kind"], "gap_exceeded");
+    assert_eq!(summary["warnings"][0]["severity"], "severe");
+    let hash = |summary: &serde_json::Value| summary["model_hash"].as_str().unwrap().to_owned();
+    assert_ne!(hash(&summary), hash(&run(&["--set", "slider.gap=21 mm"])));
+    // Comments and order are not in it.
+    folder.write("model.toml", format!("# The same.\n{MODEL}"));
+    assert_eq!(hash(&summary), hash(&run(&[])));
+    let text = folder.stdout(&["run", "model.toml", "--motion", "records/r0.csv", "--scale", "3"]);
+    assert!(text.contains(&format!("model {}", hash(&summary))), "{text}");
+    assert!(text.contains("\nSevere   gap_exceeded"), "{text}");
 }

@@ -137,7 +137,7 @@ fn exact_messages_go_to_standard_error_and_quiet_takes_them_away() {
         assert_eq!(output.status.code(), Some(0));
         text(&output.stderr)
     };
-    assert!(stderr(&["--json"]).starts_with("warning: gap_exceeded: "));
+    assert!(stderr(&["--json"]).starts_with("severe: gap_exceeded: "));
     assert_eq!(stderr(&["--json", "-q"]), "");
     assert_eq!(stderr(&[]), "");
     assert_eq!(stderr(&["--out", "out"]), "wrote out/report.html\n");

@@ -354,7 +354,7 @@ fn exact_manifest_has_the_hash_of_every_part() {
     for (index, part) in listed.iter().enumerate() {
         assert_eq!(part["path"], format!("parts/part-{index:05}.parquet"));
         let path = folder.path().join("out").join(part["path"].as_str().unwrap());
-        let hash = slipstick_files::sha256_hex(&std::fs::read(path).unwrap());
+        let hash = slipstick::hash::sha256_hex(&std::fs::read(path).unwrap());
         assert_eq!(part["sha256"], hash.as_str());
         assert_eq!((&part["first_run"], &part["rows"]), (&(500 * index).into(), &500.into()));
     }

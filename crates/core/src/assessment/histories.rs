@@ -6,6 +6,7 @@ use super::single::{Job, Judged};
 use super::suite::{PairScaling, Scaled, Suite, SuiteRecord};
 use super::{AssessmentError, FailedRun};
 use crate::error::RunError;
+use crate::input::loaded::Loaded;
 use crate::input::{Analysis, Bound, Names};
 use crate::motion::target::Matched;
 use crate::notice::Notice;
@@ -46,8 +47,8 @@ pub struct OnRecord {
     pub runs: Vec<Result<(Demands, bool), FailedRun>>,
     /// Times in s and sliding displacements in m with nominal friction.
     pub sliding: [Vec<f64>; 2],
-    /// What was noticed of it.
-    pub warnings: Vec<Notice>,
+    /// What reading it and running it gave notice of.
+    pub notices: Vec<Notice>,
 }
 
 impl OnRecord {
@@ -70,6 +71,8 @@ impl OnRecord {
 pub struct ModelHistories {
     /// Its name.
     pub name: String,
+    /// Hash of the model.
+    pub hash: String,
     /// What its block and its storeys are called.
     pub names: Names,
     /// The gap of its slider in m, where it has one.
@@ -101,6 +104,8 @@ pub struct Histories {
     pub governing: Table,
     /// How pairs were brought to a target spectrum, and their names.
     pub matched: Option<(Matched, Vec<String>)>,
+    /// What was noticed of the records together, each once.
+    pub notices: Vec<Notice>,
 }
 
 impl ModelHistories {
@@ -209,6 +214,7 @@ pub fn run_histories(
         let records = engine.runs(model.suite.records.len(), run)?;
         let mut of_model = ModelHistories {
             name: model.name.to_owned(),
+            hash: model.analysis.hash(),
             names: model.analysis.names.clone(),
             gap_m: model.analysis.model.slider().gap_m(),
             stop_m: model.analysis.model.slider().stop().map_or([None; 2], |stop| stop.gap_m),
@@ -228,7 +234,13 @@ pub fn run_histories(
         contents: all.contents.max(shape.contents),
     });
     let (runs, governing) = (table_of_runs(&done, shape), table_of_governing(&done, shape));
-    Ok(Histories { models: done, shape, runs, governing, matched })
+    let mut notices: Vec<Notice> = Vec::new();
+    for notice in models.iter().flat_map(|model| &model.suite.notices) {
+        if !notices.contains(notice) {
+            notices.push(notice.clone());
+        }
+    }
+    Ok(Histories { models: done, shape, runs, governing, matched, notices })
 }
 
 /// The bounds of friction that an analysis asks for.
@@ -244,7 +256,7 @@ fn lateral(analysis: &Analysis, scaling: &PairScaling) -> Vec<Option<LateralForc
 }
 
 fn on_record(model: &ModelOn<'_>, record: usize, scale: f64) -> OnRecord {
-    let SuiteRecord { name, origin, .. } = &model.suite.records[record];
+    let SuiteRecord { name, origin, notices, .. } = &model.suite.records[record];
     let mut on = OnRecord {
         record: name.clone(),
         pair: model.suite.pair_name(record).to_owned(),
@@ -253,7 +265,7 @@ fn on_record(model: &ModelOn<'_>, record: usize, scale: f64) -> OnRecord {
         pga_m_per_s2: f64::NAN,
         runs: Vec::new(),
         sliding: [Vec::new(), Vec::new()],
-        warnings: Vec::new(),
+        notices: notices.clone(),
     };
     let bounds = bounds(model.analysis);
     for bound in &bounds {
@@ -281,7 +293,7 @@ fn with_bound(
     let mut analysis = model.analysis.clone();
     analysis.friction_bounds = None;
     analysis.model = bound.of(&analysis.model);
-    let job = Job::new(analysis, motion, Vec::new())?;
+    let job = Job::new(analysis, Loaded::made(motion, String::new()))?;
     let judged = job.run(false)?.nominal;
     Ok((job, judged))
 }
@@ -298,8 +310,8 @@ impl OnRecord {
             }
         };
         if self.pga_m_per_s2.is_nan() {
-            self.pga_m_per_s2 = job.motion.figures().pga_m_per_s2;
-            self.warnings.extend(job.warnings.iter().cloned());
+            self.pga_m_per_s2 = job.loaded.figures.pga_m_per_s2;
+            self.notices.extend(job.warnings.iter().cloned());
         }
         if *bound == Bound::NOMINAL {
             let history = response.history.unwrap_or_default();
@@ -307,7 +319,7 @@ impl OnRecord {
         }
         let met = struck(&model, &response.demands).into_iter();
         let met = met.chain(flat_geometry(&model, &response.demands)).map(of_bound);
-        self.warnings.extend(response.warnings.into_iter().chain(met));
+        self.notices.extend(response.warnings.into_iter().chain(met));
         let holds = response.method == Method::Stepwise || certificate.holds();
         (response.demands, holds)
     }

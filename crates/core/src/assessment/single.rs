@@ -3,6 +3,7 @@
 
 use crate::check::{self, Certificate};
 use crate::error::{InputError, MotionError, SolveError, Stopped};
+use crate::input::loaded::Loaded;
 use crate::input::{Analysis, Bound, MotionSource};
 use crate::model::Model;
 use crate::motion::{GroundMotion, Sine, spectrum};
@@ -23,8 +24,8 @@ const LONG_HISTORY: usize = 100_000;
 pub struct Job {
     /// What is to be analysed.
     pub analysis: Analysis,
-    /// The motion without its tail.
-    pub bare: GroundMotion,
+    /// The motion without its tail, and what it is of.
+    pub loaded: Loaded,
     /// The motion with its tail: what is solved.
     pub motion: GroundMotion,
     /// What was noticed of model and motion.
@@ -71,24 +72,21 @@ pub struct FloorSpectra {
 }
 
 impl Job {
-    /// An analysis on a motion, of which something was noticed already.
+    /// An analysis on a motion.
     ///
     /// # Errors
     /// [`InputError`] for a tail that cannot be.
-    pub fn new(
-        analysis: Analysis,
-        bare: GroundMotion,
-        noticed: Vec<Notice>,
-    ) -> Result<Self, InputError> {
+    pub fn new(analysis: Analysis, loaded: Loaded) -> Result<Self, InputError> {
+        let bare = &loaded.motion;
         let motion = match analysis.tail_s {
             0.0 => bare.clone(),
             tail_s => bare.with_tail(tail_s).map_err(|error| of_tail(&analysis, &error))?,
         };
-        let mut warnings = noticed;
+        let mut warnings = loaded.warnings.clone();
         warnings.extend(suspicious(&analysis.model));
-        let (highest_hz, step_s) = (highest_hz(&analysis.model), longest_step_s(&bare));
+        let (highest_hz, step_s) = (highest_hz(&analysis.model), longest_step_s(bare));
         warnings.extend(coarse_sampling(highest_hz, step_s));
-        Ok(Self { analysis, bare, motion, warnings })
+        Ok(Self { analysis, loaded, motion, warnings })
     }
 
     /// Solves and judges, with lower- and upper-bound friction where bounds are given.
@@ -137,7 +135,7 @@ impl Job {
             }
         };
         let history = nominal.response.history.as_ref().filter(|_| floor_spectra);
-        let of = |history| self::floor_spectra(&self.bare, history, go_on);
+        let of = |history| self::floor_spectra(&self.loaded.motion, history, go_on);
         let floor_spectra = history.map(of).transpose()?;
         Ok(Outcome { nominal, bounds, floor_spectra })
     }

@@ -94,6 +94,23 @@ pub struct SuiteRecord {
     pub pair: Option<usize>,
     /// What its file says of where it was recorded.
     pub origin: Origin,
+    /// What reading it gave notice of.
+    pub notices: Vec<Notice>,
+}
+
+/// What an answer is of: a record, without its samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recorded {
+    /// Its name in tables.
+    pub name: String,
+    /// What its file says of where it was recorded.
+    pub origin: Origin,
+    /// Factor on it; none where that differs from run to run.
+    pub factor: Option<f64>,
+    /// Its peak acceleration under that factor, else as recorded, in m/s².
+    pub pga_m_per_s2: f64,
+    /// What was noticed of it.
+    pub notices: Vec<Notice>,
 }
 
 /// The records that a model is run on.
@@ -103,36 +120,45 @@ pub struct Suite {
     pub records: Vec<SuiteRecord>,
     /// Whether the motion is made by the model rather than recorded: then it is the one record.
     pub made: bool,
+    /// What was noticed of the records together.
+    pub notices: Vec<Notice>,
+}
+
+/// Notices of many records, each kind once with the record that gave it first and the number of the others
+/// that give it.
+pub fn condensed<'a>(of: impl IntoIterator<Item = (&'a str, &'a [Notice])>) -> Vec<Notice> {
+    let mut noticed: Vec<(Notice, Vec<&str>)> = Vec::new();
+    for (name, notices) in of {
+        for notice in notices {
+            match noticed.iter_mut().find(|(seen, _)| seen.kind == notice.kind) {
+                Some((_, names)) if names.contains(&name) => {}
+                Some((_, names)) => names.push(name),
+                None => {
+                    let message = format!("{name}: {}", notice.message);
+                    noticed.push((Notice { message, time_s: None, ..notice.clone() }, vec![name]));
+                }
+            }
+        }
+    }
+    let told = |(notice, names): (Notice, Vec<&str>)| match names.len() - 1 {
+        0 => notice,
+        more => {
+            let message = format!("{} (and {more} of the other records)", notice.message);
+            Notice { message, ..notice }
+        }
+    };
+    noticed.into_iter().map(told).collect()
 }
 
 impl Suite {
-    /// Records that were read, by their names, each alone; and what reading them gave notice of, each kind once
-    /// with the record that gave it first.
+    /// Records that were read, by their names, each alone.
     #[must_use]
-    pub fn of(read: impl IntoIterator<Item = (String, Loaded)>, made: bool) -> (Self, Vec<Notice>) {
-        let mut suite = Self { records: Vec::new(), made };
-        let mut noticed: Vec<(Notice, usize)> = Vec::new();
-        for (name, Loaded { motion, origin, warnings, .. }) in read {
-            for warning in warnings {
-                match noticed.iter_mut().find(|(seen, _)| seen.kind == warning.kind) {
-                    Some((_, more)) => *more += 1,
-                    None => {
-                        let message = format!("{name}: {}", warning.message);
-                        let time_s = None;
-                        noticed.push((Notice { message, time_s, ..warning }, 0));
-                    }
-                }
-            }
-            suite.records.push(SuiteRecord { name, motion, pair: None, origin });
-        }
-        let told = |(warning, more): (Notice, usize)| match more {
-            0 => warning,
-            _ => {
-                let message = format!("{} (and {more} of the other records)", warning.message);
-                Notice { message, ..warning }
-            }
+    pub fn of(read: impl IntoIterator<Item = (String, Loaded)>, made: bool) -> Self {
+        let record = |(name, loaded): (String, Loaded)| {
+            let Loaded { motion, origin, warnings: notices, .. } = loaded;
+            SuiteRecord { name, motion, pair: None, origin, notices }
         };
-        (suite, noticed.into_iter().map(told).collect())
+        Self { records: read.into_iter().map(record).collect(), made, notices: Vec::new() }
     }
 
     /// Takes records that stand beside each other as the two components of pairs.
@@ -148,10 +174,24 @@ impl Suite {
         self.records.iter().any(|record| record.pair.is_some())
     }
 
-    /// Names of the records.
+    /// What was noticed of the records, each kind once.
     #[must_use]
-    pub fn names(&self) -> Vec<String> {
-        self.records.iter().map(|record| record.name.clone()).collect()
+    pub fn noticed(&self) -> Vec<Notice> {
+        let of_each = self.records.iter().map(|record| (&record.name[..], &record.notices[..]));
+        condensed(of_each).into_iter().chain(self.notices.iter().cloned()).collect()
+    }
+
+    /// What an answer over the suite is of.
+    #[must_use]
+    pub fn recorded(&self) -> Vec<Recorded> {
+        let of = |record: &SuiteRecord| Recorded {
+            name: record.name.clone(),
+            origin: record.origin.clone(),
+            factor: None,
+            pga_m_per_s2: record.motion.figures().pga_m_per_s2,
+            notices: record.notices.clone(),
+        };
+        self.records.iter().map(of).collect()
     }
 
     /// The measure of each record as recorded, in SI.

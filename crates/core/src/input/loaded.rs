@@ -68,6 +68,8 @@ pub struct Loaded {
     pub channel: String,
     /// What its file says of where it was recorded.
     pub origin: Origin,
+    /// Factor on the values of the file; 1 of a made motion.
+    pub factor: f64,
     /// What was understood, one line a record: `PEER AT2, 2800 values, 0.005 s, g`.
     pub description: Vec<String>,
     /// Figures of the horizontal component as analysed.
@@ -107,9 +109,8 @@ impl Loaded {
     pub fn made(motion: GroundMotion, description: String) -> Self {
         let figures = motion.figures();
         let description = vec![description];
-        let channel = String::new();
-        let origin = Origin::default();
-        Self { motion, channel, origin, description, figures, warnings: vec![] }
+        let (channel, origin) = (String::new(), Origin::default());
+        Self { motion, channel, origin, factor: 1.0, description, figures, warnings: vec![] }
     }
 
     /// Records as one motion, scaled as one: the factor, or the peak of the larger horizontal component,
@@ -154,20 +155,22 @@ impl Loaded {
             (motion, _) = motion.with_vertical(&up, 1.0).map_err(of(Component::X))?;
             description.push(format!("vertical: column {VERTICAL_COLUMN}"));
         }
-        let motion = match scale {
-            None => Ok(motion),
-            Some(Scale::Factor(factor)) => motion.scaled(factor),
-            Some(Scale::Peak(peak)) => motion.scaled_to_peak(peak),
+        let (scaled, factor) = match scale {
+            None => (Ok(motion), 1.0),
+            Some(Scale::Factor(factor)) => (motion.scaled(factor), factor),
+            Some(Scale::Peak(peak)) => {
+                (motion.scaled_to_peak(peak), peak / motion.figures().pga_m_per_s2)
+            }
         };
-        let motion = match along_y {
-            None => motion,
-            Some((_, pair)) => motion.and_then(|m| m.turned(pair.scale_y, pair.rotate_rad)),
+        let scaled = match along_y {
+            None => scaled,
+            Some((_, pair)) => scaled.and_then(|m| m.turned(pair.scale_y, pair.rotate_rad)),
         };
-        let motion = motion.map_err(of(Component::X))?;
+        let motion = scaled.map_err(of(Component::X))?;
         let figures = motion.figures();
         warnings.extend(of_motion(&motion, &figures, &differ));
         let (channel, origin) = (channel.name.clone(), Origin::of(channel));
-        Ok(Self { motion, channel, origin, description, figures, warnings })
+        Ok(Self { motion, channel, origin, factor, description, figures, warnings })
     }
 }
 

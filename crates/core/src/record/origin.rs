@@ -3,7 +3,7 @@
 use super::Channel;
 
 /// What a file says of the place and the direction of a motion; all empty of a made one.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Origin {
     /// Earthquake, where stated.
     pub event: Option<String>,
@@ -11,8 +11,8 @@ pub struct Origin {
     pub station: Option<String>,
     /// Component, where stated.
     pub component: Option<String>,
-    /// Whether the component has an azimuth, as vertical ones have not.
-    pub is_horizontal: bool,
+    /// Azimuth of the component, clockwise from north in degrees, where stated: a vertical one has none.
+    pub azimuth_deg: Option<f64>,
 }
 
 /// Components that files call vertical, in capital letters.
@@ -28,7 +28,7 @@ impl Origin {
             event: channel.event.clone(),
             station: channel.station.clone(),
             component: channel.component.clone(),
-            is_horizontal: channel.azimuth_deg.is_some(),
+            azimuth_deg: channel.azimuth_deg,
         }
     }
 
@@ -36,7 +36,7 @@ impl Origin {
     /// end of the file's name, `RSN68_SFERN_PEL-UP.AT2`.
     #[must_use]
     pub fn vertical(&self, file_name: &str) -> Option<String> {
-        if self.is_horizontal {
+        if self.azimuth_deg.is_some() {
             return None;
         }
         if let Some(component) = &self.component {
@@ -52,6 +52,19 @@ impl Origin {
         // PEER's names run the station and this together: H-DLTDWN.
         let joined = last.len() > 3 && last.to_ascii_uppercase().ends_with("DWN");
         (of_name || joined).then(|| format!("a name that ends in that, {file_name}"))
+    }
+
+    /// What it says, by name: earthquake, station, component and azimuth; what it does not say is left out.
+    #[must_use]
+    pub fn said(&self) -> Vec<(&'static str, String)> {
+        let azimuth = self.azimuth_deg.map(|azimuth_deg| format!("{azimuth_deg}°"));
+        let all = [
+            ("Earthquake", self.event.clone()),
+            ("Station", self.station.clone()),
+            ("Component", self.component.clone()),
+            ("Azimuth", azimuth),
+        ];
+        all.into_iter().filter_map(|(name, text)| Some((name, text?))).collect()
     }
 
     /// Whether two files say that they are of one station in one earthquake.
@@ -128,7 +141,7 @@ mod tests {
             let origin = Origin { component, ..Origin::default() };
             assert_eq!(origin.vertical(name).is_some(), vertical, "{origin:?} {name}");
         }
-        let known = Origin { is_horizontal: true, ..stated("090") };
+        let known = Origin { azimuth_deg: Some(90.0), ..stated("090") };
         assert_eq!(known.vertical("x-up.AT2"), None);
     }
 

@@ -27,9 +27,8 @@ impl Request {
         engine: &Engine<'_>,
     ) -> Result<Answer, AssessmentError> {
         let (scaling, scaled) = self.pair_scaling(target)?;
-        let of = |on: &On<'_>| -> Vec<Notice> { on.warnings.to_vec() };
         let mut warnings: Vec<Notice> = Vec::new();
-        for warning in models.iter().flat_map(of) {
+        for warning in models.iter().flat_map(|on| on.suite.noticed()) {
             if !warnings.contains(&warning) {
                 warnings.push(warning);
             }
@@ -41,9 +40,11 @@ impl Request {
         });
         let on: Vec<ModelOn<'_>> = on.collect();
         let names: Vec<&str> = models.iter().map(|on| on.name).collect();
+        let hashes: Vec<String> = models.iter().map(|on| on.analysis.hash()).collect();
         Ok(Answer {
             name: names.join(", "),
-            records: models.first().map_or_else(Vec::new, |on| on.suite.names()),
+            model_hash: Some(hashes.join(", ")),
+            records: models.first().map_or_else(Vec::new, |on| on.suite.recorded()),
             scaled: if models.iter().all(|on| on.suite.made) { String::new() } else { scaled },
             warnings,
             found: Results::Suite(run_histories(&on, &scaling, engine)?),

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use slipstick::hash::sha256_hex;
 use slipstick::input::plan::{Plan, Records, Target};
 use slipstick::input::{self, MAX_TEXT_BYTES, MotionSource};
 use slipstick::motion::target::TargetSpectrum;
@@ -14,7 +15,7 @@ use super::StudyError;
 use crate::error::FileError;
 use crate::globs::{expand, named_twice};
 use crate::load::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
-use crate::read::{read_at_most, read_bytes, resolve, sha256_hex};
+use crate::read::{read_at_most, read_bytes, resolve};
 use crate::run::request;
 use crate::table::read_table;
 use crate::unfit::refuse_unfit;

@@ -4,6 +4,7 @@ use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use slipstick::hash::sha256_hex;
 use slipstick::study::engine::Engine;
 
 use super::StudyError;
@@ -11,7 +12,7 @@ use super::part::{Notes, PartFile, part_count, part_name, part_of_name, rows_of}
 use super::seal::is_sealed;
 use crate::error::FileError;
 use crate::parquet::Table;
-use crate::read::{read_bytes, sha256_hex};
+use crate::read::read_bytes;
 
 /// The folder of the parts. Nothing else stands in it, so that any reader takes it as one table; a
 /// part has its temporary name beside it.

@@ -3,7 +3,7 @@
 //! It is the SHA-256 of the file with zeros where the hash stands. So a part is judged by itself: a
 //! study that was killed has no manifest yet.
 
-use crate::read::sha256_hex;
+use slipstick::hash::sha256_hex;
 
 /// Key of the hash among the notes of a file.
 pub(super) const SEAL_KEY: &str = "slipstick.sha256";

@@ -1,6 +1,7 @@
 //! Answers to requests, laid out, and their tables.
 
 use slipstick::assessment::histories::Histories;
+use slipstick::notice::Notice;
 use slipstick::requests::{Answer, Curves, Results};
 use slipstick::table::Table;
 
@@ -26,12 +27,12 @@ pub struct Tabled {
 /// An answer laid out.
 #[must_use]
 pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
-    let Answer { name, records, scaled, warnings, found } = answer;
-    match found {
-        Results::Suite(histories) => {
-            HistoriesReport { histories, scaled, warnings, display }.sheet()
-        }
+    let Answer { name, model_hash, records, scaled, warnings, found } = answer;
+    let names: Vec<String> = records.iter().map(|record| record.name.clone()).collect();
+    let sheet = match found {
+        Results::Suite(histories) => HistoriesReport { histories, scaled, display }.sheet(),
         Results::Spectrum(run) => {
+            let records = &names;
             SpectrumReport { name, records, scaled, run, warnings, display }.sheet()
         }
         Results::Ida { measure, demand, limit, fixed_levels, run } => IdaFamily {
@@ -77,7 +78,12 @@ pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
                 .sheet(),
             }
         }
-    }
+    };
+    // A suite's own records have the factors of its runs.
+    let suite = if sheet.suite.is_empty() { records.clone() } else { sheet.suite };
+    let mut sheet = Sheet { model_hash: model_hash.clone(), suite, ..sheet };
+    Notice::sort(&mut sheet.warnings);
+    sheet
 }
 
 /// The tables of an answer, its own first.

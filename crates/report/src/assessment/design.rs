@@ -89,7 +89,6 @@ impl DesignReport<'_> {
         Sheet {
             kind: "Design over a suite",
             name: self.name.to_owned(),
-            first: None,
             line: format!(
                 "{designs} designs, {} records{}; {} runs of {} were needed{}",
                 self.records,
@@ -110,6 +109,7 @@ impl DesignReport<'_> {
             figures: self.figures(),
             method: self.method(),
             json: self.json(),
+            ..Sheet::default()
         }
     }
 

@@ -124,6 +124,7 @@ impl FragilityReport<'_> {
             method: self.method(),
             complete: self.complete(),
             json: self.json(),
+            ..Sheet::default()
         }
     }
 

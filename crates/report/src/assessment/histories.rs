@@ -3,20 +3,18 @@
 use slipstick::assessment::FailedRun;
 use slipstick::assessment::histories::{Histories, ModelHistories, OnRecord, RECORDS_OF_A_MEAN};
 use slipstick::assessment::lateral::{LEAST_TOTAL, LateralForce};
+use slipstick::assessment::suite::{Recorded, condensed};
 use slipstick::input::{Bound, Names};
 use slipstick::notice::{Notice, NoticeKind};
-use slipstick::record::Origin;
 use slipstick::response::{DemandColumn, DemandOf};
 use slipstick::table::{Cells, Column, Table};
-use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
 use super::lines::{GROUPS, RECORD, line, panel, stacked};
 use super::pairs;
-use super::sheet::{Sheet, cell, failed};
+use super::sheet::{Sheet, cell, failed, record_table};
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::figures::Drawn;
 use crate::json::Json;
-use crate::markup::shortened;
 use crate::number::compact;
 use crate::plot::{Axis, Limit, Panel, Series, Shape, Style};
 
@@ -27,8 +25,6 @@ pub struct HistoriesReport<'a> {
     pub histories: &'a Histories,
     /// How the records were scaled, in words.
     pub scaled: &'a str,
-    /// What reading the records gave notice of.
-    pub warnings: &'a [Notice],
     /// Units to show results in.
     pub display: DisplayUnits,
 }
@@ -36,9 +32,6 @@ pub struct HistoriesReport<'a> {
 /// A column of a table: its head, the model, its demand and the bound of friction; none where no record of
 /// the model has the demand.
 type Shown<'a> = (String, Option<(&'a ModelHistories, DemandColumn, usize)>);
-
-/// What a file may say of where it was recorded.
-type Said = fn(&Origin) -> &Option<String>;
 
 /// Factors on records beyond which it is said: FEMA P-1050 and the guidance on ground motions to ASCE/SEI 7.
 const FACTORS: core::ops::RangeInclusive<f64> = 0.25..=4.0;
@@ -82,6 +75,8 @@ impl HistoriesReport<'_> {
         Sheet {
             kind: "Response histories",
             name: names.join(", "),
+            model_hash: Some(models.iter().map(|m| &m.hash[..]).collect::<Vec<_>>().join(", ")),
+            suite: self.recorded(),
             first: Some(("Governs", self.governing())),
             line: format!("{runs} runs: {records}{}; {certificate}", self.scaled),
             verdict: Vec::new(),
@@ -282,32 +277,31 @@ impl HistoriesReport<'_> {
         let matched = self.histories.matched.iter();
         let of_pairs = matched.map(|(m, names)| pairs::table(names.iter().map(String::as_str), m));
         let lateral = self.histories.models.iter().filter_map(|model| self.lateral(model));
-        self.records().into_iter().chain(lateral).chain(demands).chain(of_pairs).collect()
+        let records = record_table(&self.recorded()).filter(|_| !self.scaled.is_empty());
+        let records = records.map(|rows| ("Records".to_owned(), rows));
+        records.into_iter().chain(lateral).chain(demands).chain(of_pairs).collect()
     }
 
-    /// The records: what their files say of them, their factors and peaks; none of a made motion.
-    fn records(&self) -> Option<(String, Vec<Vec<String>>)> {
-        let model = self.histories.models.first().filter(|_| !self.scaled.is_empty())?;
-        let said: [(&str, Said); 3] = [
-            ("Earthquake", |origin| &origin.event),
-            ("Station", |origin| &origin.station),
-            ("Component", |origin| &origin.component),
-        ];
-        let known = |of: Said| model.records.iter().any(|on| of(&on.origin).is_some());
-        let said: Vec<_> = said.into_iter().filter(|(_, of)| known(*of)).collect();
-        let heads = said.iter().map(|(head, _)| (*head).to_owned());
-        let heads = core::iter::once("Record".to_owned()).chain(heads);
-        let row = |on: &OnRecord| -> Vec<String> {
-            let origin = said.iter().map(|(_, of)| {
-                of(&on.origin).as_ref().map_or("—".to_owned(), |text| shortened(text, 28))
+    /// The records under their factors, each once.
+    fn recorded(&self) -> Vec<Recorded> {
+        let mut all: Vec<Recorded> = Vec::new();
+        for on in self.histories.models.iter().flat_map(|model| &model.records) {
+            let known = |seen: &&mut Recorded| seen.name == on.record;
+            if let Some(seen) = all.iter_mut().find(known) {
+                let new = on.notices.iter().filter(|notice| !seen.notices.contains(notice));
+                let new: Vec<Notice> = new.cloned().collect();
+                seen.notices.extend(new);
+                continue;
+            }
+            all.push(Recorded {
+                name: on.record.clone(),
+                origin: on.origin.clone(),
+                factor: Some(on.scale),
+                pga_m_per_s2: on.pga_m_per_s2,
+                notices: on.notices.clone(),
             });
-            let pga = on.pga_m_per_s2 / STANDARD_GRAVITY_M_PER_S2;
-            let name = core::iter::once(on.record.clone());
-            name.chain(origin).chain([cell(on.scale), cell(pga)]).collect()
-        };
-        let heads = heads.chain(["Factor".to_owned(), "PGA (g)".to_owned()]).collect();
-        let rows = core::iter::once(heads).chain(model.records.iter().map(row));
-        Some(("Records".to_owned(), rows.collect()))
+        }
+        all
     }
 
     /// The equivalent-lateral-force displacement with each bound, beside that of the runs.
@@ -423,7 +417,7 @@ impl HistoriesReport<'_> {
         ]
     }
 
-    /// Warnings of reading and of the runs, each kind once with the record that gave it first.
+    /// What was noticed of the records and the runs, each kind once with the record that gave it first.
     fn warnings(&self) -> Vec<Notice> {
         let models = &self.histories.models;
         let runs =
@@ -433,25 +427,13 @@ impl HistoriesReport<'_> {
         let count_as = "leave their model without a mean or maximum";
         let unanswered = failed(&unanswered, runs as u64, count_as);
         let far = self.far_factors().filter(|_| !self.scaled.is_empty());
-        let of_reading = unanswered.iter().chain(&far).chain(self.warnings);
-        let mut all: Vec<(Notice, usize)> =
-            of_reading.map(|warning| (warning.clone(), 0)).collect();
-        for on in self.histories.models.iter().flat_map(|model| &model.records) {
-            for warning in &on.warnings {
-                match all.iter_mut().find(|(seen, _)| seen.kind == warning.kind) {
-                    Some((_, more)) => *more += 1,
-                    None => {
-                        let message = format!("{}: {}", on.record, warning.message);
-                        all.push((Notice { message, ..warning.clone() }, 0));
-                    }
-                }
-            }
-        }
-        let told = |(warning, more): (Notice, usize)| match more {
-            0 => warning,
-            _ => Notice { message: format!("{} (and {more} more)", warning.message), ..warning },
-        };
-        all.into_iter().map(told).collect()
+        let records = models.iter().flat_map(|model| &model.records);
+        let of_records = condensed(records.map(|on| (&on.record[..], &on.notices[..])));
+        let of_suite = self.histories.notices.iter().cloned();
+        let all = unanswered.into_iter().chain(far).chain(of_suite).chain(of_records);
+        let mut all: Vec<Notice> = all.collect();
+        Notice::sort(&mut all);
+        all
     }
 
     /// Sliding displacement over time, a panel a model; and the share of records that stay below a peak.
@@ -578,19 +560,6 @@ impl HistoriesReport<'_> {
 
     fn json(&self) -> Vec<(&'static str, Json)> {
         let names = self.histories.models.iter().map(|model| model.name.as_str().into());
-        let text = |text: &Option<String>| text.as_deref().map_or(Json::Null, Json::from);
-        let record = |on: &OnRecord| {
-            Json::Object(vec![
-                ("record", on.record.as_str().into()),
-                ("event", text(&on.origin.event)),
-                ("station", text(&on.origin.station)),
-                ("component", text(&on.origin.component)),
-                ("scale", on.scale.into()),
-                ("pga_m_per_s2", on.pga_m_per_s2.into()),
-            ])
-        };
-        let records = self.histories.models.first().map_or(&[][..], |model| &model.records);
-        let records = records.iter().map(record).collect();
         let of_bounds = self.histories.models.iter().flat_map(|model| {
             let each = model.bounds.iter().zip(&model.lateral);
             each.filter_map(|(bound, found)| Some((&model.name, bound, found.as_ref()?)))
@@ -608,7 +577,7 @@ impl HistoriesReport<'_> {
         });
         vec![
             ("models", Json::List(names.collect())),
-            ("records", Json::List(records)),
+            ("scaled", self.scaled.trim().into()),
             ("runs", columns(&self.histories.runs)),
             ("governing", columns(&self.histories.governing)),
             ("lateral_force", Json::List(lateral.collect())),

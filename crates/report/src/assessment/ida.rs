@@ -142,6 +142,7 @@ impl IdaReport<'_> {
             figures: vec![self.figure()],
             method: self.method(),
             json: self.json(),
+            ..Sheet::default()
         }
     }
 

@@ -3,7 +3,9 @@
 use std::fmt::Display;
 
 use slipstick::assessment::FailedRun;
+use slipstick::assessment::suite::Recorded;
 use slipstick::notice::{Notice, NoticeKind};
+use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
 use crate::VERSION;
 use crate::display::DisplayUnits;
@@ -13,8 +15,9 @@ use crate::json::Json;
 use crate::laboratory::compare::number_table;
 use crate::laboratory::text::{aligned, field};
 use crate::markup::Markup;
+use crate::markup::shortened;
 use crate::report::{FileNote, InputText};
-use crate::summary::keys::listed;
+use crate::summary::keys::{listed, suite};
 
 /// A result as people and programs read it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,6 +26,10 @@ pub struct Sheet {
     pub kind: &'static str,
     /// Name of the model.
     pub name: String,
+    /// Hash of the model, where it is of one.
+    pub model_hash: Option<String>,
+    /// The records that it is of.
+    pub suite: Vec<Recorded>,
     /// What stands before all else, where a reader must know it first: a name and a sentence.
     pub first: Option<(&'static str, String)>,
     /// What was done, in a line.
@@ -66,7 +73,8 @@ impl Sheet {
         if let Some((name, sentence)) = &self.first {
             text.push_str(&field(name, sentence));
         }
-        text.push_str(&field("Model", &self.name));
+        let hash = self.model_hash.iter().map(|hash| format!("  (model {hash})"));
+        text.push_str(&field("Model", &format!("{}{}", self.name, hash.collect::<String>())));
         text.push_str(&field("Analysis", &format!("{}. {}", self.kind, self.line)));
         for (heading, rows) in &self.tables {
             text.push_str(&format!("\n{heading}\n"));
@@ -91,11 +99,35 @@ impl Sheet {
     /// The object that `--json` prints, indented.
     #[must_use]
     pub fn to_json(&self) -> String {
-        let head = ("slipstick", VERSION.into());
-        let tail = [("warnings", false), ("notes", true)];
-        let tail = tail.map(|(key, notes)| (key, listed(&self.warnings, notes)));
-        let members = core::iter::once(head).chain(self.json.iter().cloned()).chain(tail);
-        Json::Object(members.collect()).to_pretty()
+        let mut keys = vec![("slipstick", VERSION.into())];
+        keys.extend(self.model_hash.iter().map(|hash| ("model_hash", hash.as_str().into())));
+        keys.extend(self.json.iter().cloned());
+        if !self.suite.is_empty() {
+            keys.push(("suite", suite(&self.suite)));
+        }
+        keys.push(("warnings", listed(&self.warnings, false)));
+        keys.push(("notes", listed(&self.warnings, true)));
+        Json::Object(keys).to_pretty()
+    }
+
+    /// What was noticed of each record, where several kinds or records would hide it above.
+    fn noticed(&self, out: &mut Markup) {
+        if self.suite.iter().all(|on| on.notices.is_empty()) {
+            return;
+        }
+        out.raw("<h3>What was noticed of each record</h3>\n<ul>\n");
+        for on in &self.suite {
+            for notice in &on.notices {
+                let label = notice.severity().name();
+                out.raw("<li>").element("strong", &on.name).text(format!(
+                    ": {label}, {}: {}",
+                    notice.kind.words(),
+                    self.display.sentence(&notice.message)
+                ));
+                out.raw("</li>\n");
+            }
+        }
+        out.raw("</ul>\n");
     }
 
     /// One self-contained HTML page that prints on A4.
@@ -134,17 +166,46 @@ impl Sheet {
         }
         body.raw("</ul>\n</section>\n");
         appendix(&mut body);
+        self.noticed(&mut body);
         inputs::provenance(&mut body, went.files, went.command_line, went.inputs);
         body.raw("</section>\n");
         document(&Frame {
             kind: self.kind,
             title_end: ": ",
             name: &self.name,
-            line: &format!("Slipstick {}. {}", VERSION, self.line),
+            line: &format!(
+                "Slipstick {VERSION}{}. {}",
+                self.model_hash.as_ref().map_or(String::new(), |hash| format!(", model {hash}")),
+                self.line
+            ),
             command_line: went.command_line,
             body: &body,
         })
     }
+}
+
+/// Records: what their files say of them, factors where each has one, and peaks; nothing without records.
+pub(crate) fn record_table(records: &[Recorded]) -> Option<Vec<Vec<String>>> {
+    let known = ["Earthquake", "Station", "Component", "Azimuth"].into_iter();
+    let said: Vec<_> = records.iter().map(|on| on.origin.said()).collect();
+    let known = known.filter(|name| said.iter().flatten().any(|(other, _)| other == name));
+    let known: Vec<&str> = known.collect();
+    let factors = records.iter().any(|on| on.factor.is_some());
+    let peak = if factors { "PGA (g)" } else { "PGA as recorded (g)" };
+    let heads = core::iter::once("Record").chain(known.iter().copied());
+    let heads = heads.chain(factors.then_some("Factor")).chain([peak]);
+    let row = |(on, said): (&Recorded, &Vec<(&str, String)>)| -> Vec<String> {
+        let of = |name: &&str| said.iter().find(|(other, _)| other == name);
+        let origin = known
+            .iter()
+            .map(|name| of(name).map_or("—".to_owned(), |(_, text)| shortened(text, 28)));
+        let factor = factors.then(|| cell(on.factor.unwrap_or(f64::NAN)));
+        let pga = cell(on.pga_m_per_s2 / STANDARD_GRAVITY_M_PER_S2);
+        core::iter::once(on.name.clone()).chain(origin).chain(factor).chain([pga]).collect()
+    };
+    let heads = heads.map(str::to_owned).collect();
+    let rows = records.iter().zip(&said).map(row);
+    (!records.is_empty()).then(|| core::iter::once(heads).chain(rows).collect())
 }
 
 fn table_list(out: &mut Markup, tables: &[(String, Vec<Vec<String>>)]) {

@@ -69,7 +69,6 @@ impl<'s> SpectrumReport<'s> {
         Sheet {
             kind: "Sliding spectra",
             name: self.name.to_owned(),
-            first: None,
             line: format!("{} runs: {records}{}", self.run.runs, self.scaled),
             display: self.display,
             verdict: self.verdict(),
@@ -83,6 +82,7 @@ impl<'s> SpectrumReport<'s> {
             figures: self.run.curves.iter().map(|curves| self.figure(curves)).collect(),
             method: self.method(),
             json: self.json(),
+            ..Sheet::default()
         }
     }
 

@@ -42,11 +42,18 @@ fn record_rows(report: &Report) -> Vec<(&'static str, String)> {
     let show = |quantity, si: f64| show_as(quantity, si, si);
     // The step of the record: a tail may end between two steps.
     let dt = summary.dt_s.map_or("uneven".to_owned(), |dt_s| format!("{} s", compact(dt_s)));
-    let mut rows = vec![
-        ("Record", report.record.to_owned()),
+    let mut rows = vec![("Record", report.record.to_owned())];
+    rows.extend(summary.origin.said());
+    rows.extend([
         ("Samples", count(motion.len() as u64)),
         ("Time step", dt),
         ("Duration", format!("{} s", compact(motion.duration_s()))),
+    ]);
+    if summary.duration_s != motion.duration_s() {
+        rows.push(("  analysed, with the tail", format!("{} s", compact(summary.duration_s))));
+    }
+    rows.extend([
+        ("Factor on the record", compact(summary.record_factor)),
         ("PGA (as used)", show(Quantity::Acceleration, record.pga_m_per_s2)),
         ("PGV", show(Quantity::Velocity, record.pgv_m_per_s)),
         (
@@ -61,10 +68,7 @@ fn record_rows(report: &Report) -> Vec<(&'static str, String)> {
             "Vertical motion",
             if motion.vertical_m_per_s2().is_some() { "yes" } else { "none" }.to_owned(),
         ),
-    ];
-    if summary.duration_s != motion.duration_s() {
-        rows.insert(4, ("  analysed, with the tail", format!("{} s", compact(summary.duration_s))));
-    }
+    ]);
     rows
 }
 

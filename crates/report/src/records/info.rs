@@ -8,6 +8,7 @@ use slipstick::record::{Channel, Quantity, Record, Sampling};
 use crate::display::{DisplayUnits, Quantity as Shown};
 use crate::json::Json;
 use crate::number::significant;
+use crate::summary::keys::listed;
 
 /// One channel of one file.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,15 +98,6 @@ impl ChannelInfo {
 
     fn json(&self) -> Json {
         let text = |value: &Option<String>| value.as_deref().map_or(Json::Null, Json::from);
-        let listed = |notes: bool| {
-            let all = self.warnings.iter().filter(|warning| warning.is_note() == notes).map(|w| {
-                Json::Object(vec![
-                    ("kind", w.kind.name().into()),
-                    ("message", w.message.as_str().into()),
-                ])
-            });
-            Json::List(all.collect())
-        };
         let mut keys = vec![
             ("file", self.file.as_str().into()),
             ("format", self.format.into()),
@@ -128,8 +120,8 @@ impl ChannelInfo {
         keys.push(("end_velocity_m_per_s", self.measures.map(|(_, end)| end).into()));
         keys.push(("event", text(&self.event)));
         keys.push(("station", text(&self.station)));
-        keys.push(("warnings", listed(false)));
-        keys.push(("notes", listed(true)));
+        keys.push(("warnings", listed(&self.warnings, false)));
+        keys.push(("notes", listed(&self.warnings, true)));
         Json::Object(keys)
     }
 }

@@ -52,17 +52,16 @@ impl StudyReport<'_> {
         Sheet {
             kind: "Study",
             name: self.summary.name.clone(),
-            first: None,
             line,
             display: self.display,
             verdict: self.verdict(),
             warnings: self.warnings(),
             tables: self.tables(),
-            notes: Vec::new(),
             figures: self.figures(),
             method: self.method(),
             complete: true,
             json: self.json(),
+            ..Sheet::default()
         }
     }
 

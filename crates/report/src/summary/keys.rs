@@ -1,6 +1,7 @@
 //! The keys of the `--json` object, which are a promise to other programs.
 
 use slipstick::assessment::single::FloorSpectra;
+use slipstick::assessment::suite::Recorded;
 use slipstick::motion::Figures;
 use slipstick::notice::Notice;
 use slipstick::response::{
@@ -8,6 +9,7 @@ use slipstick::response::{
 };
 
 use slipstick::input::Names;
+use slipstick::record::Origin;
 
 use super::{Checks, Summary, method_name};
 use crate::json::Json;
@@ -17,12 +19,13 @@ pub fn object(summary: &Summary) -> Json {
     let mut keys = vec![
         ("slipstick", summary.slipstick.into()),
         ("model", summary.model.as_str().into()),
+        ("model_hash", summary.model_hash.as_deref().map_or(Json::Null, Json::from)),
         ("method", method_name(summary.method).into()),
         ("samples", (summary.samples as u64).into()),
         ("dt_s", summary.dt_s.into()),
         ("duration_s", summary.duration_s.into()),
         ("friction_factor", summary.friction_factor.into()),
-        ("record", record(&summary.record)),
+        ("record", record(summary)),
     ];
     let by_axis = summary.by_axis.as_ref();
     let absent = by_axis.map(|_| InDirections::Axis);
@@ -34,7 +37,8 @@ pub fn object(summary: &Summary) -> Json {
         keys.push(("peak_sliding_displacement_direction_rad", direction.into()));
         keys.push(("least_sliding_speed_m_per_s", by_axis.least_sliding_speed_m_per_s.into()));
         for (i, axis) in ["x", "y"].into_iter().enumerate() {
-            let mut object = vec![("record", record(&by_axis.record[i]))];
+            let figures = figure_keys(&by_axis.record[i]).into();
+            let mut object = vec![("record", Json::Object(figures))];
             object.extend(axis_demands(&by_axis.demands[i], &summary.names));
             keys.push((axis, Json::Object(object)));
         }
@@ -73,13 +77,47 @@ pub fn object(summary: &Summary) -> Json {
     Json::Object(keys)
 }
 
-fn record(figures: &Figures) -> Json {
-    Json::Object(vec![
+fn record(summary: &Summary) -> Json {
+    let Summary { record: figures, origin, record_factor, .. } = summary;
+    let mut keys = origin_keys(origin);
+    keys.push(("factor", (*record_factor).into()));
+    keys.extend(figure_keys(figures));
+    Json::Object(keys)
+}
+
+fn figure_keys(figures: &Figures) -> [(&'static str, Json); 4] {
+    [
         ("pga_m_per_s2", figures.pga_m_per_s2.into()),
         ("pgv_m_per_s", figures.pgv_m_per_s.into()),
         ("pgd_m", figures.pgd_m.into()),
         ("end_velocity_m_per_s", figures.end_velocity_m_per_s.into()),
-    ])
+    ]
+}
+
+/// What a file says of where it was recorded.
+fn origin_keys(origin: &Origin) -> Vec<(&'static str, Json)> {
+    let text = |text: &Option<String>| text.as_deref().map_or(Json::Null, Json::from);
+    vec![
+        ("event", text(&origin.event)),
+        ("station", text(&origin.station)),
+        ("component", text(&origin.component)),
+        ("azimuth_deg", origin.azimuth_deg.into()),
+    ]
+}
+
+/// The records that an answer is of, each with what its file says and what reading it gave notice of.
+pub(crate) fn suite(records: &[Recorded]) -> Json {
+    let one = |on: &Recorded| {
+        let mut keys = vec![("record", on.name.as_str().into())];
+        keys.extend(origin_keys(&on.origin));
+        keys.extend([
+            ("scale", on.factor.into()),
+            ("pga_m_per_s2", on.pga_m_per_s2.into()),
+            ("notices", Json::List(on.notices.iter().map(warning).collect())),
+        ]);
+        Json::Object(keys)
+    };
+    Json::List(records.iter().map(one).collect())
 }
 
 fn floor_spectrum(spectra: &FloorSpectra) -> Json {
@@ -176,6 +214,7 @@ pub(crate) fn listed(all: &[Notice], notes: bool) -> Json {
 fn warning(warning: &Notice) -> Json {
     Json::Object(vec![
         ("kind", warning.kind.name().into()),
+        ("severity", warning.severity().name().into()),
         ("time_s", warning.time_s.into()),
         ("message", warning.message.as_str().into()),
     ])

@@ -33,8 +33,7 @@ pub fn assemble(inputs: &SummaryInputs) -> Vec<Notice> {
             all.push(warning.clone());
         }
     }
-    let (notes, mut all): (Vec<Notice>, Vec<Notice>) = all.into_iter().partition(Notice::is_note);
-    all.extend(notes);
+    Notice::sort(&mut all);
     all
 }
 

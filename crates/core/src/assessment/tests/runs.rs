@@ -14,6 +14,7 @@ use crate::assessment::single::Job;
 use crate::assessment::spectrum::{SpectrumRequest, run_spectrum};
 use crate::assessment::suite::{Scaling, Suite, SuiteRecord};
 use crate::error::{SolveError, Stopped};
+use crate::input::loaded::Loaded;
 use crate::input::{self, Bound};
 use crate::motion::GroundMotion;
 use crate::motion::intensity::Measure;
@@ -39,9 +40,10 @@ fn suite() -> Suite {
             motion: motion.unwrap(),
             pair: None,
             origin: Origin::default(),
+            notices: Vec::new(),
         }
     };
-    Suite { records: (0..5).map(record).collect(), made: false }
+    Suite { records: (0..5).map(record).collect(), ..Suite::default() }
 }
 
 fn models(varied: &[(&str, &str)]) -> Models {
@@ -296,7 +298,7 @@ fn long(slider: &str, more: &str, samples: usize) -> Job {
     let analysis = input::parse("m.toml", &text, &[]).unwrap();
     let wave = |k: usize| 3.0 * libm::sin(0.07 * k as f64);
     let motion = GroundMotion::evenly_spaced(0.01, (0..samples).map(wave).collect(), None);
-    Job::new(analysis, motion.unwrap(), Vec::new()).unwrap()
+    Job::new(analysis, Loaded::made(motion.unwrap(), String::new())).unwrap()
 }
 
 #[test]

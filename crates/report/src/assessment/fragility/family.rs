@@ -119,11 +119,11 @@ impl FragilityFamily<'_> {
                 .collect(),
             warnings,
             tables: vec![self.table(&reports, unit)],
-            notes: Vec::new(),
             figures: vec![self.figure(&reports, unit)],
             method: first.method(),
             complete: reports.iter().all(|(_, report)| report.complete()),
             json: self.json(),
+            ..Sheet::default()
         }
     }
 

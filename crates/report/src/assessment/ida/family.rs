@@ -147,6 +147,7 @@ impl Groups<'_> {
             method: first.map_or_else(Vec::new, IdaReport::method),
             complete: family.run.failures.is_empty(),
             json: self.json(measure),
+            ..Sheet::default()
         }
     }
 
