@@ -250,7 +250,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
 
     /// Records the present state as a knot.
     #[inline(always)]
-    fn record(&mut self, stretch: &Stretch, at_s: f64, row: bool) {
+    pub(super) fn record(&mut self, stretch: &Stretch, at_s: f64, row: bool) {
         if !self.phase.records() {
             return;
         }
@@ -271,7 +271,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     }
 
     /// Records the knot before an event at an instant that no segment has led to.
-    fn note_before(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) {
+    pub(super) fn note_before(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) {
         if !(at_sample && self.ground.starts_anew(stretch.interval)) {
             self.record(stretch, at_s, false);
         }

@@ -15,10 +15,10 @@
 use super::super::course::{AMBIGUOUS, Release};
 use super::super::ground::{Stretch, jump};
 use super::super::phase::{Segment, Straight};
-use super::super::slider::{ROUNDING, Start, falls_below, first_crossing};
+use super::super::slider::{ROUNDING, Start, falls_below, first_crossing, leading};
 use super::Walk;
 use crate::error::SolveError;
-use crate::linear::polynomial::{DEGREE, Polynomial, curvature_bound, value};
+use crate::linear::polynomial::{Polynomial, curvature_bound, value};
 use crate::response::{EventKind, Mode};
 use crate::slider::{Direction, Memory};
 
@@ -36,11 +36,6 @@ struct Assignment {
 struct InForce {
     modes: Vec<Mode>,
     memory: Memory,
-}
-
-/// Order of the first coefficient that is more than rounding.
-fn leading(p: &Polynomial, rounding: f64) -> Option<usize> {
-    (0..=DEGREE).find(|&k| p[k].abs() > rounding)
 }
 
 impl<'a, P: Straight<'a>> Walk<'a, P> {
