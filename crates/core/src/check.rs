@@ -28,6 +28,7 @@ mod order;
 mod outputs;
 mod path;
 mod peaks;
+mod plane;
 mod rate;
 mod stored;
 mod structure;
@@ -221,6 +222,9 @@ pub fn check_while(
     response: &Response,
     go_on: GoOn<'_>,
 ) -> Result<Certificate, Stopped> {
+    if let Some(table_y) = motion.horizontal_y_m_per_s2() {
+        return plane::check(model, (motion, table_y), response, go_on);
+    }
     let vertical = motion.vertical_m_per_s2().is_some();
     let structure = Structure::new(model, vertical);
     let history = response.history.as_ref();

@@ -89,7 +89,7 @@ impl Rule {
     }
 
     /// The polynomial through `values` at the points, at `t` in [0, 1].
-    fn interpolate(&self, values: &[f64; POINTS], t: f64) -> f64 {
+    pub(super) fn interpolate(&self, values: &[f64; POINTS], t: f64) -> f64 {
         let (mut above, mut below) = (0.0, 0.0);
         for ((&p, &w), &value) in self.points.iter().zip(&self.barycentric).zip(values) {
             if t == p {
@@ -109,8 +109,17 @@ impl Rule {
         middle: usize,
         cost: impl Fn(f64, f64) -> f64,
     ) -> (f64, f64) {
+        let at_point = cost(self.points[middle], values[middle]);
+        self.least_of((middle, at_point), |t| cost(t, self.interpolate(values, t)))
+    }
+
+    /// The smallest value of `at(t)` next to the point `middle`, where its value is known.
+    pub(super) fn least_of(
+        &self,
+        (middle, at_point): (usize, f64),
+        at: impl Fn(f64) -> f64,
+    ) -> (f64, f64) {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        let at = |t: f64| cost(t, self.interpolate(values, t));
         let mut low = self.points[middle.saturating_sub(1)];
         let mut high = self.points[(middle + 1).min(POINTS - 1)];
         let mut left = high - GOLDEN * (high - low);
@@ -146,7 +155,7 @@ impl Rule {
             }
             width *= 0.1;
         }
-        let node = (self.points[middle], cost(self.points[middle], values[middle]));
+        let node = (self.points[middle], at_point);
         if node.1 <= found.1 { node } else { found }
     }
 }

@@ -44,6 +44,12 @@ impl Totals {
         }
     }
 
+    /// The least margin of those decided.
+    #[cfg(test)]
+    pub(super) fn closest_stop(&self) -> Option<f64> {
+        self.closest_stop
+    }
+
     /// A stop of the slider was decided.
     pub(super) fn decided(&mut self, margin: f64, drift: f64) {
         if self.closest_stop.is_none_or(|least| margin < least) {
@@ -54,12 +60,26 @@ impl Totals {
 }
 
 /// What the check has found by itself.
+#[derive(Clone, Copy)]
 pub(super) struct Own<'a> {
     pub(super) outputs: &'a Outputs,
     /// Largest sizes of the outputs.
     pub(super) peaks: &'a [f64],
+    /// The same with what rounding decides, and what differences are measured by.
+    pub(super) possible: &'a [f64],
+    pub(super) scales: &'a [f64],
     pub(super) totals: &'a Totals,
     pub(super) events: &'a Events,
+    /// What a gap ratio and an overturning ratio are asked of.
+    pub(super) gap_m: Option<f64>,
+    pub(super) width_m: Option<f64>,
+}
+
+impl Own<'_> {
+    /// Least and largest peak of an output, and its scale.
+    fn peak(&self, i: usize) -> [f64; 3] {
+        [self.peaks[i], self.possible[i].max(self.peaks[i]), self.scales[i]]
+    }
 }
 
 /// What the rounding of the knots leaves undecided.
@@ -78,7 +98,12 @@ pub(super) struct Comparison {
 impl Comparison {
     /// A number, of which `rounding` is no difference, over a peak.
     pub(super) fn number(&mut self, printed: f64, own: f64, rounding: f64, peak: f64) {
-        let difference = (printed - own).abs() - rounding;
+        self.within(printed, [own, own, peak], rounding);
+    }
+
+    /// A number from a least to a largest, over a peak.
+    fn within(&mut self, printed: f64, [least, most, peak]: [f64; 3], rounding: f64) {
+        let difference = (printed - most).max(least - printed) - rounding;
         if !(difference <= 0.0) {
             self.worst = larger(self.worst, difference / peak.abs());
         }
@@ -90,9 +115,9 @@ impl Comparison {
         }
     }
 
-    pub(super) fn optional(&mut self, printed: Option<f64>, own: Option<f64>, rounding: f64) {
+    pub(super) fn optional(&mut self, printed: Option<f64>, own: Option<[f64; 3]>, rounding: f64) {
         match (printed, own) {
-            (Some(printed), Some(own)) => self.number(printed, own, rounding, own),
+            (Some(printed), Some(own)) => self.within(printed, own, rounding),
             (printed, own) => self.same(printed.is_none() && own.is_none()),
         }
     }
@@ -108,7 +133,6 @@ pub(super) fn error(
 ) -> f64 {
     let mut c = Comparison { worst: 0.0 };
     let d = &response.demands;
-    let instants_s = (own.events.list.len() + 1) as f64 * rounding.instant_s;
     let [peak_m, most_m, least_m, last_m] = extremes(h.sliding_displacement_m.iter().copied());
     let near_m = rounding.displacement_m;
     for (printed, own) in [
@@ -120,25 +144,44 @@ pub(super) fn error(
         c.number(printed, own, near_m, peak_m);
     }
     first_time(&mut c, d, h, peak_m, rounding);
+    let instants_s = of_sums(&mut c, d, h, own, (peak_m, rounding));
+    of_peaks(&mut c, model, d, own, (peak_m, rounding));
+    of_contents(&mut c, model, (d, h), own, (instants_s, rounding));
+    of_surfaces(&mut c, model, &d.surfaces, h, near_m);
+    of_events(&mut c, response, own, peak_m.max(near_m), rounding);
+    of_stops(&mut c, response, own);
+    of_stop(&mut c, model, d, own, (instants_s, rounding));
+    c.worst
+}
+
+/// Sums over time; what the rounding of all times makes of one.
+pub(super) fn of_sums(
+    c: &mut Comparison,
+    d: &Demands,
+    h: &History,
+    own: &Own<'_>,
+    (peak_m, rounding): (f64, &Rounding),
+) -> f64 {
+    let instants_s = (own.events.list.len() + 1) as f64 * rounding.instant_s;
+    let near_m = rounding.displacement_m;
     let sums = &own.totals.interfaces[0];
     c.same(d.sliding_at_end == (h.modes(h.len() - 1)[0] != Mode::Stick));
     c.number(d.sliding_time_s, sums.sliding_s, instants_s, sums.sliding_s);
     // A path of many strokes is rounded in each.
     let strokes = if peak_m > near_m { sums.path_m / peak_m } else { 1.0 };
     c.number(d.sliding_path_m, sums.path_m, near_m * strokes.max(1.0), sums.path_m);
-    of_peaks(&mut c, model, d, own, (peak_m, rounding));
-    of_contents(&mut c, model, (d, h), own, (instants_s, rounding));
-    of_surfaces(&mut c, model, &d.surfaces, h, near_m);
-    of_events(&mut c, response, own, peak_m.max(near_m), rounding);
+    instants_s
+}
+
+/// The least margin of the decisions at stops.
+pub(super) fn of_stops(c: &mut Comparison, response: &Response, own: &Own<'_>) {
     let closest = own.totals.closest_stop.filter(|_| response.method == Method::Exact);
-    match (d.closest_stop, closest) {
+    match (response.demands.closest_stop, closest) {
         (Some(printed), Some(margin)) => {
             c.number(printed, margin, own.totals.stop_rounding, 1.0);
         }
         (printed, own) => c.same(printed.is_none() && own.is_none()),
     }
-    of_stop(&mut c, model, d, own, (instants_s, rounding));
-    c.worst
 }
 
 /// Largest size, largest, least and last of a list.
@@ -148,45 +191,46 @@ fn extremes(list: impl Iterator<Item = f64>) -> [f64; 4] {
 }
 
 /// Peaks of the outputs, and what is a multiple of one.
-fn of_peaks(
+pub(super) fn of_peaks(
     c: &mut Comparison,
     model: &Model,
     d: &Demands,
     own: &Own<'_>,
     (peak_m, rounding): (f64, &Rounding),
 ) {
-    let (peak, weight_n, n) = (own.peaks, model.weight_n(), model.storeys());
-    let mut number = |printed: f64, own: f64, near: f64| c.number(printed, own, near, own);
+    let (weight_n, n) = (model.weight_n(), model.storeys());
     let (force_n, near_m) = (rounding.force_n, rounding.displacement_m);
-    number(d.peak_sliding_velocity_m_per_s, peak[VELOCITY], rounding.velocity_m_per_s);
-    number(d.peak_block_acceleration_m_per_s2, peak[BLOCK], force_n / model.block().mass_kg);
+    let over = |i: usize, divisor: f64| own.peak(i).map(|peak| peak / divisor);
+    let near = rounding.velocity_m_per_s;
+    c.within(d.peak_sliding_velocity_m_per_s, own.peak(VELOCITY), near);
+    let near = force_n / model.block().mass_kg;
+    c.within(d.peak_block_acceleration_m_per_s2, own.peak(BLOCK), near);
     for (printed, coefficient, i) in [
         (d.peak_base_shear_n, d.base_shear_coefficient, BASE_SHEAR),
         (d.peak_friction_force_n, d.friction_coefficient_used, FRICTION),
         (d.peak_slider_force_n, d.slider_force_coefficient, SLIDER),
     ] {
-        number(printed, peak[i], force_n);
-        number(coefficient, peak[i] / weight_n, force_n / weight_n);
+        c.within(printed, own.peak(i), force_n);
+        c.within(coefficient, over(i, weight_n), force_n / weight_n);
     }
-    let own_storeys = &peak[STOREYS..];
     for (i, storey) in d.storeys.iter().enumerate().take(n) {
-        number(storey.peak_displacement_m, own_storeys[i], near_m);
-        number(storey.peak_drift_m, own_storeys[n + i], near_m);
+        c.within(storey.peak_displacement_m, own.peak(STOREYS + i), near_m);
+        c.within(storey.peak_drift_m, own.peak(STOREYS + n + i), near_m);
         let near = force_n / model.frame().masses_kg[i];
-        number(storey.peak_acceleration_m_per_s2, own_storeys[2 * n + i], near);
+        c.within(storey.peak_acceleration_m_per_s2, own.peak(STOREYS + 2 * n + i), near);
     }
     let heights_m = model.frame().heights_m.as_ref();
     for (i, storey) in d.storeys.iter().enumerate().take(n) {
         let height_m = heights_m.map(|heights_m| heights_m[i]);
-        let ratio = height_m.map(|height_m| own_storeys[n + i] / height_m);
+        let ratio = height_m.map(|height_m| over(STOREYS + n + i, height_m));
         c.optional(storey.peak_drift_ratio, ratio, near_m / height_m.unwrap_or(1.0));
     }
     c.same(d.storeys.len() == n);
-    let gap_m = model.slider().gap_m();
-    c.optional(d.gap_ratio, gap_m.map(|gap_m| peak_m / gap_m), near_m / gap_m.unwrap_or(1.0));
-    let width_m = model.block().width_m.filter(|_| own.outputs.has_moment());
+    let ratio = own.gap_m.map(|gap_m| [peak_m / gap_m; 3]);
+    c.optional(d.gap_ratio, ratio, near_m / own.gap_m.unwrap_or(1.0));
+    let width_m = own.width_m.filter(|_| own.outputs.has_moment());
     let moment = width_m.map(|width_m| 0.5 * width_m * weight_n);
-    let ratio = moment.map(|moment| peak[OVERTURNING] / moment);
+    let ratio = moment.map(|moment| over(OVERTURNING, moment));
     let near = own.outputs.height_m(model) * force_n;
     c.optional(d.overturning_ratio, ratio, near / moment.unwrap_or(1.0));
 }
@@ -279,7 +323,7 @@ fn of_stop(
 }
 
 /// Counts, times, directions and places of the events, kind by kind.
-fn of_events(
+pub(super) fn of_events(
     c: &mut Comparison,
     response: &Response,
     own: &Own<'_>,

@@ -62,9 +62,19 @@ pub(super) struct Ground<'a> {
 
 impl<'a> Ground<'a> {
     pub(super) fn new(model: &Model, motion: &'a GroundMotion, end_s: f64) -> Self {
+        Self::of(model, motion, motion.horizontal_m_per_s2(), end_s)
+    }
+
+    /// The same of one horizontal component.
+    pub(super) fn of(
+        model: &Model,
+        motion: &'a GroundMotion,
+        horizontal: &'a [f64],
+        end_s: f64,
+    ) -> Self {
         let mut ground = Self {
             times_s: motion.times_s(),
-            horizontal: motion.horizontal_m_per_s2(),
+            horizontal,
             vertical: motion.vertical_m_per_s2(),
             slope: model.slope_m_per_s2(),
             gravity: model.normal_gravity_m_per_s2(),

@@ -28,12 +28,18 @@ pub(super) const STILL: f64 = 1e-12;
 pub(super) struct Figures {
     pub(super) displacement: [f64; 2],
     pub(super) velocity: [f64; 2],
-    force: [f64; 2],
+    pub(super) force: [f64; 2],
     pub(super) table: [f64; 2],
     pub(super) excess: f64,
 }
 
 impl Figures {
+    /// The largest defect over its scale; that of the table is over its own peak.
+    pub(super) fn equilibrium(&self, table: f64) -> f64 {
+        let all = [self.displacement, self.velocity, self.force, [self.table[0], table]];
+        all.map(relative).into_iter().fold(0.0, larger)
+    }
+
     /// Takes the worst of all lanes.
     pub(super) fn take(&mut self, worst: &Worst) {
         for (figure, lanes) in [
@@ -49,7 +55,7 @@ impl Figures {
 }
 
 /// The largest defect over its scale, where `pair` is `[defect, scale]`.
-fn relative(pair: [f64; 2]) -> f64 {
+pub(super) fn relative(pair: [f64; 2]) -> f64 {
     if pair[0] == 0.0 { 0.0 } else { pair[0] / pair[1] }
 }
 
@@ -316,22 +322,10 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// The part of the interval from a knot that the rounding of an event's time may be, where one is beside it.
-    fn unsure(&self, k: usize) -> f64 {
-        let times_s = &self.h.time_s;
-        let stands_twice = |k: usize| times_s.get(k + 1) == Some(&times_s[k]);
-        if (k > 0 && stands_twice(k - 1)) || stands_twice(k + 1) {
-            (self.instant_s / (times_s[k + 1] - times_s[k])).min(1.0)
-        } else {
-            0.0
-        }
-    }
-
     fn certificate(self, bound: f64, books: Books, rounding_j: f64) -> Certificate {
         let weight = self.model.weight_n();
         let (normal, table) = self.largest;
         let f = &self.figures;
-        let equilibrium = [f.displacement, f.velocity, f.force, [f.table[0], table]].map(relative);
         // 64 ε of what a difference is made of is rounding.
         let near = |scale: f64| 64.0 * f64::EPSILON * scale;
         let rounding = Rounding {
@@ -345,19 +339,33 @@ impl<'a> Judge<'a> {
         let own = demands::Own {
             outputs: &self.outputs,
             peaks: &self.attained,
+            possible: &self.attained,
+            scales: &self.attained,
             totals: &self.totals,
             events: &self.events,
+            gap_m: self.model.slider().gap_m(),
+            width_m: self.model.block().width_m,
         };
         let demands_error = demands::error(self.model, self.response, self.h, &own, &rounding);
         Certificate {
-            equilibrium_residual: equilibrium.into_iter().fold(0.0, larger),
+            equilibrium_residual: f.equilibrium(table),
             friction_excess: relative([f.excess, self.law.scale(normal, weight)]),
-            energy_balance_error: books.error(rounding_j, |k| self.unsure(k)),
+            energy_balance_error: books.error(rounding_j, |k| unsure(&self.h.time_s, self.instant_s, k)),
             demands_error,
             closest_call: self.closest,
             bound,
             books,
         }
+    }
+}
+
+/// The part of the interval from a knot that the rounding of an event's time may be, where one is beside it.
+pub(super) fn unsure(times_s: &[f64], instant_s: f64, k: usize) -> f64 {
+    let stands_twice = |k: usize| times_s.get(k + 1) == Some(&times_s[k]);
+    if (k > 0 && stands_twice(k - 1)) || stands_twice(k + 1) {
+        (instant_s / (times_s[k + 1] - times_s[k])).min(1.0)
+    } else {
+        0.0
     }
 }
 

@@ -173,6 +173,11 @@ impl Law {
         -direction.sign() * mu
     }
 
+    /// `μ_k` of a slider that has the same in all directions, at all speeds.
+    pub(super) fn kinetic(&self) -> f64 {
+        self.kinetic[0]
+    }
+
     /// `μ_k` at rest.
     fn kinetic_at_rest(&self, direction: Direction) -> f64 {
         let factor = self.rate.as_ref().map_or(1.0, |rate| rate.coefficient(0.0));

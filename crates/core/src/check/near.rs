@@ -49,19 +49,32 @@ impl Dips {
         self.least.map_or(f64::INFINITY, |(least, _)| least)
     }
 
-    /// Takes the next value.
-    pub(super) fn feed(&mut self, time_s: f64, value: f64) {
+    /// Takes the next value; the minimum that it confirms.
+    pub(super) fn feed(&mut self, time_s: f64, value: f64) -> Option<f64> {
         self.peak = self.peak.max(value);
         let onward = if self.falling { value <= self.turn } else { value >= self.turn };
+        let mut minimum = None;
         if onward || self.turn.is_nan() {
             (self.turn, self.turn_s) = (value, time_s);
         } else if (value - self.turn).abs() > self.slack {
             if self.falling {
                 self.take(self.turn_s, self.turn);
+                minimum = Some(self.turn);
             }
             self.falling = !self.falling;
             (self.turn, self.turn_s) = (value, time_s);
         }
+        minimum
+    }
+
+    /// When the value was last that at which it may turn.
+    pub(super) fn turn_s(&self) -> f64 {
+        self.turn_s
+    }
+
+    /// Largest value so far.
+    pub(super) fn peak(&self) -> f64 {
+        self.peak
     }
 
     /// Takes a value as a minimum.

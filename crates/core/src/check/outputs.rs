@@ -64,8 +64,14 @@ pub(super) struct Outputs {
 
 impl Outputs {
     pub(super) fn new(model: &Model) -> Self {
+        Self::with_moment(model, model.block().width_m.is_some())
+    }
+
+    /// With the moment if it is asked for and heights are given.
+    pub(super) fn with_moment(model: &Model, asked: bool) -> Self {
         let (storeys, contents) = (model.storeys(), model.contents().len());
-        Self { arm: arm(model), storeys, contents }
+        let arm = if asked { arm(model) } else { None };
+        Self { arm, storeys, contents }
     }
 
     /// How many there are.
@@ -93,6 +99,13 @@ impl Outputs {
         sum
     }
 
+    /// The same of a frame alone.
+    pub(super) fn plain_moment(&self, block: f64, floor: impl Fn(usize) -> f64) -> f64 {
+        let Some(arm) = &self.arm else { return 0.0 };
+        let floors = arm.floors.iter().enumerate().map(|(i, arm)| arm * floor(i));
+        arm.block * block + floors.sum::<f64>()
+    }
+
     /// Height of what a moment is asked of, in m; 0 without one.
     pub(super) fn height_m(&self, model: &Model) -> f64 {
         let heights = model.frame().heights_m.iter().flatten().sum::<f64>();
@@ -105,10 +118,9 @@ impl Outputs {
     }
 }
 
-/// The arms, where width and heights are given.
+/// The arms, where heights are given.
 fn arm(model: &Model) -> Option<Arm> {
     let (block, frame) = (model.block(), model.frame());
-    block.width_m?;
     let heights_m = match &frame.heights_m {
         Some(heights_m) => heights_m.as_slice(),
         None if model.storeys() == 0 && block.height_m.is_some() => &[],

@@ -47,9 +47,14 @@ impl Structure {
     /// The spring of a pendulum that follows `N` is no part of it.
     pub(super) fn new(model: &Model, vertical: bool) -> Self {
         let frame = model.frame();
-        let (m, k) = (&frame.masses_kg, &frame.stiffnesses_n_per_m);
+        Self::of(model, (&frame.stiffnesses_n_per_m, &frame.damping), vertical)
+    }
+
+    /// The same with other stiffnesses and damping of the storeys.
+    pub(super) fn of(model: &Model, (k, damping): (&[f64], &Damping), vertical: bool) -> Self {
+        let m = &model.frame().masses_kg;
         let n = m.len();
-        let (damping, base_damping) = match &frame.damping {
+        let (damping, base_damping) = match damping {
             Damping::Dampers(c) => {
                 let mut base = vec![0.0; n];
                 base[..n.min(1)].copy_from_slice(&c[..n.min(1)]);
@@ -88,7 +93,7 @@ impl Structure {
                 }
                 StopKind::Rigid { .. } => [0.0; 2],
             }),
-            stiffnesses: k.clone(),
+            stiffnesses: k.to_vec(),
             damping,
             base_damping,
             contents: contents.to_vec(),

@@ -1,0 +1,86 @@
+//! A motion in two horizontal directions: the same figures, from the equations of a plane.
+//!
+//! Only friction joins x and y: `T = −μ_k N w/|w|` in a slip, `|T| ≤ μ_s N` in a stick. From every knot the
+//! equations are solved to the next by collocation in physical time, whatever variable the solver has used.
+
+mod decisions;
+mod demands;
+mod frame;
+mod interval;
+mod judge;
+mod peaks;
+mod step;
+#[cfg(test)]
+mod tests;
+
+use super::ground::Ground;
+use super::law::Law;
+use super::outputs::Outputs;
+use super::{Certificate, MAX_RADIANS, unjudged, well_formed};
+use crate::error::Stopped;
+use crate::model::Model;
+use crate::motion::GroundMotion;
+use crate::progress::{GoOn, Pulse};
+use crate::response::{History, HistoryAlongY, Response};
+use frame::PlaneFrame;
+use judge::{Given, PlaneJudge};
+
+/// [`super::check_while`] of a motion that has a component along y.
+pub(super) fn check(
+    model: &Model,
+    (motion, table_y): (&GroundMotion, &[f64]),
+    response: &Response,
+    go_on: GoOn<'_>,
+) -> Result<Certificate, Stopped> {
+    let vertical = motion.vertical_m_per_s2().is_some();
+    let history = response.history.as_ref();
+    let end_s = history.and_then(|h| h.time_s.last().copied()).unwrap_or(0.0);
+    let law = Law::new(model, vertical);
+    let normal = Ground::new(model, motion, end_s).largest(end_s).0;
+    let frame = PlaneFrame::new(model, vertical, &law, normal);
+    let radians = frame.rates[1] * end_s;
+    let bound = (100.0 * f64::EPSILON * radians).max(1e-10);
+    let plane = response.in_plane.as_deref();
+    let (Some(h), Some(plane), true) = (history, plane, is_within(model)) else {
+        return Ok(unjudged(bound));
+    };
+    let Some(along_y) = plane.history.as_ref().filter(|y| is_beside(y, h)) else {
+        return Ok(unjudged(bound));
+    };
+    if radians > MAX_RADIANS || !well_formed(model, motion, h) {
+        return Ok(unjudged(bound));
+    }
+    let widths = [model.block().width_m, model.along_y().width_m];
+    let outputs = Outputs::with_moment(model, widths.iter().any(Option::is_some));
+    let given = Given { model, motion, table_y, response, plane, h, along_y };
+    let judged = PlaneJudge::new(given, (&frame, &law), &outputs, Pulse::new(go_on)).run(bound)?;
+    Ok(judged.unwrap_or_else(|| unjudged(bound)))
+}
+
+/// Whether the slider is the same in all directions and nothing else slides or stops.
+fn is_within(model: &Model) -> bool {
+    let slider = model.slider();
+    let same = |pair: [f64; 2]| pair[0] == pair[1];
+    same(model.static_friction())
+        && same(model.kinetic_friction())
+        && slider.rate().is_none()
+        && slider.series().is_none()
+        && model.stop().is_none()
+        && model.contents().is_empty()
+        && model.slope_m_per_s2() == 0.0
+}
+
+/// Whether the part along y has the knots of a history.
+fn is_beside(y: &HistoryAlongY, h: &History) -> bool {
+    let knots = [
+        &y.table_acceleration_m_per_s2,
+        &y.sliding_displacement_m,
+        &y.sliding_velocity_m_per_s,
+        &y.block_acceleration_m_per_s2,
+        &y.friction_force_n,
+    ];
+    let storeys =
+        [&y.storey_displacement_m, &y.storey_velocity_m_per_s, &y.storey_acceleration_m_per_s2];
+    knots.iter().all(|list| list.len() == h.len())
+        && storeys.iter().all(|list| list.len() == h.len() * h.storeys)
+}

@@ -1,0 +1,308 @@
+//! Decisions of a slider in a plane: what lets go, what comes to rest, and how close it was.
+
+use super::super::collocation::POINTS;
+use super::super::near::{Dips, dip};
+use super::super::structure::{excess, larger};
+use super::super::{ClosestCall, DecisionKind};
+use super::frame::{Pair, between, dot, norm, unit};
+use super::judge::PlaneJudge;
+use super::peaks::Acting;
+use super::step::{State, Step, sine};
+use crate::response::Mode;
+
+/// A block that slows down to this part of its peak speed in a slip has come to rest if it holds.
+const REST: f64 = 1e-14;
+/// Sine of the angle between velocity and push below which a motion is straight.
+const STRAIGHT: f64 = 1e-6;
+
+/// Where a side of a knot lies in its interval.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    Start,
+    End,
+}
+
+/// What an event is in the plane.
+pub(super) struct Turn {
+    /// Direction of the first velocity, as far as it is known; 0 in stick.
+    pub(super) direction: Option<Pair>,
+    /// What it is not known to, and the force that tells it.
+    pub(super) unsure: f64,
+    pub(super) force_n: f64,
+    /// `s` along y.
+    pub(super) y_m: f64,
+}
+
+/// The speed of a slip, and its minima where the block would have held, had it come to rest.
+pub(super) struct Speed {
+    still: f64,
+    dips: Dips,
+    /// When the speed was last at a turn, and whether the block would hold there.
+    turn: (f64, bool),
+    /// Least of those, and when.
+    least: Option<(f64, f64)>,
+}
+
+impl Speed {
+    pub(super) fn new(still: f64) -> Self {
+        Self { still, dips: Dips::new(still), turn: (0.0, false), least: None }
+    }
+
+    /// Starts anew.
+    pub(super) fn restart(&mut self) {
+        *self = Self::new(self.still);
+    }
+
+    /// Largest speed of the slip so far.
+    pub(super) fn peak(&self) -> f64 {
+        self.dips.peak()
+    }
+
+    pub(super) fn feed(&mut self, time_s: f64, speed: f64, holds: impl FnOnce() -> bool) {
+        if let Some(minimum) = self.dips.feed(time_s, speed)
+            && self.turn.1
+            && self.least.is_none_or(|(least, _)| minimum < least)
+        {
+            self.least = Some((minimum, self.turn.0));
+        }
+        if self.dips.turn_s() == time_s {
+            self.turn = (time_s, holds());
+        }
+    }
+}
+
+impl PlaneJudge<'_> {
+    /// Begins a phase.
+    pub(super) fn begin(&mut self, mode: Mode) {
+        match mode {
+            Mode::Stick => self.dips = Dips::new(1e-12),
+            Mode::Slip(_) => self.speed.restart(),
+        }
+        self.heading = None;
+        self.arrived = 0.0;
+    }
+
+    /// Ends a phase: its near decisions are known.
+    pub(super) fn close(&mut self, mode: Mode) {
+        let call = match mode {
+            Mode::Stick => self.dips.least(0),
+            Mode::Slip(_) => {
+                let minimum = self.speed.dips.so_far();
+                if minimum.is_finite() {
+                    self.least_speed = Some(self.least_speed.map_or(minimum, |m| m.min(minimum)));
+                }
+                self.speed.least.map(|(least, time_s)| ClosestCall {
+                    margin: least / self.speed.peak(),
+                    time_s,
+                    kind: DecisionKind::Slip,
+                    interface: 0,
+                })
+            }
+        };
+        if let Some(call) = call {
+            self.nearest(call);
+        }
+    }
+
+    /// Whether a block at rest is held though friction would not have stopped it: `f < |p| ≤ μ_s N/M1`.
+    pub(super) fn holds_only(&self, state: &State, loads: &super::frame::Loads) -> bool {
+        let (frame, push) = (self.frame(), norm(self.forces(state, loads).0.push));
+        frame.slowing(loads) < push && push <= frame.holding(loads)
+    }
+
+    /// Judges a change of mode at a knot, at which the block has no velocity.
+    pub(super) fn change(&mut self, k: usize, before: Mode) {
+        let (h, time_s) = (self.h, self.h.time_s[k]);
+        let state = self.stored(k);
+        self.figures.velocity[0] = larger(self.figures.velocity[0], norm(state.speed()));
+        let all = self.instant(time_s);
+        let own = [
+            h.table_acceleration_m_per_s2[k],
+            self.given.along_y.table_acceleration_m_per_s2[k],
+        ];
+        let off = all.map(|loads| norm([0, 1].map(|axis| loads[axis].table - own[axis])));
+        let least_off = off.into_iter().fold(f64::INFINITY, f64::min);
+        let stops = before != Mode::Stick;
+        let (mut broken, mut decided) = (f64::INFINITY, None);
+        for (loads, off) in all.iter().zip(off) {
+            // What a jump passes on its way lets go too.
+            if stops && off > least_off {
+                continue;
+            }
+            let push = self.forces(&state, loads).0.push;
+            let (asked, rounding) = self.asked(push, loads);
+            let beyond = if stops { asked.beyond() } else { -asked.beyond() };
+            let beyond = excess(beyond - rounding);
+            if beyond <= broken {
+                decided = asked.margin().map(|m| (m.abs(), rounding / asked.bound()));
+            }
+            broken = broken.min(beyond);
+        }
+        self.figures.excess = larger(self.figures.excess, broken);
+        if !stops {
+            let push = self.forces(&state, &all[3]).0.push;
+            let clear = norm(push) > 1e-6 * (self.largest.1 + self.frame().slowing(&all[3]));
+            self.turns.push(Turn {
+                direction: unit(push).filter(|_| clear),
+                unsure: 0.0,
+                force_n: self.frame().block_kg * norm(push),
+                y_m: state.x[1],
+            });
+            return;
+        }
+        let rest = Turn { direction: Some([0.0; 2]), unsure: 0.0, force_n: 1.0, y_m: state.x[1] };
+        self.turns.push(rest);
+        if let Some((margin, drift)) = decided {
+            self.totals.decided(margin, drift);
+            let (kind, interface) = (DecisionKind::Stop, 0);
+            self.nearest(ClosestCall { margin, time_s, kind, interface });
+        }
+        self.comes_to_rest(k, &all[off.iter().position(|off| *off <= least_off).unwrap_or(0)]);
+    }
+
+    /// Judges the way to a stop at a knot: whether the block has slowed down so far, and what friction has
+    /// done in all directions between that of sliding and that of the push.
+    fn comes_to_rest(&mut self, k: usize, loads: &super::frame::Loads) {
+        let state = self.stored(k);
+        let (forces, floors) = self.forces(&state, loads);
+        let (frame, push) = (self.frame(), forces.push);
+        let (p, f) = (norm(push), frame.slowing(loads));
+        let late = 2.0 * self.instant_s * (p + f);
+        if p > f * (1.0 + 1e-9) && self.arrived > late.max(2.0 * REST * self.speed.peak()) {
+            let off = frame.block_kg * (p - f);
+            self.figures.excess = larger(self.figures.excess, off);
+        }
+        let (Some(from), Some(to)) = (self.last_heading(k), unit(push)) else { return };
+        let acting =
+            Acting { state: &state, loads: *loads, forces, floors: &floors, direction: Some(from) };
+        let turn = if dot(from, to) < 0.0 { sine(from, to) } else { f64::INFINITY };
+        if turn >= STRAIGHT {
+            self.peaks.turn(frame, &acting, Some([from, to]), turn >= 10.0 * STRAIGHT);
+        }
+        if turn < 10.0 * STRAIGHT {
+            self.peaks.turn(frame, &acting, None, false);
+        }
+    }
+
+    /// The last direction of sliding before a stop at a knot.
+    fn last_heading(&self, k: usize) -> Option<Pair> {
+        let before = (0..k).rev().take_while(|&j| self.mode(j) != Mode::Stick);
+        let stored = before.take(3).find_map(|j| unit(self.stored(j).speed()));
+        self.heading.or(stored)
+    }
+
+    /// Directions of sliding that pass between two knots of one time.
+    pub(super) fn turn_between(&mut self, k: usize) {
+        let slips = |k: usize| self.mode(k) != Mode::Stick;
+        if !(slips(k) && slips(k + 1)) {
+            return;
+        }
+        let [from, to] = [k, k + 1].map(|k| self.stored(k));
+        let (Some(u0), Some(u1)) = (unit(from.speed()), unit(to.speed())) else { return };
+        if u0 == u1 {
+            return;
+        }
+        let loads = self.instant(self.h.time_s[k])[3];
+        let (forces, floors) = self.forces(&from, &loads);
+        let acting =
+            Acting { state: &from, loads, forces, floors: &floors, direction: Some(u0) };
+        self.peaks.turn(self.stepper.frame, &acting, Some([u0, u1]), true);
+        self.peaks.turn(self.stepper.frame, &acting, None, false);
+    }
+
+    /// Judges a step of a stick by what is asked at its points.
+    pub(super) fn held(&mut self, step: &Step) {
+        let rule = self.stepper.rule;
+        let rounding = self.rounding(&step.stretch.loads[0]);
+        let margin_at = |state: &State, t: f64| {
+            let loads = between(&step.stretch.loads, t);
+            let (asked, _) = self.asked(self.forces(state, &loads).0.push, &loads);
+            (asked.beyond(), asked.margin().unwrap_or(f64::NAN), asked.bound())
+        };
+        let (mut margins, mut broken) = ([0.0; POINTS], 0.0);
+        let mut state = State::default();
+        for (point, margin) in margins.iter_mut().enumerate() {
+            step.at_point(point, &mut state);
+            let beyond;
+            (beyond, *margin, _) = margin_at(&state, rule.points[point]);
+            broken = larger(broken, excess(beyond - rounding));
+        }
+        let mut least = None;
+        if let Some(point) = dip(&margins) {
+            let (t, margin) = rule.least_of((point, margins[point]), |t| {
+                let mut state = State::default();
+                step.at(rule, t, &mut state);
+                margin_at(&state, t).1
+            });
+            step.at(rule, t, &mut state);
+            let bound = margin_at(&state, t).2;
+            broken = larger(broken, excess(-margin * bound - rounding));
+            least = Some((point, t, margin));
+        }
+        self.figures.excess = larger(self.figures.excess, broken);
+        if margins.iter().any(|margin| margin.is_nan()) {
+            self.dips.interrupt();
+            return;
+        }
+        for point in 0..POINTS {
+            let (t, margin) = match least {
+                Some((at, t, margin)) if at == point => (t, margin),
+                _ => (rule.points[point], margins[point]),
+            };
+            self.dips.feed(step.stretch.from_s + t * step.stretch.step_s, margin);
+        }
+        // A plateau near the bound is as close a call as a maximum, if it is no sliver of one.
+        let flat = margins.iter().all(|margin| (margin - margins[0]).abs() <= 1e-12);
+        if flat && step.stretch.step_s > 1e6 * self.instant_s && margins[0] < 1.0 {
+            self.dips.take(step.stretch.from_s, margins[0]);
+        }
+    }
+
+    /// Takes the speeds of a step of a slip.
+    pub(super) fn slid(&mut self, step: &Step) {
+        let rule = self.stepper.rule;
+        let mut state = State::default();
+        let mut speeds = [0.0; POINTS];
+        for (point, speed) in speeds.iter_mut().enumerate() {
+            step.at_point(point, &mut state);
+            *speed = norm(state.speed());
+        }
+        let least = dip(&speeds).map(|point| {
+            let found = rule.least_of((point, speeds[point]), |t| {
+                let mut state = State::default();
+                step.at(rule, t, &mut state);
+                norm(state.speed())
+            });
+            (point, found)
+        });
+        let mut speed = core::mem::replace(&mut self.speed, Speed::new(0.0));
+        for point in 0..POINTS {
+            let (t, size) = match least {
+                Some((at, found)) if at == point => found,
+                _ => (rule.points[point], speeds[point]),
+            };
+            speed.feed(step.stretch.from_s + t * step.stretch.step_s, size, || {
+                step.at(rule, t, &mut state);
+                self.holds_only(&state, &between(&step.stretch.loads, t))
+            });
+        }
+        self.speed = speed;
+        step.at_point(POINTS - 1, &mut state);
+        if let Some(u) = unit(state.speed()) {
+            self.heading = Some(u);
+        }
+        // A push too small to tell the first direction grows into one that does.
+        if let (Some(turn), Some(first)) = (self.turns.last_mut(), unit(step.outset))
+            && turn.direction.is_none()
+        {
+            let last = self.heading.unwrap_or(first);
+            (turn.direction, turn.force_n) = (Some(first), f64::INFINITY);
+            turn.unsure = 2.0 * norm([first[0] - last[0], first[1] - last[1]]);
+        }
+    }
+
+    /// Whether a slip has come to rest, as near as rounding tells.
+    pub(super) fn rests(&self, speed: f64) -> bool {
+        speed <= 1.5 * REST * self.speed.peak()
+    }
+}

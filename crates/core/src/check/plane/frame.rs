@@ -1,0 +1,221 @@
+//! What is linear in two horizontal directions, and the push on the block.
+//!
+//! Letters as in the book: `x = (s, q)` and `v = (w, q̇)` have one pair (x, y) for the block and one a storey;
+//! `p` is what drives the block over the table but for friction, `f = μ_k N/M1`, `u = w/|w|`:
+//!
+//! ```text
+//! p = [1ᵀ(K q + C q̇) − K1 s − C1 w − N s/R]/M1 − a          ẇ = p − f u
+//! q̈_i = −(K q + C q̇)_i/m_i − a − ẇ
+//! ```
+
+use super::super::ground::Load;
+use super::super::law::Law;
+use super::super::structure::{Phase, StoreyDamping, Structure};
+use crate::model::Model;
+
+/// A vector (x, y).
+pub(super) type Pair = [f64; 2];
+
+pub(super) fn dot(a: Pair, b: Pair) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+pub(super) fn cross(a: Pair, b: Pair) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+pub(super) fn norm(a: Pair) -> f64 {
+    libm::hypot(a[0], a[1])
+}
+
+pub(super) fn times(a: Pair, factor: f64) -> Pair {
+    [factor * a[0], factor * a[1]]
+}
+
+/// The direction of a vector that is not 0.
+pub(super) fn unit(a: Pair) -> Option<Pair> {
+    let size = norm(a);
+    (size > 0.0).then(|| [a[0] / size, a[1] / size])
+}
+
+/// What the table does along x and along y at one instant, on one side of it.
+pub(super) type Loads = [Load; 2];
+
+/// `a`.
+pub(super) fn table(loads: &Loads) -> Pair {
+    loads.map(|load| load.a)
+}
+
+/// Between two instants.
+pub(super) fn between(loads: &[Loads; 2], part: f64) -> Loads {
+    [0, 1].map(|axis| super::super::ground::between([loads[0][axis], loads[1][axis]], part))
+}
+
+/// Forces that a state asks for.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Forces {
+    /// `1ᵀ(K q + C q̇)`.
+    pub(super) base: Pair,
+    /// `K1 s + N s/R`.
+    pub(super) spring: Pair,
+    /// `C1 w`.
+    pub(super) damper: Pair,
+    pub(super) push: Pair,
+}
+
+/// Masses, springs, dampers and friction in two horizontal directions.
+pub(super) struct PlaneFrame {
+    pub(super) block_kg: f64,
+    pub(super) total_kg: f64,
+    pub(super) spring: f64,
+    pub(super) damper: f64,
+    /// `1/R` of a spring that follows `N`.
+    pub(super) curvature_per_m: f64,
+    /// Mass of each pair's parts from the first floor up.
+    pub(super) masses_kg: Vec<f64>,
+    /// Rows of `K` and `C` over all parts of `q`, relative to the block.
+    stiffness: Vec<f64>,
+    damping: Vec<f64>,
+    /// Upper bounds on the fastest rate where the block rests and where it slides, in 1/s.
+    pub(super) rates: [f64; 2],
+    /// Upper bound on the largest undamped frequency on a block that rests, in rad/s.
+    pub(super) frequency: f64,
+    /// `μ_s` and `μ_k`.
+    pub(super) fixed: f64,
+    pub(super) kinetic: f64,
+}
+
+impl PlaneFrame {
+    pub(super) fn new(model: &Model, vertical: bool, law: &Law, normal: f64) -> Self {
+        let along_y = model.along_y();
+        let other = (&along_y.stiffnesses_n_per_m[..], &along_y.damping);
+        let axes = [Structure::new(model, vertical), Structure::of(model, other, vertical)];
+        let n = axes[0].masses_kg.len();
+        let width = 2 * n;
+        let (mut stiffness, mut damping) = (vec![0.0; width * width], vec![0.0; width * width]);
+        for (axis, structure) in axes.iter().enumerate() {
+            let full = match &structure.damping {
+                StoreyDamping::Chain(c) => chain(c),
+                StoreyDamping::Full(c) => c.clone(),
+            };
+            for (to, from) in [(&mut stiffness, chain(&structure.stiffnesses)), (&mut damping, full)]
+            {
+                for i in 0..n {
+                    for j in 0..n {
+                        to[(2 * i + axis) * width + 2 * j + axis] = from[i * n + j];
+                    }
+                }
+            }
+        }
+        let [x, y] = &axes;
+        let curvature_per_m = law.curvature_per_m();
+        let added = libm::sqrt(normal / x.block_kg * curvature_per_m);
+        let fastest = |phase| x.rate(phase).max(y.rate(phase));
+        Self {
+            block_kg: x.block_kg,
+            total_kg: x.total_kg,
+            spring: x.spring,
+            damper: x.damper,
+            curvature_per_m,
+            masses_kg: x.masses_kg.iter().flat_map(|mass| [*mass; 2]).collect(),
+            stiffness,
+            damping,
+            rates: [fastest(Phase::Stick), fastest(Phase::Slip) + added],
+            frequency: x.frame_frequency().max(y.frame_frequency()),
+            fixed: law.most(),
+            kinetic: law.kinetic(),
+        }
+    }
+
+    /// Parts of `x` and of `v`.
+    pub(super) fn degrees(&self) -> usize {
+        2 + self.masses_kg.len()
+    }
+
+    /// `f = μ_k N/M1`.
+    pub(super) fn slowing(&self, loads: &Loads) -> f64 {
+        self.kinetic * loads[0].normal / self.block_kg
+    }
+
+    /// `μ_s N/M1`.
+    pub(super) fn holding(&self, loads: &Loads) -> f64 {
+        self.fixed * loads[0].normal / self.block_kg
+    }
+
+    /// `K q + C q̇`, floor by floor, and all that acts on the block.
+    pub(super) fn forces(
+        &self,
+        x: &[f64],
+        v: &[f64],
+        loads: &Loads,
+        floors: &mut [f64],
+    ) -> Forces {
+        let width = self.masses_kg.len();
+        let mut base = [0.0; 2];
+        for (i, floor) in floors.iter_mut().enumerate() {
+            let rows = [&self.stiffness, &self.damping].map(|rows| &rows[i * width..][..width]);
+            let elastic: f64 = rows[0].iter().zip(&x[2..]).map(|(k, q)| k * q).sum();
+            let viscous: f64 = rows[1].iter().zip(&v[2..]).map(|(c, v)| c * v).sum();
+            *floor = elastic + viscous;
+            base[i % 2] += *floor;
+        }
+        let stiffness = self.spring + self.curvature_per_m * loads[0].normal;
+        let [spring, damper] = [[stiffness * x[0], stiffness * x[1]], times([v[0], v[1]], self.damper)];
+        let a = table(loads);
+        let push =
+            [0, 1].map(|i| (base[i] - spring[i] - damper[i]) / self.block_kg - a[i]);
+        Forces { base, spring, damper, push }
+    }
+
+    /// `v̇ᵀ C v̇`-like form of rows: `Σ z_i rows_ij z_j`.
+    fn form(rows: &[f64], z: &[f64]) -> f64 {
+        let products = rows.chunks_exact(z.len().max(1)).zip(z);
+        products.map(|(row, own)| own * row.iter().zip(z).map(|(c, z)| c * z).sum::<f64>()).sum()
+    }
+
+    /// `C1 w² + q̇ᵀ C q̇`.
+    pub(super) fn dissipation(&self, v: &[f64]) -> f64 {
+        self.damper * (v[0] * v[0] + v[1] * v[1]) + Self::form(&self.damping, &v[2..])
+    }
+
+    /// `(K1 s² + qᵀ K q)/2`.
+    pub(super) fn strain(&self, x: &[f64]) -> f64 {
+        0.5 * (self.spring * (x[0] * x[0] + x[1] * x[1]) + Self::form(&self.stiffness, &x[2..]))
+    }
+
+    /// `(M1 w² + Σ m_i (w + q̇_i)²)/2`.
+    pub(super) fn kinetic_energy(&self, v: &[f64]) -> f64 {
+        let floors = self.masses_kg.iter().zip(&v[2..]).enumerate();
+        let floors = floors.map(|(i, (mass, own))| mass * (v[i % 2] + own) * (v[i % 2] + own));
+        0.5 * (self.block_kg * (v[0] * v[0] + v[1] * v[1]) + floors.sum::<f64>())
+    }
+
+    /// `M1 w + Σ m_i (w + q̇_i)`.
+    pub(super) fn momentum(&self, v: &[f64]) -> Pair {
+        let mut sum = [self.total_kg * v[0], self.total_kg * v[1]];
+        for (i, (mass, own)) in self.masses_kg.iter().zip(&v[2..]).enumerate() {
+            sum[i % 2] += mass * own;
+        }
+        sum
+    }
+
+    /// The least mass of the block and the floors.
+    pub(super) fn least_kg(&self) -> f64 {
+        self.masses_kg.iter().fold(self.block_kg, |least, mass| mass.min(least))
+    }
+}
+
+/// The matrix of a chain of springs or dampers from the block up, row by row.
+fn chain(links: &[f64]) -> Vec<f64> {
+    let n = links.len();
+    let mut rows = vec![0.0; n * n];
+    for (i, link) in links.iter().enumerate() {
+        rows[i * n + i] += link;
+        if let Some(below) = i.checked_sub(1) {
+            rows[below * n + below] += link;
+            rows[below * n + i] -= link;
+            rows[i * n + below] -= link;
+        }
+    }
+    rows
+}

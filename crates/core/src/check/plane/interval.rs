@@ -1,0 +1,383 @@
+//! The own motion from a knot to the next.
+
+use super::super::collocation::{MAX_TURN, POINTS};
+use super::super::structure::{excess, larger};
+use super::decisions::Place;
+use super::frame::{Loads, dot, norm, table, unit};
+use super::judge::PlaneJudge;
+use super::peaks::Acting;
+use super::step::{State, Step, Stretch, time_to_rest};
+use crate::error::Stopped;
+use crate::response::Mode;
+
+/// A way to rest shorter than this is its end, in m: what friction does on it is known.
+const SHORTEST_M: f64 = 2e-18;
+/// Defect of a step over the largest velocity.
+const DEFECT: f64 = 2e-15;
+/// Largest last Legendre coefficient over the largest acceleration: beyond it they say nothing.
+const TAIL: f64 = 1e-4;
+/// The same where a peak is told.
+const FINE: f64 = 1e-10;
+/// Most halvings to tell a peak.
+const DEEPEST: u32 = 12;
+/// Most steps of an interval.
+const MOST_STEPS: usize = 100_000;
+
+/// The way through an interval so far.
+struct Way {
+    knot: usize,
+    state: State,
+    /// Largest velocities and their rates.
+    fastest: Vec<f64>,
+    rates: Vec<f64>,
+    /// Whether the block is at rest for good in a slip, and how long it has been when the interval ends.
+    rested_s: Option<f64>,
+}
+
+/// How far a slip goes without coming to rest.
+enum Reach {
+    Free,
+    /// For so long at least.
+    Within(f64),
+    /// It comes to rest after so long.
+    Rest(f64),
+    /// It passes rest at once.
+    Turn,
+}
+
+impl PlaneJudge<'_> {
+    /// Judges the interval from a knot to the next.
+    pub(super) fn interval(&mut self, k: usize) -> Result<(), Stopped> {
+        let [from_s, end_s] = [self.h.time_s[k], self.h.time_s[k + 1]];
+        let d = self.frame().degrees();
+        let mut way = Way {
+            knot: k,
+            state: self.stored(k),
+            fastest: vec![0.0; d],
+            rates: vec![0.0; d],
+            rested_s: None,
+        };
+        let slips = self.mode(k) != Mode::Stick;
+        if !slips {
+            way.state.v[..2].fill(0.0);
+        }
+        let (mut at_s, mut drift) = (from_s, 0.0);
+        while at_s < end_s {
+            let pieces = [0, 1].map(|axis| self.grounds[axis].piece(at_s, end_s));
+            let to_s = pieces[0].to_s.min(pieces[1].to_s);
+            let loads = [0, 1].map(|end| [0, 1].map(|axis| pieces[axis].loads[end]));
+            if at_s == from_s {
+                if !self.grounds[0].is_at_sample(from_s) {
+                    self.unsure_n = larger(self.unsure_n, self.rounding(&loads[0]));
+                }
+                let side = self.side(k, &loads[0], Place::Start);
+                self.take(&side);
+            }
+            if to_s >= end_s {
+                let side = self.side(k + 1, &loads[1], Place::End);
+                self.take(&side);
+            }
+            drift = f64::max(drift, self.normal_drift(&way.state, &loads[0]));
+            let stretch = Stretch { from_s: at_s, step_s: to_s - at_s, loads };
+            if slips {
+                self.slide(&mut way, &stretch)?;
+            } else {
+                self.rest(&mut way, &stretch)?;
+            }
+            at_s = to_s;
+        }
+        self.arrive(&way, drift);
+        Ok(())
+    }
+
+    /// What the rounding of `N` makes of the force on the block.
+    fn normal_drift(&self, state: &State, loads: &Loads) -> f64 {
+        let frame = self.frame();
+        let per_n = frame.fixed + frame.curvature_per_m * norm([state.x[0], state.x[1]]);
+        per_n * loads[0].normal_rounding(self.grounds[0].blur())
+    }
+
+    /// Compares the end of the way with what is stored there.
+    fn arrive(&mut self, way: &Way, drift_n: f64) {
+        let k = way.knot;
+        let length_s = self.h.time_s[k + 1] - self.h.time_s[k];
+        let drift = drift_n / self.frame().least_kg() * length_s;
+        let drift_m = 0.5 * length_s * drift;
+        let stored = self.stored(k + 1);
+        let instant_s = self.instant_s;
+        let f = &mut self.figures;
+        for i in 0..way.fastest.len() {
+            let off = (stored.x[i] - way.state.x[i]).abs() - instant_s * way.fastest[i] - drift_m;
+            f.displacement[0] = larger(f.displacement[0], excess(off));
+            let off = (stored.v[i] - way.state.v[i]).abs() - instant_s * way.rates[i] - drift;
+            f.velocity[0] = larger(f.velocity[0], excess(off));
+            f.displacement[1] = larger(f.displacement[1], way.state.x[i]);
+            f.velocity[1] = larger(f.velocity[1], way.fastest[i]);
+        }
+        self.drift = [self.drift[0].max(drift_m), self.drift[1].max(drift)];
+        self.arrived = norm(way.state.speed());
+        if self.grounds[0].has_vertical() {
+            let speed: f64 = way.fastest.iter().sum();
+            let moved = way.fastest[0].max(way.fastest[1]) * length_s;
+            self.books.blur[k] += drift_n * moved + self.frame().total_kg * speed * drift;
+        }
+        let Some(rested_s) = way.rested_s else { return };
+        let loads = self.instant(self.h.time_s[k + 1])[0];
+        let push = norm(self.forces(&way.state, &loads).0.push);
+        let slowing = self.frame().slowing(&loads);
+        let late_s = excess(rested_s.abs() - instant_s);
+        if self.stops(k + 1) {
+            let f = &mut self.figures;
+            f.velocity[0] = larger(f.velocity[0], late_s * (slowing + push));
+        } else if late_s > 0.0 {
+            let off = self.frame().block_kg * (slowing - push);
+            self.figures.excess = larger(self.figures.excess, excess(off));
+        }
+    }
+
+    /// Whether the slip ends at a knot.
+    fn stops(&self, k: usize) -> bool {
+        let after = self.h.mode.get(k + 1);
+        self.mode(k) == Mode::Stick || after == Some(&Mode::Stick)
+    }
+
+    /// A stretch of a stick, or of a slip that has come to rest.
+    fn rest(&mut self, way: &mut Way, stretch: &Stretch) -> Result<(), Stopped> {
+        let turns = self.frame().rates[0] * stretch.step_s / MAX_TURN;
+        let steps = libm::ceil(turns * (1.0 - 1e-9)).max(1.0) as usize;
+        for j in 0..steps {
+            let length_s = stretch.step_s / steps as f64;
+            let part = stretch.part(j as f64 * length_s, length_s);
+            self.pulse.beat(64 * self.frame().degrees() as u32)?;
+            let Some(step) = self.stepper.solve(&way.state, part, false) else {
+                self.give_up();
+                return Ok(());
+            };
+            if way.rested_s.is_none() {
+                self.held(&step);
+            }
+            self.follow(way, &step);
+        }
+        Ok(())
+    }
+
+    /// A stretch of a slip.
+    fn slide(&mut self, way: &mut Way, stretch: &Stretch) -> Result<(), Stopped> {
+        let length_s = stretch.step_s;
+        let (mut t, mut next_s) = (0.0, None);
+        for _ in 0..MOST_STEPS {
+            let left_s = length_s - t;
+            if !(left_s > 0.0) {
+                return Ok(());
+            }
+            let loads = stretch.at(t);
+            let most_s = match self.reach(way, &loads, (t, left_s)) {
+                Reach::Free => left_s,
+                Reach::Within(reach_s) => reach_s,
+                Reach::Rest(rest_s) => {
+                    way.rested_s = Some(left_s - rest_s);
+                    way.state.lose_speed();
+                    return self.rest(way, &stretch.part(t, left_s));
+                }
+                Reach::Turn => {
+                    self.turn_about(way, &loads, stretch.from_s + t);
+                    continue;
+                }
+            };
+            let first_s = next_s.unwrap_or_else(|| self.outlook(way, &loads));
+            let longest_s = left_s.min(most_s).min(MAX_TURN / self.frame().rates[1]);
+            let Some(step) = self.step(way, stretch, (t, left_s), longest_s.min(first_s))? else {
+                if norm(way.state.speed()) > 0.0 {
+                    self.give_up();
+                    return Ok(());
+                }
+                way.rested_s = Some(left_s);
+                return self.rest(way, &stretch.part(t, left_s));
+            };
+            let took_s = step.stretch.step_s;
+            let gain = libm::pow(self.bearable() / step.defect().max(f64::MIN_POSITIVE), 1.0 / 15.0);
+            next_s = Some(took_s * (0.9 * gain).clamp(0.5, 4.0));
+            self.slid(&step);
+            self.follow(way, &step);
+            t = if took_s >= left_s { length_s } else { t + took_s };
+        }
+        self.give_up();
+        Ok(())
+    }
+
+    /// The defect of a step that may stand.
+    fn bearable(&self) -> f64 {
+        DEFECT * self.figures.velocity[1]
+    }
+
+    /// A step of a slip, of this length or as many times halved as it takes; `None` where none is short enough.
+    fn step(
+        &mut self,
+        way: &Way,
+        stretch: &Stretch,
+        (t, left_s): (f64, f64),
+        mut step_s: f64,
+    ) -> Result<Option<Step>, Stopped> {
+        // No sliver is left.
+        if step_s > 0.9 * left_s && left_s * self.frame().rates[1] <= MAX_TURN {
+            step_s = left_s;
+        }
+        loop {
+            self.pulse.beat(256 + 64 * self.frame().degrees() as u32)?;
+            let step = self.stepper.solve(&way.state, stretch.part(t, step_s), true);
+            let fine = |step: &Step| step.tail <= TAIL && step.defect() <= self.bearable();
+            if let Some(step) = step.filter(fine) {
+                return Ok(Some(step));
+            }
+            step_s *= 0.5;
+            if step_s <= f64::EPSILON * f64::EPSILON * stretch.step_s {
+                return Ok(None);
+            }
+        }
+    }
+
+    /// How long a first step from here may be: the motion bends within `r/(f + |p|)`.
+    fn outlook(&self, way: &Way, loads: &Loads) -> f64 {
+        let r = norm(way.state.speed());
+        let p = norm(self.forces(&way.state, loads).0.push);
+        if r > 0.0 { 2.0 * r / (self.frame().slowing(loads) + p) } else { f64::INFINITY }
+    }
+
+    /// How far a slip goes from here without coming to rest.
+    fn reach(&self, way: &Way, loads: &Loads, (t, left_s): (f64, f64)) -> Reach {
+        let push = self.forces(&way.state, loads).0.push;
+        let (w, p, f) = (way.state.speed(), norm(push), self.frame().slowing(loads));
+        let r = norm(w);
+        if r == 0.0 || f == 0.0 || (dot(w, push) >= 0.0 && p >= f) {
+            return Reach::Free;
+        }
+        let reach_s = 0.5 * r / (f + p);
+        if left_s <= reach_s {
+            return Reach::Free;
+        }
+        let stops = self.stops(way.knot + 1);
+        let rest_s = match time_to_rest(w, push, f) {
+            Some(rest_s) if r * rest_s < SHORTEST_M => Some(rest_s),
+            None if stops && self.rests(r) && p <= self.frame().holding(loads) * (1.0 + 1e-12) => {
+                Some(r / (f + p))
+            }
+            _ => None,
+        };
+        match rest_s.filter(|rest_s| stops || *rest_s <= left_s) {
+            Some(rest_s) => Reach::Rest(rest_s),
+            None if t + reach_s == t => Reach::Turn,
+            None => Reach::Within(reach_s),
+        }
+    }
+
+    /// Passes rest quicker than a time can tell: the block goes on along the push, if at all, and may have
+    /// turned either way.
+    fn turn_about(&mut self, way: &mut Way, loads: &Loads, at_s: f64) {
+        let direction = unit(way.state.speed());
+        way.state.lose_speed();
+        let (forces, floors) = self.forces(&way.state, loads);
+        let acting =
+            Acting { state: &way.state, loads: *loads, forces, floors: &floors, direction };
+        self.peaks.turn(self.stepper.frame, &acting, None, false);
+        let holds = self.holds_only(&way.state, loads);
+        self.speed.feed(at_s, 0.0, || holds);
+    }
+
+    /// Nothing is known of the way: no figure holds.
+    fn give_up(&mut self) {
+        self.figures.displacement[0] = f64::INFINITY;
+    }
+
+    /// Takes up a step: its end, energies, path, peaks.
+    fn follow(&mut self, way: &mut Way, step: &Step) {
+        let (rule, frame) = (self.stepper.rule, self.stepper.frame);
+        let Stretch { from_s, step_s, .. } = step.stretch;
+        let mut state = State::default();
+        let follows = self.law.follows();
+        let (mut done, mut size, mut damping, mut friction, mut path_m) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for point in 0..POINTS {
+            step.at_point(point, &mut state);
+            for (fastest, v) in way.fastest.iter_mut().zip(&state.v) {
+                *fastest = fastest.max(v.abs());
+            }
+            if point == 0 || point + 1 == POINTS {
+                continue;
+            }
+            let weight = step_s * rule.weights[point - 1];
+            let loads = step.stretch.at(rule.points[point] * step_s);
+            let power = dot(frame.momentum(&state.v), table(&loads));
+            let r = norm(state.speed());
+            done -= weight * power;
+            size += weight * power.abs();
+            damping += weight * frame.dissipation(&state.v);
+            if step.slips {
+                friction += weight * frame.block_kg * frame.slowing(&loads) * r;
+                path_m += weight * r;
+            }
+            if follows {
+                let rise = frame.curvature_per_m * loads[0].normal;
+                let back = -weight * rise * dot([state.x[0], state.x[1]], state.speed());
+                friction -= back;
+                size += back.max(0.0);
+            }
+        }
+        let (k, books) = (way.knot, &mut self.books);
+        books.work[k] += done;
+        books.damping[k] += damping;
+        books.friction[k] += friction;
+        if let Some(total) = books.size.get_mut(k) {
+            *total += size;
+        }
+        self.totals.interfaces[0].path_m += path_m;
+        for (most, rate) in way.rates.iter_mut().zip(&step.rates) {
+            *most = most.max(*rate);
+        }
+        self.see_peak_time(step, (from_s, step_s));
+        step.at_point(POINTS - 1, &mut way.state);
+        if way.rested_s.is_none() {
+            self.look(step, 0);
+        }
+    }
+
+    /// Keeps where `s` is at the printed time of its peak.
+    fn see_peak_time(&mut self, step: &Step, (from_s, step_s): (f64, f64)) {
+        let at_s = self.given.response.demands.peak_sliding_displacement_time_s;
+        if at_s < from_s - self.instant_s || at_s > from_s + step_s + self.instant_s {
+            return;
+        }
+        let mut state = State::default();
+        step.at(self.stepper.rule, ((at_s - from_s) / step_s).clamp(0.0, 1.0), &mut state);
+        let s = [state.x[0], state.x[1]];
+        if self.at_peak.is_none_or(|found| norm(s) > norm(found)) {
+            self.at_peak = Some(s);
+        }
+    }
+
+    /// Raises the peaks by a step, by parts of it where it is too coarse to tell one.
+    fn look(&mut self, step: &Step, depth: u32) {
+        let tracked = self.tracked();
+        let coarse = step.tail > FINE && depth < DEEPEST;
+        if self.peaks.follow(self.stepper.rule, &tracked, step, coarse) {
+            return;
+        }
+        let half_s = 0.5 * step.stretch.step_s;
+        let mut state = State::default();
+        step.at_point(0, &mut state);
+        let halves = [0.0, half_s].map(|t| {
+            let half = self.stepper.solve(&state, step.stretch.part(t, half_s), step.slips);
+            if let Some(half) = &half {
+                half.at_point(POINTS - 1, &mut state);
+            }
+            half
+        });
+        match &halves {
+            [Some(first), Some(second)] => {
+                self.look(first, depth + 1);
+                self.look(second, depth + 1);
+            }
+            _ => {
+                self.peaks.follow(self.stepper.rule, &tracked, step, false);
+            }
+        }
+    }
+}

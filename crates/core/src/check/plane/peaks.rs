@@ -1,0 +1,239 @@
+//! The outputs of a motion in a plane, and the largest sizes that they and their parts attain.
+
+use super::super::collocation::{POINTS, Rule};
+use super::super::outputs::{
+    BASE_SHEAR, BLOCK, FRICTION, OVERTURNING, Outputs, SLIDER, STOREYS, VELOCITY,
+};
+use super::super::structure::larger;
+use super::frame::{Forces, Loads, Pair, PlaneFrame, cross, dot, norm, table, times, unit};
+use super::step::{State, Step};
+
+/// The outputs that the direction of friction decides.
+const BY_DIRECTION: [usize; 3] = [BLOCK, SLIDER, FRICTION];
+/// Sides of the axes on which the largest `s` is looked for: +x, −x, +y, −y.
+const SIDES: [Pair; 4] = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]];
+
+/// Sizes of a vector and of its parts along x and y.
+fn sizes(vector: Pair) -> [f64; 3] {
+    [norm(vector), vector[0].abs(), vector[1].abs()]
+}
+
+/// What moves and acts at an instant.
+pub(super) struct Acting<'a> {
+    pub(super) state: &'a State,
+    pub(super) loads: Loads,
+    pub(super) forces: Forces,
+    pub(super) floors: &'a [f64],
+    /// Direction of the friction of a slip; `None` in stick.
+    pub(super) direction: Option<Pair>,
+}
+
+impl Acting<'_> {
+    /// `ẇ + a`, `T` and `T − K1 s − N s/R − C1 w`.
+    fn on_block(&self, frame: &PlaneFrame) -> [Pair; 3] {
+        let (a, Forces { push, spring, damper, .. }) = (table(&self.loads), self.forces);
+        let (block, friction) = match self.direction {
+            None => (a, times(push, -frame.block_kg)),
+            Some(u) => {
+                let slowed = times(u, frame.slowing(&self.loads));
+                let block = [0, 1].map(|i| push[i] + a[i] - slowed[i]);
+                (block, times(slowed, -frame.block_kg))
+            }
+        };
+        [block, [0, 1].map(|i| friction[i] - spring[i] - damper[i]), friction]
+    }
+}
+
+/// Vectors of all outputs, in their order, then `s`.
+pub(super) struct Tracked<'a> {
+    pub(super) frame: &'a PlaneFrame,
+    pub(super) outputs: &'a Outputs,
+}
+
+impl Tracked<'_> {
+    fn len(&self) -> usize {
+        self.outputs.len() + 1
+    }
+
+    fn vectors(&self, acting: &Acting<'_>, out: &mut Vec<Pair>) {
+        let (frame, State { x, v }) = (self.frame, acting.state);
+        let n = frame.masses_kg.len() / 2;
+        out.clear();
+        out.resize(self.len(), [0.0; 2]);
+        let [block, slider, friction] = acting.on_block(frame);
+        out[VELOCITY] = [v[0], v[1]];
+        out[BLOCK] = block;
+        out[SLIDER] = slider;
+        out[FRICTION] = friction;
+        out[BASE_SHEAR] = acting.forces.base;
+        out[self.outputs.len()] = [x[0], x[1]];
+        for axis in 0..2 {
+            let floor = |i: usize| -acting.floors[2 * i + axis] / frame.masses_kg[2 * i + axis];
+            out[OVERTURNING][axis] = self.outputs.plain_moment(block[axis], floor);
+            let mut below = 0.0;
+            for i in 0..n {
+                let q = x[2 + 2 * i + axis];
+                out[STOREYS + i][axis] = q;
+                out[STOREYS + n + i][axis] = q - below;
+                out[STOREYS + 2 * n + i][axis] = floor(i);
+                below = q;
+            }
+        }
+    }
+
+    /// Vectors at a part of a step, at a point of it where one is named.
+    fn in_step(
+        &self,
+        rule: &Rule,
+        step: &Step,
+        (point, part): (Option<usize>, f64),
+        out: &mut Vec<Pair>,
+    ) {
+        let mut state = State::default();
+        match point {
+            Some(point) => step.at_point(point, &mut state),
+            None => step.at(rule, part, &mut state),
+        }
+        let loads = super::frame::between(&step.stretch.loads, part);
+        let mut floors = vec![0.0; self.frame.masses_kg.len()];
+        let forces = self.frame.forces(&state.x, &state.v, &loads, &mut floors);
+        let direction = step.slips.then(|| heading(&state, &forces, step.outset));
+        let acting = Acting { state: &state, loads, forces, floors: &floors, direction };
+        self.vectors(&acting, out);
+    }
+}
+
+/// The direction of a slip, at its start that of the push; a push too small to tell leaves it to `outset`.
+pub(super) fn heading(state: &State, forces: &Forces, outset: Pair) -> Pair {
+    let w = state.speed();
+    let of_push = || unit(forces.push).filter(|u| dot(*u, outset) > 0.0);
+    unit(w).or_else(of_push).or_else(|| unit(outset)).unwrap_or([0.0; 2])
+}
+
+/// Largest sizes so far.
+pub(super) struct Peaks {
+    /// Of the vectors, along x, along y.
+    pub(super) largest: [Vec<f64>; 3],
+    /// The same where what is decided by rounding counts too.
+    pub(super) possible: [Vec<f64>; 3],
+    /// Largest `s` towards the four sides.
+    pub(super) sides_m: [f64; 4],
+}
+
+impl Peaks {
+    pub(super) fn new(tracked: &Tracked<'_>) -> Self {
+        let zeros = || core::array::from_fn(|_| vec![0.0; tracked.len()]);
+        Self { largest: zeros(), possible: zeros(), sides_m: [f64::NEG_INFINITY; 4] }
+    }
+
+    /// Raises the peaks by what is seen at an instant.
+    pub(super) fn see(&mut self, tracked: &Tracked<'_>, acting: &Acting<'_>) {
+        let mut vectors = Vec::new();
+        tracked.vectors(acting, &mut vectors);
+        for (g, vector) in vectors.iter().enumerate() {
+            for (view, size) in sizes(*vector).into_iter().enumerate() {
+                let peak = &mut self.largest[view][g];
+                *peak = larger(*peak, size);
+            }
+        }
+        let s = [acting.state.x[0], acting.state.x[1]];
+        for (most, side) in self.sides_m.iter_mut().zip(SIDES) {
+            *most = most.max(dot(s, side));
+        }
+    }
+
+    /// Raises the peaks by what friction does in all directions between two, by the shorter arc; `all`
+    /// directions where there is none.
+    pub(super) fn turn(
+        &mut self,
+        frame: &PlaneFrame,
+        acting: &Acting<'_>,
+        arc: Option<[Pair; 2]>,
+        certain: bool,
+    ) {
+        let (a, Forces { push, spring, damper, .. }) = (table(&acting.loads), acting.forces);
+        let block = unit([-(push[0] + a[0]), -(push[1] + a[1])]);
+        let slider = unit([0, 1].map(|i| spring[i] + damper[i]));
+        let inside = |u: &Pair| {
+            arc.is_none_or(|[from, to]| {
+                let turn = cross(from, to);
+                cross(from, *u) * turn >= 0.0
+                    && cross(*u, to) * turn >= 0.0
+                    && dot(*u, [from[0] + to[0], from[1] + to[1]]) > 0.0
+            })
+        };
+        let turns = SIDES.into_iter().chain(block).chain(slider).filter(inside);
+        let to = if certain { &mut self.largest } else { &mut self.possible };
+        for u in turns.chain(arc.into_iter().flatten()) {
+            let vectors = Acting { direction: Some(u), ..*acting }.on_block(frame);
+            for (g, vector) in BY_DIRECTION.into_iter().zip(vectors) {
+                for (view, size) in sizes(vector).into_iter().enumerate() {
+                    to[view][g] = larger(to[view][g], size);
+                }
+            }
+        }
+    }
+
+    /// Raises the peaks by a step; `false` where some may rise by more than the step tells: it is too coarse.
+    pub(super) fn follow(
+        &mut self,
+        rule: &Rule,
+        tracked: &Tracked<'_>,
+        step: &Step,
+        coarse: bool,
+    ) -> bool {
+        let mut at = vec![Vec::new(); POINTS];
+        for (point, vectors) in at.iter_mut().enumerate() {
+            tracked.in_step(rule, step, (Some(point), rule.points[point]), vectors);
+        }
+        let part = |t: f64, g: usize| {
+            let mut vectors = Vec::new();
+            tracked.in_step(rule, step, (None, t), &mut vectors);
+            vectors[g]
+        };
+        for g in 0..tracked.len() {
+            for view in 0..3 {
+                let values: [f64; POINTS] = core::array::from_fn(|i| sizes(at[i][g])[view]);
+                let of = |t: f64| sizes(part(t, g))[view];
+                if !raise(rule, &mut self.largest[view][g], &values, coarse, of) {
+                    return false;
+                }
+            }
+        }
+        let g = tracked.len() - 1;
+        for (most, side) in self.sides_m.iter_mut().zip(SIDES) {
+            let values: [f64; POINTS] = core::array::from_fn(|i| dot(at[i][g], side));
+            raise(rule, most, &values, false, |t| dot(part(t, g), side));
+        }
+        true
+    }
+}
+
+/// Raises a peak to the largest value in a step, known at its points; `false` where a coarse step may raise
+/// it.
+fn raise(
+    rule: &Rule,
+    peak: &mut f64,
+    values: &[f64; POINTS],
+    coarse: bool,
+    of: impl Fn(f64) -> f64,
+) -> bool {
+    let best = (1..POINTS).fold(0, |best, i| if values[i] > values[best] { i } else { best });
+    if values.iter().any(|value| value.is_nan()) {
+        *peak = f64::INFINITY;
+        return true;
+    }
+    let least = values.iter().fold(values[best], |least, value| value.min(least));
+    // Between two points the polynomial rises above both by less than a tenth of its range.
+    let may_reach = values[best] + 0.1 * (values[best] - least);
+    if may_reach <= *peak + 1e-12 * peak.abs() {
+        *peak = peak.max(values[best]);
+        return true;
+    }
+    if coarse {
+        return false;
+    }
+    let (_, lowest) = rule.least_of((best, -values[best]), |t| -of(t));
+    *peak = peak.max(values[best]).max(-lowest);
+    true
+}

@@ -1,0 +1,356 @@
+//! One step of the motion in a plane: Gauss collocation with eight nodes in physical time, by Newton's method.
+//!
+//! With `F_i` the accelerations at the nodes, `w_i = w_0 + h Σ_j A_ij F_j` and `∂u/∂w = (I − u uᵀ)/r`:
+//!
+//! ```text
+//! δ_i + h P_i Σ_j A_ij δ_j = p_i − f_i u_i − F_i        P = (f/r)(I − u uᵀ)
+//! ```
+//!
+//! for the block's part; what the structure does to `p` and to itself follows by iteration, as λ h ≤ 1/2.
+//!
+//! Legendre's coefficients `c_k` of `F` fall like `ρ^−k` for a motion that is analytic in an ellipse of
+//! that ρ, the defect at the end of a step like `ρ^−16`: less than `h |F| (c_6/|F|)²`; the more
+//! so where friction is stiff.
+
+use super::super::collocation::{NODES, POINTS, Rule};
+use super::super::sweep::legendre;
+use super::frame::{Forces, Loads, Pair, PlaneFrame, between, cross, dot, norm, table, times, unit};
+
+/// Most passes of the iteration.
+const MOST_PASSES: usize = 40;
+/// Unknowns of the block at the nodes.
+const UNKNOWNS: usize = 2 * NODES;
+
+/// Displacements and velocities, the block's first.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct State {
+    pub(super) x: Vec<f64>,
+    pub(super) v: Vec<f64>,
+}
+
+impl State {
+    /// `w`.
+    pub(super) fn speed(&self) -> Pair {
+        [self.v[0], self.v[1]]
+    }
+
+    /// The block comes to rest in no time, the floors go on: `q̇_i += w`, then `w = 0`.
+    pub(super) fn lose_speed(&mut self) {
+        let w = self.speed();
+        for (i, v) in self.v.iter_mut().enumerate().skip(2) {
+            *v += w[i % 2];
+        }
+        self.v[..2].fill(0.0);
+    }
+}
+
+/// A stretch of time under linear loads.
+#[derive(Clone, Copy)]
+pub(super) struct Stretch {
+    pub(super) from_s: f64,
+    pub(super) step_s: f64,
+    pub(super) loads: [Loads; 2],
+}
+
+impl Stretch {
+    /// Loads at a time from its start.
+    pub(super) fn at(&self, t: f64) -> Loads {
+        between(&self.loads, t / self.step_s)
+    }
+
+    /// The part of a length from a time on.
+    pub(super) fn part(&self, t: f64, step_s: f64) -> Self {
+        let end = if t + step_s >= self.step_s { self.loads[1] } else { self.at(t + step_s) };
+        Self { from_s: self.from_s + t, step_s, loads: [self.at(t), end] }
+    }
+}
+
+/// The motion in a step: polynomials through their values at the points of the rule.
+pub(super) struct Step {
+    pub(super) stretch: Stretch,
+    pub(super) slips: bool,
+    x: Vec<[f64; POINTS]>,
+    v: Vec<[f64; POINTS]>,
+    /// `w` at the first node: where it is 0 at the start, this tells its first direction.
+    pub(super) outset: Pair,
+    /// Largest of the last Legendre coefficients of the block's acceleration over its largest value.
+    pub(super) tail: f64,
+    /// Largest acceleration of the block over the table.
+    pub(super) sharpest: f64,
+    /// Largest rate of each velocity.
+    pub(super) rates: Vec<f64>,
+}
+
+impl Step {
+    /// The state at a point.
+    pub(super) fn at_point(&self, point: usize, state: &mut State) {
+        for (to, from) in [(&mut state.x, &self.x), (&mut state.v, &self.v)] {
+            to.clear();
+            to.extend(from.iter().map(|values| values[point]));
+        }
+    }
+
+    /// The state at a part of the step.
+    pub(super) fn at(&self, rule: &Rule, part: f64, state: &mut State) {
+        for (to, from) in [(&mut state.x, &self.x), (&mut state.v, &self.v)] {
+            to.clear();
+            to.extend(from.iter().map(|values| rule.interpolate(values, part)));
+        }
+    }
+
+    /// The defect of the block's velocity at the end, about.
+    pub(super) fn defect(&self) -> f64 {
+        self.stretch.step_s * self.sharpest * self.tail * self.tail
+    }
+}
+
+/// Solves steps.
+pub(super) struct Stepper<'a> {
+    pub(super) frame: &'a PlaneFrame,
+    pub(super) rule: &'static Rule,
+}
+
+/// Accelerations at the nodes, part by part.
+type Rates = Vec<[f64; NODES]>;
+
+impl Stepper<'_> {
+    /// A step from a state; `None` where the iteration does not settle. A slip that starts from rest follows
+    /// the push: `None` where that does not exceed friction.
+    pub(super) fn solve(&self, from: &State, stretch: Stretch, slips: bool) -> Option<Step> {
+        let mut rates = vec![[0.0; NODES]; self.frame.degrees()];
+        if !slips {
+            return self.settle(from, stretch, None, &mut rates).then(|| self.step(from, stretch, false, &rates));
+        }
+        let friction = |i: usize| self.frame.slowing(&between(&stretch.loads, self.rule.c[i]));
+        let slowing: [f64; NODES] = core::array::from_fn(friction);
+        match unit(from.speed()) {
+            Some(_) => {}
+            None if slowing.iter().all(|f| *f == 0.0) => {}
+            None => self.depart(from, stretch, &slowing, &mut rates)?,
+        }
+        let settled = self.settle(from, stretch, Some(&slowing), &mut rates);
+        settled.then(|| self.step(from, stretch, true, &rates))
+    }
+
+    /// Accelerations to begin a release with: `(|p| − f) p/|p|` of a block that would rest.
+    fn depart(
+        &self,
+        from: &State,
+        stretch: Stretch,
+        slowing: &[f64; NODES],
+        rates: &mut Rates,
+    ) -> Option<()> {
+        let mut floors = vec![0.0; self.frame.masses_kg.len()];
+        if !self.settle(from, stretch, None, rates) {
+            return None;
+        }
+        let step = self.step(from, stretch, false, rates);
+        let mut state = State::default();
+        let mut leaves = false;
+        for i in 0..NODES {
+            step.at_point(1 + i, &mut state);
+            let loads = between(&stretch.loads, self.rule.c[i]);
+            let push = self.frame.forces(&state.x, &state.v, &loads, &mut floors).push;
+            let beyond = norm(push) - slowing[i];
+            leaves |= beyond > 0.0;
+            let start = times(unit(push)?, beyond.max(1e-3 * beyond.abs()));
+            (rates[0][i], rates[1][i]) = (start[0], start[1]);
+        }
+        leaves.then_some(())
+    }
+
+    /// Iterates accelerations at the nodes; `slowing` of a slip. Whether they settle.
+    fn settle(
+        &self,
+        from: &State,
+        stretch: Stretch,
+        slowing: Option<&[f64; NODES]>,
+        rates: &mut Rates,
+    ) -> bool {
+        let (rule, frame, h) = (self.rule, self.frame, stretch.step_s);
+        let d = frame.degrees();
+        let mut floors = vec![0.0; d - 2];
+        let mut state = State { x: vec![0.0; d], v: vec![0.0; d] };
+        let mut last = f64::INFINITY;
+        let mut pulls = vec![0.0; NODES * (d - 2)];
+        for pass in 0..MOST_PASSES {
+            let mut system = Newton::default();
+            let (mut change, mut size) = (0.0_f64, 0.0_f64);
+            for i in 0..NODES {
+                node(rule, h, from, rates, i, &mut state);
+                let loads = between(&stretch.loads, rule.c[i]);
+                let Forces { push, .. } = frame.forces(&state.x, &state.v, &loads, &mut floors);
+                let a = table(&loads);
+                for (k, (floor, mass)) in floors.iter().zip(&frame.masses_kg).enumerate() {
+                    pulls[i * (d - 2) + k] = -floor / mass - a[k % 2];
+                }
+                let Some(slowing) = slowing else { continue };
+                let w = state.speed();
+                let (r, f) = (norm(w), slowing[i]);
+                let mut rate = push;
+                let mut bend = [[0.0; 2]; 2];
+                if f > 0.0 && r > 0.0 {
+                    let u = [w[0] / r, w[1] / r];
+                    rate = [push[0] - f * u[0], push[1] - f * u[1]];
+                    bend = [0, 1].map(|a| {
+                        [0, 1].map(|b| f / r * (if a == b { 1.0 } else { 0.0 } - u[a] * u[b]))
+                    });
+                }
+                size = size.max(norm(push) + f);
+                system.take(rule, h, i, bend, [rate[0] - rates[0][i], rate[1] - rates[1][i]]);
+            }
+            if slowing.is_some() {
+                let Some(steps) = system.solve() else { return false };
+                for i in 0..NODES {
+                    for axis in 0..2 {
+                        let step = steps[2 * i + axis];
+                        change = change.max(step.abs());
+                        rates[axis][i] += step;
+                    }
+                }
+            }
+            for i in 0..NODES {
+                for k in 2..d {
+                    let rate = pulls[i * (d - 2) + k - 2] - rates[k % 2][i];
+                    change = change.max((rate - rates[k][i]).abs());
+                    size = size.max(rate.abs());
+                    rates[k][i] = rate;
+                }
+            }
+            if !change.is_finite() {
+                return false;
+            }
+            let stalled = pass >= 6 && change >= 0.5 * last && change <= 1e-12 * size;
+            if change <= 4.0 * f64::EPSILON * size || stalled {
+                return true;
+            }
+            last = change;
+        }
+        false
+    }
+
+    /// The motion from accelerations at the nodes.
+    fn step(&self, from: &State, stretch: Stretch, slips: bool, rates: &Rates) -> Step {
+        let (rule, h, d) = (self.rule, stretch.step_s, self.frame.degrees());
+        let (mut x, mut v) = (vec![[0.0; POINTS]; d], vec![[0.0; POINTS]; d]);
+        let mut state = State { x: vec![0.0; d], v: vec![0.0; d] };
+        for i in 0..NODES {
+            node(rule, h, from, rates, i, &mut state);
+            for k in 0..d {
+                (x[k][1 + i], v[k][1 + i]) = (state.x[k], state.v[k]);
+            }
+        }
+        for k in 0..d {
+            let (mut dx, mut dv) = (0.0, 0.0);
+            for j in 0..NODES {
+                let share = rule.weights[j] * rates[k][j];
+                dv += share;
+                dx += share * (1.0 - rule.c[j]);
+            }
+            (x[k][0], v[k][0]) = (from.x[k], from.v[k]);
+            x[k][POINTS - 1] = from.x[k] + h * (from.v[k] + h * dx);
+            v[k][POINTS - 1] = from.v[k] + h * dv;
+        }
+        let most = |list: &[f64; NODES]| list.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
+        let sharpest = most(&rates[0]).max(most(&rates[1]));
+        let tail = if slips && sharpest > 0.0 {
+            let last = |k: usize| rates[..2].iter().map(move |list| coefficient(rule, k, list).abs());
+            last(NODES - 2).chain(last(NODES - 1)).fold(0.0, f64::max) / sharpest
+        } else {
+            0.0
+        };
+        let outset = [v[0][1], v[1][1]];
+        let rates = rates.iter().map(most).collect();
+        Step { stretch, slips, x, v, outset, tail, sharpest, rates }
+    }
+}
+
+/// The state at a node.
+fn node(rule: &Rule, h: f64, from: &State, rates: &Rates, i: usize, state: &mut State) {
+    for k in 0..rates.len() {
+        let (mut dx, mut dv) = (0.0, 0.0);
+        for j in 0..NODES {
+            dv += rule.a[i][j] * rates[k][j];
+            dx += rule.aa[i][j] * rates[k][j];
+        }
+        state.v[k] = from.v[k] + h * dv;
+        state.x[k] = from.x[k] + h * (rule.c[i] * from.v[k] + h * dx);
+    }
+}
+
+/// Legendre's coefficient of values at the nodes.
+fn coefficient(rule: &Rule, k: usize, values: &[f64; NODES]) -> f64 {
+    let terms = (0..NODES).map(|j| rule.weights[j] * legendre(k, 2.0 * rule.c[j] - 1.0) * values[j]);
+    (2 * k + 1) as f64 * terms.sum::<f64>()
+}
+
+/// The linear system of a pass, and its right side.
+struct Newton {
+    rows: [[f64; UNKNOWNS + 1]; UNKNOWNS],
+}
+
+impl Default for Newton {
+    fn default() -> Self {
+        Self { rows: [[0.0; UNKNOWNS + 1]; UNKNOWNS] }
+    }
+}
+
+impl Newton {
+    /// The two rows of a node.
+    fn take(&mut self, rule: &Rule, h: f64, i: usize, bend: [[f64; 2]; 2], off: Pair) {
+        for axis in 0..2 {
+            let row = &mut self.rows[2 * i + axis];
+            for j in 0..NODES {
+                for other in 0..2 {
+                    row[2 * j + other] = h * bend[axis][other] * rule.a[i][j];
+                }
+            }
+            row[2 * i + axis] += 1.0;
+            row[UNKNOWNS] = off[axis];
+        }
+    }
+
+    /// By elimination with row pivots.
+    fn solve(mut self) -> Option<[f64; UNKNOWNS]> {
+        let rows = &mut self.rows;
+        for column in 0..UNKNOWNS {
+            let larger = |a: usize, b: usize| if rows[b][column].abs() > rows[a][column].abs() { b } else { a };
+            let pivot = (column..UNKNOWNS).reduce(larger)?;
+            if rows[pivot][column] == 0.0 {
+                return None;
+            }
+            rows.swap(column, pivot);
+            let own = rows[column];
+            for row in rows.iter_mut().skip(column + 1) {
+                let factor = row[column] / own[column];
+                if factor != 0.0 {
+                    for (value, own) in row.iter_mut().zip(&own).skip(column) {
+                        *value -= factor * own;
+                    }
+                }
+            }
+        }
+        let mut found = [0.0; UNKNOWNS];
+        for i in (0..UNKNOWNS).rev() {
+            let known: f64 = (i + 1..UNKNOWNS).map(|j| rows[i][j] * found[j]).sum();
+            found[i] = (rows[i][UNKNOWNS] - known) / rows[i][i];
+        }
+        Some(found)
+    }
+}
+
+/// When and whether a block that slides comes to rest under a push that lasts.
+///
+/// With `p` frozen and |p| < f it does after `Θ = (f r + p·w)/(f² − p²)`, whatever its direction.
+pub(super) fn time_to_rest(w: Pair, push: Pair, slowing: f64) -> Option<f64> {
+    let (f, p) = (slowing, norm(push));
+    (p < f).then(|| (f * norm(w) + dot(push, w)) / ((f - p) * (f + p)))
+}
+
+/// Sine of the angle between two directions.
+pub(super) fn sine(a: Pair, b: Pair) -> f64 {
+    match (unit(a), unit(b)) {
+        (Some(a), Some(b)) => cross(a, b).abs(),
+        _ => 0.0,
+    }
+}
