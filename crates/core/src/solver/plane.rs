@@ -17,7 +17,7 @@ mod system;
 
 use self::peaks::Peaks;
 use self::record::{Knot, Recorder};
-use self::series::{Accuracy, Kind, Scales, Series};
+use self::series::{Kind, Scales, Series};
 use self::speed::Least;
 use self::stop::Instant;
 use self::system::{Loads, State, norm};
@@ -30,6 +30,7 @@ use crate::error::SolveError;
 use crate::response::{EventInPlane, EventKind, Mode};
 use crate::slider::Direction;
 
+pub(super) use self::series::Accuracy;
 pub(super) use self::straight::{accepts, along, only_axis, placed, solve};
 pub(super) use self::system::System;
 

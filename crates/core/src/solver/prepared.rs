@@ -292,7 +292,8 @@ fn solve_in_plane(
         normal: Normal::new(model, varying.as_deref()),
         sampling,
     };
-    plane::solve(model, system, (ground, y), with_history, Pulse::new(go_on))
+    let how = (with_history, Pulse::new(go_on));
+    plane::solve((model, system), (ground, y), plane::Accuracy::USUAL, how)
 }
 
 fn solve_along_x(

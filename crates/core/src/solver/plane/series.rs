@@ -26,15 +26,15 @@ pub(super) enum Kind {
 
 /// How far a series is taken.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Accuracy {
+pub(in crate::solver) struct Accuracy {
     /// Degree, at most [`DEGREE`].
-    pub(super) order: usize,
+    pub(in crate::solver) order: usize,
     /// Part of the step that the last terms allow.
-    pub(super) part: f64,
+    pub(in crate::solver) part: f64,
 }
 
 impl Accuracy {
-    pub(super) const USUAL: Self = Self { order: DEGREE, part: 1.0 };
+    pub(in crate::solver) const USUAL: Self = Self { order: DEGREE, part: 1.0 };
 }
 
 /// Largest sizes so far, against which terms are negligible.

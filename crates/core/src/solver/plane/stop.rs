@@ -3,7 +3,7 @@
 use super::system::{Loads, State, System, cross, inner, norm};
 
 /// A path below which a slip has stopped, in m.
-const NO_PATH_M: f64 = 1e-18;
+const NO_PATH_M: f64 = 1e-22;
 
 /// Part of the peak of the speed in a slip below which a block rests.
 pub(super) const REST: f64 = 1e-14;

@@ -160,21 +160,10 @@ fn put_along_x(history: &mut History, x: HistoryAlongY) {
 
 /// Solves a model under a motion that is along no axis.
 pub(in crate::solver) fn solve(
-    model: &Model,
-    system: System,
-    (ground, table_y): (Ground<'_>, &[f64]),
-    with_history: bool,
-    pulse: Pulse<'_>,
-) -> Result<Response, SolveError> {
-    solve_by((model, system), (ground, table_y), with_history, (pulse, Accuracy::USUAL))
-}
-
-/// The same to another accuracy.
-pub(super) fn solve_by(
     (model, system): (&Model, System),
     (ground, table_y): (Ground<'_>, &[f64]),
-    with_history: bool,
-    (pulse, accuracy): (Pulse<'_>, Accuracy),
+    accuracy: Accuracy,
+    (with_history, pulse): (bool, Pulse<'_>),
 ) -> Result<Response, SolveError> {
     let state = State::initial(&system, model);
     let law = model.law(false);
