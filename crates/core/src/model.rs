@@ -237,6 +237,18 @@ impl Model {
         })
     }
 
+    /// The same model turned so that what is along y is along x.
+    pub(crate) fn turned_to_y(&self) -> Self {
+        let AlongY { stiffnesses_n_per_m, damping, width_m, initial } = self.along_y();
+        Self {
+            block: Block { width_m, ..self.block },
+            frame: Frame { stiffnesses_n_per_m, damping, ..self.frame.clone() },
+            initial,
+            along_y: None,
+            ..self.clone()
+        }
+    }
+
     /// The same model with contents, in the place of those that it had.
     ///
     /// # Errors

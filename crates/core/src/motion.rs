@@ -178,6 +178,19 @@ impl GroundMotion {
         self.horizontal_y_m_per_s2.as_deref().map(Vec::as_slice)
     }
 
+    /// What of the motion is along x, with the vertical.
+    pub(crate) fn along_x(&self) -> Self {
+        Self { horizontal_y_m_per_s2: None, ..self.clone() }
+    }
+
+    /// What of it is along y as a motion along x, with the vertical.
+    pub(crate) fn along_y(&self) -> Self {
+        match &self.horizontal_y_m_per_s2 {
+            Some(y) => Self { horizontal_m_per_s2: y.clone(), ..self.along_x() },
+            None => self.along_x(),
+        }
+    }
+
     /// Acceleration normal to the sliding surface at the samples, Üv in m/s², positive upwards.
     #[must_use]
     pub fn vertical_m_per_s2(&self) -> Option<&[f64]> {

@@ -7,6 +7,7 @@ mod ground;
 mod modal;
 mod outputs;
 mod phase;
+mod plane;
 mod prepared;
 mod recorder;
 mod slider;

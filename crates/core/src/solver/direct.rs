@@ -15,7 +15,7 @@ use self::peaks::{Peaks, history};
 use super::course::Course;
 use super::ground::{Ground, Stretch};
 use super::outputs::output;
-use super::phase::{Phase, Reached, Segment, fitting};
+use super::phase::{Phase, Reached, Segment, Straight, fitting};
 use super::prepared::InstructionSet;
 use super::slider::{ROUNDING, SliderState};
 use super::tables::system_of;
@@ -206,9 +206,6 @@ impl<'a> Direct<'a> {
 }
 
 impl<'a> Phase<'a> for Direct<'a> {
-    type Expansion = Expansion;
-    type State = State;
-
     fn step(walk: &mut Walk<'a, Self>, sample: usize, from_s: f64) -> Result<(), SolveError> {
         walk.step(sample, from_s)
     }
@@ -221,7 +218,42 @@ impl<'a> Phase<'a> for Direct<'a> {
         Ok(Reached { sample, at_s: 0.0 })
     }
 
-    fn settle(walk: &mut Walk<'a, Self>) {
+    #[inline(always)]
+    fn segment(walk: &mut Walk<'a, Self>, stretch: &Stretch, at_s: f64) -> Result<f64, SolveError> {
+        walk.segment(stretch, at_s)
+    }
+
+    #[inline(always)]
+    fn is_due(walk: &Walk<'a, Self>) -> bool {
+        walk.is_due()
+    }
+
+    #[inline(always)]
+    fn decide(walk: &mut Walk<'a, Self>, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool {
+        walk.decide(stretch, at_s, at_sample)
+    }
+
+    #[inline(always)]
+    fn walk_jump(
+        walk: &mut Walk<'a, Self>,
+        sample: usize,
+        from: [f64; 2],
+        to: [f64; 2],
+    ) -> Result<(), SolveError> {
+        walk.walk_jump(sample, from, to)
+    }
+
+    fn look_beside_jump(walk: &mut Walk<'a, Self>, stretch: &Stretch) {
+        walk.look_beside_jump(stretch);
+    }
+
+    #[inline(always)]
+    fn begin(walk: &mut Walk<'a, Self>) {
+        walk.lean(0.0);
+    }
+
+    fn end(walk: &mut Walk<'a, Self>, end_s: f64) {
+        walk.end_leaning(end_s);
         walk.phase.settle_candidates(&mut walk.course);
     }
 
@@ -234,14 +266,39 @@ impl<'a> Phase<'a> for Direct<'a> {
         };
     }
 
-    // ---- state ----------------------------------------------------------------------------------
-
     fn place(&self, interface: usize) -> [f64; 2] {
         match interface.checked_sub(1) {
             None => [self.x.s, self.x.w],
             Some(i) => [self.x.r[i], self.x.p[i]],
         }
     }
+
+    fn records(&self) -> bool {
+        self.history.is_some()
+    }
+
+    fn record_sample(&mut self, course: &Course<'a>, sample: usize, row: bool) {
+        let normal = self.ground.normal_at(sample).max(0.0);
+        let loads =
+            Loads { acceleration: [self.ground.acceleration[sample], 0.0], normal: [normal, 0.0] };
+        let knot = [self.ground.times_s[sample], self.ground.table[sample]];
+        self.record_knot(course, knot, &loads, row);
+    }
+
+    fn record_between(
+        &mut self,
+        course: &Course<'a>,
+        knot: [f64; 2],
+        (stretch, at_s): (&Stretch, f64),
+        row: bool,
+    ) {
+        self.record_knot(course, knot, &Loads::at(stretch, at_s), row);
+    }
+}
+
+impl<'a> Straight<'a> for Direct<'a> {
+    type Expansion = Expansion;
+    type State = State;
 
     fn put(&mut self, interface: usize, place: [f64; 2]) {
         match interface.checked_sub(1) {
@@ -275,8 +332,6 @@ impl<'a> Phase<'a> for Direct<'a> {
     fn block_kg(&self) -> f64 {
         self.body.joined_kg(0, &self.modes)
     }
-
-    // ---- series ---------------------------------------------------------------------------------
 
     /// Expands the motion from a time of a stretch over as much of it as one series takes.
     fn expand(&mut self, _: &Course<'a>, stretch: &Stretch, from_s: f64) -> Segment {
@@ -397,32 +452,8 @@ impl<'a> Phase<'a> for Direct<'a> {
         }
     }
 
-    // ---- what is kept ---------------------------------------------------------------------------
-
     fn look(&mut self, course: &mut Course<'a>, _: &Stretch, segment: &Segment) {
         self.look_at_outputs(course, segment.part);
-    }
-
-    fn records(&self) -> bool {
-        self.history.is_some()
-    }
-
-    fn record_between(
-        &mut self,
-        course: &Course<'a>,
-        knot: [f64; 2],
-        (stretch, at_s): (&Stretch, f64),
-        row: bool,
-    ) {
-        self.record_knot(course, knot, &Loads::at(stretch, at_s), row);
-    }
-
-    fn record_sample(&mut self, course: &Course<'a>, sample: usize, row: bool) {
-        let normal = self.ground.normal_at(sample).max(0.0);
-        let loads =
-            Loads { acceleration: [self.ground.acceleration[sample], 0.0], normal: [normal, 0.0] };
-        let knot = [self.ground.times_s[sample], self.ground.table[sample]];
-        self.record_knot(course, knot, &loads, row);
     }
 }
 

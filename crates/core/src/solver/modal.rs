@@ -20,7 +20,7 @@ use super::course::Course;
 use super::dense::{self, Dense};
 use super::ground::{Ground, Normal, Roughness, Stretch};
 use super::outputs::{Group, output};
-use super::phase::{Phase, Reached, Segment};
+use super::phase::{Phase, Reached, Segment, Straight};
 use super::recorder::{Knot, Recorder};
 use super::slider::ROUNDING;
 use super::tables::{Batch, LazyPhase, PhaseTables, Tables};
@@ -398,9 +398,6 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
 }
 
 impl<'a, S: Simd, W: Width> Phase<'a> for Modal<'a, S, W> {
-    type Expansion = Motion;
-    type State = Vec<f64>;
-
     #[inline(never)]
     fn step(walk: &mut Walk<'a, Self>, sample: usize, from_s: f64) -> Result<(), SolveError> {
         walk.phase.simd.vectorize(
@@ -424,7 +421,42 @@ impl<'a, S: Simd, W: Width> Phase<'a> for Modal<'a, S, W> {
         Ok(Reached { sample, at_s: 0.0 })
     }
 
-    fn settle(walk: &mut Walk<'a, Self>) {
+    #[inline(always)]
+    fn segment(walk: &mut Walk<'a, Self>, stretch: &Stretch, at_s: f64) -> Result<f64, SolveError> {
+        walk.segment(stretch, at_s)
+    }
+
+    #[inline(always)]
+    fn is_due(walk: &Walk<'a, Self>) -> bool {
+        walk.is_due()
+    }
+
+    #[inline(always)]
+    fn decide(walk: &mut Walk<'a, Self>, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool {
+        walk.decide(stretch, at_s, at_sample)
+    }
+
+    #[inline(always)]
+    fn walk_jump(
+        walk: &mut Walk<'a, Self>,
+        sample: usize,
+        from: [f64; 2],
+        to: [f64; 2],
+    ) -> Result<(), SolveError> {
+        walk.walk_jump(sample, from, to)
+    }
+
+    fn look_beside_jump(walk: &mut Walk<'a, Self>, stretch: &Stretch) {
+        walk.look_beside_jump(stretch);
+    }
+
+    #[inline(always)]
+    fn begin(walk: &mut Walk<'a, Self>) {
+        walk.lean(0.0);
+    }
+
+    fn end(walk: &mut Walk<'a, Self>, end_s: f64) {
+        walk.end_leaning(end_s);
         let simd = walk.phase.simd;
         if let Some((dense, shared)) = Self::sharing(walk) {
             dense.settle(simd, shared);
@@ -462,12 +494,38 @@ impl<'a, S: Simd, W: Width> Phase<'a> for Modal<'a, S, W> {
         self.set_limits();
     }
 
-    // ---- state ----------------------------------------------------------------------------------
-
     #[inline(always)]
     fn place(&self, _: usize) -> [f64; 2] {
         [self.x[0], self.x[1]]
     }
+
+    #[inline(always)]
+    fn records(&self) -> bool {
+        self.recorder.is_some()
+    }
+
+    #[inline(never)]
+    fn record_sample(&mut self, course: &Course<'a>, sample: usize, row: bool) {
+        let normal = self.ground.normal_at(sample).max(0.0);
+        let (table, a) = (self.ground.table[sample], self.ground.acceleration[sample]);
+        self.record_knot(course, self.ground.times_s[sample], [table, a, normal], row);
+    }
+
+    fn record_between(
+        &mut self,
+        course: &Course<'a>,
+        [time_s, table]: [f64; 2],
+        (stretch, at_s): (&Stretch, f64),
+        row: bool,
+    ) {
+        let (a, normal) = (stretch.acceleration_at(at_s), stretch.normal_at(at_s));
+        self.record_knot(course, time_s, [table, a, normal], row);
+    }
+}
+
+impl<'a, S: Simd, W: Width> Straight<'a> for Modal<'a, S, W> {
+    type Expansion = Motion;
+    type State = Vec<f64>;
 
     #[inline(always)]
     fn put(&mut self, _: usize, place: [f64; 2]) {
@@ -504,8 +562,6 @@ impl<'a, S: Simd, W: Width> Phase<'a> for Modal<'a, S, W> {
     fn block_kg(&self) -> f64 {
         self.tables.stick.system.block_mass_kg
     }
-
-    // ---- series ---------------------------------------------------------------------------------
 
     #[inline(always)]
     fn expand(&mut self, _: &Course<'a>, stretch: &Stretch, from_s: f64) -> Segment {
@@ -599,36 +655,11 @@ impl<'a, S: Simd, W: Width> Phase<'a> for Modal<'a, S, W> {
         self.move_motion(part);
     }
 
-    // ---- what is kept ---------------------------------------------------------------------------
-
     #[inline(always)]
     fn look(&mut self, course: &mut Course<'a>, stretch: &Stretch, segment: &Segment) {
         if self.law.has_pads() {
             self.look_at_stop(course, segment.part);
         }
         self.look_at_outputs(stretch, segment);
-    }
-
-    #[inline(always)]
-    fn records(&self) -> bool {
-        self.recorder.is_some()
-    }
-
-    fn record_between(
-        &mut self,
-        course: &Course<'a>,
-        [time_s, table]: [f64; 2],
-        (stretch, at_s): (&Stretch, f64),
-        row: bool,
-    ) {
-        let (a, normal) = (stretch.acceleration_at(at_s), stretch.normal_at(at_s));
-        self.record_knot(course, time_s, [table, a, normal], row);
-    }
-
-    #[inline(never)]
-    fn record_sample(&mut self, course: &Course<'a>, sample: usize, row: bool) {
-        let normal = self.ground.normal_at(sample).max(0.0);
-        let (table, a) = (self.ground.table[sample], self.ground.acceleration[sample]);
-        self.record_knot(course, self.ground.times_s[sample], [table, a, normal], row);
     }
 }

@@ -82,6 +82,11 @@ impl Overturning {
         [self.arm[0], self.block]
     }
 
+    /// What `f` of each mode and the block's acceleration add.
+    pub(super) fn all(&self) -> (&[f64], f64) {
+        (&self.arm, self.block)
+    }
+
     /// The moment of the inertia of floors and block about the sliding surface, in N m.
     pub(super) fn moment(&self, f: &[f64], u: f64) -> f64 {
         self.block * u - dot(&self.arm, f)

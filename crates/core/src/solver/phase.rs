@@ -35,16 +35,10 @@ pub(super) struct Reached {
     pub(super) at_s: f64,
 }
 
-/// The motion between two events: the state of structure, slider and contents, its series in the modes of
-/// a [`Course`], and what is kept of it. Interfaces are numbered, the slider first, then the contents.
-///
-/// What an interface is *asked* for is the force of the slider in N, of contents their acceleration in
-/// m/s², with the *normal* force in the same unit.
+/// The motion between two events: the state of structure, slider and contents, its series, and what is kept
+/// of it. Interfaces are numbered, the slider first, then the contents.
 pub(super) trait Phase<'a>: Sized {
-    /// The motion from an instant on by powers of the time.
-    type Expansion;
-    /// What moves.
-    type State: Clone;
+    // ---- steps ----------------------------------------------------------------------------------
 
     /// [`Walk::step`] by the vector instructions of this.
     fn step(walk: &mut Walk<'a, Self>, sample: usize, from_s: f64) -> Result<(), SolveError>;
@@ -55,16 +49,77 @@ pub(super) trait Phase<'a>: Sized {
     /// Where the analysis is stopped.
     fn run_ahead(walk: &mut Walk<'a, Self>, samples: [usize; 2]) -> Result<Reached, SolveError>;
 
-    /// Settles what may still hold a peak.
-    fn settle(walk: &mut Walk<'a, Self>);
+    /// One segment, up to its end or the first event in it; the time reached.
+    ///
+    /// # Errors
+    /// Where what is reached has no continuation.
+    fn segment(walk: &mut Walk<'a, Self>, stretch: &Stretch, at_s: f64) -> Result<f64, SolveError>;
+
+    /// Whether something waits to be decided.
+    fn is_due(walk: &Walk<'a, Self>) -> bool;
+
+    /// Decides all that is due at an instant; whether something was.
+    fn decide(walk: &mut Walk<'a, Self>, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool;
+
+    /// Goes through a jump at a sample between two pairs of acceleration and normal force: what it releases
+    /// has reached its bound. Displacements and velocities are what they were.
+    ///
+    /// # Errors
+    /// Where the events in it do not end.
+    fn walk_jump(
+        walk: &mut Walk<'a, Self>,
+        sample: usize,
+        from: [f64; 2],
+        to: [f64; 2],
+    ) -> Result<(), SolveError>;
+
+    /// Looks at the outputs under loads that stand.
+    fn look_beside_jump(walk: &mut Walk<'a, Self>, stretch: &Stretch);
+
+    /// What holds from the start.
+    fn begin(walk: &mut Walk<'a, Self>);
+
+    /// Ends at a time what lasts, and settles what may still hold a peak.
+    fn end(walk: &mut Walk<'a, Self>, end_s: f64);
+
+    // ---- state ----------------------------------------------------------------------------------
 
     /// Modes or law have changed.
     fn enter(&mut self, course: &Course<'a>);
 
-    // ---- state ----------------------------------------------------------------------------------
-
-    /// Displacement and velocity of an interface.
+    /// Displacement and velocity of an interface, in two horizontal directions those along x.
     fn place(&self, interface: usize) -> [f64; 2];
+
+    // ---- what is kept ---------------------------------------------------------------------------
+
+    /// Whether a history is wanted.
+    fn records(&self) -> bool;
+
+    /// Records the present state as a knot at a sample, perhaps as a row of the history.
+    fn record_sample(&mut self, course: &Course<'a>, sample: usize, row: bool);
+
+    /// The same between samples, at a time with the acceleration of the table there.
+    fn record_between(
+        &mut self,
+        course: &Course<'a>,
+        knot: [f64; 2],
+        at: (&Stretch, f64),
+        row: bool,
+    );
+}
+
+/// A phase in one direction, in which an interface slides one way or the other: its series in the modes of a
+/// [`Course`].
+///
+/// What an interface is *asked* for is the force of the slider in N, of contents their acceleration in
+/// m/s², with the *normal* force in the same unit.
+pub(super) trait Straight<'a>: Phase<'a> {
+    /// The motion from an instant on by powers of the time.
+    type Expansion;
+    /// What moves.
+    type State: Clone;
+
+    // ---- state ----------------------------------------------------------------------------------
 
     /// Gives the slider or contents a displacement and a velocity that an event fixes.
     fn put(&mut self, interface: usize, place: [f64; 2]);
@@ -152,25 +207,8 @@ pub(super) trait Phase<'a>: Sized {
     /// Moves to a part of what was expanded last.
     fn move_to(&mut self, part: f64);
 
-    // ---- what is kept ---------------------------------------------------------------------------
-
     /// Looks for peaks in the part of the series just gone through.
     fn look(&mut self, course: &mut Course<'a>, stretch: &Stretch, segment: &Segment);
-
-    /// Whether a history is wanted.
-    fn records(&self) -> bool;
-
-    /// Records the present state as a knot at a sample, perhaps as a row of the history.
-    fn record_sample(&mut self, course: &Course<'a>, sample: usize, row: bool);
-
-    /// The same between samples, at a time with the acceleration of the table there.
-    fn record_between(
-        &mut self,
-        course: &Course<'a>,
-        knot: [f64; 2],
-        at: (&Stretch, f64),
-        row: bool,
-    );
 }
 
 /// The length over which a series is expanded, and the part of it that the series serves, at most 1.

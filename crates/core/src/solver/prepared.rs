@@ -16,7 +16,7 @@ use super::summary::Outcome;
 use super::tables::{self, Tables};
 use super::walk::Walk;
 use super::workspace::Workspace;
-use super::{direct, summary};
+use super::{direct, plane, summary};
 use crate::error::SolveError;
 use crate::linear::lanes::{Many, One, Width};
 use crate::model::Model;
@@ -247,6 +247,55 @@ impl Job for TablesOf<'_> {
 }
 
 fn solve(
+    instructions: InstructionSet,
+    model: &Model,
+    tables: &Tables,
+    (motion, sampling): (&GroundMotion, &Sampling),
+    how: (bool, GoOn<'_>),
+    workspace: &mut Workspace,
+) -> Result<Response, SolveError> {
+    match motion.horizontal_y_m_per_s2() {
+        None => solve_along_x(instructions, model, tables, (motion, sampling), how, workspace),
+        Some(y) => solve_in_plane(instructions, model, (motion, sampling, y), how),
+    }
+}
+
+/// The same in two horizontal directions: by the solver in one where nothing moves along the other.
+fn solve_in_plane(
+    instructions: InstructionSet,
+    model: &Model,
+    (motion, sampling, y): (&GroundMotion, &Sampling, &[f64]),
+    (with_history, go_on): (bool, GoOn<'_>),
+) -> Result<Response, SolveError> {
+    plane::accepts(model)?;
+    if let Some(axis) = plane::only_axis(model, motion) {
+        let (model, motion) = plane::along(model, motion, axis);
+        let tables = tables_of(&model, sampling.dt_s);
+        let (ground, how) = ((&motion, sampling), (with_history, go_on));
+        let workspace = &mut Workspace::default();
+        let response = solve_along_x(instructions, &model, &tables, ground, how, workspace)?;
+        return Ok(plane::placed(response, axis));
+    }
+    let system = plane::System::new(model);
+    let masses = 1.0 + 2.0 * model.storeys() as f64;
+    let (rate, limit) = (system.rate_rad_per_s, WORK_LIMIT);
+    let work = rate * motion.duration_s() * masses * masses;
+    if !(work <= limit) {
+        return Err(SolveError::TooMuchWork { work, limit, advice: advice(model, motion, rate) });
+    }
+    recorder::fits(model, 2 * motion.len())?;
+    let varying: Option<Vec<f64>> = varying_normal(model, motion).map(Iterator::collect);
+    let ground = Ground {
+        times_s: motion.times_s(),
+        table: motion.horizontal_m_per_s2(),
+        acceleration: motion.horizontal_m_per_s2(),
+        normal: Normal::new(model, varying.as_deref()),
+        sampling,
+    };
+    plane::solve(model, system, (ground, y), with_history, Pulse::new(go_on))
+}
+
+fn solve_along_x(
     instructions: InstructionSet,
     model: &Model,
     tables: &Tables,

@@ -212,3 +212,8 @@ pub(super) fn first_crossing(distance: &Polynomial, to: f64) -> Option<f64> {
     let order = (1..=DEGREE).find(|&k| distance[k] != 0.0)?;
     first_root(&deflated(distance, order), to)
 }
+
+/// Order of the first coefficient that is more than rounding.
+pub(super) fn leading(p: &Polynomial, rounding: f64) -> Option<usize> {
+    (0..=DEGREE).find(|&k| p[k].abs() > rounding)
+}

@@ -11,7 +11,7 @@ use fearless_simd::prelude::*;
 use super::super::course::Course;
 use super::super::modal::bound_between;
 use super::super::outputs::output;
-use super::super::phase::Phase;
+use super::super::phase::{Phase, Straight};
 use super::super::prepared::Job;
 use super::super::walk::Walk;
 use super::Direct;

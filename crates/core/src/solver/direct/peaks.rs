@@ -5,7 +5,7 @@ use core::ops::Range;
 use super::super::course::Course;
 use super::super::ground::Ground;
 use super::super::outputs::output;
-use super::super::phase::Phase;
+use super::super::phase::Straight;
 use super::Direct;
 use super::body::{Body, Expansion, Loads};
 use crate::linear::polynomial::{

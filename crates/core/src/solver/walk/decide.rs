@@ -14,11 +14,11 @@
 
 use super::super::course::{AMBIGUOUS, Release};
 use super::super::ground::{Stretch, jump};
-use super::super::phase::{Phase, Segment};
-use super::super::slider::{ROUNDING, Start, falls_below, first_crossing};
+use super::super::phase::{Segment, Straight};
+use super::super::slider::{ROUNDING, Start, falls_below, first_crossing, leading};
 use super::Walk;
 use crate::error::SolveError;
-use crate::linear::polynomial::{DEGREE, Polynomial, curvature_bound, value};
+use crate::linear::polynomial::{Polynomial, curvature_bound, value};
 use crate::response::{EventKind, Mode};
 use crate::slider::{Direction, Memory};
 
@@ -38,12 +38,7 @@ struct InForce {
     memory: Memory,
 }
 
-/// Order of the first coefficient that is more than rounding.
-fn leading(p: &Polynomial, rounding: f64) -> Option<usize> {
-    (0..=DEGREE).find(|&k| p[k].abs() > rounding)
-}
-
-impl<'a, P: Phase<'a>> Walk<'a, P> {
+impl<'a, P: Straight<'a>> Walk<'a, P> {
     // ---- rounding -------------------------------------------------------------------------------
 
     /// What is rounding of the velocity of an interface at a part of a series: of `Σ |c_k| x^k`, or of the
@@ -178,7 +173,12 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
 
     /// Decides all that is due at an instant; whether something was.
     #[inline(always)]
-    pub(super) fn decide(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool {
+    pub(in crate::solver) fn decide(
+        &mut self,
+        stretch: &Stretch,
+        at_s: f64,
+        at_sample: bool,
+    ) -> bool {
         match self.decide_beyond_doubt(stretch, at_s, at_sample) {
             Some(decided) => decided,
             None => self.decide_by_series(stretch, at_s, at_sample),
@@ -455,7 +455,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     /// Goes through a jump of the loads: what it releases has reached its bound. Displacements and
     /// velocities are what they were.
     #[inline(always)]
-    pub(super) fn walk_jump(
+    pub(in crate::solver) fn walk_jump(
         &mut self,
         sample: usize,
         from: [f64; 2],

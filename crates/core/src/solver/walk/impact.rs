@@ -2,7 +2,7 @@
 
 use super::super::course::Near;
 use super::super::ground::Stretch;
-use super::super::phase::Phase;
+use super::super::phase::Straight;
 use super::Walk;
 use crate::linear::polynomial::{deflated, first_root, value};
 use crate::response::{EventKind, Mode};
@@ -17,7 +17,7 @@ const LEAST_BOUNCE: f64 = 4.0 * f64::EPSILON;
 /// Longest remaining time of infinitely many bounces, as a part of the whole time: it is left out.
 const LONGEST_REST: f64 = 8.0 * f64::EPSILON;
 
-impl<'a, P: Phase<'a>> Walk<'a, P> {
+impl<'a, P: Straight<'a>> Walk<'a, P> {
     /// Moves to a part of the series beside a stop that has just been struck; further away `s` itself has
     /// the digits.
     #[inline(never)]
@@ -67,7 +67,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     }
 
     /// Begins or ends the time at rest at a rigid stop.
-    pub(super) fn lean(&mut self, time_s: f64) {
+    pub(in crate::solver) fn lean(&mut self, time_s: f64) {
         self.end_leaning(time_s);
         let is_stuck = self.course.block.mode == Mode::Stick;
         if is_stuck && self.phase.hold(&self.course, 0).leans != [false; 2] {
@@ -75,7 +75,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         }
     }
 
-    pub(super) fn end_leaning(&mut self, time_s: f64) {
+    pub(in crate::solver) fn end_leaning(&mut self, time_s: f64) {
         if let Some(since_s) = self.leans_since_s.take() {
             self.course.slider.stopping.demands.contact_time_s += time_s - since_s;
         }

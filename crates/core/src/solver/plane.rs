@@ -1,0 +1,303 @@
+//! The motion in two horizontal directions: one slider whose friction is the same in all of them.
+//!
+//! In stick and in slip far from rest it is a Taylor series in the time (`series`), near rest one in a time that
+//! slows down with the speed (`near_rest`), in which nothing is singular. What is in between is in `stop`: where
+//! a slip has come to rest. Peaks are those of the continuous motion (`peaks`).
+
+mod near_rest;
+mod peaks;
+mod record;
+mod series;
+mod speed;
+mod steps;
+mod stop;
+mod straight;
+mod summary;
+mod system;
+
+use self::peaks::Peaks;
+use self::record::{Knot, Recorder};
+use self::series::{Accuracy, Kind, Scales, Series};
+use self::speed::Least;
+use self::stop::Instant;
+use self::system::{Loads, State, norm};
+use super::course::{self, Course};
+use super::ground::{Ground, Stretch};
+use super::phase::{Phase, Reached};
+use super::slider::leading;
+use super::walk::Walk;
+use crate::error::SolveError;
+use crate::response::{EventInPlane, EventKind, Mode};
+use crate::slider::Direction;
+
+pub(super) use self::straight::{accepts, along, only_axis, placed, solve};
+pub(super) use self::system::System;
+
+/// In two directions a slip is positive along its own velocity.
+const SLIP: Mode = Mode::Slip(Direction::Positive);
+
+/// State, series and peaks of an analysis in two horizontal directions.
+pub(super) struct Plane<'a> {
+    ground: Ground<'a>,
+    /// `Ü_y` at the samples.
+    table_y: &'a [f64],
+    system: System,
+    state: State,
+    /// Of friction: that of the last velocity, where there is none.
+    direction: [f64; 2],
+    /// A slip starts from rest, or goes on through it.
+    starts: bool,
+    /// A stick has reached its bound.
+    is_released: bool,
+    /// Largest speed of this slip.
+    peak_speed: f64,
+    series: Series,
+    scales: Scales,
+    peaks: Peaks,
+    least: Least,
+    path_m: f64,
+    events: Vec<EventInPlane>,
+    recorder: Option<Recorder>,
+    /// Room for `g`, and for a sum of each mode.
+    scratch: [Vec<f64>; 2],
+}
+
+impl<'a> Plane<'a> {
+    fn new(
+        (system, state): (System, State),
+        (ground, table_y): (Ground<'a>, &'a [f64]),
+        accuracy: Accuracy,
+        with_history: bool,
+    ) -> Self {
+        let speed = norm(state.w);
+        let mut scales = Scales::default();
+        scales.note(&state);
+        let modes = system.modes();
+        Self {
+            ground,
+            table_y,
+            direction: if speed > 0.0 { state.w.map(|w| w / speed) } else { [0.0; 2] },
+            starts: false,
+            is_released: false,
+            peak_speed: speed,
+            series: Series::new(&system, accuracy),
+            scales,
+            peaks: Peaks::new(&system, state.s),
+            least: Least::default(),
+            path_m: 0.0,
+            events: Vec::new(),
+            recorder: with_history.then(|| Recorder::new(system.storeys)),
+            scratch: [vec![0.0; modes], vec![0.0; modes]],
+            system,
+            state,
+        }
+    }
+
+    // ---- loads ----------------------------------------------------------------------------------
+
+    /// Those from a time of a stretch on.
+    fn loads(&self, stretch: &Stretch, at_s: f64) -> Loads {
+        let (times_s, y, i) = (self.ground.times_s, self.table_y, stretch.interval);
+        // Loads of an interval without length, or beyond the last, stand.
+        let length_s = times_s.get(i + 1).map_or(0.0, |next_s| next_s - times_s[i]);
+        let y_rate = if length_s > 0.0 { (y[i + 1] - y[i]) * (1.0 / length_s) } else { 0.0 };
+        let x = [stretch.acceleration_at(at_s), stretch.acceleration_rate];
+        let normal_n = stretch.normal_at(at_s);
+        Loads {
+            table: [x, [y[i] + y_rate * at_s, y_rate]],
+            normal: [normal_n, stretch.normal_rate],
+        }
+    }
+
+    fn instant(&mut self, loads: &Loads) -> Instant {
+        Instant::new(&self.system, &self.state, loads, &mut self.scratch[0])
+    }
+
+    // ---- decisions ------------------------------------------------------------------------------
+
+    /// Whether it slides without a velocity where friction could hold it.
+    fn has_stopped(&self, course: &Course<'a>) -> bool {
+        course.block.mode != Mode::Stick && !self.starts && self.state.w == [0.0; 2]
+    }
+
+    /// What is due at an instant, and by which margin it was decided; a slip that goes on through rest is none.
+    fn due(&mut self, course: &Course<'a>, stretch: &Stretch, at_s: f64) -> Option<Due> {
+        let is_stuck = course.block.mode == Mode::Stick;
+        if !(is_stuck || self.has_stopped(course)) {
+            return None;
+        }
+        let loads = self.loads(stretch, at_s);
+        let at = self.instant(&loads);
+        let (push, holds) = (norm(at.push), at.holds);
+        if is_stuck {
+            let leaves = core::mem::take(&mut self.is_released) || self.leaves(loads);
+            return leaves.then(|| Due::Slip(at.push.map(|p| p / push)));
+        }
+        if push <= holds {
+            let margin = (holds > 0.0).then(|| (push - holds).abs() / holds);
+            return Some(Due::Stick(margin));
+        }
+        self.starts = true;
+        None
+    }
+
+    /// Whether a stick is beyond its bound, or at it and about to leave it: the first derivative of the distance
+    /// that does not vanish is negative.
+    fn leaves(&mut self, loads: Loads) -> bool {
+        self.expand_stick(loads, 0.0);
+        let [now, ..] = self.distance();
+        let rounding = self.rounding_of_distance();
+        if now.abs() > rounding {
+            return now < 0.0;
+        }
+        self.expand_stick(loads, 1e-3);
+        let distance = self.distance();
+        leading(&distance, rounding).is_some_and(|k| distance[k] < 0.0)
+    }
+
+    fn record_knot(&mut self, mode: Mode, [time_s, x, y]: [f64; 3], normal_n: f64, row: bool) {
+        let Some(recorder) = &mut self.recorder else { return };
+        let (system, table) = (&self.system, [x, y]);
+        let loads = Loads { table: table.map(|a| [a, 0.0]), normal: [normal_n, 0.0] };
+        let at = Instant::new(system, &self.state, &loads, &mut self.scratch[0]);
+        let (block, friction_n) = match mode {
+            Mode::Stick => (table, at.push.map(|p| -system.block_kg * p)),
+            Mode::Slip(_) => {
+                let taken = self.direction.map(|u| at.friction * u);
+                let block = [at.pull[0] - taken[0], at.pull[1] - taken[1]];
+                (block, taken.map(|f| -system.block_kg * f))
+            }
+        };
+        let State { s, w, eta, rate } = &self.state;
+        let (s, w, g) = (*s, *w, &self.scratch[0]);
+        let knot = Knot { time_s, mode, table, s, w, block, friction_n, eta, rate, g };
+        recorder.store(system, &knot, row);
+    }
+}
+
+/// What is due.
+enum Due {
+    Stick(Option<f64>),
+    /// A slip in a direction.
+    Slip([f64; 2]),
+}
+
+impl<'a> Phase<'a> for Plane<'a> {
+    fn step(walk: &mut Walk<'a, Self>, sample: usize, from_s: f64) -> Result<(), SolveError> {
+        walk.step(sample, from_s)
+    }
+
+    fn run_ahead(_: &mut Walk<'a, Self>, [sample, _]: [usize; 2]) -> Result<Reached, SolveError> {
+        Ok(Reached { sample, at_s: 0.0 })
+    }
+
+    fn segment(walk: &mut Walk<'a, Self>, stretch: &Stretch, at_s: f64) -> Result<f64, SolveError> {
+        let to_s = match walk.course.block.mode {
+            Mode::Stick => walk.phase.hold(stretch, at_s),
+            Mode::Slip(_) => walk.phase.slide(stretch, at_s),
+        };
+        // Steps without length are as many as events at most.
+        walk.course.events_in_interval += 1;
+        if walk.phase.series.kind == Kind::NearRest && to_s < stretch.to_s {
+            walk.record(stretch, to_s, false);
+        }
+        Ok(to_s)
+    }
+
+    fn is_due(walk: &Walk<'a, Self>) -> bool {
+        walk.phase.is_released || walk.phase.has_stopped(&walk.course)
+    }
+
+    fn decide(walk: &mut Walk<'a, Self>, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool {
+        let Some(due) = walk.phase.due(&walk.course, stretch, at_s) else { return false };
+        walk.note_before(stretch, at_s, at_sample);
+        let at = course::Instant {
+            time_s: walk.ground.times_s[stretch.interval] + at_s,
+            place_m: walk.phase.state.s[0],
+            normal_n: stretch.normal_at(at_s),
+            mass_kg: walk.phase.system.block_kg,
+        };
+        let (course, phase) = (&mut walk.course, &mut walk.phase);
+        let direction = match due {
+            Due::Stick(margin) => {
+                course.block.sliding.decide(margin);
+                course.block.sliding.end(at.time_s, at.place_m);
+                course.block.mode = Mode::Stick;
+                course.push(&at, EventKind::Stick);
+                [0.0; 2]
+            }
+            Due::Slip(direction) => {
+                course.block.mode = SLIP;
+                course.block.sliding.begin(at.time_s, at.place_m);
+                course.push(&at, EventKind::Slip);
+                (phase.direction, phase.starts, phase.peak_speed) = (direction, true, 0.0);
+                direction
+            }
+        };
+        phase.least.interrupt();
+        let sliding_displacement_y_m = phase.state.s[1];
+        phase.events.push(EventInPlane { direction, sliding_displacement_y_m });
+        true
+    }
+
+    /// Velocities are what they were, and one slider has one bound: the right side alone decides.
+    fn walk_jump(
+        _: &mut Walk<'a, Self>,
+        _: usize,
+        _: [f64; 2],
+        _: [f64; 2],
+    ) -> Result<(), SolveError> {
+        Ok(())
+    }
+
+    fn look_beside_jump(walk: &mut Walk<'a, Self>, stretch: &Stretch) {
+        let loads = walk.phase.loads(stretch, 0.0);
+        let phase = &mut walk.phase;
+        let kind = match walk.course.block.mode {
+            Mode::Stick => Kind::Stick,
+            Mode::Slip(_) if loads.normal[0] * phase.system.kinetic_per_kg == 0.0 => {
+                Kind::Frictionless
+            }
+            Mode::Slip(_) if phase.state.w == [0.0; 2] => Kind::Start,
+            Mode::Slip(_) => Kind::Slip,
+        };
+        let (system, scales) = (&phase.system, &phase.scales);
+        phase.series.expand(system, (kind, &phase.state), (loads, 1e-3), scales);
+        let from_s = walk.ground.times_s[stretch.interval];
+        phase.peaks.look(&phase.system, &phase.series, 0.0, from_s);
+        phase.starts = false;
+    }
+
+    fn begin(_: &mut Walk<'a, Self>) {}
+
+    fn end(_: &mut Walk<'a, Self>, _: f64) {}
+
+    fn enter(&mut self, _: &Course<'a>) {}
+
+    fn place(&self, _: usize) -> [f64; 2] {
+        [self.state.s[0], self.state.w[0]]
+    }
+
+    fn records(&self) -> bool {
+        self.recorder.is_some()
+    }
+
+    fn record_sample(&mut self, course: &Course<'a>, sample: usize, row: bool) {
+        let ground = &self.ground;
+        let normal_n = ground.normal_at(sample).max(0.0);
+        let knot = [ground.times_s[sample], ground.table[sample], self.table_y[sample]];
+        self.record_knot(course.block.mode, knot, normal_n, row);
+    }
+
+    fn record_between(
+        &mut self,
+        course: &Course<'a>,
+        [time_s, table]: [f64; 2],
+        (stretch, at_s): (&Stretch, f64),
+        row: bool,
+    ) {
+        let loads = self.loads(stretch, at_s);
+        let [_, [table_y, _]] = loads.table;
+        self.record_knot(course.block.mode, [time_s, table, table_y], loads.normal[0], row);
+    }
+}

@@ -1,0 +1,446 @@
+//! Peaks of the continuous motion: of resultants and by axis.
+//!
+//! A vector departs from its chord over a part of a step by no more than an eighth of its largest second
+//! derivative times the square of the part: where the ends and that bound cannot exceed what has been attained,
+//! nothing is looked for; else the part is halved.
+
+use super::series::{Kind, Series, square};
+use super::stop::Arc;
+use super::system::{System, norm};
+use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, curvature_bound, largest, value};
+
+/// A relative difference of peaks that is rounding.
+const ROUNDING: f64 = 1e-15;
+
+/// Most parts of a step that are looked at.
+const MOST_PARTS: usize = 4096;
+
+/// Peaks of a vector: of its length, and of its components as sizes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Peak {
+    pub(super) norm: f64,
+    pub(super) axes: [f64; 2],
+}
+
+impl Peak {
+    /// Notes a value; whether its length is the largest so far.
+    #[inline(always)]
+    fn note(&mut self, [x, y]: [f64; 2]) -> bool {
+        self.axes = [self.axes[0].max(x.abs()), self.axes[1].max(y.abs())];
+        let size = norm([x, y]);
+        let is_largest = size > self.norm;
+        if is_largest {
+            self.norm = size;
+        }
+        is_largest
+    }
+
+    /// Notes the values at both ends of a step; which end is the farthest so far, if one is.
+    fn note_ends(&mut self, ends: [[f64; 2]; 2], to: f64) -> Option<f64> {
+        let first = self.note(ends[0]).then_some(0.0);
+        self.note(ends[1]).then_some(to).or(first)
+    }
+
+    /// Looks for peaks of a series over `[0, to]`; where its length is largest, if that is new.
+    fn look(&mut self, of: &[Polynomial; 2], to: f64) -> Option<f64> {
+        let at = |x: f64| [value(&of[0], x), value(&of[1], x)];
+        let ends = [[of[0][0], of[1][0]], at(to)];
+        let best = self.note_ends(ends, to);
+        let bends = [bend(&of[0], to), bend(&of[1], to)];
+        for axis in 0..2 {
+            let component = Arch { bend: bends[axis], ends: ends.map(|v| v[axis].abs()), to };
+            component.search(|x| value(&of[axis], x).abs(), &mut self.axes[axis]);
+        }
+        if norm(ends[0]).max(norm(ends[1])) + norm(bends) <= self.norm * (1.0 + ROUNDING) {
+            return best;
+        }
+        let q = squared(of);
+        let arch = Arch { bend: bend(&q, to), ends: ends.map(|v| v[0] * v[0] + v[1] * v[1]), to };
+        self.search_length(&arch, |x| value(&q, x), best)
+    }
+
+    /// Looks for the largest square of the length.
+    fn search_length(
+        &mut self,
+        arch: &Arch,
+        of: impl Fn(f64) -> f64,
+        best: Option<f64>,
+    ) -> Option<f64> {
+        let mut largest = self.norm * self.norm;
+        let found = arch.search(of, &mut largest);
+        if found.is_some() {
+            self.norm = self.norm.max(largest.sqrt());
+        }
+        found.or(best)
+    }
+}
+
+/// A function over `[0, to]`: its values at the ends, and how far it departs from its chord.
+struct Arch {
+    bend: f64,
+    ends: [f64; 2],
+    to: f64,
+}
+
+impl Arch {
+    /// Looks for values above what has been attained; where the largest is, if there is one.
+    fn search(&self, of: impl Fn(f64) -> f64, attained: &mut f64) -> Option<f64> {
+        let [first, last] = self.ends;
+        let is_below = |ends: [f64; 2], part: f64, attained: f64| {
+            ends[0].max(ends[1]) + self.bend * (part * part) <= attained * (1.0 + ROUNDING)
+        };
+        if self.to == 0.0 || is_below(self.ends, 1.0, *attained) {
+            return None;
+        }
+        let mut best = None;
+        let mut parts = vec![[(0.0, first), (self.to, last)]];
+        for _ in 0..MOST_PARTS {
+            let Some([(a, of_a), (b, of_b)]) = parts.pop() else { break };
+            if is_below([of_a, of_b], (b - a) / self.to, *attained) {
+                continue;
+            }
+            let middle = 0.5 * (a + b);
+            let here = of(middle);
+            if here > *attained {
+                (*attained, best) = (here, Some(middle));
+            }
+            parts.push([(middle, here), (b, of_b)]);
+            parts.push([(a, of_a), (middle, here)]);
+        }
+        best
+    }
+}
+
+/// Places of the outputs; those of the storeys follow.
+#[derive(Clone, Copy)]
+pub(super) enum Output {
+    Velocity,
+    Block,
+    Friction,
+    Slider,
+    Shear,
+    /// By axis only.
+    Moment,
+    Displacement(usize),
+    Acceleration(usize),
+    Drift(usize),
+}
+
+impl Output {
+    fn place(self, storeys: usize) -> usize {
+        match self {
+            Self::Velocity => 0,
+            Self::Block => 1,
+            Self::Friction => 2,
+            Self::Slider => 3,
+            Self::Shear => 4,
+            Self::Moment => 5,
+            Self::Displacement(i) => 6 + i,
+            Self::Acceleration(i) => 6 + storeys + i,
+            Self::Drift(i) => 6 + 2 * storeys + i,
+        }
+    }
+}
+
+/// All peaks.
+pub(super) struct Peaks {
+    storeys: usize,
+    all: Vec<Peak>,
+    /// Of `s`: its length, when that was largest and where; largest and smallest by axis.
+    pub(super) sliding: Peak,
+    pub(super) peak_time_s: f64,
+    pub(super) peak_place: [f64; 2],
+    pub(super) largest: [f64; 2],
+    pub(super) smallest: [f64; 2],
+}
+
+/// What a vector output is made of: `A − c φ`, with `φ = f u`, in stick `p`.
+struct Composed {
+    steady: [Polynomial; 2],
+    of_friction: f64,
+}
+
+/// `φ = f u` near rest, where it is no series: bounds of its size and of its first two derivatives.
+struct NearRest {
+    friction: [f64; 2],
+    sizes: [f64; 3],
+}
+
+/// An eighth of the bound on the second derivative over a part.
+#[inline(always)]
+pub(super) fn bend(c: &Polynomial, to: f64) -> f64 {
+    if to == 1.0 {
+        return 0.125 * curvature_bound(c);
+    }
+    let mut bound = 0.0;
+    for k in (2..=DEGREE).rev() {
+        bound = bound * to + (k * (k - 1)) as f64 * c[k].abs();
+    }
+    0.125 * bound * (to * to)
+}
+
+/// `Σ k |c_k| x^(k−1)` and `Σ |c_k| x^k`.
+fn bounds(c: &Polynomial, x: f64) -> [f64; 2] {
+    let (mut size, mut slope) = (0.0, 0.0);
+    for k in (0..=DEGREE).rev() {
+        size = size * x + c[k].abs();
+        if k > 0 {
+            slope = slope * x + k as f64 * c[k].abs();
+        }
+    }
+    [slope, size]
+}
+
+fn scaled(c: &Polynomial, factor: f64) -> Polynomial {
+    c.map(|c| factor * c)
+}
+
+impl Peaks {
+    pub(super) fn new(system: &System, s: [f64; 2]) -> Self {
+        let mut sliding = Peak::default();
+        sliding.note(s);
+        Self {
+            storeys: system.storeys,
+            all: vec![Peak::default(); 6 + 3 * system.storeys],
+            sliding,
+            peak_time_s: 0.0,
+            peak_place: s,
+            largest: s,
+            smallest: s,
+        }
+    }
+
+    pub(super) fn of(&self, output: Output) -> Peak {
+        self.all[output.place(self.storeys)]
+    }
+
+    /// Looks for peaks in the first part of a series that begins at a time.
+    pub(super) fn look(&mut self, system: &System, series: &Series, to: f64, from_s: f64) {
+        if series.kind != Kind::Stick {
+            self.look_at_sliding(series, to, from_s);
+            self.look_at(Output::Velocity, &series.w, to);
+        }
+        self.look_at_block(system, series, to);
+        if system.storeys == 0 {
+            return;
+        }
+        self.look_at(Output::Shear, &series.shear, to);
+        for i in 0..system.storeys {
+            let of = |list: &[f64], row: &dyn Fn(usize) -> Vec<f64>| {
+                [0, 1].map(|axis| combined(&row(axis), list, series.accuracy.order))
+            };
+            let floor = |axis: usize| system.floor(axis, i).to_vec();
+            self.look_at(Output::Displacement(i), &of(&series.eta, &floor), to);
+            let against = |axis: usize| system.floor(axis, i).iter().map(|x| -x).collect();
+            self.look_at(Output::Acceleration(i), &of(&series.g, &against), to);
+            if i > 0 {
+                let drift = |axis: usize| system.drift(axis, i).to_vec();
+                self.look_at(Output::Drift(i), &of(&series.eta, &drift), to);
+            }
+        }
+    }
+
+    fn look_at(&mut self, output: Output, of: &[Polynomial; 2], to: f64) {
+        self.all[output.place(self.storeys)].look(of, to);
+    }
+
+    fn look_at_sliding(&mut self, series: &Series, to: f64, from_s: f64) {
+        let s = &series.s;
+        if let Some(x) = self.sliding.look(s, to) {
+            self.peak_time_s = from_s + value(&series.time, x);
+            self.peak_place = [value(&s[0], x), value(&s[1], x)];
+        }
+        let bends = [bend(&s[0], to), bend(&s[1], to)];
+        // The sign of a new extreme by axis.
+        for axis in 0..2 {
+            let ends = [s[axis][0], value(&s[axis], to)];
+            let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+            self.largest[axis] = self.largest[axis].max(high);
+            self.smallest[axis] = self.smallest[axis].min(low);
+            if high + bends[axis] > self.largest[axis] {
+                let c = &s[axis];
+                self.largest[axis] = largest(c, to, self.largest[axis]);
+            }
+            if low - bends[axis] < self.smallest[axis] {
+                let c = scaled(&s[axis], -1.0);
+                let attained = -self.smallest[axis];
+                self.smallest[axis] = -largest(&c, to, attained);
+            }
+        }
+    }
+
+    /// The outputs that friction is part of.
+    fn look_at_block(&mut self, system: &System, series: &Series, to: f64) {
+        let near = (series.kind == Kind::NearRest).then(|| near_rest(system, series, to));
+        let pull = &series.pull;
+        let block = Composed { steady: *pull, of_friction: 1.0 };
+        let friction = Composed { steady: [ZERO; 2], of_friction: system.block_kg };
+        let slider = Composed {
+            steady: [0, 1].map(|k| slider_part(system, pull, &series.shear, k)),
+            of_friction: system.block_kg,
+        };
+        self.look_at_composed(Output::Block, &block, series, near.as_ref(), to);
+        self.look_at_composed(Output::Friction, &friction, series, near.as_ref(), to);
+        self.look_at_composed(Output::Slider, &slider, series, near.as_ref(), to);
+        for axis in 0..2 {
+            let Some((arm, block)) = &system.overturning[axis] else { continue };
+            // The moment of floors and block: −arm·g + block·b; the other axis is nothing.
+            let modes = combined(arm, &series.g, series.accuracy.order);
+            let mut steady = [ZERO; 2];
+            steady[axis] = core::array::from_fn(|k| block * pull[axis][k] - modes[k]);
+            let moment = Composed { steady, of_friction: *block };
+            self.look_at_moment(axis, &moment, series, near.as_ref(), to);
+        }
+    }
+
+    fn look_at_composed(
+        &mut self,
+        output: Output,
+        composed: &Composed,
+        series: &Series,
+        near: Option<&NearRest>,
+        to: f64,
+    ) {
+        let (a, c) = (&composed.steady, composed.of_friction);
+        match near {
+            None => {
+                let of = [0, 1].map(|k| -> Polynomial {
+                    core::array::from_fn(|i| a[k][i] - c * series.friction[k][i])
+                });
+                self.look_at(output, &of, to);
+            }
+            Some(near) => {
+                let peak = &mut self.all[output.place(self.storeys)];
+                near.look(peak, composed, series, to);
+            }
+        }
+    }
+
+    fn look_at_moment(
+        &mut self,
+        axis: usize,
+        moment: &Composed,
+        series: &Series,
+        near: Option<&NearRest>,
+        to: f64,
+    ) {
+        let kept = self.all[Output::Moment.place(self.storeys)];
+        self.look_at_composed(Output::Moment, moment, series, near, to);
+        let peak = &mut self.all[Output::Moment.place(self.storeys)];
+        peak.axes[1 - axis] = kept.axes[1 - axis];
+        // Lengths mean nothing here: kept out of the way.
+        peak.norm = f64::INFINITY;
+    }
+
+    /// Notes the outputs that friction is part of on the arc at a stop, from `P` and `L g` at both of its ends.
+    pub(super) fn note_arc(
+        &mut self,
+        system: &System,
+        arc: &Arc,
+        (pulls, shears_n): ([[f64; 2]; 2], [[f64; 2]; 2]),
+    ) {
+        let kg = system.block_kg;
+        let slider = [0, 1].map(|i| [0, 1].map(|k| kg * pulls[i][k] - shears_n[i][k]));
+        let of = [
+            (Output::Block, pulls, arc.friction),
+            (Output::Friction, [[0.0; 2]; 2], kg * arc.friction),
+            (Output::Slider, slider, kg * arc.friction),
+        ];
+        for (output, [from, to], c) in of {
+            let peak = &mut self.all[output.place(self.storeys)];
+            for u in arc.extremes(to) {
+                let left = arc.part_left(u);
+                peak.note([0, 1].map(|k| (to[k] + (from[k] - to[k]) * left) - c * u[k]));
+            }
+        }
+    }
+}
+
+/// `M1 P − L g`.
+fn slider_part(
+    system: &System,
+    pull: &[Polynomial; 2],
+    shear: &[Polynomial; 2],
+    axis: usize,
+) -> Polynomial {
+    core::array::from_fn(|k| system.block_kg * pull[axis][k] - shear[axis][k])
+}
+
+/// A row of the modes as a series.
+fn combined(row: &[f64], list: &[f64], order: usize) -> Polynomial {
+    let modes = row.len();
+    let mut sums = ZERO;
+    for (sum, of_k) in sums[..=order].iter_mut().zip(list.chunks_exact(modes.max(1))) {
+        for (row, x) in row.iter().zip(of_k) {
+            *sum += row * x;
+        }
+    }
+    sums
+}
+
+/// `φ = f u` near rest, with `u' = u⊥ (p·u⊥)` in `τ`:
+/// `|u'| ≤ |p|`, `|u''| ≤ 2 |p|² + |p'|`.
+fn near_rest(system: &System, series: &Series, to: f64) -> NearRest {
+    let [f, f_rate] = series.loads.normal.map(|n| system.kinetic_per_kg * n);
+    let h = series.unit;
+    let [mut slopes, mut sizes] = [[0.0; 2]; 2];
+    for axis in 0..2 {
+        let [table, rate] = series.loads.table[axis];
+        let push: Polynomial = core::array::from_fn(|k| {
+            series.pull[axis][k] - rate * series.time[k] - if k == 0 { table } else { 0.0 }
+        });
+        [slopes[axis], sizes[axis]] = bounds(&push, to);
+    }
+    let (push, push_slope) = (h * norm(sizes), norm(slopes));
+    let [time_slope, _] = bounds(&series.time, to);
+    let largest = f.max(f + f_rate * value(&series.time, to));
+    let second = largest * (2.0 * push * push + h * push_slope)
+        + 2.0 * (f_rate.abs() * time_slope) * push
+        + 8.0 * f_rate.abs() * bend(&series.time, to) / (to * to).max(f64::MIN_POSITIVE);
+    let first = largest * push + f_rate.abs() * time_slope;
+    NearRest { friction: [f, f_rate], sizes: [largest, first, second] }
+}
+
+impl NearRest {
+    fn composed(&self, composed: &Composed, series: &Series, x: f64) -> [f64; 2] {
+        let w = series.velocity_at(x);
+        let f = self.friction[0] + self.friction[1] * value(&series.time, x);
+        let per_speed = composed.of_friction * f / norm(w);
+        [0, 1].map(|k| value(&composed.steady[k], x) - per_speed * w[k])
+    }
+
+    /// Looks for peaks of `V = A − c φ`; with `|φ| = f` that of `|V|² = |A|² − 2 c A·φ + c² f²` is flat where
+    /// `A` is small.
+    fn look(&self, peak: &mut Peak, composed: &Composed, series: &Series, to: f64) {
+        let of = |x: f64| self.composed(composed, series, x);
+        let ends = [of(0.0), of(to)];
+        peak.note_ends(ends, to);
+        let (a, c) = (&composed.steady, composed.of_friction);
+        let [size, first, second] = self.sizes;
+        for axis in 0..2 {
+            let bend = bend(&a[axis], to) + 0.125 * c * second * (to * to);
+            let arch = Arch { bend, ends: ends.map(|v| v[axis].abs()), to };
+            arch.search(|x| of(x)[axis].abs(), &mut peak.axes[axis]);
+        }
+        let [mut slopes, mut sizes, mut bends] = [[0.0; 2]; 3];
+        for axis in 0..2 {
+            [slopes[axis], sizes[axis]] = bounds(&a[axis], to);
+            bends[axis] = bend(&a[axis], to);
+        }
+        let [slope, steady] = [norm(slopes), norm(sizes)];
+        let product =
+            norm(bends) * size + 0.125 * (to * to) * (2.0 * slope * first + steady * second);
+        let change = self.friction[1] * bounds(&series.time, to)[0];
+        let of_friction = 0.25 * (to * to) * (change * change)
+            + 2.0 * size * self.friction[1].abs() * bend(&series.time, to);
+        let bend = bend(&squared(a), to) + 2.0 * c * product + c * c * of_friction;
+        let square = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
+        let arch = Arch { bend, ends: ends.map(square), to };
+        peak.search_length(&arch, |x| square(of(x)), None);
+    }
+}
+
+/// `|v|²` as a series.
+fn squared(v: &[Polynomial; 2]) -> Polynomial {
+    core::array::from_fn(|k| if k > DEGREE { 0.0 } else { square(&v[0], k) + square(&v[1], k) })
+}

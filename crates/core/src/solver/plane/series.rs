@@ -1,0 +1,472 @@
+//! The motion by powers of the time: in stick, in slip, and in slip from rest.
+
+use super::system::{Loads, State, System, inner, norm};
+use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, deflated, first_root, value};
+
+/// A term of a series is left out where it is below this part of its scale.
+const NEGLIGIBLE: f64 = 1e-17;
+
+/// Terms of a series that say how large it is: a slip from rest may start with the third power of the time.
+const LOW: usize = 6;
+
+/// By what a motion is expanded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// `w = 0`, `b = a`.
+    Stick,
+    /// Slip without friction, `b = P`.
+    Frictionless,
+    /// Slip at `w ≠ 0`.
+    Slip,
+    /// Slip from `w = 0` along `p`, `|p| ≥ f`.
+    Start,
+    /// Slip in the variable `τ`, `dt = |w| dτ`.
+    NearRest,
+}
+
+/// How far a series is taken.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Accuracy {
+    /// Degree, at most [`DEGREE`].
+    pub(super) order: usize,
+    /// Part of the step that the last terms allow.
+    pub(super) part: f64,
+}
+
+impl Accuracy {
+    pub(super) const USUAL: Self = Self { order: DEGREE, part: 1.0 };
+}
+
+/// Largest sizes so far, against which terms are negligible.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Scales {
+    pub(super) s: f64,
+    pub(super) w: f64,
+    pub(super) eta: f64,
+    pub(super) rate: f64,
+}
+
+impl Scales {
+    /// With those of a state.
+    pub(super) fn note(&mut self, state: &State) {
+        let largest = |list: &[f64], from: f64| list.iter().fold(from, |all, x| all.max(x.abs()));
+        self.s = self.s.max(norm(state.s));
+        self.w = self.w.max(norm(state.w));
+        self.eta = largest(&state.eta, self.eta);
+        self.rate = largest(&state.rate, self.rate);
+    }
+}
+
+/// The motion from an instant on, by powers of a variable over its unit.
+pub(super) struct Series {
+    pub(super) kind: Kind,
+    pub(super) accuracy: Accuracy,
+    pub(super) loads: Loads,
+    /// Unit of the variable: in s, of `τ` in s²/m.
+    pub(super) unit: f64,
+    /// What of it is exact.
+    pub(super) part: f64,
+    /// The time in s, `|w|`, and near rest the root of `w` as a complex number.
+    pub(super) time: Polynomial,
+    pub(super) speed: Polynomial,
+    pub(super) root: [Polynomial; 2],
+    pub(super) s: [Polynomial; 2],
+    pub(super) w: [Polynomial; 2],
+    /// `P`, and what friction takes of it, `f u`: in stick `p`; not near rest.
+    pub(super) pull: [Polynomial; 2],
+    pub(super) friction: [Polynomial; 2],
+    /// `u` in slip; not near rest.
+    pub(super) direction: [Polynomial; 2],
+    pub(super) shear: [Polynomial; 2],
+    /// `η`, `η̇` and `g`, order by order.
+    pub(super) eta: Vec<f64>,
+    pub(super) rate: Vec<f64>,
+    pub(super) g: Vec<f64>,
+}
+
+/// `Σ a_j b_{n−1−j}` over lists of length n.
+#[inline(always)]
+pub(super) fn convolved(a: &[f64], b: &[f64]) -> f64 {
+    let n = a.len();
+    let b = &b[..n];
+    let mut sums = [0.0; 4];
+    let fours = n / 4;
+    for four in 0..fours {
+        let j = 4 * four;
+        let (x, y) = (&a[j..j + 4], &b[n - 4 - j..n - j]);
+        sums[0] += x[0] * y[3];
+        sums[1] += x[1] * y[2];
+        sums[2] += x[2] * y[1];
+        sums[3] += x[3] * y[0];
+    }
+    for j in 4 * fours..n {
+        sums[j - 4 * fours] += a[j] * b[n - 1 - j];
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
+
+/// Coefficient `k` of a product.
+#[inline(always)]
+pub(super) fn product(a: &Polynomial, b: &Polynomial, k: usize) -> f64 {
+    convolved(&a[..=k], &b[..=k])
+}
+
+/// Coefficient `k` of a square.
+#[inline(always)]
+pub(super) fn square(a: &Polynomial, k: usize) -> f64 {
+    let half = k.div_ceil(2);
+    let sides = convolved(&a[..half], &a[k + 1 - half..=k]);
+    let middle = if k.is_multiple_of(2) { a[k / 2] * a[k / 2] } else { 0.0 };
+    2.0 * sides + middle
+}
+
+impl Series {
+    pub(super) fn new(system: &System, accuracy: Accuracy) -> Self {
+        let list = || vec![0.0; system.modes() * (DEGREE + 1)];
+        let pair = || [ZERO; 2];
+        Self {
+            kind: Kind::Stick,
+            accuracy,
+            loads: Loads { table: [[0.0; 2]; 2], normal: [0.0; 2] },
+            unit: 0.0,
+            part: 0.0,
+            time: ZERO,
+            speed: ZERO,
+            root: pair(),
+            s: pair(),
+            w: pair(),
+            pull: pair(),
+            friction: pair(),
+            direction: pair(),
+            shear: pair(),
+            eta: list(),
+            rate: list(),
+            g: list(),
+        }
+    }
+
+    /// Begins anew at a state.
+    pub(super) fn begin(&mut self, kind: Kind, state: &State, loads: Loads, unit: f64) {
+        let modes = state.eta.len();
+        (self.kind, self.loads, self.unit) = (kind, loads, unit);
+        for list in [&mut self.s, &mut self.w, &mut self.pull, &mut self.friction] {
+            *list = [ZERO; 2];
+        }
+        for list in [&mut self.direction, &mut self.shear, &mut self.root] {
+            *list = [ZERO; 2];
+        }
+        (self.time, self.speed) = (ZERO, ZERO);
+        for k in 0..2 {
+            (self.s[k][0], self.w[k][0]) = (state.s[k], state.w[k]);
+        }
+        self.eta[..modes].copy_from_slice(&state.eta);
+        self.rate[..modes].copy_from_slice(&state.rate);
+    }
+
+    /// `g` and the shear of an order, from the states of that order.
+    #[inline(always)]
+    pub(super) fn restore(&mut self, system: &System, k: usize) {
+        let modes = system.modes();
+        let at = k * modes..(k + 1) * modes;
+        system.restoring(&self.eta[at.clone()], &self.rate[at.clone()], &mut self.g[at.clone()]);
+        let shear_n = system.shear_n(&self.g[at]);
+        (self.shear[0][k], self.shear[1][k]) = (shear_n[0], shear_n[1]);
+    }
+
+    /// Expands by powers of the time over a unit in s; what of it is exact is at most 1.
+    pub(super) fn expand(
+        &mut self,
+        system: &System,
+        (kind, state): (Kind, &State),
+        (loads, unit_s): (Loads, f64),
+        scales: &Scales,
+    ) {
+        self.begin(kind, state, loads, unit_s);
+        self.time[1] = unit_s;
+        let order = self.accuracy.order;
+        let normal = [loads.normal[0], loads.normal[1] * unit_s];
+        let mut along = Along::default();
+        for k in 0..=order {
+            self.restore(system, k);
+            for axis in 0..2 {
+                let s = &self.s[axis];
+                let before = if k > 0 { s[k - 1] } else { 0.0 };
+                let pressed = normal[0] * s[k] + normal[1] * before;
+                self.pull[axis][k] =
+                    system.pull(self.shear[axis][k], s[k], self.w[axis][k], pressed);
+            }
+            self.find_friction(system, &mut along, k);
+            if k < order {
+                self.integrate(system, k);
+            }
+        }
+        if kind == Kind::Start {
+            self.speed = along.speed;
+        }
+        self.fit(system.modes(), scales);
+    }
+
+    /// Coefficient `k` of `a`.
+    #[inline(always)]
+    fn table(&self, axis: usize, k: usize) -> f64 {
+        match k {
+            0 => self.loads.table[axis][0],
+            1 => self.loads.table[axis][1] * self.unit,
+            _ => 0.0,
+        }
+    }
+
+    /// Coefficient `k` of `f u`, or of `p` in stick.
+    #[inline(always)]
+    fn find_friction(&mut self, system: &System, along: &mut Along, k: usize) {
+        match self.kind {
+            Kind::Frictionless | Kind::NearRest => return,
+            Kind::Stick => {
+                for axis in 0..2 {
+                    self.friction[axis][k] = self.pull[axis][k] - self.table(axis, k);
+                }
+                return;
+            }
+            Kind::Slip => self.find_direction(k),
+            Kind::Start => self.find_start(system, along, k),
+        }
+        let [f, change] = self.friction_per_kg(system);
+        for axis in 0..2 {
+            let u = &self.direction[axis];
+            let before = if k > 0 { u[k - 1] } else { 0.0 };
+            self.friction[axis][k] = f * u[k] + change * before;
+        }
+    }
+
+    /// `f` and its change over the unit.
+    #[inline(always)]
+    fn friction_per_kg(&self, system: &System) -> [f64; 2] {
+        let [normal, rate] = self.loads.normal;
+        [system.kinetic_per_kg * normal, system.kinetic_per_kg * (rate * self.unit)]
+    }
+
+    /// `r² = w·w` and `r u = w`.
+    #[inline(always)]
+    fn find_direction(&mut self, k: usize) {
+        let w = &self.w;
+        if k == 0 {
+            let r = norm([w[0][0], w[1][0]]);
+            self.speed[0] = r;
+            for axis in 0..2 {
+                self.direction[axis][0] = w[axis][0] / r;
+            }
+            return;
+        }
+        // 2 r_0 r_k = (w·w)_k − Σ_{0<j<k} r_j r_{k−j}
+        let r = &self.speed;
+        let per_speed = 1.0 / r[0];
+        let within = if k > 1 { convolved(&r[1..k], &r[1..k]) } else { 0.0 };
+        let r_k = 0.5 * per_speed * ((square(&w[0], k) + square(&w[1], k)) - within);
+        self.speed[k] = r_k;
+        // r_0 u_k = w_k − Σ_{0<j≤k} r_j u_{k−j}
+        for axis in 0..2 {
+            let u = &self.direction[axis];
+            let rest = convolved(&self.speed[1..=k], &u[..k]);
+            self.direction[axis][k] = per_speed * (w[axis][k] - rest);
+        }
+    }
+
+    /// The derivatives of an order.
+    #[inline(always)]
+    fn integrate(&mut self, system: &System, k: usize) {
+        let (modes, per) = (system.modes(), self.unit / (k + 1) as f64);
+        let mut block = [0.0; 2];
+        for axis in 0..2 {
+            let table = self.table(axis, k);
+            if self.kind == Kind::Stick {
+                block[axis] = table;
+                continue;
+            }
+            block[axis] = self.pull[axis][k] - self.friction[axis][k];
+            self.s[axis][k + 1] = per * self.w[axis][k];
+            self.w[axis][k + 1] = per * (block[axis] - table);
+        }
+        let (at, next) = (k * modes, (k + 1) * modes);
+        for j in 0..modes {
+            let l = [system.participation[0][j], system.participation[1][j]];
+            self.eta[next + j] = per * self.rate[at + j];
+            self.rate[next + j] = -per * (self.g[at + j] + inner(l, block));
+        }
+    }
+
+    /// How much of the unit the last terms allow, and that the direction is that of `w` on all of it.
+    fn fit(&mut self, modes: usize, scales: &Scales) {
+        let mut part = self.fitting_part(modes, scales);
+        if matches!(self.kind, Kind::Slip | Kind::Start) {
+            // |w| > 0 on all of it.
+            let order = self.speed.iter().position(|r| *r != 0.0).unwrap_or(0);
+            let speed = deflated(&self.speed, order);
+            if let Some(root) = first_root(&speed, part.min(1.0)) {
+                part = part.min(0.5 * root);
+            }
+            for _ in 0..60 {
+                if self.is_true_at(part.min(1.0)) {
+                    break;
+                }
+                part *= 0.5;
+            }
+        }
+        self.part = part.min(1.0);
+    }
+
+    /// Whether `u` is that of `w`.
+    fn is_true_at(&self, x: f64) -> bool {
+        let [w, u] = [&self.w, &self.direction].map(|v| [value(&v[0], x), value(&v[1], x)]);
+        let r = norm(w);
+        (0..2).all(|axis| (u[axis] * r - w[axis]).abs() <= 1e-12 * r)
+    }
+
+    /// How much of the unit the last terms allow, perhaps above 1.
+    pub(super) fn fitting_part(&self, modes: usize, scales: &Scales) -> f64 {
+        let order = self.accuracy.order;
+        let mut last = [0.0_f64; 2];
+        let mut take = |c: [f64; 2], scale: f64| {
+            for (last, c) in last.iter_mut().zip(c) {
+                if c != 0.0 {
+                    *last = last.max(c.abs() / scale);
+                }
+            }
+        };
+        let ends = |c: &Polynomial| [c[order - 1], c[order]];
+        let sizes = |list: &[f64], k: usize| {
+            list[k * modes..(k + 1) * modes].iter().fold(0.0_f64, |all, x| all.max(x.abs()))
+        };
+        let of_modes = |list: &[f64], scale: f64| {
+            let scale = (0..LOW).fold(scale, |scale, k| scale.max(sizes(list, k)));
+            ([sizes(list, order - 1), sizes(list, order)], scale)
+        };
+        let first = |c: &[Polynomial; 2]| {
+            (0..LOW).fold(0.0_f64, |scale, k| scale.max(c[0][k].abs()).max(c[1][k].abs()))
+        };
+        let (of_s, of_w) = (scales.s.max(first(&self.s)), scales.w.max(first(&self.w)));
+        for axis in 0..2 {
+            take(ends(&self.s[axis]), of_s);
+            match self.kind {
+                Kind::NearRest => {
+                    let z = norm([self.root[0][0], self.root[1][0]]);
+                    take(ends(&self.root[axis]), z);
+                }
+                _ => take(ends(&self.w[axis]), of_w),
+            }
+            take(ends(&self.direction[axis]), 1.0);
+        }
+        if self.kind == Kind::Stick {
+            // |p|², from which the release is found.
+            let p = &self.friction;
+            let terms = |k: usize| (square(&p[0], k) + square(&p[1], k)).abs();
+            let scale = (0..LOW).fold(0.0_f64, |scale, k| scale.max(terms(k)));
+            take([terms(order - 1), terms(order)], scale);
+        }
+        if modes > 0 {
+            let (c, scale) = of_modes(&self.eta, scales.eta);
+            take(c, scale);
+            let (c, scale) = of_modes(&self.rate, scales.rate);
+            take(c, scale);
+        }
+        let [before, last] = last;
+        let root = |term: f64, k: usize| {
+            if term > NEGLIGIBLE { libm::pow(NEGLIGIBLE / term, 1.0 / k as f64) } else { 4.0 }
+        };
+        self.accuracy.part * root(before, order - 1).min(root(last, order))
+    }
+
+    /// The state at a part of the unit.
+    pub(super) fn state_at(&self, x: f64, state: &mut State) {
+        if self.kind != Kind::Stick {
+            for axis in 0..2 {
+                state.s[axis] = value(&self.s[axis], x);
+            }
+            state.w = self.velocity_at(x);
+        }
+        let modes = state.eta.len();
+        for (into, list) in [(&mut state.eta, &self.eta), (&mut state.rate, &self.rate)] {
+            for (j, into) in into.iter_mut().enumerate() {
+                let mut sum = 0.0;
+                for k in (0..=self.accuracy.order).rev() {
+                    sum = sum * x + list[k * modes + j];
+                }
+                *into = sum;
+            }
+        }
+    }
+
+    /// `w`.
+    pub(super) fn velocity_at(&self, x: f64) -> [f64; 2] {
+        if self.kind == Kind::NearRest {
+            // w = z²
+            let [a, b] = [value(&self.root[0], x), value(&self.root[1], x)];
+            return [(a - b) * (a + b), 2.0 * a * b];
+        }
+        [value(&self.w[0], x), value(&self.w[1], x)]
+    }
+}
+
+/// A start by components along and across `p` at its beginning.
+#[derive(Default)]
+struct Along {
+    axes: [[f64; 2]; 2],
+    cosine: Polynomial,
+    sine: Polynomial,
+    w: [Polynomial; 2],
+    speed: Polynomial,
+}
+
+impl Series {
+    /// `u` of a slip from rest, with `e₁ = p_0/|p_0|`, `u = c e₁ + s e₂`, `w = r u`:
+    ///
+    /// ```text
+    /// across   (k+1) (r s)_{k+1} = p₂_k − (f s)_k      s_k is on both sides: its factor is f + (k+1) r_1
+    /// along    c² + s² = 1,  r = w·u
+    /// ```
+    ///
+    /// It is convergent for `|p| > f`, where `r_1 = |p| − f`. For `|p| = f`, `r_1 = 0`, the direction is slaved
+    /// to that of `p`, and the series asymptotic.
+    fn find_start(&mut self, system: &System, along: &mut Along, k: usize) {
+        let [f, change] = self.friction_per_kg(system);
+        let h = self.unit;
+        let push = [0, 1].map(|axis| self.pull[axis][k] - self.table(axis, k));
+        if k == 0 {
+            let size = norm(push);
+            let e = if size > 0.0 { push.map(|p| p / size) } else { [1.0, 0.0] };
+            along.axes = [e, [-e[1], e[0]]];
+            (along.cosine[0], along.speed[1]) = (1.0, h * beyond(size, f));
+            // b = a + (|p| − f) e₁: what of it is rounding is none.
+            for axis in 0..2 {
+                self.pull[axis][0] = self.table(axis, 0) + (f + beyond(size, f)) * e[axis];
+            }
+        } else {
+            for (w, e) in along.w.iter_mut().zip(along.axes) {
+                w[k] = inner([self.w[0][k], self.w[1][k]], e);
+            }
+            let (r, c, s) = (&along.speed, &along.cosine, &along.sine);
+            // r_k = Σ_{0<j≤k} (w₁_j c_{k−j} + w₂_j s_{k−j})
+            let [w1, w2] = &along.w;
+            let r_k = convolved(&w1[1..=k], &c[..k]) + convolved(&w2[1..=k], &s[..k]);
+            along.speed[k] = if k == 1 { r[1] } else { r_k };
+            let r = &along.speed;
+            let turns = (k + 1) as f64 / h;
+            let known = if k > 1 { convolved(&r[2..=k], &s[1..k]) } else { 0.0 };
+            let across = inner(push, along.axes[1]) - change * s[k - 1] - turns * known;
+            let factor = f + turns * r[1];
+            let s_k = if across == 0.0 { 0.0 } else { across / factor };
+            let within = |p: &Polynomial| if k > 1 { convolved(&p[1..k], &p[1..k]) } else { 0.0 };
+            let c_k = -0.5 * (within(c) + within(s));
+            (along.sine[k], along.cosine[k]) = (s_k, c_k);
+        }
+        let [e1, e2] = along.axes;
+        for axis in 0..2 {
+            self.direction[axis][k] = along.cosine[k] * e1[axis] + along.sine[k] * e2[axis];
+        }
+    }
+}
+
+/// `|p| − f`, nothing where that is rounding.
+pub(super) fn beyond(push: f64, friction: f64) -> f64 {
+    let excess = push - friction;
+    if excess > 1e-13 * friction { excess } else { 0.0 }
+}

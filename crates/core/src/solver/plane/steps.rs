@@ -1,0 +1,222 @@
+//! Steps of a motion in two horizontal directions.
+
+use super::Plane;
+use super::near_rest;
+use super::series::{Kind, square};
+use super::speed::path_m;
+use super::stop::Instant;
+use super::system::{Loads, inner, norm};
+use crate::linear::polynomial::{DEGREE, Polynomial, value};
+use crate::solver::ground::Stretch;
+use crate::solver::slider::{ROUNDING, falls_below, first_crossing, leading};
+
+/// A series in the time takes so much of the distance to its nearest singularity, `r/|ẇ|`.
+const REACH: f64 = 0.15;
+
+impl Plane<'_> {
+    /// One step of a stick, perhaps to its release; the time reached.
+    pub(super) fn hold(&mut self, stretch: &Stretch, at_s: f64) -> f64 {
+        let left_s = stretch.to_s - at_s;
+        let loads = self.loads(stretch, at_s);
+        self.expand_stick(loads, left_s);
+        let mut part = self.series.part;
+        let distance = self.distance();
+        if let Some(release) = self.first_release(&distance, part) {
+            (part, self.is_released) = (release, true);
+        }
+        self.move_by(stretch, at_s, part)
+    }
+
+    pub(super) fn expand_stick(&mut self, loads: Loads, left_s: f64) {
+        let mut unit_s = left_s;
+        if self.system.modes() > 0 {
+            unit_s = unit_s.min(4.0 / self.system.rate_rad_per_s);
+        }
+        let (system, scales) = (&self.system, &self.scales);
+        self.series.expand(system, (Kind::Stick, &self.state), (loads, unit_s), scales);
+    }
+
+    /// `(μ_s N/M1)² − |p|²` in stick.
+    pub(super) fn distance(&self) -> Polynomial {
+        let p = &self.series.friction;
+        let [normal, rate] = self.series.loads.normal;
+        let [b, change] = [
+            self.system.static_per_kg * normal,
+            self.system.static_per_kg * (rate * self.series.unit),
+        ];
+        core::array::from_fn(|k| {
+            if k > DEGREE {
+                return 0.0;
+            }
+            let bound = match k {
+                0 => b * b,
+                1 => 2.0 * b * change,
+                2 => change * change,
+                _ => 0.0,
+            };
+            bound - (square(&p[0], k) + square(&p[1], k))
+        })
+    }
+
+    /// What of that is rounding.
+    pub(super) fn rounding_of_distance(&self) -> f64 {
+        let mut terms = 0.0;
+        let system = &self.system;
+        let loads = &self.series.loads;
+        for axis in 0..2 {
+            let l = &system.participation[axis];
+            let shear: f64 = l.iter().zip(&self.series.g).map(|(l, g)| (l * g).abs()).sum();
+            let springs = system.stiffness_n_per_m + loads.normal[0] * system.per_radius;
+            let slider = springs * self.state.s[axis].abs();
+            terms += (shear + slider) / system.block_kg + loads.table[axis][0].abs();
+        }
+        let holds = system.static_per_kg * loads.normal[0];
+        let push = norm([self.series.friction[0][0], self.series.friction[1][0]]);
+        2.0 * ROUNDING * (holds * holds + push.max(holds) * terms)
+    }
+
+    /// The first part of a stick at which it is released.
+    fn first_release(&self, distance: &Polynomial, part: f64) -> Option<f64> {
+        let mut distance = *distance;
+        let at = first_crossing(&distance, part)?;
+        let rounding = self.rounding_of_distance();
+        // What does not go further below zero than rounding is held.
+        let order = leading(&distance, rounding)?;
+        distance[..order].fill(0.0);
+        falls_below(&distance, rounding, part).then_some(())?;
+        if order == 0 { Some(at) } else { first_crossing(&distance, part) }
+    }
+
+    /// One step of a slip; the time reached.
+    pub(super) fn slide(&mut self, stretch: &Stretch, at_s: f64) -> f64 {
+        let left_s = stretch.to_s - at_s;
+        let loads = self.loads(stretch, at_s);
+        let has_friction =
+            self.system.kinetic_per_kg > 0.0 && (loads.normal[0] > 0.0 || loads.normal[1] > 0.0);
+        if !has_friction {
+            self.starts = false;
+            return self.step_in_time(Kind::Frictionless, (stretch, at_s), loads, left_s);
+        }
+        let at = self.instant(&loads);
+        let (push, friction) = (norm(at.push), at.friction);
+        if at.speed == 0.0 {
+            self.starts = false;
+            return self.step_in_time(Kind::Start, (stretch, at_s), loads, left_s);
+        }
+        let w = self.state.w;
+        if let Some(time_s) = at.time_to_rest(&self.system, &self.state, &loads, &self.scratch[0])
+            && time_s <= left_s
+        {
+            self.rest(&at, (&loads, time_s));
+            return at_s + time_s;
+        }
+        if at.is_at_rest(w, self.peak_speed) {
+            self.rest(&at, (&loads, 0.0));
+            self.starts = push > at.holds;
+            return at_s;
+        }
+        let u = w.map(|w| w / at.speed);
+        let change = norm([at.push[0] - friction * u[0], at.push[1] - friction * u[1]]);
+        let reach_s = REACH * at.speed / change;
+        let near_s = at.speed / (friction + push);
+        if 3.0 * reach_s >= left_s || 4.0 * reach_s >= 2.0 * near_s {
+            let unit_s = left_s.min(2.0 * reach_s);
+            return self.step_in_time(Kind::Slip, (stretch, at_s), loads, unit_s);
+        }
+        self.step_near_rest(&at, (stretch, at_s), loads)
+    }
+
+    fn step_in_time(
+        &mut self,
+        kind: Kind,
+        (stretch, at_s): (&Stretch, f64),
+        loads: Loads,
+        unit_s: f64,
+    ) -> f64 {
+        let mut unit_s = unit_s;
+        loop {
+            let (system, scales) = (&self.system, &self.scales);
+            self.series.expand(system, (kind, &self.state), (loads, unit_s), scales);
+            let part = self.series.part;
+            // Far beyond what a series takes its terms lose their digits.
+            if part >= 1e-3 || part == 0.0 || !part.is_finite() {
+                break;
+            }
+            unit_s *= 4.0 * part;
+        }
+        let part = self.series.part;
+        self.move_by(stretch, at_s, part)
+    }
+
+    fn step_near_rest(
+        &mut self,
+        at: &Instant,
+        (stretch, at_s): (&Stretch, f64),
+        loads: Loads,
+    ) -> f64 {
+        let left_s = stretch.to_s - at_s;
+        let unit = near_rest::unit(at.speed, at.friction + norm(at.push), left_s);
+        let (system, scales) = (&self.system, &self.scales);
+        let [_, sums] = &mut self.scratch;
+        self.series.expand_near_rest(system, &self.state, (loads, unit), scales, sums);
+        let to = self.series.part_at(left_s);
+        let part = to.unwrap_or(self.series.part);
+        self.move_part(stretch, at_s, part);
+        match to {
+            Some(_) => stretch.to_s,
+            None => at_s + value(&self.series.time, part),
+        }
+    }
+
+    /// Comes to rest after a time too short to move in.
+    fn rest(&mut self, at: &Instant, (loads, time_s): (&Loads, f64)) {
+        let (w, from) = (self.state.w, (at.pull, self.system.shear_n(&self.scratch[0])));
+        // ∫ b dt = −w + a Θ
+        let impulse = [0, 1].map(|k| loads.table[k][0] * time_s - self.state.w[k]);
+        for j in 0..self.system.modes() {
+            let l = [self.system.participation[0][j], self.system.participation[1][j]];
+            self.state.eta[j] += self.state.rate[j] * time_s;
+            self.state.rate[j] -= self.scratch[0][j] * time_s + inner(l, impulse);
+        }
+        self.state.w = [0.0; 2];
+        let to = self.instant(&loads.after(time_s));
+        if let Some(arc) = at.arc(w, &to) {
+            let shear_n = self.system.shear_n(&self.scratch[0]);
+            self.peaks.note_arc(&self.system, &arc, ([from.0, to.pull], [from.1, shear_n]));
+            self.direction = arc.to;
+        }
+    }
+
+    /// Moves to a part of a series in the time; the time reached.
+    fn move_by(&mut self, stretch: &Stretch, at_s: f64, part: f64) -> f64 {
+        let to_s = at_s + part * self.series.unit;
+        let is_whole = part == 1.0 && to_s >= stretch.to_s * (1.0 - 1e-15);
+        self.move_part(stretch, at_s, part);
+        if is_whole { stretch.to_s } else { to_s.min(stretch.to_s) }
+    }
+
+    /// Moves to a part of the series, and keeps what it tells.
+    fn move_part(&mut self, stretch: &Stretch, at_s: f64, part: f64) {
+        self.look(stretch, at_s, part);
+        self.series.state_at(part, &mut self.state);
+        self.scales.note(&self.state);
+        if self.series.kind != Kind::Stick {
+            let speed = norm(self.state.w);
+            self.peak_speed = self.peak_speed.max(speed);
+            if speed > 0.0 {
+                self.direction = self.state.w.map(|w| w / speed);
+            }
+        }
+    }
+
+    /// Looks for peaks, and adds to the path.
+    fn look(&mut self, stretch: &Stretch, at_s: f64, part: f64) {
+        let from_s = self.ground.times_s[stretch.interval] + at_s;
+        self.peaks.look(&self.system, &self.series, part, from_s);
+        self.path_m += path_m(&self.series, part);
+        match self.series.kind {
+            Kind::Stick | Kind::Frictionless => self.least.interrupt(),
+            _ => self.least.look(&self.series.speed, part),
+        }
+    }
+}

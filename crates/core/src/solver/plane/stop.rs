@@ -1,0 +1,151 @@
+//! Where a slip comes to rest, and what happens to the direction of friction there.
+
+use super::system::{Loads, State, System, cross, inner, norm};
+
+/// A path below which a slip has stopped, in m.
+const NO_PATH_M: f64 = 1e-18;
+
+/// Part of the peak of the speed in a slip below which a block rests.
+pub(super) const REST: f64 = 1e-14;
+
+/// Sine of the angle between `w` and `−p` below which a motion is straight.
+const STRAIGHT: f64 = 1e-6;
+
+/// How a slip goes on from an instant.
+pub(super) struct Instant {
+    pub(super) speed: f64,
+    /// `P` and `p`.
+    pub(super) pull: [f64; 2],
+    pub(super) push: [f64; 2],
+    /// `f`, and `μ_s N/M1`.
+    pub(super) friction: f64,
+    pub(super) holds: f64,
+}
+
+impl Instant {
+    /// Of a state under loads; leaves `g` behind.
+    pub(super) fn new(system: &System, state: &State, loads: &Loads, g: &mut [f64]) -> Self {
+        let pull = state.pull(system, loads.normal[0], g);
+        Self {
+            speed: norm(state.w),
+            pull,
+            push: loads.push(pull),
+            friction: system.kinetic_per_kg * loads.normal[0],
+            holds: system.static_per_kg * loads.normal[0],
+        }
+    }
+
+    /// With `p` frozen the block stops after `Θ = (f r + p·w)/(f² − p²)`, having moved by less than [`NO_PATH_M`];
+    /// and `|p| < f` on all of `[t, t + r/(f − p)]` shows that it stops. None where one of both fails.
+    pub(super) fn time_to_rest(
+        &self,
+        system: &System,
+        state: &State,
+        loads: &Loads,
+        g: &[f64],
+    ) -> Option<f64> {
+        let (p, f, r) = (norm(self.push), self.friction, self.speed);
+        if !(p < f) {
+            return None;
+        }
+        let time_s = (f * r + inner(self.push, state.w)) / ((f - p) * (f + p));
+        if !(r * time_s < NO_PATH_M) {
+            return None;
+        }
+        let longest_s = r / (f - p);
+        let of_friction = system.kinetic_per_kg * loads.normal[1];
+        let rate = 2.0 * self.rate_of_push(system, state, loads, g) + of_friction.abs();
+        (p + rate * longest_s < f).then_some(time_s.max(0.0))
+    }
+
+    /// A bound on `|ṗ|` over times in which nothing but the direction of `w` changes: there `|b| ≤ |P| + f`.
+    fn rate_of_push(&self, system: &System, state: &State, loads: &Loads, g: &[f64]) -> f64 {
+        let modes = system.modes();
+        let largest = norm(self.pull) + self.friction;
+        let mut bound = 0.0;
+        let mut of_rates = vec![0.0; modes];
+        let forces: Vec<f64> = (0..modes)
+            .map(|j| {
+                let l = [system.participation[0][j], system.participation[1][j]];
+                g[j].abs() + norm(l) * largest
+            })
+            .collect();
+        system.restoring(&state.rate, &vec![0.0; modes], &mut of_rates);
+        let mut of_forces = vec![0.0; modes];
+        system.restoring(&vec![0.0; modes], &forces, &mut of_forces);
+        for axis in 0..2 {
+            let l = &system.participation[axis];
+            let shear: f64 =
+                (0..modes).map(|j| l[j].abs() * (of_rates[j].abs() + of_forces[j].abs())).sum();
+            let springs = system.stiffness_n_per_m + loads.normal[0] * system.per_radius;
+            let slider = springs * state.w[axis].abs()
+                + (loads.normal[1] * system.per_radius * state.s[axis]).abs()
+                + system.damper_n_s_per_m * (largest + loads.table[axis][0].abs());
+            bound += (shear + slider) / system.block_kg + loads.table[axis][1].abs();
+        }
+        bound
+    }
+
+    /// Whether the block passes rest so close that it is none but rounding that tells from it.
+    pub(super) fn is_at_rest(&self, w: [f64; 2], peak_speed: f64) -> bool {
+        self.speed <= REST * peak_speed && inner(w, self.push) < self.friction * self.speed
+    }
+
+    /// Directions that friction has on the arc at a stop, from that of `w` to that of `p` at rest: none in
+    /// straight motion.
+    pub(super) fn arc(&self, w: [f64; 2], at_rest: &Self) -> Option<Arc> {
+        let (p, push) = (norm(at_rest.push), at_rest.push);
+        let is_straight =
+            inner(w, push) < 0.0 && cross(w, push).abs() < STRAIGHT * (self.speed * p);
+        if p == 0.0 || is_straight {
+            return None;
+        }
+        let (from, to) = (w.map(|w| w / self.speed), push.map(|x| x / p));
+        Some(Arc { from, to, push: p, friction: at_rest.friction })
+    }
+}
+
+/// The shorter arc between two directions.
+pub(super) struct Arc {
+    pub(super) from: [f64; 2],
+    pub(super) to: [f64; 2],
+    /// `|p|` and `f`.
+    push: f64,
+    pub(super) friction: f64,
+}
+
+impl Arc {
+    /// Whether a direction is on it.
+    fn holds(&self, u: [f64; 2]) -> bool {
+        let turn = cross(self.from, self.to);
+        cross(self.from, u) * turn >= 0.0 && cross(u, self.to) * turn >= 0.0 && {
+            // On the shorter side.
+            let middle = [self.from[0] + self.to[0], self.from[1] + self.to[1]];
+            inner(u, middle) >= 0.0
+        }
+    }
+
+    /// The part of the time to rest that is left at a direction: `Θ ~ r (f + p cos φ)`,
+    /// `r ~ tan(φ/2)^κ / sin φ`, `κ = f/p`.
+    pub(super) fn part_left(&self, u: [f64; 2]) -> f64 {
+        let of = |u: [f64; 2]| {
+            let (cosine, sine) = (inner(u, self.to), cross(u, self.to).abs());
+            // tan(φ/2) = sin φ/(1 + cos φ)
+            (sine / (1.0 + cosine), sine, self.friction + self.push * cosine)
+        };
+        let [(tangent, sine, factor), (first, of_first, first_factor)] = [of(u), of(self.from)];
+        let ratio = libm::pow(tangent / first, self.friction / self.push) * (of_first / sine);
+        let left = ratio * (factor / first_factor);
+        if left.is_finite() { left.clamp(0.0, 1.0) } else { 0.0 }
+    }
+
+    /// Directions at which `A − c u` is extreme: the ends, `−A/|A|`, and ±x, ±y.
+    pub(super) fn extremes(&self, a: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
+        let size = norm(a);
+        let against = (size > 0.0).then(|| a.map(|a| -a / size));
+        let axes = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]];
+        let inside = against.into_iter().chain(axes).filter(|u| self.holds(*u));
+        let inside: Vec<[f64; 2]> = inside.collect();
+        [self.from, self.to].into_iter().chain(inside)
+    }
+}

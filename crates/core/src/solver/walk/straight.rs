@@ -1,0 +1,267 @@
+//! Segments of a motion in one direction: a series up to its end or the first event in it.
+
+use super::super::course::{Instant, Release};
+use super::super::ground::Stretch;
+use super::super::phase::{Segment, Straight};
+use super::Walk;
+use crate::error::SolveError;
+use crate::linear::polynomial::{Polynomial, derivative, first_root, first_root_after_zero, value};
+use crate::response::{EventKind, Mode};
+use crate::slider::{Direction, Exit, Reached};
+
+/// Why a segment ends before the series does.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum End {
+    /// An interface has no velocity.
+    Still(usize),
+    /// The slider's branch ends.
+    Exit(Exit),
+    /// An interface that sticks reaches its bound.
+    Release(Release),
+    /// Friction takes all of a push against a rigid stop from here on, or no longer does.
+    Lean,
+}
+
+impl<'a, P: Straight<'a>> Walk<'a, P> {
+    // ---- what is in force ----------------------------------------------------------------------
+
+    /// Whether an interface slides without a velocity.
+    #[inline(always)]
+    pub(in crate::solver) fn has_stopped(&self, i: usize) -> bool {
+        let interface = self.course.interface(i);
+        interface.mode != Mode::Stick && interface.start.is_none() && self.phase.place(i)[1] == 0.0
+    }
+
+    /// Whether any does.
+    pub(super) fn has_any_stopped(&self) -> bool {
+        (0..self.course.interfaces()).any(|i| self.has_stopped(i))
+    }
+
+    /// Whether something waits to be decided: a stop or what has reached its bound.
+    pub(in crate::solver) fn is_due(&self) -> bool {
+        !self.course.released.is_empty() || self.has_any_stopped()
+    }
+
+    /// Whether nothing waits to be decided: neither a slip that has just started nor what has stopped or
+    /// reached its bound.
+    pub(in crate::solver) fn is_settled(&self) -> bool {
+        let starts =
+            (0..self.course.interfaces()).any(|i| self.course.interface(i).start.is_some());
+        self.course.released.is_empty()
+            && !self.leant
+            && self.course.slider.just.is_none()
+            && !starts
+    }
+
+    // ---- steps ---------------------------------------------------------------------------------
+
+    /// Looks at the outputs under loads that stand.
+    pub(in crate::solver) fn look_beside_jump(&mut self, stretch: &Stretch) {
+        let segment = self.phase.expand(&self.course, stretch, 0.0).up_to(0.0);
+        self.phase.move_to(0.0);
+        self.phase.look(&mut self.course, stretch, &segment);
+    }
+
+    /// One segment, up to its end or the first event in it; the time reached.
+    #[inline(always)]
+    pub(in crate::solver) fn segment(
+        &mut self,
+        stretch: &Stretch,
+        from_s: f64,
+    ) -> Result<f64, SolveError> {
+        let (segment, end) = self.advance(stretch, from_s);
+        // What is passed in no time is no peak, but for the start.
+        if segment.part > 0.0 || stretch.interval == 0 {
+            self.phase.look(&mut self.course, stretch, &segment);
+        }
+        self.follow(segment.part, end);
+        match end {
+            Some(End::Lean) => {
+                self.leant = true;
+                self.record(stretch, segment.to_s, false);
+            }
+            Some(End::Exit(exit)) => self.reach(stretch, segment.to_s, exit.reached)?,
+            _ => {}
+        }
+        Ok(segment.to_s)
+    }
+
+    /// Moves up to the end of the series or the first event in it, and what ends there.
+    #[inline(always)]
+    pub(super) fn advance(&mut self, stretch: &Stretch, from_s: f64) -> (Segment, Option<End>) {
+        let mut segment = self.phase.expand(&self.course, stretch, from_s);
+        let end = self.first_end(&segment).map(|(part, end)| {
+            segment = segment.up_to(part);
+            end
+        });
+        self.phase.move_to(segment.part);
+        if self.course.near.is_some() {
+            self.move_near(segment.part);
+        }
+        self.clear_starts();
+        self.course.slider.just = None;
+        (segment, end)
+    }
+
+    /// The part of the series after which something ends, and what does.
+    #[inline(always)]
+    pub(super) fn first_end(&mut self, segment: &Segment) -> Option<(f64, End)> {
+        let mut first: Option<(f64, End)> = None;
+        let mut take = |at: Option<f64>, what: End| {
+            if let Some(at) = at
+                && first.is_none_or(|(first, _)| at < first)
+            {
+                first = Some((at, what));
+            }
+        };
+        for i in 0..self.course.interfaces() {
+            if let Mode::Slip(direction) = self.course.mode(i) {
+                take(self.first_halt(i, direction, segment), End::Still(i));
+            }
+        }
+        if let Mode::Slip(direction) = self.course.block.mode
+            && !self.walks_jump
+        {
+            let (law, memory) = (self.course.slider.law, &self.course.slider.memory);
+            let exits = law.exits(memory, direction);
+            if exits.iter().any(Option::is_some) {
+                let series = self.phase.series();
+                let sliding = [self.phase.displacement(series), self.phase.velocity(series, 0)];
+                for exit in exits.into_iter().flatten() {
+                    let p = self.of_exit(&exit, sliding);
+                    take(first_root(&p, segment.part), End::Exit(exit));
+                }
+            }
+        }
+        for i in 0..self.course.interfaces() {
+            if self.course.mode(i) == Mode::Stick
+                && let Some((at, direction)) = self.first_release(i, segment.part)
+            {
+                take(Some(at), End::Release(Release { interface: i, direction }));
+            }
+        }
+        if self.leans_since_s.is_some() && !self.walks_jump {
+            take(self.first_lean(segment.part), End::Lean);
+        }
+        first
+    }
+
+    /// Where an interface that slides has no velocity.
+    #[inline(always)]
+    pub(super) fn first_halt(
+        &self,
+        i: usize,
+        direction: Direction,
+        segment: &Segment,
+    ) -> Option<f64> {
+        let sign = direction.sign();
+        let mut speed = self.phase.velocity(self.phase.series(), i).map(|c| sign * c);
+        match self.course.interface(i).start {
+            None => first_root(&speed, segment.part),
+            Some(start) => {
+                if start.order == 1 {
+                    speed[1] = start.acceleration * segment.unit_s;
+                }
+                first_root_after_zero(&speed, start.order, segment.part)
+            }
+        }
+    }
+
+    /// The polynomial of an exit, less what of it is known to vanish, from those of `s` and `ṡ`.
+    #[inline(always)]
+    pub(super) fn of_exit(&self, exit: &Exit, [s, w]: [&Polynomial; 2]) -> Polynomial {
+        let mut p: Polynomial = core::array::from_fn(|k| exit.of_s * s[k] + exit.of_w * w[k]);
+        p[0] += exit.constant;
+        if let Reached::Wall(_, place) = exit.reached
+            && let Some(near) = self.course.near.filter(|near| near.place == place)
+        {
+            p[0] = exit.of_s * near.offset;
+        }
+        self.course.slider.of_exit(exit, p)
+    }
+
+    /// What has come to a halt or reached its bound at a part of the series.
+    #[inline(always)]
+    pub(super) fn follow(&mut self, part: f64, end: Option<End>) {
+        match end {
+            Some(End::Still(i)) => self.stand(i),
+            Some(End::Release(first)) => self.find_released(first, part),
+            _ => {}
+        }
+        self.stop_within_rounding(part);
+    }
+
+    /// An interface has come to a halt.
+    #[inline(always)]
+    pub(super) fn stand(&mut self, i: usize) {
+        let [place, _] = self.phase.place(i);
+        self.phase.put(i, [place, 0.0]);
+    }
+
+    /// Stops what slides, at a part of the series, with no more velocity than rounding and no
+    /// acceleration.
+    #[inline(always)]
+    pub(super) fn stop_within_rounding(&mut self, part: f64) {
+        for i in 0..self.course.interfaces() {
+            let Mode::Slip(direction) = self.course.mode(i) else { continue };
+            let here = direction.sign() * self.phase.place(i)[1];
+            if here <= 0.0 || self.is_within_rounding(i, here, part) {
+                self.stand(i);
+            }
+        }
+    }
+
+    /// Whether a speed is no more than rounding, and falls.
+    #[inline(always)]
+    pub(super) fn is_within_rounding(&self, i: usize, speed: f64, part: f64) -> bool {
+        let velocity = self.phase.velocity(self.phase.series(), i);
+        let falls = |sign: f64| sign * value(&derivative(velocity), part) <= 0.0;
+        speed <= self.rounding_m_per_s(i, velocity, part) && falls(self.course.mode(i).sign())
+    }
+
+    /// What follows the end of a branch of the slider.
+    #[inline(never)]
+    pub(super) fn reach(
+        &mut self,
+        stretch: &Stretch,
+        at_s: f64,
+        reached: Reached,
+    ) -> Result<(), SolveError> {
+        let Mode::Slip(direction) = self.course.block.mode else { return Ok(()) };
+        let time_s = self.ground.times_s[stretch.interval] + at_s;
+        self.course.near = None;
+        let place = reached.place(direction, self.phase.place(0));
+        self.phase.put(0, place);
+        self.record(stretch, at_s, false);
+        match self.course.slider.follow(reached, direction, time_s, place) {
+            Some(kind) => self.push_event(time_s, 0, kind),
+            None if matches!(reached, Reached::Wall(..)) => self.strike(stretch, at_s, direction),
+            None => self.course.events_in_interval += 1,
+        }
+        self.phase.enter(&self.course);
+        self.note_ends(time_s)?;
+        self.record(stretch, at_s, false);
+        Ok(())
+    }
+
+    // ---- events --------------------------------------------------------------------------------
+
+    pub(super) fn push_event(&mut self, time_s: f64, interface: usize, kind: EventKind) {
+        if interface == 0 {
+            self.turn = (kind == EventKind::Reversal).then_some(self.course.events.len());
+        }
+        let [place_m, _] = self.phase.place(interface);
+        self.course.push_of(interface, [time_s, place_m], kind);
+    }
+
+    /// The present state of the slider so long after the first sample of an interval.
+    #[inline(always)]
+    pub(super) fn instant(&self, stretch: &Stretch, at_s: f64) -> Instant {
+        Instant {
+            time_s: self.ground.times_s[stretch.interval] + at_s,
+            place_m: self.phase.place(0)[0],
+            normal_n: stretch.normal_at(at_s),
+            mass_kg: self.phase.block_kg(),
+        }
+    }
+}
