@@ -25,7 +25,7 @@ pub(super) fn cross(a: Pair, b: Pair) -> f64 {
 }
 
 pub(super) fn norm(a: Pair) -> f64 {
-    libm::hypot(a[0], a[1])
+    libm::sqrt(dot(a, a))
 }
 
 pub(super) fn times(a: Pair, factor: f64) -> Pair {

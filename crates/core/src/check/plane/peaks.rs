@@ -1,4 +1,6 @@
 //! The outputs of a motion in a plane, and the largest sizes that they and their parts attain.
+//!
+//! In a step whose last Legendre coefficients are rounding all outputs are polynomials as good as the motion.
 
 use super::super::collocation::{POINTS, Rule};
 use super::super::outputs::{
@@ -81,20 +83,11 @@ impl Tracked<'_> {
         }
     }
 
-    /// Vectors at a part of a step, at a point of it where one is named.
-    fn in_step(
-        &self,
-        rule: &Rule,
-        step: &Step,
-        (point, part): (Option<usize>, f64),
-        out: &mut Vec<Pair>,
-    ) {
+    /// Vectors at a point of a step.
+    fn at_point(&self, rule: &Rule, step: &Step, point: usize, out: &mut Vec<Pair>) {
         let mut state = State::default();
-        match point {
-            Some(point) => step.at_point(point, &mut state),
-            None => step.at(rule, part, &mut state),
-        }
-        let loads = super::frame::between(&step.stretch.loads, part);
+        step.at_point(point, &mut state);
+        let loads = step.stretch.at(rule.points[point] * step.stretch.step_s);
         let mut floors = vec![0.0; self.frame.masses_kg.len()];
         let forces = self.frame.forces(&state.x, &state.v, &loads, &mut floors);
         let direction = step.slips.then(|| heading(&state, &forces, step.outset));
@@ -184,26 +177,28 @@ impl Peaks {
     ) -> bool {
         let mut at = vec![Vec::new(); POINTS];
         for (point, vectors) in at.iter_mut().enumerate() {
-            tracked.in_step(rule, step, (Some(point), rule.points[point]), vectors);
+            tracked.at_point(rule, step, point, vectors);
         }
-        let part = |t: f64, g: usize| {
-            let mut vectors = Vec::new();
-            tracked.in_step(rule, step, (None, t), &mut vectors);
-            vectors[g]
-        };
         for g in 0..tracked.len() {
-            for view in 0..3 {
-                let values: [f64; POINTS] = core::array::from_fn(|i| sizes(at[i][g])[view]);
-                let of = |t: f64| sizes(part(t, g))[view];
-                if !raise(rule, &mut self.largest[view][g], &values, coarse, of) {
-                    return false;
+            let parts: [[f64; POINTS]; 2] =
+                [0, 1].map(|axis| core::array::from_fn(|i| at[i][g][axis]));
+            let part = |axis: usize, t: f64| rule.interpolate(&parts[axis], t);
+            let norms: [f64; POINTS] = core::array::from_fn(|i| norm(at[i][g]));
+            let [x, y] = parts.map(|values| values.map(f64::abs));
+            let [whole, along_x, along_y] = &mut self.largest;
+            let tells = raise(rule, &mut whole[g], &norms, coarse, |t| norm([part(0, t), part(1, t)]))
+                && raise(rule, &mut along_x[g], &x, coarse, |t| part(0, t).abs())
+                && raise(rule, &mut along_y[g], &y, coarse, |t| part(1, t).abs());
+            if !tells {
+                return false;
+            }
+            if g + 1 == tracked.len() {
+                for (i, most) in self.sides_m.iter_mut().enumerate() {
+                    let (axis, sign) = (i / 2, SIDES[i][i / 2]);
+                    let values = parts[axis].map(|s| sign * s);
+                    raise(rule, most, &values, false, |t| sign * part(axis, t));
                 }
             }
-        }
-        let g = tracked.len() - 1;
-        for (most, side) in self.sides_m.iter_mut().zip(SIDES) {
-            let values: [f64; POINTS] = core::array::from_fn(|i| dot(at[i][g], side));
-            raise(rule, most, &values, false, |t| dot(part(t, g), side));
         }
         true
     }

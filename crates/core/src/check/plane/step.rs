@@ -123,13 +123,30 @@ impl Stepper<'_> {
         }
         let friction = |i: usize| self.frame.slowing(&between(&stretch.loads, self.rule.c[i]));
         let slowing: [f64; NODES] = core::array::from_fn(friction);
-        match unit(from.speed()) {
-            Some(_) => {}
-            None if slowing.iter().all(|f| *f == 0.0) => {}
-            None => self.depart(from, stretch, &slowing, &mut rates)?,
+        if unit(from.speed()).is_some() || slowing.iter().all(|f| *f == 0.0) {
+            self.go_on(from, stretch, &mut rates);
+        } else {
+            self.depart(from, stretch, &slowing, &mut rates)?;
         }
         let settled = self.settle(from, stretch, Some(&slowing), &mut rates);
         settled.then(|| self.step(from, stretch, true, &rates))
+    }
+
+    /// Accelerations to begin a slip with that is under way: those at its start.
+    fn go_on(&self, from: &State, stretch: Stretch, rates: &mut Rates) {
+        let mut floors = vec![0.0; self.frame.masses_kg.len()];
+        let loads = &stretch.loads[0];
+        let push = self.frame.forces(&from.x, &from.v, loads, &mut floors).push;
+        let u = unit(from.speed()).unwrap_or([0.0; 2]);
+        let f = self.frame.slowing(loads);
+        let block = [0, 1].map(|i| push[i] - f * u[i]);
+        for (k, list) in rates.iter_mut().enumerate() {
+            *list = [block[k % 2]; NODES];
+            if let Some(floor) = k.checked_sub(2) {
+                let pull = -floors[floor] / self.frame.masses_kg[floor] - loads[k % 2].a;
+                *list = [pull - block[k % 2]; NODES];
+            }
+        }
     }
 
     /// Accelerations to begin a release with: `(|p| − f) p/|p|` of a block that would rest.
@@ -220,8 +237,10 @@ impl Stepper<'_> {
             if !change.is_finite() {
                 return false;
             }
+            // The next pass would change as much less as this one has.
+            let next = if pass > 0 { change * (change / last) } else { change };
             let stalled = pass >= 6 && change >= 0.5 * last && change <= 1e-12 * size;
-            if change <= 4.0 * f64::EPSILON * size || stalled {
+            if change.min(next) <= 2.0 * f64::EPSILON * size || stalled {
                 return true;
             }
             last = change;
