@@ -44,6 +44,7 @@ enum SliderElement {
 ///
 /// - Constant friction: `ElasticPP` beside a linear spring, pendulum and damper. Damping by ratio is that
 ///   of every fixed-base mode, as dashpots between all floors.
+/// - Two horizontal directions: the same bearings with `Coulomb` in three dimensions.
 /// - Friction by speed: `VelDependent` or `VelDepMultiLinear` in a `singleFPBearing` with a radius, else in
 ///   a `flatSliderBearing`; under vertical motion `Coulomb` in these, with the true `N(t)/R`.
 /// - Two or three pendulums in series: `TripleFrictionPendulum`, which yields at `k_init_n_per_m` too.
@@ -68,6 +69,7 @@ pub fn script(
     }
     let (slider, frame) = (model.slider(), model.frame());
     let vertical = motion.vertical_m_per_s2();
+    let along_y = motion.horizontal_y_m_per_s2();
     let (times_s, values) = right_sides(motion, motion.horizontal_m_per_s2());
     let mut text = String::new();
     let title: String = name.chars().filter(|c| !c.is_control() && !"\"\\".contains(*c)).collect();
@@ -85,10 +87,12 @@ pub fn script(
     line(format_args!("K_INIT = {k_init_n_per_m:?}  # N/m, stands for stick"));
     match element {
         SliderElement::Constant => constant(model, &mut line),
-        SliderElement::Bearing => bearing(model, vertical.is_some(), &mut line),
+        SliderElement::Bearing => {
+            bearing(model, [vertical, along_y].map(|a| a.is_some()), &mut line)
+        }
         SliderElement::Triple => triple(slider.series(), &mut line),
     }
-    let pendulum = slider.pendulum_radius_m(vertical.is_some()).is_some();
+    let pendulum = slider.pendulum_radius_m(vertical.is_some() || along_y.is_some()).is_some();
     let stiffness_n_per_m = if pendulum { 0.0 } else { model.slider_stiffness_n_per_m() };
     line(format_args!(
         "SPRING, DAMPER = {stiffness_n_per_m:?}, {:?}  # of the slider, N/m and N s/m",
@@ -133,10 +137,21 @@ pub fn script(
     }
     line(format_args!("GRAVITY = {:?}  # m/s2", model.gravity_m_per_s2()));
     line(format_args!("MASSES = {:?}  # kg: the block, then the floors", masses(model)));
-    line(format_args!("STOREYS = {:?}  # N/m", frame.stiffnesses_n_per_m));
-    line(format_args!("# Dashpots between two of the masses, N s/m\nDASHPOTS = ["));
-    for (i, j, c) in dashpots(frame) {
-        line(format_args!("    ({i}, {j}, {c:?}),"));
+    let frames = match along_y {
+        None => vec![frame.clone()],
+        Some(_) => vec![frame.clone(), frame_along_y(model)],
+    };
+    let directions: Vec<usize> = (1..=frames.len()).collect();
+    line(format_args!("HORIZONTAL = {directions:?}  # directions of the motion: x, perhaps y"));
+    let stiffnesses: Vec<&[f64]> = frames.iter().map(|f| &f.stiffnesses_n_per_m[..]).collect();
+    line(format_args!("STOREYS = {stiffnesses:?}  # along each, N/m"));
+    line(format_args!("# Dashpots along each between two of the masses, N s/m\nDASHPOTS = ["));
+    for frame in &frames {
+        line(format_args!("    ["));
+        for (i, j, c) in dashpots(frame) {
+            line(format_args!("        ({i}, {j}, {c:?}),"));
+        }
+        line(format_args!("    ],"));
     }
     line(format_args!("]"));
     if !matches!(element, SliderElement::Constant) {
@@ -158,7 +173,12 @@ pub fn script(
         }
         None => line(format_args!("TIMES = [{}]  # s", listed(&times_s))),
     }
-    line(format_args!("ACCELERATION = [{}]  # of the ground, m/s2", listed(&values)));
+    line(format_args!("ACCELERATION = [  # of the ground, m/s2, along each"));
+    let along_y = along_y.map(|y| right_sides(motion, y).1);
+    for values in core::iter::once(&values).chain(&along_y) {
+        line(format_args!("[{}],", listed(values)));
+    }
+    line(format_args!("]"));
     text.push_str(&functions);
     let _ = write!(text, "\n\nPARTS = [{}]\n", parts.join(", "));
     text.push_str(ANALYSIS);
@@ -173,8 +193,13 @@ fn constant(model: &Model, line: &mut impl FnMut(core::fmt::Arguments<'_>)) {
 }
 
 /// Numbers of a bearing.
-fn bearing(model: &Model, vertical: bool, line: &mut impl FnMut(core::fmt::Arguments<'_>)) {
-    line(format_args!("NDM, NDF, TOLERANCE = 2, 3, 1e-11"));
+fn bearing(
+    model: &Model,
+    [vertical, in_plane]: [bool; 2],
+    line: &mut impl FnMut(core::fmt::Arguments<'_>),
+) {
+    let [ndm, ndf] = if in_plane { [3, 6] } else { [2, 3] };
+    line(format_args!("NDM, NDF, TOLERANCE = {ndm}, {ndf}, 1e-11"));
     match model.slider().rate().map(|rate| (rate.curve(), rate.factor(Direction::Positive))) {
         None => line(format_args!("FRICTION = \"Coulomb\", 1, {:?}", model.kinetic_friction()[0])),
         Some((RateCurve::Exponential { slow, fast, rate_s_per_m }, factor)) => {
@@ -196,7 +221,7 @@ fn bearing(model: &Model, vertical: bool, line: &mut impl FnMut(core::fmt::Argum
             ));
         }
     }
-    match model.slider().pendulum_radius_m(vertical) {
+    match model.slider().pendulum_radius_m(vertical || in_plane) {
         Some(radius_m) => line(format_args!(
             "BEARING = \"singleFPBearing\", 1, 1, 2, 1, {radius_m:?}  # radius in m"
         )),
@@ -243,6 +268,13 @@ fn rebound_damping(restitution: f64) -> f64 {
 fn masses(model: &Model) -> Vec<f64> {
     let block = core::iter::once(model.block().mass_kg);
     block.chain(model.frame().masses_kg.iter().copied()).collect()
+}
+
+/// The frame along y.
+fn frame_along_y(model: &Model) -> Frame {
+    let along_y = model.along_y();
+    let (stiffnesses_n_per_m, damping) = (along_y.stiffnesses_n_per_m, along_y.damping);
+    Frame { stiffnesses_n_per_m, damping, ..model.frame().clone() }
 }
 
 /// Dashpots that make the frame's damping: between masses `i < j`, 0 the block, in N s/m.
@@ -314,7 +346,8 @@ fn expressible(model: &Model, motion: &GroundMotion) -> Result<SliderElement, Ch
         SliderElement::Triple
     } else {
         one_coefficient(model)?;
-        if slider.rate().is_some() || vertical.is_some() {
+        let in_plane = motion.horizontal_y_m_per_s2().is_some();
+        if slider.rate().is_some() || vertical.is_some() || in_plane {
             let [positive, negative] = model.kinetic_friction();
             let rate = slider.rate();
             let sides = [Direction::Positive, Direction::Negative];
@@ -355,13 +388,12 @@ fn expressible(model: &Model, motion: &GroundMotion) -> Result<SliderElement, Ch
         let expected = "none beside surfaces in series under vertical motion";
         return no("contents", expected, "contents");
     }
-    if motion.horizontal_y_m_per_s2().is_some() {
-        return no("motion.record_y", "a motion in one direction", "one in two");
-    }
     if slider.tilt_rad != 0.0 {
         return no("slider.tilt", "a level surface", &format!("{} rad", slider.tilt_rad));
     }
-    if *model.initial() != InitialState::rest() {
+    let start_y = model.along_y().initial;
+    let rests = motion.horizontal_y_m_per_s2().is_none() || start_y == InitialState::rest();
+    if *model.initial() != InitialState::rest() || !rests {
         return no("initial", "a start at rest", "an initial state");
     }
     let least = vertical.map_or(0.0, |a| a.iter().copied().fold(0.0, f64::min));

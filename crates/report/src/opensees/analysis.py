@@ -5,13 +5,13 @@ def node(tag, mass, *free):
     ops.node(tag, *[0.0] * NDM)
     ops.fix(tag, *[0 if i in free else 1 for i in range(1, NDF + 1)])
     if mass:
-        ops.mass(tag, mass, *[0.0] * (NDF - 1))
+        ops.mass(tag, *[mass if i in HORIZONTAL else 0.0 for i in range(1, NDF + 1)])
 
 
-def between(tag, below, above, *material):
-    """A uniaxial material along x between two nodes; both have the tag."""
+def between(tag, below, above, *material, along=1):
+    """A uniaxial material along x, or another direction, between two nodes; both have the tag."""
     ops.uniaxialMaterial(material[0], tag, *material[1:])
-    ops.element("zeroLength", tag, below, above, "-mat", tag, "-dir", 1)
+    ops.element("zeroLength", tag, below, above, "-mat", tag, "-dir", along)
 
 
 def build(k_init=K_INIT):
@@ -20,14 +20,15 @@ def build(k_init=K_INIT):
     ops.model("basic", "-ndm", NDM, "-ndf", NDF)
     node(1, 0.0)
     for i, mass in enumerate(MASSES):
-        node(i + 2, mass, *([1, NDM] if i == 0 else [1]))
+        node(i + 2, mass, *([*HORIZONTAL, NDM] if i == 0 else HORIZONTAL))
     slider(k_init)
     tag = 10
-    between(tag, 1, 2, "Elastic", SPRING, DAMPER)
-    for i, stiffness in enumerate(STOREYS):
-        between(tag := tag + 1, 2 + i, 3 + i, "Elastic", stiffness)
-    for i, j, damper in DASHPOTS:
-        between(tag := tag + 1, 2 + i, 2 + j, "Elastic", 0.0, damper)
+    for along, storeys, dashpots in zip(HORIZONTAL, STOREYS, DASHPOTS):
+        between(tag := tag + 1, 1, 2, "Elastic", SPRING, DAMPER, along=along)
+        for i, stiffness in enumerate(storeys):
+            between(tag := tag + 1, 2 + i, 3 + i, "Elastic", stiffness, along=along)
+        for i, j, damper in dashpots:
+            between(tag := tag + 1, 2 + i, 2 + j, "Elastic", 0.0, damper, along=along)
     for part, first in zip(PARTS, (1000, 2000)):
         part(first, k_init)
     ops.constraints("Plain")
@@ -36,8 +37,9 @@ def build(k_init=K_INIT):
     ops.algorithm("Newton")
     weigh()
     ops.test("NormDispIncr", TOLERANCE, 50)
-    ops.timeSeries("Path", 1, "-time", *TIMES, "-values", *ACCELERATION, "-useLast")
-    ops.pattern("UniformExcitation", 1, 1, "-accel", 1)
+    for along, acceleration in zip(HORIZONTAL, ACCELERATION):
+        ops.timeSeries("Path", 10 + along, "-time", *TIMES, "-values", *acceleration, "-useLast")
+        ops.pattern("UniformExcitation", 10 + along, along, "-accel", 10 + along)
     ops.integrator("Newmark", 0.5, 0.25)
     ops.analysis("Transient")
 
@@ -53,19 +55,21 @@ def step(dt):
 
 
 def analyse(k_init=K_INIT, parts=1):
-    """Times in s and sliding displacements in m, with so many steps a sample."""
+    """Times in s and sliding displacements in m (in two directions pairs), with so many steps a sample."""
     build(k_init)
-    sliding = [0.0]
+    place = lambda: [ops.nodeDisp(2, along) for along in HORIZONTAL]
+    sliding = [place()]
     for start, end in zip(TIMES, TIMES[1:]):
         for _ in range(parts):
             if not step((end - start) / parts):
                 ops.wipe()
                 raise ArithmeticError(f"no convergence at {end:.3f} s")
-        sliding.append(ops.nodeDisp(2, 1))
+        sliding.append(place())
     ops.wipe()
-    return TIMES, sliding
+    return TIMES, sliding if len(HORIZONTAL) > 1 else [s for [s] in sliding]
 
 
 if __name__ == "__main__":
     _, s = analyse()
-    print(f"peak sliding displacement {max(map(abs, s)):.6g} m, residual {s[-1]:.6g} m")
+    size = [abs(complex(*s)) for s in s] if len(HORIZONTAL) > 1 else [abs(s) for s in s]
+    print(f"peak sliding displacement {max(size):.6g} m, residual {size[-1]:.6g} m")

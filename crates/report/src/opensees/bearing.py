@@ -5,5 +5,8 @@ def slider(k_init):
     ops.frictionModel(*FRICTION)
     ops.uniaxialMaterial("Elastic", 2, WEIGHT / 1e-3)
     ops.uniaxialMaterial("Elastic", 3, 1.0)
-    upright = "-orient", 0, 1, 0, -1, 0, 0
-    ops.element(*BEARING, k_init, "-P", 2, "-Mz", 3, *upright)
+    if NDM == 3:
+        turns = "-P", 2, "-T", 3, "-My", 3, "-Mz", 3, "-orient", 0, 0, 1, 1, 0, 0
+    else:
+        turns = "-P", 2, "-Mz", 3, "-orient", 0, 1, 0, -1, 0, 0
+    ops.element(*BEARING, k_init, *turns)
