@@ -164,39 +164,20 @@ pub struct RunArgs {
     pub models: Vec<PathBuf>,
 
     /// Record to use instead of the model's [motion]; the format is recognised
-    #[arg(long, value_name = "FILE", help_heading = "Ground motion")]
+    #[arg(long, value_name = "FILE", conflicts_with = "records", help_heading = "Ground motion")]
     pub motion: Option<PathBuf>,
-    /// A suite of records: files, folders or patterns such as 'far-field/*.AT2'; may be repeated
-    #[arg(long, value_name = "PATTERN", num_args = 1.., conflicts_with = "motion", help_heading = "Ground motion")]
-    pub records: Vec<String>,
-    /// Vertical components of the suite, as many and in the same order; may be repeated
-    #[arg(long, value_name = "PATTERN", num_args = 1.., requires = "records", help_heading = "Ground motion")]
-    pub vertical: Vec<String>,
-    /// Other horizontal components of the suite, as many and in the same order: both components of a pair
-    /// take one factor; may be repeated
-    #[arg(long, value_name = "PATTERN", num_args = 1.., help_heading = "Ground motion")]
-    pub second: Vec<String>,
+    /// The records of a suite
+    #[command(flatten)]
+    pub on: SuiteArgs,
     /// Spectrum that pairs are scaled to: a CSV with the columns period_s and sa_g
     #[arg(long, value_name = "FILE", requires = "second", help_heading = "Ground motion")]
     pub target: Option<PathBuf>,
-    /// What the file does not state
-    #[command(flatten)]
-    pub record: RecordArgs,
-    /// Number of threads of a suite
-    #[command(flatten)]
-    pub threads: Threads,
     /// What is asked of one motion
     #[command(flatten)]
     pub one: Fields<{ Kind::Run as usize }>,
     /// What is asked of a suite
     #[command(flatten)]
     pub suite: Fields<{ Kind::Suite as usize }>,
-    /// Set a key of the model by its path, such as slider.gap="150 mm"; may be repeated, the last one counts
-    #[arg(long, value_name = "PATH=VALUE")]
-    pub set: Vec<String>,
-    /// What becomes of the result
-    #[command(flatten)]
-    pub result: ResultArgs,
 }
 
 /// The threads that share out runs.
@@ -347,6 +328,9 @@ pub struct PaperArgs {
     /// Scan the ranges more coarsely
     #[arg(long)]
     pub quick: bool,
+    /// Number of threads
+    #[command(flatten)]
+    pub threads: Threads,
     /// No progress on standard error
     #[arg(short, long)]
     pub quiet: bool,

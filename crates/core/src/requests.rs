@@ -25,7 +25,7 @@ use crate::assessment::observed::{
     usual_by,
 };
 use crate::assessment::spectrum::{SpectrumRequest, SpectrumRun, run_spectrum};
-use crate::assessment::suite::{Recorded, Scaling, Suite, times};
+use crate::assessment::suite::{Recorded, Suite};
 use crate::assessment::{AssessmentError, refuse};
 use crate::error::{ChoiceError, MeasureError};
 use crate::input::{Analysis, Bound, FrictionBounds, Override};
@@ -245,12 +245,17 @@ impl Request {
         engine: &Engine<'_>,
     ) -> Result<(Results, String), AssessmentError> {
         let models = self.models(on, Some(self.one("over")))?;
-        let (scaling, scaled) = self.scaling()?;
+        let (scaling, scaled) = self.scaling(None)?;
         let demands: Vec<String> = self.all("demand").map(str::to_owned).collect();
         let bounds = self.bounds(on)?;
         let suite = on.suite;
-        let request =
-            SpectrumRequest { models: &models, suite, scaling, demands: &demands, bounds: &bounds };
+        let request = SpectrumRequest {
+            models: &models,
+            suite,
+            scaling: &scaling,
+            demands: &demands,
+            bounds: &bounds,
+        };
         Ok((Results::Spectrum(run_spectrum(&request, engine)?), scaled))
     }
 
@@ -320,7 +325,7 @@ impl Request {
             return Err(refuse("vary", expected, "nothing"));
         }
         let models = self.models(on, None)?;
-        let (scaling, scaled) = self.scaling()?;
+        let (scaling, scaled) = self.scaling(None)?;
         let gap_m = match (self.given("gap"), on.analysis.model.slider().gap_m()) {
             (Some(text), _) => limit("gap", text, SLIDING)?,
             (None, Some(gap_m)) => gap_m,
@@ -346,7 +351,7 @@ impl Request {
         let request = DesignRequest {
             models: &models,
             suite: on.suite,
-            scaling,
+            scaling: &scaling,
             target,
             acceleration: &acceleration,
             bounds,
@@ -376,18 +381,6 @@ impl Request {
 
     fn measure(&self) -> Result<Measure, AssessmentError> {
         Ok(Measure::parse(self.one("measure")).map_err(of_measure)?)
-    }
-
-    /// How records are scaled, and that in words.
-    fn scaling(&self) -> Result<(Scaling, String), AssessmentError> {
-        if let Some(level) = self.given("scale-to") {
-            if self.given("scale").is_some() {
-                return Err(self.two_scales().into());
-            }
-            return Scaling::to_level("scale-to", self.measure()?, level);
-        }
-        let factor = self.number("scale", "a factor other than 0", |factor| factor != 0.0)?;
-        Ok((Scaling::Factor(factor), times(factor)))
     }
 
     /// The bounds of friction to run; none for a model without them.

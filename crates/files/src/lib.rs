@@ -37,7 +37,7 @@ pub use study::{
     estimate, files_of_runs, has_parts, kept_runs, limit_of_ida, merge, part_rows, quoted,
     read_runs, read_target, run_shard,
 };
-pub use suite::{OpenSuite, SuiteError, SuiteRequest, stems_or_paths};
+pub use suite::{OpenSuite, ReadRecords, SuiteError, SuiteRequest, stems_or_paths};
 pub use table::{ReadTable, read_csv, read_table, to_csv, to_parquet};
 pub use threads::on_threads;
 pub use write::{OutputFolder, refuse_inputs, remove_temporaries, write_whole};

@@ -4,14 +4,13 @@ use std::path::{Path, PathBuf};
 
 use slipstick::assessment::suite::Suite;
 use slipstick::error::{ChoiceError, Stopped};
-use slipstick::input::loaded::Loaded;
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::record::Units;
 use slipstick::study::engine::Engine;
 
 use crate::error::FileError;
 use crate::globs::{expand_all, expand_once, named_twice};
-use crate::load::{LoadedMotion, RecordRequest, SourceFile, VerticalRequest, load_record};
+use crate::load::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
 use crate::unfit::refuse_unfit;
 
 /// Why the records of a suite cannot be used.
@@ -54,13 +53,23 @@ pub struct OpenSuite {
     pub sources: Vec<(String, String, String)>,
 }
 
-impl OpenSuite {
-    /// Opens all records, of each of which the engine is told; a record's name is its file's stem, or its path where stems repeat.
+/// Records that were read, each with all that its file says.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ReadRecords {
+    /// The records by their names, components of a pair beside each other.
+    pub records: Vec<(String, LoadedMotion)>,
+    /// What is to be said of several of them.
+    pub warnings: Vec<Notice>,
+}
+
+impl ReadRecords {
+    /// Reads all records, of each of which the engine is told; a record's name is its file's stem, or its path
+    /// where stems repeat.
     ///
     /// # Errors
     /// [`SuiteError`] where nothing matches a pattern, a file is no record, the vertical or other
     /// components are not as many as the records, or it is stopped.
-    pub fn open(request: &SuiteRequest, engine: &Engine<'_>) -> Result<Self, SuiteError> {
+    pub fn read(request: &SuiteRequest, engine: &Engine<'_>) -> Result<Self, SuiteError> {
         let (mut files, mut again) = expand_once(Path::new(""), &request.patterns)?;
         let second = expand_all(Path::new(""), &request.second)?;
         let mut vertical = expand_all(Path::new(""), &request.vertical)?;
@@ -105,32 +114,43 @@ impl OpenSuite {
         let loaded = loaded.into_iter().collect::<Result<Vec<_>, FileError>>()?;
         let read: Vec<_> = files.iter().map(PathBuf::as_path).zip(&loaded).collect();
         let same = refuse_unfit(&read, request.channel.is_some(), pairs)?;
-        let mut open = Self::of(&stems_or_paths(&files), loaded, false);
-        if pairs {
+        let warning = |kind| move |message| Notice::new(kind, message);
+        let twice = named_twice(&again).map(warning(NoticeKind::RecordNamedTwice)).into_iter();
+        let warnings = twice.chain(same.into_iter().map(warning(NoticeKind::SameMotion))).collect();
+        let records = stems_or_paths(&files).into_iter().zip(loaded).collect();
+        Ok(Self { records, warnings })
+    }
+}
+
+impl OpenSuite {
+    /// Opens all records as [`ReadRecords::read`] reads them.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn open(request: &SuiteRequest, engine: &Engine<'_>) -> Result<Self, SuiteError> {
+        let ReadRecords { records, warnings } = ReadRecords::read(request, engine)?;
+        let mut open = Self::of(records, false);
+        if !request.second.is_empty() {
             open.suite.pair_up();
         }
-        let notices = &mut open.suite.notices;
-        let warning = |kind| move |message| Notice::new(kind, message);
-        notices.extend(named_twice(&again).map(warning(NoticeKind::RecordNamedTwice)));
-        notices.extend(same.into_iter().map(warning(NoticeKind::SameMotion)));
+        open.suite.notices.extend(warnings);
         Ok(open)
     }
 
     /// The motion of a model as its only record.
     #[must_use]
-    pub fn single(name: &str, loaded: Loaded, sources: Vec<SourceFile>) -> Self {
-        let made = sources.is_empty();
-        Self::of(&[name.to_owned()], vec![LoadedMotion { loaded, sources }], made)
+    pub fn single(name: &str, loaded: LoadedMotion, made: bool) -> Self {
+        Self::of(vec![(name.to_owned(), loaded)], made)
     }
 
-    fn of(names: &[String], loaded: Vec<LoadedMotion>, made: bool) -> Self {
+    fn of(records: Vec<(String, LoadedMotion)>, made: bool) -> Self {
         let mut sources = Vec::new();
-        for loaded in &loaded {
+        for (_, loaded) in &records {
             sources.extend(loaded.sources.iter().zip(&loaded.description).map(|(file, what)| {
                 (file.path.display().to_string(), file.sha256.clone(), what.clone())
             }));
         }
-        let read = names.iter().cloned().zip(loaded.into_iter().map(|loaded| loaded.loaded));
+        let read = records.into_iter().map(|(name, loaded)| (name, loaded.loaded));
         Self { suite: Suite::of(read, made), sources }
     }
 }

@@ -1,7 +1,9 @@
 //! `spectrum`, `ida`, `fragility`, `design`: many records to a decision.
 
+use std::ffi::CString;
 use std::path::PathBuf;
 
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slipstick::assessment::AssessmentError;
@@ -9,7 +11,7 @@ use slipstick::assessment::suite::Suite;
 use slipstick::record::Units;
 use slipstick::requests::{Answer, Kind, On, Runs};
 use slipstick_files::{
-    OpenSuite, SuiteError, SuiteRequest, files_of_runs, limit_of_ida, read_runs, read_target,
+    ReadRecords, SuiteError, SuiteRequest, files_of_runs, limit_of_ida, read_runs, read_target,
 };
 use slipstick_report::DisplayUnits;
 use slipstick_report::assessment::{Sheet, Went, answer};
@@ -97,14 +99,17 @@ pub(crate) fn read_suite(
     let units = units.transpose()?;
     let request =
         SuiteRequest { patterns, vertical, units, dt_s, channel, ..SuiteRequest::default() };
-    let open = followed(py, None, None, |engine| OpenSuite::open(&request, engine))?;
-    let open = open.map_err(|error| match error {
+    let read = followed(py, None, None, |engine| ReadRecords::read(&request, engine))?;
+    let ReadRecords { records, warnings } = read.map_err(|error| match error {
         SuiteError::File(error) => of_file(py, &error),
         SuiteError::Choice(error) => of_assessment(py, &AssessmentError::Choice(error)),
         SuiteError::Stopped(error) => of_assessment(py, &AssessmentError::Stopped(error)),
     })?;
-    let records = open.suite.records.into_iter();
-    Ok(records.map(|record| (record.name.clone(), Motion::recorded(record))).collect())
+    for warning in warnings {
+        let message = CString::new(warning.message).unwrap_or_default();
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &message, 1)?;
+    }
+    Ok(records.into_iter().map(|(name, loaded)| (name, Motion(loaded))).collect())
 }
 
 /// Records by their names.

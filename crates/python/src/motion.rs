@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyInt, PyString};
-use slipstick::assessment::suite::SuiteRecord;
 use slipstick::error::MotionError;
 use slipstick::input::loaded::Loaded;
 use slipstick::motion::GroundMotion;
@@ -104,13 +103,6 @@ fn made(motion: GroundMotion) -> LoadedMotion {
 impl Motion {
     pub(crate) fn of(motion: GroundMotion) -> Self {
         Self(made(motion))
-    }
-
-    /// A record of a suite.
-    pub(crate) fn recorded(record: SuiteRecord) -> Self {
-        let LoadedMotion { loaded, sources } = made(record.motion);
-        let loaded = Loaded { origin: record.origin, warnings: record.notices, ..loaded };
-        Self(LoadedMotion { loaded, sources })
     }
 
     fn derived(&self, py: Python<'_>, motion: Result<GroundMotion, MotionError>) -> PyResult<Self> {

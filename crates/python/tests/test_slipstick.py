@@ -471,6 +471,8 @@ def test_a_suite_is_that_of_the_command(tmp_path: Path) -> None:
     asked = ["--measure", "PGV", "--scale-to", "0.3 m/s", "--out", path, "--json", "-q"]
     assert found._core._summary_json() == command("run", EXAMPLES / "taft.toml", *files, *asked)
     assert found.table.to_csv() == (path / "runs.csv").read_text()
+    # What reading a file said is not lost on the way.
+    assert [warning["kind"] for warning in found.summary["warnings"]] == ["first_sample_not_zero"]
     pairs = {name: records[name] for name in list(records)[:2]}
     other = dict(reversed(pairs.items()))
     both = ss.suite({"a": model, "b": model}, pairs, second=other, scale=2.0)
@@ -483,6 +485,18 @@ def test_a_suite_is_that_of_the_command(tmp_path: Path) -> None:
         ss.ida(model, records, second=pairs)
 
 
+def test_what_is_wrong_with_a_plan_is_said_of_its_argument() -> None:
+    records = suite()
+    for wrong, message in [
+        ({"measure": "PGAA", "levels": ["0.1 g"]}, "^measure: expected "),
+        ({"scale": [1.0, 1.0]}, "^scale: expected factors that differ, found 1 twice$"),
+        ({"vary": {"slider.radios": ["1 m"]}, "method": "grid"}, '^vary.slider.radios: .*nearest is "slider.radius"$'),
+        ({"vary": {"slider.radius": ["1 m"]}, "samples": 0}, "^samples: expected "),
+    ]:
+        with pytest.raises(ss.InputError, match=message):
+            ss.study(ss.Plan(block(), records, **wrong))
+
+
 def test_levels_are_text_or_a_list() -> None:
     model, records = ss.Model.read(EXAMPLES / "taft.toml"), suite()
     text, listed = "0.1, 0.2 g", ["0.1 g", "0.2 g"]
@@ -491,7 +505,7 @@ def test_levels_are_text_or_a_list() -> None:
     plans = [ss.Plan(model, records, measure="PGA", levels=levels) for levels in (text, listed)]
     by_text, by_list = (ss.study(plan).table for plan in plans)
     assert by_text == by_list
-    ranged = ss.Plan(model, records, measure="PGA", levels="0.1..0.3 g:3")
+    ranged = ss.Plan(model, records, measure="PGA", levels="0.1..0.3 g:3", bounds="nominal")
     assert ss.study(ranged).runs == 9
 
 

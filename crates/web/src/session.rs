@@ -274,10 +274,12 @@ impl Session {
         Ok(sheets::assess(&mut self.records, what, text, &options, display_units(display))?)
     }
 
-    /// The form of an analysis: `{about, fields: [{name, label, takes, words, default, start, about}]}`.
-    #[must_use]
-    pub fn form(&self, what: &str) -> String {
-        sheets::form(what).to_pretty()
+    /// The form of an analysis of a model: `{about, fields: [{name, label, takes, words, default, start, about}]}`.
+    ///
+    /// # Errors
+    /// With the place in the text where the model cannot be understood.
+    pub fn form(&self, what: &str, text: &str) -> Result<String, JsValue> {
+        Ok(sheets::form(what, &parse(text)?).to_pretty())
     }
 
     /// Prepares a study: a plan, the model that it names, and the records that its patterns match among

@@ -153,7 +153,7 @@ fn requests(what: &str) -> Vec<Kind> {
 }
 
 /// The form of an analysis: what it is, and its fields.
-pub fn form(what: &str) -> Json {
+pub fn form(what: &str, model: &Analysis) -> Json {
     let mut fields: Vec<&Field> = Vec::new();
     for field in requests(what).into_iter().flat_map(|kind| kind.offered(Door::Page)) {
         if fields.iter().all(|known| known.name != field.name) {
@@ -167,14 +167,13 @@ pub fn form(what: &str) -> Json {
             Takes::Flag => ("flag", &[]),
             Takes::Choice(words) => ("choice", words),
         };
-        let start = if field.default.is_empty() { field.sample } else { field.default };
         Json::Object(vec![
             ("name", field.name.into()),
             ("label", field.label.into()),
             ("takes", takes.into()),
             ("words", texts(words.iter().copied())),
             ("default", field.default.into()),
-            ("start", start.into()),
+            ("start", field.start(model).into()),
             ("about", field.about.into()),
         ])
     };

@@ -6,6 +6,7 @@ use clap::Args;
 use slipstick::requests::Kind;
 
 use super::{Fields, RecordArgs, ResultArgs, Threads};
+use crate::failure::Failure;
 
 pub const SPECTRUM_EXAMPLES: &str = "\
 Examples:
@@ -74,20 +75,18 @@ The exit status is 1 if no design stays within the gap.
 Writes with --out: front.csv and front.parquet, runs.parquet (every run of the front), figures
 (SVG), summary.json, report.html.";
 
-/// Model and records.
-#[derive(Debug, Args)]
+/// Records of a suite, and what is set in the models that it is run on.
+#[derive(Clone, Debug, Args)]
 pub struct SuiteArgs {
-    /// Model file (TOML), or - to read it from standard input
-    pub model: PathBuf,
-    /// Records: files, folders or patterns such as 'far-field/*.AT2'; may be repeated
+    /// A suite of records: files, folders or patterns such as 'far-field/*.AT2'; may be repeated
     #[arg(long, value_name = "PATTERN", num_args = 1.., help_heading = "Ground motion")]
     pub records: Vec<String>,
     /// Vertical components, as many and in the same order; may be repeated
-    #[arg(long, value_name = "PATTERN", num_args = 1.., requires = "records", help_heading = "Ground motion")]
+    #[arg(long, value_name = "PATTERN", num_args = 1.., help_heading = "Ground motion")]
     pub vertical: Vec<String>,
-    /// Other horizontal components, of an incremental dynamic analysis: both components of a pair take one
-    /// factor, and certainty is clustered by pair; may be repeated
-    #[arg(long, value_name = "PATTERN", num_args = 1.., requires = "records", help_heading = "Ground motion")]
+    /// Other horizontal components, as many and in the same order: both components of a pair take one factor,
+    /// and certainty is clustered by pair; may be repeated
+    #[arg(long, value_name = "PATTERN", num_args = 1.., help_heading = "Ground motion")]
     pub second: Vec<String>,
     /// What the files do not state
     #[command(flatten)]
@@ -103,10 +102,27 @@ pub struct SuiteArgs {
     pub result: ResultArgs,
 }
 
+impl SuiteArgs {
+    /// Refuses other components, and what files do not say, where there is no suite that they could be of.
+    pub fn only_with_records(&self) -> Result<(), Failure> {
+        if !self.records.is_empty() {
+            return Ok(());
+        }
+        let others = [("--second", &self.second), ("--vertical", &self.vertical)];
+        if let Some((option, _)) = others.iter().find(|(_, given)| !given.is_empty()) {
+            let mend = "a suite beside it, --records <PATTERN>, whose other components these are";
+            return Err(Failure::Message(format!("{option}: expected {mend}")));
+        }
+        Ok(())
+    }
+}
+
 /// `slipstick spectrum`, `ida`, `design`.
 #[derive(Debug, Args)]
 pub struct AssessArgs<const KIND: usize> {
-    /// Model and records
+    /// Model file (TOML), or - to read it from standard input
+    pub model: PathBuf,
+    /// The records
     #[command(flatten)]
     pub suite: SuiteArgs,
     /// What is asked

@@ -23,7 +23,7 @@ use crate::progress::{TRIAL, counted, estimated};
 /// Runs, prints and writes; status 1 where a run has no answer, or no design is found.
 pub fn assess<const KIND: usize>(args: &AssessArgs<KIND>) -> Result<ExitCode, Failure> {
     let asked = args.fields.asked()?;
-    let opened = Opened::open(&args.suite)?;
+    let opened = Opened::open(&args.model, &args.suite)?;
     let result = &args.suite.result;
     let folder = opened.folder(result)?;
     let answer = opened.compute(&args.suite, |engine| asked.run(&opened.on(), engine))?;

@@ -12,7 +12,8 @@ use slipstick::response::Method;
 use slipstick::study::engine::Engine;
 use slipstick::table::Table;
 use slipstick_files::{
-    OpenJob, OpenSuite, OutputFolder, SuiteError, SuiteRequest, on_threads, to_csv, to_parquet,
+    LoadedMotion, OpenJob, OpenSuite, OutputFolder, SuiteError, SuiteRequest, on_threads, to_csv,
+    to_parquet,
 };
 use slipstick_report::assessment::{Sheet, Went};
 use slipstick_report::{FileNote, InputText};
@@ -36,16 +37,17 @@ pub struct Opened {
 
 impl Opened {
     /// Reads the model and the records, or the model's own motion.
-    pub fn open(args: &SuiteArgs) -> Result<Self, Failure> {
-        Self::open_with(args, || open_records(args))
+    pub fn open(model: &Path, args: &SuiteArgs) -> Result<Self, Failure> {
+        Self::open_with(model, args, || open_records(args))
     }
 
     /// Reads the model, then the records by `records`; the model's own motion where it gives none.
     pub fn open_with(
+        model: &Path,
         args: &SuiteArgs,
         records: impl FnOnce() -> Result<Option<OpenSuite>, Failure>,
     ) -> Result<Self, Failure> {
-        let file = read_model(&args.model)?;
+        let file = read_model(model)?;
         let overrides = overrides(&args.set)?;
         let analysis = input::from_bytes(&file.name, &file.bytes, &overrides)
             .map_err(|error| Failure::input(error, &file.text()))?;
@@ -62,7 +64,11 @@ impl Opened {
                 let job = OpenJob::new(&file.path, analysis.clone(), None)
                     .map_err(|error| Failure::job(error, &file.name, &file.text()))?;
                 let record = job.job.loaded.description.join("; ");
-                OpenSuite::single(&record, job.job.loaded, job.sources)
+                {
+                    let made = job.sources.is_empty();
+                    let loaded = LoadedMotion { loaded: job.job.loaded, sources: job.sources };
+                    OpenSuite::single(&record, loaded, made)
+                }
             }
         };
         let text = file.text();
@@ -120,10 +126,20 @@ impl Opened {
 
 /// Reads the records that are asked for; `None` where none are.
 pub fn open_records(args: &SuiteArgs) -> Result<Option<OpenSuite>, Failure> {
+    args.only_with_records()?;
+    args.record.only_with("--records <PATTERN>", !args.records.is_empty())?;
     if args.records.is_empty() {
         return Ok(None);
     }
-    let request = suite_request(args)?;
+    let options = args.record.options(true)?;
+    let request = SuiteRequest {
+        patterns: args.records.clone(),
+        second: args.second.clone(),
+        vertical: args.vertical.clone(),
+        units: options.units,
+        dt_s: options.dt_s,
+        channel: options.channel,
+    };
     let read = |engine: &Engine<'_>| {
         on_threads(args.threads.number(), || OpenSuite::open(&request, engine))
     };
@@ -139,19 +155,6 @@ pub fn open_records(args: &SuiteArgs) -> Result<Option<OpenSuite>, Failure> {
 /// The folder for results, made before any work is done.
 pub fn folder(args: &ResultArgs, inputs: &[PathBuf]) -> Result<Option<OutputFolder>, Failure> {
     Ok(args.out.as_deref().map(|out| OutputFolder::create(out, inputs)).transpose()?)
-}
-
-fn suite_request(args: &SuiteArgs) -> Result<SuiteRequest, Failure> {
-    args.record.only_with("--records <PATTERN>", !args.records.is_empty())?;
-    let options = args.record.options(true)?;
-    Ok(SuiteRequest {
-        patterns: args.records.clone(),
-        second: args.second.clone(),
-        vertical: args.vertical.clone(),
-        units: options.units,
-        dt_s: options.dt_s,
-        channel: options.channel,
-    })
 }
 
 /// Writes tables, figures, summary and report, and prints the result; status 1 where it is not complete.

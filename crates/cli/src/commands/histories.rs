@@ -1,6 +1,6 @@
 //! `slipstick run` with several models or a suite of records.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use slipstick::input;
@@ -10,7 +10,7 @@ use slipstick_files::{read_target, stems_or_paths};
 use super::assess::{Source, tell};
 use super::assessment::{Opened, folder, open_records};
 use super::run::read_model;
-use crate::args::{RunArgs, SuiteArgs};
+use crate::args::RunArgs;
 use crate::failure::Failure;
 
 /// Runs, prints and writes; status 1 where a certificate does not hold.
@@ -25,7 +25,9 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
         Ok::<_, Failure>((path.display().to_string(), spectrum, sha256))
     });
     let target = target.transpose()?;
-    let suites: Vec<SuiteArgs> = args.models.iter().map(|model| suite_of(args, model)).collect();
+    // One motion is a suite of one.
+    let mut suite = args.on.clone();
+    suite.records.extend(args.motion.iter().map(|path| path.display().to_string()));
     // A record among the models is told before a model that lacks one.
     for model in args.models.iter().filter(|path| path.extension().is_some_and(|e| e != "toml")) {
         let file = read_model(model)?;
@@ -34,13 +36,13 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
     }
     // Every model has the same records: they are read once.
     let mut records = None;
-    let mut opened = Vec::with_capacity(suites.len());
-    for suite in &suites {
+    let mut opened = Vec::with_capacity(args.models.len());
+    for model in &args.models {
         let read = || match &records {
             Some(read) => Ok(Clone::clone(read)),
-            None => Ok(records.insert(open_records(suite)?).clone()),
+            None => Ok(records.insert(open_records(&suite)?).clone()),
         };
-        opened.push(Opened::open_with(suite, read)?);
+        opened.push(Opened::open_with(model, &suite, read)?);
     }
     let of_target = |(path, _, sha256): &(String, _, String)| {
         (path.clone(), sha256.clone(), "target spectrum".to_owned())
@@ -52,34 +54,18 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
         }
     }
     let inputs: Vec<PathBuf> = sources.iter().map(|(path, ..)| path.into()).collect();
-    let folder = folder(&args.result, &inputs)?;
+    let folder = folder(&suite.result, &inputs)?;
     let names = names(&opened);
     let on: Vec<On<'_>> =
         opened.iter().zip(&names).map(|(opened, name)| On { name, ..opened.on() }).collect();
-    let first = opened.first().zip(suites.first());
-    let (first, suite) = first.ok_or_else(|| Failure::Message("expected a model".to_owned()))?;
+    let first = opened.first().ok_or_else(|| Failure::Message("expected a model".to_owned()))?;
     let target = target.map(|(path, spectrum, _)| (path, spectrum));
-    let answer = first.compute(suite, |engine| {
+    let answer = first.compute(&suite, |engine| {
         let target = target.as_ref().map(|(path, spectrum)| (path.as_str(), spectrum.clone()));
         asked.suite(&on, target, engine)
     })?;
     let texts: Vec<(String, String)> = opened.iter().flat_map(Opened::inputs).collect();
-    tell(&args.result, folder, answer, &sources, &texts)
-}
-
-/// The options of a model with the suite; one motion is a suite of one.
-fn suite_of(args: &RunArgs, model: &Path) -> SuiteArgs {
-    let motion = args.motion.iter().map(|path| path.display().to_string());
-    SuiteArgs {
-        model: model.to_owned(),
-        records: args.records.iter().cloned().chain(motion).collect(),
-        vertical: args.vertical.clone(),
-        second: args.second.clone(),
-        record: args.record.clone(),
-        set: args.set.clone(),
-        threads: args.threads,
-        result: args.result.clone(),
-    }
+    tell(&suite.result, folder, answer, &sources, &texts)
 }
 
 /// Names of the models: of several the stems of their files, or their paths where stems repeat.

@@ -22,7 +22,9 @@ pub fn paper(args: &PaperArgs) -> Result<ExitCode, Failure> {
     if let Some(folder) = &args.records {
         library = library.with_records(records(folder, args.quiet)?);
     }
-    let work = |engine: &Engine<'_>| on_threads(None, || reproduce(&library, grid, engine));
+    let work = |engine: &Engine<'_>| {
+        on_threads(args.threads.number(), || reproduce(&library, grid, engine))
+    };
     let result = counted("computing", args.quiet, work).map_err(failed)?;
     if let Some([out, figures]) = folders {
         write(&result, out, figures)?;

@@ -24,42 +24,40 @@ use crate::progress::{Lines, TRIAL, estimated, reading, writing};
 /// Runs one analysis, prints it and writes its files.
 pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
     match args.models.as_slice() {
-        [model] if args.records.is_empty() => one(args, model),
+        [model] if args.on.records.is_empty() => one(args, model),
         _ => histories(args),
     }
 }
 
 /// One model on one motion.
 fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
-    if !args.second.is_empty() {
-        let mend = "a suite beside it, --records <PATTERN>, whose other components these are";
-        return Err(Failure::Message(format!("--second: expected {mend}")));
-    }
+    args.on.only_with_records()?;
     args.suite.none_beside(Kind::Run, "a suite beside it, --records <PATTERN>")?;
     let asked = args.one.asked()?.single()?;
     let model = read_model(model)?;
-    let mut overrides = overrides(&args.set)?;
+    let mut overrides = overrides(&args.on.set)?;
     let keys = asked.keys(args.motion.is_none());
     overrides.extend(keys.map_err(|error| Failure::Message(error.to_string()))?);
     let analysis = input::from_bytes(&model.name, &model.bytes, &overrides).map_err(|error| {
         let of_scale = asked.of_scale(&error).map(Failure::from);
         of_scale.unwrap_or_else(|| Failure::input(error, &model.text()))
     })?;
-    tell_replaced(&model, &overrides, &analysis, args.result.quiet);
-    args.record.only_with("--motion <FILE>", args.motion.is_some())?;
+    tell_replaced(&model, &overrides, &analysis, args.on.result.quiet);
+    args.on.record.only_with("--motion <FILE>", args.motion.is_some())?;
     let record = args.motion.as_deref().map(|path| record_request(args, path, asked.scale));
     let record = record.transpose()?;
     let in_model = |error| Failure::job(error, &model.name, &model.text());
     let file = record_path(&model.path, &analysis, record.as_ref());
     let piece = |bytes: &[u8]| drop(record::read("", bytes, &record::Options::default()));
     let open = || OpenJob::new(&model.path, analysis, record.as_ref());
-    let job = reading(file.as_deref(), args.result.quiet, &piece, open).map_err(in_model)?;
+    let job = reading(file.as_deref(), args.on.result.quiet, &piece, open).map_err(in_model)?;
     if asked.floor_spectrum && job.job.motion.horizontal_y_m_per_s2().is_some() {
         let message = "--floor-spectrum: expected a motion in one direction, found one in two";
         return Err(Failure::Message(message.to_owned()));
     }
     // An output folder that cannot be written is told before the work, not after it.
     let folder = args
+        .on
         .result
         .out
         .as_deref()
@@ -70,14 +68,14 @@ fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
         })
         .transpose()?;
     let (outcome, summary) =
-        estimated("computing", args.result.quiet, &|| job.estimate(TRIAL), || {
+        estimated("computing", args.on.result.quiet, &|| job.estimate(TRIAL), || {
             job.run(asked.floor_spectrum)
         })
         .map_err(in_model)?;
     if let Some(folder) = folder {
         let rows = outcome.nominal.response.history.as_ref().map_or(0, |h| h.rows.len());
         let lines = rows + outcome.nominal.response.events.len();
-        writing(lines as u64, args.result.quiet, |written| {
+        writing(lines as u64, args.on.result.quiet, |written| {
             write_files(folder, args, &model, &job, &outcome, &summary, written)
         })?;
     }
@@ -158,7 +156,7 @@ fn record_request(
     path: &Path,
     scale: Option<Scale>,
 ) -> Result<RecordRequest, Failure> {
-    let options = args.record.options(true)?;
+    let options = args.on.record.options(true)?;
     Ok(RecordRequest {
         path: path.to_owned(),
         format: None,
@@ -174,24 +172,24 @@ fn record_request(
 /// The result on standard output; what was noticed, on standard error, where the table has not
 /// said it already.
 fn show(args: &RunArgs, job: &OpenJob, summary: &Summary) -> Result<(), Failure> {
-    if args.result.json {
+    if args.on.result.json {
         print(&summary.to_json())?;
     } else {
         let record = job.job.loaded.description.join("; ");
-        let display = args.result.display_units;
+        let display = args.on.result.display_units;
         print(&table::table(summary, &job.job.analysis.model, &record, display))?;
     }
-    if args.result.quiet {
+    if args.on.result.quiet {
         return Ok(());
     }
-    if args.result.json {
+    if args.on.result.json {
         for (run, warning) in summary.all_warnings() {
             let run = run.map_or(String::new(), |run| format!(" ({run} friction)"));
             let label = warning.severity().name();
             say(format_args!("{label}: {}{run}: {}", warning.kind, warning.message));
         }
     }
-    if let Some(out) = &args.result.out {
+    if let Some(out) = &args.on.result.out {
         say(format_args!("wrote {}", out.join("report.html").display()));
     }
     Ok(())
@@ -234,7 +232,7 @@ fn write_files(
         inputs: &inputs,
         files: &files,
         command_line: &command_line,
-        display: args.result.display_units,
+        display: args.on.result.display_units,
     };
     folder.replaces(&["runs.csv", "governing.csv", "histories.svg", "shares.svg"]);
     folder.write("summary.json", summary.to_json().as_bytes())?;

@@ -270,7 +270,7 @@ pub struct DesignRequest<'a> {
     /// The records.
     pub suite: &'a Suite,
     /// How they are scaled.
-    pub scaling: Scaling,
+    pub scaling: &'a Scaling,
     /// What is asked for.
     pub target: Target,
     /// Key of the acceleration to be made least.
@@ -426,7 +426,9 @@ fn rows(
     let records: Vec<usize> = ran.iter().map(|ran| ran.case.record).collect();
     let mut rows = Table::default();
     rows.texts("record", records.iter().map(|&i| suite.records[i].name.clone()).collect());
-    rows.columns.extend(suite.intensities(&request.scaling, &records, runner.engine)?.columns);
+    let intensities =
+        suite.intensities(request.scaling, &runner.factors, &records, runner.engine)?;
+    rows.columns.extend(intensities.columns);
     rows.numbers("scale", "", records.iter().map(|&i| runner.factors[i]).collect());
     for (i, axis) in grid.axes().iter().enumerate() {
         let value = |ran: &Ran<Demand>| grid.values(ran.case.design)[i];
@@ -463,7 +465,7 @@ struct Runner<'a> {
 impl<'a> Runner<'a> {
     fn new(request: &DesignRequest<'a>, engine: &'a Engine<'a>) -> Result<Self, AssessmentError> {
         let (models, suite) = (request.models, request.suite);
-        let factors = suite.factors(&request.scaling, engine)?;
+        let factors = suite.scaled(request.scaling, engine)?.factors;
         let first = models.parts(&models.grid().values(0));
         let tail_s = first.map_or(0.0, |parts| parts.tail_s);
         Ok(Self {

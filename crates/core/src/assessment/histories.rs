@@ -3,7 +3,7 @@
 
 use super::lateral::LateralForce;
 use super::single::{Job, Judged};
-use super::suite::{PairScaling, Scaled, Suite, SuiteRecord};
+use super::suite::{Scaled, Scaling, Suite, SuiteRecord};
 use super::{AssessmentError, FailedRun};
 use crate::error::RunError;
 use crate::input::loaded::Loaded;
@@ -201,7 +201,7 @@ impl ModelHistories {
 /// and with it there is no mean or maximum.
 pub fn run_histories(
     models: &[ModelOn<'_>],
-    scaling: &PairScaling,
+    scaling: &Scaling,
     engine: &Engine<'_>,
 ) -> Result<Histories, AssessmentError> {
     let mut done = Vec::with_capacity(models.len());
@@ -210,8 +210,20 @@ pub fn run_histories(
         let Scaled { factors, matched: of_target } = model.suite.scaled(scaling, engine)?;
         let pairs = (0..factors.len()).step_by(2).map(|i| model.suite.pair_name(i).to_owned());
         matched = matched.or(of_target.map(|matched| (matched, pairs.collect())));
-        let run = |i: usize| on_record(model, i, factors[i]);
-        let records = engine.runs(model.suite.records.len(), run)?;
+        let bounds = bounds(model.analysis);
+        // Record by record, each with every bound.
+        let cases = factors.len() * bounds.len();
+        let case = |i: usize| (i / bounds.len(), &bounds[i % bounds.len()]);
+        let run = |i: usize| {
+            let (record, bound) = case(i);
+            with_bound(model, record, factors[record], bound, engine)
+                .map(|ran| Kept::of(bound, ran))
+        };
+        let mut ran = engine.runs(cases, run)?.into_iter();
+        let on = |(i, scale): (usize, &f64)| {
+            on_record(model, i, *scale, &bounds, ran.by_ref().take(bounds.len()))
+        };
+        let records = factors.iter().enumerate().map(on).collect();
         let mut of_model = ModelHistories {
             name: model.name.to_owned(),
             hash: model.analysis.hash(),
@@ -220,10 +232,10 @@ pub fn run_histories(
             stop_m: model.analysis.model.slider().stop().map_or([None; 2], |stop| stop.gap_m),
             governing_history: None,
             lateral: lateral(model.analysis, scaling),
-            bounds: bounds(model.analysis),
+            bounds,
             records,
         };
-        of_model.governing_history = governing_history(model, &of_model);
+        of_model.governing_history = governing_history(model, &of_model, engine);
         done.push(of_model);
     }
     let shapes = done.iter().map(ModelHistories::shape);
@@ -249,13 +261,47 @@ fn bounds(analysis: &Analysis) -> Vec<Bound> {
 }
 
 /// The procedure's displacement with each bound under the spectrum that the records are brought to.
-fn lateral(analysis: &Analysis, scaling: &PairScaling) -> Vec<Option<LateralForce>> {
-    let PairScaling::Target(spectrum, _) = scaling else { return Vec::new() };
+fn lateral(analysis: &Analysis, scaling: &Scaling) -> Vec<Option<LateralForce>> {
+    let Scaling::Target(spectrum, _) = scaling else { return Vec::new() };
     let of = |bound: &Bound| LateralForce::of(&bound.of(&analysis.model), spectrum);
     bounds(analysis).iter().map(of).collect()
 }
 
-fn on_record(model: &ModelOn<'_>, record: usize, scale: f64) -> OnRecord {
+/// What is kept of a run.
+struct Kept {
+    demands: Demands,
+    holds: bool,
+    pga_m_per_s2: f64,
+    /// Times in s and sliding displacements in m, with nominal friction.
+    sliding: Option<[Vec<f64>; 2]>,
+    /// What was noticed of model and motion, of the response, and of its demands.
+    noticed: [Vec<Notice>; 3],
+}
+
+impl Kept {
+    fn of(bound: &Bound, (job, judged): (Job, Judged)) -> Self {
+        let Judged { model, response, certificate, .. } = judged;
+        let history = response.history.filter(|_| *bound == Bound::NOMINAL);
+        let met = struck(&model, &response.demands).into_iter();
+        let met = met.chain(flat_geometry(&model, &response.demands));
+        Self {
+            holds: response.method == Method::Stepwise || certificate.holds(),
+            pga_m_per_s2: job.loaded.figures.pga_m_per_s2,
+            sliding: history.map(|history| [history.time_s, history.sliding_displacement_m]),
+            noticed: [job.warnings, response.warnings, met.collect()],
+            demands: response.demands,
+        }
+    }
+}
+
+/// The runs of a record, one a bound of friction.
+fn on_record(
+    model: &ModelOn<'_>,
+    record: usize,
+    scale: f64,
+    bounds: &[Bound],
+    ran: impl Iterator<Item = Result<Kept, RunError>>,
+) -> OnRecord {
     let SuiteRecord { name, origin, notices, .. } = &model.suite.records[record];
     let mut on = OnRecord {
         record: name.clone(),
@@ -267,41 +313,39 @@ fn on_record(model: &ModelOn<'_>, record: usize, scale: f64) -> OnRecord {
         sliding: [Vec::new(), Vec::new()],
         notices: notices.clone(),
     };
-    let bounds = bounds(model.analysis);
-    for bound in &bounds {
+    for (bound, run) in bounds.iter().zip(ran) {
         let design = match bounds.len() {
             1 => String::new(),
             _ => format!(", {} friction", bound.name),
         };
         let failed =
             |error| FailedRun { record: name.clone(), scale, design: design.clone(), error };
-        let run = with_bound(model, record, scale, bound).map_err(failed);
-        let kept = run.map(|(job, judged)| on.keep(bound, bounds.len() > 1, &job, judged));
-        on.runs.push(kept);
+        let run = run.map_err(failed).map(|kept| on.take(bound, bounds.len() > 1, kept));
+        on.runs.push(run);
     }
     on
 }
 
-/// The run of a record with a bound of friction.
+/// The run of a record with a bound of friction, with its history and its certificate.
 fn with_bound(
     model: &ModelOn<'_>,
     record: usize,
     scale: f64,
     bound: &Bound,
+    engine: &Engine<'_>,
 ) -> Result<(Job, Judged), RunError> {
     let motion = model.suite.motion(record, scale, 0.0)?;
     let mut analysis = model.analysis.clone();
     analysis.friction_bounds = None;
     analysis.model = bound.of(&analysis.model);
     let job = Job::new(analysis, Loaded::made(motion, String::new()))?;
-    let judged = job.run(false)?.nominal;
+    let judged = engine.watch(|go_on| job.run_while(false, go_on))?.nominal;
     Ok((job, judged))
 }
 
 impl OnRecord {
     /// Takes what the tables and the figure tell of a run.
-    fn keep(&mut self, bound: &Bound, several: bool, job: &Job, judged: Judged) -> (Demands, bool) {
-        let Judged { model, response, certificate, .. } = judged;
+    fn take(&mut self, bound: &Bound, several: bool, kept: Kept) -> (Demands, bool) {
         let of_bound = |warning: Notice| match several {
             false => warning,
             true => {
@@ -309,19 +353,14 @@ impl OnRecord {
                 Notice { message, ..warning }
             }
         };
+        let [of_job, of_response, met] = kept.noticed;
         if self.pga_m_per_s2.is_nan() {
-            self.pga_m_per_s2 = job.loaded.figures.pga_m_per_s2;
-            self.notices.extend(job.warnings.iter().cloned());
+            self.pga_m_per_s2 = kept.pga_m_per_s2;
+            self.notices.extend(of_job);
         }
-        if *bound == Bound::NOMINAL {
-            let history = response.history.unwrap_or_default();
-            self.sliding = [history.time_s, history.sliding_displacement_m];
-        }
-        let met = struck(&model, &response.demands).into_iter();
-        let met = met.chain(flat_geometry(&model, &response.demands)).map(of_bound);
-        self.notices.extend(response.warnings.into_iter().chain(met));
-        let holds = response.method == Method::Stepwise || certificate.holds();
-        (response.demands, holds)
+        self.sliding = kept.sliding.unwrap_or_else(|| core::mem::take(&mut self.sliding));
+        self.notices.extend(of_response.into_iter().chain(met.into_iter().map(of_bound)));
+        (kept.demands, kept.holds)
     }
 }
 
@@ -329,13 +368,14 @@ impl OnRecord {
 fn governing_history(
     model: &ModelOn<'_>,
     of: &ModelHistories,
+    engine: &Engine<'_>,
 ) -> Option<(usize, usize, [Vec<f64>; 2])> {
     let peak = of.shape().find("peak_sliding_displacement_m")?.1;
     let bound = of.governing_bound(&peak)?;
     let sizes = of.sizes(&peak, bound);
     let record = (0..sizes.len()).reduce(|a, b| if sizes[b] > sizes[a] { b } else { a })?;
     let (_, judged) =
-        with_bound(model, record, of.records[record].scale, &of.bounds[bound]).ok()?;
+        with_bound(model, record, of.records[record].scale, &of.bounds[bound], engine).ok()?;
     let history = judged.response.history?;
     Some((record, bound, [history.time_s, history.sliding_displacement_m]))
 }

@@ -95,7 +95,7 @@ pub struct SpectrumRequest<'a> {
     /// The records.
     pub suite: &'a Suite,
     /// How they are scaled.
-    pub scaling: Scaling,
+    pub scaling: &'a Scaling,
     /// Keys of demands besides those that are always told.
     pub demands: &'a [String],
     /// Bounds of friction with which every model is run, a group of curves each; empty where the model
@@ -192,7 +192,7 @@ pub fn run_spectrum(
     keys.extend(request.demands.iter().filter(|key| !TOLD.contains(&key.as_str())).cloned());
     keys.dedup();
     let columns = keys.iter().map(|key| models.column(key)).collect::<Result<Vec<_>, _>>()?;
-    let factors = suite.factors(&request.scaling, engine)?;
+    let factors = suite.scaled(request.scaling, engine)?.factors;
     let records = suite.records.len();
     let bounds = if request.bounds.is_empty() { &[Bound::NOMINAL][..] } else { request.bounds };
     let nominal = models.all(records * bounds.len(), engine)?;
@@ -307,7 +307,7 @@ pub fn run_spectrum(
         (0..runs.len()).map(|i| suite.records[i % records].name.clone()).collect(),
     );
     let of_runs: Vec<usize> = (0..runs.len()).map(|i| i % records).collect();
-    rows.columns.extend(suite.intensities(&request.scaling, &of_runs, engine)?.columns);
+    rows.columns.extend(suite.intensities(request.scaling, &factors, &of_runs, engine)?.columns);
     rows.numbers("scale", "", of_runs.iter().map(|&record| factors[record]).collect());
     coordinates(&mut rows, records);
     for (i, column) in models.columns().iter().enumerate() {

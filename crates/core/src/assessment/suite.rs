@@ -13,42 +13,15 @@ use crate::record::Origin;
 use crate::study::engine::{Engine, made_motion, scaled_with_tail};
 use crate::table::{Column, Table};
 
-/// How records are scaled, vertical components with them.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Scaling {
-    /// By a factor, 1 as recorded.
-    Factor(f64),
-    /// So that a measure takes a value, in its SI unit.
-    Level(Measure, f64),
-}
-
-impl Scaling {
-    /// That to one level of a measure as people write it, and that in words; `what` is what errors call
-    /// the level.
-    ///
-    /// # Errors
-    /// [`AssessmentError::Choice`] for text that is not one level of the measure.
-    pub fn to_level(
-        what: &str,
-        measure: Measure,
-        text: &str,
-    ) -> Result<(Self, String), AssessmentError> {
-        let [value] = levels(what, text, &measure)?[..] else {
-            return Err(refuse(what, "one level", format!("{text:?}")));
-        };
-        Ok((Self::Level(measure, value), format!(" scaled to {measure} = {}", text.trim())))
-    }
-}
-
 /// A factor on records in words, to stand after them.
 #[must_use]
 pub fn times(factor: f64) -> String {
     if factor == 1.0 { " as recorded".to_owned() } else { format!(" × {factor}") }
 }
 
-/// How records are scaled where the two components of a pair take one factor.
+/// How records are scaled, vertical components with them; the two components of a pair take one factor.
 #[derive(Clone, Debug, PartialEq)]
-pub enum PairScaling {
+pub enum Scaling {
     /// By a factor, 1 as recorded.
     Factor(f64),
     /// So that a measure takes a value, in its SI unit; that of a component is of a pair the geometric mean.
@@ -57,7 +30,7 @@ pub enum PairScaling {
     Target(TargetSpectrum, [f64; 2]),
 }
 
-impl PairScaling {
+impl Scaling {
     /// That to one level of a measure as people write it; `what` is what errors call the level.
     ///
     /// # Errors
@@ -247,24 +220,6 @@ impl Suite {
         (!alone).then(|| Column::texts("pair", names.collect()))
     }
 
-    /// The factor on each record.
-    ///
-    /// # Errors
-    /// As [`Suite::measure`].
-    pub fn factors(
-        &self,
-        scaling: &Scaling,
-        engine: &Engine<'_>,
-    ) -> Result<Vec<f64>, AssessmentError> {
-        match scaling {
-            Scaling::Factor(factor) => Ok(vec![*factor; self.records.len()]),
-            Scaling::Level(measure, level) => {
-                let values = self.measure(measure, engine)?;
-                Ok(values.into_iter().map(|value| level / value).collect())
-            }
-        }
-    }
-
     /// Records that are scaled by one factor: a pair, or a record alone.
     fn scaled_together(&self) -> Vec<&[SuiteRecord]> {
         self.records.chunk_by(|a, b| a.pair.is_some() && a.pair == b.pair).collect()
@@ -277,7 +232,7 @@ impl Suite {
     /// record or pair of which the measure is 0, and for periods beyond the spectrum; stopped.
     pub fn scaled(
         &self,
-        scaling: &PairScaling,
+        scaling: &Scaling,
         engine: &Engine<'_>,
     ) -> Result<Scaled, AssessmentError> {
         let groups = self.scaled_together();
@@ -285,8 +240,8 @@ impl Suite {
         let pairs = "the other components of all records beside it, `second`";
         let mut matched = None;
         let of_groups: Vec<f64> = match scaling {
-            PairScaling::Factor(factor) => vec![*factor; groups.len()],
-            PairScaling::Level(measure, level) => {
+            Scaling::Factor(factor) => vec![*factor; groups.len()],
+            Scaling::Level(measure, level) => {
                 if measure.rotated.is_some() && !paired {
                     return Err(refuse("measure", pairs, measure.to_string()));
                 }
@@ -306,7 +261,7 @@ impl Suite {
                     .into_iter()
                     .collect::<Result<_, _>>()?
             }
-            PairScaling::Target(target, range_s) => {
+            Scaling::Target(target, range_s) => {
                 if !paired {
                     return Err(refuse("target", pairs, "records alone"));
                 }
@@ -358,6 +313,7 @@ impl Suite {
     pub(super) fn intensities(
         &self,
         scaling: &Scaling,
+        factors: &[f64],
         of_runs: &[usize],
         engine: &Engine<'_>,
     ) -> Result<Table, AssessmentError> {
@@ -367,9 +323,10 @@ impl Suite {
         }
         let (measure, levels) = match scaling {
             Scaling::Level(measure, level) => (*measure, vec![*level; self.records.len()]),
-            Scaling::Factor(factor) => {
+            Scaling::Factor(_) | Scaling::Target(..) => {
                 let values = self.measure(&Measure::Pga, engine)?;
-                (Measure::Pga, values.into_iter().map(|value| value * factor.abs()).collect())
+                let levels = values.iter().zip(factors).map(|(value, factor)| value * factor.abs());
+                (LevelMeasure { measure: Measure::Pga, rotated: None }, levels.collect())
             }
         };
         table

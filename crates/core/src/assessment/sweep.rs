@@ -7,6 +7,7 @@ use crate::error::RunError;
 use crate::motion::GroundMotion;
 use crate::response::Demands;
 use crate::solver::{PreparedMotion, Workspace};
+use crate::study::engine::{Engine, Running};
 
 /// The models of a grid under one motion, a part of them at a time.
 #[derive(Debug)]
@@ -39,8 +40,8 @@ impl Sweep {
 
     fn one(&mut self, number: usize) -> Result<Demands, RunError> {
         let model = self.models.parts(&self.models.grid().values(number))?.model;
-        let prepared = self.room.prepare(&model, self.motion.dt_s());
-        Ok(prepared.demands_in(&mut self.room, &self.motion)?.demands)
+        let engine = Engine::unwatched();
+        Ok(Running::new(&model, &engine).on(&self.motion, &mut self.room)?.demands)
     }
 }
 

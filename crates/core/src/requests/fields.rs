@@ -3,6 +3,7 @@
 
 use super::kinds::Kind;
 use crate::error::{ChoiceError, UnitError, similar};
+use crate::input::Analysis;
 use crate::units::{Dimension, parse_quantity};
 
 /// How often a field is given, and what its text is.
@@ -31,7 +32,9 @@ pub struct Field {
     pub takes: Takes,
     /// The text where none is given; empty where nothing stands for it.
     pub default: &'static str,
-    /// A text to start from in a form, where there is no default; empty where it may stay so.
+    /// The key of the model that stands for it; empty where none does.
+    pub key: &'static str,
+    /// A text to start from in a form, where there is neither default nor key; empty where it may stay so.
     pub sample: &'static str,
     /// What it is, with what follows where it is not given.
     pub about: &'static str,
@@ -44,7 +47,7 @@ impl Field {
         value: &'static str,
         about: &'static str,
     ) -> Self {
-        Self { name, label, value, takes: Takes::One, default: "", sample: "", about }
+        Self { name, label, value, takes: Takes::One, default: "", key: "", sample: "", about }
     }
 
     pub(super) const fn many(self) -> Self {
@@ -59,12 +62,27 @@ impl Field {
         Self { default, ..self }
     }
 
+    pub(super) const fn key(self, key: &'static str) -> Self {
+        Self { key, ..self }
+    }
+
     pub(super) const fn sample(self, sample: &'static str) -> Self {
         Self { sample, ..self }
     }
 
     pub(super) const fn of(self, words: &'static [&'static str]) -> Self {
         Self { takes: Takes::Choice(words), ..self }
+    }
+}
+
+impl Field {
+    /// What a form starts with where it asks of a model.
+    #[must_use]
+    pub fn start(&self, model: &Analysis) -> &'static str {
+        match (self.default, model.value(self.key)) {
+            ("", None) => self.sample,
+            (default, _) => default,
+        }
     }
 }
 

@@ -180,6 +180,7 @@ const IDA: &[Field] = &[
         "LIMIT",
         "Limit on the demand: \"150 mm\"; of sliding, slider.gap of the model if left out",
     )
+    .key("slider.gap")
     .sample("150 mm"),
     FRICTION,
     VARY,
@@ -256,6 +257,7 @@ const DESIGN: &[Field] = &[
         "LENGTH",
         "Sliding displacement not to be exceeded; slider.gap of the model if left out",
     )
+    .key("slider.gap")
     .sample("150 mm"),
     Field::new(
         "probability",

@@ -4,7 +4,7 @@ use super::fields::{Request, quantity, wrong};
 use super::{Answer, On, Results, of_measure};
 use crate::assessment::histories::{ModelOn, run_histories};
 use crate::assessment::models::Models;
-use crate::assessment::suite::{PairScaling, times};
+use crate::assessment::suite::{Scaling, times};
 use crate::assessment::sweep::Sweep;
 use crate::assessment::{AssessmentError, refuse};
 use crate::error::ChoiceError;
@@ -26,7 +26,7 @@ impl Request {
         target: Option<(&str, TargetSpectrum)>,
         engine: &Engine<'_>,
     ) -> Result<Answer, AssessmentError> {
-        let (scaling, scaled) = self.pair_scaling(target)?;
+        let (scaling, scaled) = self.scaling(target)?;
         let mut warnings: Vec<Notice> = Vec::new();
         for warning in models.iter().flat_map(|on| on.suite.noticed()) {
             if !warnings.contains(&warning) {
@@ -52,10 +52,10 @@ impl Request {
     }
 
     /// How a suite is scaled, and that in words.
-    fn pair_scaling(
+    pub(super) fn scaling(
         &self,
         target: Option<(&str, TargetSpectrum)>,
-    ) -> Result<(PairScaling, String), AssessmentError> {
+    ) -> Result<(Scaling, String), AssessmentError> {
         let code = self.given("code-spectrum");
         let of_code =
             |text| Ok::<_, ChoiceError>((format!("the spectrum {text}"), code_spectrum(text)?));
@@ -77,7 +77,7 @@ impl Request {
                     wrong("periods", "`target` or `code-spectrum` beside them", text).into()
                 );
             }
-            return self.level_of_pairs();
+            return self.level();
         };
         if let Some(field) =
             ["scale", "scale-to"].into_iter().find(|name| self.given(name).is_some())
@@ -91,23 +91,23 @@ impl Request {
         let range_s = range_s.ok_or_else(|| {
             refuse("periods", "the range of periods beside the spectrum, 0.6 s..3.8 s", "nothing")
         })?;
-        Ok((PairScaling::Target(spectrum, range_s), format!(" scaled to {words}")))
+        Ok((Scaling::Target(spectrum, range_s), format!(" scaled to {words}")))
     }
 
     /// One level of a measure, else a factor.
-    fn level_of_pairs(&self) -> Result<(PairScaling, String), AssessmentError> {
+    fn level(&self) -> Result<(Scaling, String), AssessmentError> {
         let Some(level) = self.given("scale-to") else {
             if let Some(measure) = self.given("measure") {
                 return Err(wrong("measure", "`scale-to` beside it", measure).into());
             }
             let factor = self.number("scale", "a factor other than 0", |factor| factor != 0.0)?;
-            return Ok((PairScaling::Factor(factor), times(factor)));
+            return Ok((Scaling::Factor(factor), times(factor)));
         };
         if self.given("scale").is_some() {
             return Err(self.two_scales().into());
         }
         let measure = LevelMeasure::parse(self.one("measure")).map_err(of_measure)?;
-        let scaling = PairScaling::to_level("scale-to", measure, level)?;
+        let scaling = Scaling::to_level("scale-to", measure, level)?;
         Ok((scaling, format!(" scaled to {measure} = {}", level.trim())))
     }
 

@@ -15,6 +15,7 @@ use crate::error::{MotionError, RunError, SolveError, Stopped};
 use crate::input::MotionSource;
 use crate::model::Model;
 use crate::motion::GroundMotion;
+use crate::progress::GoOn;
 use crate::response::Response;
 use crate::solver::{Prepared, PreparedMotion, Workspace};
 
@@ -123,6 +124,16 @@ impl<'a> Engine<'a> {
         })
     }
 
+    /// One run that asks now and then whether to go on, and ends where the engine is stopped.
+    pub fn watch<R>(&self, run: impl FnOnce(GoOn<'_>) -> R) -> R {
+        // The first question comes at once: short runs do not bother the follower.
+        let long = Cell::new(false);
+        run(&|| {
+            let asked = if long.replace(true) { self.done(0) } else { self.check() };
+            asked.map_or_else(|Stopped| ControlFlow::Break(()), ControlFlow::Continue)
+        })
+    }
+
     /// What two works give, the first on this thread while the second goes on beside it, where there
     /// is a thread for it.
     pub fn both<A: Send, B: Send>(
@@ -162,13 +173,7 @@ impl<'a> Running<'a> {
             Some(prepared) => prepared,
             None => room.prepare(self.model, dt_s),
         };
-        // The first question comes at once: short runs do not bother the follower.
-        let long = Cell::new(false);
-        let go_on = || {
-            let asked = if long.replace(true) { self.engine.done(0) } else { self.engine.check() };
-            asked.map_or_else(|Stopped| ControlFlow::Break(()), ControlFlow::Continue)
-        };
-        self.prepared.insert(prepared).demands_while(room, motion, &go_on)
+        self.engine.watch(|go_on| self.prepared.insert(prepared).demands_while(room, motion, go_on))
     }
 }
 

@@ -20,13 +20,13 @@ __all__ = [
     "compare_with",
     "fields",
     "fit",
-    "identify_cyclic",
-    "identify_free_vibration",
-    "identify_shaking_table",
+    "identify",
+    "levels",
     "read_runs",
     "read_suite",
     "run",
     "study",
+    "suite",
 ]
 
 __version__: str

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from contextlib import ExitStack
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -170,7 +170,8 @@ def study(
 
         path = plan.write(new_folder()) if isinstance(plan, Plan) else Path(plan)
         folder = new_folder() if out is None else Path(out)
-        done = _core.study(path, folder, jobs=jobs, progress=progress, force=force)
+        with _said_of(plan):
+            done = _core.study(path, folder, jobs=jobs, progress=progress, force=force)
     table, summary = done.table, done.summary
     assert table is not None and summary is not None
     return Study(table, summary, done.runs, done.failures, done.notices)
@@ -194,7 +195,29 @@ def run_shard(
 
     with TemporaryDirectory(prefix="slipstick-") as folder:
         path = plan.write(folder)
-        return _core.study(path, Path(out), shard=shard, jobs=jobs).runs
+        with _said_of(plan):
+            return _core.study(path, Path(out), shard=shard, jobs=jobs).runs
+
+
+#: Arguments of a plan by its keys, where they have another name.
+_ARGUMENTS = {"records.files": "records", "sampling.count": "samples"}
+
+
+@contextmanager
+def _said_of(plan: object) -> Iterator[None]:
+    """What is wrong with a plan of values is said of its argument, not of a file that nobody wrote."""
+    try:
+        yield
+    except InputError as error:
+        if not isinstance(plan, Plan) or Path(error.source).name != "plan.toml":
+            raise
+        key = error.path
+        name = _ARGUMENTS.get(key, key.removeprefix("records.").removeprefix("sampling."))
+        hint = f'; nearest is "{error.nearest}"' if error.nearest else ""
+        message = f"{name}: expected {error.expected}, found {error.found}{hint}"
+        raise InputError(
+            message, path=name, expected=error.expected, found=error.found, nearest=error.nearest
+        ) from None
 
 
 def _record(name: str) -> str:

@@ -14,7 +14,8 @@ from ._request import given
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from ._laboratory import Columns, Measured
+    from ._laboratory import Measured
+    from ._request import Columns
 
 __all__ = ["cyclic", "free_vibration", "shaking_table"]
 

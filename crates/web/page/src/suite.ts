@@ -62,7 +62,7 @@ export class SuiteTab implements Tab {
 
   /** Makes the form; what need not be said stands folded below. */
   private async build(): Promise<void> {
-    const { about, fields } = await this.page.desk.helper.call("form", this.id);
+    const { about, fields } = await this.page.desk.helper.call("form", this.id, this.page.text());
     this.fields = fields.map((field) => [field, entry(field)]);
     const label = ([field, input]: [FormField, Entry]) => h("label", { class: "field" }, h("span", {}, field.label), input, h("small", { class: "drop-hint" }, field.about));
     const [first, more] = [this.fields.filter(([field]) => field.start), this.fields.filter(([field]) => !field.start)];

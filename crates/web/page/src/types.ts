@@ -203,7 +203,7 @@ export interface Calls {
   judge: (stepwise: boolean) => Judgement;
   file: (name: string, text: string, command: string) => string;
   sweep: (text: string, over: string, from: number, to: number) => Float64Array;
-  form: (what: string) => { about: string; fields: FormField[] };
+  form: (what: string, text: string) => { about: string; fields: FormField[] };
   assess: (what: string, text: string, options: Setting[], display: Display) => Sheet;
   /** Number of runs, and of the numbers of a row. */
   studySize: (plan: string, text: string, names: string[]) => [number, number];

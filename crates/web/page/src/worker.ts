@@ -96,7 +96,7 @@ const calls: Calls = {
   },
   file: (name, text, command) => session.file(name, text, command),
   sweep: (text, over, from, to) => session.sweep(text, over, from, to) as Float64Array,
-  form: (what) => JSON.parse(session.form(what)),
+  form: (what, text) => JSON.parse(session.form(what, text)),
   assess: (what, text, options, display) => sheet(session.assess(what, text, flat(options), display)),
   studySize: (plan, text, names) => [...session.studySize(plan, text, names)] as [number, number],
   studyRows: (plan, text, names, from, to) => session.studyRows(plan, text, names, from, to) as Float64Array,

@@ -378,9 +378,7 @@ test("a study runs in slices on further workers, and can be cancelled", () =>
 test("fragility takes the bounds of friction apart", () =>
   on(async (page) => {
     await page.locator("#tab-fragility").click();
-    const field = (name) => page.locator(`#panel-fragility input[name=${name}]`);
-    await field("friction").fill("");
-    await field("bounds").fill("all");
+    await page.locator("#panel-fragility select[name=bounds]").selectOption("all");
     await page.locator("#panel-fragility button.main").click();
     await page.locator("#panel-fragility .sheet").waitFor({ timeout: 60000 });
     const said = await page.locator("#panel-fragility .sheet").innerText();
@@ -396,7 +394,21 @@ test("contents are added key by key, and the text says them", () =>
     assert.match(text, /# A building of one storey/, "comments stay");
   }));
 
-for (const [id, heading] of [["spectrum", /sliding spectra/i], ["ida", /incremental dynamic/i], ["fragility", /fragility/i], ["design", /design/i], ["study", /study/i]]) {
+test("a form is the table of fields, and its errors name them", () =>
+  on(async (page) => {
+    await page.locator("#tab-spectrum").click();
+    const panel = page.locator("#panel-spectrum");
+    await panel.locator("[name=over]").waitFor();
+    const names = await panel.locator("label.field [name]").evaluateAll((all) => all.map((one) => one.name).sort());
+    assert.deepEqual(names, ["bounds", "demand", "friction", "measure", "over", "scale", "scale-to", "vary"]);
+    assert.equal(await panel.locator("[name=over]").inputValue(), "isolator.period=1..5s:40");
+    await panel.locator("[name=scale-to]").fill("0.4 m");
+    await panel.locator("button.main").click();
+    await panel.locator(".fault").waitFor();
+    assert.match(await panel.locator(".fault").innerText(), /^Scaled to: expected an acceleration/);
+  }));
+
+for (const [id, heading] of [["suite", /response histories/i], ["spectrum", /sliding spectra/i], ["ida", /incremental dynamic/i], ["fragility", /fragility/i], ["design", /design/i], ["study", /study/i]]) {
   test(`${id} runs over the records, as the command draws it`, () =>
     on(async (page) => {
       await page.locator(`#tab-${id}`).click();
@@ -467,7 +479,7 @@ for (const scheme of ["light", "dark"]) {
     on(
       async (page) => {
         await page.addScriptTag({ path: axe }).catch(async () => page.evaluate(readFileSync(axe, "utf8")));
-        for (const tab of ["motion", "sweep", "spectrum", "ida", "fragility", "design", "study"]) {
+        for (const tab of ["motion", "sweep", "suite", "spectrum", "ida", "fragility", "design", "study"]) {
           await page.locator(`#tab-${tab}`).click();
           if (tab === "spectrum") {
             await page.locator("#panel-spectrum button.main").click();

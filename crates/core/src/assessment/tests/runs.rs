@@ -7,6 +7,7 @@ use core::sync::atomic::{AtomicU64, Ordering};
 
 use crate::assessment::AssessmentError;
 use crate::assessment::design::{DesignRequest, Target, run_design};
+use crate::assessment::histories::{ModelOn, run_histories};
 use crate::assessment::ida::{IdaLevels, IdaRequest, run_ida};
 use crate::assessment::models::Models;
 use crate::assessment::observed::{Data, FitTo, FragilityRequest, run_fragility};
@@ -17,7 +18,7 @@ use crate::error::{SolveError, Stopped};
 use crate::input::loaded::Loaded;
 use crate::input::{self, Bound};
 use crate::motion::GroundMotion;
-use crate::motion::intensity::Measure;
+use crate::motion::intensity::{LevelMeasure, Measure};
 use crate::record::Origin;
 use crate::response::demand_values;
 use crate::solver;
@@ -27,6 +28,8 @@ use crate::table::Cells;
 const MODEL: &str = "[block]\nmass = \"10 t\"\n[slider]\nstatic_friction = 0.06\n\
                      kinetic_friction = 0.05\nradius = \"2 m\"\n[[storey]]\nmass = \"5 t\"\n\
                      period = \"0.5 s\"\ndamping_ratio = 0.05\n[analysis]\ntail = \"1 s\"\n";
+
+const PGA: LevelMeasure = LevelMeasure { measure: Measure::Pga, rotated: None };
 
 fn suite() -> Suite {
     let record = |i: u32| {
@@ -66,16 +69,21 @@ fn exact_runs_of_a_spectrum_are_those_of_each_model_alone() {
     let varied =
         [("friction", "slider.kinetic_friction=0.02,0.05"), ("over", "storey.1.period=0.2..1s:4")];
     let (models, suite) = (models(&varied), suite());
-    let scaling = Scaling::Level(Measure::Pga, 3.0);
-    let request =
-        SpectrumRequest { models: &models, suite: &suite, scaling, demands: &[], bounds: &[] };
+    let scaling = Scaling::Level(PGA, 3.0);
+    let request = SpectrumRequest {
+        models: &models,
+        suite: &suite,
+        scaling: &scaling,
+        demands: &[],
+        bounds: &[],
+    };
     let run = run_spectrum(&request, &Engine::unwatched()).unwrap();
     assert_eq!((run.runs, request.runs(), run.failures.len()), (40, 40, 0));
     let column = |name: &str| match &run.rows.find(name).unwrap().cells {
         Cells::Numbers(cells) => cells.clone(),
         _ => panic!("{name} holds no numbers"),
     };
-    let factors = suite.factors(&scaling, &Engine::unwatched()).unwrap();
+    let factors = suite.scaled(&scaling, &Engine::unwatched()).unwrap().factors;
     for (name, index) in [("peak_sliding_displacement_m", 0), ("storey1_peak_drift_m", 15)] {
         let found = column(name);
         assert_eq!(models.columns()[index].name(), name);
@@ -151,7 +159,7 @@ fn exact_the_front_of_a_design_is_that_of_all_runs() {
     let request = DesignRequest {
         models: &models,
         suite: &suite,
-        scaling: Scaling::Factor(1.0),
+        scaling: &Scaling::Factor(1.0),
         target,
         acceleration: &acceleration,
         bounds: Some([0.8, 1.3]),
@@ -211,8 +219,13 @@ fn exact_runs_do_not_depend_on_threads() {
     let varied = [("over", "storey.1.period=0.2..1s:6")];
     let (models, suite) = (models(&varied), suite());
     let scaling = Scaling::Factor(1.5);
-    let request =
-        SpectrumRequest { models: &models, suite: &suite, scaling, demands: &[], bounds: &[] };
+    let request = SpectrumRequest {
+        models: &models,
+        suite: &suite,
+        scaling: &scaling,
+        demands: &[],
+        bounds: &[],
+    };
     let run = || format!("{:?}", run_spectrum(&request, &Engine::unwatched()).unwrap().rows);
     let alone = run();
     for threads in [1, 3] {
@@ -271,11 +284,16 @@ fn exact_designs_of_an_ida_are_those_of_each_alone() {
 #[test]
 fn exact_bounds_of_a_spectrum_are_groups() {
     let (models, suite) = (models(&[("over", "slider.radius=1, 2, 3 m")]), suite());
-    let scaling = Scaling::Level(Measure::Pga, 3.0);
+    let scaling = Scaling::Level(PGA, 3.0);
     let upper = Bound { name: "upper", friction_factor: 1.3 };
     let run = |bounds| {
-        let request =
-            SpectrumRequest { models: &models, suite: &suite, scaling, demands: &[], bounds };
+        let request = SpectrumRequest {
+            models: &models,
+            suite: &suite,
+            scaling: &scaling,
+            demands: &[],
+            bounds,
+        };
         run_spectrum(&request, &Engine::unwatched()).unwrap()
     };
     let (plain, both) = (run(&[]), run(&[Bound::NOMINAL, upper]));
@@ -284,7 +302,7 @@ fn exact_bounds_of_a_spectrum_are_groups() {
     assert!(plain.group_bounds.is_empty() && plain.rows.find("friction").is_none());
     assert_eq!(both.curves[0].singles[0], plain.curves[0].singles[0]);
     let parts = models.parts(&[3.0]).unwrap();
-    let factors = suite.factors(&scaling, &Engine::unwatched()).unwrap();
+    let factors = suite.scaled(&scaling, &Engine::unwatched()).unwrap().factors;
     let motion = suite.motion(4, factors[4], 1.0).unwrap();
     let alone = solver::exact_demands(&upper.of(&parts.model), &motion).unwrap().demands;
     assert_eq!(both.curves[0].singles[1][4][2], alone.peak_sliding_displacement_m);
@@ -346,4 +364,25 @@ fn exact_one_analysis_is_stopped_wherever_it_is() {
             assert_eq!(asked.get(), limit, "{what}");
         }
     }
+}
+
+/// A suite of one long record ends within the first of its runs, and its runs are shared out bound by bound.
+#[test]
+fn exact_a_suite_is_stopped_within_a_run() {
+    let analysis = input::parse("m.toml", MODEL, &[]).unwrap();
+    let wave = |i: u32| 4.0 * libm::sin(0.07 * f64::from(i)) * libm::sin(0.23 * f64::from(i));
+    let motion = GroundMotion::evenly_spaced(0.01, (0..300_000).map(wave).collect(), None);
+    let mut suite = suite();
+    suite.records.truncate(1);
+    suite.records[0].motion = motion.unwrap();
+    let model = ModelOn { name: "m", analysis: &analysis, suite: &suite };
+    let (asked, done) = (AtomicU64::new(0), AtomicU64::new(0));
+    let follow = |runs: u64| {
+        done.fetch_add(runs, Ordering::Relaxed);
+        asked.fetch_add(1, Ordering::Relaxed);
+        if runs == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let found = run_histories(&[model], &Scaling::Factor(1.0), &Engine::new(&follow));
+    assert_eq!(found.unwrap_err(), AssessmentError::Stopped(Stopped));
+    assert_eq!((asked.into_inner(), done.into_inner()), (1, 0));
 }

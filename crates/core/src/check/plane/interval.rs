@@ -195,7 +195,8 @@ impl PlaneJudge<'_> {
                 return self.rest(way, &stretch.part(t, left_s));
             };
             let took_s = step.stretch.step_s;
-            let gain = libm::pow(self.bearable() / step.defect().max(f64::MIN_POSITIVE), 1.0 / 15.0);
+            let gain =
+                libm::pow(self.bearable() / step.defect().max(f64::MIN_POSITIVE), 1.0 / 15.0);
             next_s = Some(took_s * (0.9 * gain).clamp(0.5, 4.0));
             self.slid(&step);
             self.follow(way, &step);
