@@ -12,7 +12,7 @@ use slipstick::units::Dimension;
 use slipstick_files::{read_target, stems_or_paths};
 use slipstick_report::assessment::histories::HistoriesReport;
 
-use super::assessment::{Opened, conclude, failure, folder, message, open_records};
+use super::assessment::{Opened, Written, conclude, failure, folder, message, open_records};
 use super::run::{read_model, scale_factor};
 use crate::args::{MethodName, RunArgs, SuiteArgs, quantity};
 use crate::failure::Failure;
@@ -74,7 +74,7 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
     let sheet = report.sheet();
     let tables = [("runs.csv", &histories.runs), ("governing.csv", &histories.governing)];
     let texts: Vec<(String, String)> = opened.iter().flat_map(Opened::inputs).collect();
-    conclude(&args.result, folder, &sheet, &tables, &sources, &texts)
+    conclude(&args.result, Written::usual(folder), &sheet, &tables, &sources, &texts)
 }
 
 /// A file that went in: path, hash, what it is.

@@ -11,13 +11,13 @@ use slipstick::input::{self, Mapping};
 use slipstick::laboratory::identify::{Identified, IdentifyError};
 use slipstick::laboratory::measured::Measured;
 use slipstick_files::{LaboratoryError, OutputFolder, SourceFile, TextFile, read_measured};
-use slipstick_report::IdentifyReport;
+use slipstick_report::laboratory::identify;
 
-use super::assessment::choice;
+use super::assessment::{Written, choice, conclude};
 use super::compare::WentIn;
-use super::run::{ModelFile, command_line};
+use super::run::ModelFile;
 use crate::args::{IdentifyCommand, ResultArgs};
-use crate::failure::{Failure, print, say};
+use crate::failure::Failure;
 use crate::progress::reading;
 
 /// Runs one of the three jobs.
@@ -90,28 +90,9 @@ fn finish(
     measured: &[Measured],
     identified: &Identified,
 ) -> Result<ExitCode, Failure> {
-    let went_in = WentIn::of_files(inputs.model, inputs.sources, inputs.mapping);
-    let report = IdentifyReport {
-        inputs: &went_in.inputs(),
-        files: &went_in.files(),
-        command_line: &command_line(),
-        ..IdentifyReport::of(measured, identified, args.display_units.into())
-    };
+    let WentIn { files, texts } = WentIn::of_files(inputs.model, inputs.sources, inputs.mapping);
+    let sheet = identify::sheet(measured, identified, args.display_units.into());
     let more = identified.files();
-    if let Some(mut folder) = folder {
-        folder.write("identified.json", report.to_json().as_bytes())?;
-        folder.write("report.html", report.to_html().as_bytes())?;
-        for (name, text) in &more {
-            folder.write(name, text.as_bytes())?;
-        }
-        folder.commit()?;
-    }
-    print(&if args.json { report.to_json() } else { report.table() })?;
-    super::compare::tell(args, &report.warnings);
-    if let (Some(out), false) = (&args.out, args.quiet) {
-        for (name, _) in more {
-            say(format_args!("wrote {}", out.join(name).display()));
-        }
-    }
-    Ok(ExitCode::from(u8::from(!report.all_told())))
+    let written = Written { folder, json: "identified.json", more: &more, replaces: &[] };
+    conclude(args, written, &sheet, &[], &files, &texts)
 }
