@@ -8,6 +8,7 @@
 
 pub mod cases;
 pub mod censored;
+pub mod code;
 pub mod design;
 pub mod fragility;
 pub mod grid;

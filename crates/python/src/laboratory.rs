@@ -15,7 +15,9 @@ use slipstick::record::{Column, Columns};
 use slipstick::requests::{Comparing, Kind};
 use slipstick::table;
 use slipstick_files::{SourceFile, TextFile, expand_all, read_mapping, read_measured};
-use slipstick_report::{CompareReport, DisplayUnits, FileNote, IdentifyReport, InputText};
+use slipstick_report::assessment::{Sheet, Went};
+use slipstick_report::laboratory::identify as told;
+use slipstick_report::{CompareReport, DisplayUnits, FileNote, InputText};
 
 use crate::errors::{of_choice, of_compare, of_file, of_identify, of_laboratory};
 use crate::model::Model;
@@ -92,13 +94,14 @@ impl WentIn {
         Self { files, texts }
     }
 
-    fn files(&self) -> Vec<FileNote<'_>> {
+    /// The page of a result.
+    fn page(&self, sheet: &Sheet, command_line: &str) -> String {
         let note = |(path, sha256, description)| FileNote { path, sha256, description };
-        self.files.iter().map(|(path, hash, what)| note((path, hash, what))).collect()
-    }
-
-    fn inputs(&self) -> Vec<InputText<'_>> {
-        self.texts.iter().map(|(path, text)| InputText { path, text }).collect()
+        let files = self.files.iter().map(|(path, hash, what)| note((path, hash, what)));
+        let files: Vec<FileNote<'_>> = files.collect();
+        let inputs = self.texts.iter().map(|(path, text)| InputText { path, text });
+        let inputs: Vec<InputText<'_>> = inputs.collect();
+        sheet.to_html(&Went { command_line, files: &files, inputs: &inputs })
     }
 }
 
@@ -128,14 +131,12 @@ impl Comparison {
     fn report<T>(&self, display: DisplayUnits, tell: impl FnOnce(&CompareReport<'_>) -> T) -> T {
         tell(&CompareReport {
             name: &self.model.title(),
+            model_hash: Some(&self.model.analysis.hash()),
             measured: &self.measured,
             model: &self.model.analysis.model,
             method: self.model.analysis.method,
             comparison: &self.comparison,
             within: &self.within,
-            inputs: &self.went_in.inputs(),
-            files: &self.went_in.files(),
-            command_line: "slipstick.compare(measured, model)",
             display,
         })
     }
@@ -180,15 +181,16 @@ impl Comparison {
     }
 
     fn _text(&self, py: Python<'_>, units: &str) -> PyResult<String> {
-        Ok(self.report(display_units(py, units)?, |report| report.table()))
+        Ok(self.report(display_units(py, units)?, |report| report.sheet().to_text()))
     }
 
     fn _summary_json(&self) -> String {
-        self.report(DisplayUnits::Si, |report| report.to_json())
+        self.report(DisplayUnits::Si, |report| report.sheet().to_json())
     }
 
     fn _report_html(&self, py: Python<'_>, units: &str) -> PyResult<String> {
-        Ok(self.report(display_units(py, units)?, |report| report.to_html()))
+        let sheet = self.report(display_units(py, units)?, |report| report.sheet());
+        Ok(self.went_in.page(&sheet, "slipstick.compare(measured, model)"))
     }
 }
 
@@ -240,13 +242,8 @@ impl Identified {
         Ok(Self { measured, found, model, went_in, call })
     }
 
-    fn report<T>(&self, display: DisplayUnits, tell: impl FnOnce(&IdentifyReport<'_>) -> T) -> T {
-        tell(&IdentifyReport {
-            inputs: &self.went_in.inputs(),
-            files: &self.went_in.files(),
-            command_line: self.call,
-            ..IdentifyReport::of(&self.measured, &self.found, display)
-        })
+    fn sheet(&self, display: DisplayUnits) -> Sheet {
+        told::sheet(&self.measured, &self.found, display)
     }
 }
 
@@ -284,7 +281,7 @@ impl Identified {
     /// What the data tell and what they do not, in sentences.
     #[getter]
     fn verdict(&self) -> Vec<String> {
-        self.report(DisplayUnits::Si, |report| report.verdict())
+        self.sheet(DisplayUnits::Si).verdict
     }
 
     /// The tables by name.
@@ -301,22 +298,20 @@ impl Identified {
 
     /// The figures as SVG by their names.
     fn _figures(&self) -> Vec<(&'static str, String)> {
-        self.report(DisplayUnits::Si, |report| {
-            let figures = report.figures.iter();
-            figures.map(|figure| (figure.id, figure.svg.as_str().to_owned())).collect()
-        })
+        let figures = self.sheet(DisplayUnits::Si).figures.into_iter();
+        figures.map(|figure| (figure.id, figure.svg.as_str().to_owned())).collect()
     }
 
     fn _text(&self, py: Python<'_>, units: &str) -> PyResult<String> {
-        Ok(self.report(display_units(py, units)?, |report| report.table()))
+        Ok(self.sheet(display_units(py, units)?).to_text())
     }
 
     fn _summary_json(&self) -> String {
-        self.report(DisplayUnits::Si, |report| report.to_json())
+        self.sheet(DisplayUnits::Si).to_json()
     }
 
     fn _report_html(&self, py: Python<'_>, units: &str) -> PyResult<String> {
-        Ok(self.report(display_units(py, units)?, |report| report.to_html()))
+        Ok(self.went_in.page(&self.sheet(display_units(py, units)?), self.call))
     }
 }
 

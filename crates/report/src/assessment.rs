@@ -14,4 +14,4 @@ pub(crate) mod pairs;
 pub(crate) mod sheet;
 pub mod spectrum;
 
-pub use sheet::{Sheet, Went};
+pub use sheet::{Sheet, Table, Went};

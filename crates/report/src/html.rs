@@ -33,7 +33,6 @@ pub fn page(report: &Report) -> String {
     body.raw("</section>\n");
     document(&Frame {
         kind: "Sliding response analysis",
-        title_end: ": sliding response",
         name: &summary.model,
         line: &format!(
             "Slipstick {}, {} method{}; ground motion: {}",
@@ -51,8 +50,6 @@ pub fn page(report: &Report) -> String {
 pub(crate) struct Frame<'a> {
     /// Above the name.
     pub kind: &'static str,
-    /// After the name in the title of the window.
-    pub title_end: &'static str,
     /// What the page is about.
     pub name: &'a str,
     /// Below the name.
@@ -69,7 +66,8 @@ pub(crate) fn document(frame: &Frame) -> String {
     out.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n")
         .raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>")
         .text(frame.name)
-        .raw(frame.title_end)
+        .raw(": ")
+        .raw(frame.kind)
         .raw("</title>\n<style>\n")
         .raw(include_str!("html/style.css"));
     page_margins(&mut out, frame);
@@ -199,4 +197,53 @@ pub(crate) fn name_table(out: &mut Markup, caption: &str, rows: &[(&str, String)
             .raw("</td></tr>\n");
     }
     out.raw("</tbody>\n</table>\n");
+}
+
+/// A table whose first row are heads and whose first column are names.
+pub(crate) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
+    let Some((heads, rows)) = rows.split_first() else { return };
+    let wide = heads.len() > 6;
+    out.raw(if wide { "<div class=\"small\">\n" } else { "" });
+    // A column with words is set as words.
+    let number = |cell: &str| {
+        cell == "—"
+            || cell.starts_with(['<', '−', '-', '+'])
+            || cell.starts_with(|c: char| c.is_ascii_digit())
+    };
+    let numbers: Vec<bool> = (0..heads.len())
+        .map(|i| i > 0 && rows.iter().filter_map(|row| row.get(i)).all(|cell| number(cell)))
+        .collect();
+    let heads: Vec<_> = heads.iter().cloned().zip(numbers.iter().copied()).collect();
+    table_head(out, &heads);
+    for row in rows {
+        for (i, cell) in row.iter().enumerate() {
+            if i == 0 {
+                let sub = cell.starts_with(' ');
+                out.raw(if sub { "<tr class=\"sub\">" } else { "<tr>" })
+                    .raw("<th scope=\"row\">")
+                    .text(cell.trim_start())
+                    .raw("</th>");
+            } else {
+                let governs = cell.strip_suffix('*');
+                if !numbers.get(i).is_some_and(|number| *number) {
+                    out.raw("<td class=\"words\">").text(cell).raw("</td>");
+                    continue;
+                }
+                out.raw(if governs.is_some() {
+                    "<td class=\"number governs\">"
+                } else {
+                    "<td class=\"number\">"
+                })
+                .text(typeset_cell(governs.unwrap_or(cell)))
+                .raw(if governs.is_some() { "*</td>" } else { "</td>" });
+            }
+        }
+        out.raw("</tr>\n");
+    }
+    out.raw("</tbody>\n</table>\n").raw(if wide { "</div>\n" } else { "" });
+}
+
+/// Numbers are set as in print, words as they are.
+fn typeset_cell(cell: &str) -> String {
+    if cell.parse::<f64>().is_ok() { typeset(cell) } else { cell.to_owned() }
 }

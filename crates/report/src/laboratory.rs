@@ -9,4 +9,3 @@ pub mod shaking_table;
 pub(crate) mod text;
 
 pub use compare::CompareReport;
-pub use identify::IdentifyReport;

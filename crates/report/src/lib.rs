@@ -59,6 +59,6 @@ pub mod tables;
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 pub use display::DisplayUnits;
-pub use laboratory::{CompareReport, IdentifyReport};
+pub use laboratory::CompareReport;
 pub use report::{FileNote, InputText, Report};
 pub use summary::{Summary, SummaryInputs};

@@ -15,7 +15,7 @@ use slipstick_files::{
 };
 use slipstick_report::assessment::answer;
 
-use super::assessment::{Opened, conclude, folder};
+use super::assessment::{Opened, Written, conclude, folder};
 use crate::args::{AssessArgs, FragilityArgs, ResultArgs};
 use crate::failure::Failure;
 use crate::progress::{TRIAL, counted, estimated};
@@ -75,7 +75,7 @@ pub(super) fn tell(
         .collect();
     let files: Vec<(&str, &Table)> =
         files.iter().map(|(name, table)| (&name[..], *table)).collect();
-    conclude(args, folder, &sheet, &files, sources, inputs)
+    conclude(args, Written::usual(folder), &sheet, &files, sources, inputs)
 }
 
 /// A file that was read: its path, its hash, what it is.

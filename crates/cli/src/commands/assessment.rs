@@ -157,17 +157,37 @@ pub fn folder(args: &ResultArgs, inputs: &[PathBuf]) -> Result<Option<OutputFold
     Ok(args.out.as_deref().map(|out| OutputFolder::create(out, inputs)).transpose()?)
 }
 
+/// Where a result is written.
+pub struct Written<'a> {
+    /// The folder, if any.
+    pub folder: Option<OutputFolder>,
+    /// Name of the file of JSON.
+    pub json: &'a str,
+    /// Further files: names and texts.
+    pub more: &'a [(&'static str, String)],
+    /// Files of other results, which would be stale beside these.
+    pub replaces: &'a [&'static str],
+}
+
+impl Written<'_> {
+    /// The usual files.
+    pub fn usual(folder: Option<OutputFolder>) -> Self {
+        Self { folder, json: "summary.json", more: &[], replaces: &["history.csv", "events.csv"] }
+    }
+}
+
 /// Writes tables, figures, summary and report, and prints the result; status 1 where it is not complete.
 pub fn conclude(
     args: &ResultArgs,
-    folder: Option<OutputFolder>,
+    written: Written<'_>,
     sheet: &Sheet,
     tables: &[(&str, &Table)],
     sources: &[(String, String, String)],
     inputs: &[(String, String)],
 ) -> Result<ExitCode, Failure> {
+    let Written { folder, json, more, replaces } = written;
     if let Some(mut folder) = folder {
-        folder.replaces(&["history.csv", "events.csv"]);
+        folder.replaces(replaces);
         for (name, table) in tables {
             match name.rsplit_once('.') {
                 Some((_, "parquet")) => folder.write(name, &to_parquet(Path::new(name), table)?)?,
@@ -184,8 +204,11 @@ pub fn conclude(
         let inputs: Vec<InputText> =
             inputs.iter().map(|(path, text)| InputText { path, text }).collect();
         let went = Went { command_line: &command_line(), files: &files, inputs: &inputs };
-        folder.write("summary.json", sheet.to_json().as_bytes())?;
+        folder.write(json, sheet.to_json().as_bytes())?;
         folder.write("report.html", sheet.to_html(&went).as_bytes())?;
+        for (name, text) in more {
+            folder.write(name, text.as_bytes())?;
+        }
         folder.commit()?;
     }
     print(&if args.json { sheet.to_json() } else { sheet.to_text() })?;
@@ -200,7 +223,9 @@ pub fn conclude(
         }
     }
     if let Some(out) = &args.out {
-        say(format_args!("wrote {}", out.join("report.html").display()));
+        for name in core::iter::once("report.html").chain(more.iter().map(|(name, _)| *name)) {
+            say(format_args!("wrote {}", out.join(name).display()));
+        }
     }
     Ok(status)
 }

@@ -7,15 +7,14 @@ use slipstick::hash::sha256_hex;
 use slipstick::input;
 use slipstick::laboratory::compare::compare as compared;
 use slipstick::laboratory::measured::Measured;
-use slipstick::notice::Notice;
 use slipstick::requests::Comparing;
 use slipstick_files::{OutputFolder, SourceFile, TextFile, read_mapping, read_measured, time_left};
 use slipstick_report::laboratory::CompareReport;
-use slipstick_report::{FileNote, InputText};
 
-use super::run::{ModelFile, command_line, overrides, read_model};
+use super::assessment::{Written, conclude};
+use super::run::{ModelFile, overrides, read_model};
 use crate::args::{CompareArgs, ResultArgs};
-use crate::failure::{Failure, print, say};
+use crate::failure::{Failure, say};
 use crate::progress::{TRIAL, estimated, reading};
 
 /// Compares, prints and writes; status 1 where a bound is missed.
@@ -37,30 +36,24 @@ pub fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let comparison = estimated("computing", args.result.quiet, &estimate, || work(&measured));
     let comparison = comparison.map_err(|error| Failure::Message(error.to_string()))?;
     let went_in = WentIn::of(&model, &source, mapping_file.as_ref());
+    let (name, hash) = (name(&model, analysis.name.as_deref()), analysis.hash());
     let report = CompareReport {
-        name: &name(&model, analysis.name.as_deref()),
+        name: &name,
+        model_hash: Some(&hash),
         measured: &measured.source_name,
         model: &analysis.model,
         method: analysis.method,
         comparison: &comparison,
         within: &within,
-        inputs: &went_in.inputs(),
-        files: &went_in.files(),
-        command_line: &command_line(),
         display: args.result.display_units,
     };
-    if let Some(mut folder) = folder {
-        folder.write("comparison.json", report.to_json().as_bytes())?;
-        folder.write("report.html", report.to_html().as_bytes())?;
-        folder.commit()?;
-    }
-    print(&if args.result.json { report.to_json() } else { report.table() })?;
-    tell(&args.result, &comparison.warnings);
-    let missed = report.missed();
-    for bound in &missed {
+    let WentIn { files, texts } = &went_in;
+    let written = Written { folder, json: "comparison.json", more: &[], replaces: &[] };
+    let status = conclude(&args.result, written, &report.sheet(), &[], files, texts)?;
+    for bound in report.missed() {
         say(format_args!("missed: {}", bound.name()));
     }
-    Ok(ExitCode::from(u8::from(!missed.is_empty())))
+    Ok(status)
 }
 
 /// The name of a model, else the stem of its file.
@@ -82,28 +75,12 @@ pub(super) fn output(
     Ok(Some(OutputFolder::create(out, &inputs)?))
 }
 
-/// Warnings, where standard output did not show them, and where the results are.
-pub(super) fn tell(args: &ResultArgs, warnings: &[Notice]) {
-    if args.quiet {
-        return;
-    }
-    if args.json {
-        for warning in warnings {
-            let label = warning.severity().name();
-            say(format_args!("{label}: {}: {}", warning.kind, warning.message));
-        }
-    }
-    if let Some(out) = &args.out {
-        say(format_args!("wrote {}", out.join("report.html").display()));
-    }
-}
-
 /// Files that a result came from.
 pub(super) struct WentIn {
     /// Path, hash, and what it is.
-    files: Vec<(String, String, &'static str)>,
+    pub files: Vec<(String, String, String)>,
     /// Path and text.
-    texts: Vec<(String, String)>,
+    pub texts: Vec<(String, String)>,
 }
 
 impl WentIn {
@@ -121,27 +98,16 @@ impl WentIn {
         let shown = |file: &SourceFile| file.path.display().to_string();
         let (mut files, mut texts) = (Vec::new(), Vec::new());
         if let Some(model) = model {
-            files.push((model.name.clone(), sha256_hex(&model.bytes), "model"));
+            files.push((model.name.clone(), sha256_hex(&model.bytes), "model".to_owned()));
             texts.push((model.name.clone(), model.text()));
         }
-        files.extend(measured.iter().map(|file| (shown(file), file.sha256.clone(), "measured")));
+        let what =
+            |what: &str, file: &SourceFile| (shown(file), file.sha256.clone(), what.to_owned());
+        files.extend(measured.iter().map(|file| what("measured", file)));
         if let Some(mapping) = mapping {
-            files.push((shown(&mapping.source), mapping.source.sha256.clone(), "mapping"));
+            files.push(what("mapping", &mapping.source));
             texts.push((shown(&mapping.source), mapping.text.clone()));
         }
         Self { files, texts }
-    }
-
-    /// As a report lists them.
-    pub fn files(&self) -> Vec<FileNote<'_>> {
-        self.files
-            .iter()
-            .map(|(path, sha256, description)| FileNote { path, sha256, description })
-            .collect()
-    }
-
-    /// As a report shows them.
-    pub fn inputs(&self) -> Vec<InputText<'_>> {
-        self.texts.iter().map(|(path, text)| InputText { path, text }).collect()
     }
 }

@@ -12,12 +12,13 @@ use slipstick_files::{
     LaboratoryError, OutputFolder, SourceFile, TextFile, expand_all, on_threads, read_mapping,
     read_measured, time_left,
 };
-use slipstick_report::IdentifyReport;
+use slipstick_report::laboratory::identify;
 
+use super::assessment::{Written, conclude};
 use super::compare::WentIn;
-use super::run::{ModelFile, command_line, overrides, read_model};
+use super::run::{ModelFile, overrides, read_model};
 use crate::args::{IdentifyCommand, ResultArgs, TestArgs};
-use crate::failure::{Failure, print, say};
+use crate::failure::Failure;
 use crate::progress::{TRIAL, counted, estimated, reading};
 
 /// Runs one of the three jobs.
@@ -162,28 +163,9 @@ fn finish(
     measured: &[Measured],
     identified: &Identified,
 ) -> Result<ExitCode, Failure> {
-    let went_in = WentIn::of_files(inputs.model, inputs.sources, inputs.mapping);
-    let report = IdentifyReport {
-        inputs: &went_in.inputs(),
-        files: &went_in.files(),
-        command_line: &command_line(),
-        ..IdentifyReport::of(measured, identified, args.display_units)
-    };
+    let WentIn { files, texts } = WentIn::of_files(inputs.model, inputs.sources, inputs.mapping);
+    let sheet = identify::sheet(measured, identified, args.display_units);
     let more = identified.files();
-    if let Some(mut folder) = folder {
-        folder.write("identified.json", report.to_json().as_bytes())?;
-        folder.write("report.html", report.to_html().as_bytes())?;
-        for (name, text) in &more {
-            folder.write(name, text.as_bytes())?;
-        }
-        folder.commit()?;
-    }
-    print(&if args.json { report.to_json() } else { report.table() })?;
-    super::compare::tell(args, &report.warnings);
-    if let (Some(out), false) = (&args.out, args.quiet) {
-        for (name, _) in more {
-            say(format_args!("wrote {}", out.join(name).display()));
-        }
-    }
-    Ok(ExitCode::from(u8::from(!report.all_told())))
+    let written = Written { folder, json: "identified.json", more: &more, replaces: &[] };
+    conclude(args, written, &sheet, &[], &files, &texts)
 }

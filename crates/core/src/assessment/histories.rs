@@ -8,6 +8,7 @@ use super::{AssessmentError, FailedRun};
 use crate::error::RunError;
 use crate::input::loaded::Loaded;
 use crate::input::{Analysis, Bound, Names};
+use crate::model::Model;
 use crate::motion::target::Matched;
 use crate::notice::Notice;
 use crate::record::Origin;
@@ -77,6 +78,8 @@ pub struct ModelHistories {
     pub names: Names,
     /// The gap of its slider in m, where it has one.
     pub gap_m: Option<f64>,
+    /// Travel of each of its surfaces in series in m, where it ends.
+    pub travels_m: Vec<Option<f64>>,
     /// Where its stop stands towards +x and −x, in m, where there is one.
     pub stop_m: [Option<f64>; 2],
     /// The bounds of friction that were run.
@@ -229,6 +232,7 @@ pub fn run_histories(
             hash: model.analysis.hash(),
             names: model.analysis.names.clone(),
             gap_m: model.analysis.model.slider().gap_m(),
+            travels_m: travels(&model.analysis.model),
             stop_m: model.analysis.model.slider().stop().map_or([None; 2], |stop| stop.gap_m),
             governing_history: None,
             lateral: lateral(model.analysis, scaling),
@@ -253,6 +257,12 @@ pub fn run_histories(
         }
     }
     Ok(Histories { models: done, shape, runs, governing, matched, notices })
+}
+
+/// Travel of each surface in series in m, where it ends.
+fn travels(model: &Model) -> Vec<Option<f64>> {
+    let series = model.slider().series();
+    series.map_or(&[][..], |series| series.surfaces()).iter().map(|on| on.travel_m).collect()
 }
 
 /// The bounds of friction that an analysis asks for.

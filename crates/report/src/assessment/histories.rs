@@ -79,7 +79,6 @@ impl HistoriesReport<'_> {
             suite: self.recorded(),
             first: Some(("Governs", self.governing())),
             line: format!("{runs} runs: {records}{}; {certificate}", self.scaled),
-            verdict: Vec::new(),
             complete,
             display: self.display,
             warnings: self.warnings(),
@@ -88,6 +87,7 @@ impl HistoriesReport<'_> {
             figures: self.figures(),
             method: self.method(),
             json: self.json(),
+            ..Sheet::default()
         }
     }
 

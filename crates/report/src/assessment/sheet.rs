@@ -10,22 +10,28 @@ use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 use crate::VERSION;
 use crate::display::DisplayUnits;
 use crate::figures::Drawn;
-use crate::html::{Frame, appendix, document, figure_list, inputs, warning_list};
+use crate::html::{
+    Frame, appendix, document, figure_list, inputs, name_table, number_table, warning_list,
+};
 use crate::json::Json;
-use crate::laboratory::compare::number_table;
 use crate::laboratory::text::{aligned, field};
 use crate::markup::Markup;
 use crate::markup::shortened;
 use crate::report::{FileNote, InputText};
 use crate::summary::keys::{listed, suite};
 
+/// A heading and a table: the first row are heads, the first column names.
+pub type Table = (String, Vec<Vec<String>>);
+
 /// A result as people and programs read it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sheet {
     /// What it is, above the name: `Incremental dynamic analysis`.
     pub kind: &'static str,
-    /// Name of the model.
+    /// Name of the model, or of what was measured.
     pub name: String,
+    /// What stands before the name in a text; `Model` where it is empty.
+    pub named: &'static str,
     /// Hash of the model, where it is of one.
     pub model_hash: Option<String>,
     /// The records that it is of.
@@ -40,8 +46,12 @@ pub struct Sheet {
     pub display: DisplayUnits,
     /// All that a reader must know.
     pub warnings: Vec<Notice>,
-    /// Headings with their tables: the first row are heads, the first column names.
-    pub tables: Vec<(String, Vec<Vec<String>>)>,
+    /// The tables, the one that answers first.
+    pub tables: Vec<Table>,
+    /// Names and values that the page alone shows, at its end; without heads.
+    pub appendix: Vec<Table>,
+    /// Keys of a model, with what stands over them.
+    pub keys: Option<(&'static str, String)>,
     /// Sentences below the tables.
     pub notes: Vec<String>,
     /// Drawings.
@@ -74,11 +84,15 @@ impl Sheet {
             text.push_str(&field(name, sentence));
         }
         let hash = self.model_hash.iter().map(|hash| format!("  (model {hash})"));
-        text.push_str(&field("Model", &format!("{}{}", self.name, hash.collect::<String>())));
+        let named = if self.named.is_empty() { "Model" } else { self.named };
+        text.push_str(&field(named, &format!("{}{}", self.name, hash.collect::<String>())));
         text.push_str(&field("Analysis", &format!("{}. {}", self.kind, self.line)));
         for (heading, rows) in &self.tables {
             text.push_str(&format!("\n{heading}\n"));
             text.push_str(&aligned(rows));
+        }
+        if let Some((heading, keys)) = &self.keys {
+            text.push_str(&format!("\n{heading}\n{keys}"));
         }
         if !self.notes.is_empty() {
             text.push('\n');
@@ -158,6 +172,9 @@ impl Sheet {
         for note in &self.notes {
             body.element("p", note).raw("\n");
         }
+        if let Some((heading, keys)) = &self.keys {
+            body.element("h3", heading).raw("\n").element("pre", keys).raw("\n");
+        }
         figure_list(&mut body, figures, 2);
         table_list(&mut body, tables);
         body.raw("</section>\n<section>\n<h2>Method and limits</h2>\n<ul>\n");
@@ -166,12 +183,18 @@ impl Sheet {
         }
         body.raw("</ul>\n</section>\n");
         appendix(&mut body);
+        for (heading, rows) in &self.appendix {
+            let pairs = rows.iter().filter_map(|row| match row.as_slice() {
+                [name, value] => Some((name.as_str(), value.clone())),
+                _ => None,
+            });
+            name_table(&mut body, heading, &pairs.collect::<Vec<_>>());
+        }
         self.noticed(&mut body);
         inputs::provenance(&mut body, went.files, went.command_line, went.inputs);
         body.raw("</section>\n");
         document(&Frame {
             kind: self.kind,
-            title_end: ": ",
             name: &self.name,
             line: &format!(
                 "Slipstick {VERSION}{}. {}",
@@ -208,7 +231,7 @@ pub(crate) fn record_table(records: &[Recorded]) -> Option<Vec<Vec<String>>> {
     (!records.is_empty()).then(|| core::iter::once(heads).chain(rows).collect())
 }
 
-fn table_list(out: &mut Markup, tables: &[(String, Vec<Vec<String>>)]) {
+fn table_list(out: &mut Markup, tables: &[Table]) {
     for (heading, rows) in tables {
         out.element("h3", heading).raw("\n");
         number_table(out, rows);

@@ -6,18 +6,14 @@ use slipstick::model::Model;
 use slipstick::response::{Method, Mode};
 use slipstick::units::Dimension;
 
-use super::text::{aligned, field, in_groups};
-use crate::VERSION;
-use crate::describe::{model_line, model_rows};
+use super::text::in_groups;
+use crate::assessment::sheet::{Sheet, Table};
+use crate::describe::model_rows;
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::figures::Drawn;
-use crate::html::{self, Frame, inputs, name_table, table_head, warning_list};
 use crate::json::Json;
-use crate::markup::Markup;
 use crate::number::{significant, typeset};
 use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
-use crate::report::{FileNote, InputText};
-use crate::summary::keys::listed;
 use crate::summary::method_name;
 
 /// The table's own acceleration: there to be seen, not to hide the others.
@@ -28,6 +24,8 @@ const TABLE: Style = Style { colour: "#5f7358", width: 0.8, dashes: "" };
 pub struct CompareReport<'a> {
     /// Name of the model.
     pub name: &'a str,
+    /// Its hash, where it was read from a text.
+    pub model_hash: Option<&'a str>,
     /// The measured file as it was given.
     pub measured: &'a str,
     /// The model.
@@ -38,12 +36,6 @@ pub struct CompareReport<'a> {
     pub comparison: &'a Comparison,
     /// Bounds that it must keep.
     pub within: &'a [Within],
-    /// Texts that people wrote: model and mapping.
-    pub inputs: &'a [InputText<'a>],
-    /// Files read, with their hashes.
-    pub files: &'a [FileNote<'a>],
-    /// The command as it was typed.
-    pub command_line: &'a str,
     /// Units to show results in.
     pub display: DisplayUnits,
 }
@@ -134,40 +126,49 @@ impl CompareReport<'_> {
         rows
     }
 
-    /// The table that a person reads.
+    /// The result laid out.
     #[must_use]
-    pub fn table(&self) -> String {
-        let mut text =
-            format!("{}  (slipstick {}, {})\n", self.name, VERSION, method_name(self.method));
-        text.push_str(&field("Measured", self.measured));
-        text.push_str(&field("Model", &model_line(self.model, self.display)));
-        text.push_str(&field("Times", &self.comparison.alignment));
-        text.push('\n');
-        for (i, group) in in_groups(&self.rows(), 4).iter().enumerate() {
-            text.push_str(if i > 0 { "\n" } else { "" });
-            text.push_str(&aligned(group));
+    pub fn sheet(&self) -> Sheet {
+        let Comparison { compared, alignment, warnings, .. } = self.comparison;
+        let titled = |heading: &str, rows: &[Vec<String>]| -> Vec<Table> {
+            in_groups(rows, 3).into_iter().map(|group| (heading.to_owned(), group)).collect()
+        };
+        let agreement = titled("Agreement", &self.rows());
+        let scores = self.anderson().map(|rows| titled("Anderson's scores (0 to 10)", &rows));
+        let pairs = |rows: &mut dyn Iterator<Item = (String, String)>| -> Vec<Vec<String>> {
+            rows.map(|(name, value)| vec![name, value]).collect()
+        };
+        let model = model_rows(self.model, self.display).into_iter();
+        let mut model = model.map(|(name, value)| (name.to_owned(), value));
+        let mut origins = compared.iter().map(|c| (title(c.pair.channel), c.pair.origin.clone()));
+        let line = format!(
+            "{} method, driven by the table acceleration measured in {}",
+            method_name(self.method),
+            self.measured
+        );
+        Sheet {
+            kind: "Prediction and measurement",
+            name: self.name.to_owned(),
+            model_hash: self.model_hash.map(str::to_owned),
+            line,
+            verdict: self.verdict(),
+            display: self.display,
+            warnings: warnings.clone(),
+            tables: agreement.into_iter().chain(scores.into_iter().flatten()).collect(),
+            notes: self.verdicts(),
+            figures: self.figures(),
+            method: vec![format!("Times: {alignment}")],
+            appendix: vec![
+                ("Model".to_owned(), pairs(&mut model)),
+                ("Measured quantities".to_owned(), pairs(&mut origins)),
+            ],
+            complete: self.missed().is_empty(),
+            json: self.json(),
+            ..Sheet::default()
         }
-        if !self.within.is_empty() {
-            text.push('\n');
-            for verdict in self.verdicts() {
-                text.push_str(&field("Bound", &verdict));
-            }
-        }
-        if !self.comparison.warnings.is_empty() {
-            text.push('\n');
-            for warning in &self.comparison.warnings {
-                text.push_str(&field(
-                    warning.label(),
-                    &format!("{}: {}", warning.kind, self.display.sentence(&warning.message)),
-                ));
-            }
-        }
-        text
     }
 
-    /// The object that `--json` prints.
-    #[must_use]
-    pub fn to_json(&self) -> String {
+    fn json(&self) -> Vec<(&'static str, Json)> {
         let c = self.comparison;
         let quantities = c.compared.iter().map(|compared| {
             let (pair, m) = (&compared.pair, &compared.metrics);
@@ -216,8 +217,7 @@ impl CompareReport<'_> {
             ])
         });
         let figures = c.motion.figures();
-        Json::Object(vec![
-            ("slipstick", VERSION.into()),
+        vec![
             ("model", self.name.into()),
             ("method", method_name(self.method).into()),
             ("measured", self.measured.into()),
@@ -228,68 +228,7 @@ impl CompareReport<'_> {
             ("table_peak_acceleration_m_per_s2", figures.pga_m_per_s2.into()),
             ("quantities", Json::List(quantities.collect())),
             ("within", Json::List(within.collect())),
-            ("warnings", listed(&c.warnings, false)),
-            ("notes", listed(&c.warnings, true)),
-        ])
-        .to_pretty()
-    }
-
-    /// One self-contained page.
-    #[must_use]
-    pub fn to_html(&self) -> String {
-        let mut body = Markup::new();
-        body.raw("<section class=\"verdict\">\n");
-        for (i, sentence) in self.verdict().iter().enumerate() {
-            body.raw(if i == 0 { "<p class=\"lead\">" } else { "<p>" })
-                .text(sentence)
-                .raw("</p>\n");
-        }
-        body.raw("</section>\n");
-        let warnings: Vec<_> = self.comparison.warnings.iter().map(|w| (None, w)).collect();
-        warning_list(&mut body, &warnings, self.display);
-        html::figure_list(&mut body, &self.figures(), 1);
-        body.raw("<section>\n<h2>Agreement</h2>\n");
-        for group in in_groups(&self.rows(), 3) {
-            number_table(&mut body, &group);
-        }
-        body.raw("<p>").text(&self.comparison.alignment).raw("</p>\n");
-        if !self.within.is_empty() {
-            body.raw("<h3>Bounds</h3>\n<ul>\n");
-            for verdict in self.verdicts() {
-                body.element("li", verdict).raw("\n");
-            }
-            body.raw("</ul>\n");
-        }
-        body.raw("</section>\n");
-        body.raw("<section>\n<h2>Anderson's scores</h2>\n");
-        self.anderson(&mut body);
-        body.raw("</section>\n");
-        html::appendix(&mut body);
-        name_table(&mut body, "Model", &model_rows(self.model, self.display));
-        let origins: Vec<(String, String)> = self
-            .comparison
-            .compared
-            .iter()
-            .map(|c| (title(c.pair.channel), c.pair.origin.clone()))
-            .collect();
-        let origins: Vec<(&str, String)> =
-            origins.iter().map(|(name, origin)| (name.as_str(), origin.clone())).collect();
-        name_table(&mut body, "Measured quantities", &origins);
-        inputs::provenance(&mut body, self.files, self.command_line, self.inputs);
-        body.raw("</section>\n");
-        html::document(&Frame {
-            kind: "Prediction and measurement",
-            title_end: ": prediction and measurement",
-            name: self.name,
-            line: &format!(
-                "Slipstick {}, {} method, driven by the measured table acceleration of {}.",
-                VERSION,
-                method_name(self.method),
-                self.measured
-            ),
-            command_line: self.command_line,
-            body: &body,
-        })
+        ]
     }
 
     /// How near the prediction is, quantity by quantity, and whether the bounds are kept.
@@ -333,27 +272,19 @@ impl CompareReport<'_> {
         verdict
     }
 
-    fn anderson(&self, out: &mut Markup) {
-        let scored: Vec<_> = self
-            .comparison
-            .compared
-            .iter()
-            .filter_map(|c| Some((title(c.pair.channel), c.metrics.anderson?)))
-            .collect();
-        let Some((_, first)) = scored.first() else {
-            out.raw("<p>No acceleration was compared.</p>\n");
-            return;
+    /// Anderson's scores, a column a quantity; none where no acceleration was compared.
+    fn anderson(&self) -> Option<Vec<Vec<String>>> {
+        let compared = self.comparison.compared.iter();
+        let scored = compared.filter_map(|c| Some((title(c.pair.channel), c.metrics.anderson?)));
+        let scored: Vec<_> = scored.collect();
+        let (_, first) = scored.first()?;
+        let heads = scored.iter().map(|(name, _)| name.clone());
+        let row = |(i, (name, _)): (usize, &(&str, f64))| {
+            let cells = scored.iter().map(|(_, a)| format!("{:.1}", a.scores()[i].1));
+            core::iter::once(name.replace('_', " ")).chain(cells).collect()
         };
-        let mut rows = vec![vec![String::new()]];
-        rows[0].extend(scored.iter().map(|(name, _)| name.clone()));
-        for (i, (name, _)) in first.scores().iter().enumerate() {
-            let mut row = vec![name.replace('_', " ")];
-            row.extend(scored.iter().map(|(_, a)| format!("{:.1}", a.scores()[i].1)));
-            rows.push(row);
-        }
-        for group in in_groups(&rows, 3) {
-            number_table(out, &group);
-        }
+        let heads = core::iter::once(String::new()).chain(heads).collect();
+        Some(core::iter::once(heads).chain(first.scores().iter().enumerate().map(row)).collect())
     }
 
     /// The overlays: accelerations with that of the table, then displacements and forces.
@@ -450,53 +381,4 @@ fn sliding(comparison: &Comparison) -> Vec<[f64; 2]> {
         }
     }
     intervals
-}
-
-/// A table whose first row are heads and whose first column are names.
-pub(crate) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
-    let Some((heads, rows)) = rows.split_first() else { return };
-    let wide = heads.len() > 6;
-    out.raw(if wide { "<div class=\"small\">\n" } else { "" });
-    // A column with words is set as words.
-    let number = |cell: &str| {
-        cell == "—"
-            || cell.starts_with(['<', '−', '-', '+'])
-            || cell.starts_with(|c: char| c.is_ascii_digit())
-    };
-    let numbers: Vec<bool> = (0..heads.len())
-        .map(|i| i > 0 && rows.iter().filter_map(|row| row.get(i)).all(|cell| number(cell)))
-        .collect();
-    let heads: Vec<_> = heads.iter().cloned().zip(numbers.iter().copied()).collect();
-    table_head(out, &heads);
-    for row in rows {
-        for (i, cell) in row.iter().enumerate() {
-            if i == 0 {
-                let sub = cell.starts_with(' ');
-                out.raw(if sub { "<tr class=\"sub\">" } else { "<tr>" })
-                    .raw("<th scope=\"row\">")
-                    .text(cell.trim_start())
-                    .raw("</th>");
-            } else {
-                let governs = cell.strip_suffix('*');
-                if !numbers.get(i).is_some_and(|number| *number) {
-                    out.raw("<td class=\"words\">").text(cell).raw("</td>");
-                    continue;
-                }
-                out.raw(if governs.is_some() {
-                    "<td class=\"number governs\">"
-                } else {
-                    "<td class=\"number\">"
-                })
-                .text(typeset_cell(governs.unwrap_or(cell)))
-                .raw(if governs.is_some() { "*</td>" } else { "</td>" });
-            }
-        }
-        out.raw("</tr>\n");
-    }
-    out.raw("</tbody>\n</table>\n").raw(if wide { "</div>\n" } else { "" });
-}
-
-/// Numbers are set as in print, words as they are.
-fn typeset_cell(cell: &str) -> String {
-    if cell.parse::<f64>().is_ok() { typeset(cell) } else { cell.to_owned() }
 }

@@ -92,14 +92,12 @@ pub fn agreement(
 ) -> (Vec<Vec<String>>, Vec<Drawn>) {
     let report = CompareReport {
         name: measured,
+        model_hash: None,
         measured,
         model: &fit.model,
         method: Method::Exact,
         comparison: &fit.comparison,
         within: &[],
-        inputs: &[],
-        files: &[],
-        command_line: "",
         display,
     };
     (report.rows(), report.figures())

@@ -4,6 +4,7 @@ use super::ChannelInfo;
 use crate::VERSION;
 use crate::display::{DisplayUnits, Quantity as Shown};
 use crate::figures::Drawn;
+use crate::html::{Frame, document, warning_list};
 use crate::markup::Markup;
 use crate::number::{printed, typeset};
 use slipstick::motion::intensity::Measure;
@@ -15,28 +16,19 @@ pub fn page(
     display: DisplayUnits,
     command: &str,
 ) -> String {
-    let mut out = Markup::new();
     let first = channels.first().map_or("", |(info, _)| info.file.as_str());
     let one_file = channels.iter().all(|(info, _)| info.file == first);
-    let title = if one_file { first } else { "Ground motions" };
-    out.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n")
-        .raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>")
-        .text(title)
-        .raw(": ground motion</title>\n<style>\n")
-        .raw(include_str!("../html/style.css"))
-        .raw("@page { size: A4; margin: 18mm 17mm 18mm 20mm; }\n</style>\n</head>\n<body>\n")
-        .raw("<header>\n<p>Ground motion</p>\n")
-        .element("h1", title)
-        .raw("\n</header>\n<main>\n");
+    let mut body = Markup::new();
     for (info, figures) in channels {
-        channel(&mut out, info, figures, one_file, display);
+        channel(&mut body, info, figures, one_file, display);
     }
-    out.raw("</main>\n<footer>\n<p>")
-        .text(format!("Slipstick {VERSION}: "))
-        .raw("<code>")
-        .text(command)
-        .raw("</code></p>\n</footer>\n</body>\n</html>\n");
-    out.into_string()
+    document(&Frame {
+        kind: "Ground motion",
+        name: if one_file { first } else { "Ground motions" },
+        line: &format!("Slipstick {VERSION}"),
+        command_line: command,
+        body: &body,
+    })
 }
 
 fn channel(
@@ -59,22 +51,8 @@ fn channel(
         }
     }
     out.raw("</p>\n");
-    for (notes, class, heading) in [(false, "warnings", "Warnings"), (true, "notes", "Notes")] {
-        let all = info.warnings.iter().filter(|warning| warning.is_note() == notes);
-        if all.clone().next().is_none() {
-            continue;
-        }
-        out.raw("<section").attribute("class", class).raw(">\n").element("h2", heading);
-        out.raw("\n<ul>\n");
-        for warning in all {
-            out.raw("<li>")
-                .element("strong", warning.kind.words())
-                .raw(": ")
-                .text(&warning.message)
-                .raw("</li>\n");
-        }
-        out.raw("</ul>\n</section>\n");
-    }
+    let notices: Vec<_> = info.warnings.iter().map(|notice| (None, notice)).collect();
+    warning_list(out, &notices, display);
     if let Some((set, _)) = &info.measures {
         out.raw("<table>\n<tbody>\n");
         let columns = set.columns();
@@ -92,8 +70,8 @@ fn channel(
         out.raw("</tbody>\n</table>\n");
     }
     for figure in figures {
-        out.raw("<figure>\n").append(figure.svg.markup());
-        out.raw("<figcaption>").text(&figure.caption).raw("</figcaption>\n</figure>\n");
+        out.raw("<figure>\n<div>\n").append(figure.svg.markup()).raw("</div>\n<figcaption>");
+        out.text(&figure.caption).raw("</figcaption>\n</figure>\n");
     }
     out.raw("</section>\n");
 }
