@@ -70,13 +70,20 @@ fn directions(
     match column.demand.in_directions {
         _ if summary.by_axis.is_none() => vec![of_resultant()],
         InDirections::Resultant => vec![of_resultant()],
+        // What is over the weight is told of the resultant.
+        InDirections::Both if printed.label.starts_with(' ') => vec![of_resultant()],
         InDirections::Both => {
             let below = along().map(|(axis, row)| Row { label: format!("  {axis}"), ..row });
             [of_resultant()].into_iter().chain(below).collect()
         }
         InDirections::Axis => {
-            let named =
-                |(axis, row): (&str, Row)| Row { label: format!("{} {axis}", row.label), ..row };
+            let named = |(axis, row): (&str, Row)| {
+                let label = match row.label.strip_suffix('x') {
+                    Some(towards) => format!("{towards}{}", axis.trim_start_matches("along ")),
+                    None => format!("{} {axis}", row.label),
+                };
+                Row { label, ..row }
+            };
             along().map(named).into()
         }
     }

@@ -282,6 +282,19 @@ impl Session {
         Ok(sheets::form(what, &parse(text)?).to_pretty())
     }
 
+    /// The plan of a study of what is asked, as [`Session::assess`] takes it.
+    ///
+    /// # Errors
+    /// As [`Session::assess`].
+    pub fn plan(
+        &mut self,
+        what: &str,
+        text: &str,
+        options: Vec<String>,
+    ) -> Result<String, JsValue> {
+        Ok(sheets::plan(&mut self.records, what, text, &options)?)
+    }
+
     /// Prepares a study: a plan, the model that it names, and the records that its patterns match among
     /// the files. Returns the number of its runs, and of the numbers of a row.
     ///

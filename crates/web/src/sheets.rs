@@ -10,7 +10,7 @@ use slipstick::input::plan::Plan;
 use slipstick::input::{Analysis, MotionSource};
 use slipstick::notice::Notice;
 use slipstick::record::Options;
-use slipstick::requests::{Door, Field, Kind, On, Request, Results, Runs, Takes};
+use slipstick::requests::{Answer, Door, Field, Kind, On, Request, Results, Runs, Takes};
 use slipstick::response::Method;
 use slipstick::study::engine::Engine;
 use slipstick::study::summary::{Rows, Take};
@@ -110,14 +110,14 @@ struct Asks<'a> {
 /// Options of a command: names and values.
 struct Settings<'a>(&'a [String]);
 
-impl Settings<'_> {
-    fn pairs(&self) -> impl Iterator<Item = (&str, &str)> {
+impl<'a> Settings<'a> {
+    fn pairs(&self) -> impl Iterator<Item = (&'a str, &'a str)> + use<'a> {
         let pairs = self.0.chunks_exact(2).map(|pair| (pair[0].as_str(), pair[1].as_str()));
         pairs.filter(|(_, text)| !text.trim().is_empty())
     }
 
     /// The records, each with what its file does not say: `NAME`, units, step and channel, by line ends.
-    fn records(&self) -> impl Iterator<Item = Asks<'_>> {
+    fn records(&self) -> impl Iterator<Item = Asks<'a>> + use<'a> {
         self.pairs().filter(|(name, _)| *name == "records").map(|(_, text)| {
             let mut parts = text.split('\n');
             let mut next = || parts.next().unwrap_or("");
@@ -169,7 +169,7 @@ pub fn form(what: &str, model: &Analysis) -> Json {
         };
         Json::Object(vec![
             ("name", field.name.into()),
-            ("label", field.label.into()),
+            ("label", Json::Text(Door::Page.calls(field.name))),
             ("takes", takes.into()),
             ("words", texts(words.iter().copied())),
             ("default", field.default.into()),
@@ -198,6 +198,88 @@ fn followed<T>(work: impl FnOnce(&Engine<'_>) -> T) -> T {
     work(&Engine::planning(&follow, planned))
 }
 
+/// What is asked of a model and the records that are chosen.
+struct Job<'a> {
+    settings: Settings<'a>,
+    text: &'a str,
+    name: String,
+    analysis: Analysis,
+    suite: Suite,
+}
+
+impl<'a> Job<'a> {
+    fn new(records: &mut Records, text: &'a str, options: &'a [String]) -> Result<Self, Failure> {
+        let (settings, analysis) = (Settings(options), parse(text)?);
+        if analysis.method != Method::Exact {
+            let expected = "the exact method, which is the only one over a suite";
+            let error = analysis.error_at("analysis.method", expected, "\"stepwise\"");
+            return Err(Failure::input(&error, text));
+        }
+        let suite = suite(records, &settings, &analysis, text)?;
+        let name = analysis.name.clone().unwrap_or_else(|| "Model".to_owned());
+        Ok(Self { settings, text, name, analysis, suite })
+    }
+
+    fn on(&self) -> On<'_> {
+        On {
+            name: &self.name,
+            source: MODEL,
+            text: self.text,
+            set: &[],
+            analysis: &self.analysis,
+            suite: &self.suite,
+        }
+    }
+
+    fn answer(&self, kind: Kind, engine: &Engine<'_>) -> Result<Answer, Failure> {
+        let (on, settings) = (self.on(), &self.settings);
+        let failed = |error| Failure::assessment(&error, self.text);
+        match kind {
+            // The incremental dynamic analysis, and the curve that fits it.
+            Kind::Fragility => {
+                let ida = settings.asked(Kind::Ida)?.run(&on, engine).map_err(failed)?;
+                let Results::Ida { limit, run, .. } = &ida.found else { return Ok(ida) };
+                let source = "the incremental dynamic analysis";
+                let runs = Runs { name: &self.name, source, table: &run.rows, limit: *limit };
+                settings.asked(kind)?.fit(&runs, engine).map_err(failed)
+            }
+            Kind::Suite => settings.asked(kind)?.suite(&[on], None, engine).map_err(failed),
+            kind => settings.asked(kind)?.run(&on, engine).map_err(failed),
+        }
+    }
+
+    /// The plan of a study of the same.
+    fn plan(&self, kind: Kind) -> Result<String, Failure> {
+        let names: Vec<&str> = self.settings.records().map(|asks| asks.name).collect();
+        // A plan says the same of all its files.
+        let all = |of: fn(Asks<'a>) -> &'a str| {
+            let mut texts = self.settings.records().map(of).filter(|text| !text.is_empty());
+            texts.next().filter(|first| texts.all(|text| text == *first))
+        };
+        let read =
+            [("units", all(|a| a.units)), ("dt", all(|a| a.dt)), ("channel", all(|a| a.channel))];
+        let read: Vec<(&str, &str)> =
+            read.into_iter().filter_map(|(key, text)| Some((key, text?))).collect();
+        let plan = self.settings.asked(kind)?.plan(&self.on(), &names, &read);
+        plan.map_err(|error| Failure::assessment(&error, self.text))
+    }
+}
+
+/// The plan of a study of what is asked.
+pub fn plan(
+    records: &mut Records,
+    what: &str,
+    text: &str,
+    options: &[String],
+) -> Result<String, Failure> {
+    let kind = requests(what).into_iter().next().ok_or_else(|| unknown(what))?;
+    Job::new(records, text, options)?.plan(kind)
+}
+
+fn unknown(what: &str) -> Failure {
+    Failure::of(format!("expected an analysis over a suite, found {what:?}"))
+}
+
 /// An analysis over a suite.
 pub fn assess(
     records: &mut Records,
@@ -206,43 +288,19 @@ pub fn assess(
     options: &[String],
     display: DisplayUnits,
 ) -> Result<Page, Failure> {
-    let settings = Settings(options);
-    let Some(kind) = Kind::of_name(what) else {
-        return Err(Failure::of(format!("expected an analysis over a suite, found {what:?}")));
-    };
-    let analysis = parse(text)?;
-    if analysis.method != Method::Exact {
-        let expected = "the exact method, which is the only one over a suite";
-        let error = analysis.error_at("analysis.method", expected, "\"stepwise\"");
-        return Err(Failure::input(&error, text));
-    }
-    let suite = suite(records, &settings, &analysis, text)?;
-    let name = analysis.name.clone().unwrap_or_else(|| "Model".to_owned());
-    let on = On { name: &name, source: MODEL, text, set: &[], analysis: &analysis, suite: &suite };
-    let failed = |error| Failure::assessment(&error, text);
-    let answer = followed(|engine| match kind {
-        // The incremental dynamic analysis, and the curve that fits it.
-        Kind::Fragility => {
-            let ida = settings.asked(Kind::Ida)?.run(&on, engine).map_err(failed)?;
-            let Results::Ida { limit, run, .. } = &ida.found else { return Ok(ida) };
-            let source = "the incremental dynamic analysis";
-            let runs = Runs { name: &name, source, table: &run.rows, limit: *limit };
-            settings.asked(kind)?.fit(&runs, engine).map_err(failed)
-        }
-        Kind::Suite => settings.asked(kind)?.suite(&[on], None, engine).map_err(failed),
-        kind => settings.asked(kind)?.run(&on, engine).map_err(failed),
-    })?;
+    let kind = Kind::of_name(what).ok_or_else(|| unknown(what))?;
+    let job = Job::new(records, text, options)?;
+    let answer = followed(|engine| job.answer(kind, engine))?;
     let sheet = answer::sheet(&answer, display);
     let inputs = [InputText { path: MODEL, text }];
-    let hashes: Vec<(String, String)> = settings
-        .records()
-        .filter_map(|asks| Some((asks.name.to_owned(), crate::sha256(records.bytes(asks.name)?))))
-        .collect();
+    let hash =
+        |asks: Asks<'_>| Some((asks.name.to_owned(), crate::sha256(records.bytes(asks.name)?)));
+    let hashes: Vec<(String, String)> = job.settings.records().filter_map(hash).collect();
     let files: Vec<FileNote> = hashes
         .iter()
         .map(|(path, sha256)| FileNote { path, sha256, description: "record" })
         .collect();
-    Ok(Page::new(&sheet, &inputs, &files, &settings.command(what)))
+    Ok(Page::new(&sheet, &inputs, &files, &job.settings.command(what)))
 }
 
 /// The records that were asked for, else the model's own motion.

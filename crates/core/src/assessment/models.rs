@@ -26,6 +26,9 @@ pub const ISOLATOR_PERIOD: &str = "isolator.period";
 /// Most runs of one analysis over a suite.
 const MOST_RUNS: usize = 100_000_000;
 
+/// The path that an isolator period sets.
+const RADIUS: &str = "slider.radius";
+
 /// A path that takes a time > 0.
 const PERIOD_LIKE: &str = "frame.period";
 
@@ -57,7 +60,7 @@ impl Models {
             {
                 // Read as another time; of the model it sets the radius.
                 shown_as[i].1 = format!("{PERIOD_LIKE}={values}");
-                all[i].1 = "slider.radius=1 m".to_owned();
+                all[i].1 = format!("{RADIUS}=1 m");
                 periods.push(i);
             }
         }
@@ -97,6 +100,39 @@ impl Models {
         self.variation.shape()
     }
 
+    /// What is varied as the tables `[vary]` and `[sampling]` of a plan; nothing where nothing is.
+    #[must_use]
+    pub fn plan(&self) -> String {
+        let mut text = String::new();
+        for (i, axis) in self.grid.axes().iter().enumerate() {
+            let of_period = self.periods.contains(&i);
+            let (path, unit) =
+                if of_period { (RADIUS, "m") } else { (&axis.path[..], &axis.unit[..]) };
+            let value = |value: &f64| match (of_period, unit) {
+                (true, _) => format!("\"{:?} m\"", self.radius_m(*value)),
+                (false, "") => format!("{value:?}"),
+                (false, unit) => format!("\"{value:?} {unit}\""),
+            };
+            let values: Vec<String> = axis.values.iter().map(value).collect();
+            text.push_str(&format!("\"{path}\" = {{ values = [{}] }}\n", values.join(", ")));
+            let follows = self.follows.iter().filter(|(_, other, _)| *other == i);
+            for (.., ratio) in follows {
+                let factor = format!("factor_of = \"{path}\", values = [{ratio:?}]");
+                text.push_str(&format!("\"{STATIC}\" = {{ {factor} }}\n"));
+            }
+        }
+        match text.as_str() {
+            "" => text,
+            varied => format!("\n[vary]\n{varied}\n[sampling]\nmethod = \"grid\"\n"),
+        }
+    }
+
+    /// The radius of a pendulum of a period: `g (T / 2π)²`.
+    fn radius_m(&self, period_s: f64) -> f64 {
+        let rate = period_s / core::f64::consts::TAU;
+        self.gravity_m_per_s2 * rate * rate
+    }
+
     /// The model with these values at the paths of the grid, in SI.
     ///
     /// # Errors
@@ -104,8 +140,7 @@ impl Models {
     pub fn parts(&self, values: &[f64]) -> Result<Parts, InputError> {
         let mut all = values.to_vec();
         for &i in &self.periods {
-            let rate = all[i] / core::f64::consts::TAU;
-            all[i] = self.gravity_m_per_s2 * rate * rate;
+            all[i] = self.radius_m(all[i]);
         }
         for &(at, other, ratio) in &self.follows {
             debug_assert_eq!(at, all.len());

@@ -155,18 +155,18 @@ impl Loaded {
             (motion, _) = motion.with_vertical(&up, 1.0).map_err(of(Component::X))?;
             description.push(format!("vertical: column {VERTICAL_COLUMN}"));
         }
-        let (scaled, factor) = match scale {
-            None => (Ok(motion), 1.0),
-            Some(Scale::Factor(factor)) => (motion.scaled(factor), factor),
-            Some(Scale::Peak(peak)) => {
-                (motion.scaled_to_peak(peak), peak / motion.figures().pga_m_per_s2)
-            }
+        let factor = match scale {
+            None => Ok(1.0),
+            Some(Scale::Factor(factor)) => Ok(factor),
+            Some(Scale::Peak(peak)) => motion.factor_to_peak(peak),
         };
-        let scaled = match along_y {
+        let factor = factor.map_err(of(Component::X))?;
+        let scaled = if scale.is_some() { motion.scaled(factor) } else { Ok(motion) };
+        let turned = match along_y {
             None => scaled,
             Some((_, pair)) => scaled.and_then(|m| m.turned(pair.scale_y, pair.rotate_rad)),
         };
-        let motion = scaled.map_err(of(Component::X))?;
+        let motion = turned.map_err(of(Component::X))?;
         let figures = motion.figures();
         warnings.extend(of_motion(&motion, &figures, &differ));
         let (channel, origin) = (channel.name.clone(), Origin::of(channel));

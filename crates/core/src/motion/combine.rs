@@ -58,6 +58,14 @@ impl GroundMotion {
     /// [`MotionError::OutOfRange`] unless the peak is finite and > 0, [`MotionError::ZeroPeak`]
     /// for a motion that is zero throughout, and as [`GroundMotion::scaled`].
     pub fn scaled_to_peak(&self, peak_m_per_s2: f64) -> Result<Self, MotionError> {
+        self.scaled(self.factor_to_peak(peak_m_per_s2)?)
+    }
+
+    /// The factor of [`GroundMotion::scaled_to_peak`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn factor_to_peak(&self, peak_m_per_s2: f64) -> Result<f64, MotionError> {
         if !(peak_m_per_s2.is_finite() && peak_m_per_s2 > 0.0) {
             return Err(MotionError::OutOfRange {
                 quantity: "scale_to in m/s²",
@@ -71,7 +79,7 @@ impl GroundMotion {
         if found == 0.0 {
             return Err(MotionError::ZeroPeak);
         }
-        self.scaled(peak_m_per_s2 / found)
+        Ok(peak_m_per_s2 / found)
     }
 
     /// `Ü cos φ + Üv sin φ` as a horizontal motion, for a pair whose second component stands as the

@@ -22,10 +22,8 @@ pub enum Takes {
 /// A field of a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Field {
-    /// Its name: with `--` before it an option, with `_` for `-` a keyword.
+    /// Its name, of which every door makes its own word: see [`Door::calls`].
     pub name: &'static str,
-    /// What a form calls it.
-    pub label: &'static str,
     /// What stands for its text in a help: `VALUES`.
     pub value: &'static str,
     /// How often it is given.
@@ -41,13 +39,8 @@ pub struct Field {
 }
 
 impl Field {
-    pub(super) const fn new(
-        name: &'static str,
-        label: &'static str,
-        value: &'static str,
-        about: &'static str,
-    ) -> Self {
-        Self { name, label, value, takes: Takes::One, default: "", key: "", sample: "", about }
+    pub(super) const fn new(name: &'static str, value: &'static str, about: &'static str) -> Self {
+        Self { name, value, takes: Takes::One, default: "", key: "", sample: "", about }
     }
 
     pub(super) const fn many(self) -> Self {
@@ -110,16 +103,15 @@ impl Door {
         ChoiceError { what, expected, found, nearest: error.nearest.clone() }
     }
 
-    /// What it calls a field.
+    /// What it calls a field: `--scale-to`, `scale_to`, `Scale to`.
     #[must_use]
     pub fn calls(self, field: &str) -> String {
         match self {
             Self::Command => format!("--{field}"),
             Self::Python => field.replace('-', "_"),
             Self::Page => {
-                let mut fields = Kind::ALL.into_iter().flat_map(Kind::fields);
-                let known = fields.find(|known| known.name == field);
-                known.map_or(field, |known| known.label).to_owned()
+                let (first, rest) = field.split_at(field.chars().next().map_or(0, char::len_utf8));
+                format!("{}{}", first.to_uppercase(), rest.replace('-', " "))
             }
         }
     }
@@ -305,7 +297,7 @@ mod tests {
         );
         assert_eq!(
             says(Door::Page),
-            "Scaled to slider.gap: expected Scaled to or Spectrum of the code, found both"
+            "Scale to slider.gap: expected Scale to or Code spectrum, found both"
         );
     }
 }

@@ -6,54 +6,45 @@ const PATH_VALUES: &str = "PATH=VALUES";
 
 const METHOD: Field = Field::new(
     "method",
-    "Method",
     "METHOD",
     "Method: exact, or stepwise as in the program of the paper; that of the model if left out",
 )
 .of(&["exact", "stepwise"]);
 const MEASURE: Field = Field::new(
     "measure",
-    "Intensity measure",
     "NAME",
     "Intensity measure: PGA, PGV, Sa(1.2 s), Sa(1.2 s, 2 %), Sa_avg(0.5 s, 3 s), …",
 )
 .or("PGA");
 const SCALE_TO: Field = Field::new(
     "scale-to",
-    "Scaled to",
     "LEVEL",
     "Scale every record to this value of the measure: \"0.4 g\"; as recorded if left out",
 )
 .sample("0.4 g");
-const SCALE: Field =
-    Field::new("scale", "Factor on every record", "FACTOR", "Scale every record by this factor")
-        .or("1");
+const SCALE: Field = Field::new("scale", "FACTOR", "Scale every record by this factor").or("1");
 const VARY: Field = Field::new(
     "vary",
-    "Parameter to vary",
     PATH_VALUES,
     "Parameter to vary: slider.radius=\"1, 2, 3 m\" or slider.radius=1..5m:200; may be repeated",
 )
 .many();
 const FRICTION: Field = Field::new(
     "friction",
-    "Kinetic friction",
     "VALUES",
     "Kinetic friction to vary, the model's ratio of static to kinetic kept: 0.02,0.05,0.10",
 );
 const BOUNDS: Field = Field::new(
     "bounds",
-    "Bounds of friction",
     "BOUNDS",
     "Which of the model's slider.bounds are run, each with curves of its own",
 )
 .of(&["all", "lower", "nominal", "upper"])
 .or("all");
 const DEMAND: Field =
-    Field::new("demand", "Demand", "KEY", "Key of the demand").or("peak_sliding_displacement_m");
+    Field::new("demand", "KEY", "Key of the demand").or("peak_sliding_displacement_m");
 const KEEP: Field = Field::new(
     "where",
-    "Only where",
     "PATH=VALUE|FROM..TO",
     "Only designs with this value or within this range: slider.radius=\"1..2 m\", friction=upper; \
      may be repeated",
@@ -61,15 +52,13 @@ const KEEP: Field = Field::new(
 .many();
 const BY: Field = Field::new(
     "by",
-    "Curves by",
     "PATH",
     "Curves of their own for each value of this path, else averaged over: slider.radius, friction",
 );
 const CONFIDENCE: Field =
-    Field::new("confidence", "Confidence", "SHARE", "Confidence of intervals and band").or("0.9");
+    Field::new("confidence", "SHARE", "Confidence of intervals and band").or("0.9");
 const MAPPING: Field = Field::new(
     "mapping",
-    "Columns",
     "FILE|QUANTITY=COLUMN",
     "Mapping file (TOML), or the column of a quantity: \"block_acceleration = A1 [g] * -1\"; may be repeated",
 )
@@ -80,20 +69,17 @@ const RUN: &[Field] = &[
     METHOD,
     Field::new(
         "floor-spectrum",
-        "Floor response spectra",
         "",
         "Add 5 % floor response spectra of ground, block and storeys to report and JSON",
     )
     .flag(),
     Field::new(
         "scale",
-        "Factor on the record",
         "FACTOR",
         "Factor on the record, that of the model or one in its place; may be negative",
     ),
     Field::new(
         "scale-to",
-        "Scaled to",
         "PEAK",
         "Peak acceleration to scale the record to: \"0.3 g\"; of a suite the value of the measure",
     ),
@@ -103,7 +89,6 @@ const RUN: &[Field] = &[
 const SUITE: &[Field] = &[
     Field::new(
         "measure",
-        "Intensity measure",
         "NAME",
         "Intensity measure by which a suite is scaled: PGA, Sa(1.2 s), of pairs RotD50(1.2 s), …",
     )
@@ -112,13 +97,11 @@ const SUITE: &[Field] = &[
     SCALE,
     Field::new(
         "code-spectrum",
-        "Spectrum of the code",
         "VALUES",
         "Spectrum that pairs are scaled to, in the shape of ASCE/SEI 7: \"sds = 1.2 g, sd1 = 0.8 g, tl = 8 s\"",
     ),
     Field::new(
         "periods",
-        "Range of periods",
         "FROM..TO",
         "First and last period of the range in which pairs are scaled to the spectrum: \"0.6 s..3.8 s\"",
     ),
@@ -127,7 +110,6 @@ const SUITE: &[Field] = &[
 /// Fields of the response over one parameter.
 const SWEEP: &[Field] = &[Field::new(
     "over",
-    "Values",
     PATH_VALUES,
     "Parameter along the axis and its values: slider.kinetic_friction=0.02..0.1:200",
 )];
@@ -136,7 +118,6 @@ const SWEEP: &[Field] = &[Field::new(
 const SPECTRUM: &[Field] = &[
     Field::new(
         "over",
-        "Parameter along the axis",
         PATH_VALUES,
         "Parameter along the axis: storey.1.period=0.1..3s:30, isolator.period=1..5s:40, …",
     )
@@ -148,7 +129,6 @@ const SPECTRUM: &[Field] = &[
     SCALE,
     Field::new(
         "demand",
-        "Further demands",
         "KEY",
         "Further demands, besides displacement, residual, path and roof acceleration; may be repeated",
     )
@@ -161,14 +141,12 @@ const IDA: &[Field] = &[
     MEASURE,
     Field::new(
         "scale-to",
-        "Levels",
         "LEVELS",
         "Levels for all records: \"0.1, 0.2, 0.4 g\" or \"0.1..1.5 g:15\"; hunted, record by record, if \
          left out",
     ),
     Field::new(
         "between",
-        "Hunt between",
         "FROM..TO",
         "First and highest level of the hunt: \"0.05..10 g\"; a twentieth and twenty times the records' \
          median if left out",
@@ -176,7 +154,6 @@ const IDA: &[Field] = &[
     DEMAND,
     Field::new(
         "limit",
-        "Limit on the demand",
         "LIMIT",
         "Limit on the demand: \"150 mm\"; of sliding, slider.gap of the model if left out",
     )
@@ -194,53 +171,46 @@ const FRAGILITY: &[Field] = &[
     DEMAND,
     Field::new(
         "limit",
-        "Limit on the demand",
         "LIMIT",
         "Limit on the demand: \"150 mm\"; that of the analysis if left out, and of none where the table has \
          counts or capacities",
     ),
     Field::new(
         "measure",
-        "Intensity measure",
         "NAME",
         "Intensity measure, where it is not that of the levels: PGV, Sa(1.2 s), or a column's name",
     ),
     Field::new(
         "units",
-        "Unit of the intensities",
         "UNIT",
         "Unit of the intensities, where the table does not state it: g, m/s2, cm/s, …",
     ),
     Field::new(
         "fit-to",
-        "Fitted to",
         "DATA",
         "What the curve is fitted to; by the kind of data if left out",
     )
     .of(&["counts", "capacities", "cloud"]),
     Field::new(
         "where",
-        "Only where",
         "PATH=VALUE|FROM..TO",
         "Only rows with this value or within this range: slider.radius=\"1..2 m\", record=taft-111; may be \
          repeated",
     )
     .many(),
-    Field::new("by", "Curves by", "PATH", "One curve for each value of this column: slider.radius"),
+    Field::new("by", "PATH", "One curve for each value of this column: slider.radius"),
     Field::new(
         "bootstrap",
-        "Draws of the bootstrap",
         "DRAWS",
         "Intervals from this many draws of the records (50 to 100000) instead of the sandwich",
     ),
-    Field::new("seed", "Seed", "SEED", "Seed of these draws").or("1"),
+    Field::new("seed", "SEED", "Seed of these draws").or("1"),
     Field::new(
         "floor",
-        "Floor",
         "LIMIT",
         "Demands below this count as below it only, in a cloud: \"1 mm\"",
     ),
-    Field::new("cap", "Cap", "LIMIT", "Demands above this count as above it only, in a cloud"),
+    Field::new("cap", "LIMIT", "Demands above this count as above it only, in a cloud"),
     CONFIDENCE,
 ];
 
@@ -253,46 +223,28 @@ const DESIGN: &[Field] = &[
     SCALE,
     Field::new(
         "gap",
-        "Gap",
         "LENGTH",
         "Sliding displacement not to be exceeded; slider.gap of the model if left out",
     )
     .key("slider.gap")
     .sample("150 mm"),
-    Field::new(
-        "probability",
-        "Share of the records within the gap",
-        "SHARE",
-        "Share of the records that must stay within the gap",
-    )
-    .or("0.9"),
+    Field::new("probability", "SHARE", "Share of the records that must stay within the gap")
+        .or("0.9"),
     Field::new(
         "demand",
-        "Acceleration",
         "KEY",
         "Key of the acceleration to minimise; the roof's, or the block's, if left out",
     ),
-    Field::new(
-        "share",
-        "Share of the records within the acceleration",
-        "SHARE",
-        "Share of the records that must not exceed that acceleration",
-    )
-    .or("0.5"),
+    Field::new("share", "SHARE", "Share of the records that must not exceed that acceleration")
+        .or("0.5"),
     Field::new(
         "bounds",
-        "Bounds of friction",
         "LOWER,UPPER",
         "Factors on friction for the robustness check: 0.8,1.3; slider.bounds of the model if left out",
     ),
-    Field::new(
-        "sensitivity",
-        "Sample points of the sensitivity",
-        "N",
-        "Sample points of the sensitivity (Sobol' indices); 0 for none",
-    )
-    .or("256"),
-    Field::new("seed", "Seed", "SEED", "Seed of those points").or("1"),
+    Field::new("sensitivity", "N", "Sample points of the sensitivity (Sobol' indices); 0 for none")
+        .or("256"),
+    Field::new("seed", "SEED", "Seed of those points").or("1"),
     CONFIDENCE,
 ];
 
@@ -302,7 +254,6 @@ const COMPARE: &[Field] = &[
     METHOD,
     Field::new(
         "within",
-        "Bounds to keep",
         "METRIC.QUANTITY=LEAST..MOST",
         "A bound to keep: \"peak_ratio.sliding_displacement=0.9..1.1\"; may be repeated",
     )
@@ -313,19 +264,16 @@ const COMPARE: &[Field] = &[
 const CYCLIC: &[Field] = &[
     Field::new(
         "mass",
-        "Mass of the block",
         "MASS",
         "Mass of the block: friction becomes a coefficient, and a model of the block is made",
     ),
     Field::new(
         "normal-force",
-        "Normal force",
         "FORCE",
         "Force that presses the block on its surface, where it is not the weight of that mass",
     ),
     Field::new(
         "law",
-        "Law of friction",
         "LAW",
         "How kinetic friction follows the sliding speed: not at all, or by slow and fast coefficients and the \
          rate between them, which takes tests at several speeds and leaves out the damper",
@@ -334,14 +282,12 @@ const CYCLIC: &[Field] = &[
     .or("coulomb"),
     Field::new(
         "without",
-        "Not fitted",
         "PART",
         "Do not fit these beside friction: spring, damper",
     )
     .many(),
     Field::new(
         "slack",
-        "Slack",
         "LENGTH",
         "Travel after each reversal to leave out (backlash); found from the force if left out",
     ),
@@ -352,12 +298,11 @@ const CYCLIC: &[Field] = &[
 const FREE_VIBRATION: &[Field] = &[
     Field::new(
         "channel",
-        "Quantity to fit",
         "QUANTITY",
         "Quantity to fit, where the file has several: storey1_acceleration, displacement, …",
     ),
-    Field::new("start", "Start", "TIME", "Time at which free vibration starts: \"12 s\""),
-    Field::new("end", "End", "TIME", "Time at which it ends"),
+    Field::new("start", "TIME", "Time at which free vibration starts: \"12 s\""),
+    Field::new("end", "TIME", "Time at which it ends"),
     MAPPING,
 ];
 
@@ -365,19 +310,17 @@ const FREE_VIBRATION: &[Field] = &[
 const SHAKING_TABLE: &[Field] = &[
     Field::new(
         "fit",
-        "Keys to fit",
         "PATH[=LEAST..MOST]",
         "Keys to fit, each perhaps with its range: \"slider.spring=100 kN/m..200 kN/m\"; may be repeated",
     )
     .many(),
     Field::new(
         "using",
-        "Quantities to fit",
         "QUANTITY",
         "Measured quantities to fit; all if left out",
     )
     .many(),
-    Field::new("seed", "Seed", "SEED", "Seed of the random starts").or("1"),
+    Field::new("seed", "SEED", "Seed of the random starts").or("1"),
     MAPPING,
 ];
 

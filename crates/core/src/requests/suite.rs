@@ -1,7 +1,8 @@
 //! What is asked of models on the records of suites, and of one motion over a parameter.
 
 use super::fields::{Request, quantity, wrong};
-use super::{Answer, On, Results, of_measure};
+use super::{Answer, Kind, On, Results, of_measure};
+use crate::assessment::grid::levels;
 use crate::assessment::histories::{ModelOn, run_histories};
 use crate::assessment::models::Models;
 use crate::assessment::suite::{Scaling, times};
@@ -111,6 +112,49 @@ impl Request {
         Ok((scaling, format!(" scaled to {measure} = {}", level.trim())))
     }
 
+    /// The plan of a study of what is varied, on records by the names of their files; `read` is what the files
+    /// do not say, as keys of its table.
+    ///
+    /// # Errors
+    /// [`AssessmentError`], a choice by the name of its field.
+    pub fn plan(
+        &self,
+        on: &On<'_>,
+        files: &[&str],
+        read: &[(&str, &str)],
+    ) -> Result<String, AssessmentError> {
+        let over = Some(self.one("over")).filter(|over| !over.is_empty());
+        let models = self.models(on, over)?;
+        let listed = |texts: &[String]| format!("[{}]", texts.join(", "));
+        let quoted = |text: &str| format!("{text:?}");
+        let mut plan = format!("name = {}\nmodel = \"{}\"\n", quoted(on.name), on.source);
+        // Those of a design are factors.
+        if let Some(bound) = self.given("bounds").filter(|_| self.kind() != Kind::Design) {
+            plan.push_str(&format!("bounds = {}\n", quoted(bound)));
+        }
+        if !on.suite.made {
+            let files: Vec<String> = files.iter().map(|name| quoted(name)).collect();
+            plan.push_str(&format!("\n[records]\nfiles = {}\n", listed(&files)));
+            for (key, text) in read {
+                plan.push_str(&format!("{key} = {}\n", quoted(text)));
+            }
+            plan.push_str(&match self.given("scale-to") {
+                Some(text) => {
+                    let measure = LevelMeasure::parse(self.one("measure")).map_err(of_measure)?;
+                    let values = levels("scale-to", text, &measure.measure)?;
+                    let level = |value: &f64| format!("\"{value:?} {}\"", measure.unit());
+                    let levels: Vec<String> = values.iter().map(level).collect();
+                    format!("measure = \"{measure}\"\nlevels = {}\n", listed(&levels))
+                }
+                None => match self.given("scale") {
+                    Some(factor) => format!("scale = [{}]\n", factor.trim()),
+                    None => "scale = [1.0]\n".to_owned(),
+                },
+            });
+        }
+        Ok(plan + &models.plan())
+    }
+
     /// Prepares a sweep of a model, whose text errors call `source`, on a motion with its tail.
     ///
     /// # Errors
@@ -161,4 +205,54 @@ fn code_spectrum(text: &str) -> Result<TargetSpectrum, ChoiceError> {
     }
     let [Some(sds_m_per_s2), Some(sd1_m_per_s2), Some(tl_s)] = values else { return Err(wrong()) };
     Ok(TargetSpectrum::Code { sds_m_per_s2, sd1_m_per_s2, tl_s })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::assessment::suite::Suite;
+    use crate::input;
+    use crate::input::plan::Plan;
+    use crate::requests::{Kind, On, Request};
+
+    /// The plan of a request is one that a study reads: a period sets the radius, static friction keeps its ratio.
+    #[test]
+    fn exact_the_plan_of_a_request_is_a_plan() {
+        let text = "[block]\nmass = \"1 kg\"\n[slider]\nstatic_friction = 0.06\nkinetic_friction = 0.05\n\
+                    radius = \"2 m\"\n";
+        let analysis = input::parse("model.toml", text, &[]).unwrap();
+        let suite = Suite::default();
+        let on = On {
+            name: "A \"block\"",
+            source: "model.toml",
+            text,
+            set: &[],
+            analysis: &analysis,
+            suite: &suite,
+            warnings: &[],
+        };
+        let asked = |kind, given: &[(&'static str, &str)]| {
+            let given = given.iter().map(|(name, text)| (*name, (*text).to_owned()));
+            let asked = Request::new(kind, given).unwrap();
+            asked.plan(&on, &["a.txt", "b.txt"], &[("units", "g"), ("dt", "0.01 s")]).unwrap()
+        };
+        let spectrum =
+            asked(Kind::Spectrum, &[("friction", "0.02, 0.05"), ("scale-to", "1, 2 m/s2")]);
+        let plan = Plan::parse("plan.toml", &spectrum).unwrap();
+        assert_eq!(plan.name.as_deref(), Some("A \"block\""));
+        let paths: Vec<&str> = plan.vary.iter().map(|varied| varied.path.as_str()).collect();
+        assert_eq!(paths, ["slider.kinetic_friction", "slider.static_friction", "slider.radius"]);
+        let records = plan.records.unwrap();
+        assert_eq!((records.files.len(), records.dt_s, records.levels.len()), (2, Some(0.01), 2));
+        let radius = spectrum.split("\"slider.radius\" = { values = [\"").nth(1).unwrap();
+        let radius_m: f64 = radius.split(' ').next().unwrap().parse().unwrap();
+        let rate = 1.0 / core::f64::consts::TAU;
+        assert_eq!(radius_m, 9.80665 * rate * rate);
+        let design =
+            asked(Kind::Design, &[("vary", "slider.radius=1..2m:3"), ("bounds", "0.8,1.2")]);
+        assert!(
+            Plan::parse("plan.toml", &design).is_ok() && design.contains("scale = [1.0]"),
+            "{design}"
+        );
+        assert!(Plan::parse("plan.toml", &asked(Kind::Ida, &[("bounds", "lower")])).is_ok());
+    }
 }

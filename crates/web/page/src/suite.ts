@@ -2,8 +2,8 @@
 
 import { Ended, Helper, ModuleError } from "./desk";
 import { download, fill, h } from "./dom";
-import { type Page, Progress, sheetElement, type Tab, value } from "./tab";
-import type { FormField, Setting, Sheet, State } from "./types";
+import { type Page, Progress, sheetElement, type Tab } from "./tab";
+import type { FormField, Setting, Sheet } from "./types";
 
 /** What is typed or chosen in the form for a field. */
 type Entry = HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement;
@@ -48,7 +48,7 @@ export class SuiteTab implements Tab {
       {},
       this.asked,
       h("fieldset", { class: "group" }, h("legend", {}, "Records"), this.suite),
-      h("div", { class: "actions" }, this.go, h("button", { type: "button", onclick: () => this.exportPlan() }, "Plan (TOML)")),
+      h("div", { class: "actions" }, this.go, h("button", { type: "button", onclick: () => void this.exportPlan() }, "Plan (TOML)")),
       this.progress.element,
     );
     form.addEventListener("submit", (event) => {
@@ -77,12 +77,17 @@ export class SuiteTab implements Tab {
     return takes === "many" ? text.split("\n").map((line) => line.trim()).filter(Boolean) : [text].filter(Boolean);
   }
 
-  option(name: string): string {
-    const field = this.fields.find(([field]) => field.name === name);
-    return field ? (this.said(field)[0] ?? "") : "";
+  /** What is asked, and of which records; what stands there of itself is not said. */
+  private options(): Setting[] {
+    const asked = this.fields.flatMap((field) => this.said(field).filter((text) => text !== field[0].default).map((text): Setting => [field[0].name, text]));
+    const records = this.records().map((name): Setting => {
+      const { units = "", dt = "", channel = "" } = this.page.choice(name);
+      return ["records", [name, units, dt, channel].join("\n")];
+    });
+    return [...asked, ...records];
   }
 
-  records(): string[] {
+  private records(): string[] {
     return this.page.records().map((record) => record.name).filter((name) => this.chosen.get(name) ?? true);
   }
 
@@ -111,23 +116,13 @@ export class SuiteTab implements Tab {
     helper.onprogress = (done, planned) => this.progress.show(done, planned);
     this.progress.begin();
     this.go.disabled = true;
-    const options: Setting[] = [
-      // What stands there of itself is not said.
-      ...this.fields.flatMap((field) => this.said(field).filter((text) => text !== field[0].default).map((text): Setting => [field[0].name, text])),
-      ...this.records().map((name): Setting => {
-        const { units = "", dt = "", channel = "" } = this.page.choice(name);
-        return ["records", [name, units, dt, channel].join("\n")];
-      }),
-    ];
     try {
-      const sheet = await helper.call("assess", this.id, this.page.text(), options, this.page.display());
+      const sheet = await helper.call("assess", this.id, this.page.text(), this.options(), this.page.display());
       this.show(sheet);
       this.page.say(`${this.label} is done. ${sheet.verdict[0] ?? sheet.line}`);
     } catch (error) {
       if (error instanceof Ended) this.page.say(`${this.label} was cancelled.`);
-      else if (error instanceof ModuleError) {
-        fill(this.result, h("p", { class: "card pad fault", role: "alert" }, error.fault.message));
-      }
+      else if (error instanceof ModuleError) this.refuse(error);
     } finally {
       helper.end();
       this.helper = undefined;
@@ -149,47 +144,16 @@ export class SuiteTab implements Tab {
     );
   }
 
-  private exportPlan(): void {
-    const state = this.page.state();
-    if (state) download("plan.toml", planOf(this, state), "application/toml");
-  }
-}
-
-/** A plan for `slipstick study` of what a tab varies. */
-export function planOf(tab: SuiteTab, state: State): string {
-  const files = tab.records().map((name) => JSON.stringify(name)).join(", ");
-  const lines = [`name = ${JSON.stringify(state.name)}`, 'model = "model.toml"', "", "[records]", `files = [${files}]`, 'units = "g"', 'dt = "0.01 s"'];
-  const list = (text: string): string | null => {
-    const range = /^\s*([\d.eE+-]+)\s*\.\.\s*([\d.eE+-]+)\s*([^:]*?)\s*:\s*(\d+)\s*(log)?\s*$/.exec(text);
-    if (range) {
-      const [, from, to, unit, count, log] = range;
-      const end = (number: string) => (unit ? JSON.stringify(`${number} ${unit}`) : number);
-      return `${log ? "logspace" : "linspace"} = [${end(from!)}, ${end(to!)}, ${count}]`;
+  private async exportPlan(): Promise<void> {
+    try {
+      const plan = await this.page.desk.helper.call("plan", this.id, this.page.text(), this.options());
+      download("plan.toml", plan, "application/toml");
+    } catch (error) {
+      if (error instanceof ModuleError) this.refuse(error);
     }
-    const parts = text.split(",").map((part) => part.trim()).filter(Boolean);
-    const unit = /[^\d.eE+\s-].*$/.exec(parts.at(-1) ?? "")?.[0] ?? "";
-    return parts.length > 0 ? `values = [${parts.map((part) => (unit ? JSON.stringify(/[^\d.eE+\s-]/.test(part) ? part : `${part} ${unit}`) : part)).join(", ")}]` : null;
-  };
-  const [measure, levels] = [tab.option("measure"), tab.option("scale-to")];
-  if (measure && levels) {
-    const range = /^\s*([\d.]+)\s*\.\.\s*([\d.]+)\s*([^:]*?)\s*:\s*(\d+)\s*$/.exec(levels);
-    const count = Number(range?.[4] ?? 0);
-    const values = range
-      ? Array.from({ length: count }, (_, i) => `${Number((Number(range[1]) + ((Number(range[2]) - Number(range[1])) * i) / Math.max(1, count - 1)).toPrecision(6))} ${range[3]}`)
-      : levels.split(",").map((part) => part.trim());
-    lines.push(`measure = ${JSON.stringify(measure)}`, `levels = [${values.map((text) => JSON.stringify(text.trim())).join(", ")}]`);
-  } else lines.push("scale = [1.0]");
-  const varied: string[] = [];
-  const frictionText = tab.option("friction");
-  const ratio = (value(state, "slider.static_friction")?.value ?? 1) / (value(state, "slider.kinetic_friction")?.value ?? 1);
-  if (frictionText) {
-    varied.push(`"slider.kinetic_friction" = { ${list(frictionText)} }`);
-    varied.push(`"slider.static_friction" = { factor_of = "slider.kinetic_friction", values = [${Number(ratio.toPrecision(12))}] }`);
   }
-  for (const text of [tab.option("vary"), tab.option("over")]) {
-    const [path, values] = [text.slice(0, text.indexOf("=")).trim(), text.slice(text.indexOf("=") + 1)];
-    if (text.includes("=") && path !== "isolator.period") varied.push(`${JSON.stringify(path)} = { ${list(values)} }`);
+
+  private refuse({ fault }: ModuleError): void {
+    fill(this.result, h("p", { class: "card pad fault", role: "alert" }, fault.message));
   }
-  if (varied.length > 0) lines.push("", "[vary]", ...varied, "", "[sampling]", 'method = "grid"');
-  return `${lines.join("\n")}\n`;
 }

@@ -203,6 +203,7 @@ export interface Calls {
   judge: (stepwise: boolean) => Judgement;
   file: (name: string, text: string, command: string) => string;
   sweep: (text: string, over: string, from: number, to: number) => Float64Array;
+  plan: (what: string, text: string, options: Setting[]) => string;
   form: (what: string, text: string) => { about: string; fields: FormField[] };
   assess: (what: string, text: string, options: Setting[], display: Display) => Sheet;
   /** Number of runs, and of the numbers of a row. */

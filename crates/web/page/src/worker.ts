@@ -96,6 +96,7 @@ const calls: Calls = {
   },
   file: (name, text, command) => session.file(name, text, command),
   sweep: (text, over, from, to) => session.sweep(text, over, from, to) as Float64Array,
+  plan: (what, text, options) => session.plan(what, text, flat(options)),
   form: (what, text) => JSON.parse(session.form(what, text)),
   assess: (what, text, options, display) => sheet(session.assess(what, text, flat(options), display)),
   studySize: (plan, text, names) => [...session.studySize(plan, text, names)] as [number, number],

@@ -402,11 +402,14 @@ test("a form is the table of fields, and its errors name them", () =>
     const names = await panel.locator("label.field [name]").evaluateAll((all) => all.map((one) => one.name).sort());
     assert.deepEqual(names, ["bounds", "demand", "friction", "measure", "over", "scale", "scale-to", "vary"]);
     assert.equal(await panel.locator("[name=over]").inputValue(), "isolator.period=1..5s:40");
+    const [plan] = await Promise.all([page.waitForEvent("download"), panel.getByRole("button", { name: "Plan (TOML)" }).click()]);
+    const text = readFileSync(await plan.path(), "utf8");
+    assert.match(text, /\nmeasure = "PGA"\nlevels = \["3\.92266.* m\/s2"\]\n\n\[vary\]\n"slider\.radius" = \{ values = \["0\.24/);
     await panel.locator("[name=scale-to]").fill("0.4 m");
     await panel.locator("button.main").click();
     await panel.locator(".fault").waitFor();
-    assert.match(await panel.locator(".fault").innerText(), /^Scaled to: expected an acceleration/);
-  }));
+    assert.match(await panel.locator(".fault").innerText(), /^Scale to: expected an acceleration/);
+  }, { acceptDownloads: true }));
 
 for (const [id, heading] of [["suite", /response histories/i], ["spectrum", /sliding spectra/i], ["ida", /incremental dynamic/i], ["fragility", /fragility/i], ["design", /design/i], ["study", /study/i]]) {
   test(`${id} runs over the records, as the command draws it`, () =>
