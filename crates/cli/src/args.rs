@@ -10,12 +10,14 @@ pub use laboratory::{
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use slipstick::assessment::code::PropertyFactors;
 use slipstick::record::{Quantity, Units};
 use slipstick::units::{Dimension, Unit, parse_quantity};
 use slipstick_files::RecordOptions;
 use slipstick_report::DisplayUnits;
 use std::path::PathBuf;
 
+use crate::commands::failure;
 use crate::failure::Failure;
 
 const ABOUT: &str = "Exact stick-slip response of structures on sliding bearings";
@@ -38,6 +40,8 @@ Examples:
   slipstick run tank.toml --set analysis.tail=\"5 s\" --display-units kN-mm
   slipstick run - --json < tank.toml
   slipstick run tank.toml --records 'suite/*.AT2' --scale-to \"0.4 g\" --out out
+  slipstick run tank.toml --records 'x/*.AT2' --second 'y/*.AT2' --periods \"0.6 s..3.8 s\" \\
+      --code-spectrum \"sds = 1.2 g, sd1 = 0.8 g, tl = 8 s\" --hazard MCE_R --out out
   slipstick run flat.toml pendulum.toml --records suite --measure \"Sa(1.2 s)\" --scale-to \"0.5 g\"
 
 Values are numbers with a unit, \"0.3 g\"; slipstick schema --units lists the units. Paths of
@@ -183,6 +187,17 @@ pub struct RunArgs {
     /// First and last period of the range in which pairs are scaled to the spectrum: "0.6 s..3.8 s"
     #[arg(long, value_name = "FROM..TO", requires = "second", help_heading = "Ground motion")]
     pub periods: Option<String>,
+    /// What the report of a suite calls this intensity: MCE_R, DE
+    #[arg(long, value_name = "NAME", requires = "records", help_heading = "Ground motion")]
+    pub hazard: Option<String>,
+    /// Bounds of friction from property modification factors, of aging three quarters:
+    /// "test = 0.9..1.2, aging = 1..1.3, specification = 0.85..1.15"
+    #[arg(long, value_name = "FACTORS")]
+    pub lambda: Option<String>,
+    /// Plan of the building, for the total displacement of the hand calculation:
+    /// "e = 1.2 m, y = 9 m, b = 18 m, d = 24 m, pt = 1.1"
+    #[arg(long, value_name = "LENGTHS", requires = "records")]
+    pub eccentricity: Option<String>,
     /// Number of threads of a suite; default: one per processor
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub jobs: Option<u16>,
@@ -213,6 +228,22 @@ pub struct RunArgs {
     /// What becomes of the result
     #[command(flatten)]
     pub result: ResultArgs,
+}
+
+impl RunArgs {
+    /// Property modification factors, where they are given.
+    pub fn factors(&self) -> Result<Option<PropertyFactors>, Failure> {
+        let parse = |text: &str| PropertyFactors::parse(text).map_err(failure);
+        self.lambda.as_deref().map(parse).transpose()
+    }
+
+    /// The keys that are set: bounds of friction from property modification factors among them.
+    pub fn set(&self) -> Result<Vec<String>, Failure> {
+        let bounds = self.factors()?.map(|factors| factors.bounds());
+        let key = |name: &str, factor: f64| format!("slider.bounds.{name}={factor:?}");
+        let bounds = bounds.map(|b| [key("lower", b.lower), key("upper", b.upper)]);
+        Ok(bounds.into_iter().flatten().chain(self.set.iter().cloned()).collect())
+    }
 }
 
 /// The value of an option, in SI.

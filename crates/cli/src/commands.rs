@@ -11,3 +11,5 @@ pub mod record;
 pub mod run;
 pub mod study;
 pub mod text;
+
+pub use assessment::failure;

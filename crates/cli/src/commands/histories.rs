@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use slipstick::assessment::code::{Plan, named};
 use slipstick::assessment::histories::{ModelOn, run_histories};
 use slipstick::assessment::suite::{PairScaling, times};
 use slipstick::input;
@@ -30,7 +31,9 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
     let factor = args.scale.as_deref().map(scale_factor).transpose()?;
     let measure = args.measure.as_deref().unwrap_or("PGA");
     let (scaling, scaled, target) = scaling(args, measure, factor)?;
-    let suites: Vec<SuiteArgs> = args.models.iter().map(|model| suite_of(args, model)).collect();
+    let set = args.set()?;
+    let suites: Vec<SuiteArgs> =
+        args.models.iter().map(|model| suite_of(args, model, &set)).collect();
     // A record among the models is told before a model that lacks one.
     for model in args.models.iter().filter(|path| path.extension().is_some_and(|e| e != "toml")) {
         let file = read_model(model)?;
@@ -66,8 +69,12 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
     let first = opened.first().zip(suites.first());
     let (first, suite) = first.ok_or_else(|| Failure::Message("expected a model".to_owned()))?;
     let histories = first.compute(suite, |engine| run_histories(&models, &scaling, engine))?;
+    let plan = args.eccentricity.as_deref().map(Plan::parse).transpose().map_err(failure)?;
     let report = HistoriesReport {
         histories: &histories,
+        hazard: args.hazard.as_deref(),
+        factors: args.factors()?,
+        plan,
         scaled: if opened.iter().all(|opened| opened.suite.made) { "" } else { &scaled },
         display: args.result.display_units.into(),
     };
@@ -132,24 +139,22 @@ fn scaling(
 fn code_spectrum(text: &str) -> Result<TargetSpectrum, Failure> {
     let expected = "three parameters: sds = 1.2 g, sd1 = 0.8 g, tl = 8 s";
     let wrong = || message("--code-spectrum", expected, text);
-    let mut values = [None; 3];
-    for part in text.split(',') {
-        let (key, value) = part.split_once('=').ok_or_else(wrong)?;
-        let place = ["sds", "sd1", "tl"].iter().position(|name| *name == key.trim());
-        let place = place.ok_or_else(wrong)?;
-        let dimension = if place == 2 { Dimension::Time } else { Dimension::Acceleration };
-        let value = quantity("--code-spectrum", value.trim(), dimension)?;
-        if !(value.is_finite() && value > 0.0) || values[place].is_some() {
-            return Err(wrong());
-        }
-        values[place] = Some(value);
-    }
-    let [Some(sds_m_per_s2), Some(sd1_m_per_s2), Some(tl_s)] = values else { return Err(wrong()) };
+    let Some([Some(sds), Some(sd1), Some(tl)]) = named(text, ["sds", "sd1", "tl"]) else {
+        return Err(wrong());
+    };
+    let positive = |text: &str, dimension| {
+        let value = quantity("--code-spectrum", text, dimension)?;
+        if value.is_finite() && value > 0.0 { Ok(value) } else { Err(wrong()) }
+    };
+    let [sds_m_per_s2, sd1_m_per_s2] =
+        [sds, sd1].map(|text| positive(text, Dimension::Acceleration));
+    let (sds_m_per_s2, sd1_m_per_s2) = (sds_m_per_s2?, sd1_m_per_s2?);
+    let tl_s = positive(tl, Dimension::Time)?;
     Ok(TargetSpectrum::Code { sds_m_per_s2, sd1_m_per_s2, tl_s })
 }
 
 /// The options of a model with the suite; one motion is a suite of one.
-fn suite_of(args: &RunArgs, model: &Path) -> SuiteArgs {
+fn suite_of(args: &RunArgs, model: &Path, set: &[String]) -> SuiteArgs {
     let motion = args.motion.iter().map(|path| path.display().to_string());
     SuiteArgs {
         model: model.to_owned(),
@@ -157,7 +162,7 @@ fn suite_of(args: &RunArgs, model: &Path) -> SuiteArgs {
         vertical: args.vertical.clone(),
         second: args.second.clone(),
         record: args.record.clone(),
-        set: args.set.clone(),
+        set: set.to_vec(),
         jobs: args.jobs,
         result: args.result.clone(),
     }

@@ -41,7 +41,7 @@ fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
         return Err(Failure::Message(format!("--measure: expected {mend}")));
     }
     let model = read_model(model)?;
-    let mut overrides = overrides(&args.set, args.method)?;
+    let mut overrides = overrides(&args.set()?, args.method)?;
     if args.motion.is_none() {
         overrides.extend(scale_of_model(args)?);
     }

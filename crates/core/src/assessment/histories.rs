@@ -266,13 +266,13 @@ fn lateral(analysis: &Analysis, scaling: &PairScaling) -> Vec<Option<LateralForc
 }
 
 fn on_record(model: &ModelOn<'_>, record: usize, scale: f64) -> OnRecord {
-    let SuiteRecord { name, origin, notices, .. } = &model.suite.records[record];
+    let SuiteRecord { name, motion, origin, notices, .. } = &model.suite.records[record];
     let mut on = OnRecord {
         record: name.clone(),
         pair: model.suite.pair_name(record).to_owned(),
         origin: origin.clone(),
         scale,
-        pga_m_per_s2: f64::NAN,
+        pga_m_per_s2: scale.abs() * motion.figures().pga_m_per_s2,
         runs: Vec::new(),
         sliding: [Vec::new(), Vec::new()],
         notices: notices.clone(),
@@ -319,9 +319,10 @@ impl OnRecord {
                 Notice { message, ..warning }
             }
         };
-        if self.pga_m_per_s2.is_nan() {
-            self.pga_m_per_s2 = job.loaded.figures.pga_m_per_s2;
-            self.notices.extend(job.warnings.iter().cloned());
+        for warning in &job.warnings {
+            if !self.notices.contains(warning) {
+                self.notices.push(warning.clone());
+            }
         }
         if *bound == Bound::NOMINAL {
             let history = response.history.unwrap_or_default();
