@@ -59,7 +59,9 @@ impl Failure {
         match self {
             Self::ClosedPipe => {}
             Self::Message(message) => say(format_args!("error: {message}")),
-            Self::CannotTell(message) => say(format_args!("not determined by the data: {message}")),
+            Self::CannotTell(message) => {
+                say(format_args!("cannot be determined from the data: {message}"))
+            }
             Self::Input { error, text } => {
                 say(format_args!("error: {error}"));
                 if io::stderr().is_terminal()

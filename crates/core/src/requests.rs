@@ -15,6 +15,7 @@ pub use kinds::{Kind, NOT_OFFERED, table};
 pub use laboratory::Comparing;
 pub use single::Single;
 
+use crate::assessment::code::{Plan, PropertyFactors};
 use crate::assessment::design::{DesignRequest, DesignRun, Target, run_design};
 use crate::assessment::grid::levels;
 use crate::assessment::histories::Histories;
@@ -94,7 +95,16 @@ pub struct Answer {
 #[expect(clippy::large_enum_variant, reason = "there is one of it an analysis")]
 pub enum Results {
     /// Models on the records of suites, side by side.
-    Suite(Histories),
+    Suite {
+        /// What came of it.
+        histories: Histories,
+        /// What the intensity is called: `MCE_R`, `DE`.
+        hazard: Option<String>,
+        /// Property modification factors that the bounds of friction come from.
+        factors: Option<PropertyFactors>,
+        /// Plan of the building, for the total displacement.
+        plan: Option<Plan>,
+    },
     /// A sliding spectrum.
     Spectrum(SpectrumRun),
     /// An incremental dynamic analysis.

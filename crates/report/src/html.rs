@@ -1,4 +1,4 @@
-//! The page that a design office prints: one file, no scripts, nothing from elsewhere.
+//! The page that a design office prints: one file, nothing from elsewhere, complete without its script.
 
 pub(crate) mod inputs;
 mod results;
@@ -7,6 +7,7 @@ mod verdict;
 use crate::VERSION;
 use crate::display::DisplayUnits;
 use crate::figures::{self, Drawn};
+use crate::laboratory::text::is_number;
 use crate::markup::Markup;
 use crate::number::{compact, typeset};
 use crate::report::Report;
@@ -83,7 +84,9 @@ pub(crate) fn document(frame: &Frame) -> String {
         .text(format!("Slipstick {}: ", VERSION))
         .raw("<code>")
         .text(frame.command_line)
-        .raw("</code></p>\n</footer>\n</body>\n</html>\n");
+        .raw("</code></p>\n</footer>\n<script>\n")
+        .raw(include_str!("html/hover.js"))
+        .raw("</script>\n</body>\n</html>\n");
     out.into_string()
 }
 
@@ -205,13 +208,8 @@ pub(crate) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
     let wide = heads.len() > 6;
     out.raw(if wide { "<div class=\"small\">\n" } else { "" });
     // A column with words is set as words.
-    let number = |cell: &str| {
-        cell == "—"
-            || cell.starts_with(['<', '−', '-', '+'])
-            || cell.starts_with(|c: char| c.is_ascii_digit())
-    };
     let numbers: Vec<bool> = (0..heads.len())
-        .map(|i| i > 0 && rows.iter().filter_map(|row| row.get(i)).all(|cell| number(cell)))
+        .map(|i| i > 0 && rows.iter().filter_map(|row| row.get(i)).all(|cell| is_number(cell)))
         .collect();
     let heads: Vec<_> = heads.iter().cloned().zip(numbers.iter().copied()).collect();
     table_head(out, &heads);
@@ -226,7 +224,7 @@ pub(crate) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
             } else {
                 let governs = cell.strip_suffix('*');
                 if !numbers.get(i).is_some_and(|number| *number) {
-                    out.raw("<td class=\"words\">").text(cell).raw("</td>");
+                    out.raw("<td class=\"words\">").text(typeset_cell(cell)).raw("</td>");
                     continue;
                 }
                 out.raw(if governs.is_some() {

@@ -60,8 +60,8 @@ pub struct FileNote<'a> {
 }
 
 impl Report<'_> {
-    /// The report as one self-contained HTML page: no scripts, no other files, no network, no
-    /// times of day. Prints on A4.
+    /// The report as one self-contained HTML page: no other files, no network, no times of
+    /// day, and complete without its script, which says values under the pointer. Prints on A4.
     #[must_use]
     pub fn to_html(&self) -> String {
         html::page(self)

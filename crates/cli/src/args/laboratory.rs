@@ -37,7 +37,7 @@ Examples:
 Every value comes with its 95 % confidence interval; a parameter that the data do not determine
 is reported as such, with the reason, and the exit status is 1. Columns are named as for slipstick compare;
 a cyclic test has the quantities displacement and force. With --out: identified.json,
-report.html and, where a model is known, model.toml, which run and compare read.";
+figures (SVG), report.html and, where a model is known, model.toml, which run and compare read.";
 
 /// What becomes of a result.
 #[derive(Clone, Debug, Args)]

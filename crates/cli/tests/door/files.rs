@@ -120,7 +120,7 @@ fn exact_report_names_what_it_came_from() {
     for word in ["model.toml", "record.csv", "slipstick run model.toml --out out", "124 kg"] {
         assert!(report.contains(word), "{word}");
     }
-    let outside = ["http://", "https://", "<script", "<link", "src="];
+    let outside = ["http://", "https://", "<script ", "<link", "src="];
     for word in outside.iter().filter(|word| report.contains(**word)) {
         // The name of a namespace is no address.
         let plain = report.replace("http://www.w3.org/", "");

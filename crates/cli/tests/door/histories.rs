@@ -349,7 +349,9 @@ fn exact_report_of_a_suite_says_what_it_is_of() {
     let arguments =
         ["--records", "x", "--second", "y", "--periods", "0.5 s..3 s", "--code-spectrum"];
     let spectrum = ["sds = 1.2 g, sd1 = 0.8 g, tl = 8 s", "--jobs", "1", "--out", "out"];
-    let text = folder.stdout(&[&["run", "model.toml"], &arguments[..], &spectrum[..]].concat());
+    let plan = ["--eccentricity", "e = 3 m, y = 9 m, b = 18 m, d = 24 m"];
+    let text =
+        folder.stdout(&[&["run", "model.toml"], &arguments[..], &spectrum[..], &plan[..]].concat());
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     for said in [
         "Records Record Earthquake Station Component Azimuth Factor PGA (g) RSN1_A000 ",
@@ -357,7 +359,9 @@ fn exact_report_of_a_suite_says_what_it_is_of() {
         "Effective damping β_M (%)",
         "Displacement D_M (mm)",
         "over D_M",
-        "* governs: the bound of friction with the larger value.",
+        "Demand and capacity Demand, maximum Friction Capacity Used (%) Runs beyond Gap (mm)",
+        "Total displacement D_TM = 1.360 D_M (mm)",
+        "* governs: the bound of friction with the larger value, of each record and of all.",
     ] {
         assert!(words.contains(said), "{said}: {text}");
     }
@@ -443,4 +447,49 @@ fn exact_a_run_says_what_it_is_of() {
     let text = folder.stdout(&["run", "model.toml", "--motion", "records/r0.csv", "--scale", "3"]);
     assert!(text.contains(&format!("model {}", hash(&summary))), "{text}");
     assert!(text.contains("\nSevere   gap_exceeded"), "{text}");
+}
+
+/// What a reviewer asks of a report for a code: the intensity by its name, factors on the properties, demand beside
+/// capacity with the number of runs beyond, the total displacement of an eccentricity.
+#[test]
+fn exact_report_for_a_code_names_intensity_factors_and_capacity() {
+    let folder = folder("histories-code", 3);
+    let stop = "stop = { gap = \"20 mm\", stiffness = \"4 MN/m\" }\n";
+    let stopped = MODEL
+        .replace("gap = \"20 mm\"\n", stop)
+        .replace("bounds = { lower = 0.8, upper = 1.2 }\n", "");
+    folder.write("stopped.toml", stopped);
+    let run = |more: &[&str]| {
+        let suite = ["run", "stopped.toml", "--records", "records", "--scale", "3"];
+        folder.stdout(&[&suite[..], more].concat())
+    };
+    let factors = ["--lambda", "test = 0.8..1.1, aging = 0.9..1.4, specification = 0.85..1.15"];
+    let text = run(&[&factors[..], &["--hazard", "MCE_R", "--out", "out"]].concat());
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for said in [
+        "Governs MCE_R: peak sliding displacement",
+        "3 records × 3 at MCE_R",
+        "Demand and capacity",
+        "Stop struck: largest force (kN)",
+        "λ on friction, with 0.75 of aging 0.6290 1.64",
+    ] {
+        assert!(words.contains(said), "{said}: {text}");
+    }
+    let summary: serde_json::Value =
+        serde_json::from_str(&folder.read("out/summary.json")).unwrap();
+    assert_eq!(summary["hazard"], "MCE_R");
+    let runs = folder.read("out/runs.csv");
+    let struck = column(&runs, "stop.contact_count").iter().filter(|n| *n != "0").count();
+    assert!(words.contains(&format!("{struck} of 9")), "{text}");
+    // The bounds are those of the factors: (1 + 0.75 · 0.4) · 1.1 · 1.15.
+    let set = ["--set", "slider.bounds.lower=0.629", "--set", "slider.bounds.upper=1.6445"];
+    run(&[&set[..], &["--out", "set"]].concat());
+    let peaks = |runs: &str| column(runs, "peak_sliding_displacement_m");
+    let pairs = peaks(&runs).into_iter().zip(peaks(&folder.read("set/runs.csv")));
+    for (a, b) in pairs {
+        let [a, b] = [a, b].map(|text| text.parse::<f64>().unwrap());
+        assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
+    }
+    let refused = folder.refused(&["run", "stopped.toml", "--lambda", "aging = 2..3"]);
+    assert!(refused.contains("--lambda: expected factors from below 1"), "{refused}");
 }

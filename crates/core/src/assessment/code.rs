@@ -2,7 +2,7 @@
 //! building (ASCE/SEI 7, chapter 17).
 
 use super::lateral::LEAST_TOTAL;
-use super::{AssessmentError, refuse};
+use crate::error::ChoiceError;
 use crate::input::FrictionBounds;
 use crate::units::{Dimension, parse_quantity};
 
@@ -25,12 +25,12 @@ impl PropertyFactors {
     /// left out are 1.
     ///
     /// # Errors
-    /// [`AssessmentError::Choice`] for `lambda` unless each has a least value of at most 1, above 0, and a
+    /// [`ChoiceError`] for `lambda` unless each has a least value of at most 1, above 0, and a
     /// largest of at least 1.
-    pub fn parse(text: &str) -> Result<Self, AssessmentError> {
+    pub fn parse(text: &str) -> Result<Self, ChoiceError> {
         let expected = "factors from below 1 to above it: test = 0.9..1.2, aging = 1..1.3, \
                         specification = 0.85..1.15";
-        let wrong = || refuse("lambda", expected, format!("{text:?}"));
+        let wrong = || refused("lambda", expected, text);
         let given = named(text, ["test", "aging", "specification"]).ok_or_else(wrong)?;
         let range = |text: Option<&str>| -> Option<[f64; 2]> {
             let Some(text) = text else { return Some([1.0; 2]) };
@@ -77,11 +77,11 @@ impl Plan {
     /// left out.
     ///
     /// # Errors
-    /// [`AssessmentError::Choice`] for `eccentricity` where a length is missing or out of range.
-    pub fn parse(text: &str) -> Result<Self, AssessmentError> {
+    /// [`ChoiceError`] for `eccentricity` where a length is missing or out of range.
+    pub fn parse(text: &str) -> Result<Self, ChoiceError> {
         let expected = "four lengths and perhaps a ratio of at least 1: e = 1.2 m, y = 9 m, b = 18 m, \
                         d = 24 m, pt = 1.1";
-        let wrong = || refuse("eccentricity", expected, format!("{text:?}"));
+        let wrong = || refused("eccentricity", expected, text);
         let [e, y, b, d, pt] = named(text, ["e", "y", "b", "d", "pt"]).ok_or_else(wrong)?;
         let length = |text: Option<&str>| -> Option<f64> {
             let length_m = parse_quantity(text?, Dimension::Length).ok()?;
@@ -106,6 +106,11 @@ impl Plan {
         let torsion = y / (period_ratio * period_ratio) * 12.0 * e / (b * b + d * d);
         (1.0 + torsion).max(LEAST_TOTAL)
     }
+}
+
+fn refused(what: &str, expected: &str, found: &str) -> ChoiceError {
+    let (what, expected) = (what.to_owned(), expected.to_owned());
+    ChoiceError { what, expected, found: format!("{found:?}"), nearest: None }
 }
 
 /// The values of a text `key = value, …`, in the order of the keys; none for another or a repeated key.

@@ -281,7 +281,6 @@ fn lateral(analysis: &Analysis, scaling: &Scaling) -> Vec<Option<LateralForce>> 
 struct Kept {
     demands: Demands,
     holds: bool,
-    pga_m_per_s2: f64,
     /// Times in s and sliding displacements in m, with nominal friction.
     sliding: Option<[Vec<f64>; 2]>,
     /// What was noticed of model and motion, of the response, and of its demands.
@@ -296,7 +295,6 @@ impl Kept {
         let met = met.chain(flat_geometry(&model, &response.demands));
         Self {
             holds: response.method == Method::Stepwise || certificate.holds(),
-            pga_m_per_s2: job.loaded.figures.pga_m_per_s2,
             sliding: history.map(|history| [history.time_s, history.sliding_displacement_m]),
             noticed: [job.warnings, response.warnings, met.collect()],
             demands: response.demands,
@@ -312,13 +310,13 @@ fn on_record(
     bounds: &[Bound],
     ran: impl Iterator<Item = Result<Kept, RunError>>,
 ) -> OnRecord {
-    let SuiteRecord { name, origin, notices, .. } = &model.suite.records[record];
+    let SuiteRecord { name, motion, origin, notices, .. } = &model.suite.records[record];
     let mut on = OnRecord {
         record: name.clone(),
         pair: model.suite.pair_name(record).to_owned(),
         origin: origin.clone(),
         scale,
-        pga_m_per_s2: f64::NAN,
+        pga_m_per_s2: scale.abs() * motion.figures().pga_m_per_s2,
         runs: Vec::new(),
         sliding: [Vec::new(), Vec::new()],
         notices: notices.clone(),
@@ -364,9 +362,10 @@ impl OnRecord {
             }
         };
         let [of_job, of_response, met] = kept.noticed;
-        if self.pga_m_per_s2.is_nan() {
-            self.pga_m_per_s2 = kept.pga_m_per_s2;
-            self.notices.extend(of_job);
+        for notice in of_job {
+            if !self.notices.contains(&notice) {
+                self.notices.push(notice);
+            }
         }
         self.sliding = kept.sliding.unwrap_or_else(|| core::mem::take(&mut self.sliding));
         self.notices.extend(of_response.into_iter().chain(met.into_iter().map(of_bound)));

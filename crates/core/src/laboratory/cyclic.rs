@@ -199,8 +199,8 @@ impl CyclicFit {
         let Drift { n_per_s, interval_n_per_s: [low, high], over_test_n } = self.drift?;
         let message = format!(
             "the middle of the force loop drifts by {over_test_n:.3} N over the test ({:.3} N/min, 95 % \
-             from {:.3} to {:.3}): the zero of the force cell moves, and friction by direction is not \
-             told",
+             from {:.3} to {:.3}): the zero of the force cell moves, and friction by direction cannot \
+             be determined",
             60.0 * n_per_s,
             60.0 * low,
             60.0 * high
@@ -711,7 +711,7 @@ fn static_friction(
 /// What a reader must know of tests whose sensors may be off by a constant.
 #[must_use]
 pub fn zero_not_stated(fits: &[&CyclicFit]) -> Option<Notice> {
-    let message = "friction by direction is not told: an offset of the force cell, or of the \
+    let message = "friction by direction cannot be determined: an offset of the force cell, or of the \
                    displacement of a spring, looks the same; state the zeros of the sensors with \
                    the mapping \"zero=first 2 s\", \"force=COLUMN - 12 N\" or \"zero=as measured\"";
     fits.iter().any(|fit| !fit.zero_known).then(|| Notice::new(NoticeKind::ZeroNotStated, message))

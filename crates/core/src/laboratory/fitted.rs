@@ -67,7 +67,11 @@ pub fn overrides(estimates: &[Estimate]) -> (Vec<Override>, Vec<Notice>) {
                 Some(value) if value >= kinetic_value => push(&limit, value),
                 _ if here(&limit) => {
                     push(&limit, kinetic_value);
-                    let why = if static_told.is_some() { "lies below" } else { "is not told from" };
+                    let why = if static_told.is_some() {
+                        "lies below"
+                    } else {
+                        "cannot be distinguished from"
+                    };
                     let message = format!(
                         "{limit} {why} the kinetic friction: taken as large in the fitted model"
                     );
@@ -78,7 +82,7 @@ pub fn overrides(estimates: &[Estimate]) -> (Vec<Override>, Vec<Notice>) {
         } else if let Some(value) = static_told {
             if here(&kinetic) {
                 let message = format!(
-                    "{limit} is told and the kinetic friction is not: both are left as the model \
+                    "{limit} is determined and the kinetic friction is not: both are left as the model \
                      has them"
                 );
                 warn(NoticeKind::KineticNotTold, message);

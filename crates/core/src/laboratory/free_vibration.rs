@@ -103,7 +103,8 @@ pub fn free_vibration(times_s: &[f64], values: &[f64]) -> FreeVibration {
     let damping_ratio = match intervals[1] {
         Some((ends, [false, false])) => Estimate::told(path[1], "", xi, ends),
         Some((ends, [true, false])) => {
-            let why = format!("it cannot be told from none: it is at most {:.2e}", ends[1]);
+            let why =
+                format!("it cannot be distinguished from zero: it is at most {:.2e}", ends[1]);
             Estimate::refused(path[1], "", why)
         }
         _ => Estimate::refused(path[1], "", "ratios up to 0.5 fit as well"),
@@ -292,7 +293,9 @@ mod tests {
         let (times_s, values) = record(1.5, 0.0, 0.05, 8.0, 1);
         let found = free_vibration(&times_s, &values);
         assert!(found.frequency.value().is_some());
-        assert!(found.damping_ratio.why().unwrap().starts_with("it cannot be told from none"));
+        assert!(
+            found.damping_ratio.why().unwrap().starts_with("it cannot be distinguished from zero")
+        );
         assert_eq!(
             free_vibration(&[0.0; 20], &[1.0; 20]).frequency.why(),
             Some("the values do not change")

@@ -64,9 +64,17 @@ const MAPPING: Field = Field::new(
 )
 .many();
 
+const LAMBDA: Field = Field::new(
+    "lambda",
+    "FACTORS",
+    "Bounds of friction from property modification factors, of aging three quarters: \"test = 0.9..1.2, \
+     aging = 1..1.3, specification = 0.85..1.15\"",
+);
+
 /// Fields of one analysis.
 const RUN: &[Field] = &[
     METHOD,
+    LAMBDA,
     Field::new(
         "floor-spectrum",
         "",
@@ -104,6 +112,14 @@ const SUITE: &[Field] = &[
         "periods",
         "FROM..TO",
         "First and last period of the range in which pairs are scaled to the spectrum: \"0.6 s..3.8 s\"",
+    ),
+    LAMBDA,
+    Field::new("hazard", "NAME", "What the report of a suite calls this intensity: MCE_R, DE"),
+    Field::new(
+        "eccentricity",
+        "LENGTHS",
+        "Plan of the building, for the total displacement of the hand calculation: \"e = 1.2 m, y = 9 m, \
+         b = 18 m, d = 24 m, pt = 1.1\"",
     ),
 ];
 

@@ -1,8 +1,9 @@
 //! What is asked of one model on one motion.
 
 use super::fields::{Request, quantity, wrong};
+use crate::assessment::code::PropertyFactors;
 use crate::error::{ChoiceError, InputError};
-use crate::input::{Override, Scale};
+use crate::input::{FrictionBounds, Override, Scale};
 use crate::response::Method;
 use crate::units::Dimension;
 
@@ -15,11 +16,13 @@ pub struct Single {
     pub floor_spectrum: bool,
     /// How the record is scaled, where it is not as it stands.
     pub scale: Option<Scale>,
+    /// Bounds of friction, where they are not those of the model.
+    pub bounds: Option<FrictionBounds>,
 }
 
 impl Single {
-    /// The keys of the model that ask for the same: the method, and the scale where it is that of the model's
-    /// own record.
+    /// The keys of the model that ask for the same: the method, bounds of friction, and the scale where it is
+    /// that of the model's own record.
     ///
     /// # Errors
     /// [`InputError`] for a key that no model has, which is none of these.
@@ -30,7 +33,12 @@ impl Single {
             Scale::Factor(factor) => Override::number("motion.scale", factor),
             Scale::Peak(peak_m_per_s2) => Override::number("motion.scale_to", peak_m_per_s2),
         });
-        method.into_iter().chain(scale).collect()
+        let bounds = self.bounds.map(|FrictionBounds { lower, upper }| {
+            [("slider.bounds.lower", lower), ("slider.bounds.upper", upper)]
+        });
+        let bounds = bounds.into_iter().flatten();
+        let bounds = bounds.map(|(path, factor)| Override::number(path, factor));
+        method.into_iter().chain(bounds).chain(scale).collect()
     }
 
     /// An error of a model with these keys: that of the scale where the motion is made.
@@ -73,7 +81,16 @@ impl Request {
             method: self.method(),
             floor_spectrum: self.given("floor-spectrum").is_some(),
             scale,
+            bounds: self.property_factors()?.map(|factors| factors.bounds()),
         })
+    }
+
+    /// Property modification factors on friction.
+    ///
+    /// # Errors
+    /// [`ChoiceError`] as [`PropertyFactors::parse`].
+    pub(super) fn property_factors(&self) -> Result<Option<PropertyFactors>, ChoiceError> {
+        self.given("lambda").map(PropertyFactors::parse).transpose()
     }
 
     /// The method that is asked for.

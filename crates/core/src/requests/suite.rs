@@ -2,6 +2,7 @@
 
 use super::fields::{Request, quantity, wrong};
 use super::{Answer, Kind, On, Results, of_measure};
+use crate::assessment::code::{Plan, named};
 use crate::assessment::grid::levels;
 use crate::assessment::histories::{ModelOn, run_histories};
 use crate::assessment::models::Models;
@@ -9,6 +10,7 @@ use crate::assessment::suite::{Scaling, times};
 use crate::assessment::sweep::Sweep;
 use crate::assessment::{AssessmentError, refuse};
 use crate::error::ChoiceError;
+use crate::input::Analysis;
 use crate::motion::GroundMotion;
 use crate::motion::intensity::LevelMeasure;
 use crate::motion::target::TargetSpectrum;
@@ -34,12 +36,19 @@ impl Request {
                 warnings.push(warning);
             }
         }
-        let on = models.iter().map(|on| ModelOn {
-            name: on.name,
-            analysis: on.analysis,
-            suite: on.suite,
-        });
-        let on: Vec<ModelOn<'_>> = on.collect();
+        let factors = self.property_factors()?;
+        let plan = self.given("eccentricity").map(Plan::parse).transpose()?;
+        // Factors take the place of the model's own bounds.
+        let bounded = |on: &On<'_>| {
+            let mut analysis = on.analysis.clone();
+            analysis.friction_bounds = factors.map(|f| f.bounds()).or(analysis.friction_bounds);
+            analysis
+        };
+        let analyses: Vec<Analysis> = models.iter().map(bounded).collect();
+        let pairs = models.iter().zip(&analyses);
+        let on: Vec<ModelOn<'_>> = pairs
+            .map(|(on, analysis)| ModelOn { name: on.name, analysis, suite: on.suite })
+            .collect();
         let names: Vec<&str> = models.iter().map(|on| on.name).collect();
         let hashes: Vec<String> = models.iter().map(|on| on.analysis.hash()).collect();
         Ok(Answer {
@@ -48,7 +57,12 @@ impl Request {
             records: models.first().map_or_else(Vec::new, |on| on.suite.recorded()),
             scaled: if models.iter().all(|on| on.suite.made) { String::new() } else { scaled },
             warnings,
-            found: Results::Suite(run_histories(&on, &scaling, engine)?),
+            found: Results::Suite {
+                histories: run_histories(&on, &scaling, engine)?,
+                hazard: self.given("hazard").map(str::to_owned),
+                factors,
+                plan,
+            },
         })
     }
 
@@ -191,19 +205,16 @@ fn periods(text: &str) -> Result<[f64; 2], ChoiceError> {
 fn code_spectrum(text: &str) -> Result<TargetSpectrum, ChoiceError> {
     let expected = "three parameters: sds = 1.2 g, sd1 = 0.8 g, tl = 8 s";
     let wrong = || wrong("code-spectrum", expected, text);
-    let mut values = [None; 3];
-    for part in text.split(',') {
-        let (key, value) = part.split_once('=').ok_or_else(wrong)?;
-        let place = ["sds", "sd1", "tl"].iter().position(|name| *name == key.trim());
-        let place = place.ok_or_else(wrong)?;
-        let dimension = if place == 2 { Dimension::Time } else { Dimension::Acceleration };
-        let value = quantity("code-spectrum", value.trim(), dimension)?;
-        if !(value.is_finite() && value > 0.0) || values[place].is_some() {
-            return Err(wrong());
-        }
-        values[place] = Some(value);
-    }
-    let [Some(sds_m_per_s2), Some(sd1_m_per_s2), Some(tl_s)] = values else { return Err(wrong()) };
+    let Some([Some(sds), Some(sd1), Some(tl)]) = named(text, ["sds", "sd1", "tl"]) else {
+        return Err(wrong());
+    };
+    let positive = |text: &str, dimension| {
+        let value = quantity("code-spectrum", text, dimension)?;
+        if value.is_finite() && value > 0.0 { Ok(value) } else { Err(wrong()) }
+    };
+    let sds_m_per_s2 = positive(sds, Dimension::Acceleration)?;
+    let sd1_m_per_s2 = positive(sd1, Dimension::Acceleration)?;
+    let tl_s = positive(tl, Dimension::Time)?;
     Ok(TargetSpectrum::Code { sds_m_per_s2, sd1_m_per_s2, tl_s })
 }
 
@@ -228,7 +239,6 @@ mod tests {
             set: &[],
             analysis: &analysis,
             suite: &suite,
-            warnings: &[],
         };
         let asked = |kind, given: &[(&'static str, &str)]| {
             let given = given.iter().map(|(name, text)| (*name, (*text).to_owned()));

@@ -52,22 +52,31 @@ pub fn struck(model: &Model, demands: &Demands) -> Vec<Notice> {
     }
     if let Some(stop) = demands.stop.filter(|stop| stop.contact_count + stop.impact_count > 0) {
         let speed = stop.peak_impact_speed_m_per_s;
-        let times = stop.contact_count.max(stop.impact_count);
+        let times = match stop.contact_count.max(stop.impact_count) {
+            1 => "once".to_owned(),
+            2 => "twice".to_owned(),
+            n => format!("{n} times"),
+        };
         let force = match stop.peak_force_n {
             0.0 => String::new(),
             force_n => format!(", with {:.3} of the weight", force_n / model.weight_n()),
         };
         say(
             NoticeKind::StopStruck,
-            format!("the block strikes its stop {times} times, at up to {speed:.3} m/s{force}"),
+            format!("the block strikes its stop {times}, at up to {speed:.3} m/s{force}"),
         );
     }
     let ended = demands.surfaces.iter().enumerate().filter(|(_, surface)| surface.end_reached);
     let ended: Vec<String> = ended.map(|(i, _)| (i + 1).to_string()).collect();
-    if !ended.is_empty() {
-        let message = format!("the end of its travel is reached by surface {}", ended.join(", "));
-        say(NoticeKind::TravelReached, message);
-    }
+    let message = match ended.as_slice() {
+        [] => None,
+        [one] => Some(format!("surface {one} reaches the end of its travel")),
+        [first @ .., last] => {
+            let first = first.join(", ");
+            Some(format!("surfaces {first} and {last} reach the end of their travel"))
+        }
+    };
+    found.extend(message.map(|message| Notice::new(NoticeKind::TravelReached, message)));
     found
 }
 

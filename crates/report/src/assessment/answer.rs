@@ -30,7 +30,10 @@ pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
     let Answer { name, model_hash, records, scaled, warnings, found } = answer;
     let names: Vec<String> = records.iter().map(|record| record.name.clone()).collect();
     let sheet = match found {
-        Results::Suite(histories) => HistoriesReport { histories, scaled, display }.sheet(),
+        Results::Suite { histories, hazard, factors, plan } => {
+            let (hazard, factors, plan) = (hazard.as_deref(), *factors, *plan);
+            HistoriesReport { histories, scaled, hazard, factors, plan, display }.sheet()
+        }
         Results::Spectrum(run) => {
             let records = &names;
             SpectrumReport { name, records, scaled, run, warnings, display }.sheet()
@@ -92,7 +95,7 @@ pub fn tables(answer: Answer) -> Vec<Tabled> {
     const BOTH: &[&str] = &["csv", "parquet"];
     let tabled = |name, forms, table| Tabled { name, forms, table };
     match answer.found {
-        Results::Suite(Histories { runs, governing, .. }) => {
+        Results::Suite { histories: Histories { runs, governing, .. }, .. } => {
             vec![tabled("runs", &BOTH[..1], runs), tabled("governing", &BOTH[..1], governing)]
         }
         Results::Spectrum(run) => {

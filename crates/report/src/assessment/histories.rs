@@ -1,22 +1,23 @@
 //! Models on the records of suites, side by side, and what governs.
 
+mod code;
+mod figures;
+
 use slipstick::assessment::FailedRun;
+use slipstick::assessment::code::{Plan, PropertyFactors};
 use slipstick::assessment::histories::{Histories, ModelHistories, OnRecord, RECORDS_OF_A_MEAN};
-use slipstick::assessment::lateral::{LEAST_TOTAL, LateralForce};
+use slipstick::assessment::lateral::LEAST_TOTAL;
 use slipstick::assessment::suite::{Recorded, condensed};
 use slipstick::input::{Bound, Names};
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::response::{DemandColumn, DemandOf};
-use slipstick::table::{Cells, Column, Table};
+use slipstick::table::{self, Cells, Column};
 
-use super::lines::{GROUPS, RECORD, line, panel, stacked};
 use super::pairs;
 use super::sheet::{Sheet, cell, failed, record_table};
 use crate::display::{DisplayUnits, Quantity, Unit};
-use crate::figures::Drawn;
 use crate::json::Json;
 use crate::number::compact;
-use crate::plot::{Axis, Limit, Panel, Series, Shape, Style};
 
 /// What the histories of a suite are told from.
 #[derive(Clone, Debug)]
@@ -25,6 +26,12 @@ pub struct HistoriesReport<'a> {
     pub histories: &'a Histories,
     /// How the records were scaled, in words.
     pub scaled: &'a str,
+    /// What the intensity is called: `MCE_R`, `DE`.
+    pub hazard: Option<&'a str>,
+    /// Property modification factors that the bounds of friction come from.
+    pub factors: Option<PropertyFactors>,
+    /// Plan of the building, for the total displacement.
+    pub plan: Option<Plan>,
     /// Units to show results in.
     pub display: DisplayUnits,
 }
@@ -78,7 +85,7 @@ impl HistoriesReport<'_> {
             model_hash: Some(models.iter().map(|m| &m.hash[..]).collect::<Vec<_>>().join(", ")),
             suite: self.recorded(),
             first: Some(("Governs", self.governing())),
-            line: format!("{runs} runs: {records}{}; {certificate}", self.scaled),
+            line: format!("{runs} runs: {records}{}{}; {certificate}", self.scaled, self.at()),
             complete,
             display: self.display,
             warnings: self.warnings(),
@@ -160,9 +167,10 @@ impl HistoriesReport<'_> {
             });
             let records = match model.records.as_slice() {
                 [one] => one.record.clone(),
-                _ if model.has_pairs() => {
-                    format!("{} of {} pairs", model.statistic(), model.counted())
-                }
+                _ if model.has_pairs() => match model.counted() {
+                    1 => "larger of both components".to_owned(),
+                    pairs => format!("{} of {pairs} pairs", model.statistic()),
+                },
                 all => format!("{} of {} records", model.statistic(), all.len()),
             };
             Some(format!(
@@ -171,7 +179,14 @@ impl HistoriesReport<'_> {
                 unit.symbol
             ))
         };
-        self.histories.models.iter().filter_map(of).collect::<Vec<_>>().join("; ")
+        let all: Vec<String> = self.histories.models.iter().filter_map(of).collect();
+        let hazard = self.hazard.map_or(String::new(), |hazard| format!("{hazard}: "));
+        hazard + &all.join("; ")
+    }
+
+    /// ` at MCE_R`.
+    fn at(&self) -> String {
+        self.hazard.map_or(String::new(), |hazard| format!(" at {hazard}"))
     }
 
     /// A demand: a row a record, and what governs below. Of one model a column a bound of friction, of
@@ -218,8 +233,17 @@ impl HistoriesReport<'_> {
                 let on = model.records.iter().find(|on| on.record == **name)?;
                 Some(on.size(&column, bound))
             };
-            let value = |column: &Shown<'_>| shown(of(column));
-            rows.push(row(name, &mut columns.iter().map(value)));
+            let values: Vec<Option<f64>> = columns.iter().map(of).collect();
+            // Of one model the bound with which this record governs.
+            let sizes = || values.iter().flatten();
+            let most = sizes().copied().reduce(f64::max).filter(|most| {
+                models.len() == 1 && sizes().all(|s| s.is_finite()) && sizes().any(|s| s < most)
+            });
+            let value = |value: &Option<f64>| match most {
+                Some(most) if *value == Some(most) => format!("{}*", shown(*value)),
+                _ => shown(*value),
+            };
+            rows.push(row(name, &mut values.iter().map(value)));
         }
         if names.len() > 1 {
             let mut statistics: Vec<&str> = models.iter().map(ModelHistories::statistic).collect();
@@ -279,7 +303,10 @@ impl HistoriesReport<'_> {
         let lateral = self.histories.models.iter().filter_map(|model| self.lateral(model));
         let records = record_table(&self.recorded()).filter(|_| !self.scaled.is_empty());
         let records = records.map(|rows| ("Records".to_owned(), rows));
-        records.into_iter().chain(lateral).chain(demands).chain(of_pairs).collect()
+        let capacity = self.histories.models.iter().filter_map(|model| self.capacity(model));
+        let factors = self.factors.iter().map(code::factor_table);
+        let governs = capacity.chain(factors);
+        records.into_iter().chain(governs).chain(lateral).chain(demands).chain(of_pairs).collect()
     }
 
     /// The records under their factors, each once.
@@ -302,59 +329,6 @@ impl HistoriesReport<'_> {
             });
         }
         all
-    }
-
-    /// The equivalent-lateral-force displacement with each bound, beside that of the runs.
-    fn lateral(&self, model: &ModelHistories) -> Option<(String, Vec<Vec<String>>)> {
-        let found = model.lateral.iter().flatten();
-        let largest = found.clone().map(|found| found.displacement_m).reduce(f64::max)?;
-        let stiffest = found.map(|found| found.stiffness_n_per_m).fold(0.0, f64::max);
-        let (length, stiffness) = (
-            self.display.unit(Quantity::Length, largest),
-            self.display.unit(Quantity::Stiffness, stiffest),
-        );
-        let peak = model.shape().find(SHOWN[0])?.1;
-        let runs = |bound: usize| model.governing(&peak, bound);
-        type Value<'b> = Box<dyn Fn(&LateralForce, usize) -> f64 + 'b>;
-        let rows: [(String, Value<'_>); 8] = [
-            (
-                stiffness.label("Effective stiffness k_M"),
-                Box::new(|found, _| stiffness.of(found.stiffness_n_per_m)),
-            ),
-            (
-                "Effective damping β_M (%)".to_owned(),
-                Box::new(|found, _| 100.0 * found.damping_ratio),
-            ),
-            ("Damping factor B_M".to_owned(), Box::new(|found, _| found.damping_factor)),
-            ("Effective period T_M (s)".to_owned(), Box::new(|found, _| found.period_s)),
-            (
-                length.label("Displacement D_M"),
-                Box::new(|found, _| length.of(found.displacement_m)),
-            ),
-            (
-                length.label("1.15 D_M, the least D_TM"),
-                Box::new(|found, _| length.of(LEAST_TOTAL * found.displacement_m)),
-            ),
-            (
-                length.label(&format!("Runs, {}", model.statistic())),
-                Box::new(|_, bound| length.of(runs(bound))),
-            ),
-            ("  over D_M".to_owned(), Box::new(|found, bound| runs(bound) / found.displacement_m)),
-        ];
-        let heads = model.bounds.iter().map(|bound| bound.name.to_owned());
-        let heads = core::iter::once(String::new()).chain(heads).collect();
-        let row = |(name, value): &(String, Value<'_>)| {
-            let of = |(bound, found): (usize, &Option<LateralForce>)| {
-                cell(found.map_or(f64::NAN, |found| value(&found, bound)))
-            };
-            let cells = model.lateral.iter().enumerate().map(of);
-            core::iter::once(name.clone()).chain(cells).collect()
-        };
-        let mut heading = "Equivalent lateral force beside the runs".to_owned();
-        if self.histories.models.len() > 1 {
-            heading.push_str(&format!(", {}", model.name));
-        }
-        Some((heading, core::iter::once(heads).chain(rows.iter().map(row)).collect()))
     }
 
     /// Factors that no longer make another earthquake of a record.
@@ -388,6 +362,14 @@ impl HistoriesReport<'_> {
                     .to_owned(),
             );
         }
+        if self.factors.is_some() {
+            method.push(
+                "The bounds of friction are products of property modification factors, of the least and of \
+                 the largest: λ = (1 + 0.75 (λ_ae − 1)) λ_test λ_spec, ASCE/SEI 7, section 17.2.8.4. The \
+                 limits that the code sets on these products are not applied."
+                    .to_owned(),
+            );
+        }
         method.extend(self.histories.matched.iter().map(|(matched, _)| pairs::method(matched)));
         if self.histories.models.iter().any(|model| model.lateral.iter().any(Option::is_some)) {
             method.push(
@@ -408,7 +390,7 @@ impl HistoriesReport<'_> {
             return Vec::new();
         }
         if models.len() == 1 {
-            return vec!["* governs: the bound of friction with the larger value.".to_owned()];
+            return vec!["* governs: the bound of friction with the larger value, of each record and of all.".to_owned()];
         }
         vec![
             "Each column is of the bound of friction that governs, named in its head; runs.csv has every \
@@ -436,139 +418,19 @@ impl HistoriesReport<'_> {
         all
     }
 
-    /// Sliding displacement over time, a panel a model; and the share of records that stay below a peak.
-    fn figures(&self) -> Vec<Drawn> {
-        let models = &self.histories.models;
-        let peaks = self.peaks();
-        let unit = self.unit_of(&peaks);
-        let label = unit.label("Sliding displacement");
-        let end_s = models.iter().flat_map(|model| &model.records);
-        let end_s = end_s.filter_map(|on| on.sliding[0].last()).fold(0.0, |a: f64, b| a.max(*b));
-        let all = models.iter().flat_map(|model| &model.records);
-        let nominal = all.map(|on| &on.sliding);
-        let governing =
-            models.iter().filter_map(|model| Some(&model.governing_history.as_ref()?.2));
-        let all: Vec<f64> = nominal
-            .chain(governing)
-            .flat_map(|[_, sliding]| sliding.iter().map(|s| unit.of(*s)))
-            .collect();
-        // A gap far away would flatten every curve.
-        let largest = all.iter().fold(0.0, |largest: f64, s| largest.max(s.abs()));
-        let gaps = models
-            .iter()
-            .flat_map(|model| model.gap_m.into_iter().chain(model.stop_m.into_iter().flatten()));
-        let gaps = gaps.map(|gap_m| unit.of(gap_m));
-        let y =
-            Axis::symmetric(label, all.into_iter().chain(gaps.filter(|gap| *gap < 2.0 * largest)));
-        let panels = models.iter().map(|model| self.history_panel(model, &y, end_s, &unit));
-        let caption = if models.iter().any(|model| model.records.len() > 1) {
-            "Sliding displacement: every record with nominal friction thin; bold the largest with the bound of \
-             friction that governs."
-        } else {
-            "Sliding displacement: thin with nominal friction, bold with the bound that governs."
-        };
-        let target = self.histories.matched.iter().map(|(matched, _)| pairs::figure(matched));
-        let mut figures: Vec<Drawn> = target.collect();
-        figures.push(stacked(
-            "histories",
-            "Sliding displacement",
-            caption.to_owned(),
-            panels.collect(),
-        ));
-        if models.iter().any(|model| model.records.len() > 1) {
-            figures.extend(peaks.first().map(|peak| self.shares(peak, &unit)));
-        }
-        figures
-    }
-
-    fn history_panel(&self, model: &ModelHistories, y: &Axis, end_s: f64, unit: &Unit) -> Panel {
-        let curve = |[times_s, s]: &[Vec<f64>; 2], label: String, style: Style| {
-            let points = times_s.iter().zip(s).map(|(t, s)| [*t, unit.of(*s)]).collect();
-            Series { label, style, shape: Shape::History, points }
-        };
-        let nominal = model.records.iter().map(|on| curve(&on.sliding, String::new(), RECORD));
-        let governs = model.governing_history.as_ref().map(|(record, bound, history)| {
-            let name = &model.records[*record].record;
-            let label = match model.bounds.len() {
-                1 => name.clone(),
-                _ => format!("{name}, {} friction", model.bounds[*bound].name),
-            };
-            curve(history, label, GROUPS[0])
-        });
-        let limit = |value: f64, label: &str| Limit {
-            value: unit.of(value),
-            label: label.to_owned(),
-            style: Style::LIMIT,
-        };
-        let of_gap =
-            model.gap_m.into_iter().flat_map(|gap_m| [limit(gap_m, "gap"), limit(-gap_m, "")]);
-        let [ahead, behind] = model.stop_m;
-        let of_stop = ahead.map(|stop_m| limit(stop_m, "stop"));
-        let of_stop = of_stop.into_iter().chain(behind.map(|stop_m| limit(-stop_m, "")));
-        let near = |limit: &Limit| limit.value.abs() < y.max;
-        let note = if self.histories.models.len() > 1 { model.name.clone() } else { String::new() };
-        Panel {
-            limits: of_gap.chain(of_stop).filter(near).collect(),
-            note,
-            ..panel(
-                Axis::linear("Time (s)", 0.0, end_s),
-                y.clone(),
-                150.0,
-                nominal.chain(governs).collect(),
-            )
-        }
-    }
-
-    /// Share of the records whose peak is at most a value, with every bound of friction.
-    fn shares(&self, column: &DemandColumn, unit: &Unit) -> Drawn {
-        let mut series = Vec::new();
-        let mut largest = Vec::new();
-        for (model, style) in self.histories.models.iter().zip(GROUPS.iter().cycle()) {
-            for (i, bound) in model.bounds.iter().enumerate() {
-                let mut sizes: Vec<f64> =
-                    model.sizes(column, i).iter().map(|size| unit.of(*size)).collect();
-                sizes.retain(|size| !size.is_nan());
-                sizes.sort_by(f64::total_cmp);
-                largest.extend(sizes.last().copied());
-                let mut points = vec![[0.0, 0.0]];
-                for (k, size) in sizes.iter().enumerate() {
-                    points.push([*size, k as f64 / sizes.len() as f64]);
-                    points.push([*size, (k + 1) as f64 / sizes.len() as f64]);
-                }
-                let nominal = bound.name == "nominal";
-                let style = if nominal { *style } else { Style { width: 0.7, ..*style } };
-                let label = match (nominal, self.histories.models.len()) {
-                    (true, 1) => "nominal friction".to_owned(),
-                    (true, _) => model.name.clone(),
-                    _ => String::new(),
-                };
-                series.push(line(label, style, points));
-            }
-        }
-        let bounds = if self.histories.models.iter().any(|model| model.bounds.len() > 1) {
-            " Thin: lower- and upper-bound friction."
-        } else {
-            ""
-        };
-        let x = Axis::from_zero(unit.label(&column.title()), largest);
-        let y = Axis::linear("Share of the records", 0.0, 1.0);
-        let caption = format!(
-            "Share of the records whose peak sliding displacement is at most a value.{bounds}"
-        );
-        stacked("shares", "Peaks over the suite", caption, vec![panel(x, y, 190.0, series)])
-    }
-
     fn json(&self) -> Vec<(&'static str, Json)> {
         let names = self.histories.models.iter().map(|model| model.name.as_str().into());
         let of_bounds = self.histories.models.iter().flat_map(|model| {
             let each = model.bounds.iter().zip(&model.lateral);
             each.filter_map(|(bound, found)| Some((&model.name, bound, found.as_ref()?)))
         });
+        let total = self.plan.map_or(LEAST_TOTAL, |plan| plan.total_over_displacement());
         let lateral = of_bounds.map(|(model, bound, found)| {
             Json::Object(vec![
                 ("model", model.as_str().into()),
                 ("friction", bound.name.into()),
                 ("displacement_m", found.displacement_m.into()),
+                ("total_displacement_m", (total * found.displacement_m).into()),
                 ("stiffness_n_per_m", found.stiffness_n_per_m.into()),
                 ("damping_ratio", found.damping_ratio.into()),
                 ("damping_factor", found.damping_factor.into()),
@@ -578,6 +440,7 @@ impl HistoriesReport<'_> {
         vec![
             ("models", Json::List(names.collect())),
             ("scaled", self.scaled.trim().into()),
+            ("hazard", self.hazard.map_or(Json::Null, Json::from)),
             ("runs", columns(&self.histories.runs)),
             ("governing", columns(&self.histories.governing)),
             ("lateral_force", Json::List(lateral.collect())),
@@ -599,7 +462,7 @@ fn method() -> Vec<String> {
 }
 
 /// A table as its columns: name, unit, values.
-fn columns(table: &Table) -> Json {
+fn columns(table: &table::Table) -> Json {
     let values = |cells: &Cells| -> Vec<Json> {
         match cells {
             Cells::Texts(texts) => texts.iter().map(|text| text.as_str().into()).collect(),

@@ -12,7 +12,7 @@ pub const GROUPS: [Style; 6] = [
     Style { colour: "#1a1a1a", width: 1.5, dashes: "1.4 2.6" },
     Style { colour: "#3f7d4e", width: 2.6, dashes: "" },
     Style { colour: "#6a4c93", width: 1.6, dashes: "10 3 2 3" },
-    Style { colour: "#7a7a7a", width: 2.6, dashes: "4 3" },
+    Style { colour: "#6b6b6b", width: 2.6, dashes: "4 3" },
 ];
 
 /// A single record of a suite.

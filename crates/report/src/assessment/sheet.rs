@@ -177,11 +177,14 @@ impl Sheet {
         }
         figure_list(&mut body, figures, 2);
         table_list(&mut body, tables);
-        body.raw("</section>\n<section>\n<h2>Method and limits</h2>\n<ul>\n");
-        for line in &self.method {
-            body.element("li", line).raw("\n");
+        body.raw("</section>\n");
+        if !self.method.is_empty() {
+            body.raw("<section>\n<h2>Method and limits</h2>\n<ul>\n");
+            for line in &self.method {
+                body.element("li", line).raw("\n");
+            }
+            body.raw("</ul>\n</section>\n");
         }
-        body.raw("</ul>\n</section>\n");
         appendix(&mut body);
         for (heading, rows) in &self.appendix {
             let pairs = rows.iter().filter_map(|row| match row.as_slice() {

@@ -84,7 +84,7 @@ pub fn loops(scene: &Scene) -> Drawn {
     }
     caption.push_str(
         " over sliding displacement, with the sign of a data sheet: it rises with the displacement. \
-         Upright lines are sticks; the area inside is the energy lost.",
+         Vertical lines: sticking; the area inside is the energy lost.",
     );
     // Nothing is red of a stop that is rigid, or not reached.
     if panels[0].series.len() > 1 {

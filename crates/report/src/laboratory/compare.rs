@@ -142,9 +142,9 @@ impl CompareReport<'_> {
         let mut model = model.map(|(name, value)| (name.to_owned(), value));
         let mut origins = compared.iter().map(|c| (title(c.pair.channel), c.pair.origin.clone()));
         let line = format!(
-            "{} method, driven by the table acceleration measured in {}",
-            method_name(self.method),
-            self.measured
+            "Driven by the table acceleration measured in {}, {} method",
+            self.measured,
+            method_name(self.method)
         );
         Sheet {
             kind: "Prediction and measurement",

@@ -86,7 +86,7 @@ pub fn by_test(tests: &[Test], normal_force_n: Option<f64>) -> Vec<Vec<String>> 
             let both = found.iter().find(|estimate| estimate.path.starts_with(what));
             row.extend(match both.and_then(|e| e.value().zip(e.interval())) {
                 Some((value, [low, high])) => [value, low, high].map(|v| significant(v, 4)),
-                None => ["not told", "", ""].map(str::to_owned),
+                None => ["not determined", "", ""].map(str::to_owned),
             });
         }
         rows.push(row);

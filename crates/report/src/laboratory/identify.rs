@@ -97,9 +97,8 @@ pub fn sheet(measured: &[Measured], identified: &Identified, display: DisplayUni
         warnings: identified.warnings.clone(),
         tables: core::iter::once(parameters).chain(tables).collect(),
         keys: identified.slider_keys().map(|keys| (FOR_MODEL, keys)),
-        notes: undetermined.chain(facts).collect(),
+        notes: undetermined.chain(facts).chain([assumption]).collect(),
         figures,
-        method: vec![assumption],
         complete: estimates.iter().all(|estimate| estimate.value().is_some()),
         json: keys,
         ..Sheet::default()
@@ -208,7 +207,7 @@ fn verdict(estimates: &[Estimate], display: DisplayUnits) -> Vec<String> {
     };
     let missing = estimates.iter().filter(|estimate| estimate.value().is_none());
     let missing: Vec<&str> = missing.map(|estimate| estimate.path.as_str()).collect();
-    let second = format!("Not determined by the data: {}.", missing.join(", "));
+    let second = format!("Cannot be determined from the data: {}.", missing.join(", "));
     std::iter::once(first).chain((!missing.is_empty()).then_some(second)).collect()
 }
 

@@ -2,7 +2,15 @@
 
 use slipstick::error::visible;
 
-/// Lines of cells, each column as wide as its widest; the first column left, the others right.
+/// Whether a cell of a table is a number, or stands for one.
+pub fn is_number(cell: &str) -> bool {
+    cell.is_empty()
+        || cell == "—"
+        || cell.starts_with(['<', '−', '-', '+'])
+        || cell.starts_with(|c: char| c.is_ascii_digit())
+}
+
+/// Lines of cells, each column as wide as its widest; names and columns of words left, numbers right.
 pub fn aligned(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     // What governs has a star behind its number, in a place of its own.
@@ -13,6 +21,12 @@ pub fn aligned(rows: &[Vec<String>]) -> String {
         (cells.map(|cell| bare(cell).chars().count()).max().unwrap_or(0), starred)
     };
     let widths: Vec<(usize, bool)> = (0..columns).map(width).collect();
+    let of_words = |column: usize| {
+        let cells = rows.iter().skip(1).filter_map(|row| row.get(column));
+        let (numbers, words): (Vec<_>, Vec<_>) = cells.partition(|cell| is_number(cell));
+        column == 0 || words.len() > numbers.len()
+    };
+    let words: Vec<bool> = (0..columns).map(of_words).collect();
     let mut text = String::new();
     for row in rows {
         let mut line = String::new();
@@ -20,6 +34,8 @@ pub fn aligned(rows: &[Vec<String>]) -> String {
             let (width, starred) = widths[column];
             if column == 0 {
                 line.push_str(&format!("{cell:<width$}"));
+            } else if words[column] {
+                line.push_str(&format!("  {cell:<width$}"));
             } else {
                 let star = match cell.ends_with('*') {
                     true => "*",

@@ -115,15 +115,18 @@ impl Axis {
         let crowded = last - first > 5;
         // Within a decade 1, 2 and 5 are two marks, or one: half steps and more of the digits have labels.
         let narrow = self.max / self.min < 9.0;
+        // Over two decades there is room for a mark between 1 and 2.
+        let roomy = self.max / self.min < 100.0;
         (first..=last)
             .flat_map(|decade| (2..20).map(move |half| (decade, half)))
-            .filter(|(_, half)| half % 2 == 0 || (narrow && *half < 6))
+            .filter(|(_, half)| half % 2 == 0 || (narrow && *half < 6) || (roomy && *half == 3))
             .map(|(decade, half)| {
                 // Written and read back: 0.02 rather than 2 × 0.01 with its rounding.
                 let value = format!("{}e{}", 5 * half, decade - 1).parse().unwrap_or(f64::NAN);
                 let labelled = match half {
                     2 => true,
                     4 | 10 => !crowded,
+                    3 => narrow || decade >= 0,
                     _ => narrow && half < 14,
                 };
                 let decimals = (i32::from(half % 2 == 1) - decade).max(0) as usize;
@@ -199,7 +202,7 @@ mod tests {
         );
         assert_eq!(
             labels(&Axis::logarithmic("T", 0.05, 2.0), 0),
-            ["0.05", "0.1", "0.2", "0.5", "1", "2"]
+            ["0.05", "0.1", "0.2", "0.5", "1", "1.5", "2"]
         );
         assert_eq!(
             labels(&Axis::logarithmic("T", 0.9, 4.5), 0),

@@ -111,6 +111,10 @@ fn x_axis_height() -> f64 {
 }
 
 fn draw_panel(out: &mut Markup, panel: &Panel, frame: Frame, shaded: &[[f64; 2]], x_labels: bool) {
+    let histories = panel.series.iter().any(|series| is_read(series));
+    if histories {
+        open_read(out, panel, frame);
+    }
     header(out, panel, frame);
     shading(out, &panel.x, frame, shaded);
     grid(out, panel, frame, x_labels);
@@ -138,7 +142,22 @@ fn draw_panel(out: &mut Markup, panel: &Panel, frame: Frame, shaded: &[[f64; 2]]
             .raw("/>\n");
     }
     out.raw("<rect fill=\"none\" stroke-width=\"0.8\"").attribute("stroke", FRAME);
-    place(out, frame).raw("/>\n");
+    place(out, frame).raw("/>\n").raw(if histories { "</g>\n" } else { "" });
+}
+
+/// Whether the values of a line can be read off under a pointer: it is a function of x.
+fn is_read(series: &Series) -> bool {
+    matches!(series.shape, Shape::History | Shape::Area(_))
+}
+
+/// Opens the group of a panel whose lines can be read off, with its frame and its axes.
+fn open_read(out: &mut Markup, panel: &Panel, frame: Frame) {
+    let axis = |axis: &Axis| format!("{} {} {}", axis.min, axis.max, u8::from(axis.logarithmic));
+    let Frame { left, top, width, height } = frame;
+    let frame = [left, top, width, height].map(|value| trimmed(value, 1)).join(" ");
+    out.raw("<g").attribute("data-frame", frame).attribute("data-x", axis(&panel.x));
+    out.attribute("data-y", axis(&panel.y)).attribute("data-label", &panel.x.label);
+    out.attribute("data-quantity", &panel.y.label).raw(">\n");
 }
 
 /// Whether a line goes on above or below the frame.
@@ -403,6 +422,9 @@ fn draw_series(out: &mut Markup, panel: &Panel, series: &Series, frame: Frame) {
         }
     };
     out.raw("<path");
+    if is_read(series) {
+        out.attribute("data-line", &series.label);
+    }
     stroke(out, series.style);
     out.attribute("d", path).raw("/>\n");
 }

@@ -1,0 +1,174 @@
+//! What a code asks of runs over a suite: demand beside capacity, the hand calculation, property factors.
+
+use slipstick::assessment::code::PropertyFactors;
+use slipstick::assessment::histories::ModelHistories;
+use slipstick::assessment::lateral::{LEAST_TOTAL, LateralForce};
+use slipstick::response::DemandColumn;
+
+use super::{HistoriesReport, SHOWN};
+use crate::assessment::sheet::{Table, cell};
+use crate::display::Quantity;
+
+/// Something that isolators, or what stands on them, can take.
+struct Capacity {
+    name: String,
+    /// What is asked of it.
+    demand: DemandColumn,
+    /// How much of that it can take, where that is known; else the largest demand of all runs is shown.
+    capacity: Option<f64>,
+    /// The demand that says of a run whether it goes beyond, and from where on.
+    beyond: (DemandColumn, f64),
+}
+
+impl HistoriesReport<'_> {
+    /// What the isolators and what stands on them can take, beside what is asked of it, and how many runs go
+    /// beyond; none for a model without gap, ends of travel, stop or contents.
+    pub(super) fn capacity(&self, model: &ModelHistories) -> Option<Table> {
+        let statistic = format!("Demand, {}", model.statistic());
+        let heads = ["", &statistic, "Friction", "Capacity", "Used (%)", "Runs beyond"];
+        let rows: Vec<Vec<String>> =
+            capacities(model).iter().map(|of| self.capacity_row(model, of)).collect();
+        let rows = core::iter::once(heads.map(str::to_owned).to_vec()).chain(rows);
+        let rows: Vec<Vec<String>> = rows.collect();
+        (rows.len() > 1).then(|| (self.of_model("Demand and capacity", model), rows))
+    }
+
+    fn capacity_row(&self, model: &ModelHistories, of: &Capacity) -> Vec<String> {
+        let Capacity { name, demand, capacity, beyond: (counted, limit) } = of;
+        let runs = |column: &DemandColumn| -> Vec<(usize, f64)> {
+            let of = |bound| model.sizes(column, bound).into_iter().map(move |size| (bound, size));
+            (0..model.bounds.len()).flat_map(of).filter(|(_, size)| !size.is_nan()).collect()
+        };
+        let largest = || runs(demand).into_iter().reduce(|a, b| if b.1 > a.1 { b } else { a });
+        let governs = match capacity {
+            Some(_) => model.governs(demand).map(|(bound, value)| (bound.name, value)),
+            None => largest().map(|(bound, value)| (model.bounds[bound].name, value)),
+        };
+        let (bound, value) = governs.unwrap_or(("—", f64::NAN));
+        let capacity = capacity.unwrap_or(f64::NAN);
+        let unit = self.display.unit(demand.dimension().into(), value.max(capacity));
+        let counted = runs(counted);
+        let over = counted.iter().filter(|(_, size)| size > limit).count();
+        vec![
+            unit.label(name),
+            cell(unit.of(value)),
+            bound.to_owned(),
+            cell(unit.of(capacity)),
+            cell(100.0 * value / capacity),
+            format!("{over} of {}", counted.len()),
+        ]
+    }
+
+    /// A heading, with the name of the model where there are several.
+    fn of_model(&self, heading: &str, model: &ModelHistories) -> String {
+        match self.histories.models.len() {
+            1 => heading.to_owned(),
+            _ => format!("{heading}, {}", model.name),
+        }
+    }
+
+    /// The equivalent-lateral-force displacement with each bound, beside that of the runs.
+    pub(super) fn lateral(&self, model: &ModelHistories) -> Option<(String, Vec<Vec<String>>)> {
+        let found = model.lateral.iter().flatten();
+        let largest = found.clone().map(|found| found.displacement_m).reduce(f64::max)?;
+        let stiffest = found.map(|found| found.stiffness_n_per_m).fold(0.0, f64::max);
+        let (length, stiffness) = (
+            self.display.unit(Quantity::Length, largest),
+            self.display.unit(Quantity::Stiffness, stiffest),
+        );
+        let total = self.plan.map_or(LEAST_TOTAL, |plan| plan.total_over_displacement());
+        let peak = model.shape().find(SHOWN[0])?.1;
+        let runs = |bound: usize| model.governing(&peak, bound);
+        type Value<'b> = Box<dyn Fn(&LateralForce, usize) -> f64 + 'b>;
+        let rows: [(String, Value<'_>); 8] = [
+            (
+                stiffness.label("Effective stiffness k_M"),
+                Box::new(|found, _| stiffness.of(found.stiffness_n_per_m)),
+            ),
+            (
+                "Effective damping β_M (%)".to_owned(),
+                Box::new(|found, _| 100.0 * found.damping_ratio),
+            ),
+            ("Damping factor B_M".to_owned(), Box::new(|found, _| found.damping_factor)),
+            ("Effective period T_M (s)".to_owned(), Box::new(|found, _| found.period_s)),
+            (
+                length.label("Displacement D_M"),
+                Box::new(|found, _| length.of(found.displacement_m)),
+            ),
+            (
+                length.label(&match self.plan {
+                    Some(_) => format!("Total displacement D_TM = {} D_M", cell(total)),
+                    None => "1.15 D_M, the least D_TM".to_owned(),
+                }),
+                Box::new(move |found, _| length.of(total * found.displacement_m)),
+            ),
+            (
+                length.label(&format!("Runs, {}", model.statistic())),
+                Box::new(|_, bound| length.of(runs(bound))),
+            ),
+            ("  over D_M".to_owned(), Box::new(|found, bound| runs(bound) / found.displacement_m)),
+        ];
+        let heads = model.bounds.iter().map(|bound| bound.name.to_owned());
+        let heads = core::iter::once(String::new()).chain(heads).collect();
+        let row = |(name, value): &(String, Value<'_>)| {
+            let of = |(bound, found): (usize, &Option<LateralForce>)| {
+                cell(found.map_or(f64::NAN, |found| value(&found, bound)))
+            };
+            let cells = model.lateral.iter().enumerate().map(of);
+            core::iter::once(name.clone()).chain(cells).collect()
+        };
+        let heading = format!("Equivalent lateral force{} beside the runs", self.at());
+        let heading = self.of_model(&heading, model);
+        Some((heading, core::iter::once(heads).chain(rows.iter().map(row)).collect()))
+    }
+}
+
+/// What a model can take: its gap, the travel of its surfaces, its stop, its contents.
+fn capacities(model: &ModelHistories) -> Vec<Capacity> {
+    let shape = model.shape();
+    let of = |name: &str| Some(shape.find(name)?.1);
+    let mut all = Vec::new();
+    let mut add = |name: String, demand: &str, capacity, beyond: Option<DemandColumn>, limit| {
+        if let (Some(demand), Some(beyond)) = (of(demand), beyond) {
+            all.push(Capacity { name, demand, capacity, beyond: (beyond, limit) });
+        }
+    };
+    if let Some(gap_m) = model.gap_m {
+        add("Gap".to_owned(), SHOWN[0], model.gap_m, of(SHOWN[0]), gap_m);
+    }
+    for (i, travel_m) in model.travels_m.iter().enumerate().filter(|(_, travel)| travel.is_some()) {
+        let key = |key: &str| format!("surface{}_{key}", i + 1);
+        let name = format!("Travel of surface {}", i + 1);
+        add(name, &key("peak_displacement_m"), *travel_m, of(&key("end_reached")), 0.0);
+    }
+    for (name, demand, count) in [
+        ("Stop struck: largest force", "stop.peak_force_n", "stop.contact_count"),
+        ("Stop struck: fastest", "stop.peak_impact_speed_m_per_s", "stop.impact_count"),
+    ] {
+        let struck = of(count).filter(|column| {
+            (0..model.bounds.len()).any(|i| model.sizes(column, i).iter().any(|n| *n > 0.0))
+        });
+        add(name.to_owned(), demand, None, struck, 0.0);
+    }
+    for part in 1..=shape.contents {
+        let demand = format!("contents{part}_{}", SHOWN[0]);
+        add(format!("Contents {part} slide: farthest"), &demand, None, of(&demand), 0.0);
+    }
+    all
+}
+
+/// Property modification factors and their products.
+pub(super) fn factor_table(factors: &PropertyFactors) -> Table {
+    let bounds = factors.bounds();
+    let row =
+        |(name, [least, most]): (&str, [f64; 2])| vec![name.to_owned(), cell(least), cell(most)];
+    let rows = [
+        ("λ_test: heating, speed, cycling", factors.test),
+        ("λ_ae: aging and environment", factors.aging),
+        ("λ_spec: tolerance of the specification", factors.specification),
+        ("λ on friction, with 0.75 of aging", [bounds.lower, bounds.upper]),
+    ];
+    let heads = ["", "Least", "Largest"].map(str::to_owned).to_vec();
+    let rows = core::iter::once(heads).chain(rows.into_iter().map(row)).collect();
+    ("Property modification factors".to_owned(), rows)
+}
