@@ -7,8 +7,8 @@
 use super::series::{Kind, Series, square};
 use super::stop::Arc;
 use super::system::{State, System, norm};
-use crate::numerics::algebra::dot;
 use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, curvature_bound, largest, value};
+use crate::numerics::algebra::dot;
 
 /// A relative difference of peaks that is rounding.
 const ROUNDING: f64 = 1e-15;

@@ -119,8 +119,8 @@ impl Plane<'_> {
         let change = norm([at.push[0] - friction * u[0], at.push[1] - friction * u[1]]);
         let reach_s = REACH * at.speed / change;
         let near_s = at.speed / (friction + push);
-        let (ea, eb): (f64, f64) = (std::env::var("EA").map_or(2.0, |x| x.parse().unwrap()), std::env::var("EB").map_or(3.0, |x| x.parse().unwrap()));
-        if eb * reach_s >= left_s || ea * reach_s >= near_s {
+        // A step near rest covers some three times r/(f + |p|), and costs two or three of these.
+        if 3.0 * reach_s >= left_s || 2.0 * reach_s >= near_s {
             let unit_s = left_s.min(2.0 * reach_s);
             return self.step_in_time(Kind::Slip, (stretch, at_s), loads, unit_s);
         }
