@@ -227,7 +227,7 @@ impl System {
     fn along_x(&self) -> Response {
         let motion =
             GroundMotion::new(self.times_s.clone(), self.table[0].clone(), self.vertical.clone());
-        exact(&self.model(), &motion.expect("a motion")).expect("a response")
+        exact(&self.along_a_line(0.0).model(), &motion.expect("a motion")).expect("a response")
     }
 }
 

@@ -264,8 +264,7 @@ impl<'a> Phase<'a> for Plane<'a> {
         };
         let (system, scales) = (&phase.system, &phase.scales);
         phase.series.expand(system, (kind, &phase.state), (loads, 1e-3), scales);
-        let from_s = walk.ground.times_s[stretch.interval];
-        phase.peaks.look(&phase.system, &phase.series, 0.0, from_s);
+        phase.look_for_peaks(stretch, 0.0, 0.0);
         phase.starts = false;
     }
 

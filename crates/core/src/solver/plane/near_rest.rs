@@ -114,7 +114,8 @@ impl Series {
                 self.rate[next + j] = -per * (sum + l[0] * block[0] + l[1] * block[1]);
             }
         }
-        self.part = self.fitting_part(modes, scales).min(1.0);
+        self.degree = order;
+        self.part = self.fitting_part(scales).min(1.0);
     }
 
     /// The part at which a time is reached, none where that is beyond its end.

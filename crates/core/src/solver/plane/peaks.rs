@@ -6,8 +6,9 @@
 
 use super::series::{Kind, Series, square};
 use super::stop::Arc;
-use super::system::{System, norm};
+use super::system::{State, System, norm};
 use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, curvature_bound, largest, value};
+use crate::numerics::algebra::dot;
 
 /// A relative difference of peaks that is rounding.
 const ROUNDING: f64 = 1e-15;
@@ -41,22 +42,44 @@ impl Peak {
         self.note(ends[1]).then_some(to).or(first)
     }
 
+    /// Whether values between two, which depart from their chord by so much, are below what is attained.
+    #[inline(always)]
+    fn is_above(&self, [a, b]: [[f64; 2]; 2], bend: [f64; 2]) -> bool {
+        let above = |bound: f64, attained: f64| bound <= attained + ROUNDING * self.norm;
+        above(norm(a).max(norm(b)) + norm(bend), self.norm)
+            && (0..2).all(|k| above(a[k].abs().max(b[k].abs()) + bend[k], self.axes[k]))
+    }
+
     /// Looks for peaks of a series over `[0, to]`; where its length is largest, if that is new.
     fn look(&mut self, of: &[Polynomial; 2], to: f64) -> Option<f64> {
-        let at = |x: f64| [value(&of[0], x), value(&of[1], x)];
-        let ends = [[of[0][0], of[1][0]], at(to)];
-        let best = self.note_ends(ends, to);
-        let bends = [bend(&of[0], to), bend(&of[1], to)];
-        for axis in 0..2 {
-            let component = Arch { bend: bends[axis], ends: ends.map(|v| v[axis].abs()), to };
-            component.search(|x| value(&of[axis], x).abs(), &mut self.axes[axis]);
-        }
+        let (ends, bends, best) = self.look_at_axes(of, to);
         if norm(ends[0]).max(norm(ends[1])) + norm(bends) <= self.norm * (1.0 + ROUNDING) {
             return best;
         }
         let q = squared(of);
-        let arch = Arch { bend: bend(&q, to), ends: ends.map(|v| v[0] * v[0] + v[1] * v[1]), to };
+        let (bend, rounding) = (bend(&q, to), ROUNDING * (self.norm * self.norm));
+        let ends = ends.map(|v| v[0] * v[0] + v[1] * v[1]);
+        let arch = Arch { bend, rounding, ends, to };
         self.search_length(&arch, |x| value(&q, x), best)
+    }
+
+    /// Looks for peaks of the components, and notes the ends: these, how far the components depart from their
+    /// chords, and which end is the farthest so far, if one is.
+    #[inline(always)]
+    fn look_at_axes(
+        &mut self,
+        of: &[Polynomial; 2],
+        to: f64,
+    ) -> ([[f64; 2]; 2], [f64; 2], Option<f64>) {
+        let ends = [[of[0][0], of[1][0]], [value(&of[0], to), value(&of[1], to)]];
+        let best = self.note_ends(ends, to);
+        let bends = [bend(&of[0], to), bend(&of[1], to)];
+        for axis in 0..2 {
+            let (bend, rounding) = (bends[axis], ROUNDING * self.norm);
+            let component = Arch { bend, rounding, ends: ends.map(|v| v[axis].abs()), to };
+            component.search(|x| value(&of[axis], x).abs(), &mut self.axes[axis]);
+        }
+        (ends, bends, best)
     }
 
     /// Looks for the largest square of the length.
@@ -75,9 +98,11 @@ impl Peak {
     }
 }
 
-/// A function over `[0, to]`: its values at the ends, and how far it departs from its chord.
+/// A function over `[0, to]`: its values at the ends, how far it departs from its chord, and what of it is
+/// rounding.
 struct Arch {
     bend: f64,
+    rounding: f64,
     ends: [f64; 2],
     to: f64,
 }
@@ -87,7 +112,7 @@ impl Arch {
     fn search(&self, of: impl Fn(f64) -> f64, attained: &mut f64) -> Option<f64> {
         let [first, last] = self.ends;
         let is_below = |ends: [f64; 2], part: f64, attained: f64| {
-            ends[0].max(ends[1]) + self.bend * (part * part) <= attained * (1.0 + ROUNDING)
+            ends[0].max(ends[1]) + self.bend * (part * part) <= attained + self.rounding
         };
         if self.to == 0.0 || is_below(self.ends, 1.0, *attained) {
             return None;
@@ -146,6 +171,8 @@ impl Output {
 pub(super) struct Peaks {
     storeys: usize,
     all: Vec<Peak>,
+    /// Room for a number of each mode.
+    bends: Vec<f64>,
     /// Of `s`: its length, when that was largest and where; largest and smallest by axis.
     pub(super) sliding: Peak,
     pub(super) peak_time_s: f64,
@@ -202,6 +229,7 @@ impl Peaks {
         Self {
             storeys: system.storeys,
             all: vec![Peak::default(); 6 + 3 * system.storeys],
+            bends: vec![0.0; system.modes()],
             sliding,
             peak_time_s: 0.0,
             peak_place: s,
@@ -214,29 +242,67 @@ impl Peaks {
         self.all[output.place(self.storeys)]
     }
 
-    /// Looks for peaks in the first part of a series that begins at a time.
-    pub(super) fn look(&mut self, system: &System, series: &Series, to: f64, from_s: f64) {
+    /// Looks for peaks in the first part of a series that begins at a time, and ends in a state.
+    pub(super) fn look(
+        &mut self,
+        system: &System,
+        (series, to): (&Series, f64),
+        from_s: f64,
+        end: (&State, &[f64]),
+    ) {
         if series.kind != Kind::Stick {
             self.look_at_sliding(series, to, from_s);
             self.look_at(Output::Velocity, &series.w, to);
         }
         self.look_at_block(system, series, to);
-        if system.storeys == 0 {
-            return;
+        if system.storeys > 0 {
+            self.look_at(Output::Shear, &series.shear, to);
+            self.look_at_storeys(system, (series, to), end);
         }
-        self.look_at(Output::Shear, &series.shear, to);
+    }
+
+    /// The outputs of the storeys, which are combinations of modes: their series are asked for where the bends
+    /// of the modes are not enough.
+    fn look_at_storeys(
+        &mut self,
+        system: &System,
+        (series, to): (&Series, f64),
+        (end, g): (&State, &[f64]),
+    ) {
+        let mut bends = core::mem::take(&mut self.bends);
+        let displacements = (&*series.eta, &*end.eta);
+        series.bends(&series.eta, to, &mut bends);
         for i in 0..system.storeys {
-            let of = |list: &[f64], row: &dyn Fn(usize) -> Vec<f64>| {
-                [0, 1].map(|axis| combined(&row(axis), list, series.accuracy.order))
-            };
-            let floor = |axis: usize| system.floor(axis, i).to_vec();
-            self.look_at(Output::Displacement(i), &of(&series.eta, &floor), to);
-            let against = |axis: usize| system.floor(axis, i).iter().map(|x| -x).collect();
-            self.look_at(Output::Acceleration(i), &of(&series.g, &against), to);
+            let rows = [system.floor(0, i), system.floor(1, i)];
+            self.look_at_rows(Output::Displacement(i), rows, displacements, (series, to), &bends);
             if i > 0 {
-                let drift = |axis: usize| system.drift(axis, i).to_vec();
-                self.look_at(Output::Drift(i), &of(&series.eta, &drift), to);
+                let rows = [system.drift(0, i), system.drift(1, i)];
+                self.look_at_rows(Output::Drift(i), rows, displacements, (series, to), &bends);
             }
+        }
+        series.bends(&series.g, to, &mut bends);
+        for i in 0..system.storeys {
+            let rows = [system.floor(0, i), system.floor(1, i)];
+            self.look_at_rows(Output::Acceleration(i), rows, (&series.g, g), (series, to), &bends);
+        }
+        self.bends = bends;
+    }
+
+    /// The same output of the modes along x and y, from their series and what they are at its end.
+    fn look_at_rows(
+        &mut self,
+        output: Output,
+        rows: [&[f64]; 2],
+        (list, last): (&[f64], &[f64]),
+        (series, to): (&Series, f64),
+        bends: &[f64],
+    ) {
+        let peak = &mut self.all[output.place(self.storeys)];
+        let ends = [list, last].map(|x| rows.map(|row| dot(row, &x[..row.len()])));
+        let bend = rows.map(|row| row.iter().zip(bends).map(|(x, bend)| x.abs() * bend).sum());
+        peak.note_ends(ends, to);
+        if !peak.is_above(ends, bend) {
+            peak.look(&rows.map(|row| combined(row, list, series.degree)), to);
         }
     }
 
@@ -280,12 +346,12 @@ impl Peaks {
             of_friction: system.block_kg,
         };
         self.look_at_composed(Output::Block, &block, series, near.as_ref(), to);
-        self.look_at_composed(Output::Friction, &friction, series, near.as_ref(), to);
+        self.look_at_friction(system, &friction, series, near.as_ref(), to);
         self.look_at_composed(Output::Slider, &slider, series, near.as_ref(), to);
         for axis in 0..2 {
             let Some((arm, block)) = &system.overturning[axis] else { continue };
             // The moment of floors and block: −arm·g + block·b; the other axis is nothing.
-            let modes = combined(arm, &series.g, series.accuracy.order);
+            let modes = combined(arm, &series.g, series.degree);
             let mut steady = [ZERO; 2];
             steady[axis] = core::array::from_fn(|k| block * pull[axis][k] - modes[k]);
             let moment = Composed { steady, of_friction: *block };
@@ -313,6 +379,23 @@ impl Peaks {
                 let peak = &mut self.all[output.place(self.storeys)];
                 near.look(peak, composed, series, to);
             }
+        }
+    }
+
+    /// In slip the size of friction is linear in the time: its ends are its peaks.
+    fn look_at_friction(
+        &mut self,
+        system: &System,
+        friction: &Composed,
+        series: &Series,
+        near: Option<&NearRest>,
+        to: f64,
+    ) {
+        if matches!(series.kind, Kind::Slip | Kind::Start) {
+            let f: [Polynomial; 2] = series.friction.map(|f| scaled(&f, system.block_kg));
+            self.all[Output::Friction.place(self.storeys)].look_at_axes(&f, to);
+        } else {
+            self.look_at_composed(Output::Friction, friction, series, near, to);
         }
     }
 
@@ -348,8 +431,8 @@ impl Peaks {
         ];
         for (output, [from, to], c) in of {
             let peak = &mut self.all[output.place(self.storeys)];
-            for u in arc.extremes(to) {
-                let left = arc.part_left(u);
+            let within = arc.extremes(to).map(|u| (u, arc.part_left(u)));
+            for (u, left) in within.chain([(arc.to, 0.0)]) {
                 peak.note([0, 1].map(|k| (to[k] + (from[k] - to[k]) * left) - c * u[k]));
             }
         }
@@ -378,26 +461,35 @@ fn combined(row: &[f64], list: &[f64], order: usize) -> Polynomial {
     sums
 }
 
-/// `φ = f u` near rest, with `u' = u⊥ (p·u⊥)` in `τ`:
-/// `|u'| ≤ |p|`, `|u''| ≤ 2 |p|² + |p'|`.
+/// `φ = f u` near rest. In `τ` the direction turns by `θ' = u × p`, and over a step of length `x`
+///
+/// ```text
+/// |θ''| ≤ |p| |θ'| + |u × p'|,   |u × p'| ≤ |u_0 × p'| + x |p'| |θ'|
+/// |θ'| ≤ (|u_0 × p_0| + x |u_0 × p'|) e^{(|p| + x |p'|) x}
+/// ```
 fn near_rest(system: &System, series: &Series, to: f64) -> NearRest {
     let [f, f_rate] = series.loads.normal.map(|n| system.kinetic_per_kg * n);
     let h = series.unit;
-    let [mut slopes, mut sizes] = [[0.0; 2]; 2];
-    for axis in 0..2 {
+    let [u_x, u_y] = [series.w[0][0], series.w[1][0]].map(|w| w / series.speed[0]);
+    let push = [0, 1].map(|axis| -> Polynomial {
         let [table, rate] = series.loads.table[axis];
-        let push: Polynomial = core::array::from_fn(|k| {
-            series.pull[axis][k] - rate * series.time[k] - if k == 0 { table } else { 0.0 }
-        });
-        [slopes[axis], sizes[axis]] = bounds(&push, to);
-    }
-    let (push, push_slope) = (h * norm(sizes), norm(slopes));
+        core::array::from_fn(|k| {
+            h * (series.pull[axis][k] - rate * series.time[k] - if k == 0 { table } else { 0.0 })
+        })
+    });
+    let across: Polynomial = core::array::from_fn(|k| u_x * push[1][k] - u_y * push[0][k]);
+    let of_push = [bounds(&push[0], to), bounds(&push[1], to)];
+    let [slope, size] = [0, 1].map(|i| norm([of_push[0][i], of_push[1][i]]));
+    let [across_slope, _] = bounds(&across, to);
+    let growth = libm::exp((size + to * slope) * to);
+    let turn = size.min((across[0].abs() + to * across_slope) * growth);
+    let second_turn = size * turn + slope.min(across_slope + to * slope * turn);
     let [time_slope, _] = bounds(&series.time, to);
     let largest = f.max(f + f_rate * value(&series.time, to));
-    let second = largest * (2.0 * push * push + h * push_slope)
-        + 2.0 * (f_rate.abs() * time_slope) * push
-        + 8.0 * f_rate.abs() * bend(&series.time, to) / (to * to).max(f64::MIN_POSITIVE);
-    let first = largest * push + f_rate.abs() * time_slope;
+    let changes = f_rate.abs() * time_slope;
+    let of_time = 8.0 * f_rate.abs() * bend(&series.time, to) / (to * to).max(f64::MIN_POSITIVE);
+    let second = largest * (turn * turn + second_turn) + 2.0 * changes * turn + of_time;
+    let first = largest * turn + changes;
     NearRest { friction: [f, f_rate], sizes: [largest, first, second] }
 }
 
@@ -419,7 +511,8 @@ impl NearRest {
         let [size, first, second] = self.sizes;
         for axis in 0..2 {
             let bend = bend(&a[axis], to) + 0.125 * c * second * (to * to);
-            let arch = Arch { bend, ends: ends.map(|v| v[axis].abs()), to };
+            let rounding = ROUNDING * peak.norm;
+            let arch = Arch { bend, rounding, ends: ends.map(|v| v[axis].abs()), to };
             arch.search(|x| of(x)[axis].abs(), &mut peak.axes[axis]);
         }
         let [mut slopes, mut sizes, mut bends] = [[0.0; 2]; 3];
@@ -435,7 +528,8 @@ impl NearRest {
             + 2.0 * size * self.friction[1].abs() * bend(&series.time, to);
         let bend = bend(&squared(a), to) + 2.0 * c * product + c * c * of_friction;
         let square = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
-        let arch = Arch { bend, ends: ends.map(square), to };
+        let rounding = ROUNDING * (peak.norm * peak.norm);
+        let arch = Arch { bend, rounding, ends: ends.map(square), to };
         peak.search_length(&arch, |x| square(of(x)), None);
     }
 }

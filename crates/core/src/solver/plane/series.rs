@@ -49,7 +49,6 @@ pub(super) struct Scales {
 impl Scales {
     /// With those of a state.
     pub(super) fn note(&mut self, state: &State) {
-        let largest = |list: &[f64], from: f64| list.iter().fold(from, |all, x| all.max(x.abs()));
         self.s = self.s.max(norm(state.s));
         self.w = self.w.max(norm(state.w));
         self.eta = largest(&state.eta, self.eta);
@@ -61,11 +60,14 @@ impl Scales {
 pub(super) struct Series {
     pub(super) kind: Kind,
     pub(super) accuracy: Accuracy,
+    modes: usize,
     pub(super) loads: Loads,
     /// Unit of the variable: in s, of `τ` in s²/m.
     pub(super) unit: f64,
     /// What of it is exact.
     pub(super) part: f64,
+    /// The last order that is more than rounding.
+    pub(super) degree: usize,
     /// The time in s, `|w|`, and near rest the root of `w` as a complex number.
     pub(super) time: Polynomial,
     pub(super) speed: Polynomial,
@@ -127,9 +129,11 @@ impl Series {
         Self {
             kind: Kind::Stick,
             accuracy,
+            modes: system.modes(),
             loads: Loads { table: [[0.0; 2]; 2], normal: [0.0; 2] },
             unit: 0.0,
             part: 0.0,
+            degree: 0,
             time: ZERO,
             speed: ZERO,
             root: pair(),
@@ -149,11 +153,12 @@ impl Series {
     pub(super) fn begin(&mut self, kind: Kind, state: &State, loads: Loads, unit: f64) {
         let modes = state.eta.len();
         (self.kind, self.loads, self.unit) = (kind, loads, unit);
-        for list in [&mut self.s, &mut self.w, &mut self.pull, &mut self.friction] {
-            *list = [ZERO; 2];
-        }
-        for list in [&mut self.direction, &mut self.shear, &mut self.root] {
-            *list = [ZERO; 2];
+        let lists = [&mut self.s, &mut self.w, &mut self.pull, &mut self.friction, &mut self.shear];
+        lists.into_iter().for_each(|list| *list = [ZERO; 2]);
+        match kind {
+            Kind::Slip | Kind::Start => self.direction = [ZERO; 2],
+            Kind::NearRest => self.root = [ZERO; 2],
+            Kind::Stick | Kind::Frictionless => {}
         }
         (self.time, self.speed) = (ZERO, ZERO);
         for k in 0..2 {
@@ -161,6 +166,11 @@ impl Series {
         }
         self.eta[..modes].copy_from_slice(&state.eta);
         self.rate[..modes].copy_from_slice(&state.rate);
+    }
+
+    /// `|p|²` of a stick, from which the release is found: coefficient `k` as a size.
+    fn push_squared(&self, k: usize) -> f64 {
+        (square(&self.friction[0], k) + square(&self.friction[1], k)).abs()
     }
 
     /// `g` and the shear of an order, from the states of that order.
@@ -186,6 +196,8 @@ impl Series {
         let order = self.accuracy.order;
         let normal = [loads.normal[0], loads.normal[1] * unit_s];
         let mut along = Along::default();
+        self.degree = order;
+        let mut sizes = Sizes::default();
         for k in 0..=order {
             self.restore(system, k);
             for axis in 0..2 {
@@ -196,6 +208,10 @@ impl Series {
                     system.pull(self.shear[axis][k], s[k], self.w[axis][k], pressed);
             }
             self.find_friction(system, &mut along, k);
+            if k >= LOW && sizes.are_negligible(self, scales, k) {
+                self.degree = k;
+                break;
+            }
             if k < order {
                 self.integrate(system, k);
             }
@@ -203,7 +219,7 @@ impl Series {
         if kind == Kind::Start {
             self.speed = along.speed;
         }
-        self.fit(system.modes(), scales);
+        self.fit(scales);
     }
 
     /// Coefficient `k` of `a`.
@@ -295,8 +311,8 @@ impl Series {
     }
 
     /// How much of the unit the last terms allow, and that the direction is that of `w` on all of it.
-    fn fit(&mut self, modes: usize, scales: &Scales) {
-        let mut part = self.fitting_part(modes, scales);
+    fn fit(&mut self, scales: &Scales) {
+        let mut part = self.fitting_part(scales);
         if matches!(self.kind, Kind::Slip | Kind::Start) {
             // |w| > 0 on all of it.
             let order = self.speed.iter().position(|r| *r != 0.0).unwrap_or(0);
@@ -322,57 +338,30 @@ impl Series {
     }
 
     /// How much of the unit the last terms allow, perhaps above 1.
-    pub(super) fn fitting_part(&self, modes: usize, scales: &Scales) -> f64 {
-        let order = self.accuracy.order;
-        let mut last = [0.0_f64; 2];
-        let mut take = |c: [f64; 2], scale: f64| {
-            for (last, c) in last.iter_mut().zip(c) {
-                if c != 0.0 {
-                    *last = last.max(c.abs() / scale);
-                }
-            }
-        };
-        let ends = |c: &Polynomial| [c[order - 1], c[order]];
-        let sizes = |list: &[f64], k: usize| {
-            list[k * modes..(k + 1) * modes].iter().fold(0.0_f64, |all, x| all.max(x.abs()))
-        };
-        let of_modes = |list: &[f64], scale: f64| {
-            let scale = (0..LOW).fold(scale, |scale, k| scale.max(sizes(list, k)));
-            ([sizes(list, order - 1), sizes(list, order)], scale)
-        };
-        let first = |c: &[Polynomial; 2]| {
-            (0..LOW).fold(0.0_f64, |scale, k| scale.max(c[0][k].abs()).max(c[1][k].abs()))
-        };
-        let (of_s, of_w) = (scales.s.max(first(&self.s)), scales.w.max(first(&self.w)));
-        for axis in 0..2 {
-            take(ends(&self.s[axis]), of_s);
-            match self.kind {
-                Kind::NearRest => {
-                    let z = norm([self.root[0][0], self.root[1][0]]);
-                    take(ends(&self.root[axis]), z);
-                }
-                _ => take(ends(&self.w[axis]), of_w),
-            }
-            take(ends(&self.direction[axis]), 1.0);
+    pub(super) fn fitting_part(&self, scales: &Scales) -> f64 {
+        let k = self.degree;
+        if k < self.accuracy.order && self.accuracy.part == 1.0 {
+            return 1.0;
         }
-        if self.kind == Kind::Stick {
-            // |p|², from which the release is found.
-            let p = &self.friction;
-            let terms = |k: usize| (square(&p[0], k) + square(&p[1], k)).abs();
-            let scale = (0..LOW).fold(0.0_f64, |scale, k| scale.max(terms(k)));
-            take([terms(order - 1), terms(order)], scale);
-        }
-        if modes > 0 {
-            let (c, scale) = of_modes(&self.eta, scales.eta);
-            take(c, scale);
-            let (c, scale) = of_modes(&self.rate, scales.rate);
-            take(c, scale);
-        }
-        let [before, last] = last;
-        let root = |term: f64, k: usize| {
+        let sizes = Sizes::of(self, scales);
+        let root = |k: usize| {
+            let term = sizes.term(self, k);
             if term > NEGLIGIBLE { libm::pow(NEGLIGIBLE / term, 1.0 / k as f64) } else { 4.0 }
         };
-        self.accuracy.part * root(before, order - 1).min(root(last, order))
+        self.accuracy.part * root(k - 1).min(root(k))
+    }
+
+    /// How far each mode's series of a list departs from its chord over a part of the unit at most.
+    pub(super) fn bends(&self, list: &[f64], to: f64, bends: &mut [f64]) {
+        bends.fill(0.0);
+        for k in (2..=self.degree).rev() {
+            let factor = 0.125 * (k * (k - 1)) as f64;
+            let of_k = &list[k * self.modes..][..self.modes];
+            for (bend, c) in bends.iter_mut().zip(of_k) {
+                *bend = *bend * to + factor * c.abs();
+            }
+        }
+        bends.iter_mut().for_each(|bend| *bend *= to * to);
     }
 
     /// The state at a part of the unit.
@@ -387,7 +376,7 @@ impl Series {
         for (into, list) in [(&mut state.eta, &self.eta), (&mut state.rate, &self.rate)] {
             for (j, into) in into.iter_mut().enumerate() {
                 let mut sum = 0.0;
-                for k in (0..=self.accuracy.order).rev() {
+                for k in (0..=self.degree).rev() {
                     sum = sum * x + list[k * modes + j];
                 }
                 *into = sum;
@@ -404,6 +393,71 @@ impl Series {
         }
         [value(&self.w[0], x), value(&self.w[1], x)]
     }
+}
+
+/// Against what the terms of a series are negligible: the largest so far, and its own first terms.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sizes {
+    s: f64,
+    of_velocity: f64,
+    push: f64,
+    eta: f64,
+    rate: f64,
+    is_known: bool,
+}
+
+impl Sizes {
+    fn of(series: &Series, scales: &Scales) -> Self {
+        let first = |c: &[Polynomial; 2], scale: f64| {
+            (0..LOW).fold(scale, |scale, k| scale.max(c[0][k].abs()).max(c[1][k].abs()))
+        };
+        let modes = series.modes;
+        let of_modes = |list: &[f64], scale: f64| largest(&list[..LOW * modes], scale);
+        let is_near_rest = series.kind == Kind::NearRest;
+        let root = [series.root[0][0], series.root[1][0]];
+        let is_stuck = series.kind == Kind::Stick;
+        let push = |k: usize| series.push_squared(k);
+        Self {
+            s: first(&series.s, scales.s),
+            of_velocity: if is_near_rest { norm(root) } else { first(&series.w, scales.w) },
+            push: if is_stuck { (0..LOW).fold(0.0, |all, k| push(k).max(all)) } else { 1.0 },
+            eta: of_modes(&series.eta, scales.eta),
+            rate: of_modes(&series.rate, scales.rate),
+            is_known: true,
+        }
+    }
+
+    /// The largest term of an order over its size.
+    fn term(&self, series: &Series, k: usize) -> f64 {
+        let over = |term: f64, size: f64| if term == 0.0 { 0.0 } else { term / size };
+        let pair = |c: &[Polynomial; 2], size: f64| over(c[0][k].abs().max(c[1][k].abs()), size);
+        let of_kind = match series.kind {
+            Kind::Stick => over(series.push_squared(k), self.push),
+            Kind::Frictionless => pair(&series.w, self.of_velocity),
+            Kind::Slip | Kind::Start => {
+                pair(&series.w, self.of_velocity).max(pair(&series.direction, 1.0))
+            }
+            Kind::NearRest => pair(&series.root, self.of_velocity),
+        };
+        let at = k * series.modes..(k + 1) * series.modes;
+        let of_modes = over(largest(&series.eta[at.clone()], 0.0), self.eta)
+            .max(over(largest(&series.rate[at], 0.0), self.rate));
+        of_kind.max(pair(&series.s, self.s)).max(of_modes)
+    }
+
+    /// Whether an order and the one before it are negligible.
+    #[inline(always)]
+    fn are_negligible(&mut self, series: &Series, scales: &Scales, k: usize) -> bool {
+        if !self.is_known {
+            *self = Self::of(series, scales);
+        }
+        self.term(series, k) <= NEGLIGIBLE && self.term(series, k - 1) <= NEGLIGIBLE
+    }
+}
+
+/// The largest size in a list, or what is larger.
+fn largest(list: &[f64], from: f64) -> f64 {
+    list.iter().fold(from, |all, x| if x.abs() > all { x.abs() } else { all })
 }
 
 /// A start by components along and across `p` at its beginning.

@@ -119,7 +119,8 @@ impl Plane<'_> {
         let change = norm([at.push[0] - friction * u[0], at.push[1] - friction * u[1]]);
         let reach_s = REACH * at.speed / change;
         let near_s = at.speed / (friction + push);
-        if 3.0 * reach_s >= left_s || 4.0 * reach_s >= 2.0 * near_s {
+        // A step near rest covers some three times r/(f + |p|), and costs two or three of these.
+        if 3.0 * reach_s >= left_s || 2.0 * reach_s >= near_s {
             let unit_s = left_s.min(2.0 * reach_s);
             return self.step_in_time(Kind::Slip, (stretch, at_s), loads, unit_s);
         }
@@ -180,11 +181,10 @@ impl Plane<'_> {
         }
         self.state.w = [0.0; 2];
         let to = self.instant(&loads.after(time_s));
-        if let Some(arc) = at.arc(w, &to) {
-            let shear_n = self.system.shear_n(&self.scratch[0]);
-            self.peaks.note_arc(&self.system, &arc, ([from.0, to.pull], [from.1, shear_n]));
-            self.direction = arc.to;
-        }
+        let arc = at.arc(w, &to);
+        let shear_n = self.system.shear_n(&self.scratch[0]);
+        self.peaks.note_arc(&self.system, &arc, ([from.0, to.pull], [from.1, shear_n]));
+        self.direction = arc.to;
     }
 
     /// Moves to a part of a series in the time; the time reached.
@@ -197,8 +197,8 @@ impl Plane<'_> {
 
     /// Moves to a part of the series, and keeps what it tells.
     fn move_part(&mut self, stretch: &Stretch, at_s: f64, part: f64) {
-        self.look(stretch, at_s, part);
         self.series.state_at(part, &mut self.state);
+        self.look(stretch, at_s, part);
         self.scales.note(&self.state);
         if self.series.kind != Kind::Stick {
             let speed = norm(self.state.w);
@@ -209,14 +209,21 @@ impl Plane<'_> {
         }
     }
 
-    /// Looks for peaks, and adds to the path.
+    /// Looks for peaks up to the state, and adds to the path.
     fn look(&mut self, stretch: &Stretch, at_s: f64, part: f64) {
-        let from_s = self.ground.times_s[stretch.interval] + at_s;
-        self.peaks.look(&self.system, &self.series, part, from_s);
+        self.look_for_peaks(stretch, at_s, part);
         self.path_m += path_m(&self.series, part);
         match self.series.kind {
             Kind::Stick | Kind::Frictionless => self.least.interrupt(),
             _ => self.least.look(&self.series.speed, part),
         }
+    }
+
+    /// Looks for peaks in the first part of the series, up to the state.
+    pub(super) fn look_for_peaks(&mut self, stretch: &Stretch, at_s: f64, part: f64) {
+        let from_s = self.ground.times_s[stretch.interval] + at_s;
+        let [g, _] = &mut self.scratch;
+        self.system.restoring(&self.state.eta, &self.state.rate, g);
+        self.peaks.look(&self.system, (&self.series, part), from_s, (&self.state, g));
     }
 }

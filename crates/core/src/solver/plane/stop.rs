@@ -91,17 +91,15 @@ impl Instant {
         self.speed <= REST * peak_speed && inner(w, self.push) < self.friction * self.speed
     }
 
-    /// Directions that friction has on the arc at a stop, from that of `w` to that of `p` at rest: none in
-    /// straight motion.
-    pub(super) fn arc(&self, w: [f64; 2], at_rest: &Self) -> Option<Arc> {
+    /// Directions that friction has on the arc at a stop, from that of `w` to that of `p` at rest; in straight
+    /// motion the first alone.
+    pub(super) fn arc(&self, w: [f64; 2], at_rest: &Self) -> Arc {
         let (p, push) = (norm(at_rest.push), at_rest.push);
         let is_straight =
             inner(w, push) < 0.0 && cross(w, push).abs() < STRAIGHT * (self.speed * p);
-        if p == 0.0 || is_straight {
-            return None;
-        }
-        let (from, to) = (w.map(|w| w / self.speed), push.map(|x| x / p));
-        Some(Arc { from, to, push: p, friction: at_rest.friction })
+        let from = w.map(|w| w / self.speed);
+        let to = if p == 0.0 || is_straight { from } else { push.map(|x| x / p) };
+        Arc { from, to, push: p, friction: at_rest.friction }
     }
 }
 
@@ -118,11 +116,8 @@ impl Arc {
     /// Whether a direction is on it.
     fn holds(&self, u: [f64; 2]) -> bool {
         let turn = cross(self.from, self.to);
-        cross(self.from, u) * turn >= 0.0 && cross(u, self.to) * turn >= 0.0 && {
-            // On the shorter side.
-            let middle = [self.from[0] + self.to[0], self.from[1] + self.to[1]];
-            inner(u, middle) >= 0.0
-        }
+        let middle = [self.from[0] + self.to[0], self.from[1] + self.to[1]];
+        cross(self.from, u) * turn > 0.0 && cross(u, self.to) * turn > 0.0 && inner(u, middle) > 0.0
     }
 
     /// The part of the time to rest that is left at a direction: `Θ ~ r (f + p cos φ)`,
@@ -139,13 +134,11 @@ impl Arc {
         if left.is_finite() { left.clamp(0.0, 1.0) } else { 0.0 }
     }
 
-    /// Directions at which `A − c u` is extreme: the ends, `−A/|A|`, and ±x, ±y.
+    /// Directions within it at which `A − c u` is extreme: `−A/|A|`, and ±x, ±y.
     pub(super) fn extremes(&self, a: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
         let size = norm(a);
         let against = (size > 0.0).then(|| a.map(|a| -a / size));
         let axes = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]];
-        let inside = against.into_iter().chain(axes).filter(|u| self.holds(*u));
-        let inside: Vec<[f64; 2]> = inside.collect();
-        [self.from, self.to].into_iter().chain(inside)
+        against.into_iter().chain(axes).filter(|u| self.holds(*u))
     }
 }
