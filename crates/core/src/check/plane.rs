@@ -10,6 +10,7 @@ mod interval;
 mod judge;
 mod peaks;
 mod step;
+mod straight;
 #[cfg(test)]
 mod tests;
 
@@ -32,29 +33,34 @@ pub(super) fn check(
     response: &Response,
     go_on: GoOn<'_>,
 ) -> Result<Certificate, Stopped> {
+    let unjudged = || Ok(unjudged(1e-10));
+    let (Some(h), Some(plane)) = (response.history.as_ref(), response.in_plane.as_deref()) else {
+        return unjudged();
+    };
+    let Some(along_y) = plane.history.as_ref().filter(|y| is_beside(y, h)) else {
+        return unjudged();
+    };
+    if !(is_within(model) && well_formed(model, motion, h)) {
+        return unjudged();
+    }
+    if let Some(axis) = straight::only_axis(model, motion) {
+        return straight::check(model, motion, (response, plane, h, along_y), axis, go_on);
+    }
     let vertical = motion.vertical_m_per_s2().is_some();
-    let history = response.history.as_ref();
-    let end_s = history.and_then(|h| h.time_s.last().copied()).unwrap_or(0.0);
+    let end_s = h.time_s.last().copied().unwrap_or(0.0);
     let law = Law::new(model, vertical);
     let normal = Ground::new(model, motion, end_s).largest(end_s).0;
     let frame = PlaneFrame::new(model, vertical, &law, normal);
     let radians = frame.rates[1] * end_s;
-    let bound = (100.0 * f64::EPSILON * radians).max(1e-10);
-    let plane = response.in_plane.as_deref();
-    let (Some(h), Some(plane), true) = (history, plane, is_within(model)) else {
-        return Ok(unjudged(bound));
-    };
-    let Some(along_y) = plane.history.as_ref().filter(|y| is_beside(y, h)) else {
-        return Ok(unjudged(bound));
-    };
-    if radians > MAX_RADIANS || !well_formed(model, motion, h) {
-        return Ok(unjudged(bound));
+    if radians > MAX_RADIANS {
+        return unjudged();
     }
+    let bound = (100.0 * f64::EPSILON * radians).max(1e-10);
     let widths = [model.block().width_m, model.along_y().width_m];
     let outputs = Outputs::with_moment(model, widths.iter().any(Option::is_some));
     let given = Given { model, motion, table_y, response, plane, h, along_y };
     let judged = PlaneJudge::new(given, (&frame, &law), &outputs, Pulse::new(go_on)).run(bound)?;
-    Ok(judged.unwrap_or_else(|| unjudged(bound)))
+    judged.map_or_else(unjudged, Ok)
 }
 
 /// Whether the slider is the same in all directions and nothing else slides or stops.

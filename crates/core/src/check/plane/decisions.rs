@@ -12,14 +12,21 @@ use crate::response::Mode;
 
 /// A block that slows down to this part of its peak speed in a slip has come to rest if it holds.
 const REST: f64 = 1e-14;
-/// Sine of the angle between velocity and push below which a motion is straight.
-const STRAIGHT: f64 = 1e-6;
+/// Sine of the angle between velocity and push below which a motion is straight, and from which it is not.
+const STRAIGHT: [f64; 2] = [1e-6, 1e-5];
+
+/// Whether a motion against the push may be straight.
+pub(super) fn is_straight(w: Pair, push: Pair) -> bool {
+    dot(w, push) < 0.0 && sine(w, push) < STRAIGHT[1]
+}
 
 /// Where a side of a knot lies in its interval.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
     Start,
     End,
+    /// No interval begins or ends at the knot.
+    Alone,
 }
 
 /// What an event is in the plane.
@@ -173,11 +180,11 @@ impl PlaneJudge<'_> {
         let (Some(from), Some(to)) = (self.last_heading(k), unit(push)) else { return };
         let acting =
             Acting { state: &state, loads: *loads, forces, floors: &floors, direction: Some(from) };
-        let turn = if dot(from, to) < 0.0 { sine(from, to) } else { f64::INFINITY };
-        if turn >= STRAIGHT {
-            self.peaks.turn(frame, &acting, Some([from, to]), turn >= 10.0 * STRAIGHT);
+        if dot(from, to) >= 0.0 || sine(from, to) >= STRAIGHT[0] {
+            let certain = !is_straight(from, to);
+            self.peaks.turn(frame, &acting, Some([from, to]), certain);
         }
-        if turn < 10.0 * STRAIGHT {
+        if is_straight(from, to) {
             self.peaks.turn(frame, &acting, None, false);
         }
     }
@@ -196,14 +203,17 @@ impl PlaneJudge<'_> {
             return;
         }
         let [from, to] = [k, k + 1].map(|k| self.stored(k));
-        let (Some(u0), Some(u1)) = (unit(from.speed()), unit(to.speed())) else { return };
-        if u0 == u1 {
+        let headings = [unit(from.speed()), unit(to.speed())];
+        if headings[0].is_some() && headings[0] == headings[1] {
             return;
         }
         let loads = self.instant(self.h.time_s[k])[3];
         let (forces, floors) = self.forces(&from, &loads);
-        let acting = Acting { state: &from, loads, forces, floors: &floors, direction: Some(u0) };
-        self.peaks.turn(self.stepper.frame, &acting, Some([u0, u1]), true);
+        let acting =
+            Acting { state: &from, loads, forces, floors: &floors, direction: headings[0] };
+        if let [Some(from), Some(to)] = headings {
+            self.peaks.turn(self.stepper.frame, &acting, Some([from, to]), true);
+        }
         self.peaks.turn(self.stepper.frame, &acting, None, false);
     }
 
@@ -255,6 +265,21 @@ impl PlaneJudge<'_> {
         }
     }
 
+    /// The push at a point of a step.
+    fn push_at(&self, step: &Step, point: usize) -> Pair {
+        let mut state = State::default();
+        step.at_point(point, &mut state);
+        let loads = step.stretch.at(self.stepper.rule.points[point] * step.stretch.step_s);
+        self.forces(&state, &loads).0.push
+    }
+
+    /// `u·ẇ` at a point of a step of a slip.
+    fn gains(&self, step: &Step, point: usize) -> f64 {
+        let loads = step.stretch.at(self.stepper.rule.points[point] * step.stretch.step_s);
+        let push = self.push_at(step, point);
+        dot(step.heading(point, push), push) - self.frame().slowing(&loads)
+    }
+
     /// Takes the speeds of a step of a slip.
     pub(super) fn slid(&mut self, step: &Step) {
         let rule = self.stepper.rule;
@@ -264,7 +289,13 @@ impl PlaneJudge<'_> {
             step.at_point(point, &mut state);
             *speed = norm(state.speed());
         }
-        let least = dip(&speeds).map(|point| {
+        let point = (1..POINTS).fold(0, |best, i| if speeds[i] < speeds[best] { i } else { best });
+        let inside = match point {
+            0 => self.gains(step, 0) < 0.0,
+            i if i + 1 == POINTS => self.gains(step, i) > 0.0,
+            _ => true,
+        };
+        let least = inside.then(|| {
             let found = rule.least_of((point, speeds[point]), |t| {
                 let mut state = State::default();
                 step.at(rule, t, &mut state);
@@ -273,28 +304,26 @@ impl PlaneJudge<'_> {
             (point, found)
         });
         let mut speed = core::mem::replace(&mut self.speed, Speed::new(0.0));
-        for point in 0..POINTS {
-            let (t, size) = match least {
-                Some((at, found)) if at == point => found,
-                _ => (rule.points[point], speeds[point]),
-            };
+        let mut points: Vec<(f64, f64)> = rule.points.into_iter().zip(speeds).collect();
+        if let Some((point, found)) = least {
+            // Its place is that of the point, beside it at an end.
+            points.insert(if found.0 < points[point].0 { point } else { point + 1 }, found);
+        }
+        for (t, size) in points {
             speed.feed(step.stretch.from_s + t * step.stretch.step_s, size, || {
                 step.at(rule, t, &mut state);
                 self.holds_only(&state, &between(&step.stretch.loads, t))
             });
         }
         self.speed = speed;
-        step.at_point(POINTS - 1, &mut state);
-        if let Some(u) = unit(state.speed()) {
-            self.heading = Some(u);
-        }
+        self.heading = Some(step.heading(POINTS - 1, self.push_at(step, POINTS - 1)));
         // A push too small to tell the first direction grows into one that does.
-        if let (Some(turn), Some(first)) = (self.turns.last_mut(), unit(step.outset))
+        if let Some(turn) = self.turns.last_mut()
             && turn.direction.is_none()
         {
-            let last = self.heading.unwrap_or(first);
+            let [first, second] = [1, 2].map(|point| step.heading(point, [0.0; 2]));
             (turn.direction, turn.force_n) = (Some(first), f64::INFINITY);
-            turn.unsure = 2.0 * norm([first[0] - last[0], first[1] - last[1]]);
+            turn.unsure = 2.0 * norm([first[0] - second[0], first[1] - second[1]]);
         }
     }
 

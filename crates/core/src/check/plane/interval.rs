@@ -2,7 +2,7 @@
 
 use super::super::collocation::{MAX_TURN, POINTS};
 use super::super::structure::{excess, larger};
-use super::decisions::Place;
+use super::decisions::{Place, is_straight};
 use super::frame::{Loads, dot, norm, table, unit};
 use super::judge::PlaneJudge;
 use super::peaks::Acting;
@@ -10,8 +10,10 @@ use super::step::{State, Step, Stretch, time_to_rest};
 use crate::error::Stopped;
 use crate::response::Mode;
 
-/// A way to rest shorter than this is its end, in m: what friction does on it is known.
-const SHORTEST_M: f64 = 2e-18;
+/// A way to rest shorter than this is its end, in m: what friction does on it is known. In straight motion it
+/// does nothing but slow down.
+const SHORTEST_M: f64 = 1e-26;
+const SHORTEST_STRAIGHT_M: f64 = 2e-18;
 /// Defect of a step over the largest velocity.
 const DEFECT: f64 = 2e-15;
 /// Largest last Legendre coefficient over the largest acceleration: beyond it they say nothing.
@@ -175,6 +177,7 @@ impl PlaneJudge<'_> {
                 Reach::Free => left_s,
                 Reach::Within(reach_s) => reach_s,
                 Reach::Rest(rest_s) => {
+                    self.heading = unit(way.state.speed());
                     way.rested_s = Some(left_s - rest_s);
                     way.state.lose_speed();
                     return self.rest(way, &stretch.part(t, left_s));
@@ -257,8 +260,9 @@ impl PlaneJudge<'_> {
             return Reach::Free;
         }
         let stops = self.stops(way.knot + 1);
+        let shortest_m = if is_straight(w, push) { SHORTEST_STRAIGHT_M } else { SHORTEST_M };
         let rest_s = match time_to_rest(w, push, f) {
-            Some(rest_s) if r * rest_s < SHORTEST_M => Some(rest_s),
+            Some(rest_s) if r * rest_s < shortest_m => Some(rest_s),
             None if stops && self.rests(r) && p <= self.frame().holding(loads) * (1.0 + 1e-12) => {
                 Some(r / (f + p))
             }
@@ -295,7 +299,7 @@ impl PlaneJudge<'_> {
         let Stretch { from_s, step_s, .. } = step.stretch;
         let mut state = State::default();
         let follows = self.law.follows();
-        let (mut done, mut size, mut damping, mut friction, mut path_m) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        let (mut done, mut size, mut damping, mut friction) = (0.0, 0.0, 0.0, 0.0);
         for point in 0..POINTS {
             step.at_point(point, &mut state);
             for (fastest, v) in way.fastest.iter_mut().zip(&state.v) {
@@ -313,7 +317,6 @@ impl PlaneJudge<'_> {
             damping += weight * frame.dissipation(&state.v);
             if step.slips {
                 friction += weight * frame.block_kg * frame.slowing(&loads) * r;
-                path_m += weight * r;
             }
             if follows {
                 let rise = frame.curvature_per_m * loads[0].normal;
@@ -329,7 +332,9 @@ impl PlaneJudge<'_> {
         if let Some(total) = books.size.get_mut(k) {
             *total += size;
         }
-        self.totals.interfaces[0].path_m += path_m;
+        if step.slips {
+            self.totals.interfaces[0].path_m += step.path_m(rule);
+        }
         for (most, rate) in way.rates.iter_mut().zip(&step.rates) {
             *most = most.max(*rate);
         }

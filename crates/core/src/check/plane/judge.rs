@@ -354,7 +354,7 @@ impl<'a> PlaneJudge<'a> {
     /// Judges a knot at which no interval ends or begins by the load that suits it best.
     fn alone(&mut self, k: usize) {
         let all = self.instant(self.h.time_s[k]);
-        let sides = all.map(|loads| self.side(k, &loads, Place::Start));
+        let sides = all.map(|loads| self.side(k, &loads, Place::Alone));
         let off = |side: &Side| [side.table, side.excess + side.defect];
         let better = |a: usize, b: usize| if off(&sides[b]) < off(&sides[a]) { b } else { a };
         let best = (1..4).fold(0, better);

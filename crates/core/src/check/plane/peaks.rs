@@ -90,17 +90,10 @@ impl Tracked<'_> {
         let loads = step.stretch.at(rule.points[point] * step.stretch.step_s);
         let mut floors = vec![0.0; self.frame.masses_kg.len()];
         let forces = self.frame.forces(&state.x, &state.v, &loads, &mut floors);
-        let direction = step.slips.then(|| heading(&state, &forces, step.outset));
+        let direction = step.slips.then(|| step.heading(point, forces.push));
         let acting = Acting { state: &state, loads, forces, floors: &floors, direction };
         self.vectors(&acting, out);
     }
-}
-
-/// The direction of a slip, at its start that of the push; a push too small to tell leaves it to `outset`.
-pub(super) fn heading(state: &State, forces: &Forces, outset: Pair) -> Pair {
-    let w = state.speed();
-    let of_push = || unit(forces.push).filter(|u| dot(*u, outset) > 0.0);
-    unit(w).or_else(of_push).or_else(|| unit(outset)).unwrap_or([0.0; 2])
 }
 
 /// Largest sizes so far.
@@ -150,7 +143,8 @@ impl Peaks {
         let inside = |u: &Pair| {
             arc.is_none_or(|[from, to]| {
                 let turn = cross(from, to);
-                cross(from, *u) * turn >= 0.0
+                turn != 0.0
+                    && cross(from, *u) * turn >= 0.0
                     && cross(*u, to) * turn >= 0.0
                     && dot(*u, [from[0] + to[0], from[1] + to[1]]) > 0.0
             })

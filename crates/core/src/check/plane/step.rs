@@ -18,6 +18,8 @@ use super::frame::{
     Forces, Loads, Pair, PlaneFrame, between, cross, dot, norm, table, times, unit,
 };
 
+/// A velocity below this part of the largest in a step has no direction.
+const ROUNDING: f64 = 1e-9;
 /// Most passes of the iteration.
 const MOST_PASSES: usize = 40;
 /// Unknowns of the block at the nodes.
@@ -73,8 +75,6 @@ pub(super) struct Step {
     pub(super) slips: bool,
     x: Vec<[f64; POINTS]>,
     v: Vec<[f64; POINTS]>,
-    /// `w` at the first node: where it is 0 at the start, this tells its first direction.
-    pub(super) outset: Pair,
     /// Largest of the last Legendre coefficients of the block's acceleration over its largest value.
     pub(super) tail: f64,
     /// Largest acceleration of the block over the table.
@@ -98,6 +98,51 @@ impl Step {
             to.clear();
             to.extend(from.iter().map(|values| rule.interpolate(values, part)));
         }
+    }
+
+    /// `w` at a point.
+    fn speed(&self, point: usize) -> Pair {
+        [self.v[0][point], self.v[1][point]]
+    }
+
+    /// The direction of a slip at a point under a push. At rest, in which a slip begins and ends along the push,
+    /// what is left of the velocity is rounding; in straight motion it is that of the point beside it.
+    pub(super) fn heading(&self, point: usize, push: Pair) -> Pair {
+        let fastest = (0..POINTS).fold(0.0, |most: f64, i| most.max(norm(self.speed(i))));
+        let w = self.speed(point);
+        if norm(w) > ROUNDING * fastest {
+            return unit(w).unwrap_or_default();
+        }
+        let beside = self.speed(if point == 0 { 1 } else { point - 1 });
+        let along = unit(push).filter(|u| dot(*u, beside) > 0.0);
+        along.or(unit(beside)).unwrap_or_default()
+    }
+
+    /// `∫|w| dt`, by halves where the speed has corners.
+    pub(super) fn path_m(&self, rule: &Rule) -> f64 {
+        let speed = |t: f64| norm([0, 1].map(|axis| rule.interpolate(&self.v[axis], t)));
+        let over = |from: f64, to: f64| {
+            let nodes = rule.c.iter().zip(&rule.weights);
+            (to - from) * nodes.map(|(c, b)| b * speed(from + (to - from) * c)).sum::<f64>()
+        };
+        let speeds = core::array::from_fn(|i| norm([self.v[0][1 + i], self.v[1][1 + i]]));
+        let whole: f64 = rule.weights.iter().zip(&speeds).map(|(b, r)| b * r).sum();
+        let last = [NODES - 2, NODES - 1].map(|k| coefficient(rule, k, &speeds).abs());
+        if last[0].max(last[1]) <= 1e-7 * whole {
+            return self.stretch.step_s * whole;
+        }
+        let (mut sum, mut parts) = (0.0, vec![(0.0, 1.0, whole)]);
+        while let Some((from, to, whole)) = parts.pop() {
+            let middle = 0.5 * (from + to);
+            let halves = [over(from, middle), over(middle, to)];
+            let both = halves[0] + halves[1];
+            if (both - whole).abs() <= 1e-15 * (sum + both) || to - from < 1e-12 {
+                sum += both;
+            } else {
+                parts.extend([(from, middle, halves[0]), (middle, to, halves[1])]);
+            }
+        }
+        self.stretch.step_s * sum
     }
 
     /// The defect of the block's velocity at the end, about.
@@ -284,9 +329,8 @@ impl Stepper<'_> {
         } else {
             0.0
         };
-        let outset = [v[0][1], v[1][1]];
         let rates = rates.iter().map(most).collect();
-        Step { stretch, slips, x, v, outset, tail, sharpest, rates }
+        Step { stretch, slips, x, v, tail, sharpest, rates }
     }
 }
 
