@@ -138,6 +138,7 @@ impl<'a> Settings<'a> {
         let option = |(name, text): (&str, &str)| {
             format!(" --{name} {:?}", text.split('\n').next().unwrap_or(""))
         };
+        let what = if what == Kind::Suite.name() { Kind::Run.name() } else { what };
         let options: String = self.pairs().map(option).collect();
         format!("slipstick {what} {MODEL}{options}")
     }
