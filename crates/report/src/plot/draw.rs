@@ -111,7 +111,7 @@ fn x_axis_height() -> f64 {
 }
 
 fn draw_panel(out: &mut Markup, panel: &Panel, frame: Frame, shaded: &[[f64; 2]], x_labels: bool) {
-    let histories = panel.series.iter().any(|series| is_read(series));
+    let histories = panel.series.iter().any(is_read);
     if histories {
         open_read(out, panel, frame);
     }
