@@ -20,7 +20,7 @@ use self::record::{Knot, Recorder};
 use self::series::{Kind, Scales, Series};
 use self::speed::Least;
 use self::stop::Instant;
-use self::system::{Loads, State, norm};
+use self::system::{Loads, State, inner, norm};
 use super::course::{self, Course};
 use super::ground::{Ground, Stretch};
 use super::phase::{Phase, Reached};
@@ -131,7 +131,7 @@ impl<'a> Plane<'a> {
         let at = self.instant(&loads);
         let (push, holds) = (norm(at.push), at.holds);
         if is_stuck {
-            let leaves = core::mem::take(&mut self.is_released) || self.leaves(loads);
+            let leaves = core::mem::take(&mut self.is_released) || self.leaves(loads, &at);
             return leaves.then(|| Due::Slip(at.push.map(|p| p / push)));
         }
         if push <= holds {
@@ -144,10 +144,9 @@ impl<'a> Plane<'a> {
 
     /// Whether a stick is beyond its bound, or at it and about to leave it: the first derivative of the distance
     /// that does not vanish is negative.
-    fn leaves(&mut self, loads: Loads) -> bool {
-        self.expand_stick(loads, 0.0);
-        let [now, ..] = self.distance();
-        let rounding = self.rounding_of_distance();
+    fn leaves(&mut self, loads: Loads, at: &Instant) -> bool {
+        let now = at.holds * at.holds - inner(at.push, at.push);
+        let rounding = self.rounding_of_distance(&loads, at.push, &self.scratch[0]);
         if now.abs() > rounding {
             return now < 0.0;
         }

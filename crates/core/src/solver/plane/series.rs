@@ -317,8 +317,9 @@ impl Series {
             // |w| > 0 on all of it.
             let order = self.speed.iter().position(|r| *r != 0.0).unwrap_or(0);
             let speed = deflated(&self.speed, order);
-            if let Some(root) = first_root(&speed, part.min(1.0)) {
-                part = part.min(0.5 * root);
+            let end = part.min(1.0);
+            if let Some(root) = first_root(&up_to(&speed, end), 1.0) {
+                part = part.min(0.5 * root * end);
             }
             for _ in 0..60 {
                 if self.is_true_at(part.min(1.0)) {
@@ -458,6 +459,17 @@ impl Sizes {
 /// The largest size in a list, or what is larger.
 fn largest(list: &[f64], from: f64) -> f64 {
     list.iter().fold(from, |all, x| if x.abs() > all { x.abs() } else { all })
+}
+
+/// A polynomial in parts of a first part of its unit: beyond that its terms say nothing.
+fn up_to(c: &Polynomial, end: f64) -> Polynomial {
+    let mut scaled = *c;
+    let mut power = 1.0;
+    for c in &mut scaled {
+        *c *= power;
+        power *= end;
+    }
+    scaled
 }
 
 /// A start by components along and across `p` at its beginning.

@@ -6,7 +6,7 @@ use super::series::{Kind, square};
 use super::speed::path_m;
 use super::stop::Instant;
 use super::system::{Loads, inner, norm};
-use crate::linear::polynomial::{DEGREE, Polynomial, value};
+use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, value};
 use crate::solver::ground::Stretch;
 use crate::solver::slider::{ROUNDING, falls_below, first_crossing, leading};
 
@@ -40,46 +40,39 @@ impl Plane<'_> {
     pub(super) fn distance(&self) -> Polynomial {
         let p = &self.series.friction;
         let [normal, rate] = self.series.loads.normal;
-        let [b, change] = [
-            self.system.static_per_kg * normal,
-            self.system.static_per_kg * (rate * self.series.unit),
-        ];
-        core::array::from_fn(|k| {
-            if k > DEGREE {
-                return 0.0;
-            }
-            let bound = match k {
-                0 => b * b,
-                1 => 2.0 * b * change,
-                2 => change * change,
-                _ => 0.0,
-            };
-            bound - (square(&p[0], k) + square(&p[1], k))
-        })
+        let change = self.system.static_per_kg * (rate * self.series.unit);
+        let holds = self.system.static_per_kg * normal;
+        let mut distance = ZERO;
+        let bound = [holds * holds, 2.0 * holds * change, change * change];
+        distance[..3].copy_from_slice(&bound);
+        let last = DEGREE.min(2 * self.series.degree);
+        for (k, distance) in distance[..=last].iter_mut().enumerate() {
+            *distance -= square(&p[0], k) + square(&p[1], k);
+        }
+        distance
     }
 
-    /// What of that is rounding.
-    pub(super) fn rounding_of_distance(&self) -> f64 {
-        let mut terms = 0.0;
-        let system = &self.system;
-        let loads = &self.series.loads;
+    /// What of that is rounding at an instant of a stick, with `g` of that instant.
+    pub(super) fn rounding_of_distance(&self, loads: &Loads, push: [f64; 2], g: &[f64]) -> f64 {
+        let (system, mut terms) = (&self.system, 0.0);
         for axis in 0..2 {
             let l = &system.participation[axis];
-            let shear: f64 = l.iter().zip(&self.series.g).map(|(l, g)| (l * g).abs()).sum();
+            let shear: f64 = l.iter().zip(g).map(|(l, g)| (l * g).abs()).sum();
             let springs = system.stiffness_n_per_m + loads.normal[0] * system.per_radius;
             let slider = springs * self.state.s[axis].abs();
             terms += (shear + slider) / system.block_kg + loads.table[axis][0].abs();
         }
         let holds = system.static_per_kg * loads.normal[0];
-        let push = norm([self.series.friction[0][0], self.series.friction[1][0]]);
-        2.0 * ROUNDING * (holds * holds + push.max(holds) * terms)
+        2.0 * ROUNDING * (holds * holds + norm(push).max(holds) * terms)
     }
 
     /// The first part of a stick at which it is released.
     fn first_release(&self, distance: &Polynomial, part: f64) -> Option<f64> {
         let mut distance = *distance;
         let at = first_crossing(&distance, part)?;
-        let rounding = self.rounding_of_distance();
+        let series = &self.series;
+        let push = [series.friction[0][0], series.friction[1][0]];
+        let rounding = self.rounding_of_distance(&series.loads, push, &series.g);
         // What does not go further below zero than rounding is held.
         let order = leading(&distance, rounding)?;
         distance[..order].fill(0.0);
