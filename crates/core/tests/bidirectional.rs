@@ -155,7 +155,8 @@ fn of_demands(demands: &Demands, path: &str) -> f64 {
 #[derive(Default)]
 struct Compared {
     figures: usize,
-    worst: (f64, String),
+    /// Part of its tolerance, that, and of what.
+    worst: (f64, f64, String),
     wrong: Vec<String>,
 }
 
@@ -165,7 +166,7 @@ impl Compared {
         let error = (found - expected).abs();
         let part = if error == 0.0 { 0.0 } else { error / tolerance };
         if part > self.worst.0 {
-            self.worst = (part, what.to_owned());
+            self.worst = (part, tolerance, what.to_owned());
         }
         if !(part <= 1.0) {
             self.wrong.push(format!("{what}: expected {expected}, found {found}, {error:.1e} off"));
@@ -250,8 +251,10 @@ fn run(id: &str) {
         let found = figure(&response, path);
         compared.compare(path, found, number(&expected["value"]), number(&expected["tol_abs"]));
     }
-    let Compared { figures, worst: (worst, what), wrong } = compared;
-    println!("case {id}: {figures} figures, worst {worst:.1e} of its tolerance ({what})");
+    let Compared { figures, worst: (worst, tolerance, what), wrong } = compared;
+    println!(
+        "case {id}: {figures} figures, worst {worst:.1e} of its tolerance {tolerance:.1e} ({what})"
+    );
     assert!(wrong.is_empty(), "{id}:\n{}", wrong.join("\n"));
 }
 
