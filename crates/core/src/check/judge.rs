@@ -350,7 +350,8 @@ impl<'a> Judge<'a> {
         Certificate {
             equilibrium_residual: f.equilibrium(table),
             friction_excess: relative([f.excess, self.law.scale(normal, weight)]),
-            energy_balance_error: books.error(rounding_j, |k| unsure(&self.h.time_s, self.instant_s, k)),
+            energy_balance_error: books
+                .error(rounding_j, |k| unsure(&self.h.time_s, self.instant_s, k)),
             demands_error,
             closest_call: self.closest,
             bound,

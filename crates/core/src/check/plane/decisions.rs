@@ -123,10 +123,8 @@ impl PlaneJudge<'_> {
         let state = self.stored(k);
         self.figures.velocity[0] = larger(self.figures.velocity[0], norm(state.speed()));
         let all = self.instant(time_s);
-        let own = [
-            h.table_acceleration_m_per_s2[k],
-            self.given.along_y.table_acceleration_m_per_s2[k],
-        ];
+        let own =
+            [h.table_acceleration_m_per_s2[k], self.given.along_y.table_acceleration_m_per_s2[k]];
         let off = all.map(|loads| norm([0, 1].map(|axis| loads[axis].table - own[axis])));
         let least_off = off.into_iter().fold(f64::INFINITY, f64::min);
         let stops = before != Mode::Stick;

@@ -1,7 +1,7 @@
 //! The printed demands of a motion in a plane, compared with those of the check's own.
 
-use super::super::demands::{Comparison, Own, Rounding, of_events, of_peaks, of_stops, of_sums};
 use super::super::Certificate;
+use super::super::demands::{Comparison, Own, Rounding, of_events, of_peaks, of_stops, of_sums};
 use super::super::judge::{relative, unsure};
 use super::super::outputs::VELOCITY;
 use super::frame::norm;
@@ -139,8 +139,5 @@ impl PlaneJudge<'_> {
 fn has_no_axis(d: &Demands) -> bool {
     let numbers = [d.peak_sliding_displacement_time_s, d.sliding_path_m, d.sliding_time_s];
     let counts = [d.slip_count, d.stick_count, d.reversal_count];
-    numbers == [0.0; 3]
-        && counts == [0; 3]
-        && !d.sliding_at_end
-        && d.closest_stop.is_none()
+    numbers == [0.0; 3] && counts == [0; 3] && !d.sliding_at_end && d.closest_stop.is_none()
 }

@@ -98,7 +98,8 @@ impl PlaneFrame {
                 StoreyDamping::Chain(c) => chain(c),
                 StoreyDamping::Full(c) => c.clone(),
             };
-            for (to, from) in [(&mut stiffness, chain(&structure.stiffnesses)), (&mut damping, full)]
+            for (to, from) in
+                [(&mut stiffness, chain(&structure.stiffnesses)), (&mut damping, full)]
             {
                 for i in 0..n {
                     for j in 0..n {
@@ -143,13 +144,7 @@ impl PlaneFrame {
     }
 
     /// `K q + C q̇`, floor by floor, and all that acts on the block.
-    pub(super) fn forces(
-        &self,
-        x: &[f64],
-        v: &[f64],
-        loads: &Loads,
-        floors: &mut [f64],
-    ) -> Forces {
+    pub(super) fn forces(&self, x: &[f64], v: &[f64], loads: &Loads, floors: &mut [f64]) -> Forces {
         let width = self.masses_kg.len();
         let mut base = [0.0; 2];
         for (i, floor) in floors.iter_mut().enumerate() {
@@ -160,10 +155,10 @@ impl PlaneFrame {
             base[i % 2] += *floor;
         }
         let stiffness = self.spring + self.curvature_per_m * loads[0].normal;
-        let [spring, damper] = [[stiffness * x[0], stiffness * x[1]], times([v[0], v[1]], self.damper)];
+        let [spring, damper] =
+            [[stiffness * x[0], stiffness * x[1]], times([v[0], v[1]], self.damper)];
         let a = table(loads);
-        let push =
-            [0, 1].map(|i| (base[i] - spring[i] - damper[i]) / self.block_kg - a[i]);
+        let push = [0, 1].map(|i| (base[i] - spring[i] - damper[i]) / self.block_kg - a[i]);
         Forces { base, spring, damper, push }
     }
 

@@ -198,7 +198,8 @@ impl PlaneJudge<'_> {
                 return self.rest(way, &stretch.part(t, left_s));
             };
             let took_s = step.stretch.step_s;
-            let gain = libm::pow(self.bearable() / step.defect().max(f64::MIN_POSITIVE), 1.0 / 15.0);
+            let gain =
+                libm::pow(self.bearable() / step.defect().max(f64::MIN_POSITIVE), 1.0 / 15.0);
             next_s = Some(took_s * (0.9 * gain).clamp(0.5, 4.0));
             self.slid(&step);
             self.follow(way, &step);
@@ -254,7 +255,9 @@ impl PlaneJudge<'_> {
         if r == 0.0 || f == 0.0 || (dot(w, push) >= 0.0 && p >= f) {
             return Reach::Free;
         }
-        let reach_s = 0.5 * r / (f + p);
+        // How fast it slows down; against the push it turns as well.
+        let along = dot(w, push) / r;
+        let reach_s = 0.5 * r / if along < 0.0 { f + p } else { f - along };
         if left_s <= reach_s {
             return Reach::Free;
         }

@@ -83,8 +83,8 @@ impl<'a> PlaneJudge<'a> {
     ) -> Self {
         let Given { model, motion, table_y, h, .. } = given;
         let end_s = h.time_s.last().copied().unwrap_or(0.0);
-        let grounds =
-            [motion.horizontal_m_per_s2(), table_y].map(|table| Ground::of(model, motion, table, end_s));
+        let grounds = [motion.horizontal_m_per_s2(), table_y]
+            .map(|table| Ground::of(model, motion, table, end_s));
         let [x, y] = [0, 1].map(|axis| grounds[axis].largest(end_s));
         let tracked = Tracked { frame, outputs };
         Self {
@@ -326,8 +326,7 @@ impl<'a> PlaneJudge<'a> {
         }
         let Forces { base, spring, damper, .. } = forces;
         let inertia = times(block, frame.block_kg);
-        let balance =
-            [0, 1].map(|i| inertia[i] - base[i] + spring[i] + damper[i] - friction[i]);
+        let balance = [0, 1].map(|i| inertia[i] - base[i] + spring[i] + damper[i] - friction[i]);
         side.defect = larger(side.defect, excess(norm(balance) - follows_n));
         for vector in [inertia, base, spring, damper, friction] {
             side.term = larger(side.term, norm(vector));

@@ -180,9 +180,10 @@ impl Peaks {
             let norms: [f64; POINTS] = core::array::from_fn(|i| norm(at[i][g]));
             let [x, y] = parts.map(|values| values.map(f64::abs));
             let [whole, along_x, along_y] = &mut self.largest;
-            let tells = raise(rule, &mut whole[g], &norms, coarse, |t| norm([part(0, t), part(1, t)]))
-                && raise(rule, &mut along_x[g], &x, coarse, |t| part(0, t).abs())
-                && raise(rule, &mut along_y[g], &y, coarse, |t| part(1, t).abs());
+            let tells =
+                raise(rule, &mut whole[g], &norms, coarse, |t| norm([part(0, t), part(1, t)]))
+                    && raise(rule, &mut along_x[g], &x, coarse, |t| part(0, t).abs())
+                    && raise(rule, &mut along_y[g], &y, coarse, |t| part(1, t).abs());
             if !tells {
                 return false;
             }

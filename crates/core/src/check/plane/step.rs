@@ -14,7 +14,9 @@
 
 use super::super::collocation::{NODES, POINTS, Rule};
 use super::super::sweep::legendre;
-use super::frame::{Forces, Loads, Pair, PlaneFrame, between, cross, dot, norm, table, times, unit};
+use super::frame::{
+    Forces, Loads, Pair, PlaneFrame, between, cross, dot, norm, table, times, unit,
+};
 
 /// A velocity below this part of the largest in a step has no direction.
 const ROUNDING: f64 = 1e-9;
@@ -164,7 +166,9 @@ impl Stepper<'_> {
     pub(super) fn solve(&self, from: &State, stretch: Stretch, slips: bool) -> Option<Step> {
         let mut rates = vec![[0.0; NODES]; self.frame.degrees()];
         if !slips {
-            return self.settle(from, stretch, None, &mut rates).then(|| self.step(from, stretch, false, &rates));
+            return self
+                .settle(from, stretch, None, &mut rates)
+                .then(|| self.step(from, stretch, false, &rates));
         }
         let friction = |i: usize| self.frame.slowing(&between(&stretch.loads, self.rule.c[i]));
         let slowing: [f64; NODES] = core::array::from_fn(friction);
@@ -315,10 +319,12 @@ impl Stepper<'_> {
             x[k][POINTS - 1] = from.x[k] + h * (from.v[k] + h * dx);
             v[k][POINTS - 1] = from.v[k] + h * dv;
         }
-        let most = |list: &[f64; NODES]| list.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
+        let most =
+            |list: &[f64; NODES]| list.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
         let sharpest = most(&rates[0]).max(most(&rates[1]));
         let tail = if slips && sharpest > 0.0 {
-            let last = |k: usize| rates[..2].iter().map(move |list| coefficient(rule, k, list).abs());
+            let last =
+                |k: usize| rates[..2].iter().map(move |list| coefficient(rule, k, list).abs());
             last(NODES - 2).chain(last(NODES - 1)).fold(0.0, f64::max) / sharpest
         } else {
             0.0
@@ -343,7 +349,8 @@ fn node(rule: &Rule, h: f64, from: &State, rates: &Rates, i: usize, state: &mut 
 
 /// Legendre's coefficient of values at the nodes.
 fn coefficient(rule: &Rule, k: usize, values: &[f64; NODES]) -> f64 {
-    let terms = (0..NODES).map(|j| rule.weights[j] * legendre(k, 2.0 * rule.c[j] - 1.0) * values[j]);
+    let terms =
+        (0..NODES).map(|j| rule.weights[j] * legendre(k, 2.0 * rule.c[j] - 1.0) * values[j]);
     (2 * k + 1) as f64 * terms.sum::<f64>()
 }
 
@@ -377,7 +384,9 @@ impl Newton {
     fn solve(mut self) -> Option<[f64; UNKNOWNS]> {
         let rows = &mut self.rows;
         for column in 0..UNKNOWNS {
-            let larger = |a: usize, b: usize| if rows[b][column].abs() > rows[a][column].abs() { b } else { a };
+            let larger = |a: usize, b: usize| {
+                if rows[b][column].abs() > rows[a][column].abs() { b } else { a }
+            };
             let pivot = (column..UNKNOWNS).reduce(larger)?;
             if rows[pivot][column] == 0.0 {
                 return None;

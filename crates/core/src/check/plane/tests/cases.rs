@@ -91,11 +91,21 @@ fn reference_cases_are_the_judges_own() {
             }
         }
         for (event, own) in case["events"].as_array().unwrap().iter().zip(&plane.events) {
-            close("s_y of an event", own.sliding_displacement_y_m, number(&event["s"][1]), number(&event["tol_s"]));
+            close(
+                "s_y of an event",
+                own.sliding_displacement_y_m,
+                number(&event["s"][1]),
+                number(&event["tol_s"]),
+            );
             if event["kind"] == "slip" {
                 let u = pair(&event["direction"]);
                 for axis in 0..2 {
-                    close("direction", own.direction[axis], u[axis], number(&event["tol_direction"]));
+                    close(
+                        "direction",
+                        own.direction[axis],
+                        u[axis],
+                        number(&event["tol_direction"]),
+                    );
                 }
             }
         }
@@ -105,9 +115,14 @@ fn reference_cases_are_the_judges_own() {
         let took = start.elapsed();
         println!(
             "{id}: worst {worst:.1e} of its tolerance; equilibrium {:.1e}, friction {:.1e}, energy {:.1e}, demands {:.1e}, {:?}, {took:?}",
-            c.equilibrium_residual, c.friction_excess, c.energy_balance_error, c.demands_error, c.closest_call
+            c.equilibrium_residual,
+            c.friction_excess,
+            c.energy_balance_error,
+            c.demands_error,
+            c.closest_call
         );
-        let figures = [c.equilibrium_residual, c.friction_excess, c.energy_balance_error, c.demands_error];
+        let figures =
+            [c.equilibrium_residual, c.friction_excess, c.energy_balance_error, c.demands_error];
         if !figures.iter().all(|figure| *figure < 1e-11) {
             wrong.push(format!("{id}: {c:?}").chars().take(400).collect());
         }

@@ -16,14 +16,13 @@ use crate::response::{
 };
 use crate::slider::{Direction, Friction};
 
-
 /// The cases of step 1, where they are.
 pub(super) fn cases() -> Vec<Value> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let places = ["../../data/reference", "../../../shared/verification"];
-    let text = places
-        .iter()
-        .find_map(|place| std::fs::read_to_string(root.join(place).join("bidirectional.json")).ok());
+    let text = places.iter().find_map(|place| {
+        std::fs::read_to_string(root.join(place).join("bidirectional.json")).ok()
+    });
     let Some(text) = text else { return Vec::new() };
     let file: Value = serde_json::from_str(&text).expect("JSON");
     let all = file["cases"].as_array().expect("cases").iter();
@@ -105,7 +104,8 @@ pub(super) fn system(case: &Value) -> System {
     let av = (!lists[2].is_empty()).then(|| cut(&lists[2]));
     t.truncate(count);
     t.push(end_s);
-    let motion = GroundMotion::new(t, ax, av).and_then(|motion| motion.with_y(ay)).expect("a motion");
+    let motion =
+        GroundMotion::new(t, ax, av).and_then(|motion| motion.with_y(ay)).expect("a motion");
     System {
         id: case["id"].as_str().unwrap().to_owned(),
         model,
@@ -152,7 +152,11 @@ impl Driver<'_> {
         h.mode.push(mode);
         let sides = [
             (&mut h.table_acceleration_m_per_s2, &mut y.table_acceleration_m_per_s2, a),
-            (&mut h.sliding_displacement_m, &mut y.sliding_displacement_m, [state.x[0], state.x[1]]),
+            (
+                &mut h.sliding_displacement_m,
+                &mut y.sliding_displacement_m,
+                [state.x[0], state.x[1]],
+            ),
             (&mut h.sliding_velocity_m_per_s, &mut y.sliding_velocity_m_per_s, state.speed()),
             (&mut h.block_acceleration_m_per_s2, &mut y.block_acceleration_m_per_s2, block),
             (&mut h.friction_force_n, &mut y.friction_force_n, friction),
@@ -223,7 +227,12 @@ impl Driver<'_> {
             t = if step_s >= left_s { stretch.step_s } else { t + step_s };
         }
         if stops {
-            assert!(norm(state.speed()) < 1e-12, "{} at {}", norm(state.speed()), stretch.from_s + t);
+            assert!(
+                norm(state.speed()) < 1e-12,
+                "{} at {}",
+                norm(state.speed()),
+                stretch.from_s + t
+            );
             state.lose_speed();
         }
     }
@@ -271,8 +280,12 @@ pub(super) fn drive(system: &System) -> Response {
         x.into_iter().zip(y).flat_map(|(x, y)| [x, y]).collect::<Vec<f64>>()
     };
     let mut state = State {
-        x: both(&|s| [vec![s.sliding_displacement_m], s.storey_displacement_m.clone().unwrap()].concat()),
-        v: both(&|s| [vec![s.sliding_velocity_m_per_s], s.storey_velocity_m_per_s.clone().unwrap()].concat()),
+        x: both(&|s| {
+            [vec![s.sliding_displacement_m], s.storey_displacement_m.clone().unwrap()].concat()
+        }),
+        v: both(&|s| {
+            [vec![s.sliding_velocity_m_per_s], s.storey_velocity_m_per_s.clone().unwrap()].concat()
+        }),
     };
     let mut last: Option<(Loads, Mode)> = None;
     for pair in times_s.windows(2) {
@@ -425,4 +438,3 @@ fn printed(system: &System, response: Response) -> Response {
     let plane = InPlane { history, ..plane };
     Response { demands, events, in_plane: Some(Box::new(plane)), ..response }
 }
-

@@ -52,7 +52,9 @@ fn plane(response: &mut Response) -> &mut InPlane {
 
 /// Knots just before a change of mode.
 fn changes(h: &History, pick: impl Fn(Mode, Mode) -> bool) -> Vec<usize> {
-    (0..h.len() - 1).filter(|&k| h.mode[k] != h.mode[k + 1] && pick(h.mode[k], h.mode[k + 1])).collect()
+    (0..h.len() - 1)
+        .filter(|&k| h.mode[k] != h.mode[k + 1] && pick(h.mode[k], h.mode[k + 1]))
+        .collect()
 }
 
 /// The first knot from one on at which the mode is another.
@@ -124,7 +126,8 @@ fn exact_stick_left_out_shows() {
         for k in changes(history, |_, after| after == Mode::Stick) {
             let end = end_of_mode(history, k + 1);
             let mut tampered = response.clone();
-            tampered.history.as_mut().unwrap().mode[k + 1..end].fill(Mode::Slip(Direction::Positive));
+            tampered.history.as_mut().unwrap().mode[k + 1..end]
+                .fill(Mode::Slip(Direction::Positive));
             must_show(&system, &tampered, "a stick left out");
         }
     }
