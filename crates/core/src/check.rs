@@ -58,7 +58,8 @@ pub enum DecisionKind {
     Stop,
     /// A maximum of the demand while it held, `1 − |demand|/bound`.
     Stick,
-    /// A minimum of `|ṡ|` over its peak in that slip, where `μ_k < μ_s`.
+    /// A minimum of `|ṡ|` over its peak in that slip, where `μ_k < μ_s`; in two directions one at which the
+    /// block would have been held.
     Slip,
     /// The speed at a rigid stop over the largest.
     Impact,
@@ -133,7 +134,8 @@ pub struct Certificate {
     pub equilibrium_residual: f64,
     /// Largest excess over the friction law, over the largest `μ_s N` (`M_tot g` if that is 0): in
     /// stick the demand beyond its bound, at any instant; in slip `|T + μ_k N sgn ṡ|` with the sign
-    /// that `ṡ` really has; at a change of mode, by how much the demand forbids it.
+    /// that `ṡ` really has, in two directions `|T + μ_k N w/|w||`; at a change of mode, by how much the
+    /// demand forbids it.
     pub friction_excess: f64,
     /// Largest imbalance of energy at a knot, over the largest sum of `E₀`, the sizes of the table's work
     /// interval by interval, what springs that follow the normal force give back, and the four kinds of

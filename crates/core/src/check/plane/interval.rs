@@ -255,7 +255,9 @@ impl PlaneJudge<'_> {
         if r == 0.0 || f == 0.0 || (dot(w, push) >= 0.0 && p >= f) {
             return Reach::Free;
         }
-        let reach_s = 0.5 * r / (f + p);
+        // How fast it slows down; against the push it turns as well.
+        let along = dot(w, push) / r;
+        let reach_s = 0.5 * r / if along < 0.0 { f + p } else { f - along };
         if left_s <= reach_s {
             return Reach::Free;
         }

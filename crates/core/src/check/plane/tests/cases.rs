@@ -1,7 +1,5 @@
 //! The reference cases in two directions, solved through the known events.
 
-use serde_json::Value;
-
 use super::drive::{cases, drive, number, numbers, pair, system};
 use crate::check::check;
 use crate::response::Response;
