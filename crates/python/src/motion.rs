@@ -337,10 +337,9 @@ impl Motion {
                 .iter()
                 .map(|w| (w.kind.name().to_owned(), w.time_s, w.message.clone()))
                 .collect(),
-            motion.factor,
             {
                 let Origin { event, station, component, azimuth_deg } = motion.origin.clone();
-                (event, station, component, azimuth_deg)
+                (motion.factor, event, station, component, azimuth_deg)
             },
         );
         Ok((make, parts))
@@ -354,7 +353,6 @@ impl Motion {
         vertical: Option<&Bound<'_, PyAny>>,
         description: Vec<String>,
         warnings: Vec<(String, Option<f64>, String)>,
-        factor: f64,
         origin: OriginParts,
     ) -> PyResult<Self> {
         let vertical = vertical.map(|values| samples("vertical", values)).transpose()?;
@@ -368,7 +366,7 @@ impl Motion {
             Ok(Notice { kind, time_s, message })
         };
         let warnings = warnings.into_iter().map(warning).collect::<PyResult<_>>()?;
-        let (event, station, component, azimuth_deg) = origin;
+        let (factor, event, station, component, azimuth_deg) = origin;
         let origin = Origin { event, station, component, azimuth_deg };
         let loaded = Loaded { description, warnings, factor, origin, ..motion.loaded };
         Ok(Self(LoadedMotion { loaded, ..motion }))
@@ -382,9 +380,8 @@ type Pickled<'py> = (
     Option<Bound<'py, PyArray1<f64>>>,
     Vec<String>,
     Vec<(String, Option<f64>, String)>,
-    f64,
     OriginParts,
 );
 
-/// Event, station, component and azimuth in degrees.
-type OriginParts = (Option<String>, Option<String>, Option<String>, Option<f64>);
+/// Factor on the record, event, station, component and azimuth in degrees.
+type OriginParts = (f64, Option<String>, Option<String>, Option<String>, Option<f64>);

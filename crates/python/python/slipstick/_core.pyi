@@ -112,8 +112,7 @@ class Motion:
         vertical: NDArray[np.float64] | None,
         description: list[str],
         warnings: list[tuple[str, float | None, str]],
-        factor: float,
-        origin: tuple[str | None, str | None, str | None, float | None],
+        origin: tuple[float, str | None, str | None, str | None, float | None],
     ) -> Motion: ...
 
 @final
