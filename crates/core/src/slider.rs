@@ -6,6 +6,7 @@
 //! what holds at rest and what follows; nothing else knows one kind of slider from another.
 
 mod friction;
+mod isotropic;
 mod law;
 mod rate;
 mod series;

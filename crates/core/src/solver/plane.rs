@@ -9,18 +9,21 @@ mod peaks;
 mod record;
 mod series;
 mod speed;
+mod start;
 mod steps;
 mod stop;
 mod straight;
 mod summary;
 mod system;
+mod terms;
 
 use self::peaks::Peaks;
 use self::record::{Knot, Recorder};
-use self::series::{Kind, Scales, Series};
+use self::series::{Kind, Series};
 use self::speed::Least;
 use self::stop::Instant;
 use self::system::{Loads, State, inner, norm};
+use self::terms::Scales;
 use super::course::{self, Course};
 use super::ground::{Ground, Stretch};
 use super::phase::{Phase, Reached};
@@ -31,7 +34,7 @@ use crate::response::{EventInPlane, EventKind, Mode};
 use crate::slider::Direction;
 
 pub(super) use self::series::Accuracy;
-pub(super) use self::straight::{accepts, along, only_axis, placed, solve};
+pub(super) use self::straight::{along, only_axis, placed, solve};
 pub(super) use self::system::System;
 
 /// In two directions a slip is positive along its own velocity.

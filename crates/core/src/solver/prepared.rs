@@ -267,7 +267,7 @@ fn solve_in_plane(
     (motion, sampling, y): (&GroundMotion, &Sampling, &[f64]),
     (with_history, go_on): (bool, GoOn<'_>),
 ) -> Result<Response, SolveError> {
-    plane::accepts(model)?;
+    let system = plane::System::new(model)?;
     if let Some(axis) = plane::only_axis(model, motion) {
         let (model, motion) = plane::along(model, motion, axis);
         let tables = tables_of(&model, sampling.dt_s);
@@ -276,7 +276,6 @@ fn solve_in_plane(
         let response = solve_along_x(instructions, &model, &tables, ground, how, workspace)?;
         return Ok(plane::placed(response, axis));
     }
-    let system = plane::System::new(model);
     let masses = 1.0 + 2.0 * model.storeys() as f64;
     let (rate, limit) = (system.rate_rad_per_s, WORK_LIMIT);
     let work = rate * motion.duration_s() * masses * masses;

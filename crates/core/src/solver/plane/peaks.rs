@@ -141,8 +141,8 @@ impl Arch {
 pub(super) enum Output {
     Velocity,
     Block,
-    Friction,
-    Slider,
+    FrictionForce,
+    SliderForce,
     Shear,
     /// By axis only.
     Moment,
@@ -156,8 +156,8 @@ impl Output {
         match self {
             Self::Velocity => 0,
             Self::Block => 1,
-            Self::Friction => 2,
-            Self::Slider => 3,
+            Self::FrictionForce => 2,
+            Self::SliderForce => 3,
             Self::Shear => 4,
             Self::Moment => 5,
             Self::Displacement(i) => 6 + i,
@@ -347,7 +347,7 @@ impl Peaks {
         };
         self.look_at_composed(Output::Block, &block, series, near.as_ref(), to);
         self.look_at_friction(system, &friction, series, near.as_ref(), to);
-        self.look_at_composed(Output::Slider, &slider, series, near.as_ref(), to);
+        self.look_at_composed(Output::SliderForce, &slider, series, near.as_ref(), to);
         for axis in 0..2 {
             let Some((arm, block)) = &system.overturning[axis] else { continue };
             // The moment of floors and block: −arm·g + block·b; the other axis is nothing.
@@ -393,9 +393,9 @@ impl Peaks {
     ) {
         if matches!(series.kind, Kind::Slip | Kind::Start) {
             let f: [Polynomial; 2] = series.friction.map(|f| scaled(&f, system.block_kg));
-            self.all[Output::Friction.place(self.storeys)].look_at_axes(&f, to);
+            self.all[Output::FrictionForce.place(self.storeys)].look_at_axes(&f, to);
         } else {
-            self.look_at_composed(Output::Friction, friction, series, near, to);
+            self.look_at_composed(Output::FrictionForce, friction, series, near, to);
         }
     }
 
@@ -426,8 +426,8 @@ impl Peaks {
         let slider = [0, 1].map(|i| [0, 1].map(|k| kg * pulls[i][k] - shears_n[i][k]));
         let of = [
             (Output::Block, pulls, arc.friction),
-            (Output::Friction, [[0.0; 2]; 2], kg * arc.friction),
-            (Output::Slider, slider, kg * arc.friction),
+            (Output::FrictionForce, [[0.0; 2]; 2], kg * arc.friction),
+            (Output::SliderForce, slider, kg * arc.friction),
         ];
         for (output, [from, to], c) in of {
             let peak = &mut self.all[output.place(self.storeys)];

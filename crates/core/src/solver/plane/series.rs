@@ -1,13 +1,9 @@
 //! The motion by powers of the time: in stick, in slip, and in slip from rest.
 
+use super::start::Along;
 use super::system::{Loads, State, System, inner, norm};
+use super::terms::{LOW, NEGLIGIBLE, Scales, Sizes};
 use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, deflated, first_root, value};
-
-/// A term of a series is left out where it is below this part of its scale.
-const NEGLIGIBLE: f64 = 1e-17;
-
-/// Terms of a series that say how large it is: a slip from rest may start with the third power of the time.
-const LOW: usize = 6;
 
 /// By what a motion is expanded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,30 +33,11 @@ impl Accuracy {
     pub(in crate::solver) const USUAL: Self = Self { order: DEGREE, part: 1.0 };
 }
 
-/// Largest sizes so far, against which terms are negligible.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Scales {
-    pub(super) s: f64,
-    pub(super) w: f64,
-    pub(super) eta: f64,
-    pub(super) rate: f64,
-}
-
-impl Scales {
-    /// With those of a state.
-    pub(super) fn note(&mut self, state: &State) {
-        self.s = self.s.max(norm(state.s));
-        self.w = self.w.max(norm(state.w));
-        self.eta = largest(&state.eta, self.eta);
-        self.rate = largest(&state.rate, self.rate);
-    }
-}
-
 /// The motion from an instant on, by powers of a variable over its unit.
 pub(super) struct Series {
     pub(super) kind: Kind,
     pub(super) accuracy: Accuracy,
-    modes: usize,
+    pub(super) modes: usize,
     pub(super) loads: Loads,
     /// Unit of the variable: in s, of `τ` in s²/m.
     pub(super) unit: f64,
@@ -169,7 +146,7 @@ impl Series {
     }
 
     /// `|p|²` of a stick, from which the release is found: coefficient `k` as a size.
-    fn push_squared(&self, k: usize) -> f64 {
+    pub(super) fn push_squared(&self, k: usize) -> f64 {
         (square(&self.friction[0], k) + square(&self.friction[1], k)).abs()
     }
 
@@ -224,7 +201,7 @@ impl Series {
 
     /// Coefficient `k` of `a`.
     #[inline(always)]
-    fn table(&self, axis: usize, k: usize) -> f64 {
+    pub(super) fn table(&self, axis: usize, k: usize) -> f64 {
         match k {
             0 => self.loads.table[axis][0],
             1 => self.loads.table[axis][1] * self.unit,
@@ -256,7 +233,7 @@ impl Series {
 
     /// `f` and its change over the unit.
     #[inline(always)]
-    fn friction_per_kg(&self, system: &System) -> [f64; 2] {
+    pub(super) fn friction_per_kg(&self, system: &System) -> [f64; 2] {
         let [normal, rate] = self.loads.normal;
         [system.kinetic_per_kg * normal, system.kinetic_per_kg * (rate * self.unit)]
     }
@@ -396,71 +373,6 @@ impl Series {
     }
 }
 
-/// Against what the terms of a series are negligible: the largest so far, and its own first terms.
-#[derive(Clone, Copy, Debug, Default)]
-struct Sizes {
-    s: f64,
-    of_velocity: f64,
-    push: f64,
-    eta: f64,
-    rate: f64,
-    is_known: bool,
-}
-
-impl Sizes {
-    fn of(series: &Series, scales: &Scales) -> Self {
-        let first = |c: &[Polynomial; 2], scale: f64| {
-            (0..LOW).fold(scale, |scale, k| scale.max(c[0][k].abs()).max(c[1][k].abs()))
-        };
-        let modes = series.modes;
-        let of_modes = |list: &[f64], scale: f64| largest(&list[..LOW * modes], scale);
-        let is_near_rest = series.kind == Kind::NearRest;
-        let root = [series.root[0][0], series.root[1][0]];
-        let is_stuck = series.kind == Kind::Stick;
-        let push = |k: usize| series.push_squared(k);
-        Self {
-            s: first(&series.s, scales.s),
-            of_velocity: if is_near_rest { norm(root) } else { first(&series.w, scales.w) },
-            push: if is_stuck { (0..LOW).fold(0.0, |all, k| push(k).max(all)) } else { 1.0 },
-            eta: of_modes(&series.eta, scales.eta),
-            rate: of_modes(&series.rate, scales.rate),
-            is_known: true,
-        }
-    }
-
-    /// The largest term of an order over its size.
-    fn term(&self, series: &Series, k: usize) -> f64 {
-        let over = |term: f64, size: f64| if term == 0.0 { 0.0 } else { term / size };
-        let pair = |c: &[Polynomial; 2], size: f64| over(c[0][k].abs().max(c[1][k].abs()), size);
-        let of_kind = match series.kind {
-            Kind::Stick => over(series.push_squared(k), self.push),
-            Kind::Frictionless => pair(&series.w, self.of_velocity),
-            Kind::Slip | Kind::Start => {
-                pair(&series.w, self.of_velocity).max(pair(&series.direction, 1.0))
-            }
-            Kind::NearRest => pair(&series.root, self.of_velocity),
-        };
-        let at = k * series.modes..(k + 1) * series.modes;
-        let of_modes = over(largest(&series.eta[at.clone()], 0.0), self.eta)
-            .max(over(largest(&series.rate[at], 0.0), self.rate));
-        of_kind.max(pair(&series.s, self.s)).max(of_modes)
-    }
-
-    /// Whether an order and the one before it are negligible.
-    #[inline(always)]
-    fn are_negligible(&mut self, series: &Series, scales: &Scales, k: usize) -> bool {
-        if !self.is_known {
-            *self = Self::of(series, scales);
-        }
-        self.term(series, k) <= NEGLIGIBLE && self.term(series, k - 1) <= NEGLIGIBLE
-    }
-}
-
-/// The largest size in a list, or what is larger.
-fn largest(list: &[f64], from: f64) -> f64 {
-    list.iter().fold(from, |all, x| if x.abs() > all { x.abs() } else { all })
-}
-
 /// A polynomial in parts of a first part of its unit: beyond that its terms say nothing.
 fn up_to(c: &Polynomial, end: f64) -> Polynomial {
     let mut scaled = *c;
@@ -470,69 +382,4 @@ fn up_to(c: &Polynomial, end: f64) -> Polynomial {
         power *= end;
     }
     scaled
-}
-
-/// A start by components along and across `p` at its beginning.
-#[derive(Default)]
-struct Along {
-    axes: [[f64; 2]; 2],
-    cosine: Polynomial,
-    sine: Polynomial,
-    w: [Polynomial; 2],
-    speed: Polynomial,
-}
-
-impl Series {
-    /// `u` of a slip from rest, with `e₁ = p_0/|p_0|`, `u = c e₁ + s e₂`, `w = r u`:
-    ///
-    /// ```text
-    /// across   (k+1) (r s)_{k+1} = p₂_k − (f s)_k      s_k is on both sides: its factor is f + (k+1) r_1
-    /// along    c² + s² = 1,  r = w·u
-    /// ```
-    ///
-    /// It is convergent for `|p| > f`, where `r_1 = |p| − f`. For `|p| = f`, `r_1 = 0`, the direction is slaved
-    /// to that of `p`, and the series asymptotic.
-    fn find_start(&mut self, system: &System, along: &mut Along, k: usize) {
-        let [f, change] = self.friction_per_kg(system);
-        let h = self.unit;
-        let push = [0, 1].map(|axis| self.pull[axis][k] - self.table(axis, k));
-        if k == 0 {
-            let size = norm(push);
-            let e = if size > 0.0 { push.map(|p| p / size) } else { [1.0, 0.0] };
-            along.axes = [e, [-e[1], e[0]]];
-            (along.cosine[0], along.speed[1]) = (1.0, h * beyond(size, f));
-            // b = a + (|p| − f) e₁: what of it is rounding is none.
-            for axis in 0..2 {
-                self.pull[axis][0] = self.table(axis, 0) + (f + beyond(size, f)) * e[axis];
-            }
-        } else {
-            for (w, e) in along.w.iter_mut().zip(along.axes) {
-                w[k] = inner([self.w[0][k], self.w[1][k]], e);
-            }
-            let (r, c, s) = (&along.speed, &along.cosine, &along.sine);
-            // r_k = Σ_{0<j≤k} (w₁_j c_{k−j} + w₂_j s_{k−j})
-            let [w1, w2] = &along.w;
-            let r_k = convolved(&w1[1..=k], &c[..k]) + convolved(&w2[1..=k], &s[..k]);
-            along.speed[k] = if k == 1 { r[1] } else { r_k };
-            let r = &along.speed;
-            let turns = (k + 1) as f64 / h;
-            let known = if k > 1 { convolved(&r[2..=k], &s[1..k]) } else { 0.0 };
-            let across = inner(push, along.axes[1]) - change * s[k - 1] - turns * known;
-            let factor = f + turns * r[1];
-            let s_k = if across == 0.0 { 0.0 } else { across / factor };
-            let within = |p: &Polynomial| if k > 1 { convolved(&p[1..k], &p[1..k]) } else { 0.0 };
-            let c_k = -0.5 * (within(c) + within(s));
-            (along.sine[k], along.cosine[k]) = (s_k, c_k);
-        }
-        let [e1, e2] = along.axes;
-        for axis in 0..2 {
-            self.direction[axis][k] = along.cosine[k] * e1[axis] + along.sine[k] * e2[axis];
-        }
-    }
-}
-
-/// `|p| − f`, nothing where that is rounding.
-pub(super) fn beyond(push: f64, friction: f64) -> f64 {
-    let excess = push - friction;
-    if excess > 1e-13 * friction { excess } else { 0.0 }
 }

@@ -17,24 +17,6 @@ use crate::solver::slider::SliderState;
 use crate::solver::summary;
 use crate::solver::walk::Walk;
 
-/// What of a model does not move in two horizontal directions.
-pub(in crate::solver) fn accepts(model: &Model) -> Result<(), SolveError> {
-    let slider = model.slider();
-    let [fixed, kinetic] = [model.static_friction(), model.kinetic_friction()];
-    let refused = [
-        (slider.tilt_rad != 0.0, "tilt"),
-        (slider.stop().is_some(), "a stop"),
-        (slider.series().is_some(), "surfaces in series"),
-        (slider.rate().is_some(), "friction by speed"),
-        (fixed[0] != fixed[1] || kinetic[0] != kinetic[1], "friction by direction"),
-        (!model.contents().is_empty(), "contents"),
-    ];
-    match refused.into_iter().find(|(refused, _)| *refused) {
-        Some((_, what)) => Err(SolveError::NotTaken { method: "two horizontal directions", what }),
-        None => Ok(()),
-    }
-}
-
 /// Along which axis all of a motion and of the initial state is, if it is along one.
 pub(in crate::solver) fn only_axis(model: &Model, motion: &GroundMotion) -> Option<usize> {
     let turned = along_y(model);

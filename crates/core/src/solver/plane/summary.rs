@@ -44,7 +44,7 @@ pub(super) fn demands(
         }
     });
     let [shear_n, friction_n, slider_n] =
-        [Output::Shear, Output::Friction, Output::Slider].map(peak);
+        [Output::Shear, Output::FrictionForce, Output::SliderForce].map(peak);
     let s = plane.state.s;
     let by_part = Demands {
         storeys: storeys.collect(),

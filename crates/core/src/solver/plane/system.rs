@@ -1,5 +1,6 @@
 //! The equations of motion in two horizontal directions.
 
+use crate::error::SolveError;
 use crate::linear;
 use crate::model::Model;
 use crate::numerics::algebra::dot;
@@ -51,7 +52,16 @@ pub(super) fn along_y(model: &Model) -> Model {
 }
 
 impl System {
-    pub(in crate::solver) fn new(model: &Model) -> Self {
+    /// Of a model whose slider is the same in all directions.
+    ///
+    /// # Errors
+    /// [`SolveError::NotTaken`] that names what is not.
+    pub(in crate::solver) fn new(model: &Model) -> Result<Self, SolveError> {
+        let refused = |what| SolveError::NotTaken { method: "two horizontal directions", what };
+        let slider = model.slider().isotropic().map_err(refused)?;
+        if !model.contents().is_empty() {
+            return Err(refused("contents"));
+        }
         let turned = along_y(model);
         let models = [model, &turned];
         let axes = models.map(system_of);
@@ -64,20 +74,15 @@ impl System {
         };
         let each_axis = |of: &dyn Fn(usize) -> Vec<f64>| [of(0), of(1)];
         let coupled = n > 0 && axes.iter().any(|axis| axis.uncoupled_modes().is_none());
-        let radius_m = model.slider().radius_m();
-        let [fixed, kinetic] = [model.static_friction(), model.kinetic_friction()].map(|mu| mu[0]);
         let per_kg = 1.0 / model.block().mass_kg;
-        Self {
+        Ok(Self {
             storeys: n,
             block_kg: model.block().mass_kg,
-            stiffness_n_per_m: match radius_m {
-                Some(_) => 0.0,
-                None => model.slider_stiffness_n_per_m(),
-            },
+            stiffness_n_per_m: slider.stiffness_n_per_m,
             damper_n_s_per_m: model.slider().damper_n_s_per_m,
-            per_radius: radius_m.map_or(0.0, |radius_m| 1.0 / radius_m),
-            static_per_kg: fixed * per_kg,
-            kinetic_per_kg: kinetic * per_kg,
+            per_radius: slider.per_radius,
+            static_per_kg: slider.fixed * per_kg,
+            kinetic_per_kg: slider.kinetic * per_kg,
             omega2: if n == 0 {
                 Vec::new()
             } else {
@@ -94,7 +99,7 @@ impl System {
                 Some((place(k, if n == 0 { &[] } else { arm }), block))
             }),
             rate_rad_per_s: axes.iter().fold(0.0, |rate: f64, a| rate.max(a.slip_rate_rad_per_s)),
-        }
+        })
     }
 
     pub(super) fn modes(&self) -> usize {

@@ -1,0 +1,70 @@
+//! Slip from rest.
+
+use super::series::{Series, convolved};
+use super::system::{System, inner, norm};
+use crate::linear::polynomial::Polynomial;
+
+/// A start by components along and across `p` at its beginning.
+#[derive(Default)]
+pub(super) struct Along {
+    axes: [[f64; 2]; 2],
+    cosine: Polynomial,
+    sine: Polynomial,
+    w: [Polynomial; 2],
+    pub(super) speed: Polynomial,
+}
+
+impl Series {
+    /// `u` of a slip from rest, with `e₁ = p_0/|p_0|`, `u = c e₁ + s e₂`, `w = r u`:
+    ///
+    /// ```text
+    /// across   (k+1) (r s)_{k+1} = p₂_k − (f s)_k      s_k is on both sides: its factor is f + (k+1) r_1
+    /// along    c² + s² = 1,  r = w·u
+    /// ```
+    ///
+    /// It is convergent for `|p| > f`, where `r_1 = |p| − f`. For `|p| = f`, `r_1 = 0`, the direction is slaved
+    /// to that of `p`, and the series asymptotic.
+    pub(super) fn find_start(&mut self, system: &System, along: &mut Along, k: usize) {
+        let [f, change] = self.friction_per_kg(system);
+        let h = self.unit;
+        let push = [0, 1].map(|axis| self.pull[axis][k] - self.table(axis, k));
+        if k == 0 {
+            let size = norm(push);
+            let e = if size > 0.0 { push.map(|p| p / size) } else { [1.0, 0.0] };
+            along.axes = [e, [-e[1], e[0]]];
+            (along.cosine[0], along.speed[1]) = (1.0, h * beyond(size, f));
+            // b = a + (|p| − f) e₁: what of it is rounding is none.
+            for axis in 0..2 {
+                self.pull[axis][0] = self.table(axis, 0) + (f + beyond(size, f)) * e[axis];
+            }
+        } else {
+            for (w, e) in along.w.iter_mut().zip(along.axes) {
+                w[k] = inner([self.w[0][k], self.w[1][k]], e);
+            }
+            let (r, c, s) = (&along.speed, &along.cosine, &along.sine);
+            // r_k = Σ_{0<j≤k} (w₁_j c_{k−j} + w₂_j s_{k−j})
+            let [w1, w2] = &along.w;
+            let r_k = convolved(&w1[1..=k], &c[..k]) + convolved(&w2[1..=k], &s[..k]);
+            along.speed[k] = if k == 1 { r[1] } else { r_k };
+            let r = &along.speed;
+            let turns = (k + 1) as f64 / h;
+            let known = if k > 1 { convolved(&r[2..=k], &s[1..k]) } else { 0.0 };
+            let across = inner(push, along.axes[1]) - change * s[k - 1] - turns * known;
+            let factor = f + turns * r[1];
+            let s_k = if across == 0.0 { 0.0 } else { across / factor };
+            let within = |p: &Polynomial| if k > 1 { convolved(&p[1..k], &p[1..k]) } else { 0.0 };
+            let c_k = -0.5 * (within(c) + within(s));
+            (along.sine[k], along.cosine[k]) = (s_k, c_k);
+        }
+        let [e1, e2] = along.axes;
+        for axis in 0..2 {
+            self.direction[axis][k] = along.cosine[k] * e1[axis] + along.sine[k] * e2[axis];
+        }
+    }
+}
+
+/// `|p| − f`, nothing where that is rounding.
+fn beyond(push: f64, friction: f64) -> f64 {
+    let excess = push - friction;
+    if excess > 1e-13 * friction { excess } else { 0.0 }
+}
