@@ -98,6 +98,15 @@ impl PlaneJudge<'_> {
                 if minimum.is_finite() {
                     self.least_speed = Some(self.least_speed.map_or(minimum, |m| m.min(minimum)));
                 }
+                if self
+                    .speed
+                    .least
+                    .is_some_and(|(least, _)| least <= 0.5 * REST * self.speed.peak())
+                {
+                    // It came to rest, was held, and slides on.
+                    let off = (self.frame().fixed - self.frame().kinetic) * self.largest.0;
+                    self.figures.excess = larger(self.figures.excess, off);
+                }
                 self.speed.least.map(|(least, time_s)| ClosestCall {
                     margin: least / self.speed.peak(),
                     time_s,
