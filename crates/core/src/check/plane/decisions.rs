@@ -179,7 +179,7 @@ impl PlaneJudge<'_> {
     fn comes_to_rest(&mut self, k: usize, loads: &super::frame::Loads) {
         let state = self.stored(k);
         let (forces, floors) = self.forces(&state, loads);
-        let (frame, push) = (self.frame(), forces.push);
+        let (frame, tracked, push) = (self.frame(), self.tracked(), forces.push);
         let (p, f) = (norm(push), frame.slowing(loads));
         let late = 2.0 * self.instant_s * (p + f);
         if p > f * (1.0 + 1e-9) && self.arrived > late.max(2.0 * REST * self.speed.peak()) {
@@ -191,10 +191,10 @@ impl PlaneJudge<'_> {
             Acting { state: &state, loads: *loads, forces, floors: &floors, direction: Some(from) };
         if dot(from, to) >= 0.0 || sine(from, to) >= STRAIGHT[0] {
             let certain = !is_straight(from, to);
-            self.peaks.turn(frame, &acting, Some([from, to]), certain);
+            self.peaks.turn(&tracked, &acting, Some([from, to]), certain);
         }
         if is_straight(from, to) {
-            self.peaks.turn(frame, &acting, None, false);
+            self.peaks.turn(&tracked, &acting, None, false);
         }
     }
 
@@ -216,14 +216,15 @@ impl PlaneJudge<'_> {
         if headings[0].is_some() && headings[0] == headings[1] {
             return;
         }
+        let tracked = self.tracked();
         let loads = self.instant(self.h.time_s[k])[3];
         let (forces, floors) = self.forces(&from, &loads);
         let acting =
             Acting { state: &from, loads, forces, floors: &floors, direction: headings[0] };
         if let [Some(from), Some(to)] = headings {
-            self.peaks.turn(self.stepper.frame, &acting, Some([from, to]), true);
+            self.peaks.turn(&tracked, &acting, Some([from, to]), true);
         }
-        self.peaks.turn(self.stepper.frame, &acting, None, false);
+        self.peaks.turn(&tracked, &acting, None, false);
     }
 
     /// Judges a step of a stick by what is asked at its points.

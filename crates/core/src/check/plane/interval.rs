@@ -280,12 +280,13 @@ impl PlaneJudge<'_> {
     /// Passes rest quicker than a time can tell: the block goes on along the push, if at all, and may have
     /// turned either way.
     fn turn_about(&mut self, way: &mut Way, loads: &Loads, at_s: f64) {
+        let tracked = self.tracked();
         let direction = unit(way.state.speed());
         way.state.lose_speed();
         let (forces, floors) = self.forces(&way.state, loads);
         let acting =
             Acting { state: &way.state, loads: *loads, forces, floors: &floors, direction };
-        self.peaks.turn(self.stepper.frame, &acting, None, false);
+        self.peaks.turn(&tracked, &acting, None, false);
         let holds = self.holds_only(&way.state, loads);
         self.speed.feed(at_s, 0.0, || holds);
     }

@@ -11,7 +11,7 @@ use super::frame::{Forces, Loads, Pair, PlaneFrame, cross, dot, norm, table, tim
 use super::step::{State, Step};
 
 /// The outputs that the direction of friction decides.
-const BY_DIRECTION: [usize; 3] = [BLOCK, SLIDER, FRICTION];
+const BY_DIRECTION: [usize; 4] = [BLOCK, SLIDER, FRICTION, OVERTURNING];
 /// Sides of the axes on which the largest `s` is looked for: +x, −x, +y, −y.
 const SIDES: [Pair; 4] = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]];
 
@@ -132,7 +132,7 @@ impl Peaks {
     /// directions where there is none.
     pub(super) fn turn(
         &mut self,
-        frame: &PlaneFrame,
+        tracked: &Tracked<'_>,
         acting: &Acting<'_>,
         arc: Option<[Pair; 2]>,
         certain: bool,
@@ -150,11 +150,12 @@ impl Peaks {
             })
         };
         let turns = SIDES.into_iter().chain(block).chain(slider).filter(inside);
+        let mut vectors = Vec::new();
         let to = if certain { &mut self.largest } else { &mut self.possible };
         for u in turns.chain(arc.into_iter().flatten()) {
-            let vectors = Acting { direction: Some(u), ..*acting }.on_block(frame);
-            for (g, vector) in BY_DIRECTION.into_iter().zip(vectors) {
-                for (view, size) in sizes(vector).into_iter().enumerate() {
+            tracked.vectors(&Acting { direction: Some(u), ..*acting }, &mut vectors);
+            for g in BY_DIRECTION {
+                for (view, size) in sizes(vectors[g]).into_iter().enumerate() {
                     to[view][g] = larger(to[view][g], size);
                 }
             }
