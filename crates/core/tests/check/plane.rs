@@ -23,11 +23,11 @@ fn model(storeys: usize) -> Model {
         damping: Damping::Ratio(0.02),
         heights_m: Some(vec![3.0; storeys]),
     };
-    let block = Block { mass_kg: 1000.0, width_m: Some(2.0), height_m: Some(1.0) };
+    let block = Block { mass_kg: 1000.0, width_m: None, height_m: None };
     let along_y = AlongY {
         stiffnesses_n_per_m: stiffnesses.iter().map(|k| 1.3 * k).collect(),
         damping: Damping::Ratio(0.03),
-        width_m: Some(3.0),
+        width_m: None,
         initial: InitialState::rest(),
     };
     Model::new(block, Slider::pendulum(friction, 2.2), frame, G, InitialState::rest())
