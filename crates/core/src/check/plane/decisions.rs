@@ -221,7 +221,10 @@ impl PlaneJudge<'_> {
         let (forces, floors) = self.forces(&from, &loads);
         let acting =
             Acting { state: &from, loads, forces, floors: &floors, direction: headings[0] };
-        if let [Some(from), Some(to)] = headings {
+        // Which way a straight pass through rest turns is rounding.
+        if let [Some(from), Some(to)] = headings
+            && !is_straight(from, to)
+        {
             self.peaks.turn(&tracked, &acting, Some([from, to]), true);
         }
         self.peaks.turn(&tracked, &acting, None, false);

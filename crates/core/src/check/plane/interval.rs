@@ -12,6 +12,8 @@ use crate::response::Mode;
 
 /// A way to rest shorter than this is its end, in m: what friction does on it is known. In straight motion it
 /// does nothing but slow down.
+/// Part of the peak speed of a slip below which rounding tells the direction of a straight pass through rest.
+const NEAR_REST: f64 = 1e-6;
 const SHORTEST_M: f64 = 1e-26;
 const SHORTEST_STRAIGHT_M: f64 = 2e-18;
 /// Defect of a step over the largest velocity.
@@ -303,8 +305,10 @@ impl PlaneJudge<'_> {
         let mut state = State::default();
         let follows = self.law.follows();
         let (mut done, mut size, mut damping, mut friction) = (0.0, 0.0, 0.0, 0.0);
+        let mut quickest: f64 = 0.0;
         for point in 0..POINTS {
             step.at_point(point, &mut state);
+            quickest = quickest.max(norm(state.speed()));
             for (fastest, v) in way.fastest.iter_mut().zip(&state.v) {
                 *fastest = fastest.max(v.abs());
             }
@@ -343,7 +347,15 @@ impl PlaneJudge<'_> {
         }
         self.see_peak_time(step, (from_s, step_s));
         step.at_point(POINTS - 1, &mut way.state);
-        if way.rested_s.is_none() {
+        if way.rested_s.is_some() {
+            return;
+        }
+        if step.slips && quickest < NEAR_REST * self.speed.peak() {
+            let (loads, direction) = (step.stretch.at(step_s), unit(way.state.speed()));
+            let (forces, floors) = self.forces(&way.state, &loads);
+            let acting = Acting { state: &way.state, loads, forces, floors: &floors, direction };
+            self.peaks.turn(&self.tracked(), &acting, None, false);
+        } else {
             self.look(step, 0);
         }
     }
