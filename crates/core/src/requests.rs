@@ -92,7 +92,6 @@ pub struct Answer {
 
 /// What came of a request.
 #[derive(Clone, Debug)]
-#[expect(clippy::large_enum_variant, reason = "there is one of it an analysis")]
 pub enum Results {
     /// Models on the records of suites, side by side.
     Suite {

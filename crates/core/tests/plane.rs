@@ -1,8 +1,9 @@
 //! Two horizontal directions: what turning, mirroring and exchanging the axes must not change, and how motion
 //! along a line agrees with the solver in one direction.
 
-// Helpers of tests may panic as tests do.
-#![allow(clippy::expect_used)]
+// The numbers of a run are for people who look for them with --nocapture; helpers of tests may panic as
+// tests do; a seed from outside to look for more.
+#![allow(clippy::disallowed_macros, clippy::disallowed_methods, clippy::expect_used)]
 
 use slipstick::model::{AlongY, Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::GroundMotion;
@@ -256,7 +257,8 @@ fn differences(a: &Demands, b: &Demands) -> Vec<(&'static str, f64)> {
         ("path", over(a.sliding_path_m, b.sliding_path_m, a.sliding_path_m)),
         ("time", over(a.sliding_time_s, b.sliding_time_s, a.sliding_time_s)),
     ];
-    let relative: [(&'static str, fn(&Demands) -> f64); 5] = [
+    type Named = (&'static str, fn(&Demands) -> f64);
+    let relative: [Named; 5] = [
         ("peak w", |d| d.peak_sliding_velocity_m_per_s),
         ("block", |d| d.peak_block_acceleration_m_per_s2),
         ("friction", |d| d.peak_friction_force_n),

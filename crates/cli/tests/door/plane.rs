@@ -106,7 +106,7 @@ struct Answer {
 impl Answer {
     /// A figure by its path: `x.storeys[0].peak_drift_m`.
     fn figure(&self, path: &str) -> f64 {
-        let pointer = path.replace('.', "/").replace('[', "/").replace(']', "");
+        let pointer = path.replace(['.', '['], "/").replace(']', "");
         let found = self.json.pointer(&format!("/{pointer}"));
         number(found.unwrap_or_else(|| panic!("no {path}")))
     }

@@ -27,7 +27,8 @@ fn exact_frame_along_y() {
     let damper = along_y("damper_y = \"2 kN s/m\"\n", "");
     assert_eq!(damper.damping, Damping::Dampers(vec![2e3]));
     // k = m (2π f)²
-    let k = 40.0 * (core::f64::consts::TAU * 2.0_f64).powi(2);
+    let omega = core::f64::consts::TAU * 2.0;
+    let k = 40.0 * omega * omega;
     for key in ["frequency_y = \"2 Hz\"\n", "period_y = \"0.5 s\"\n"] {
         assert!((along_y(key, "").stiffnesses_n_per_m[0] - k).abs() < 1e-10);
     }
