@@ -124,7 +124,7 @@ impl<'a> Plane<'a> {
         course.block.mode != Mode::Stick && !self.starts && self.state.w == [0.0; 2]
     }
 
-    /// What is due at an instant, and by which margin it was decided; a slip that goes on through rest is none.
+    /// What is due at an instant, and by which margin it was decided.
     fn due(&mut self, course: &Course<'a>, stretch: &Stretch, at_s: f64) -> Option<Due> {
         let is_stuck = course.block.mode == Mode::Stick;
         if !(is_stuck || self.has_stopped(course)) {
@@ -141,8 +141,7 @@ impl<'a> Plane<'a> {
             let margin = (holds > 0.0).then(|| (push - holds).abs() / holds);
             return Some(Due::Stick(margin));
         }
-        self.starts = true;
-        None
+        Some(Due::GoOn(at.push.map(|p| p / push)))
     }
 
     /// Whether a stick is beyond its bound, or at it and about to leave it: the first derivative of the distance
@@ -183,6 +182,8 @@ enum Due {
     Stick(Option<f64>),
     /// A slip in a direction.
     Slip([f64; 2]),
+    /// A slip that goes on through rest in a direction, which is no event.
+    GoOn([f64; 2]),
 }
 
 impl<'a> Phase<'a> for Plane<'a> {
@@ -222,6 +223,10 @@ impl<'a> Phase<'a> for Plane<'a> {
         };
         let (course, phase) = (&mut walk.course, &mut walk.phase);
         let direction = match due {
+            Due::GoOn(direction) => {
+                (phase.direction, phase.starts) = (direction, true);
+                return true;
+            }
             Due::Stick(margin) => {
                 course.block.sliding.decide(margin);
                 course.block.sliding.end(at.time_s, at.place_m);

@@ -85,6 +85,7 @@ impl PlaneJudge<'_> {
             Mode::Stick => self.dips = Dips::new(1e-12),
             Mode::Slip(_) => self.speed.restart(),
         }
+        self.near_rest = None;
         self.heading = None;
         self.arrived = 0.0;
     }

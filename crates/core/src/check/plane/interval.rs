@@ -12,7 +12,7 @@ use crate::response::Mode;
 
 /// A way to rest shorter than this is its end, in m: what friction does on it is known. In straight motion it
 /// does nothing but slow down.
-/// Part of the peak speed of a slip below which rounding tells the direction of a straight pass through rest.
+/// Part of the peak speed of a slip below which it is near rest: where it is straight, rounding tells its direction.
 const NEAR_REST: f64 = 1e-6;
 const SHORTEST_M: f64 = 1e-26;
 const SHORTEST_STRAIGHT_M: f64 = 2e-18;
@@ -350,7 +350,7 @@ impl PlaneJudge<'_> {
         if way.rested_s.is_some() {
             return;
         }
-        if step.slips && quickest < NEAR_REST * self.speed.peak() {
+        if self.is_straight_near_rest(step, quickest) {
             let (loads, direction) = (step.stretch.at(step_s), unit(way.state.speed()));
             let (forces, floors) = self.forces(&way.state, &loads);
             let acting = Acting { state: &way.state, loads, forces, floors: &floors, direction };
@@ -358,6 +358,21 @@ impl PlaneJudge<'_> {
         } else {
             self.look(step, 0);
         }
+    }
+
+    /// Whether a step is near rest in a slip that was straight when it came there.
+    fn is_straight_near_rest(&mut self, step: &Step, quickest: f64) -> bool {
+        if !(step.slips && quickest < NEAR_REST * self.speed.peak()) {
+            self.near_rest = None;
+            return false;
+        }
+        if self.near_rest.is_none() {
+            let mut state = State::default();
+            step.at_point(0, &mut state);
+            let push = self.forces(&state, &step.stretch.loads[0]).0.push;
+            self.near_rest = Some(is_straight(state.speed(), push));
+        }
+        self.near_rest == Some(true)
     }
 
     /// Keeps where `s` is at the printed time of its peak.

@@ -66,6 +66,8 @@ pub(super) struct PlaneJudge<'a> {
     pub(super) speed: Speed,
     /// Least local minimum of the sliding speed.
     pub(super) least_speed: Option<f64>,
+    /// Near rest, whether the slip was straight when it came there.
+    pub(super) near_rest: Option<bool>,
     /// The last direction of sliding, and the speed that was left where the last interval ended.
     pub(super) heading: Option<Pair>,
     pub(super) arrived: f64,
@@ -109,6 +111,7 @@ impl<'a> PlaneJudge<'a> {
             dips: Dips::new(1e-12),
             speed: Speed::new(0.0),
             least_speed: None,
+            near_rest: None,
             heading: None,
             arrived: 0.0,
             at_peak: None,

@@ -105,7 +105,6 @@ impl Plane<'_> {
         }
         if at.is_at_rest(w, self.peak_speed) {
             self.rest(&at, (&loads, 0.0));
-            self.starts = push > at.holds;
             return at_s;
         }
         let u = w.map(|w| w / at.speed);
