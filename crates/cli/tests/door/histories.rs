@@ -463,7 +463,8 @@ fn exact_report_for_a_code_names_intensity_factors_and_capacity() {
         let suite = ["run", "stopped.toml", "--records", "records", "--scale", "3"];
         folder.stdout(&[&suite[..], more].concat())
     };
-    let factors = ["--lambda", "test = 0.8..1.1, aging = 0.9..1.4, specification = 0.85..1.15"];
+    let factors =
+        ["--property-factors", "test = 0.8..1.1, aging = 0.9..1.4, specification = 0.85..1.15"];
     let text = run(&[&factors[..], &["--hazard", "MCE_R", "--out", "out"]].concat());
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     for said in [
@@ -490,6 +491,6 @@ fn exact_report_for_a_code_names_intensity_factors_and_capacity() {
         let [a, b] = [a, b].map(|text| text.parse::<f64>().unwrap());
         assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
     }
-    let refused = folder.refused(&["run", "stopped.toml", "--lambda", "aging = 2..3"]);
-    assert!(refused.contains("--lambda: expected factors from below 1"), "{refused}");
+    let refused = folder.refused(&["run", "stopped.toml", "--property-factors", "aging = 2..3"]);
+    assert!(refused.contains("--property-factors: expected factors from below 1"), "{refused}");
 }

@@ -25,12 +25,12 @@ impl PropertyFactors {
     /// left out are 1.
     ///
     /// # Errors
-    /// [`ChoiceError`] for `lambda` unless each has a least value of at most 1, above 0, and a
+    /// [`ChoiceError`] for `property-factors` unless each has a least value of at most 1, above 0, and a
     /// largest of at least 1.
     pub fn parse(text: &str) -> Result<Self, ChoiceError> {
         let expected = "factors from below 1 to above it: test = 0.9..1.2, aging = 1..1.3, \
                         specification = 0.85..1.15";
-        let wrong = || refused("lambda", expected, text);
+        let wrong = || refused("property-factors", expected, text);
         let given = named(text, ["test", "aging", "specification"]).ok_or_else(wrong)?;
         let range = |text: Option<&str>| -> Option<[f64; 2]> {
             let Some(text) = text else { return Some([1.0; 2]) };

@@ -64,8 +64,8 @@ const MAPPING: Field = Field::new(
 )
 .many();
 
-const LAMBDA: Field = Field::new(
-    "lambda",
+const PROPERTY_FACTORS: Field = Field::new(
+    "property-factors",
     "FACTORS",
     "Bounds of friction from property modification factors, of aging three quarters: \"test = 0.9..1.2, \
      aging = 1..1.3, specification = 0.85..1.15\"",
@@ -74,7 +74,7 @@ const LAMBDA: Field = Field::new(
 /// Fields of one analysis.
 const RUN: &[Field] = &[
     METHOD,
-    LAMBDA,
+    PROPERTY_FACTORS,
     Field::new(
         "floor-spectrum",
         "",
@@ -113,7 +113,7 @@ const SUITE: &[Field] = &[
         "FROM..TO",
         "First and last period of the range in which pairs are scaled to the spectrum: \"0.6 s..3.8 s\"",
     ),
-    LAMBDA,
+    PROPERTY_FACTORS,
     Field::new("hazard", "NAME", "What the report of a suite calls this intensity: MCE_R, DE"),
     Field::new(
         "eccentricity",
@@ -455,6 +455,7 @@ pub const NOT_OFFERED: &[(Door, Kind, Option<&str>, &str)] = &[
     (Door::Python, Kind::Run, Some("method"), "analysis.method is a key of the model"),
     (Door::Python, Kind::Run, Some("scale"), "Motion.scaled scales a motion"),
     (Door::Python, Kind::Run, Some("scale-to"), "Motion.scaled scales a motion"),
+    (Door::Python, Kind::Run, Some("property-factors"), "slider.bounds is a key of the model"),
     (Door::Python, Kind::Sweep, None, "study tells it"),
     (Door::Page, Kind::Run, None, "the page shows the run of its own model and motion"),
     (Door::Page, Kind::Suite, Some("code-spectrum"), "the page has no pairs of records"),
@@ -490,7 +491,7 @@ pub fn table() -> String {
             };
             let default =
                 if default.is_empty() { String::new() } else { format!(" [default: {default}]") };
-            text.push_str(&format!("  {name:<14} {value:<21} {about}{default}\n"));
+            text.push_str(&format!("  {name:<16} {value:<21} {about}{default}\n"));
         }
     }
     text.push_str("\nstudy: its plan (slipstick schema --plan)\n\nNot offered:\n");

@@ -90,7 +90,7 @@ impl Request {
     /// # Errors
     /// [`ChoiceError`] as [`PropertyFactors::parse`].
     pub(super) fn property_factors(&self) -> Result<Option<PropertyFactors>, ChoiceError> {
-        self.given("lambda").map(PropertyFactors::parse).transpose()
+        self.given("property-factors").map(PropertyFactors::parse).transpose()
     }
 
     /// The method that is asked for.

@@ -94,6 +94,9 @@ def suite(
     target: str | PathLike[str] | None = None,
     code_spectrum: str | None = None,
     periods: str | None = None,
+    property_factors: str | None = None,
+    hazard: str | None = None,
+    eccentricity: str | None = None,
     jobs: int | None = None,
     progress: Progress | None = None,
 ) -> Assessment:
@@ -115,6 +118,12 @@ def suite(
     target, code_spectrum, periods
         A spectrum to which pairs are brought instead, between two periods, ``"0.6 s..3.8 s"``: a CSV with the
         columns ``period_s`` and ``sa_g``, or the shape of ASCE/SEI 7, ``"sds = 1.2 g, sd1 = 0.8 g, tl = 8 s"``.
+    property_factors
+        Bounds of friction from property modification factors, ``"test = 0.9..1.2, aging = 1..1.3"``.
+    hazard
+        What the answer calls this intensity, ``"MCE_R"``.
+    eccentricity
+        Plan of the building, for the total displacement of the hand calculation.
     jobs, progress
         As in ``study``.
 
