@@ -142,7 +142,7 @@ mod tests {
             ["", "test = 1.1..1.2", "test = 0..1", "tests = 0.9..1", "test = 0.9..1, test = 1..1"]
         {
             let error = PropertyFactors::parse(wrong).unwrap_err().to_string();
-            assert!(error.starts_with("lambda: expected factors"), "{error}");
+            assert!(error.starts_with("property-factors: expected factors"), "{error}");
         }
     }
 
