@@ -528,6 +528,8 @@ mod tests {
             let known = |name: &str| kind.fields().iter().any(|field| field.name == name);
             assert!(name.is_none_or(known) && !reason.is_empty(), "{name:?}");
         }
-        assert!(table().contains("  scale-to         LEVELS                Levels for all records"));
+        assert!(
+            table().contains("  scale-to         LEVELS                Levels for all records")
+        );
     }
 }

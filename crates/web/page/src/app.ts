@@ -15,6 +15,7 @@ import { Records } from "./records";
 import * as results from "./results";
 import { palette, type Shown } from "./scene";
 import { Stage } from "./stage";
+import { Steps } from "./steps";
 import { tabs } from "./studies";
 import type { StudyTab } from "./study";
 import { TabBar } from "./tabbar";
@@ -74,11 +75,15 @@ export class App {
   private readonly study: StudyTab;
   private readonly bar: TabBar;
   private readonly address = new Address();
+  private readonly steps = new Steps();
+  private readonly undo = h("button", { type: "button", disabled: true, onclick: () => this.step(-1) }, "Undo");
+  private readonly redo = h("button", { type: "button", disabled: true, onclick: () => this.step(1) }, "Redo");
   private frame = 0;
 
   // Elements that change.
   private readonly title = h("span", {}, "");
   private readonly headline = h("dl", { class: "headline" });
+  private readonly severe = h("div", { class: "severe", role: "region", "aria-label": "Severe warnings", hidden: true });
   private readonly certificate = h("section", { class: "certificate", "aria-label": "Certificate" });
   private readonly beside = h("div", {});
   private readonly events = h("div", { class: "table-scroll", tabindex: 0, role: "region", "aria-label": "Events" });
@@ -110,7 +115,7 @@ export class App {
       this.wish();
     });
     this.theme();
-    this.stage = new Stage(this.headline, this.clock);
+    this.stage = new Stage(this.headline, this.severe, this.clock);
     this.histories = new Histories(this.clock, palette(this.root));
     this.exports = new Exports({
       desk,
@@ -131,6 +136,7 @@ export class App {
       choice: (name) => this.records.choice(name),
       text,
       set: (settings) => this.set(settings),
+      changed: () => void this.remember(),
       say,
       fault,
     });
@@ -141,7 +147,8 @@ export class App {
       root: this.root,
       own: this.records.own,
       text,
-      setText,
+      setText: (text) => this.open(text),
+      take: (record) => this.records.take(record),
       wish: () => this.wish(),
       study: (plan) => {
         this.study.load(plan);
@@ -164,6 +171,7 @@ export class App {
     if (this.options.model !== undefined) this.text = this.options.model;
     else if (this.options.address && location.hash.length > 1) await this.fromAddress();
     this.editor.text = this.text;
+    this.steps.opened(this.text);
     this.stage.play(!matchMedia("(prefers-reduced-motion: reduce)").matches);
     this.wish();
   }
@@ -219,7 +227,10 @@ export class App {
         { class: "tools" },
         open,
         button("Open files…", () => open.click()),
-        menu("Examples", ...MODELS.map(({ label, text }) => button(label, () => this.setText(text)))),
+        menu("Examples", ...MODELS.map(({ label, text }) => button(label, () => this.open(text)))),
+        this.undo,
+        this.redo,
+        button("Reset", () => this.setText(this.steps.start)),
         this.system,
         this.options.address && button("Copy link", () => void this.exports.copy(location.href, "The link is in the clipboard.")),
         this.exports.menu,
@@ -298,7 +309,14 @@ export class App {
 
   private keys(): void {
     this.root.addEventListener("keydown", (event) => {
-      const { tagName } = event.composedPath()[0] as HTMLElement;
+      const { tagName, type } = event.composedPath()[0] as HTMLInputElement;
+      // A field of text has its own undo.
+      const writes = tagName === "TEXTAREA" || (tagName === "INPUT" && type === "text");
+      const key = (event.ctrlKey || event.metaKey) && !writes ? event.key.toLowerCase() : "";
+      if (key === "z" || key === "y") {
+        event.preventDefault();
+        this.step(key === "z" && !event.shiftKey ? -1 : 1);
+      }
       if (event.key === " " && !/^(INPUT|TEXTAREA|SELECT|BUTTON|SUMMARY|A)$/.test(tagName)) {
         event.preventDefault();
         this.stage.play(!this.stage.playing);
@@ -357,6 +375,18 @@ export class App {
     this.wish();
   }
 
+  /** Takes a whole text that Reset returns to. */
+  private open(text: string): void {
+    this.steps.opened(text);
+    this.setText(text);
+  }
+
+  /** A state further on, or back. */
+  private step(steps: number): void {
+    const text = this.steps.go(steps);
+    if (text !== undefined) this.setText(text);
+  }
+
   // ---- what is known
 
   private take(answer: Answer, wish: Wish): void {
@@ -385,6 +415,10 @@ export class App {
       this.editor.text = judgement.text;
     }
     results.certificate(this.certificate, judgement);
+    this.steps.rest(this.text);
+    this.undo.disabled = !this.steps.canUndo;
+    this.redo.disabled = !this.steps.canRedo;
+    this.bar.update();
     this.news ||= "judgement";
   }
 
@@ -397,6 +431,7 @@ export class App {
     };
     this.notices.wrong(message, inText ? show : undefined);
     if (inText) this.editor.wrong(message);
+    if (wish && this.judgement) results.certificate(this.certificate, this.judgement, true);
     // A value that cannot be is not asked for again.
     if (wish && wish.set.length > 0) {
       this.pending = wish.text === this.good.text ? [...this.good.set] : [];
@@ -439,9 +474,12 @@ export class App {
     if (!answer) return;
     const { state } = answer;
     this.title.textContent = state.name;
+    // What an address opens before there is an answer has nothing to show yet.
+    if (this.updates === 0) this.bar.open.open();
     this.controls.update(state);
     this.records.update();
     results.headline(this.headline, state);
+    results.severe(this.severe, (judgement ?? state).warnings);
     this.peaks.show(judgement ?? state);
     if (this.bar.tab !== "motion") return;
     this.histories.show(answer, judgement);
@@ -449,6 +487,7 @@ export class App {
   }
 
   private drawJudgement(judgement: Judgement): void {
+    results.severe(this.severe, judgement.warnings);
     this.peaks.show(judgement);
     if (this.bar.tab === "motion") this.histories.judged(judgement);
     results.beside(this.beside, judgement);
@@ -463,7 +502,7 @@ export class App {
     const { text, display, options } = this;
     options.onstate?.({ model: text, summary: JSON.stringify(state.headline) });
     if (!options.address) return;
-    await this.address.remember({ text, display, tab: this.bar.tab, stepwise: this.stepwise.checked, records: this.records.needed() });
+    await this.address.remember({ text, display, tab: this.bar.tab, settings: this.bar.open.settings?.() ?? {}, stepwise: this.stepwise.checked, records: this.records.needed() });
   }
 
   private async fromAddress(): Promise<void> {
@@ -480,8 +519,9 @@ export class App {
       this.desk.stepwise = shared.stepwise;
       this.intake.wanted = shared.records.filter(({ name }) => !this.desk.records.has(name));
       this.select(shared.tab, false);
+      this.bar.open.restore?.(shared.settings);
     } catch (error) {
-      this.fault({ message: error instanceof Error ? error.message : String(error) });
+      this.notices.keep(error instanceof Error ? error.message : String(error));
     }
   }
 

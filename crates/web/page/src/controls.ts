@@ -79,6 +79,7 @@ class Control {
     private readonly spec: Spec,
     label: string,
     private readonly onset: (path: string, value: string) => void,
+    onrest: () => void,
   ) {
     this.input = input;
     const id = `value-${input.path.replace(/\W/g, "-")}-${++made}`;
@@ -92,11 +93,13 @@ class Control {
       this.field.value = digits(value / (this.input.in_si ?? 1), 3).replace("−", "-");
       this.onset(this.input.path, this.written(value));
     });
+    this.range.addEventListener("change", onrest);
     this.field.addEventListener("change", () => {
       const text = this.field.value.trim().replace("−", "-").replace(/^(\d+),(\d+)$/, "$1.$2");
       const symbol = this.input.symbol ?? "";
       const bare = /^[-+]?[\d.]+(e[-+]?\d+)?$/i.test(text);
       this.onset(this.input.path, bare && symbol ? `${text} ${symbol}` : text);
+      onrest();
     });
     this.update(input);
   }
@@ -169,6 +172,8 @@ export class Controls {
   readonly element = h("div", {});
   private controls = new Map<string, Control>();
   private shape = "";
+  /** Where the other coefficient stood before a movement took it along. */
+  private along: { path: string; value: number } | undefined;
 
   constructor(
     private readonly onset: (settings: Setting[]) => void,
@@ -208,7 +213,7 @@ export class Controls {
       const storey = /^storey\.(\d+)/.exec(input.path)?.[1];
       const label = storey && storeys > 1 ? `${state.structure.storeyNames[Number(storey) - 1]}: ${spec.label.toLowerCase()}` : storey && spec.label === "Mass" ? "Mass of the storey" : spec.label;
       const kept = old.get(input.path);
-      const control = kept ?? new Control(input, spec, label, (path, value) => this.set(path, value));
+      const control = kept ?? new Control(input, spec, label, (path, value) => this.set(path, value), () => (this.along = undefined));
       this.controls.set(input.path, control);
       into(group, control.element);
     }
@@ -236,15 +241,16 @@ export class Controls {
     );
   }
 
-  /** Kinetic friction is at most the static one: the one that is moved takes the other along. */
+  /** Kinetic friction is at most the static one: the one that is moved takes the other along, and back. */
   private set(path: string, value: string): void {
     const settings: Setting[] = [[path, value]];
     const number = Number(value);
     const other = path === "slider.kinetic_friction" ? "slider.static_friction" : path === "slider.static_friction" ? "slider.kinetic_friction" : undefined;
     const beside = other && this.controls.get(other)?.input.value;
     if (other && typeof beside === "number" && Number.isFinite(number)) {
-      const passed = path === "slider.kinetic_friction" ? number > beside : number < beside;
-      if (passed) settings.unshift([other, value]);
+      if (this.along?.path !== other) this.along = { path: other, value: beside };
+      const wanted = path === "slider.kinetic_friction" ? Math.max(number, this.along.value) : Math.min(number, this.along.value);
+      if (wanted !== beside) settings.unshift([other, wanted === number ? value : String(wanted)]);
     }
     this.onset(settings);
   }

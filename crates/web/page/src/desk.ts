@@ -257,7 +257,7 @@ export class Desk {
 /** Several workers that share slices of work. */
 export class Pool {
   private helpers: Helper[] = [];
-  private known = "";
+  private known = new Map<string, Uint8Array>();
 
   constructor(
     private readonly engine: Engine,
@@ -268,9 +268,9 @@ export class Pool {
   /** So many workers that know all records. */
   private many(count: number): Helper[] {
     // Those that do not know them give way to others.
-    const known = [...this.records].map(([name, bytes]) => `${name} ${bytes.length}`).join();
-    if (known !== this.known) this.stop();
-    this.known = known;
+    const same = this.known.size === this.records.size && [...this.records].every(([name, bytes]) => this.known.get(name) === bytes);
+    if (!same) this.stop();
+    this.known = new Map(this.records);
     while (this.helpers.length < count) {
       this.helpers.push(new Helper(this.engine, this.records));
     }

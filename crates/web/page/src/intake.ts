@@ -3,7 +3,7 @@
 import { type Desk, Ended, ModuleError } from "./desk";
 import { fill, h } from "./dom";
 import { RECORDS } from "./examples";
-import { isPlan, onRecord, type RecordChoice } from "./motion";
+import { isPlan, type RecordChoice } from "./motion";
 import type { Shared } from "./share";
 import type { Fault, Inspected } from "./types";
 
@@ -19,6 +19,8 @@ export interface Taking {
   own: Map<string, { sha256: string; choice: RecordChoice }>;
   text: () => string;
   setText: (text: string) => void;
+  /** Moves the table by a record. */
+  take: (record: RecordChoice) => void;
   wish: () => void;
   study: (plan: string) => void;
   listRecords: () => void;
@@ -60,7 +62,7 @@ export class Intake {
     }
     this.page.listRecords();
     if (plan !== undefined) this.page.study(plan);
-    else if (last) this.page.setText(onRecord(this.page.text(), last));
+    else if (last) this.page.take(last);
   }
 
   /** Takes a record in; asks for what its file does not say. */

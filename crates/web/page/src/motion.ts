@@ -35,14 +35,12 @@ function withMotion(text: string, motion: string[]): string {
   return `${parts.join("\n\n")}\n`;
 }
 
-/** The same model on a record; how it is scaled stays, unless that is said. */
-export function onRecord(text: string, record: RecordChoice, scaled?: string): string {
-  const scale = scaled ?? /^\s*(scale_to|scale)\s*=.*$/m.exec(without(text).body)?.[0]?.trim();
+/** The model on a record as it was recorded. */
+export function onRecord(text: string, record: RecordChoice): string {
   const lines = [`record = ${quoted(record.name)}`];
   if (record.units) lines.push(`units = ${quoted(record.units)}`);
   if (record.dt) lines.push(`dt = ${quoted(record.dt)}`);
   if (record.channel) lines.push(`channel = ${quoted(record.channel)}`);
-  if (scale !== "") lines.push(scale ?? 'scale_to = "0.3 g"');
   return withMotion(text, lines);
 }
 
@@ -51,6 +49,14 @@ const MADE: Record<string, string> = {
   sweep: 'sweep = { from = "0.5 Hz", to = "5 Hz", kind = "logarithmic", amplitude = "2 m/s2", duration = "30 s", dt = "0.005 s" }',
   pulse: 'pulse = { shape = "half-sine", amplitude = "4 m/s2", duration = "0.5 s", start = "0.2 s", dt = "0.002 s" }',
 };
+
+/** The name that an example bears with another motion: what follows its comma is the motion. */
+export function renamed(text: string, examples: string[], motion: string): string {
+  const line = /^name\s*=\s*"([^",]+), [^"]*"/m;
+  const structure = line.exec(text.split(/^\s*\[/m)[0] ?? "")?.[1];
+  const known = structure !== undefined && examples.some((example) => line.exec(example)?.[1] === structure);
+  return known ? text.replace(line, () => `name = ${quoted(`${structure}, ${motion}`)}`) : text;
+}
 
 /** The same model under a made motion, with a tail where it has none. */
 export function onMade(text: string, kind: string): string {

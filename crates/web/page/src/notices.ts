@@ -10,6 +10,8 @@ export class Notices {
   /** For those who do not see the page. */
   readonly live = h("p", { class: "hidden", role: "status", "aria-live": "polite" });
 
+  private kept = false;
+
   say(text: string): void {
     this.live.textContent = text;
   }
@@ -33,13 +35,26 @@ export class Notices {
     fill(this.work, h("p", {}, "The analysis has been at work for more than two seconds. What is shown is the last answer."), h("button", { type: "button", onclick: act }, "Start another"));
   }
 
+  /** A message that stays until a person has read it. */
+  keep(message: string): void {
+    this.wrong(message, undefined);
+    this.kept = true;
+    this.fault.append(h("button", { type: "button", onclick: () => this.read() }, "Close"));
+  }
+
+  private read(): void {
+    this.kept = false;
+    this.right();
+  }
+
   /** One message; where it has a place in the model's text, `show` goes there. */
   wrong(message: string, show: (() => void) | undefined): void {
+    this.kept = false;
     this.fault.hidden = false;
     fill(this.fault, h("p", {}, message), h("span", { class: "drop-hint" }, "The last good state stays."), show && h("button", { type: "button", onclick: show }, "Show the place"));
   }
 
   right(): void {
-    this.fault.hidden = true;
+    if (!this.kept) this.fault.hidden = true;
   }
 }

@@ -2,8 +2,8 @@
 
 import type { Desk } from "./desk";
 import { fill, h } from "./dom";
-import { RECORDS } from "./examples";
-import { onMade, onRecord, type RecordChoice } from "./motion";
+import { MODELS, RECORDS } from "./examples";
+import { onMade, onRecord, type RecordChoice, renamed } from "./motion";
 import type { State } from "./types";
 
 /** What the records need of the page. */
@@ -92,12 +92,17 @@ export class Records {
   }
 
   private choose(value: string): void {
-    const { text, setText } = this.page;
-    const name = value.startsWith("record:") ? value.slice(7) : undefined;
-    if (name === undefined) setText(onMade(text(), value));
-    else {
-      const { units, dt, channel } = this.choice(name);
-      setText(onRecord(text(), { name, units, dt, channel }));
-    }
+    if (!value.startsWith("record:")) this.move(onMade(this.page.text(), value), this.select.selectedOptions[0]?.textContent ?? value);
+    else this.take(this.choice(value.slice(7)));
+  }
+
+  /** Moves the table by a record, as it was recorded. */
+  take({ name, units, dt, channel }: RecordChoice): void {
+    const label = this.all().find((record) => record.name === name)?.label ?? name;
+    this.move(onRecord(this.page.text(), { name, units, dt, channel }), label);
+  }
+
+  private move(text: string, motion: string): void {
+    this.page.setText(renamed(text, MODELS.map((model) => model.text), motion));
   }
 }

@@ -19,6 +19,16 @@ export function headline(into: HTMLElement, { headline, units, structure }: Stat
   );
 }
 
+/** What forbids to take the figures as they stand, beside them. */
+export function severe(into: HTMLElement, warnings: Warning[]): void {
+  const said = warnings.filter(({ label }) => label === "Severe");
+  const words = JSON.stringify(said);
+  if (words === into.dataset.said) return;
+  into.dataset.said = words;
+  into.hidden = said.length === 0;
+  fill(into, ...warningList(said));
+}
+
 export function warningList(warnings: Warning[]): HTMLElement[] {
   return warnings.map((warning) =>
     h(
@@ -71,12 +81,12 @@ export class Peaks {
 /** What a person hears once the page rests. */
 export function sentence({ headline, units }: State, holds: boolean | null | undefined): string {
   const length = (value: number) => `${digits(value / units.length.in_si)} ${units.length.symbol}`;
-  const checked = holds === true ? "Checked." : holds === false ? "The check failed." : "Not judged.";
+  const checked = holds === true ? "Computed right." : holds === false ? "The check failed." : "Not judged.";
   return `Peak sliding displacement ${length(headline.peak_m)}, residual ${length(headline.residual_m)}. ${checked}`;
 }
 
-/** The certificate of a judged answer; that there is none yet, without one. */
-export function certificate(into: HTMLElement, judgement: Judgement | undefined): void {
+/** The certificate of a judged answer; that there is none yet, without one. `last`: of the last good state. */
+export function certificate(into: HTMLElement, judgement: Judgement | undefined, last = false): void {
   const say = (kind: string, lead: string, ...more: (Node | string)[]) => {
     into.className = `certificate ${kind}`;
     fill(into, h("strong", {}, lead), ...more);
@@ -87,11 +97,15 @@ export function certificate(into: HTMLElement, judgement: Judgement | undefined)
     return;
   }
   into.dataset.state = "judged";
+  if (last) {
+    say("", "Of the last good state", h("span", {}, "What stands in the model now cannot be analysed."));
+    return;
+  }
   const { holds, bound, figures, closestCall, iterations } = judgement.certificate;
   const list = h("dl", {}, ...figures.flatMap(({ name, value }) => [h("dt", {}, name), h("dd", {}, value)]));
   if (closestCall) list.append(h("dt", {}, `Closest call (${closestCall.kind}, ${closestCall.time_s.toFixed(2)} s)`), h("dd", {}, closestCall.margin));
   if (iterations) list.append(h("dt", {}, "Iterations a step, mean and most"), h("dd", {}, `${iterations.mean}, ${iterations.max}`));
-  if (holds === true) say("holds", "Checked: it holds", h("span", {}, `An independent integration agrees within ${bound}.`), list);
+  if (holds === true) say("holds", "Computed right", h("span", {}, `An independent integration of this model agrees within ${bound}.`), list);
   else if (holds === false) say("fails", "The check FAILED: do not use this response", h("span", {}, `Not every figure is within ${bound}.`), list);
   else say("", "Stepwise: reported, not judged", h("span", {}, "The paper's method has an error of its own."), list);
 }

@@ -7,6 +7,8 @@ export interface Shared {
   text: string;
   display: Display;
   tab: string;
+  /** What is set on the tab. */
+  settings: Record<string, string>;
   stepwise: boolean;
   /** Records of the person's own that the model needs, by name and hash. */
   records: { name: string; sha256: string }[];
@@ -14,9 +16,24 @@ export interface Shared {
 
 const VERSION = "v1";
 
+/** Most bytes of a state: no model of a person's is near it. */
+const MOST_BYTES = 2 ** 20;
+
 async function through(bytes: Uint8Array, by: CompressionStream | DecompressionStream): Promise<Uint8Array> {
   const stream = new Blob([bytes as BlobPart]).stream().pipeThrough(by as unknown as ReadableWritablePair<Uint8Array, Uint8Array>);
-  return new Uint8Array(await new Response(stream).arrayBuffer());
+  const parts: Uint8Array[] = [];
+  let size = 0;
+  for (const reader = stream.getReader(); ; ) {
+    const { done, value } = await reader.read();
+    if (done) break;
+    size += value.length;
+    if (size > MOST_BYTES) {
+      void reader.cancel();
+      throw new Error(`more than ${MOST_BYTES} bytes`);
+    }
+    parts.push(value);
+  }
+  return new Uint8Array(await new Blob(parts as BlobPart[]).arrayBuffer());
 }
 
 export async function encode(shared: Shared): Promise<string> {
@@ -40,8 +57,9 @@ export async function decode(fragment: string): Promise<Shared | null> {
     if (typeof shared.text !== "string") throw new Error("no text");
     const display = (["si", "si-g", "kN-mm", "us"] as Display[]).find((d) => d === shared.display) ?? "si";
     const records = Array.isArray(shared.records) ? shared.records.filter((r) => typeof r?.name === "string") : [];
-    return { text: shared.text, display, tab: String(shared.tab ?? "motion"), stepwise: shared.stepwise === true, records };
+    const settings = Object.fromEntries(Object.entries(shared.settings ?? {}).filter(([, value]) => typeof value === "string"));
+    return { text: shared.text, display, tab: String(shared.tab ?? "motion"), settings, stepwise: shared.stepwise === true, records };
   } catch {
-    throw new Error(`the address: expected ${expected}, found one that is cut off or changed (${data!.length} characters)`);
+    throw new Error(`the address: expected ${expected}, found one that is cut off, changed or too large (${data!.length} characters)`);
   }
 }

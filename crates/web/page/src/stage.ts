@@ -41,6 +41,7 @@ export class Stage {
 
   constructor(
     headline: HTMLElement,
+    severe: HTMLElement,
     private readonly clock: Clock,
   ) {
     const speeds = h("select", {}, ...[0.1, 0.25, 0.5, 1, 2, 5].map((x) => h("option", { value: x, selected: x === 1 }, `× ${x}`)));
@@ -56,6 +57,7 @@ export class Stage {
       "section",
       { class: "card stage", "aria-label": "Motion" },
       headline,
+      severe,
       this.canvas,
       h("div", { class: "transport" }, this.playButton, this.scrub, this.clockText, h("label", {}, "Speed", speeds), h("label", {}, "Displacements", scales), whole),
     );

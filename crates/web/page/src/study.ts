@@ -1,8 +1,8 @@
 /** A dropped plan with its records: slices of it on several workers. */
 
 import { ModuleError, Pool } from "./desk";
-import { download, fill, h } from "./dom";
-import { type Page, Progress, sheetElement, type Tab } from "./tab";
+import { download, h } from "./dom";
+import { type Page, Progress, Result, sheetElement, subject, type Tab } from "./tab";
 
 export class StudyTab implements Tab {
   readonly id = "study";
@@ -10,7 +10,7 @@ export class StudyTab implements Tab {
   readonly element: HTMLElement;
   private readonly text = h("textarea", { "aria-label": "Plan", spellcheck: "false" });
   private readonly progress = new Progress();
-  private readonly result = h("div", {});
+  private readonly result = new Result();
   private readonly go = h("button", { type: "button", class: "main" }, "Run");
   private readonly pool: Pool;
   private running = false;
@@ -24,16 +24,38 @@ export class StudyTab implements Tab {
       "div",
       { class: "study" },
       h("div", { class: "card pad editor" }, h("h2", {}, "Plan"), this.text, h("div", { class: "actions" }, this.go, h("button", { type: "button", onclick: () => download("plan.toml", this.text.value, "application/toml") }, "Plan (TOML)")), this.progress.element),
-      this.result,
+      this.result.element,
     );
-    fill(this.result, h("p", { class: "card empty" }, "A study runs the model of this page, whatever its plan calls it, on the records on this page."));
+    this.text.addEventListener("change", () => {
+      this.update();
+      page.changed();
+    });
+    this.result.show(undefined, h("p", { class: "card empty" }, "A study runs the model of this page, whatever its plan calls it, on the records on this page."));
   }
 
   load(text: string): void {
     this.text.value = text;
   }
 
-  open(): void {}
+  open(): void {
+    this.update();
+  }
+
+  private get subject(): string {
+    return subject(this.page, this.text.value);
+  }
+
+  update(): void {
+    this.result.check(this.subject);
+  }
+
+  settings(): Record<string, string> {
+    return { plan: this.text.value };
+  }
+
+  restore({ plan }: Record<string, string>): void {
+    if (plan !== undefined) this.load(plan);
+  }
 
   async run(): Promise<void> {
     const state = this.page.state();
@@ -42,16 +64,18 @@ export class StudyTab implements Tab {
     this.progress.begin();
     this.go.disabled = true;
     this.text.removeAttribute("aria-invalid");
+    const asked = this.subject;
     try {
       const names = this.page.records().map((record) => record.name);
       const of: [string, string, string[]] = [this.text.value, this.page.text(), names];
       const sheet = await this.pool.call("study", ...of, await this.rows(...of), this.page.display());
-      fill(this.result, sheetElement(sheet), h("div", { class: "actions" }, h("button", { type: "button", onclick: () => download("study-report.html", sheet.html, "text/html") }, "report.html")));
+      this.result.show(asked, sheetElement(sheet), h("div", { class: "actions" }, h("button", { type: "button", onclick: () => download("study-report.html", sheet.html, "text/html") }, "report.html")));
+      this.update();
       this.page.say(`The study is done. ${sheet.verdict[0] ?? sheet.line}`);
     } catch (error) {
       if (error instanceof ModuleError) {
         const { message, source, start, end } = error.fault;
-        fill(this.result, h("p", { class: "card pad fault", role: "alert" }, message));
+        this.result.show(undefined, h("p", { class: "card pad fault", role: "alert" }, message));
         if (source === "plan.toml" && start !== undefined) {
           this.text.setAttribute("aria-invalid", "true");
           this.text.setSelectionRange(start, end ?? start);

@@ -2,7 +2,7 @@
 
 import { Ended, Helper, ModuleError } from "./desk";
 import { download, fill, h } from "./dom";
-import { type Page, Progress, sheetElement, type Tab } from "./tab";
+import { type Page, Progress, Result, sheetElement, subject, type Tab } from "./tab";
 import type { FormField, Setting, Sheet } from "./types";
 
 /** What is typed or chosen in the form for a field. */
@@ -25,6 +25,16 @@ function entry({ name, takes, words, default: usual, start }: FormField): Entry 
   }
 }
 
+/** What stands in an entry, as text. */
+function valueOf(input: Entry): string {
+  return input instanceof HTMLInputElement && input.type === "checkbox" ? (input.checked ? input.value : "") : input.value;
+}
+
+function setValue(input: Entry, text: string): void {
+  if (input instanceof HTMLInputElement && input.type === "checkbox") input.checked = text !== "";
+  else input.value = text;
+}
+
 /** An analysis over a suite, by the fields of its request. */
 export class SuiteTab implements Tab {
   readonly element: HTMLElement;
@@ -32,7 +42,8 @@ export class SuiteTab implements Tab {
   private readonly asked = h("div", {}, h("p", { class: "drop-hint" }, "Loading"));
   private readonly suite = h("ul", { class: "records" });
   private readonly progress = new Progress();
-  private readonly result = h("div", {});
+  private readonly result = new Result();
+  private wanted: Record<string, string> = {};
   private readonly go = h("button", { type: "submit", class: "main", disabled: true }, "Run");
   private readonly chosen = new Map<string, boolean>();
   private helper: Helper | undefined;
@@ -55,9 +66,10 @@ export class SuiteTab implements Tab {
       event.preventDefault();
       void this.run();
     });
+    form.addEventListener("change", () => this.changed());
     this.progress.stop.addEventListener("click", () => this.helper?.end());
-    this.element = h("div", { class: "study" }, h("div", { class: "card pad" }, form), this.result);
-    fill(this.result, h("p", { class: "card empty" }, "Press Run: the records are analysed in a worker of their own, and the page stays free."));
+    this.element = h("div", { class: "study" }, h("div", { class: "card pad" }, form), this.result.element);
+    this.result.show(undefined, h("p", { class: "card empty" }, "Press Run: the records are analysed in a worker of their own, and the page stays free."));
   }
 
   /** Makes the form; what need not be said stands folded below. */
@@ -68,6 +80,33 @@ export class SuiteTab implements Tab {
     const [first, more] = [this.fields.filter(([field]) => field.start), this.fields.filter(([field]) => !field.start)];
     fill(this.asked, h("p", { class: "drop-hint" }, about), ...first.map(label), more.length > 0 ? h("details", { class: "fold" }, h("summary", {}, "More"), ...more.map(label)) : "");
     this.go.disabled = false;
+    this.restore(this.wanted);
+    this.update();
+  }
+
+  private get subject(): string {
+    return subject(this.page, this.options());
+  }
+
+  private changed(): void {
+    this.update();
+    this.page.changed();
+  }
+
+  update(): void {
+    this.result.check(this.subject);
+  }
+
+  settings(): Record<string, string> {
+    const left = this.page.records().filter(({ name }) => this.chosen.get(name) === false).map(({ name }) => name);
+    const fields = this.fields.flatMap(([{ name, start }, input]) => (valueOf(input) === start ? [] : [[name, valueOf(input)]]));
+    return { ...Object.fromEntries(fields), ...(left.length > 0 ? { "without records": left.join("\n") } : {}) };
+  }
+
+  restore(settings: Record<string, string>): void {
+    this.wanted = settings;
+    for (const name of settings["without records"]?.split("\n") ?? []) this.chosen.set(name, false);
+    for (const [{ name, start }, input] of this.fields) setValue(input, settings[name] ?? start);
   }
 
   /** What is said for a field, a line each where it may be repeated. */
@@ -98,6 +137,7 @@ export class SuiteTab implements Tab {
       this.opened = true;
       void this.build();
     }
+    this.update();
     fill(
       this.suite,
       ...this.page.records().map(({ name, label }) => {
@@ -116,9 +156,10 @@ export class SuiteTab implements Tab {
     helper.onprogress = (done, planned) => this.progress.show(done, planned);
     this.progress.begin();
     this.go.disabled = true;
+    const of = this.subject;
     try {
       const sheet = await helper.call("assess", this.id, this.page.text(), this.options(), this.page.display());
-      this.show(sheet);
+      this.show(of, sheet);
       this.page.say(`${this.label} is done. ${sheet.verdict[0] ?? sheet.line}`);
     } catch (error) {
       if (error instanceof Ended) this.page.say(`${this.label} was cancelled.`);
@@ -131,9 +172,9 @@ export class SuiteTab implements Tab {
     }
   }
 
-  private show(sheet: Sheet): void {
-    fill(
-      this.result,
+  private show(of: string, sheet: Sheet): void {
+    this.result.show(
+      of,
       sheetElement(sheet),
       h(
         "div",
@@ -142,6 +183,7 @@ export class SuiteTab implements Tab {
         h("button", { type: "button", onclick: () => download(`${this.id}-summary.json`, sheet.json, "application/json") }, "summary.json"),
       ),
     );
+    this.update();
   }
 
   private async exportPlan(): Promise<void> {
@@ -154,6 +196,6 @@ export class SuiteTab implements Tab {
   }
 
   private refuse({ fault }: ModuleError): void {
-    fill(this.result, h("p", { class: "card pad fault", role: "alert" }, fault.message));
+    this.result.show(undefined, h("p", { class: "card pad fault", role: "alert" }, fault.message));
   }
 }

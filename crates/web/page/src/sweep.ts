@@ -3,7 +3,7 @@
 import uPlot from "uplot";
 import { ModuleError, Pool } from "./desk";
 import { fill, h } from "./dom";
-import { type Page, Progress, type Tab, value } from "./tab";
+import { type Page, Progress, Result, subject, type Tab, value } from "./tab";
 import type { Setting, State } from "./types";
 
 export class SweepTab implements Tab {
@@ -17,6 +17,7 @@ export class SweepTab implements Tab {
   private readonly progress = new Progress();
   private readonly go = h("button", { type: "submit", class: "main" }, "Run");
   private readonly charts = h("div", { class: "plots" });
+  private readonly result = new Result();
   private pool: Pool;
   private running = false;
   private of = "";
@@ -43,7 +44,9 @@ export class SweepTab implements Tab {
       void this.run();
     });
     this.progress.stop.addEventListener("click", () => this.pool.stop());
-    this.element = h("div", { class: "study" }, h("div", { class: "card pad" }, form), this.charts);
+    this.element = h("div", { class: "study" }, h("div", { class: "card pad" }, form), this.result.element);
+    form.addEventListener("change", () => page.changed());
+    this.result.show(undefined, this.charts);
   }
 
   open(): void {
@@ -53,11 +56,26 @@ export class SweepTab implements Tab {
     const before = this.path.value || "slider.kinetic_friction";
     fill(this.path, ...numbers.map((input) => h("option", { value: input.path, selected: input.path === before }, input.path)));
     if (!this.from.value) this.ends();
+    this.update();
     if (this.of !== this.key()) void this.run();
   }
 
   private key(): string {
-    return `${this.page.text()}|${this.page.display()}|${this.path.value}|${this.from.value}|${this.to.value}|${this.count.value}`;
+    return subject(this.page, { display: this.page.display(), ...this.settings() });
+  }
+
+  update(): void {
+    this.result.check(this.key());
+  }
+
+  settings(): Record<string, string> {
+    return { path: this.path.value, from: this.from.value, to: this.to.value, count: this.count.value };
+  }
+
+  restore({ path, from, to, count }: Record<string, string>): void {
+    if (path === undefined) return;
+    fill(this.path, h("option", { value: path, selected: true }, path));
+    [this.from.value, this.to.value, this.count.value] = [from ?? "", to ?? "", count ?? "200"];
   }
 
   private input() {
@@ -99,6 +117,8 @@ export class SweepTab implements Tab {
         done += to - from;
         this.progress.show(done, count);
       });
+      this.result.show(this.of, this.charts);
+      this.update();
       this.show(rows, state, input.symbol ?? "", input.in_si ?? 1, input.value ?? 0, input.path);
       this.page.say(`The sweep of ${input.path} is done: ${count} runs.`);
     } catch (error) {

@@ -1,7 +1,7 @@
 /** What the tabs over many runs have in common: what they need of the page, progress, a sheet of results. */
 
 import type { Desk } from "./desk";
-import { download, drawing, h } from "./dom";
+import { download, drawing, fill, h } from "./dom";
 import type { RecordChoice } from "./motion";
 import { warningList } from "./results";
 import type { Palette } from "./scene";
@@ -20,6 +20,8 @@ export interface Page {
   /** The model's text. */
   text: () => string;
   set: (settings: Setting[]) => void;
+  /** A setting of a tab changed. */
+  changed: () => void;
   say: (text: string) => void;
   fault: (fault: Fault) => void;
 }
@@ -29,6 +31,46 @@ export interface Tab {
   readonly label: string;
   readonly element: HTMLElement;
   open(): void;
+  /** Told where model or records may have changed. */
+  update?(): void;
+  /** What is set on it, for the address. */
+  settings?(): Record<string, string>;
+  restore?(settings: Record<string, string>): void;
+}
+
+const identities = new WeakMap<Uint8Array, number>();
+let known = 0;
+
+/** What a result is of, as text: the model, the bytes of the records, what was asked. */
+export function subject({ desk, text }: Page, asked: unknown): string {
+  const records = [...desk.records].map(([name, bytes]) => {
+    const number = identities.get(bytes) ?? ++known;
+    identities.set(bytes, number);
+    return [name, number];
+  });
+  return JSON.stringify([text(), records, asked]);
+}
+
+/** A result, greyed where it is no longer of what stands on the page. */
+export class Result {
+  private readonly note = h("p", { class: "out-of-date", role: "status", hidden: true }, "Out of date: the model, a record or a setting has changed since. Run it again.");
+  private readonly place = h("div", {});
+  readonly element = h("div", { class: "result" }, this.note, this.place);
+  private of: string | undefined;
+
+  /** Shows something; `of` where it is a result. */
+  show(of: string | undefined, ...children: Node[]): void {
+    this.of = of;
+    fill(this.place, ...children);
+    this.check(of ?? "");
+  }
+
+  /** Compares what it is of with what stands on the page. */
+  check(now: string): void {
+    const stale = this.of !== undefined && this.of !== now;
+    this.note.hidden = !stale;
+    this.place.classList.toggle("stale", stale);
+  }
 }
 
 /** Progress with a button that ends the work. */

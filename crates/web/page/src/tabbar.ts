@@ -36,6 +36,16 @@ export class TabBar {
     });
   }
 
+  /** The one that is open. */
+  get open(): Tab {
+    return this.tabs.find((tab) => tab.id === this.tab) ?? this.tabs[0]!;
+  }
+
+  /** Tells all that model or records may have changed. */
+  update(): void {
+    for (const tab of this.tabs) tab.update?.();
+  }
+
   /** Opens one; the first where there is none of that name. */
   select(id: string): void {
     this.tab = this.buttons.has(id) ? id : this.tabs[0]!.id;

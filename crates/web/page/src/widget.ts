@@ -27,7 +27,7 @@ function render({ model, el }: { model: Model; el: HTMLElement }): () => void {
   const text = model.get("model") as string;
   const motion = model.get("motion") as string;
   const app = new App(root, packed((id) => texts[id] ?? ""), {
-    model: motion ? onRecord(text, { name: motion }, "") : text,
+    model: motion ? onRecord(text, { name: motion }) : text,
     records,
     address: false,
     onstate: ({ model: text, summary }) => {

@@ -1,0 +1,41 @@
+/** The states of a model that a person went through. */
+
+const MOST = 200;
+
+export class Steps {
+  private texts: string[] = [];
+  private at = -1;
+  /** As it was opened. */
+  private first = "";
+
+  /** A whole text that was opened: what Reset returns to. */
+  opened(text: string): void {
+    this.first = text;
+  }
+
+  /** A state at rest. */
+  rest(text: string): void {
+    if (text === this.texts[this.at]) return;
+    this.texts = [...this.texts.slice(0, this.at + 1), text].slice(-MOST);
+    this.at = this.texts.length - 1;
+  }
+
+  get canUndo(): boolean {
+    return this.at > 0;
+  }
+
+  get canRedo(): boolean {
+    return this.at < this.texts.length - 1;
+  }
+
+  /** The state so many steps on, or back. */
+  go(steps: number): string | undefined {
+    const text = this.texts[this.at + steps];
+    if (text !== undefined) this.at += steps;
+    return text;
+  }
+
+  get start(): string {
+    return this.first;
+  }
+}
