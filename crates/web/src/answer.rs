@@ -52,7 +52,8 @@ impl Answer {
     /// A history at the knots, SI: 0 time, 1 table acceleration, 2 sliding displacement, 3 sliding
     /// velocity, 4 total acceleration of the block, 5 friction force, 6 force of the block on its slider,
     /// 7 storey displacements and 8 storey accelerations, all storeys of a knot together, 9 displacements
-    /// of the contents.
+    /// of the contents; in two directions these are along x, and 10 sliding displacement and 11 friction
+    /// force are along y.
     #[must_use]
     pub fn column(&mut self, number: usize) -> Vec<f64> {
         self.columns.get_mut(number).map(std::mem::take).unwrap_or_default()
@@ -99,6 +100,7 @@ impl Answer {
         let empty = History::default();
         let history = response.history.as_ref().unwrap_or(&empty);
         let model = &job.analysis.model;
+        let along_y = response.in_plane.as_ref().and_then(|plane| plane.history.as_ref());
         let force = (0..history.len()).map(|knot| history.slider_force_n(model, knot)).collect();
         let columns = vec![
             history.time_s.clone(),
@@ -111,6 +113,9 @@ impl Answer {
             history.storey_displacement_m.clone(),
             history.storey_acceleration_m_per_s2.clone(),
             history.contents_displacement_m.clone(),
+            along_y.map_or_else(Vec::new, |y| y.sliding_displacement_m.clone()),
+            along_y
+                .map_or_else(Vec::new, |y| y.friction_force_n.iter().map(|force| -force).collect()),
         ];
         let sliders = history.mode.iter().step_by(history.interfaces.max(1));
         let events = response.events.iter();

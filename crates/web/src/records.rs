@@ -60,7 +60,6 @@ impl Records {
     pub fn motion(&mut self, analysis: &Analysis, text: &str) -> Result<Loaded, Failure> {
         let of_input = |error| Failure::input(&error, text);
         let source = analysis.required_motion().map_err(of_input)?;
-        analysis.in_one_direction("the page shows").map_err(of_input)?;
         if let MotionSource::Record(record) = source {
             return self.recorded(analysis, record, text);
         }
@@ -85,6 +84,15 @@ impl Records {
             .ok_or_else(|| missing("motion.record", &source.path))?
             .map_err(Failure::of)?
             .clone();
+        let along_y = match &source.along_y {
+            None => None,
+            Some(y) => {
+                let options = Options { format: None, units: y.units, dt_s: y.dt_s };
+                let record = self.read(&y.path, &options);
+                let record = record.ok_or_else(|| missing("motion.record_y", &y.path))?;
+                Some((record.map_err(Failure::of)?.clone(), y))
+            }
+        };
         let vertical = match &source.vertical {
             None => None,
             Some(path) => Some(
@@ -95,7 +103,9 @@ impl Records {
         };
         let components = Components {
             horizontal: Wanted { record: &horizontal, channel: source.channel.as_deref() },
-            along_y: None,
+            along_y: along_y
+                .as_ref()
+                .map(|(record, y)| (Wanted { record, channel: y.channel.as_deref() }, y.pair)),
             vertical: vertical.map(|record| {
                 (Wanted { record, channel: None }, source.vertical_scale.unwrap_or(1.0))
             }),

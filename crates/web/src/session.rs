@@ -198,8 +198,9 @@ impl Session {
         };
         let hashes = match paths {
             Some(MotionSource::Record(record)) => {
-                let both = [Some(&record.path), record.vertical.as_ref()];
-                both.into_iter().flatten().filter_map(hash).collect()
+                let second = record.along_y.as_ref().map(|y| &y.path);
+                let all = [Some(&record.path), second, record.vertical.as_ref()];
+                all.into_iter().flatten().filter_map(hash).collect()
             }
             _ => Vec::new(),
         };
@@ -238,6 +239,8 @@ impl Session {
         let key = format!("{over}\n{text}");
         if self.sweep.as_ref().is_none_or(|(of, _)| *of != key) {
             let analysis = parse(text)?;
+            let one = analysis.in_one_direction("a sweep follows");
+            one.map_err(|error| Failure::input(&error, text))?;
             self.load(&analysis, text)?;
             let Some(ground) = &self.ground else { return Err(Failure::of("no motion").into()) };
             let motion = ground.with_tail.motion().clone();

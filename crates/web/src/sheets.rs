@@ -322,6 +322,8 @@ fn suite(
     }
     let made = read.is_empty() && !matches!(analysis.motion, Some(MotionSource::Record(_)));
     if read.is_empty() {
+        let one = analysis.in_one_direction("a suite of the page has");
+        one.map_err(|error| Failure::input(&error, text))?;
         let loaded = records.motion(analysis, text)?;
         read.push((loaded.description.join("; "), loaded));
     }

@@ -43,6 +43,8 @@ const SPECS: Record<string, Spec> = {
   "frame.period": { label: "First period on a fixed base", min: 0.05, max: 5, log: true },
   "motion.scale": { label: "Scale of the record", min: 0.1, max: 5, log: true },
   "motion.scale_to": { label: "Peak acceleration of the table", min: 0.1, max: 15 },
+  "motion.scale_y": { label: "Further factor on y", min: 0.1, max: 5, log: true },
+  "motion.rotate": { label: "Turn of the pair, x towards y", min: -Math.PI, max: Math.PI },
   "motion.sine.frequency": { label: "Frequency", min: 0.1, max: 20, log: true },
   "motion.sine.amplitude": { label: "Amplitude", min: 0.1, max: 15 },
   "motion.sweep.from": { label: "From", min: 0.1, max: 20, log: true },

@@ -2,6 +2,7 @@
 
 import elCentroModel from "../../../../examples/el-centro.toml";
 import frame from "../../../../examples/frame-pendulum.toml";
+import taftTwo from "../../../../examples/taft-two-directions.toml";
 import taft from "../../../../examples/taft.toml";
 import elCentro from "../../../../examples/records/el-centro-180.txt";
 import taft021 from "../../../../examples/records/taft-021.txt";
@@ -40,6 +41,7 @@ tail = "2 s"
 
 export const MODELS: { label: string; text: string }[] = [
   { label: "One storey, Taft 1952", text: taft },
+  { label: "Pendulum, Taft, two components", text: taftTwo },
   { label: "El Centro 1940", text: elCentroModel },
   { label: "Frame on pendulum sliders", text: frame },
   { label: "Rigid block, sine", text: RIGID },

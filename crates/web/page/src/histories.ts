@@ -71,12 +71,19 @@ export class Histories {
     const peak = answer.state.headline.peak_m;
     const near = gap !== null && gap < 2.5 * peak ? [gap, -gap] : [];
     const of = (label: string, colour: string, beside: Beside | undefined, dash = false) => (beside ? [{ ...beside, label, colour, dash }] : []);
+    const one = [{ label: "nominal", colour: colours.stick!, values: answer.s, width: 1.7 }];
+    const two = [
+      { label: "along x", colour: colours.stick!, values: answer.s, width: 1.2 },
+      { label: "along y", colour: colours.bound!, values: answer.sy, width: 1.2 },
+      { label: "resultant", colour: colours.ink!, values: answer.s.map((x, i) => Math.hypot(x, answer.sy[i]!)), width: 1.7 },
+    ];
     this.sliding.show({
       time: answer.time,
-      lines: [{ label: "nominal", colour: colours.stick!, values: answer.s, width: 1.7 }],
+      lines: answer.sy.length > 0 ? two : one,
       overlays: [
-        ...of("lower friction", colours.bound!, judgement?.lower),
-        ...of("upper friction", colours.table!, judgement?.upper),
+        // Those of the bounds are along x alone.
+        ...(answer.sy.length > 0 ? [] : of("lower friction", colours.bound!, judgement?.lower)),
+        ...(answer.sy.length > 0 ? [] : of("upper friction", colours.table!, judgement?.upper)),
         ...of("stepwise", colours.gap!, judgement?.steps, true),
       ],
       limits: near,

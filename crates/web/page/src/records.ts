@@ -48,8 +48,8 @@ export class Records {
 
   /** Those of the person's own that the model needs, as the address names them. */
   needed(): { name: string; sha256: string }[] {
-    const record = this.used();
-    return [...this.own].filter(([name]) => name === record).map(([name, { sha256 }]) => ({ name, sha256 }));
+    const used = this.page.state()?.inputs.filter(({ path }) => /^motion\.(record|record_y|vertical)$/.test(path)).map(({ text }) => text) ?? [];
+    return [...this.own].filter(([name]) => used.includes(name)).map(([name, { sha256 }]) => ({ name, sha256 }));
   }
 
   show(): void {

@@ -37,7 +37,7 @@ export function warningList(warnings: Warning[]): HTMLElement[] {
       h("strong", {}, `${warning.label}: ${warning.kind}`),
       warning.run ? ` (${warning.run} friction)` : "",
       warning.time_s !== null ? ` at ${warning.time_s.toFixed(2)} s` : "",
-      `. ${warning.message}`,
+      `: ${warning.message}`,
     ),
   );
 }

@@ -248,7 +248,8 @@ export class Scene {
     c.textBaseline = "alphabetic";
     c.fillStyle = mode === 0 ? colour.stick! : colour.slide!;
     c.textAlign = "left";
-    c.fillText(mode === 0 ? "stuck" : mode > 0 ? "sliding →" : "← sliding", 14, 24);
+    const sliding = answer.sy.length > 0 ? "sliding" : mode > 0 ? "sliding →" : "← sliding";
+    c.fillText(mode === 0 ? "stuck" : sliding, 14, 24);
   }
 
   private spring(c: CanvasRenderingContext2D, from: number, to: number, y: number): void {
@@ -287,6 +288,88 @@ export class Scene {
     c.textAlign = "right";
     const text = `${Number(value.toPrecision(3))} ${unit.symbol}`;
     c.fillText(this.factor === 1 ? `${text}, true to scale` : `${text}, displacements × ${this.factor}`, right, y + 17);
+  }
+}
+
+/** Two directions, from above: the way of the block so far inside its gap, and the force of friction on it. */
+export class Plan {
+  private colours: Palette;
+
+  constructor(readonly canvas: HTMLCanvasElement) {
+    this.colours = palette(canvas);
+  }
+
+  restyle(): void {
+    this.colours = palette(this.canvas);
+  }
+
+  draw({ answer }: Shown, time: number): void {
+    const made = context(this.canvas);
+    if (!made) return;
+    const [c, width, height] = made;
+    const { structure, headline, units } = answer.state;
+    const colour = this.colours;
+    c.clearRect(0, 0, width, height);
+    const gap = structure.gap_m !== null && structure.gap_m < 3 * headline.peak_m ? structure.gap_m : 0;
+    const reach = 1.12 * Math.max(headline.peak_m, gap, 1e-6);
+    const k = Math.min(width - 24, height - 44) / (2 * reach);
+    const [x0, y0] = [width / 2, (height - 18) / 2];
+    const [px, py] = [(x: number) => x0 + x * k, (y: number) => y0 - y * k];
+    c.strokeStyle = colour.line!;
+    c.lineWidth = 1;
+    c.beginPath();
+    c.moveTo(px(-reach), y0);
+    c.lineTo(px(reach), y0);
+    c.moveTo(x0, py(-reach));
+    c.lineTo(x0, py(reach));
+    c.stroke();
+    if (gap > 0) {
+      c.strokeStyle = headline.peak_m > gap ? colour.gap! : colour.quiet!;
+      c.setLineDash([5, 4]);
+      c.beginPath();
+      c.arc(x0, y0, gap * k, 0, 2 * Math.PI);
+      c.stroke();
+      c.setLineDash([]);
+    }
+    const knot = knotAt(answer.time, time);
+    const way = (to: number, stroke: string, lineWidth: number) => {
+      c.strokeStyle = stroke;
+      c.lineWidth = lineWidth;
+      c.beginPath();
+      for (let i = 0; i < to; i++) c.lineTo(px(answer.s[i]!), py(answer.sy[i]!));
+      c.stroke();
+    };
+    way(answer.s.length, colour.line!, 1);
+    const [s, sy] = [at(answer.time, answer.s, time), at(answer.time, answer.sy, time)];
+    way(knot + 1, colour.stick!, 1.4);
+    // Friction on the block, against its motion.
+    const [fx, fy] = [-answer.friction[knot]!, -answer.frictionY[knot]!];
+    const size = Math.hypot(fx, fy);
+    if (size > 0) {
+      const [ux, uy] = [(26 * fx) / size, (-26 * fy) / size];
+      c.strokeStyle = colour.slide!;
+      c.lineWidth = 2;
+      c.beginPath();
+      c.moveTo(px(s), py(sy));
+      c.lineTo(px(s) + ux, py(sy) + uy);
+      c.lineTo(px(s) + 0.75 * ux - 0.18 * uy, py(sy) + 0.75 * uy + 0.18 * ux);
+      c.moveTo(px(s) + ux, py(sy) + uy);
+      c.lineTo(px(s) + 0.75 * ux + 0.18 * uy, py(sy) + 0.75 * uy - 0.18 * ux);
+      c.stroke();
+    }
+    c.fillStyle = (answer.mode[knot] ?? 0) === 0 ? colour.stick! : colour.slide!;
+    c.beginPath();
+    c.arc(px(s), py(sy), 5, 0, 2 * Math.PI);
+    c.fill();
+    c.fillStyle = colour.quiet!;
+    c.font = "12px system-ui, sans-serif";
+    c.textAlign = "left";
+    c.fillText("x", px(reach) - 8, y0 - 5);
+    c.fillText("y", x0 + 5, py(reach) + 10);
+    c.textAlign = "center";
+    const resultant = Math.hypot(s, sy) / units.length.in_si;
+    const edge = gap > 0 ? `, dashed: gap ${Number((gap / units.length.in_si).toPrecision(3))} ${units.length.symbol}` : "";
+    c.fillText(`From above: |s| = ${resultant.toFixed(1)} ${units.length.symbol}${edge}; arrow: friction on the block`, x0, height - 6);
   }
 }
 
@@ -358,7 +441,7 @@ export class Loop {
     }
     c.stroke();
     c.textAlign = "center";
-    c.fillText(`Sliding displacement (${units.length.symbol})`, (edge.left + width - edge.right) / 2, height - 5);
+    c.fillText(`Sliding displacement${answer.sy.length > 0 ? " along x" : ""} (${units.length.symbol})`, (edge.left + width - edge.right) / 2, height - 5);
     c.save();
     c.translate(11, (edge.top + height - edge.bottom) / 2);
     c.rotate(-Math.PI / 2);

@@ -2,7 +2,7 @@
 
 import { fill, h } from "./dom";
 import type { Clock } from "./plots";
-import { Loop, type Palette, palette, Scene, type Shown } from "./scene";
+import { Loop, type Palette, palette, Plan, Scene, type Shown } from "./scene";
 
 const ICON = { play: "M4 2.5v11l9-5.5z", pause: "M3.5 2.5h3v11h-3zM9.5 2.5h3v11h-3z" };
 
@@ -34,6 +34,8 @@ export class Stage {
   private drawnAt = 0;
   private writtenAt = 0;
   private readonly scene: Scene;
+  private readonly plan: Plan;
+  private readonly planCanvas = h("canvas", { class: "plan", role: "img", "aria-label": "The way of the block from above", hidden: true });
   private readonly loop: Loop;
   private readonly playButton = h("button", { type: "button", class: "main play", "aria-label": "Play" }, icon(ICON.play));
   private readonly scrub = h("input", { type: "range", min: 0, max: 1, step: 0.001, value: 0, class: "scrub", "aria-label": "Time" });
@@ -59,12 +61,14 @@ export class Stage {
       headline,
       severe,
       this.canvas,
+      this.planCanvas,
       h("div", { class: "transport" }, this.playButton, this.scrub, this.clockText, h("label", {}, "Speed", speeds), h("label", {}, "Displacements", scales), whole),
     );
     const loop = h("canvas", { class: "loop", role: "img", "aria-label": "Force on the slider over sliding displacement" });
     const dot = h("div", { class: "dot" });
     this.loopBox = h("div", { class: "loop-box" }, loop, dot);
     this.scene = new Scene(this.canvas);
+    this.plan = new Plan(this.planCanvas);
     this.loop = new Loop(loop, dot);
     this.playButton.addEventListener("click", () => this.play(!this.playing));
     this.scrub.addEventListener("input", () => this.stopAt(Number(this.scrub.value)));
@@ -77,6 +81,7 @@ export class Stage {
   /** Colours of the place where the canvases are. */
   restyle(): Palette {
     this.scene.restyle();
+    this.plan.restyle();
     this.loop.restyle();
     this.stale = true;
     return palette(this.canvas);
@@ -105,6 +110,7 @@ export class Stage {
       this.time = this.playing ? Math.max(0, peak - 4) : peak;
     }
     this.shown = shown;
+    this.planCanvas.hidden = shown.answer.sy.length === 0;
   }
 
   /** Draws what does not move with time. */
@@ -132,6 +138,7 @@ export class Stage {
     this.stale = false;
     this.time = Math.min(this.time, end);
     this.scene.draw(shown, this.time);
+    if (!this.planCanvas.hidden) this.plan.draw(shown, this.time);
     this.loop.mark(shown.answer, this.time);
     clock.now(this.time);
     if (!this.playing || now - this.writtenAt > WRITTEN_MS) {

@@ -88,6 +88,9 @@ export interface Answer {
   storeyDisplacement: Float64Array;
   storeyAcceleration: Float64Array;
   contents: Float64Array;
+  /** Along y; empty in one direction. */
+  sy: Float64Array;
+  frictionY: Float64Array;
   mode: Int8Array;
   eventTimes: Float64Array;
   eventKinds: Uint8Array;

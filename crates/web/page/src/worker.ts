@@ -64,6 +64,8 @@ const calls: Calls = {
       storeyDisplacement: column(7),
       storeyAcceleration: column(8),
       contents: column(9),
+      sy: column(10),
+      frictionY: column(11),
       mode: answer.mode() as Int8Array,
       eventTimes: answer.eventTimes() as Float64Array,
       eventKinds: answer.eventKinds() as Uint8Array,

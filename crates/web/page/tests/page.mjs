@@ -378,6 +378,34 @@ test("a link of more than a megabyte is refused", () =>
     await page.waitForFunction(() => /too large/.test(document.querySelector(".note-bar:not(.busy)").textContent));
   }));
 
+test("two components: the way of the block from above, turned by a slider, with the command's figures", () =>
+  on(async (page) => {
+    assert.ok(!(await page.locator(".plan").isVisible()));
+    await page.getByText("Examples", { exact: true }).click();
+    await page.getByRole("button", { name: "Pendulum, Taft, two components" }).click();
+    await settled(page);
+    assert.ok(await page.locator(".plan").isVisible());
+    assert.match(await page.locator(".results .certificate").innerText(), /^Computed right/);
+    const first = await headline(page);
+    await setField(page, "Turn of the pair, x towards y", "45 deg");
+    await settled(page);
+    assert.match(await page.locator("#model-text").inputValue(), /rotate = "45 deg"/);
+    assert.notDeepEqual(await headline(page), first);
+    const command = process.env.SLIPSTICK_COMMAND;
+    if (command) {
+      const out = temporary();
+      try {
+        execFileSync(command, ["run", join(root, "examples/taft-two-directions.toml"), "--set", "motion.rotate=45 deg", "-q", "--out", out.folder], { stdio: ["ignore", "ignore", "inherit"] });
+        const here = await page.evaluate(() => globalThis.slipstick.desk.helper.call("file", "history.csv", globalThis.slipstick.text, ""));
+        assert.ok(here === readFileSync(join(out.folder, "history.csv"), "utf8"), "history.csv differs from the command's");
+      } finally {
+        out.remove();
+      }
+    }
+    await page.waitForTimeout(300);
+    await page.screenshot({ path: join(shots, "two-directions.png") });
+  }));
+
 test("half an address is one message that stays, and the example is shown", () =>
   on(
     async (page) => {
