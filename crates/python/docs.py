@@ -69,7 +69,7 @@ PARTS: list[tuple[str, list[tuple[str, Any]]]] = [
         "Errors",
         [
             (f"slipstick.{name}", getattr(ss, name))
-            for name in ["InputError", "RecordError", "SolveError", "StudyError"]
+            for name in ["InputError", "RecordError", "SlipstickWarning", "SolveError", "StudyError"]
         ],
     ),
 ]

@@ -1,5 +1,7 @@
 //! Errors of the core as exceptions of `slipstick._errors`, with all that they know.
 
+use std::ffi::CString;
+use std::fmt::{self, Write};
 use std::io;
 use std::path::Path;
 
@@ -12,6 +14,7 @@ use slipstick::laboratory::compare::CompareError;
 use slipstick::laboratory::identify::IdentifyError;
 use slipstick::laboratory::measured::MeasuredError;
 use slipstick::laboratory::shaking_table::TableError;
+use slipstick::notice::{Notice, Severity};
 use slipstick::requests::Door;
 use slipstick_files::{FileError, JobError, LaboratoryError, StudyError};
 
@@ -28,6 +31,32 @@ fn exception(
         py.import("slipstick._errors")?.getattr(class)?.call((message,), Some(&known))
     };
     make().map_or_else(|error| error, PyErr::from_value)
+}
+
+/// A text in HTML.
+pub(crate) struct Escaped<'a>(pub(crate) &'a str);
+
+impl fmt::Display for Escaped<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.chars().try_for_each(|c| match c {
+            '<' => f.write_str("&lt;"),
+            '>' => f.write_str("&gt;"),
+            '&' => f.write_str("&amp;"),
+            c => f.write_char(c),
+        })
+    }
+}
+
+/// A warning in Python.
+pub(crate) fn warn(py: Python<'_>, message: String) -> PyResult<()> {
+    let class = py.import("slipstick._errors")?.getattr("SlipstickWarning")?;
+    PyErr::warn(py, &class, &CString::new(message).unwrap_or_default(), 1)
+}
+
+/// A warning in Python for each severe notice.
+pub(crate) fn warn_severe(py: Python<'_>, notices: &[Notice]) -> PyResult<()> {
+    let mut severe = notices.iter().filter(|notice| notice.severity() == Severity::Severe);
+    severe.try_for_each(|notice| warn(py, notice.message.clone()))
 }
 
 pub(crate) fn of_input(py: Python<'_>, error: &InputError) -> PyErr {

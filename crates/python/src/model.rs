@@ -134,7 +134,7 @@ fn written(path: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
 }
 
 /// The short form of pint's units, as units are written here.
-fn pint_units(units: &Bound<'_, PyAny>) -> PyResult<String> {
+pub(crate) fn pint_units(units: &Bound<'_, PyAny>) -> PyResult<String> {
     let short: String = units.call_method1("__format__", ("~C",))?.extract()?;
     Ok(short.replace("**", "").replace('*', " ").replace("g_0", "g"))
 }

@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slipstick::assessment::single::{Job, Outcome};
 use slipstick::error::{SolveError, Stopped};
+use slipstick::notice::{Notice, Severity};
 use slipstick::progress::GoOn;
 use slipstick::response::History;
 use slipstick_files::{JobError, LoadedMotion, OpenJob};
@@ -215,6 +216,13 @@ impl Response {
             display,
         };
         Ok(report.to_html())
+    }
+
+    /// What makes its figures void, and all else that is noticed: kind, message and whether it is severe.
+    fn _noticed(&self) -> Vec<(&'static str, &str, bool)> {
+        let of = |notice: &'_ Notice| notice.severity() == Severity::Severe;
+        let notices = self.summary.warnings.iter().filter(|notice| !notice.is_note());
+        notices.map(|notice| (notice.kind.name(), &*notice.message, of(notice))).collect()
     }
 
     /// Name of the model.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from . import _core
 from ._request import given, paths
-from ._result import Result, write
+from ._result import Result, noticed, warn_of, write
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -41,16 +41,13 @@ class Assessment(Result):
     def __str__(self) -> str:
         return str(self._tell("text"))
 
-    def __repr__(self) -> str:
-        return f"<slipstick.Assessment {', '.join(self.tables)}>"
-
 
 def read_suite(
     patterns: str | PathLike[str] | Iterable[str | PathLike[str]],
     *,
     channel: str | None = None,
     units: str | None = None,
-    dt_s: float | None = None,
+    dt: float | str | None = None,
     vertical: str | PathLike[str] | Iterable[str | PathLike[str]] = (),
 ) -> dict[str, _core.Motion]:
     """Read many records.
@@ -59,7 +56,7 @@ def read_suite(
     ----------
     patterns
         Files, folders or patterns such as ``"suite/*.AT2"``.
-    channel, units, dt_s
+    channel, units, dt
         As in ``read_record``, for all files.
     vertical
         The same for the vertical components, as many and in the same order.
@@ -78,7 +75,7 @@ def read_suite(
     """
     return dict(
         _core.read_suite(
-            paths(patterns), channel=channel, units=units, dt_s=dt_s, vertical=paths(vertical)
+            paths(patterns), channel=channel, units=units, dt=dt, vertical=paths(vertical)
         )
     )
 
@@ -151,7 +148,7 @@ def suite(
     (3, ['model', 'friction', 'statistic'])
     """
     several = models if isinstance(models, Mapping) else {models.name or "model": models}
-    return Assessment(
+    return _told(
         _core.suite(
             list(several.items()),
             list(records.items()),
@@ -374,7 +371,7 @@ def fragility(
         table = source
     else:
         table, known = _core.read_runs(Path(source), demand)
-    return Assessment(_core.fit(table, asked, limit=known, jobs=jobs, progress=progress))
+    return _told(_core.fit(table, asked, limit=known, jobs=jobs, progress=progress))
 
 
 def design(
@@ -462,4 +459,11 @@ def _assess(
 ) -> Assessment:
     of, others = list(records.items()), list((second or {}).items())
     answer = _core.assess(kind, model, of, others, given(kind, asked), jobs=jobs, progress=progress)
-    return Assessment(answer)
+    return _told(answer)
+
+
+def _told(answer: _core.Assessment) -> Assessment:
+    """The answer, with a warning to whom asked for it where it is severe."""
+    told = Assessment(answer)
+    warn_of(noticed(told.warnings))
+    return told

@@ -62,12 +62,6 @@ class _Test(Result):
         """The result in a few sentences."""
         return list(self._tell("verdict"))
 
-    @property
-    def warnings(self) -> list[dict[str, Any]]:
-        """What may change a decision: a unit, a sign or a clock that looks wrong, a sensor that is off."""
-        warnings: list[dict[str, Any]] = self.summary["warnings"]
-        return warnings
-
     def text(self, units: str = "si") -> str:
         """The table that the command prints.
 
@@ -136,8 +130,8 @@ class Comparison(_Test):
         motion: _core.Motion = self._tell("motion")
         return motion
 
-    def __repr__(self) -> str:
-        return f"<slipstick.Comparison {', '.join(self.curves)}>"
+    def _names(self) -> str:
+        return ", ".join(self.curves)
 
 
 class Identified(_Test):
@@ -168,8 +162,8 @@ class Identified(_Test):
         model: _core.Model | None = self._tell("model")
         return model
 
-    def __repr__(self) -> str:
-        return f"<slipstick.Identified {', '.join(self.estimates)}>"
+    def _names(self) -> str:
+        return ", ".join(self.estimates)
 
 
 def _test(measured: Measured) -> Any:

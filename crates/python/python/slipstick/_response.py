@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _core
+from ._result import in_a_line, in_html, warn_of
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -64,6 +65,11 @@ def run(
     SolveError
         Where there is no answer, with the time.
 
+    Warns
+    -----
+    SlipstickWarning
+        For what makes figures void: a check that fails, a gap that is passed, contact that is lost.
+
     Examples
     --------
     >>> import slipstick as ss
@@ -75,7 +81,9 @@ def run(
     >>> float(abs(response.knots["friction_force_n"]).max()) == 0.1 * 325 * 9.80665
     True
     """
-    return Response(_core.run(model, motion, floor_spectrum=floor_spectrum), model, floor_spectrum)
+    response = Response(_core.run(model, motion, floor_spectrum=floor_spectrum), model, floor_spectrum)
+    warn_of(response._core._noticed())
+    return response
 
 
 def _frozen(columns: dict[str, NDArray[np.float64]]) -> Columns:
@@ -217,11 +225,15 @@ class Response:
         return target
 
     def _repr_html_(self) -> str:
-        peak = self.summary["peak_sliding_displacement_m"]
-        return f"<b>{self._core.name}</b>: peak sliding displacement {1e3 * peak:.4g} mm"
+        from html import escape
+
+        peak = 1e3 * self.summary["peak_sliding_displacement_m"]
+        said = in_html(self.holds, self._core._noticed(), "The certificate")
+        return f"{said}<p><b>{escape(self._core.name)}</b>: peak sliding displacement {peak:.4g} mm</p>"
 
     def __repr__(self) -> str:
-        return f"<slipstick.Response {self._core.name!r}, {len(self.events)} events>"
+        said = in_a_line(self.holds, self._core._noticed())
+        return f"<slipstick.Response {said}{self._core.name!r}, {len(self.events)} events>"
 
 
 def _again(model: _core.Model, motion: _core.Motion, floor_spectrum: bool) -> Response:

@@ -7,15 +7,53 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Self
 
+from ._errors import SlipstickWarning
+
 if TYPE_CHECKING:
     from os import PathLike
 
     from . import _core
 
     Key = tuple[str, ...]
+    #: Kind, message, whether it is severe
+    Noticed = tuple[str, str, bool]
 
 #: Systems of units that results are shown in
 UNITS = ("si", "si-g", "kN-mm", "us")
+
+
+def noticed(warnings: list[dict[str, Any]]) -> list[Noticed]:
+    """What the warnings of a summary say."""
+    return [(w["kind"], w["message"], w.get("severity") == "severe") for w in warnings]
+
+
+def warn_of(of: list[Noticed]) -> None:
+    """Warn whoever called the package of what is severe."""
+    import sys
+    import warnings
+
+    frame, depth = sys._getframe(1), 2
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("slipstick."):
+        frame, depth = frame.f_back, depth + 1
+    for _, message, severe in of:
+        if severe:
+            warnings.warn(message, SlipstickWarning, stacklevel=depth)
+
+
+def in_a_line(holds: bool | None, of: list[Noticed]) -> str:
+    """Whether a result holds, and its warnings, the gravest first."""
+    words = [] if holds is None else ["holds" if holds else "DOES NOT HOLD"]
+    words += [("severe: " if severe else "warning: ") + kind.replace("_", " ") for kind, _, severe in of]
+    return "".join(f"{word}; " for word in words)
+
+
+def in_html(holds: bool | None, of: list[Noticed], meaning: str) -> str:
+    """The same for a notebook, in whole sentences."""
+    from html import escape
+
+    lines = [] if holds is None else [f"<b>{meaning} {'holds' if holds else 'DOES NOT HOLD'}</b>"]
+    lines += [f"<b>{'Severe' if severe else 'Warning'}:</b> {escape(message)}" for _, message, severe in of]
+    return "".join(f"<p>{line}</p>" for line in lines)
 
 
 class Result:
@@ -54,6 +92,17 @@ class Result:
         return figures
 
     @property
+    def holds(self) -> bool | None:
+        """Whether the answer keeps its bounds; None where it has none."""
+        return None
+
+    @property
+    def warnings(self) -> list[dict[str, Any]]:
+        """What may change a decision, the gravest first."""
+        warnings: list[dict[str, Any]] = self.summary.get("warnings", [])
+        return warnings
+
+    @property
     def figures(self) -> Mapping[str, str]:
         """The figures as SVG by name; a notebook shows the first."""
         return MappingProxyType(dict(self._tell("_figures")))
@@ -82,7 +131,15 @@ class Result:
         return hash(self._tell("_summary_json"))
 
     def _repr_html_(self) -> str:
-        return next(iter(self.figures.values()), "")
+        said = in_html(self.holds, noticed(self.warnings), "The answer")
+        return said + next(iter(self.figures.values()), "")
+
+    def __repr__(self) -> str:
+        said = in_a_line(self.holds, noticed(self.warnings))
+        return f"<slipstick.{type(self).__name__} {said}{self._names()}>"
+
+    def _names(self) -> str:
+        return ", ".join(self.tables)
 
 
 def _restored(cls: type[Result], told: dict[Key, Any]) -> Result:
