@@ -162,7 +162,7 @@ pub(crate) fn assess(
     records: Named,
     second: Named,
     given: Asked,
-    jobs: Option<usize>,
+    jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Assessment> {
     let asked = asked(py, kind, given)?;
@@ -183,7 +183,7 @@ pub(crate) fn suite(
     second: Named,
     given: Asked,
     target: Option<PathBuf>,
-    jobs: Option<usize>,
+    jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Assessment> {
     let asked = asked(py, Kind::Suite.name(), given)?;
@@ -208,7 +208,7 @@ pub(crate) fn fit(
     table: &Table,
     given: Asked,
     limit: Option<f64>,
-    jobs: Option<usize>,
+    jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Assessment> {
     let asked = asked(py, Kind::Fragility.name(), given)?;

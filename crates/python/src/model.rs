@@ -120,6 +120,16 @@ pub(crate) fn plain<'py>(
     Ok(number.map(|number| PyFloat::new(py, number).into_any()))
 }
 
+/// The same for the package.
+#[pyfunction]
+#[pyo3(name = "plain")]
+pub(crate) fn as_plain<'py>(
+    path: &str,
+    value: &Bound<'py, PyAny>,
+) -> PyResult<Option<Bound<'py, PyAny>>> {
+    plain(path, value)
+}
+
 /// A value as a person writes it.
 fn written(path: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
     let Some(plain) = plain(path, value)? else {

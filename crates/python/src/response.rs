@@ -33,6 +33,10 @@ pub(crate) fn run(
         None => model.analysis.motion.as_ref().is_some_and(|source| source.key_of_y().is_some()),
         Some(Motion(loaded)) => loaded.motion.horizontal_y_m_per_s2().is_some(),
     };
+    if motion.is_none() && model.analysis.motion.is_none() {
+        let expected = "a motion, for the model has none of its own";
+        return Err(of_argument(py, "motion", expected, "none"));
+    }
     if floor_spectrum && in_plane {
         let expected = "False with a motion in two directions";
         return Err(of_argument(py, "floor_spectrum", expected, "True"));

@@ -320,8 +320,8 @@ def fragility(
     Parameters
     ----------
     source
-        Runs of ``ida`` or ``study``, capacities or counts: a table, a file in CSV or Parquet, or the folder of
-        a command.
+        Runs of ``ida`` or ``study``, capacities or counts: what ``ida`` gave, a table, a file in CSV or Parquet,
+        or the folder of a command.
     demand, limit
         The demand and the limit on it with its unit; that of the analysis if left out.
     measure, units
@@ -364,9 +364,7 @@ def fragility(
     asked = given("fragility", locals())
     known = None
     if isinstance(source, Assessment):
-        known = source.summary.get("limit")
-        whole = limit is not None or fit_to not in (None, "capacities")
-        table = source.table if whole else source.tables.get("capacities", source.table)
+        known, table = source.summary.get("limit"), source.table
     elif isinstance(source, _core.Table):
         table = source
     else:

@@ -22,10 +22,12 @@ __all__ = [
     "fit",
     "identify",
     "levels",
+    "plain",
     "read_runs",
     "read_suite",
     "run",
     "study",
+    "study_id",
     "suite",
 ]
 
@@ -182,11 +184,13 @@ def study(
     plan: str | PathLike[str] | Path,
     folder: str | PathLike[str] | Path,
     *,
+    names: list[tuple[str, str]] = ...,
     shard: tuple[int, int] | None = None,
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
     force: bool = False,
 ) -> Study: ...
+def study_id(plan: str | PathLike[str] | Path) -> str: ...
 
 @final
 class Assessment:
@@ -209,6 +213,7 @@ def read_suite(
     vertical: list[str] = ...,
 ) -> list[tuple[str, Motion]]: ...
 def read_runs(source: Path, demand: str | None) -> tuple[Table, float | None]: ...
+def plain(path: str, value: object) -> bool | int | float | str | None: ...
 def levels(text: str, measure: str) -> list[str]: ...
 def fields(kind: str) -> list[tuple[str, bool, str, str]]: ...
 def assess(
