@@ -23,7 +23,8 @@ def test_errors_are_in_words_of_python(tmp_path: Path) -> None:
     bare.write_text("0.1\n0.2\n")
     columns.write_text("time_s,north_g,east_g\n0,0,1\n1,2,3\n")
     motions = {"a": pulse()}
-    table = ss.ida(block(), motions, scale_to="0.1..0.6 g:4", limit="9 mm").table
+    two = {"a": pulse(), "b": ss.Motion([0.0, 0.3, -0.2, 0.0], dt=0.4, units="g")}
+    table = ss.ida(block(), two, scale_to="0.1..0.6 g:4", limit="9 mm").table
     levels = {"level": [0.1, 0.2, 0.3], "peak_sliding_displacement_m": [0.001, 0.002, 0.2]}
     runs = ss.Table._from_columns([(k, "", "numbers", np.array(v)) for k, v in levels.items()])
     other = tmp_path / "study"
