@@ -26,7 +26,7 @@ def test_errors_are_in_words_of_python(tmp_path: Path) -> None:
     two = {"a": pulse(), "b": ss.Motion([0.0, 0.3, -0.2, 0.0], dt=0.4, units="g")}
     table = ss.ida(block(), two, scale_to="0.1..0.6 g:4", limit="9 mm").table
     levels = {"level": [0.1, 0.2, 0.3], "peak_sliding_displacement_m": [0.001, 0.002, 0.2]}
-    runs = ss.Table._from_columns([(k, "", "numbers", np.array(v)) for k, v in levels.items()])
+    runs = ss.Table(levels)
     other = tmp_path / "study"
     ss.study(ss.Plan(block(), motions), other)
     calls = {

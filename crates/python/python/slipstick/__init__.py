@@ -25,11 +25,12 @@ from typing import TYPE_CHECKING
 
 from . import identify
 from ._assessment import Assessment, design, fragility, ida, read_suite, spectrum, suite
-from ._core import Model, Motion, Table, __version__
+from ._core import Model, Motion, __version__
 from ._errors import InputError, RecordError, SlipstickWarning, SolveError, StudyError
 from ._laboratory import Comparison, Estimate, Identified, compare
-from ._response import Event, Response, run
+from ._response import Response, run
 from ._study import Plan, Study, study
+from ._table import Event, Events, Table
 from ._widget import widget
 
 if TYPE_CHECKING:
@@ -42,6 +43,7 @@ __all__ = [
     "Comparison",
     "Estimate",
     "Event",
+    "Events",
     "Identified",
     "InputError",
     "Model",

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from . import _core
 from ._request import given, paths
 from ._result import Result, noticed, warn_of, write
+from ._table import Table
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
-    from os import PathLike
-
     from ._request import Values, Varied
+    from ._study import Study
+    from ._table import Frame
 
     Progress = Callable[[int, int], object]
     Records = Mapping[str, _core.Motion]
@@ -298,7 +300,7 @@ def ida(
 
 
 def fragility(
-    source: _core.Table | Assessment | str | PathLike[str],
+    source: Frame | Assessment | Study | str | PathLike[str],
     *,
     demand: str | None = None,
     limit: str | None = None,
@@ -320,8 +322,8 @@ def fragility(
     Parameters
     ----------
     source
-        Runs of ``ida`` or ``study``, capacities or counts: what ``ida`` gave, a table, a file in CSV or Parquet,
-        or the folder of a command.
+        Runs of ``ida`` or ``study``, capacities or counts: what they gave, a frame of any library, a file in CSV
+        or Parquet, or the folder of a command.
     demand, limit
         The demand and the limit on it with its unit; that of the analysis if left out.
     measure, units
@@ -364,11 +366,12 @@ def fragility(
     asked = given("fragility", locals())
     known = None
     if isinstance(source, Assessment):
-        known, table = source.summary.get("limit"), source.table
-    elif isinstance(source, _core.Table):
-        table = source
-    else:
+        known, table = source.summary.get("limit"), source.table._core
+    elif isinstance(source, (str, PathLike)):
         table, known = _core.read_runs(Path(source), demand)
+    else:
+        frame = getattr(source, "table", source)
+        table = (frame if isinstance(frame, Table) else Table(frame))._core
     return _told(_core.fit(table, asked, limit=known, jobs=jobs, progress=progress))
 
 

@@ -8,11 +8,13 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Self
 
 from ._errors import SlipstickWarning
+from ._table import Table
 
 if TYPE_CHECKING:
     from os import PathLike
 
-    from . import _core
+    import pandas as pd
+    import xarray as xr
 
     Key = tuple[str, ...]
     #: Kind, message, whether it is severe
@@ -74,12 +76,15 @@ class Result:
         return self._told[key]
 
     @property
-    def tables(self) -> Mapping[str, _core.Table]:
+    def tables(self) -> Mapping[str, Table]:
         """The tables by name."""
-        return MappingProxyType(self._tell("tables"))
+        return self._tabled("tables")
+
+    def _tabled(self, key: str) -> Mapping[str, Table]:
+        return MappingProxyType({name: Table._of(core) for name, core in self._tell(key).items()})
 
     @property
-    def table(self) -> _core.Table:
+    def table(self) -> Table:
         """The first of the tables."""
         return next(iter(self.tables.values()))
 
@@ -106,6 +111,32 @@ class Result:
     def figures(self) -> Mapping[str, str]:
         """The figures as SVG by name; a notebook shows the first."""
         return MappingProxyType(dict(self._tell("_figures")))
+
+    def to_pandas(self) -> pd.DataFrame:
+        """The first of the tables as a data frame."""
+        return self.table.to_pandas()
+
+    def to_xarray(self) -> xr.Dataset:
+        """The first of the tables as a dataset."""
+        return self.table.to_xarray()
+
+    def __getitem__(self, name: str) -> Table:
+        return self.tables[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.tables)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.tables
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
+        return self.table.__array__(dtype, copy)
+
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
+        return self.table.__arrow_c_stream__(requested_schema)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self.tables)
 
     def _keys(self) -> Iterator[Key]:
         yield from self._KEYS

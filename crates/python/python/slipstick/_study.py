@@ -13,6 +13,7 @@ from ._assessment import read_suite
 from ._errors import InputError, RecordError
 from ._request import several, text_of, wrong
 from ._result import warn_of
+from ._table import Table
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,9 +24,9 @@ class Study(NamedTuple):
     """What came of a study."""
 
     #: One row a run
-    table: _core.Table
+    table: Table
     #: Fractiles and counts, one row a level and demand
-    summary: _core.Table
+    summary: Table
     runs: int
     #: Runs that have no answer; their status says why
     failures: int
@@ -263,7 +264,7 @@ def study(
     assert table is not None and summary is not None
     if done.failures:
         warn_of([("failed_runs", f"{done.failures} of {done.runs} runs have no answer: their status says why", True)])
-    return Study(table, summary, done.runs, done.failures, done.notices)
+    return Study(Table._of(table), Table._of(summary), done.runs, done.failures, done.notices)
 
 
 def run_shard(
