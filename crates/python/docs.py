@@ -24,6 +24,7 @@ PARTS: list[tuple[str, list[tuple[str, Any]]]] = [
             ("slipstick.Response", ss.Response),
             ("Response.plot", Plotter),
             ("slipstick.Event", ss.Event),
+            ("slipstick.Events", ss.Events),
         ],
     ),
     (
@@ -69,7 +70,7 @@ PARTS: list[tuple[str, list[tuple[str, Any]]]] = [
         "Errors",
         [
             (f"slipstick.{name}", getattr(ss, name))
-            for name in ["InputError", "RecordError", "SolveError", "StudyError"]
+            for name in ["InputError", "RecordError", "SlipstickWarning", "SolveError", "StudyError"]
         ],
     ),
 ]
@@ -183,7 +184,7 @@ def members(cls: type) -> Iterator[str]:
 def entry(name: str, value: Any) -> Iterator[str]:
     is_error = inspect.isclass(value) and issubclass(value, Exception)
     given = "" if is_error or value is Plotter or hasattr(value, "_fields") else signature(value)
-    made = {"Response", "Assessment", "Comparison", "Identified", "Table", "Regularisation", "Attempt"}
+    made = {"Response", "Assessment", "Comparison", "Identified", "Events", "Regularisation", "Attempt"}
     if inspect.isclass(value) and value.__name__ in made:
         given = ""
     yield f"### `{name}{given}`\n\n{markdown(inspect.getdoc(value) or '')}"

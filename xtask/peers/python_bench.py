@@ -113,7 +113,7 @@ def many(program, folder, examples, count, turns):
 
 def cluster(folder, examples, count, turns):
     """Seconds of a study on one thread, on one worker of Dask and on two."""
-    records = ss.read_suite(examples / "records" / "taft-111.txt", units="g", dt_s=0.01)
+    records = ss.read_suite(examples / "records" / "taft-111.txt", units="g", dt=0.01)
     model = ss.Model.read(examples / "studies" / "tank.toml")
     vary = {"slider.kinetic_friction": {"uniform": [0.02, 0.05]}}
     plan = ss.Plan(model, records, vary, samples=count, seed=1, scale=[2.0])

@@ -321,6 +321,18 @@ impl Analysis {
         self.values.number(path)
     }
 
+    /// What the values in use are, however they were written: two analyses with the same say the same.
+    /// Paths of records stand as written.
+    #[must_use]
+    pub fn canonical(&self) -> String {
+        // Fifteen digits: 0.3 m is 300 mm.
+        let said = |input: Input<'_>| match input.value {
+            Some(value) => format!("{} = {:.14e}\n", input.path, value + 0.0),
+            None => format!("{} = {}\n", input.path, input.text),
+        };
+        self.inputs().map(said).collect()
+    }
+
     /// The error for a value that only its user can judge (a file that is not there, a ramp longer
     /// than the motion), at that value; where it is not written, at the table that lacks it.
     pub fn error_at(

@@ -49,6 +49,7 @@ use crate::notice::Notice;
 pub(crate) use delimited::bracket;
 pub use delimited::{Column, Columns};
 pub use origin::Origin;
+pub(crate) use quality::judged;
 pub use quality::{REST_KINDS, rest};
 pub(crate) use sampling::of_times;
 use text::Text;

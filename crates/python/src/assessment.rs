@@ -1,24 +1,24 @@
 //! `spectrum`, `ida`, `fragility`, `design`: many records to a decision.
 
-use std::ffi::CString;
 use std::path::PathBuf;
 
-use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slipstick::assessment::AssessmentError;
 use slipstick::assessment::suite::Suite;
+use slipstick::notice::Notice;
 use slipstick::record::Units;
 use slipstick::requests::{Answer, Kind, On, Runs};
+use slipstick::units::Dimension;
 use slipstick_files::{
     ReadRecords, SuiteError, SuiteRequest, files_of_runs, limit_of_ida, read_runs, read_target,
 };
 use slipstick_report::DisplayUnits;
 use slipstick_report::assessment::{Sheet, Went, answer};
 
-use crate::errors::{of_argument, of_assessment, of_file};
+use crate::errors::{of_argument, of_assessment, of_file, warn, warn_severe};
 use crate::model::Model;
-use crate::motion::Motion;
+use crate::motion::{Motion, quantity};
 use crate::requests::{Asked, asked};
 use crate::table::Table;
 use crate::work::followed;
@@ -83,13 +83,13 @@ impl Assessment {
 
 /// Reads the records of files, folders or patterns; names and motions.
 #[pyfunction]
-#[pyo3(signature = (patterns, *, channel = None, units = None, dt_s = None, vertical = Vec::new()))]
+#[pyo3(signature = (patterns, *, channel = None, units = None, dt = None, vertical = Vec::new()))]
 pub(crate) fn read_suite(
     py: Python<'_>,
     patterns: Vec<String>,
     channel: Option<String>,
     units: Option<&str>,
-    dt_s: Option<f64>,
+    dt: Option<&Bound<'_, PyAny>>,
     vertical: Vec<String>,
 ) -> PyResult<Vec<(String, Motion)>> {
     let units = units.map(|text| {
@@ -97,6 +97,7 @@ pub(crate) fn read_suite(
         Units::parse(text).ok_or_else(|| of_argument(py, "units", expected, text))
     });
     let units = units.transpose()?;
+    let dt_s = dt.map(|dt| quantity("dt", dt, Dimension::Time, true)).transpose()?;
     let request =
         SuiteRequest { patterns, vertical, units, dt_s, channel, ..SuiteRequest::default() };
     let read = followed(py, None, None, |engine| ReadRecords::read(&request, engine))?;
@@ -106,8 +107,14 @@ pub(crate) fn read_suite(
         SuiteError::Stopped(error) => of_assessment(py, &AssessmentError::Stopped(error)),
     })?;
     for warning in warnings {
-        let message = CString::new(warning.message).unwrap_or_default();
-        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &message, 1)?;
+        warn(py, warning.message)?;
+    }
+    for (name, loaded) in &records {
+        let of = |notice: &Notice| Notice {
+            message: format!("{name}: {}", notice.message),
+            ..notice.clone()
+        };
+        warn_severe(py, &loaded.warnings.iter().map(of).collect::<Vec<_>>())?;
     }
     Ok(records.into_iter().map(|(name, loaded)| (name, Motion(loaded))).collect())
 }
@@ -123,6 +130,12 @@ fn suite_of(py: Python<'_>, records: Named, second: Named) -> PyResult<Suite> {
         return Err(of_argument(py, "second", &expected, &second.len().to_string()));
     }
     let mut others = second.into_iter();
+    let in_plane =
+        |(_, motion): &&(String, Motion)| motion.0.motion.horizontal_y_m_per_s2().is_some();
+    if let Some((name, _)) = records.iter().find(in_plane) {
+        let expected = "motions in one direction (run takes one in two)";
+        return Err(of_argument(py, "records", expected, &format!("{name:?} in two")));
+    }
     let both = records.into_iter().flat_map(|first| [Some(first), others.next()]);
     let read = both.flatten().map(|(name, motion)| (name, motion.0.loaded));
     let mut suite = Suite::of(read, false);
@@ -149,7 +162,7 @@ pub(crate) fn assess(
     records: Named,
     second: Named,
     given: Asked,
-    jobs: Option<usize>,
+    jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Assessment> {
     let asked = asked(py, kind, given)?;
@@ -170,7 +183,7 @@ pub(crate) fn suite(
     second: Named,
     given: Asked,
     target: Option<PathBuf>,
-    jobs: Option<usize>,
+    jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Assessment> {
     let asked = asked(py, Kind::Suite.name(), given)?;
@@ -195,7 +208,7 @@ pub(crate) fn fit(
     table: &Table,
     given: Asked,
     limit: Option<f64>,
-    jobs: Option<usize>,
+    jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Assessment> {
     let asked = asked(py, Kind::Fragility.name(), given)?;

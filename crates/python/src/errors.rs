@@ -1,5 +1,7 @@
 //! Errors of the core as exceptions of `slipstick._errors`, with all that they know.
 
+use std::ffi::CString;
+use std::fmt::{self, Write};
 use std::io;
 use std::path::Path;
 
@@ -12,6 +14,7 @@ use slipstick::laboratory::compare::CompareError;
 use slipstick::laboratory::identify::IdentifyError;
 use slipstick::laboratory::measured::MeasuredError;
 use slipstick::laboratory::shaking_table::TableError;
+use slipstick::notice::{Notice, Severity};
 use slipstick::requests::Door;
 use slipstick_files::{FileError, JobError, LaboratoryError, StudyError};
 
@@ -28,6 +31,32 @@ fn exception(
         py.import("slipstick._errors")?.getattr(class)?.call((message,), Some(&known))
     };
     make().map_or_else(|error| error, PyErr::from_value)
+}
+
+/// A text in HTML.
+pub(crate) struct Escaped<'a>(pub(crate) &'a str);
+
+impl fmt::Display for Escaped<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.chars().try_for_each(|c| match c {
+            '<' => f.write_str("&lt;"),
+            '>' => f.write_str("&gt;"),
+            '&' => f.write_str("&amp;"),
+            c => f.write_char(c),
+        })
+    }
+}
+
+/// A warning in Python.
+pub(crate) fn warn(py: Python<'_>, message: String) -> PyResult<()> {
+    let class = py.import("slipstick._errors")?.getattr("SlipstickWarning")?;
+    PyErr::warn(py, &class, &CString::new(message).unwrap_or_default(), 1)
+}
+
+/// A warning in Python for each severe notice.
+pub(crate) fn warn_severe(py: Python<'_>, notices: &[Notice]) -> PyResult<()> {
+    let mut severe = notices.iter().filter(|notice| notice.severity() == Severity::Severe);
+    severe.try_for_each(|notice| warn(py, notice.message.clone()))
 }
 
 pub(crate) fn of_input(py: Python<'_>, error: &InputError) -> PyErr {
@@ -67,12 +96,30 @@ pub(crate) fn of_choice(py: Python<'_>, error: &ChoiceError) -> PyErr {
     })
 }
 
+/// What a file lacks, in words of Python: keys of a model and options of the command are keywords here. A
+/// model's own record has its keys in the model.
+fn in_python(text: &str, of_model: bool) -> String {
+    const KEYS: &str = " to [motion]";
+    let Some(at) = text.find(KEYS) else { return text.replace("add --channel ", "add channel=") };
+    let (before, after) = text.split_at(at);
+    let rest = after.get(KEYS.len()..).unwrap_or_default();
+    let options = rest.strip_prefix(" (or --").and_then(|rest| rest.split_once(')'));
+    let rest = options.map_or(rest, |(_, rest)| rest);
+    format!("{before}{}{rest}", if of_model { KEYS } else { "" })
+}
+
 /// Samples that are no ground motion.
 pub(crate) fn of_motion(py: Python<'_>, error: &MotionError) -> PyErr {
+    if let MotionError::OutOfRange { quantity, expected, found } = error {
+        let argument = quantity.trim_end_matches("_s");
+        return of_argument(py, argument, expected, &found.to_string());
+    }
     exception(py, "RecordError", &error.to_string(), |_| Ok(()))
 }
 
-fn of_record(py: Python<'_>, error: &RecordError) -> PyErr {
+fn of_record(py: Python<'_>, error: &RecordError, of_model: bool) -> PyErr {
+    let expected = in_python(&error.expected, of_model);
+    let error = &RecordError { expected, ..error.clone() };
     exception(py, "RecordError", &error.to_string(), |fields| {
         fields.set_item("source", &error.source_name)?;
         fields.set_item("line", error.line)?;
@@ -94,12 +141,20 @@ fn of_system(path: &Path, source: &io::Error) -> PyErr {
 }
 
 pub(crate) fn of_file(py: Python<'_>, error: &FileError) -> PyErr {
+    of_opened(py, error, false)
+}
+
+/// The same of a file that a model may name.
+fn of_opened(py: Python<'_>, error: &FileError, of_model: bool) -> PyErr {
     match error {
         FileError::Read { path, source } | FileError::Write { path, source } => {
             of_system(path, source)
         }
-        FileError::Record(error) => of_record(py, error),
-        other => exception(py, "RecordError", &other.to_string(), |_| Ok(())),
+        FileError::Record(error) => of_record(py, error, of_model),
+        other => {
+            let message = in_python(&other.to_string(), of_model);
+            exception(py, "RecordError", &message, |_| Ok(()))
+        }
     }
 }
 
@@ -120,7 +175,7 @@ pub(crate) fn of_solve(py: Python<'_>, error: &SolveError) -> PyErr {
 pub(crate) fn of_job(py: Python<'_>, error: &JobError) -> PyErr {
     match error {
         JobError::Input(error) => of_input(py, error),
-        JobError::File(error) => of_file(py, error),
+        JobError::File(error) => of_opened(py, error, true),
         JobError::Solve(error) => of_solve(py, error),
     }
 }
@@ -130,14 +185,18 @@ pub(crate) fn of_study(py: Python<'_>, error: &StudyError) -> PyErr {
         StudyError::Input { error, .. } => of_input(py, error),
         StudyError::File(error) => of_file(py, error),
         StudyError::Stopped(_) => PyKeyboardInterrupt::new_err(()),
-        other => exception(py, "StudyError", &other.to_string(), |_| Ok(())),
+        other => {
+            // What is there already is never run again here.
+            let message = other.to_string().replace("--force", "force=True");
+            exception(py, "StudyError", &message.replace(" with --resume", ""), |_| Ok(()))
+        }
     }
 }
 
 pub(crate) fn of_laboratory(py: Python<'_>, error: &LaboratoryError) -> PyErr {
     match error {
         LaboratoryError::File(error) => of_file(py, error),
-        LaboratoryError::Measured(MeasuredError::File(error)) => of_record(py, error),
+        LaboratoryError::Measured(MeasuredError::File(error)) => of_record(py, error, false),
         LaboratoryError::Measured(MeasuredError::Mapping(error))
         | LaboratoryError::Mapping(error) => of_input(py, error),
         LaboratoryError::Choice(error) => of_choice(py, error),
@@ -146,7 +205,7 @@ pub(crate) fn of_laboratory(py: Python<'_>, error: &LaboratoryError) -> PyErr {
 
 pub(crate) fn of_compare(py: Python<'_>, error: &CompareError) -> PyErr {
     match error {
-        CompareError::Measured(error) => of_record(py, error),
+        CompareError::Measured(error) => of_record(py, error, false),
         CompareError::Motion(error) => of_motion(py, error),
         CompareError::Solve(error) => of_solve(py, error),
     }
@@ -156,7 +215,7 @@ pub(crate) fn of_identify(py: Python<'_>, error: &IdentifyError) -> PyErr {
     match error {
         IdentifyError::Input(error) => of_input(py, error),
         IdentifyError::Measured(error) | IdentifyError::Table(TableError::Measured(error)) => {
-            of_record(py, error)
+            of_record(py, error, false)
         }
         IdentifyError::Choice(error) => of_choice(py, error),
         IdentifyError::Table(TableError::Compare(error)) => of_compare(py, error),

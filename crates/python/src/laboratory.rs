@@ -324,7 +324,7 @@ pub(crate) fn identify(
     tests: Vec<Given<'_>>,
     model: Option<Model>,
     given: Asked,
-    jobs: Option<usize>,
+    jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Identified> {
     let asked = asked(py, kind, given)?;

@@ -21,7 +21,7 @@ mod _core {
     #[pymodule_export]
     use super::laboratory::{Comparison, Identified, compare_with, identify};
     #[pymodule_export]
-    use super::model::Model;
+    use super::model::{Model, as_plain};
     #[pymodule_export]
     use super::motion::Motion;
     #[pymodule_export]
@@ -29,7 +29,7 @@ mod _core {
     #[pymodule_export]
     use super::response::{Response, run};
     #[pymodule_export]
-    use super::study::{Study, study};
+    use super::study::{Study, study, study_id};
     #[pymodule_export]
     use super::table::Table;
     use pyo3::prelude::*;

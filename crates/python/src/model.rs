@@ -4,10 +4,10 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString};
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 use slipstick::assessment::single::Job;
 use slipstick::error::InputError;
-use slipstick::input::{self, Analysis, InputValue, Override};
+use slipstick::input::{self, Analysis, InputValue, MotionSource, Override};
 use slipstick::units::Dimension;
 use slipstick_files::read_at_most;
 use slipstick_report::opensees::script;
@@ -17,13 +17,14 @@ use crate::motion::{Motion, quantity};
 
 /// A checked model: block, slider, storeys, perhaps its own motion and the method.
 ///
-/// Models do not change; they compare by their keys, hash and pickle.
+/// Models do not change; they compare by the values of their keys (``"2 m"`` is ``"2000 mm"``), hash and pickle.
 ///
 /// Parameters
 /// ----------
 /// values
 ///     Keys of the model file with their values, nested or as paths: ``{"block": {"mass": "325 kg"}}``,
-///     ``{"block.mass": "325 kg"}``. A value with a dimension is text with its unit, or a quantity of pint.
+///     ``{"block.mass": "325 kg"}``. A value with a dimension is text with its unit, or a quantity of pint; one
+///     without is any number, a scalar of NumPy too.
 ///
 /// Raises
 /// ------
@@ -76,47 +77,84 @@ impl Model {
         Path::new(&self.source)
     }
 
-    /// What makes two models the same: all that is written, and where records are looked for.
+    /// What makes two models the same: the values of all keys, and where their record is looked for.
     fn identity(&self) -> (String, &Path) {
-        let folder = self.path().parent().unwrap_or(Path::new(""));
-        (self.analysis.to_toml_with_motion(), folder)
+        let has_record = matches!(self.analysis.motion, Some(MotionSource::Record(_)));
+        let folder = self.path().parent().filter(|_| has_record);
+        (self.analysis.canonical(), folder.unwrap_or(Path::new("")))
     }
 }
 
-/// A value as a person writes it; pint's quantities write themselves so.
-fn written(path: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
+/// A number, a flag or a text as Python's own: scalars of NumPy and arrays without a dimension, fractions,
+/// decimals; of a quantity of pint its text. None where a value is none of these.
+pub(crate) fn plain<'py>(
+    path: &str,
+    value: &Bound<'py, PyAny>,
+) -> PyResult<Option<Bound<'py, PyAny>>> {
     let py = value.py();
-    if value.is_instance_of::<PyBool>() {
-        return Ok(if value.extract()? { "true" } else { "false" }.to_owned());
+    let own = value.is_instance_of::<PyBool>() || value.is_instance_of::<PyInt>();
+    if own || value.is_instance_of::<PyString>() {
+        return Ok(Some(value.clone()));
     }
-    if value.is_instance_of::<PyString>() {
-        return value.extract();
-    }
-    if value.is_instance_of::<PyInt>() || value.is_instance_of::<PyFloat>() {
-        return Ok(value.repr()?.to_string());
+    if value.is_instance_of::<PyFloat>() {
+        return Ok(Some(PyFloat::new(py, value.extract()?).into_any()));
     }
     if value.hasattr("magnitude")? && value.hasattr("units")? {
-        let number: f64 = value.getattr("magnitude")?.extract()?;
-        return Ok(format!("{number:?} {}", pint_units(&value.getattr("units")?)?));
+        let Some(number) = plain(path, &value.getattr("magnitude")?)? else { return Ok(None) };
+        let text = format!("{} {}", number.repr()?, pint_units(&value.getattr("units")?)?);
+        return Ok(Some(PyString::new(py, &text).into_any()));
     }
-    if let Ok(number) = value.extract::<f64>() {
-        return Ok(format!("{number:?}"));
+    if value.hasattr("mask")? {
+        return Err(of_argument(py, path, "a value", "a masked one"));
     }
-    let found = value.get_type().name()?.to_string();
-    Err(of_argument(py, path, "a number, or text such as \"150 mm\"", &found))
+    if value.hasattr("ndim")? && value.hasattr("item")? {
+        if value.getattr("ndim")?.extract::<usize>()? != 0 {
+            return Ok(None);
+        }
+        let item = value.call_method0("item")?;
+        if !item.get_type().is(value.get_type()) {
+            return plain(path, &item);
+        }
+    }
+    let number = value.hasattr("__float__")?.then(|| value.extract::<f64>().ok()).flatten();
+    Ok(number.map(|number| PyFloat::new(py, number).into_any()))
+}
+
+/// The same for the package.
+#[pyfunction]
+#[pyo3(name = "plain")]
+pub(crate) fn as_plain<'py>(
+    path: &str,
+    value: &Bound<'py, PyAny>,
+) -> PyResult<Option<Bound<'py, PyAny>>> {
+    plain(path, value)
+}
+
+/// A value as a person writes it.
+fn written(path: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
+    let Some(plain) = plain(path, value)? else {
+        let found = value.get_type().name()?.to_string();
+        let expected = "a number, or text such as \"150 mm\"";
+        return Err(of_argument(value.py(), path, expected, &found));
+    };
+    if plain.is_instance_of::<PyBool>() {
+        return Ok(if plain.extract()? { "true" } else { "false" }.to_owned());
+    }
+    Ok(plain.str()?.to_string())
 }
 
 /// The short form of pint's units, as units are written here.
-fn pint_units(units: &Bound<'_, PyAny>) -> PyResult<String> {
+pub(crate) fn pint_units(units: &Bound<'_, PyAny>) -> PyResult<String> {
     let short: String = units.call_method1("__format__", ("~C",))?.extract()?;
     Ok(short.replace("**", "").replace('*', " ").replace("g_0", "g"))
 }
 
-/// `{"slider": {"radius": "2 m"}, "storey": [{…}]}` or `{"slider.radius": "2 m"}` as paths and values.
+/// `{"slider": {"radius": "2 m"}, "storey": [{…}]}` or `{"slider.radius": "2 m"}` as paths and values; no
+/// value where it is None.
 fn flattened(
     prefix: &str,
     values: &Bound<'_, PyDict>,
-    to: &mut Vec<(String, String)>,
+    to: &mut Vec<(String, Option<String>)>,
 ) -> PyResult<()> {
     let py = values.py();
     for (key, value) in values {
@@ -126,20 +164,40 @@ fn flattened(
         let path = if prefix.is_empty() { key } else { format!("{prefix}.{key}") };
         if let Ok(inner) = value.cast::<PyDict>() {
             flattened(&path, inner, to)?;
-        } else if let Ok(list) = value.cast::<PyList>() {
-            for (i, item) in list.iter().enumerate() {
-                let path = format!("{path}.{}", i + 1);
+        } else if value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>() {
+            for (i, item) in value.try_iter()?.enumerate() {
+                let (path, item) = (format!("{path}.{}", i + 1), item?);
                 match item.cast::<PyDict>() {
                     Ok(inner) => flattened(&path, inner, to)?,
-                    Err(_) => to.push((path.clone(), written(&path, &item)?)),
+                    Err(_) => given_once(py, path, &item, to)?,
                 }
             }
         } else {
-            let value = written(&path, &value)?;
-            to.push((path, value));
+            given_once(py, path, &value, to)?;
         }
     }
     Ok(())
+}
+
+/// Takes a value at its path.
+fn given_once(
+    py: Python<'_>,
+    path: String,
+    value: &Bound<'_, PyAny>,
+    to: &mut Vec<(String, Option<String>)>,
+) -> PyResult<()> {
+    if to.iter().any(|(given, _)| *given == path) {
+        return Err(of_argument(py, &path, "one value", "two"));
+    }
+    let text = if value.is_none() { None } else { Some(written(&path, value)?) };
+    to.push((path, text));
+    Ok(())
+}
+
+/// A path from here, as long as there is one, so that it holds after a change of folder.
+fn absolute(path: &str) -> String {
+    let whole = std::path::absolute(path);
+    whole.map_or_else(|_| path.to_owned(), |path| path.display().to_string())
 }
 
 #[pymethods]
@@ -148,8 +206,9 @@ impl Model {
     fn new(values: &Bound<'_, PyDict>) -> PyResult<Self> {
         let mut given = Vec::new();
         flattened("", values, &mut given)?;
-        let texts: Vec<(&str, InputValue<'_>)> =
-            given.iter().map(|(path, text)| (path.as_str(), InputValue::Text(text))).collect();
+        let text = |(path, text)| Some((path, InputValue::Text(text?)));
+        let given = given.iter().map(|(path, text)| (path.as_str(), text.as_deref()));
+        let texts: Vec<(&str, InputValue<'_>)> = given.filter_map(text).collect();
         let analysis = input::from_values(&texts).map_err(|error| of_input(values.py(), &error))?;
         let text = analysis.to_toml_with_motion();
         Ok(Self { analysis, source: String::new(), text })
@@ -175,7 +234,8 @@ impl Model {
         let source = path.display().to_string();
         let analysis =
             input::from_bytes(&source, &bytes, &[]).map_err(|error| of_input(py, &error))?;
-        Ok(Self { analysis, source, text: String::from_utf8_lossy(&bytes).into_owned() })
+        let text = String::from_utf8_lossy(&bytes).into_owned();
+        Ok(Self { analysis, source: absolute(&source), text })
     }
 
     /// Make a model from the text of a model file.
@@ -195,12 +255,14 @@ impl Model {
     #[pyo3(signature = (text, source = "model.toml"))]
     fn from_toml(py: Python<'_>, text: &str, source: &str) -> PyResult<Self> {
         let analysis = input::parse(source, text, &[]).map_err(|error| of_input(py, &error))?;
-        Ok(Self { analysis, source: source.to_owned(), text: text.to_owned() })
+        let source = if source.is_empty() { String::new() } else { absolute(source) };
+        Ok(Self { analysis, source, text: text.to_owned() })
     }
 
     /// Give the same model with other values of some keys.
     ///
-    /// Setting one of two keys that exclude each other removes the other.
+    /// Setting one of two keys that exclude each other removes the other; None removes a key, a storey, a table.
+    /// A storey, surface or item of contents above the last is added.
     ///
     /// Parameters
     /// ----------
@@ -219,11 +281,17 @@ impl Model {
     /// ...                   "slider.kinetic_friction": 0.08})
     /// >>> model.with_({"slider.kinetic_friction": 0.05}).value("slider.kinetic_friction")
     /// 0.05
+    /// >>> pendulum = model.with_({"slider.radius": "2 m"})
+    /// >>> pendulum.with_({"slider.radius": None}) == model
+    /// True
     fn with_(&self, values: &Bound<'_, PyDict>) -> PyResult<Self> {
         let mut given = Vec::new();
         flattened("", values, &mut given)?;
-        let set: Result<Vec<Override>, InputError> =
-            given.iter().map(|(path, text)| Override::text_value(path, text)).collect();
+        let one = |(path, text): &(String, Option<String>)| match text {
+            Some(text) => Override::text_value(path, text).map(Override::growing),
+            None => Override::removal(path),
+        };
+        let set: Result<Vec<Override>, InputError> = given.iter().map(one).collect();
         let changed = set.and_then(|set| input::parse(&self.source, &self.text, &set));
         let analysis = changed.map_err(|error| of_input(values.py(), &error))?;
         let text = analysis.to_toml_with_motion();
@@ -264,8 +332,14 @@ impl Model {
     /// ----------
     /// path
     ///     Such as ``"slider.radius"`` or ``"storey.1.mass"``.
-    fn value(&self, path: &str) -> Option<f64> {
-        self.analysis.value(path)
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For a path that no model has, with the nearest.
+    fn value(&self, py: Python<'_>, path: &str) -> PyResult<Option<f64>> {
+        Override::removal(path).map_err(|error| of_input(py, &error))?;
+        Ok(self.analysis.value(path))
     }
 
     /// Write the model on a motion as a script for OpenSeesPy.

@@ -1,19 +1,22 @@
 //! `Motion`.
 
+use std::cmp::Reverse;
 use std::path::PathBuf;
 
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyFloat, PyInt, PyString};
+use pyo3::types::{PyDict, PyString};
 use slipstick::error::MotionError;
+use slipstick::input::PairOf;
 use slipstick::input::loaded::Loaded;
 use slipstick::motion::GroundMotion;
 use slipstick::notice::{Notice, NoticeKind};
-use slipstick::record::{Origin, Units};
+use slipstick::record::{Origin, Quantity, Units};
 use slipstick::units::{Dimension, parse_quantity, parse_unit};
-use slipstick_files::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
+use slipstick_files::{AlongYRequest, LoadedMotion, RecordRequest, VerticalRequest, load_record};
 
-use crate::errors::{of_argument, of_file, of_motion, of_unit};
+use crate::errors::{Escaped, of_argument, of_file, of_motion, of_unit, warn_severe};
+use crate::model::{pint_units, plain};
 
 /// A ground motion, linear between its samples.
 ///
@@ -22,14 +25,17 @@ use crate::errors::{of_argument, of_file, of_motion, of_unit};
 /// Parameters
 /// ----------
 /// acceleration
-///     Accelerations of the table, positive towards +x; real numbers in one dimension.
+///     Accelerations of the table, positive towards +x; real numbers in one dimension, or a quantity of pint.
+/// y
+///     Accelerations along y at the same times, for a table that moves in two horizontal directions.
 /// dt
 ///     Time step, in s or with its unit.
 /// times_s
 ///     In place of it the times in s, as many as there are values, not necessarily evenly spaced; a repeated
 ///     time is a jump.
 /// units
-///     Units of the values, such as ``"g"`` or ``"m/s2"``.
+///     Units of the values, such as ``"g"``, ``"m/s2"`` or what one count is, ``"4.67e-6 m/s2"``; not for
+///     quantities, which have their own.
 /// vertical
 ///     Vertical accelerations at the same times, positive upwards.
 ///
@@ -39,6 +45,11 @@ use crate::errors::{of_argument, of_file, of_motion, of_unit};
 ///     For an array of another type or shape, units that are none, neither or both of ``dt`` and ``times_s``.
 /// RecordError
 ///     For values that are not finite, or times that do not increase.
+///
+/// Warns
+/// -----
+/// SlipstickWarning
+///     For a peak that no earthquake has: the units are others. All that is noticed is in ``warnings``.
 ///
 /// Examples
 /// --------
@@ -64,9 +75,13 @@ pub(crate) fn quantity(
         let text: String = value.extract()?;
         return parse_quantity(&text, dimension).map_err(|error| of_unit(py, name, &error));
     }
-    let is_number = value.is_instance_of::<PyFloat>() || value.is_instance_of::<PyInt>();
-    if number_in_si && (is_number || value.hasattr("__float__")?) {
-        return value.extract();
+    if let Some(plain) = plain(name, value)? {
+        if plain.is_instance_of::<PyString>() {
+            return quantity(name, &plain, dimension, number_in_si);
+        }
+        if number_in_si {
+            return plain.extract();
+        }
     }
     let expected =
         format!("{} with its unit, such as {:?}", dimension.with_article(), dimension.example());
@@ -78,6 +93,10 @@ fn samples(name: &str, values: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let py = values.py();
     let numpy = py.import("numpy")?;
     let expected = "numbers in one dimension";
+    if numpy.getattr("ma")?.call_method1("isMaskedArray", (values,))?.is_truthy()? {
+        let expected = "an array without a mask (a gap is no acceleration)";
+        return Err(of_argument(py, name, expected, "a masked one"));
+    }
     let array = numpy
         .call_method1("asarray", (values,))
         .map_err(|_| of_argument(py, name, expected, "no array"))?;
@@ -93,52 +112,116 @@ fn samples(name: &str, values: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     Ok(array.as_slice()?.to_vec())
 }
 
-fn made(motion: GroundMotion) -> LoadedMotion {
-    let samples = motion.len();
-    let sampling = motion.dt_s().map_or("uneven".to_owned(), |dt_s| format!("{dt_s} s"));
-    let loaded = Loaded::made(motion, format!("array, {samples} values, {sampling}"));
-    LoadedMotion { loaded, sources: Vec::new() }
+/// Units of acceleration.
+fn units_of(py: Python<'_>, text: &str) -> PyResult<Units> {
+    let units = Units::parse(text).filter(|units| units.quantity() == Quantity::Acceleration);
+    units.ok_or_else(|| match parse_unit(text, Dimension::Acceleration) {
+        Err(error) => of_unit(py, "units", &error),
+        Ok(_) => of_argument(py, "units", "units of acceleration, such as \"g\"", text),
+    })
+}
+
+/// Accelerations in SI, and the units that they were in.
+fn accelerations(
+    name: &str,
+    values: &Bound<'_, PyAny>,
+    units: Option<&str>,
+) -> PyResult<(Vec<f64>, Units)> {
+    let py = values.py();
+    let own = values.hasattr("magnitude")? && values.hasattr("units")?;
+    let (magnitudes, units) = match (own, units) {
+        (false, Some(text)) => (values.clone(), units_of(py, text)?),
+        (true, None) => {
+            let text = pint_units(&values.getattr("units")?)?;
+            (values.getattr("magnitude")?, units_of(py, &text)?)
+        }
+        (true, Some(text)) => {
+            return Err(of_argument(
+                py,
+                "units",
+                "none beside a quantity, which has its own",
+                text,
+            ));
+        }
+        (false, None) => {
+            return Err(of_argument(py, "units", "units of the values, such as \"g\"", "none"));
+        }
+    };
+    let in_si = samples(name, &magnitudes)?.into_iter().map(|value| units.si() * value);
+    Ok((in_si.collect(), units))
 }
 
 impl Motion {
     pub(crate) fn of(motion: GroundMotion) -> Self {
-        Self(made(motion))
+        Self(of_arrays(motion, &Units::m_per_s2()))
     }
 
-    fn derived(&self, py: Python<'_>, motion: Result<GroundMotion, MotionError>) -> PyResult<Self> {
-        let motion = motion.map_err(|error| of_motion(py, &error))?;
-        let (figures, old) = (motion.figures(), self.0.clone());
-        let factor = old.factor * figures.pga_m_per_s2 / old.figures.pga_m_per_s2;
-        let loaded = Loaded { motion, factor, figures, ..old.loaded };
-        Ok(Self(LoadedMotion { loaded, sources: old.sources }))
+    fn derived(py: Python<'_>, loaded: Result<Loaded, MotionError>, of: &Self) -> PyResult<Self> {
+        let loaded = loaded.map_err(|error| of_motion(py, &error))?;
+        Ok(Self(LoadedMotion { loaded, sources: of.0.sources.clone() }))
     }
+
+    /// What is noticed of it, the gravest first.
+    fn noticed(&self) -> Vec<&Notice> {
+        let mut noticed: Vec<&Notice> = self.0.warnings.iter().collect();
+        noticed.sort_by_key(|notice| Reverse(notice.severity()));
+        noticed
+    }
+
+    /// What it is in a line.
+    fn described(&self) -> String {
+        let description = self.0.description.join("; ");
+        match self.0.factor {
+            1.0 => description,
+            factor => format!("{factor:.4} × ({description})"),
+        }
+    }
+
+    /// It with a warning in Python where the figures are void.
+    fn said(self, py: Python<'_>) -> PyResult<Self> {
+        warn_severe(py, &self.0.warnings)?;
+        Ok(self)
+    }
+}
+
+fn of_arrays(motion: GroundMotion, units: &Units) -> LoadedMotion {
+    let samples = motion.len();
+    let sampling = motion.dt_s().map_or("uneven".to_owned(), |dt_s| format!("{dt_s} s"));
+    let both = motion.horizontal_y_m_per_s2().map_or("", |_| " along x and y");
+    let description = format!("array{both}, {samples} values, {sampling}");
+    LoadedMotion { loaded: Loaded::of_arrays(motion, units, description), sources: Vec::new() }
+}
+
+/// A factor, of any kind of number.
+fn factor_of(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let number = plain("factor", value)?.and_then(|plain| plain.extract::<f64>().ok());
+    number.ok_or_else(|| of_argument(value.py(), "factor", "a number", &value.to_string()))
 }
 
 #[pymethods]
 impl Motion {
     #[new]
-    #[pyo3(signature = (acceleration, *, dt = None, times_s = None, units, vertical = None))]
+    #[pyo3(signature = (acceleration, *, y = None, dt = None, times_s = None, units = None, vertical = None))]
     fn new(
         py: Python<'_>,
         acceleration: &Bound<'_, PyAny>,
+        y: Option<&Bound<'_, PyAny>>,
         dt: Option<&Bound<'_, PyAny>>,
         times_s: Option<&Bound<'_, PyAny>>,
-        units: &str,
+        units: Option<&str>,
         vertical: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let unit = parse_unit(units, Dimension::Acceleration)
-            .map_err(|error| of_unit(py, "units", &error))?;
-        let in_si = |name: &str, values: &Bound<'_, PyAny>| -> PyResult<Vec<f64>> {
-            Ok(samples(name, values)?.into_iter().map(|value| unit.to_si(value)).collect())
-        };
-        let horizontal = in_si("acceleration", acceleration)?;
-        let vertical = vertical.map(|values| in_si("vertical", values)).transpose()?;
-        if let Some(up) = &vertical
-            && up.len() != horizontal.len()
-        {
+        let (horizontal, unit) = accelerations("acceleration", acceleration, units)?;
+        let beside = |name: &str, values: Option<&Bound<'_, PyAny>>| -> PyResult<_> {
+            let Some(values) = values else { return Ok(None) };
+            let (values, _) = accelerations(name, values, units)?;
+            if values.len() == horizontal.len() {
+                return Ok(Some(values));
+            }
             let expected = format!("{} values, as many as acceleration", horizontal.len());
-            return Err(of_argument(py, "vertical", &expected, &up.len().to_string()));
-        }
+            Err(of_argument(py, name, &expected, &values.len().to_string()))
+        };
+        let (along_y, vertical) = (beside("y", y)?, beside("vertical", vertical)?);
         let motion = match (dt, times_s) {
             (Some(dt), None) => {
                 let dt_s = quantity("dt", dt, Dimension::Time, true)?;
@@ -157,15 +240,20 @@ impl Motion {
             }
             (Some(_), Some(_)) => return Err(of_argument(py, "dt", "dt or times_s", "both")),
         };
-        Ok(Self(made(motion.map_err(|error| of_motion(py, &error))?)))
+        let motion = match along_y {
+            Some(y) => motion.and_then(|motion| motion.with_y(y)),
+            None => motion,
+        };
+        Self(of_arrays(motion.map_err(|error| of_motion(py, &error))?, &unit)).said(py)
     }
 
     /// Read a record; ``slipstick.read_record`` has the same arguments.
     #[staticmethod]
-    #[pyo3(signature = (path, *, channel = None, units = None, dt = None, vertical = None))]
+    #[pyo3(signature = (path, *, y = None, channel = None, units = None, dt = None, vertical = None))]
     fn read(
         py: Python<'_>,
         path: PathBuf,
+        y: Option<PathBuf>,
         channel: Option<String>,
         units: Option<&str>,
         dt: Option<&Bound<'_, PyAny>>,
@@ -179,10 +267,17 @@ impl Motion {
         };
         let dt_s = dt.map(|dt| quantity("dt", dt, Dimension::Time, true)).transpose()?;
         let vertical = vertical.map(|path| VerticalRequest { path, channel: None, factor: 1.0 });
-        let request =
-            RecordRequest { path, units, dt_s, channel, vertical, ..RecordRequest::default() };
+        let along_y = y.map(|path| AlongYRequest {
+            path,
+            units,
+            dt_s,
+            channel: channel.clone(),
+            pair: PairOf { scale_y: 1.0, rotate_rad: 0.0 },
+        });
+        let asked = RecordRequest { path, units, dt_s, channel, ..RecordRequest::default() };
+        let request = RecordRequest { along_y, vertical, ..asked };
         let loaded = py.detach(|| load_record(&request));
-        loaded.map(Self).map_err(|error| of_file(py, &error))
+        loaded.map(Self).map_err(|error| of_file(py, &error))?.said(py)
     }
 
     /// Take the motion of a trace of ObsPy.
@@ -197,7 +292,7 @@ impl Motion {
     #[pyo3(signature = (trace, *, units))]
     fn from_obspy(trace: &Bound<'_, PyAny>, units: &str) -> PyResult<Self> {
         let dt = trace.getattr("stats")?.getattr("delta")?;
-        Self::new(trace.py(), &trace.getattr("data")?, Some(&dt), None, units, None)
+        Self::new(trace.py(), &trace.getattr("data")?, None, Some(&dt), None, Some(units), None)
     }
 
     /// Take the motion of an acceleration signal of eqsig.
@@ -212,41 +307,92 @@ impl Motion {
     #[pyo3(signature = (signal, *, units = "m/s2"))]
     fn from_eqsig(signal: &Bound<'_, PyAny>, units: &str) -> PyResult<Self> {
         let dt = signal.getattr("dt")?;
-        Self::new(signal.py(), &signal.getattr("values")?, Some(&dt), None, units, None)
+        let values = signal.getattr("values")?;
+        Self::new(signal.py(), &values, None, Some(&dt), None, Some(units), None)
     }
 
-    /// Scale the motion, its vertical component with it.
+    /// Scale the motion, all its components together.
     ///
     /// Parameters
     /// ----------
     /// factor
     ///     What it is multiplied with; may be negative.
     /// pga
-    ///     In place of it the peak that the horizontal component is to have, with its unit: ``"0.3 g"``.
+    ///     In place of it the peak that the horizontal component, of two the larger, is to have, with its unit:
+    ///     ``"0.3 g"``.
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     For a peak without its unit, and for neither or both.
-    /// RecordError
-    ///     For a motion of zeros that is to have a peak.
+    ///     For a peak without its unit, for neither or both, and for a motion of zeros that is to have a peak.
     #[pyo3(signature = (factor = None, *, pga = None))]
     fn scaled(
         &self,
         py: Python<'_>,
-        factor: Option<f64>,
+        factor: Option<&Bound<'_, PyAny>>,
         pga: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let motion = &self.0.motion;
-        match (factor, pga) {
-            (Some(factor), None) => self.derived(py, motion.scaled(factor)),
-            (None, Some(pga)) => {
-                let peak = quantity("pga", pga, Dimension::Acceleration, false)?;
-                self.derived(py, motion.scaled_to_peak(peak))
+        let (name, given, factor) = match (factor, pga) {
+            (Some(given), None) => ("factor", given, factor_of(given)?),
+            (None, Some(given)) => {
+                let peak = quantity("pga", given, Dimension::Acceleration, false)?;
+                let factor = motion.factor_to_peak(peak).map_err(|error| {
+                    let expected = match error {
+                        MotionError::ZeroPeak => "a motion that is not zero throughout",
+                        _ => "a finite peak > 0",
+                    };
+                    of_argument(py, "pga", expected, &given.to_string())
+                })?;
+                ("pga", given, factor)
             }
-            (None, None) => Err(of_argument(py, "factor", "a factor, or pga", "neither")),
-            (Some(_), Some(_)) => Err(of_argument(py, "factor", "a factor or pga", "both")),
+            (None, None) => {
+                return Err(of_argument(py, "factor", "a factor, or pga", "neither"));
+            }
+            (Some(_), Some(_)) => {
+                return Err(of_argument(py, "factor", "a factor or pga", "both"));
+            }
+        };
+        if !factor.is_finite() {
+            return Err(of_argument(py, name, "a finite factor", &given.to_string()));
         }
+        Self::derived(py, self.0.scaled(factor), self)
+    }
+
+    /// Turn a motion in two horizontal directions, x towards y.
+    ///
+    /// Parameters
+    /// ----------
+    /// angle
+    ///     The angle with its unit, ``"30 deg"``.
+    /// scale_y
+    ///     Factor on the component along y before that.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For a motion in one direction, an angle without its unit, a factor that is not finite.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import slipstick as ss
+    /// >>> pair = ss.Motion([0.0, 1.0, 0.0], y=[0.0, 0.5, 0.0], dt=0.5, units="m/s2")
+    /// >>> pair.rotated("90 deg").acceleration_y_m_per_s2.tolist()
+    /// [0.0, 1.0, 0.0]
+    #[pyo3(signature = (angle, *, scale_y = None))]
+    fn rotated(
+        &self,
+        py: Python<'_>,
+        angle: &Bound<'_, PyAny>,
+        scale_y: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        if self.0.motion.horizontal_y_m_per_s2().is_none() {
+            let expected = "a motion in two horizontal directions, which can be turned";
+            return Err(of_argument(py, "rotated", expected, "one in one"));
+        }
+        let angle_rad = quantity("angle", angle, Dimension::Angle, false)?;
+        let scale_y = scale_y.map_or(Ok(1.0), factor_of)?;
+        Self::derived(py, self.0.turned(scale_y, angle_rad), self)
     }
 
     /// Times of the samples in s.
@@ -259,6 +405,12 @@ impl Motion {
     #[getter]
     fn acceleration_m_per_s2<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.0.motion.horizontal_m_per_s2().to_vec().into_pyarray(py)
+    }
+
+    /// Acceleration of the table along y in m/s², where it moves in two horizontal directions.
+    #[getter]
+    fn acceleration_y_m_per_s2<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+        self.0.motion.horizontal_y_m_per_s2().map(|values| values.to_vec().into_pyarray(py))
     }
 
     /// Vertical acceleration in m/s², positive upwards, where there is one.
@@ -279,10 +431,16 @@ impl Motion {
         self.0.motion.duration_s()
     }
 
-    /// Largest acceleration in m/s².
+    /// Largest acceleration in m/s²; in two directions of the resultant.
     #[getter]
     fn pga_m_per_s2(&self) -> f64 {
         self.0.figures.pga_m_per_s2
+    }
+
+    /// Factor on the values of the file or the array.
+    #[getter]
+    fn factor(&self) -> f64 {
+        self.0.factor
     }
 
     /// What was understood of the record.
@@ -291,10 +449,10 @@ impl Motion {
         self.0.description.join("; ")
     }
 
-    /// What its reader should know, as (kind, message).
+    /// What its reader should know, as (kind, message), the gravest first.
     #[getter]
     fn warnings(&self) -> Vec<(&'static str, String)> {
-        let notices = self.0.warnings.iter();
+        let notices = self.noticed().into_iter();
         notices.map(|notice| (notice.kind.name(), notice.message.clone())).collect()
     }
 
@@ -319,7 +477,17 @@ impl Motion {
     }
 
     fn __repr__(&self) -> String {
-        format!("<slipstick.Motion {}>", self.0.description.join("; "))
+        let of = |notice: &&Notice| format!("{}: {}; ", notice.label(), notice.kind.words());
+        let noticed: String = self.noticed().iter().map(of).collect();
+        format!("<slipstick.Motion {noticed}{}>", self.described())
+    }
+
+    fn _repr_html_(&self) -> String {
+        let of = |notice: &&Notice| {
+            format!("<p><b>{}:</b> {}</p>", notice.label(), Escaped(&notice.message))
+        };
+        let noticed: String = self.noticed().iter().map(of).collect();
+        format!("{noticed}<p>{}</p>", Escaped(&self.described()))
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Pickled<'py>)> {
@@ -330,6 +498,7 @@ impl Motion {
         let parts = (
             array(samples.times_s()),
             array(samples.horizontal_m_per_s2()),
+            samples.horizontal_y_m_per_s2().map(array),
             samples.vertical_m_per_s2().map(array),
             motion.description.clone(),
             motion
@@ -350,6 +519,7 @@ impl Motion {
         py: Python<'_>,
         times_s: &Bound<'_, PyAny>,
         horizontal: &Bound<'_, PyAny>,
+        along_y: Option<&Bound<'_, PyAny>>,
         vertical: Option<&Bound<'_, PyAny>>,
         description: Vec<String>,
         warnings: Vec<(String, Option<f64>, String)>,
@@ -358,8 +528,14 @@ impl Motion {
         let vertical = vertical.map(|values| samples("vertical", values)).transpose()?;
         let (times_s, horizontal) =
             (samples("times_s", times_s)?, samples("acceleration", horizontal)?);
+        let along_y = along_y.map(|values| samples("y", values)).transpose()?;
         let motion = GroundMotion::new(times_s, horizontal, vertical);
-        let motion = made(motion.map_err(|error| of_motion(py, &error))?);
+        let motion = match along_y {
+            Some(y) => motion.and_then(|motion| motion.with_y(y)),
+            None => motion,
+        };
+        let motion = motion.map_err(|error| of_motion(py, &error))?;
+        let motion = Loaded::made(motion, String::new());
         let warning = |(name, time_s, message): (String, Option<f64>, String)| {
             let kind = NoticeKind::from_name(&name)
                 .ok_or_else(|| of_argument(py, "warnings", "a known kind of warning", &name))?;
@@ -368,8 +544,8 @@ impl Motion {
         let warnings = warnings.into_iter().map(warning).collect::<PyResult<_>>()?;
         let (factor, event, station, component, azimuth_deg) = origin;
         let origin = Origin { event, station, component, azimuth_deg };
-        let loaded = Loaded { description, warnings, factor, origin, ..motion.loaded };
-        Ok(Self(LoadedMotion { loaded, ..motion }))
+        let loaded = Loaded { description, warnings, factor, origin, ..motion };
+        Ok(Self(LoadedMotion { loaded, sources: Vec::new() }))
     }
 }
 
@@ -377,6 +553,7 @@ impl Motion {
 type Pickled<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
+    Option<Bound<'py, PyArray1<f64>>>,
     Option<Bound<'py, PyArray1<f64>>>,
     Vec<String>,
     Vec<(String, Option<f64>, String)>,

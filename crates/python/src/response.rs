@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slipstick::assessment::single::{Job, Outcome};
 use slipstick::error::{SolveError, Stopped};
+use slipstick::notice::{Notice, Severity};
 use slipstick::progress::GoOn;
 use slipstick::response::History;
 use slipstick_files::{JobError, LoadedMotion, OpenJob};
@@ -32,6 +33,10 @@ pub(crate) fn run(
         None => model.analysis.motion.as_ref().is_some_and(|source| source.key_of_y().is_some()),
         Some(Motion(loaded)) => loaded.motion.horizontal_y_m_per_s2().is_some(),
     };
+    if motion.is_none() && model.analysis.motion.is_none() {
+        let expected = "a motion, for the model has none of its own";
+        return Err(of_argument(py, "motion", expected, "none"));
+    }
     if floor_spectrum && in_plane {
         let expected = "False with a motion in two directions";
         return Err(of_argument(py, "floor_spectrum", expected, "True"));
@@ -215,6 +220,13 @@ impl Response {
             display,
         };
         Ok(report.to_html())
+    }
+
+    /// What makes its figures void, and all else that is noticed: kind, message and whether it is severe.
+    fn _noticed(&self) -> Vec<(&'static str, &str, bool)> {
+        let of = |notice: &'_ Notice| notice.severity() == Severity::Severe;
+        let notices = self.summary.warnings.iter().filter(|notice| !notice.is_note());
+        notices.map(|notice| (notice.kind.name(), &*notice.message, of(notice))).collect()
     }
 
     /// Name of the model.

@@ -1,8 +1,10 @@
 //! `study`: many analyses of one plan.
 
+use std::collections::HashMap;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
+use slipstick::table::{self, Cells};
 use slipstick_files::{OpenStudy, Shard, StudyError, clear, conclude, expand, read_table};
 
 use crate::errors::of_study;
@@ -27,16 +29,41 @@ pub struct Study {
     notices: Vec<String>,
 }
 
+/// Calls records by their names, where rows call them by the files that hold them.
+fn rename(table: &mut table::Table, names: &[(String, String)]) {
+    let of_file: HashMap<&str, &str> =
+        names.iter().map(|(file, name)| (file.as_str(), name.as_str())).collect();
+    for column in table.columns.iter_mut().filter(|c| ["record", "pair"].contains(&&*c.name)) {
+        let Cells::Texts(cells) = &mut column.cells else { continue };
+        for cell in cells {
+            if let Some(name) = of_file.get(cell.as_str()) {
+                *cell = (*name).to_owned();
+            }
+        }
+    }
+}
+
+/// A hash of a plan in a file and of all that it names.
+#[pyfunction]
+pub(crate) fn study_id(py: Python<'_>, plan: PathBuf) -> PyResult<String> {
+    let id = followed(py, None, None, |_| OpenStudy::open(&plan).map(|study| study.id))?;
+    id.map_err(|error| of_study(py, &error))
+}
+
 /// Runs a plan into a folder, or what the folder lacks of it, and reads what stands there then; of a
 /// shard only runs it.
 #[pyfunction]
-#[pyo3(signature = (plan, folder, *, shard = None, jobs = None, progress = None, force = false))]
+#[pyo3(signature = (
+    plan, folder, *, names = Vec::new(), shard = None, jobs = None, progress = None, force = false
+))]
+#[expect(clippy::too_many_arguments, reason = "the package calls it")]
 pub(crate) fn study(
     py: Python<'_>,
     plan: PathBuf,
     folder: PathBuf,
+    names: Vec<(String, String)>,
     shard: Option<(u64, u64)>,
-    jobs: Option<usize>,
+    jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
     force: bool,
 ) -> PyResult<Study> {
@@ -55,7 +82,9 @@ pub(crate) fn study(
             Some(_) => None,
             None => {
                 let summary = conclude(&study, &folder, engine)?;
-                Some((read_table(&expand(&folder, PARTS)?)?.table, summary.table()))
+                let mut table = read_table(&expand(&folder, PARTS)?)?.table;
+                rename(&mut table, &names);
+                Some((table, summary.table()))
             }
         };
         let notices = study.notices.iter().chain(&outcome.notices).cloned().collect();

@@ -14,20 +14,7 @@ use pyo3::types::{PyCapsule, PyDict, PyList};
 use slipstick::table::{self, Cells, Column};
 use slipstick_files::to_csv;
 
-/// Named columns of equal length; pandas, Polars, DuckDB and PyArrow take it as it is.
-///
-/// It is a stream of Arrow's C interface, with units in the metadata of its fields. ``table["name"]`` is an
-/// array of doubles where a column holds numbers, NaN where there is none, else a list; ``len(table)`` the
-/// number of rows. Tables compare and pickle.
-///
-/// Examples
-/// --------
-/// >>> import slipstick as ss
-/// >>> model = ss.Model({"block.mass": "1 t", "slider.static_friction": 0.1, "slider.kinetic_friction": 0.1})
-/// >>> motion = ss.Motion([0.0, 0.3, 0.0], dt=0.5, units="g")
-/// >>> table = ss.study(ss.Plan(model, {"pulse": motion}, scale=[1.0, 2.0])).table
-/// >>> len(table), table.units["peak_sliding_displacement_m"]
-/// (2, 'm')
+/// Columns as the package wraps them.
 #[pyclass(module = "slipstick._core", frozen)]
 pub struct Table(pub(crate) table::Table);
 
@@ -156,9 +143,5 @@ impl Table {
     fn __eq__(&self, other: &Self) -> bool {
         // Bit by bit but for the payload of NaN, which is an empty cell.
         to_csv(&self.0) == to_csv(&other.0)
-    }
-
-    fn __repr__(&self) -> String {
-        format!("<slipstick.Table {} rows, {} columns>", self.0.rows(), self.0.columns.len())
     }
 }

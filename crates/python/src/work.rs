@@ -12,6 +12,8 @@ use slipstick::progress::GoOn;
 use slipstick::study::engine::Engine;
 use slipstick_files::on_threads;
 
+use crate::errors::of_argument;
+
 /// How often signals, and the callback that follows the work, get their turn.
 const TURN: Duration = Duration::from_millis(50);
 
@@ -46,10 +48,20 @@ pub(crate) fn interruptible<T: Send>(
 /// `progress`, stops the work and is raised.
 pub(crate) fn followed<T: Send>(
     py: Python<'_>,
-    jobs: Option<usize>,
+    jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
     work: impl FnOnce(&Engine<'_>) -> T + Send,
 ) -> PyResult<T> {
+    let jobs = match jobs {
+        None | Some(-1) => None,
+        Some(jobs) => match usize::try_from(jobs) {
+            Ok(jobs) if jobs > 0 => Some(jobs),
+            _ => {
+                let expected = "a number of threads, or -1 for all";
+                return Err(of_argument(py, "jobs", expected, &jobs.to_string()));
+            }
+        },
+    };
     let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
     let follow = |runs: u64| {
         done.fetch_add(runs, Ordering::Relaxed);

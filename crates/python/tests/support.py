@@ -35,4 +35,4 @@ def pulse() -> ss.Motion:
 
 def suite() -> dict[str, ss.Motion]:
     records = EXAMPLES / "records"
-    return ss.read_suite([records / "taft-*.txt", records / "el-centro-180.txt"], units="g", dt_s=0.01)
+    return ss.read_suite([records / "taft-*.txt", records / "el-centro-180.txt"], units="g", dt=0.01)

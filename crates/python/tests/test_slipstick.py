@@ -232,11 +232,18 @@ def test_a_plan_of_values_is_the_plan_of_its_files(tmp_path: Path) -> None:
     plan = values()
     study = ss.study(plan)
     assert study.runs == 3 * 2 * 64 and study.failures == 0
-    assert ss.study(plan.write(tmp_path)).table == study.table
+    of_files = ss.study(plan.write(tmp_path)).table
+    assert set(of_files["record"]) == {f"records/{name}.csv" for name in suite()}
+    # What is of values keeps the names of the records.
+    assert set(study.table["record"]) == set(suite())
+    name = "peak_sliding_displacement_m"
+    assert np.array_equal(study.table[name], of_files[name])
     assert pickle.loads(pickle.dumps(plan)).digest == plan.digest
     assert values(128).digest != plan.digest
-    with pytest.raises(ss.InputError, match="records"):
-        ss.study(ss.Plan(block(), {"../a": pulse()}))
+    names = ["../a", "b/c.AT2", "100 %", "*", ".d"]
+    assert ss.study(ss.Plan(block(), {name: pulse() for name in names})).table["record"] == names
+    with pytest.raises(ss.InputError, match="^records: expected names that are not empty"):
+        ss.study(ss.Plan(block(), {"": pulse()}))
 
 
 def test_dask_gives_the_bytes_of_one_process(tmp_path: Path) -> None:
@@ -250,9 +257,11 @@ def test_dask_gives_the_bytes_of_one_process(tmp_path: Path) -> None:
         distributed.Client(cluster) as client,
     ):
         together = run_study(plan, client, tmp_path / "together", shards=4)
-    assert together.table == alone.table
+        of_a_path = run_study(plan.write(tmp_path), client, tmp_path / "path", shards=2)
+    assert together.table == alone.table and len(of_a_path.table) == len(alone.table)
     for part in (tmp_path / "alone" / "parts").iterdir():
-        assert part.read_bytes() == (tmp_path / "together" / "parts" / part.name).read_bytes()
+        for folder in ["together", "path"]:
+            assert part.read_bytes() == (tmp_path / folder / "parts" / part.name).read_bytes()
 
 
 @pytest.mark.skipif(os.name != "posix", reason="processes are killed as POSIX does")
@@ -432,7 +441,9 @@ def test_ida_and_fragility_are_those_of_the_command(tmp_path: Path) -> None:
     assert len(ida.table) == 72 and len(ida.tables["capacities"]) == 9
     ida = ss.ida(model, records, scale_to="0.1..0.8 g:8", limit="40 mm", bounds="nominal")
     assert len(ida.table) == 24
-    curve = ss.fragility(ida)
+    with pytest.raises(ss.StudyError, match="are separated"):
+        ss.fragility(ida)
+    curve = ss.fragility(ida, fit_to="capacities")
     assert "fragility" in curve.tables and "<svg" in next(iter(curve.figures.values()))
     command = os.environ.get("SLIPSTICK_COMMAND")
     if command is None:
@@ -488,13 +499,18 @@ def test_a_suite_is_that_of_the_command(tmp_path: Path) -> None:
 def test_what_is_wrong_with_a_plan_is_said_of_its_argument() -> None:
     records = suite()
     for wrong, message in [
+        ({"records": {}}, "^records: expected at least one motion"),
+        ({"records": None, "scale": [2.0]}, r"^scale: expected records beside it, found \[2.0\]$"),
+        ({"records": None, "levels": ["1 g"]}, "^levels: expected records beside it"),
+        ({"samples": 3}, "^samples: expected vary beside it, found 3$"),
+        ({"second": {}}, "^second: expected one other component for each of 3 records, found 0$"),
         ({"measure": "PGAA", "levels": ["0.1 g"]}, "^measure: expected "),
         ({"scale": [1.0, 1.0]}, "^scale: expected factors that differ, found 1 twice$"),
         ({"vary": {"slider.radios": ["1 m"]}, "method": "grid"}, '^vary.slider.radios: .*nearest is "slider.radius"$'),
         ({"vary": {"slider.radius": ["1 m"]}, "samples": 0}, "^samples: expected "),
     ]:
         with pytest.raises(ss.InputError, match=message):
-            ss.study(ss.Plan(block(), records, **wrong))
+            ss.study(ss.Plan(block(), **{"records": records, **wrong}))  # type: ignore[arg-type]
 
 
 def test_levels_are_text_or_a_list() -> None:
@@ -603,8 +619,8 @@ def test_examples_of_the_extension_run() -> None:
 
     import slipstick._core as core
 
-    objects = [core.Model, core.Motion, core.Table]
-    methods = [getattr(core.Model, name) for name in ["with_", "to_opensees"]]
+    objects = [core.Model, core.Motion]
+    methods = [getattr(core.Model, name) for name in ["with_", "to_opensees"]] + [core.Motion.rotated]
     finder, runner = doctest.DocTestFinder(recurse=False), doctest.DocTestRunner()
     for at in [*objects, *methods]:
         for test in finder.find(at, at.__name__, module=False, globs={}):

@@ -5,7 +5,7 @@ use super::{PairOf, Scale};
 use crate::error::MotionError;
 use crate::motion::{Figures, GroundMotion};
 use crate::notice::{Notice, NoticeKind};
-use crate::record::{self, Channel, Origin, Quantity, Record};
+use crate::record::{self, Channel, Origin, Quantity, Record, Sampling, Units};
 
 /// The column that becomes the vertical component of its neighbour without being asked for.
 const VERTICAL_COLUMN: &str = "vertical_acceleration_m_per_s2";
@@ -111,6 +111,46 @@ impl Loaded {
         let description = vec![description];
         let (channel, origin) = (String::new(), Origin::default());
         Self { motion, channel, origin, factor: 1.0, description, figures, warnings: vec![] }
+    }
+
+    /// A motion of arrays in these units, judged as a record of a file is.
+    #[must_use]
+    pub fn of_arrays(motion: GroundMotion, units: &Units, description: String) -> Self {
+        let uneven = || Sampling::Times(motion.times_s().to_vec());
+        let sampling = motion.dt_s().map_or_else(uneven, Sampling::Dt);
+        let components = [
+            Some(motion.horizontal_m_per_s2()),
+            motion.horizontal_y_m_per_s2(),
+            motion.vertical_m_per_s2(),
+        ];
+        let judged = |values| record::judged(values, &sampling, units);
+        let warnings = components.into_iter().flatten().flat_map(judged).collect();
+        let made = Self::made(motion.clone(), description);
+        Self { warnings, ..made }.with(motion, 1.0)
+    }
+
+    /// The same times a factor; what its reader said stands, how it starts and ends is said anew.
+    ///
+    /// # Errors
+    /// [`MotionError`] as [`GroundMotion::scaled`].
+    pub fn scaled(&self, factor: f64) -> Result<Self, MotionError> {
+        Ok(self.with(self.motion.scaled(factor)?, factor))
+    }
+
+    /// The same with another factor on y, then turned, x towards y.
+    ///
+    /// # Errors
+    /// [`MotionError`] as [`GroundMotion::turned`].
+    pub fn turned(&self, scale_y: f64, angle_rad: f64) -> Result<Self, MotionError> {
+        Ok(self.with(self.motion.turned(scale_y, angle_rad)?, 1.0))
+    }
+
+    /// What it is with another motion made of its own, and a factor on that.
+    fn with(&self, motion: GroundMotion, factor: f64) -> Self {
+        let figures = motion.figures();
+        let said = self.warnings.iter().filter(|w| !record::REST_KINDS.contains(&w.kind));
+        let warnings = said.cloned().chain(of_motion(&motion, &figures, &[])).collect();
+        Self { motion, factor: self.factor * factor, figures, warnings, ..self.clone() }
     }
 
     /// Records as one motion, scaled as one: the factor, or the peak of the larger horizontal component,

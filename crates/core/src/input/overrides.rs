@@ -18,6 +18,8 @@ pub struct Override {
     number: Option<f64>,
     /// The option that gave it, for errors; empty where none did.
     option: String,
+    /// What it does where the path is in a tree.
+    put: Put,
 }
 
 /// A value of a key: a number in SI, or text as a person writes it.
@@ -55,7 +57,7 @@ impl Override {
             return Err(sources.error(&spot, "", "PATH=VALUE", "no \"=\""));
         };
         let (text, option) = (text.to_owned(), option.to_owned());
-        let this = Self { text, value_at: equals + 1, number: None, option };
+        let this = Self { text, value_at: equals + 1, number: None, option, put: Put::Set };
         this.check_path()?;
         Ok(this)
     }
@@ -80,8 +82,23 @@ impl Override {
         Self::given(path, format!("{path}={text}"), None)
     }
 
+    /// Takes the key at a path out, with those that mean nothing without it; an item of a list too.
+    ///
+    /// # Errors
+    /// [`InputError`] for a path that no model has.
+    pub fn removal(path: &str) -> Result<Self, InputError> {
+        Ok(Self { put: Put::Remove, ..Self::given(path, format!("{path}="), None)? })
+    }
+
+    /// The same where a list may become one item longer: a storey above the last.
+    #[must_use]
+    pub fn growing(self) -> Self {
+        Self { put: Put::Grow, ..self }
+    }
+
     fn given(path: &str, text: String, number: Option<f64>) -> Result<Self, InputError> {
-        let this = Self { text, value_at: path.len() + 1, number, option: String::new() };
+        let (value_at, option) = (path.len() + 1, String::new());
+        let this = Self { text, value_at, number, option, put: Put::Set };
         this.check_path()?;
         Ok(this)
     }
@@ -127,7 +144,21 @@ impl Override {
 
     /// Sets the key in a tree; what excludes it is removed.
     pub(super) fn apply(&self, sources: &mut Sources, root: &mut Table) -> Result<(), InputError> {
-        self.put(sources, root, Put::Set)
+        match self.put {
+            Put::Remove => self.take_out(sources, root),
+            put => self.put(sources, root, put),
+        }
+    }
+
+    fn take_out(&self, sources: &mut Sources, root: &mut Table) -> Result<(), InputError> {
+        let source = sources.add(&self.source_name(), &self.text);
+        let spot = self.path_spot(source);
+        let keys: Vec<&str> = self.path().split('.').collect();
+        if taken_out(root, &MODEL, &keys) {
+            return Ok(());
+        }
+        let found = format!("\"{}\"", cut(self.path()));
+        Err(sources.error(&spot, self.path(), "a key that stands in the model", found))
     }
 
     /// The same where all lists are as long as they shall be.
@@ -187,14 +218,18 @@ fn si_unit(path: &str) -> &'static str {
 const FILE: usize = 0;
 
 /// How a key is set.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Put {
     /// What excludes it is removed; lists keep their length.
     Replace,
     /// The same, but lists that the file does not have are made item by item.
     Set,
+    /// The same, and the next item of any list is made.
+    Grow,
     /// Nothing is removed; the next item of a list is made.
     Add,
+    /// The key is taken out.
+    Remove,
 }
 
 /// What the number at a path measures; `None` for a ratio.
@@ -256,7 +291,8 @@ fn set(
         table.0.len() - 1
     });
     let Some(entry) = table.0.get_mut(index) else { return Ok(()) };
-    let grows = put == Put::Add || (put == Put::Set && entry.key.source != FILE);
+    let made_here = entry.key.source != FILE;
+    let grows = matches!(put, Put::Add | Put::Grow) || (put == Put::Set && made_here);
     // A value for both directions becomes a table of two before one of them is set.
     if let (Kind::NumberOr(_, both), Value::Number(..) | Value::Text(_))
     | (Kind::QuantityOr(_, _, both), Value::Text(_) | Value::Si(..)) =
@@ -346,6 +382,37 @@ fn remove(table: &mut Table, section: &'static Section, name: &str) {
     for key in section.keys.iter().filter(|key| key.beside == Some(name)) {
         remove(table, section, key.name);
     }
+}
+
+/// Takes out what stands at the end of a path of keys; whether it stood there.
+fn taken_out(table: &mut Table, section: &'static Section, path: &[&str]) -> bool {
+    let [name, rest @ ..] = path else { return false };
+    let Some(entry) = table.0.iter_mut().find(|entry| entry.name == *name) else { return false };
+    let inner = section.key(name).and_then(|key| key.kind.section());
+    match (&mut entry.node.value, inner, rest) {
+        (_, _, []) => remove(table, section, name),
+        (Value::Table(table), Some(section), rest) => return taken_out(table, section, rest),
+        (Value::List(items), inner, [number, rest @ ..]) => {
+            let Some(item) = number.parse::<usize>().ok().and_then(|n| n.checked_sub(1)) else {
+                return false;
+            };
+            if rest.is_empty() && item < items.len() {
+                items.remove(item);
+                if items.is_empty() {
+                    remove(table, section, name);
+                }
+                return true;
+            }
+            return match (items.get_mut(item), inner) {
+                (Some(Node { value: Value::Table(table), .. }), Some(section)) => {
+                    taken_out(table, section, rest)
+                }
+                _ => false,
+            };
+        }
+        _ => return false,
+    }
+    true
 }
 
 /// What the key at a path takes, if a model has it.

@@ -78,21 +78,27 @@ fn figures(x: f64) -> String {
 
 /// Adds to a channel the warnings that its values and times call for.
 pub(super) fn inspect(channel: &mut Channel) {
-    let mut warnings = Vec::new();
-    if channel.units.quantity() == Quantity::Acceleration
-        && let Some(&first) = channel.values.first()
-    {
-        let (end, peak) = velocity(channel);
-        let pga = channel.values.iter().fold(0.0_f64, |pga, a| pga.max(a.abs()));
-        warnings.extend(rest(first, pga, end, peak));
-        warnings.extend(absurd(pga, &channel.units));
-    }
-    warnings.extend(clipped(&channel.values, channel.units.si()));
-    if let Sampling::Times(times_s) = &channel.sampling {
-        warnings.extend(gap(times_s));
-        warnings.extend(repeated(times_s, &channel.values));
-    }
+    let warnings = judged(&channel.values, &channel.sampling, &channel.units);
     channel.warnings.extend(warnings);
+}
+
+/// What values in SI at their times call for, read in these units.
+pub(crate) fn judged(values: &[f64], sampling: &Sampling, units: &Units) -> Vec<Notice> {
+    let mut warnings = Vec::new();
+    if units.quantity() == Quantity::Acceleration
+        && let Some(&first) = values.first()
+    {
+        let (end, peak) = velocity(values, sampling);
+        let pga = values.iter().fold(0.0_f64, |pga, a| pga.max(a.abs()));
+        warnings.extend(rest(first, pga, end, peak));
+        warnings.extend(absurd(pga, units));
+    }
+    warnings.extend(clipped(values, units.si()));
+    if let Sampling::Times(times_s) = sampling {
+        warnings.extend(gap(times_s));
+        warnings.extend(repeated(times_s, values));
+    }
+    warnings
 }
 
 /// A warning where the largest value of a channel is not the peak that its file states: `stated` in
@@ -118,14 +124,14 @@ pub(super) fn peak_differs(
 
 /// Velocity at the end and its largest size at a sample in m/s, from rest, by the trapezium rule,
 /// which is exact at the samples of straight lines.
-fn velocity(channel: &Channel) -> (f64, f64) {
+fn velocity(values: &[f64], sampling: &Sampling) -> (f64, f64) {
     let (mut v, mut peak) = (0.0_f64, 0.0_f64);
     let mut pass = |dt_s: f64, a: &[f64]| {
         v += dt_s * 0.5 * (a[0] + a[1]);
         peak = peak.max(v.abs());
     };
-    let pairs = channel.values.windows(2);
-    match &channel.sampling {
+    let pairs = values.windows(2);
+    match sampling {
         Sampling::Dt(dt_s) => pairs.for_each(|a| pass(*dt_s, a)),
         Sampling::Times(times_s) => {
             times_s.windows(2).zip(pairs).for_each(|(t, a)| pass(t[1] - t[0], a));

@@ -164,6 +164,9 @@ impl Request {
                     nearest: similar(&text, words.iter().copied()),
                 });
             }
+            if field.takes != Takes::Many && asked.given(name).is_some() {
+                return Err(wrong_found(name, "one value", "several"));
+            }
             asked.given.push((field, text));
         }
         Ok(asked)
@@ -250,10 +253,15 @@ pub(super) fn quantity(name: &str, text: &str, dimension: Dimension) -> Result<f
     })
 }
 
+/// What is found in the place of what a field expects.
+fn wrong_found(name: &str, expected: &str, found: &str) -> ChoiceError {
+    let [what, expected, found] = [name, expected, found].map(str::to_owned);
+    ChoiceError { what, expected, found, nearest: None }
+}
+
 /// A text that is not what a field expects.
 pub(super) fn wrong(name: &str, expected: &str, found: &str) -> ChoiceError {
-    let (what, expected) = (name.to_owned(), expected.to_owned());
-    ChoiceError { what, expected, found: format!("{found:?}"), nearest: None }
+    wrong_found(name, expected, &format!("{found:?}"))
 }
 
 #[cfg(test)]
@@ -273,6 +281,9 @@ mod tests {
             error(Kind::Ida, "bounds", "uper"),
             "bounds: expected one of all, lower, nominal, upper, found \"uper\"; nearest is \"upper\""
         );
+        let twice = [("limit", "1 mm".to_owned()), ("limit", "2 mm".to_owned())];
+        let twice = Request::new(Kind::Ida, twice).unwrap_err().to_string();
+        assert_eq!(twice, "limit: expected one value, found several");
         let flag = |text: &str| Request::new(Kind::Run, [("floor-spectrum", text.to_owned())]);
         assert_eq!(flag("false"), flag(""));
         assert!(flag("true").unwrap().given("floor-spectrum").is_some() && flag("yes").is_err());

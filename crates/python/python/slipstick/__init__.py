@@ -25,11 +25,12 @@ from typing import TYPE_CHECKING
 
 from . import identify
 from ._assessment import Assessment, design, fragility, ida, read_suite, spectrum, suite
-from ._core import Model, Motion, Table, __version__
-from ._errors import InputError, RecordError, SolveError, StudyError
+from ._core import Model, Motion, __version__
+from ._errors import InputError, RecordError, SlipstickWarning, SolveError, StudyError
 from ._laboratory import Comparison, Estimate, Identified, compare
-from ._response import Event, Response, run
+from ._response import Response, run
 from ._study import Plan, Study, study
+from ._table import Event, Events, Table
 from ._widget import widget
 
 if TYPE_CHECKING:
@@ -42,6 +43,7 @@ __all__ = [
     "Comparison",
     "Estimate",
     "Event",
+    "Events",
     "Identified",
     "InputError",
     "Model",
@@ -49,6 +51,7 @@ __all__ = [
     "Plan",
     "RecordError",
     "Response",
+    "SlipstickWarning",
     "SolveError",
     "Study",
     "StudyError",
@@ -70,18 +73,21 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> object:
-    """What is seldom wanted is imported when it is."""
-    if name == "audit":
-        import importlib
+if not TYPE_CHECKING:  # A name that is none does not type-check.
 
-        return importlib.import_module("slipstick.audit")
-    raise AttributeError(f"module 'slipstick' has no attribute {name!r}")
+    def __getattr__(name):
+        """What is seldom wanted is imported when it is."""
+        if name == "audit":
+            import importlib
+
+            return importlib.import_module("slipstick.audit")
+        raise AttributeError(f"module 'slipstick' has no attribute {name!r}")
 
 
 def read_record(
     path: str | PathLike[str],
     *,
+    y: str | PathLike[str] | None = None,
     channel: str | None = None,
     units: str | None = None,
     dt: float | str | None = None,
@@ -93,6 +99,8 @@ def read_record(
     ----------
     path
         The file.
+    y
+        The file of the other horizontal component, along y, which takes the same channel, units and time step.
     channel
         Name or number (from 1) of the channel, where the file has several of acceleration.
     units
@@ -114,5 +122,5 @@ def read_record(
     OSError
         For a file that cannot be read: ``FileNotFoundError`` and its kin.
     """
-    up = None if vertical is None else Path(vertical)
-    return Motion.read(Path(path), channel=channel, units=units, dt=dt, vertical=up)
+    along_y, up = (None if other is None else Path(other) for other in (y, vertical))
+    return Motion.read(Path(path), y=along_y, channel=channel, units=units, dt=dt, vertical=up)

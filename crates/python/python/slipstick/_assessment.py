@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from . import _core
 from ._request import given, paths
-from ._result import Result, write
+from ._result import Result, noticed, warn_of, write
+from ._table import Table
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
-    from os import PathLike
-
     from ._request import Values, Varied
+    from ._study import Study
+    from ._table import Frame
 
     Progress = Callable[[int, int], object]
     Records = Mapping[str, _core.Motion]
@@ -41,16 +43,13 @@ class Assessment(Result):
     def __str__(self) -> str:
         return str(self._tell("text"))
 
-    def __repr__(self) -> str:
-        return f"<slipstick.Assessment {', '.join(self.tables)}>"
-
 
 def read_suite(
     patterns: str | PathLike[str] | Iterable[str | PathLike[str]],
     *,
     channel: str | None = None,
     units: str | None = None,
-    dt_s: float | None = None,
+    dt: float | str | None = None,
     vertical: str | PathLike[str] | Iterable[str | PathLike[str]] = (),
 ) -> dict[str, _core.Motion]:
     """Read many records.
@@ -59,7 +58,7 @@ def read_suite(
     ----------
     patterns
         Files, folders or patterns such as ``"suite/*.AT2"``.
-    channel, units, dt_s
+    channel, units, dt
         As in ``read_record``, for all files.
     vertical
         The same for the vertical components, as many and in the same order.
@@ -78,7 +77,7 @@ def read_suite(
     """
     return dict(
         _core.read_suite(
-            paths(patterns), channel=channel, units=units, dt_s=dt_s, vertical=paths(vertical)
+            paths(patterns), channel=channel, units=units, dt=dt, vertical=paths(vertical)
         )
     )
 
@@ -151,7 +150,7 @@ def suite(
     (3, ['model', 'friction', 'statistic'])
     """
     several = models if isinstance(models, Mapping) else {models.name or "model": models}
-    return Assessment(
+    return _told(
         _core.suite(
             list(several.items()),
             list(records.items()),
@@ -301,7 +300,7 @@ def ida(
 
 
 def fragility(
-    source: _core.Table | Assessment | str | PathLike[str],
+    source: Frame | Assessment | Study | str | PathLike[str],
     *,
     demand: str | None = None,
     limit: str | None = None,
@@ -323,8 +322,8 @@ def fragility(
     Parameters
     ----------
     source
-        Runs of ``ida`` or ``study``, capacities or counts: a table, a file in CSV or Parquet, or the folder of
-        a command.
+        Runs of ``ida`` or ``study``, capacities or counts: what they gave, a frame of any library, a file in CSV
+        or Parquet, or the folder of a command.
     demand, limit
         The demand and the limit on it with its unit; that of the analysis if left out.
     measure, units
@@ -367,14 +366,13 @@ def fragility(
     asked = given("fragility", locals())
     known = None
     if isinstance(source, Assessment):
-        known = source.summary.get("limit")
-        whole = limit is not None or fit_to not in (None, "capacities")
-        table = source.table if whole else source.tables.get("capacities", source.table)
-    elif isinstance(source, _core.Table):
-        table = source
-    else:
+        known, table = source.summary.get("limit"), source.table._core
+    elif isinstance(source, (str, PathLike)):
         table, known = _core.read_runs(Path(source), demand)
-    return Assessment(_core.fit(table, asked, limit=known, jobs=jobs, progress=progress))
+    else:
+        frame = getattr(source, "table", source)
+        table = (frame if isinstance(frame, Table) else Table(frame))._core
+    return _told(_core.fit(table, asked, limit=known, jobs=jobs, progress=progress))
 
 
 def design(
@@ -462,4 +460,11 @@ def _assess(
 ) -> Assessment:
     of, others = list(records.items()), list((second or {}).items())
     answer = _core.assess(kind, model, of, others, given(kind, asked), jobs=jobs, progress=progress)
-    return Assessment(answer)
+    return _told(answer)
+
+
+def _told(answer: _core.Assessment) -> Assessment:
+    """The answer, with a warning to whom asked for it where it is severe."""
+    told = Assessment(answer)
+    warn_of(noticed(told.warnings))
+    return told

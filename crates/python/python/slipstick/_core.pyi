@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any, final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 __all__ = [
     "Assessment",
@@ -22,10 +22,12 @@ __all__ = [
     "fit",
     "identify",
     "levels",
+    "plain",
     "read_runs",
     "read_suite",
     "run",
     "study",
+    "study_id",
     "suite",
 ]
 
@@ -62,17 +64,19 @@ class Motion:
 
     def __new__(
         cls,
-        acceleration: ArrayLike,
+        acceleration: Any,
         *,
-        dt: float | str | None = None,
-        times_s: ArrayLike | None = None,
-        units: str,
-        vertical: ArrayLike | None = None,
+        y: Any = None,
+        dt: Any = None,
+        times_s: Any = None,
+        units: str | None = None,
+        vertical: Any = None,
     ) -> Motion: ...
     @staticmethod
     def read(
         path: str | PathLike[str],
         *,
+        y: str | PathLike[str] | None = None,
         channel: str | None = None,
         units: str | None = None,
         dt: float | str | None = None,
@@ -82,11 +86,14 @@ class Motion:
     def from_obspy(trace: Any, *, units: str) -> Motion: ...
     @staticmethod
     def from_eqsig(signal: Any, *, units: str = "m/s2") -> Motion: ...
-    def scaled(self, factor: float | None = None, *, pga: str | None = None) -> Motion: ...
+    def scaled(self, factor: float | None = None, *, pga: Any = None) -> Motion: ...
+    def rotated(self, angle: Any, *, scale_y: float | None = None) -> Motion: ...
     @property
     def time_s(self) -> NDArray[np.float64]: ...
     @property
     def acceleration_m_per_s2(self) -> NDArray[np.float64]: ...
+    @property
+    def acceleration_y_m_per_s2(self) -> NDArray[np.float64] | None: ...
     @property
     def vertical_m_per_s2(self) -> NDArray[np.float64] | None: ...
     @property
@@ -95,6 +102,8 @@ class Motion:
     def duration_s(self) -> float: ...
     @property
     def pga_m_per_s2(self) -> float: ...
+    @property
+    def factor(self) -> float: ...
     @property
     def description(self) -> str: ...
     @property
@@ -109,6 +118,7 @@ class Motion:
     def _from_parts(
         times_s: NDArray[np.float64],
         horizontal: NDArray[np.float64],
+        along_y: NDArray[np.float64] | None,
         vertical: NDArray[np.float64] | None,
         description: list[str],
         warnings: list[tuple[str, float | None, str]],
@@ -123,6 +133,7 @@ class Response:
     def name(self) -> str: ...
     @property
     def holds(self) -> bool | None: ...
+    def _noticed(self) -> list[tuple[str, str, bool]]: ...
     def _took_s(self) -> float: ...
     def _summary_json(self) -> str: ...
     def _history(self, knots: bool) -> dict[str, NDArray[np.float64]]: ...
@@ -173,11 +184,13 @@ def study(
     plan: str | PathLike[str] | Path,
     folder: str | PathLike[str] | Path,
     *,
+    names: list[tuple[str, str]] = ...,
     shard: tuple[int, int] | None = None,
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
     force: bool = False,
 ) -> Study: ...
+def study_id(plan: str | PathLike[str] | Path) -> str: ...
 
 @final
 class Assessment:
@@ -196,10 +209,11 @@ def read_suite(
     *,
     channel: str | None = None,
     units: str | None = None,
-    dt_s: float | None = None,
+    dt: float | str | None = None,
     vertical: list[str] = ...,
 ) -> list[tuple[str, Motion]]: ...
 def read_runs(source: Path, demand: str | None) -> tuple[Table, float | None]: ...
+def plain(path: str, value: object) -> bool | int | float | str | None: ...
 def levels(text: str, measure: str) -> list[str]: ...
 def fields(kind: str) -> list[tuple[str, bool, str, str]]: ...
 def assess(

@@ -3,6 +3,13 @@
 from __future__ import annotations
 
 
+class SlipstickWarning(UserWarning):
+    """What makes figures void, incomplete or of another quantity until it is cleared up.
+
+    All that is noticed, this and less, is in ``warnings`` of motions and results.
+    """
+
+
 class _Told(Exception):
     """An error that pickles with its attributes."""
 

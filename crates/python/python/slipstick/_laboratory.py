@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from os import PathLike, fspath
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
@@ -13,15 +12,17 @@ import numpy as np
 from . import _core
 from ._request import given
 from ._result import UNITS, Result, write
+from ._table import columns_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
     from ._request import Columns
+    from ._table import Frame, Table
     from ._result import Key
 
-    Measured = str | PathLike[str] | Mapping[str, ArrayLike]
+    Measured = str | PathLike[str] | Frame
     Bound = str | tuple[float | None, float | None]
 
 
@@ -53,20 +54,14 @@ class _Test(Result):
             yield from [("_text", units), ("_report_html", units)]
 
     @property
-    def curves(self) -> Mapping[str, _core.Table]:
+    def curves(self) -> Mapping[str, Table]:
         """What was measured beside what was computed, by quantity or test; columns in SI."""
-        return MappingProxyType(self._tell("curves"))
+        return self._tabled("curves")
 
     @property
     def verdict(self) -> list[str]:
         """The result in a few sentences."""
         return list(self._tell("verdict"))
-
-    @property
-    def warnings(self) -> list[dict[str, Any]]:
-        """What may change a decision: a unit, a sign or a clock that looks wrong, a sensor that is off."""
-        warnings: list[dict[str, Any]] = self.summary["warnings"]
-        return warnings
 
     def text(self, units: str = "si") -> str:
         """The table that the command prints.
@@ -136,8 +131,8 @@ class Comparison(_Test):
         motion: _core.Motion = self._tell("motion")
         return motion
 
-    def __repr__(self) -> str:
-        return f"<slipstick.Comparison {', '.join(self.curves)}>"
+    def _names(self) -> str:
+        return ", ".join(self.curves)
 
 
 class Identified(_Test):
@@ -168,15 +163,15 @@ class Identified(_Test):
         model: _core.Model | None = self._tell("model")
         return model
 
-    def __repr__(self) -> str:
-        return f"<slipstick.Identified {', '.join(self.estimates)}>"
+    def _names(self) -> str:
+        return ", ".join(self.estimates)
 
 
 def _test(measured: Measured) -> Any:
     """A file, or columns by name as the extension takes them."""
     if isinstance(measured, (str, PathLike)):
         return Path(fspath(measured))
-    columns = ((str(name), np.asarray(values)) for name, values in measured.items())
+    columns = ((name, np.asarray(values)) for name, values in columns_of(measured))
     numbers = [(name, values) for name, values in columns if values.dtype.kind in "fiu"]
     return [(name, np.ascontiguousarray(values, dtype="f8")) for name, values in numbers]
 

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from ._core import Table
-    from ._response import Columns, Response
+    from ._response import Response
+    from ._table import Table
 
 G = 9.80665
 
@@ -213,7 +213,7 @@ class Plotter:
         return FuncAnimation(figure, draw, frames=len(frame_s), interval=1e3 / frames_per_s, blit=True)
 
 
-def _numbered(knots: Columns, part: str) -> list[NDArray[np.float64]]:
+def _numbered(knots: Table, part: str) -> list[NDArray[np.float64]]:
     """Displacements of storeys, surfaces or contents in their order."""
     found = [v for k, v in knots.items() if k.startswith(part) and k.endswith("_displacement_m")]
     if not found and part != "storey":
@@ -221,7 +221,7 @@ def _numbered(knots: Columns, part: str) -> list[NDArray[np.float64]]:
     return found
 
 
-def _shade(ax: Axes, knots: Columns) -> None:
+def _shade(ax: Axes, knots: Table) -> None:
     """Grey where the slider slides."""
     slides, across = knots["direction"] != 0, ax.get_xaxis_transform()
     ax.fill_between(knots["time_s"], 0, 1, where=slides, transform=across, color="0.92", lw=0)

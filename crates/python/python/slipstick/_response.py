@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from . import _core
+from ._result import in_a_line, in_html, warn_of
+from ._table import Columns, Event, Events
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -19,22 +19,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ._plot import Plotter
-
-    Columns = Mapping[str, NDArray[np.float64]]
-
-
-class Event(NamedTuple):
-    """A change between stick and slip, of the direction of sliding, or of what the slider is in contact with."""
-
-    time_s: float
-    #: ``slip``, ``stick``, ``reversal``, ``contact``, ``impact``, ``surface`` and so on
-    kind: str
-    #: Of the sliding after it: 1 towards +x, -1 towards -x, 0 stuck
-    direction: int
-    #: Of the interface
-    sliding_displacement_m: float
-    #: ``slider``, or ``contents.1`` and so on
-    interface: str
 
 
 def run(
@@ -64,6 +48,11 @@ def run(
     SolveError
         Where there is no answer, with the time.
 
+    Warns
+    -----
+    SlipstickWarning
+        For what makes figures void: a check that fails, a gap that is passed, contact that is lost.
+
     Examples
     --------
     >>> import slipstick as ss
@@ -75,13 +64,9 @@ def run(
     >>> float(abs(response.knots["friction_force_n"]).max()) == 0.1 * 325 * 9.80665
     True
     """
-    return Response(_core.run(model, motion, floor_spectrum=floor_spectrum), model, floor_spectrum)
-
-
-def _frozen(columns: dict[str, NDArray[np.float64]]) -> Columns:
-    for values in columns.values():
-        values.flags.writeable = False
-    return MappingProxyType(columns)
+    response = Response(_core.run(model, motion, floor_spectrum=floor_spectrum), model, floor_spectrum)
+    warn_of(response._core._noticed())
+    return response
 
 
 class Response:
@@ -150,20 +135,20 @@ class Response:
 
     @cached_property
     def history(self) -> Columns:
-        """Histories by column, one row a sample, as in ``history.csv``; read-only arrays."""
-        return _frozen(self._core._history(knots=False))
+        """Histories by column, one row a sample, as in ``history.csv``; in two directions along x and y."""
+        return Columns(self._core._history(knots=False), "time_s")
 
     @cached_property
     def knots(self) -> Columns:
         """Histories with both sides of every event; ``direction`` is 0 stuck, 1 or -1 sliding."""
         columns = self._core._history(knots=True)
         columns["direction"] = self._core._modes()
-        return _frozen(columns)
+        return Columns(columns, "knot")
 
     @cached_property
     def energy(self) -> Columns:
         """Energies in J at ``knots``: input, kinetic, strain, and spent in dampers and friction."""
-        return _frozen(self._core._energy())
+        return Columns(self._core._energy(), "knot")
 
     @cached_property
     def slider_force_n(self) -> NDArray[np.float64]:
@@ -176,9 +161,9 @@ class Response:
         return force
 
     @cached_property
-    def events(self) -> list[Event]:
+    def events(self) -> Events:
         """All events in order."""
-        return [Event(t, kind, int(sign), s, at) for t, kind, sign, s, at in self._core._events()]
+        return Events(Event(t, kind, int(sign), s, at) for t, kind, sign, s, at in self._core._events())
 
     @property
     def plot(self) -> Plotter:
@@ -189,18 +174,11 @@ class Response:
 
     def to_pandas(self) -> pd.DataFrame:
         """The history as a data frame with the time as its index."""
-        import pandas as pd
-
-        return pd.DataFrame(dict(self.history)).set_index("time_s")
+        return self.history.to_pandas()
 
     def to_xarray(self) -> xr.Dataset:
         """The history as a dataset over ``time_s``, units as attributes."""
-        import xarray as xr
-
-        data = dict(self.history)
-        time = data.pop("time_s")
-        variables = {name: ("time_s", values, {"units": _unit(name)}) for name, values in data.items()}
-        return xr.Dataset(variables, coords={"time_s": ("time_s", time, {"units": "s"})})
+        return self.history.to_xarray()
 
     def report(self, path: str | PathLike[str], *, units: str = "si") -> Path:
         """Write the report of ``slipstick run --out`` as one HTML page.
@@ -217,23 +195,17 @@ class Response:
         return target
 
     def _repr_html_(self) -> str:
-        peak = self.summary["peak_sliding_displacement_m"]
-        return f"<b>{self._core.name}</b>: peak sliding displacement {1e3 * peak:.4g} mm"
+        from html import escape
+
+        peak = 1e3 * self.summary["peak_sliding_displacement_m"]
+        said = in_html(self.holds, self._core._noticed(), "The certificate")
+        return f"{said}<p><b>{escape(self._core.name)}</b>: peak sliding displacement {peak:.4g} mm</p>"
 
     def __repr__(self) -> str:
-        return f"<slipstick.Response {self._core.name!r}, {len(self.events)} events>"
+        said = in_a_line(self.holds, self._core._noticed())
+        return f"<slipstick.Response {said}{self._core.name!r}, {len(self.events)} events>"
 
 
 def _again(model: _core.Model, motion: _core.Motion, floor_spectrum: bool) -> Response:
     return run(model, motion, floor_spectrum=floor_spectrum)
 
-
-_UNITS = {"_m": "m", "_m_per_s": "m/s", "_m_per_s2": "m/s²", "_n": "N", "_s": "s"}
-
-
-def _unit(name: str) -> str:
-    """The unit that a column's name ends in."""
-    for ending in ("_m_per_s2", "_m_per_s", "_m", "_n", "_s"):
-        if name.endswith(ending):
-            return _UNITS[ending]
-    return ""

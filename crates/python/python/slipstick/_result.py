@@ -7,15 +7,55 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Self
 
+from ._errors import SlipstickWarning
+from ._table import Table
+
 if TYPE_CHECKING:
     from os import PathLike
 
-    from . import _core
+    import pandas as pd
+    import xarray as xr
 
     Key = tuple[str, ...]
+    #: Kind, message, whether it is severe
+    Noticed = tuple[str, str, bool]
 
 #: Systems of units that results are shown in
 UNITS = ("si", "si-g", "kN-mm", "us")
+
+
+def noticed(warnings: list[dict[str, Any]]) -> list[Noticed]:
+    """What the warnings of a summary say."""
+    return [(w["kind"], w["message"], w.get("severity") == "severe") for w in warnings]
+
+
+def warn_of(of: list[Noticed]) -> None:
+    """Warn whoever called the package of what is severe."""
+    import sys
+    import warnings
+
+    frame, depth = sys._getframe(1), 2
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("slipstick."):
+        frame, depth = frame.f_back, depth + 1
+    for _, message, severe in of:
+        if severe:
+            warnings.warn(message, SlipstickWarning, stacklevel=depth)
+
+
+def in_a_line(holds: bool | None, of: list[Noticed]) -> str:
+    """Whether a result holds, and its warnings, the gravest first."""
+    words = [] if holds is None else ["holds" if holds else "DOES NOT HOLD"]
+    words += [("severe: " if severe else "warning: ") + kind.replace("_", " ") for kind, _, severe in of]
+    return "".join(f"{word}; " for word in words)
+
+
+def in_html(holds: bool | None, of: list[Noticed], meaning: str) -> str:
+    """The same for a notebook, in whole sentences."""
+    from html import escape
+
+    lines = [] if holds is None else [f"<b>{meaning} {'holds' if holds else 'DOES NOT HOLD'}</b>"]
+    lines += [f"<b>{'Severe' if severe else 'Warning'}:</b> {escape(message)}" for _, message, severe in of]
+    return "".join(f"<p>{line}</p>" for line in lines)
 
 
 class Result:
@@ -36,12 +76,15 @@ class Result:
         return self._told[key]
 
     @property
-    def tables(self) -> Mapping[str, _core.Table]:
+    def tables(self) -> Mapping[str, Table]:
         """The tables by name."""
-        return MappingProxyType(self._tell("tables"))
+        return self._tabled("tables")
+
+    def _tabled(self, key: str) -> Mapping[str, Table]:
+        return MappingProxyType({name: Table._of(core) for name, core in self._tell(key).items()})
 
     @property
-    def table(self) -> _core.Table:
+    def table(self) -> Table:
         """The first of the tables."""
         return next(iter(self.tables.values()))
 
@@ -54,9 +97,46 @@ class Result:
         return figures
 
     @property
+    def holds(self) -> bool | None:
+        """Whether the answer keeps its bounds; None where it has none."""
+        return None
+
+    @property
+    def warnings(self) -> list[dict[str, Any]]:
+        """What may change a decision, the gravest first."""
+        warnings: list[dict[str, Any]] = self.summary.get("warnings", [])
+        return warnings
+
+    @property
     def figures(self) -> Mapping[str, str]:
         """The figures as SVG by name; a notebook shows the first."""
         return MappingProxyType(dict(self._tell("_figures")))
+
+    def to_pandas(self) -> pd.DataFrame:
+        """The first of the tables as a data frame."""
+        return self.table.to_pandas()
+
+    def to_xarray(self) -> xr.Dataset:
+        """The first of the tables as a dataset."""
+        return self.table.to_xarray()
+
+    def __getitem__(self, name: str) -> Table:
+        return self.tables[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.tables)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.tables
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
+        return self.table.__array__(dtype, copy)
+
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
+        return self.table.__arrow_c_stream__(requested_schema)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self.tables)
 
     def _keys(self) -> Iterator[Key]:
         yield from self._KEYS
@@ -82,7 +162,15 @@ class Result:
         return hash(self._tell("_summary_json"))
 
     def _repr_html_(self) -> str:
-        return next(iter(self.figures.values()), "")
+        said = in_html(self.holds, noticed(self.warnings), "The answer")
+        return said + next(iter(self.figures.values()), "")
+
+    def __repr__(self) -> str:
+        said = in_a_line(self.holds, noticed(self.warnings))
+        return f"<slipstick.{type(self).__name__} {said}{self._names()}>"
+
+    def _names(self) -> str:
+        return ", ".join(self.tables)
 
 
 def _restored(cls: type[Result], told: dict[Key, Any]) -> Result:

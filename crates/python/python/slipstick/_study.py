@@ -9,7 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _core
-from ._errors import InputError
+from ._assessment import read_suite
+from ._errors import InputError, RecordError
+from ._request import several, text_of, wrong
+from ._result import warn_of
+from ._table import Table
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -20,9 +24,9 @@ class Study(NamedTuple):
     """What came of a study."""
 
     #: One row a run
-    table: _core.Table
+    table: Table
     #: Fractiles and counts, one row a level and demand
-    summary: _core.Table
+    summary: Table
     runs: int
     #: Runs that have no answer; their status says why
     failures: int
@@ -39,12 +43,17 @@ class Plan:
     model
         The model.
     records
-        Motions by name; the model's own motion if left out, which must then be a made one.
+        Motions by name, which rows keep; the model's own motion if left out, which must then be a made one.
+    second
+        Other components of the records, as many and in the same order: both are run, with one factor for the
+        pair.
     vary
         What is varied, as in a plan: ``{"slider.kinetic_friction": {"uniform": [0.02, 0.06]}}``; a list
         is one of its values.
     samples, seed, method
         Number of samples, their seed, and ``"sobol"``, ``"latin-hypercube"`` or ``"grid"``.
+    correlation
+        Correlations of pairs of paths: ``[["slider.radius", "storey.1.mass", 0.3]]``.
     measure, levels, scale
         Each record is scaled so that the measure takes each of the levels, ``["0.1 g", "0.2 g"]`` or
         ``"0.1..0.4 g:4"``; or by each of the factors of ``scale``.
@@ -79,13 +88,89 @@ class Plan:
     scale: Sequence[float] | None = None
     bounds: str | None = None
     name: str | None = None
+    second: Mapping[str, _core.Motion] | None = None
+    correlation: Sequence[Sequence[Any]] | None = None
+
+    def __post_init__(self) -> None:
+        if self.records is not None and not self.records:
+            raise wrong("records", "at least one motion, or none for the model's own", "an empty dict")
+        if self.second is not None and len(self.second) != len(self.records or ()):
+            expected = f"one other component for each of {len(self.records or ())} records"
+            raise wrong("second", expected, str(len(self.second)))
+        for of, beside in [
+            (("measure", "levels", "scale"), "records"),
+            (("samples", "seed", "correlation"), "vary"),
+        ]:
+            for name in of if not getattr(self, beside) else ():
+                if (value := getattr(self, name)) is not None:
+                    raise wrong(name, f"{beside} beside it", repr(value))
+
+    @classmethod
+    def read(cls, path: str | PathLike[str]) -> Plan:
+        """Read a plan file with its model and its records.
+
+        Parameters
+        ----------
+        path
+            The file, TOML.
+
+        Raises
+        ------
+        InputError
+            For a plan or a model that cannot be, with line and column, and for pairs that are brought to a
+            spectrum, which a file alone says: ``study`` takes its path.
+        RecordError, OSError
+            For records that cannot be read.
+        """
+        import tomllib
+
+        path = Path(path)
+        _core.study_id(path)  # All that is wrong is said of its place.
+        said = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        records, sampling = said.get("records", {}), said.get("sampling", {})
+        for key in ("target", "code_spectrum", "periods", "vertical_scale"):
+            if key in records:
+                raise wrong(f"records.{key}", "the path of the plan where it is run", "a plan of values")
+
+        def suite(key: str) -> dict[str, _core.Motion] | None:
+            if key not in records:
+                return None
+            found = [path.parent / pattern for pattern in records[key]]
+            up = [path.parent / pattern for pattern in records.get("vertical", ())]
+            told = {name: records.get(name) for name in ("channel", "units", "dt")}
+            return read_suite(found, vertical=up, **told)
+
+        return cls(
+            _core.Model.read(path.parent / said["model"]),
+            suite("files"),
+            said.get("vary", {}),
+            samples=sampling.get("count"),
+            seed=sampling.get("seed"),
+            method=sampling.get("method", "sobol"),
+            measure=records.get("measure"),
+            levels=records.get("levels"),
+            scale=records.get("scale"),
+            bounds=said.get("bounds"),
+            name=said.get("name"),
+            second=suite("second"),
+            correlation=sampling.get("correlation"),
+        )
 
     @property
     def files(self) -> dict[str, str]:
         """The plan, the model and the records as the files of a study, text by name."""
         files = {"plan.toml": self._toml(), "model.toml": self.model.toml}
-        files.update({_record(name): _csv(motion) for name, motion in (self.records or {}).items()})
+        for folder, motions in self._motions():
+            files.update({_file(folder, name): _csv(name, motion) for name, motion in motions.items()})
         return files
+
+    def _motions(self) -> list[tuple[str, Mapping[str, _core.Motion]]]:
+        return [("records", self.records or {}), ("second", self.second or {})]
+
+    @property
+    def _names(self) -> list[tuple[str, str]]:
+        """Names of the records by their files."""
+        return [(_file(folder, name), name) for folder, motions in self._motions() for name in motions]
 
     @property
     def digest(self) -> str:
@@ -110,15 +195,17 @@ class Plan:
 
         text = rows({"name": self.name, "model": "model.toml", "bounds": self.bounds})
         if self.records is not None:
-            records = [_record(name) for name in self.records]
+            records = [_file("records", name) for name in self.records]
+            second = [_file("second", name) for name in self.second or ()] or None
             levels = self.levels
             if isinstance(levels, str):
                 levels = _core.levels(levels, self.measure or "PGA")
             measured = {"measure": self.measure, "levels": levels, "scale": self.scale}
-            text += ["[records]", *rows({"files": records, **measured})]
+            text += ["[records]", *rows({"files": records, "second": second, **measured})]
         if self.vary:
             varied = {k: v if isinstance(v, Mapping) else {"values": v} for k, v in self.vary.items()}
-            sampling = {"method": self.method, "count": self.samples, "seed": self.seed}
+            counted = {"method": self.method, "count": self.samples, "seed": self.seed}
+            sampling = {**counted, "correlation": self.correlation}
             text += ["[vary]", *rows(varied), "[sampling]", *rows(sampling)]
         return "\n".join(text) + "\n"
 
@@ -136,12 +223,12 @@ def study(
     Parameters
     ----------
     plan
-        The plan, a TOML file or a ``Plan``.
+        A ``Plan``, or the path of a plan file.
     out
         A folder for parts, manifest and summary, as ``slipstick study --out`` writes it. What it holds
         of this study is not run again. A folder of its own, removed at the end, if left out.
     jobs
-        Number of threads; as many as the machine has if left out.
+        Number of threads; as many as the machine has if left out or -1.
     progress
         Called with the runs done and planned, some twenty times a second.
     force
@@ -171,14 +258,17 @@ def study(
         path = plan.write(new_folder()) if isinstance(plan, Plan) else Path(plan)
         folder = new_folder() if out is None else Path(out)
         with _said_of(plan):
-            done = _core.study(path, folder, jobs=jobs, progress=progress, force=force)
+            names = plan._names if isinstance(plan, Plan) else []
+            done = _core.study(path, folder, names=names, jobs=jobs, progress=progress, force=force)
     table, summary = done.table, done.summary
     assert table is not None and summary is not None
-    return Study(table, summary, done.runs, done.failures, done.notices)
+    if done.failures:
+        warn_of([("failed_runs", f"{done.failures} of {done.runs} runs have no answer: their status says why", True)])
+    return Study(Table._of(table), Table._of(summary), done.runs, done.failures, done.notices)
 
 
 def run_shard(
-    plan: Plan, out: str | PathLike[str], shard: tuple[int, int], *, jobs: int | None = 1
+    plan: Plan | str | PathLike[str], out: str | PathLike[str], shard: tuple[int, int], *, jobs: int | None = 1
 ) -> int:
     """Run one of so many shards of a study into a folder, what it lacks of it; the runs of the shard.
 
@@ -194,7 +284,7 @@ def run_shard(
     from tempfile import TemporaryDirectory
 
     with TemporaryDirectory(prefix="slipstick-") as folder:
-        path = plan.write(folder)
+        path = plan.write(folder) if isinstance(plan, Plan) else Path(plan)
         with _said_of(plan):
             return _core.study(path, Path(out), shard=shard, jobs=jobs).runs
 
@@ -209,7 +299,7 @@ def _said_of(plan: object) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        if not isinstance(plan, Plan) or Path(error.source).name != "plan.toml":
+        if not isinstance(plan, Plan) or not error.source:
             raise
         key = error.path
         name = _ARGUMENTS.get(key, key.removeprefix("records.").removeprefix("sampling."))
@@ -218,17 +308,30 @@ def _said_of(plan: object) -> Iterator[None]:
         raise InputError(
             message, path=name, expected=error.expected, found=error.found, nearest=error.nearest
         ) from None
+    except RecordError as error:
+        if not isinstance(plan, Plan):
+            raise
+        # Its file is gone: what is left of the path is the record's own.
+        file = next((file for file, _ in plan._names if file in str(error)), None)
+        name = dict(plan._names).get(file or "", "records")
+        message = str(error).partition(f"{file}: ")[2] if file else str(error)
+        raise RecordError(f"{name}: {message or error}", source=name) from None
 
 
-def _record(name: str) -> str:
-    if not name or any(character in name for character in "/\\*?[]") or name.startswith("."):
-        message = f"records: expected names that can be names of files, found {name!r}"
-        raise InputError(message, path="records", expected="a name of a file", found=repr(name))
-    return f"records/{name}.csv"
+def _file(folder: str, name: str) -> str:
+    """The file of a record: its name, with what a name of a file or a pattern may not have escaped."""
+    from urllib.parse import quote
+
+    if not name:
+        raise wrong("records", "names that are not empty", repr(name))
+    plain = quote(name, safe=" +,;=@()&'!")
+    return f"{folder}/{plain.replace('.', '%2E', 1) if plain.startswith('.') else plain}.csv"
 
 
-def _csv(motion: _core.Motion) -> str:
+def _csv(name: str, motion: _core.Motion) -> str:
     """A record whose numbers read back as the same."""
+    if motion.acceleration_y_m_per_s2 is not None:
+        raise wrong("records", "motions in one direction (run takes one in two)", f"{name!r} in two")
     columns = {"time_s": motion.time_s, "acceleration_m_per_s2": motion.acceleration_m_per_s2}
     if motion.vertical_m_per_s2 is not None:
         columns["vertical_acceleration_m_per_s2"] = motion.vertical_m_per_s2
@@ -237,14 +340,12 @@ def _csv(motion: _core.Motion) -> str:
 
 
 def _toml(value: Any) -> str:
-    if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{key} = {_toml(inner)}" for key, inner in value.items()) + " }"
-    if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(map(_toml, value)) + "]"
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, (int, float)):
-        return repr(value)
     import json
 
-    return json.dumps(str(value), ensure_ascii=False)
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{key} = {_toml(inner)}" for key, inner in value.items()) + " }"
+    if several(value):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    text = text_of("vary", value)
+    is_text = isinstance(_core.plain("vary", value), str)
+    return json.dumps(text, ensure_ascii=False) if is_text else text

@@ -1,6 +1,6 @@
 """Studies on a cluster of Dask, and by dask-jobqueue on Slurm.
 
-Plan, model and records travel with the tasks as values; the parts go to a folder that all workers see.
+Plan, model and records travel with the tasks as values, or as the path of a plan that all workers see; the parts go to a folder that all workers see.
 """
 
 from __future__ import annotations
@@ -8,6 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from . import _core
 from ._study import Plan, Study, run_shard, study
 
 if TYPE_CHECKING:
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def submit_study(
-    plan: Plan,
+    plan: Plan | str | PathLike[str],
     client: Any,
     out: str | PathLike[str],
     *,
@@ -28,7 +29,7 @@ def submit_study(
     Parameters
     ----------
     plan
-        The study.
+        A ``Plan``, whose values travel with the tasks, or the path of a plan file that all workers see.
     client
         A ``distributed.Client``.
     out
@@ -47,7 +48,10 @@ def submit_study(
         that the same one is not run twice.
     """
     count = shards if shards is not None else 4 * max(1, sum(client.nthreads().values()))
-    key, folder = plan.digest[:16], str(Path(out).absolute())
+    folder = str(Path(out).absolute())
+    if not isinstance(plan, Plan):
+        plan = str(Path(plan).absolute())
+    key = (plan.digest if isinstance(plan, Plan) else _core.study_id(plan))[:16]
     return [
         client.submit(
             run_shard,
@@ -63,7 +67,7 @@ def submit_study(
 
 
 def run_study(
-    plan: Plan,
+    plan: Plan | str | PathLike[str],
     client: Any,
     out: str | PathLike[str],
     *,

@@ -119,7 +119,7 @@ impl Intensity {
                 });
                 let expected = format!(
                     "the unit of {column}, which {} does not state: write \"{column} [{example}]\" \
-                     in its header, or give --units {example}",
+                     in its header, or give `units` {example}",
                     columns.source_name
                 );
                 return Err(refuse("units", expected, "none"));

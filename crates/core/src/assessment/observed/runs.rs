@@ -46,7 +46,7 @@ pub(super) fn of_runs(
                             answer at the one before";
             return Err(refuse("fit-to", expected, "counts"));
         }
-        (Some(asked), _) => (asked, "as --fit-to asks".to_owned()),
+        (Some(asked), _) => (asked, "as was asked for".to_owned()),
         (None, true) => (FitTo::Capacities, "the levels were hunted for each record".to_owned()),
         (None, false) => natural(&levels, records.as_ref()),
     };

@@ -235,3 +235,39 @@ fn exact_the_first_of_a_list_is_added() {
         "contents.2.floor: expected contents.1, for there is none yet, found \"2\""
     );
 }
+
+/// Keys and items of lists are taken out; a list grows by one where that is asked for.
+#[test]
+fn exact_keys_are_taken_out_and_lists_grow() {
+    let text = "[block]\nmass = \"1 t\"\n[slider]\nstatic_friction = 0.1\nkinetic_friction = 0.1\n\
+                spring = \"9 kN/m\"\ndamping_ratio = 0.1\n[[storey]]\nmass = \"1 t\"\n\
+                period = \"1 s\"\ndamping_ratio = 0.02\n";
+    let with = |set: &[Override]| parse("m.toml", text, set);
+    let removed = |path: &str| with(&[Override::removal(path).unwrap()]);
+    assert_eq!(removed("storey.1").unwrap().model.storeys(), 0);
+    assert_eq!(removed("storey").unwrap().model.storeys(), 0);
+    let bare = [Override::removal("slider.damping_ratio"), Override::removal("slider.spring")];
+    let bare = with(&bare.map(Result::unwrap)).unwrap();
+    assert_eq!(bare.model.slider_stiffness_n_per_m(), 0.0);
+    assert_eq!(
+        removed("slider.radius").unwrap_err().to_string(),
+        "slider.radius: expected a key that stands in the model, found \"slider.radius\""
+    );
+    let second = |growing: bool| {
+        let one = |path: &str, text: &str| {
+            let set = Override::text_value(path, text).unwrap();
+            if growing { set.growing() } else { set }
+        };
+        let keys = [("mass", "1 t"), ("stiffness", "9 kN/mm"), ("damping_ratio", "0.02")];
+        let mut set: Vec<Override> =
+            keys.map(|(key, text)| one(&format!("storey.2.{key}"), text)).to_vec();
+        set.push(one("storey.1.stiffness", "9 kN/mm"));
+        with(&set)
+    };
+    assert_eq!(second(true).unwrap().model.storeys(), 2);
+    assert!(second(false).is_err());
+    assert_eq!(
+        with(&[]).unwrap().canonical(),
+        parse("m.toml", &text.replace("\"1 t\"", "\"1000 kg\""), &[]).unwrap().canonical()
+    );
+}

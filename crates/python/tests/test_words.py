@@ -1,0 +1,90 @@
+"""What is wrong is said in words of Python, and of the argument that is wrong."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import slipstick as ss
+from support import EXAMPLES, block, pulse, suite
+
+SHELL = ["--", "[motion]", "/tmp", "slipstick-"]
+
+
+def told(call: object) -> str:
+    with pytest.raises((ss.InputError, ss.RecordError, ss.StudyError)) as caught:
+        call()  # type: ignore[operator]
+    return str(caught.value)
+
+
+def test_errors_are_in_words_of_python(tmp_path: Path) -> None:
+    bare, columns = tmp_path / "bare.txt", tmp_path / "two.csv"
+    bare.write_text("0.1\n0.2\n")
+    columns.write_text("time_s,north_g,east_g\n0,0,1\n1,2,3\n")
+    motions = {"a": pulse()}
+    two = {"a": pulse(), "b": ss.Motion([0.0, 0.3, -0.2, 0.0], dt=0.4, units="g")}
+    table = ss.ida(block(), two, scale_to="0.1..0.6 g:4", limit="9 mm").table
+    levels = {"level": [0.1, 0.2, 0.3], "peak_sliding_displacement_m": [0.001, 0.002, 0.2]}
+    runs = ss.Table(levels)
+    other = tmp_path / "study"
+    ss.study(ss.Plan(block(), motions), other)
+    calls = {
+        'units = "g" and dt = "0.01 s"': lambda: ss.read_record(bare),
+        'channel = "north_g"': lambda: ss.read_record(columns),
+        "^motion: expected a motion, for the model": lambda: ss.run(block()),
+        "^jobs: expected a number of threads, or -1 for all, found 0": lambda: ss.ida(
+            block(), motions, scale_to="1 g", jobs=0),
+        "^over: expected one value, found several": lambda: ss.spectrum(
+            block(), motions, {"slider.radius": "1 m", "block.mass": "1 t"}),
+        "give units g": lambda: ss.fragility(runs, limit="9 mm", measure="PGA"),
+        "force=True": lambda: ss.study(ss.Plan(block(), motions, scale=[2.0]), other),
+        "^dt: expected a finite time step > 0, found -1": lambda: ss.Motion([0, 1], dt=-1.0, units="g"),
+        "^vary.slider.radius.values.1: expected a length": lambda: ss.study(
+            ss.Plan(block(), motions, {"slider.radius": ["1 kg"]}, method="grid")),
+    }
+    for expected, call in calls.items():
+        text = told(call)
+        assert not [word for word in SHELL if word in text.replace(str(tmp_path), "")], text
+        assert re.search(expected, text), text
+    assert "cloud" in str(ss.fragility(table, fit_to="cloud", limit="9 mm", floor="1 mm"))
+    assert "--" not in str(ss.fragility(table, fit_to="cloud", limit="9 mm", floor="1 mm"))
+
+
+def test_minus_one_job_is_all() -> None:
+    found = [ss.ida(block(), {"a": pulse()}, scale_to="0.1..0.3 g:3", limit="1 mm", jobs=jobs) for jobs in (-1, 1)]
+    assert found[0].table == found[1].table
+
+
+def test_one_ida_has_one_fragility() -> None:
+    model = ss.Model.read(EXAMPLES / "taft.toml")
+    ida = ss.ida(model, suite(), scale_to="0.2..0.27 g:29", limit="40 mm", bounds="nominal")
+    curves = [ss.fragility(ida), ss.fragility(ida, limit="40 mm"), ss.fragility(ida.table, limit="40 mm", measure="PGA")]
+    assert len({curve.summary["median"] for curve in curves}) == 1
+
+
+def test_a_plan_file_becomes_a_plan(tmp_path: Path) -> None:
+    model = ss.Model.read(EXAMPLES / "studies" / "tank.toml")
+    plan = ss.Plan(
+        model, suite(), {"slider.kinetic_friction": {"uniform": [np.float64(0.02), 0.05]},
+                         "slider.radius": ("1 m", "2 m")},
+        samples=np.int64(16), seed=3, measure="PGA", levels=["0.2 g", "0.4 g"], bounds="nominal", name="A",
+    )
+    path = plan.write(tmp_path)
+    read = ss.Plan.read(path)
+    bare = {"motion": None}  # Its record is looked for beside the file.
+    assert read.model.with_(bare) == model.with_(bare) and read.records == plan.records and read.name == "A"
+    assert ss.study(read).table == ss.study(plan).table
+    path.write_text(path.read_text().replace('"count" = 16', '"count" = 0'))
+    with pytest.raises(ss.InputError) as caught:
+        ss.Plan.read(path)
+    assert caught.value.path == "sampling.count" and caught.value.line
+
+
+def test_quantities_of_numpy_and_pint_in_requests() -> None:
+    unit = pytest.importorskip("pint").UnitRegistry()
+    records = {"a": pulse(), "b": pulse().scaled(0.5)}
+    by_text = ss.spectrum(block(), records, {"slider.radius": "1, 2, 3 m"}, friction="0.05, 0.06")
+    for radii in [np.array([1, 2, 3]) * unit.m, [1.0 * unit.m, 200 * unit.cm, "3 m"]]:
+        friction = np.linspace(0.05, 0.06, 2)
+        assert ss.spectrum(block(), records, {"slider.radius": radii}, friction=friction).table == by_text.table
