@@ -59,7 +59,7 @@ const files = {
     theme_color: "#0d5c63",
     icons: [{ src: "icon.svg", sizes: "any", type: "image/svg+xml" }],
   }),
-  "licences.txt": `The page contains:\n\n${licence("uplot")}`,
+  "licences.txt": `The page contains:\n\n${licence("uplot")}\n\n${licence("fflate")}`,
 };
 const hash = createHash("sha256");
 for (const data of Object.values(files)) hash.update(data);

@@ -121,6 +121,7 @@ export class App {
       desk,
       text,
       state: () => (this.judgement ? state() : undefined),
+      records: () => this.records.bytes(),
       scene: this.stage.canvas,
       tables: [this.certificate, this.peaks.table],
       say,
@@ -436,6 +437,7 @@ export class App {
     if (wish && wish.set.length > 0) {
       this.pending = wish.text === this.good.text ? [...this.good.set] : [];
       if (this.answer) this.controls.update(this.answer.state);
+      this.controls.refuse(wish.set.slice(-1), message);
     }
     if (this.answer && !this.judgement) void this.rejudge();
   }

@@ -132,6 +132,8 @@ class Control {
 
   update(input: InputValue): void {
     this.input = input;
+    this.field.removeAttribute("aria-invalid");
+    this.field.title = "";
     const value = input.value ?? 0;
     let { min, max } = this.spec;
     if (max === 0) {
@@ -152,6 +154,13 @@ class Control {
       this.range.setAttribute("aria-valuetext", `${input.shown} ${input.symbol ?? ""}`.trim());
       this.paint();
     }
+  }
+
+  /** Marks what was written and cannot be. */
+  refuse(written: string, message: string): void {
+    this.field.value = written;
+    this.field.setAttribute("aria-invalid", "true");
+    this.field.title = message;
   }
 
   private root(): Element | null {
@@ -192,6 +201,11 @@ export class Controls {
       this.build(state, wanted);
     }
     for (const input of wanted) this.controls.get(input.path)?.update(input);
+  }
+
+  /** Marks values that were set and cannot be. */
+  refuse(settings: Setting[], message: string): void {
+    for (const [path, value] of settings) this.controls.get(path)?.refuse(value, message);
   }
 
   private restoring(state: State): string {

@@ -1,5 +1,6 @@
 /** What leaves the page: files, figures, pictures, links, paper. */
 
+import { strToU8, zipSync } from "fflate";
 import { type Desk, ModuleError } from "./desk";
 import { download, drawing, fill, h } from "./dom";
 import type { Drawing, Fault, State } from "./types";
@@ -10,6 +11,8 @@ export interface Shelf {
   text: () => string;
   /** Of a judged answer. */
   state: () => State | undefined;
+  /** The files of the motion, by their paths in the model. */
+  records: () => [path: string, bytes: Uint8Array][];
   /** The animation as it stands. */
   scene: HTMLCanvasElement;
   /** What stands before the figures on paper. */
@@ -49,6 +52,7 @@ export class Exports {
     const button = (label: string, act: () => unknown) => h("button", { type: "button", onclick: () => void act() }, label);
     this.menu = menu(
       "Export",
+      button("Everything (ZIP)", () => this.everything()),
       button("Model (TOML)", () => download("model.toml", page.text(), "application/toml")),
       button("History (CSV)", () => this.file("history.csv", "text/csv")),
       button("Events (CSV)", () => this.file("events.csv", "text/csv")),
@@ -89,6 +93,21 @@ export class Exports {
   private async file(name: string, type: string): Promise<void> {
     try {
       download(name, await this.made(name), type);
+    } catch (error) {
+      if (error instanceof ModuleError) this.page.fault(error.fault);
+    }
+  }
+
+  /** Model, records, what came of them, and the command that makes it again. */
+  private async everything(): Promise<void> {
+    try {
+      const files: Record<string, Uint8Array> = {
+        "model.toml": strToU8(this.page.text()),
+        "command.txt": strToU8(`${COMMAND}\n`),
+        ...Object.fromEntries(this.page.records()),
+      };
+      for (const name of ["summary.json", "history.csv", "events.csv", "report.html"]) files[`page/${name}`] = strToU8(await this.made(name));
+      download("slipstick.zip", zipSync(files) as BlobPart, "application/zip");
     } catch (error) {
       if (error instanceof ModuleError) this.page.fault(error.fault);
     }

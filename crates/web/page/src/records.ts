@@ -46,9 +46,23 @@ export class Records {
     return RECORDS.find((record) => record.name === name) ?? this.own.get(name)?.choice ?? { name };
   }
 
+  /** Paths of all components of the motion, as the model names them. */
+  private paths(): string[] {
+    return this.page.state()?.inputs.filter(({ path }) => /^motion\.(record|record_y|vertical)$/.test(path)).map(({ text }) => text) ?? [];
+  }
+
+  /** The files of the motion, by their paths in the model. */
+  bytes(): [path: string, bytes: Uint8Array][] {
+    const { records } = this.page.desk;
+    return this.paths().flatMap((path): [string, Uint8Array][] => {
+      const bytes = records.get(path) ?? records.get(path.replace(/^.*[/\\]/, ""));
+      return bytes ? [[path, bytes]] : [];
+    });
+  }
+
   /** Those of the person's own that the model needs, as the address names them. */
   needed(): { name: string; sha256: string }[] {
-    const used = this.page.state()?.inputs.filter(({ path }) => /^motion\.(record|record_y|vertical)$/.test(path)).map(({ text }) => text) ?? [];
+    const used = this.paths();
     return [...this.own].filter(([name]) => used.includes(name)).map(([name, { sha256 }]) => ({ name, sha256 }));
   }
 

@@ -2,10 +2,11 @@
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdirSync, readFileSync, readdirSync } from "node:fs";
+import { mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
+import { unzipSync } from "fflate";
 import { browser, drop, headline, host, message, open, settled, temporary } from "./harness.mjs";
 
 const folder = resolve(process.argv[2]);
@@ -405,6 +406,44 @@ test("two components: the way of the block from above, turned by a slider, with 
     await page.waitForTimeout(300);
     await page.screenshot({ path: join(shots, "two-directions.png") });
   }));
+
+test("a value that cannot be is marked where it was written, and is right again with a good one", () =>
+  on(async (page) => {
+    const gap = field(page, "Gap");
+    const before = await headline(page);
+    await setField(page, "Gap", "5 kg");
+    await page.waitForFunction(() => document.querySelector(".control input[aria-invalid]"));
+    assert.equal(await gap.getAttribute("aria-invalid"), "true");
+    assert.equal(await gap.inputValue(), "5 kg");
+    assert.match(await gap.getAttribute("title"), /expected a length/);
+    assert.deepEqual(await headline(page), before);
+    await setField(page, "Gap", "90 mm");
+    await settled(page);
+    assert.equal(await gap.getAttribute("aria-invalid"), null);
+  }));
+
+test("a ZIP has model and records, and the command makes the same bytes of them", () =>
+  on(async (page) => {
+    const command = process.env.SLIPSTICK_COMMAND;
+    if (!command) return "skipped: SLIPSTICK_COMMAND names no command";
+    await dropped(page, ["own.csv", sine(3)]);
+    await page.getByText("Export", { exact: true }).click();
+    const [got] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Everything (ZIP)" }).click()]);
+    const out = temporary();
+    try {
+      for (const [name, bytes] of Object.entries(unzipSync(readFileSync(await got.path())))) {
+        mkdirSync(dirname(join(out.folder, name)), { recursive: true });
+        writeFileSync(join(out.folder, name), bytes);
+      }
+      const [, ...words] = readFileSync(join(out.folder, "command.txt"), "utf8").trim().split(" ");
+      execFileSync(command, [...words, "-q"], { cwd: out.folder, stdio: ["ignore", "ignore", "inherit"] });
+      for (const name of ["summary.json", "history.csv", "events.csv"]) {
+        assert.equal(readFileSync(join(out.folder, "out", name), "utf8"), readFileSync(join(out.folder, "page", name), "utf8"), name);
+      }
+    } finally {
+      out.remove();
+    }
+  }, { acceptDownloads: true }));
 
 test("half an address is one message that stays, and the example is shown", () =>
   on(
