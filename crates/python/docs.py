@@ -30,6 +30,7 @@ PARTS: list[tuple[str, list[tuple[str, Any]]]] = [
     (
         "Studies",
         [
+            ("slipstick.demands", ss.demands),
             ("slipstick.study", ss.study),
             ("slipstick.Plan", ss.Plan),
             ("slipstick.Study", ss.Study),

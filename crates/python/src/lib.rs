@@ -29,7 +29,7 @@ mod _core {
     #[pymodule_export]
     use super::response::{Response, run};
     #[pymodule_export]
-    use super::study::{Study, study, study_id};
+    use super::study::{Study, demands, study, study_id};
     #[pymodule_export]
     use super::table::Table;
     use pyo3::prelude::*;

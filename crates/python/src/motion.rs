@@ -515,6 +515,7 @@ impl Motion {
     }
 
     #[staticmethod]
+    #[expect(clippy::too_many_arguments, reason = "a motion pickles as these")]
     fn _from_parts(
         py: Python<'_>,
         times_s: &Bound<'_, PyAny>,

@@ -3,11 +3,18 @@
 use std::collections::HashMap;
 use std::path::PathBuf;
 
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
+use slipstick::error::Stopped;
+use slipstick::input::dimension_of;
+use slipstick::input::plan::Plan;
+use slipstick::study::{Record, Study as Runs};
 use slipstick::table::{self, Cells};
 use slipstick_files::{OpenStudy, Shard, StudyError, clear, conclude, expand, read_table};
 
-use crate::errors::of_study;
+use crate::errors::{of_argument, of_input, of_refuted, of_study};
+use crate::model::{Model, plain};
+use crate::motion::{Motion, quantity};
 use crate::table::Table;
 use crate::work::followed;
 
@@ -40,6 +47,74 @@ fn rename(table: &mut table::Table, names: &[(String, String)]) {
                 *cell = (*name).to_owned();
             }
         }
+    }
+}
+
+/// Numbers in SI at a path, of each design one.
+fn numbers(path: &str, values: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    let py = values.py();
+    let dimension = dimension_of(path).map_err(|error| of_input(py, &error))?;
+    values
+        .try_iter()?
+        .map(|value| {
+            let value = value?;
+            match dimension {
+                Some(dimension) => quantity(path, &value, dimension, true),
+                None => {
+                    let number = plain(path, &value)?.and_then(|plain| plain.extract().ok());
+                    number.ok_or_else(|| of_argument(py, path, "numbers", &value.to_string()))
+                }
+            }
+        })
+        .collect()
+}
+
+/// Demands of designs, each on all records: one row a run, records the slowest.
+#[pyfunction]
+#[pyo3(signature = (model, records, designs, *, one_of = None, jobs = None, progress = None))]
+pub(crate) fn demands(
+    py: Python<'_>,
+    model: &Model,
+    records: Vec<(String, Motion)>,
+    designs: Vec<(String, Bound<'_, PyAny>)>,
+    one_of: Option<usize>,
+    jobs: Option<i64>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Table> {
+    let read = |(path, values): (String, Bound<'_, PyAny>)| {
+        let values = numbers(&path, &values)?;
+        Ok((path, values))
+    };
+    let paths: Vec<(String, Vec<f64>)> = designs.into_iter().map(read).collect::<PyResult<_>>()?;
+    let count = paths.first().map_or(0, |(_, values)| values.len());
+    for (path, values) in &paths {
+        if values.len() != count || count == 0 {
+            let expected = format!("{} values, as many as designs", count.max(1));
+            return Err(of_argument(py, path, &expected, &values.len().to_string()));
+        }
+    }
+    let mut plan = Plan::listed(&paths, !records.is_empty()).map_err(|e| of_input(py, &e))?;
+    plan.bound = model.analysis.friction_bounds.map(|_| "nominal");
+    let record = |(name, Motion(read)): (String, Motion)| Record {
+        name,
+        channel: read.loaded.channel,
+        motion: read.loaded.motion,
+        warnings: read.loaded.warnings.iter().map(|notice| notice.kind).collect(),
+        pair: None,
+    };
+    let records = records.into_iter().map(record).collect();
+    let study = Runs::new(&plan, &model.source, model.text(), records);
+    let study = study.map_err(|error| of_input(py, &error))?;
+    let done = followed(py, jobs, progress, |engine| {
+        engine.plan(study.runs());
+        let rows = study.rows(0..study.runs(), engine)?;
+        let refuted = one_of.map(|one_of| study.refuted(&rows, one_of, engine)).transpose()?;
+        Ok::<_, Stopped>((study.table(&rows), refuted.flatten()))
+    })?;
+    match done {
+        Err(Stopped) => Err(PyKeyboardInterrupt::new_err(())),
+        Ok((_, Some(run))) => Err(of_refuted(py, run)),
+        Ok((table, None)) => Ok(Table(table)),
     }
 }
 

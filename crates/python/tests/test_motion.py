@@ -119,6 +119,16 @@ def test_responses_in_two_directions() -> None:
     peak = response.summary["peak_sliding_displacement_m"]
     assert 0.9 * peak < np.hypot(x, y).max() <= peak * (1 + 1e-12)
     assert len(response.events) > 0
+    assert set(response.to_xarray()) >= {"block_acceleration_y_m_per_s2", "friction_force_y_n"}
+    assert pickle.loads(pickle.dumps(response)) == response
+    assert "ops.element" in block().with_({"slider.static_friction": 0.08}).to_opensees(pair(), "10 kN/mm")
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    bounded = ss.run(block().with_({"slider.gap": "2 m"}), pair())
+    assert len(bounded.plot.orbit().lines) == 3
+    with pytest.raises(ValueError, match="two directions"):
+        ss.run(block(), pulse()).plot.orbit()
+    matplotlib.pyplot.close("all")
 
 
 def test_what_a_result_is_worth_comes_first() -> None:

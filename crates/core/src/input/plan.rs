@@ -7,11 +7,12 @@
 use super::reader::Values;
 use super::schema::Range;
 use super::tree::{self, Spot};
-use super::{MAX_TEXT_BYTES, utf8};
+use super::{MAX_TEXT_BYTES, dimension_of, utf8};
 use crate::error::InputError;
 use crate::motion::intensity::LevelMeasure;
 use crate::motion::target::TargetSpectrum;
 use crate::record::Units;
+use crate::units::Dimension;
 
 mod records;
 mod sampling;
@@ -297,6 +298,41 @@ impl Plan {
             sampling,
             values,
         })
+    }
+
+    /// A plan of designs that are listed: of each path a value a design, in SI, all lists of one length.
+    ///
+    /// # Errors
+    /// [`InputError`] for a path that no model has or that takes no number, and for a value that it does not
+    /// take.
+    pub fn listed(paths: &[(String, Vec<f64>)], on_records: bool) -> Result<Self, InputError> {
+        let mut text = String::from("model = \"model.toml\"\n");
+        if on_records {
+            text.push_str("[records]\nfiles = [\"records\"]\n");
+        }
+        text.push_str("[vary]\n");
+        let first_path = paths.first().map(|(path, _)| path.as_str());
+        for (path, values) in paths {
+            let unit = dimension_of(path)?.map_or("", Dimension::si_unit);
+            let first = values.first().copied().unwrap_or(f64::NAN);
+            let value = if unit.is_empty() {
+                format!("{first:?}")
+            } else {
+                format!("\"{first:?} {unit}\"")
+            };
+            let paired = first_path.filter(|first| first != path);
+            let paired = paired.map_or(String::new(), |first| format!(", paired_with = {first:?}"));
+            text.push_str(&format!("{path:?} = {{ values = [{value}]{paired} }}\n"));
+        }
+        text.push_str("[sampling]\nmethod = \"grid\"\n");
+        let mut plan = Self::parse("", &text)?;
+        for (varied, (_, values)) in plan.vary.iter_mut().zip(paths) {
+            varied.distribution = Distribution::List(List::Values(values.clone()));
+        }
+        if let (Some(sampling), Some((_, values))) = (&mut plan.sampling, paths.first()) {
+            sampling.count = values.len() as u64;
+        }
+        Ok(plan)
     }
 
     /// As [`Plan::parse`], for the bytes of a file.

@@ -1,11 +1,11 @@
 //! Rows under test: run again alone, from the model's text, with history and certificate.
 
-use super::engine::{made_motion, scaled_with_tail};
+use super::engine::{Engine, made_motion, scaled_with_tail};
 use super::notices::{highest_hz, longest_step_s, suspicious};
 use super::rows::warnings;
 use super::{Row, Study};
 use crate::check::{self, Certificate};
-use crate::error::RunError;
+use crate::error::{RunError, Stopped};
 use crate::input::Analysis;
 use crate::motion::GroundMotion;
 use crate::response::demand_values;
@@ -38,6 +38,22 @@ impl Verdict {
 }
 
 impl Study {
+    /// Runs one row of so many again and judges it, the first at least; the first that does not hold.
+    ///
+    /// # Errors
+    /// [`Stopped`].
+    pub fn refuted(
+        &self,
+        rows: &[Row],
+        one_of: usize,
+        engine: &Engine<'_>,
+    ) -> Result<Option<u64>, Stopped> {
+        let checked: Vec<&Row> = rows.iter().step_by(one_of.max(1)).collect();
+        let verdicts = engine.map(checked.len(), |i| Ok(self.verify(checked[i]).holds()))?;
+        let failed = checked.iter().zip(verdicts).find(|(_, holds)| !holds);
+        Ok(failed.map(|(row, _)| row.run))
+    }
+
     /// Runs a row again as `slipstick run` would, and judges the response.
     #[must_use]
     pub fn verify(&self, row: &Row) -> Verdict {

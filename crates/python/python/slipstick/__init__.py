@@ -26,6 +26,7 @@ from typing import TYPE_CHECKING
 from . import identify
 from ._assessment import Assessment, design, fragility, ida, read_suite, spectrum, suite
 from ._core import Model, Motion, __version__
+from ._demands import demands
 from ._errors import InputError, RecordError, SlipstickWarning, SolveError, StudyError
 from ._laboratory import Comparison, Estimate, Identified, compare
 from ._response import Response, run
@@ -59,6 +60,7 @@ __all__ = [
     "__version__",
     "audit",
     "compare",
+    "demands",
     "design",
     "fragility",
     "ida",

@@ -18,6 +18,7 @@ __all__ = [
     "__version__",
     "assess",
     "compare_with",
+    "demands",
     "fields",
     "fit",
     "identify",
@@ -190,6 +191,15 @@ def study(
     progress: Callable[[int, int], object] | None = None,
     force: bool = False,
 ) -> Study: ...
+def demands(
+    model: Model,
+    records: list[tuple[str, Motion]],
+    designs: list[tuple[str, Any]],
+    *,
+    one_of: int | None = None,
+    jobs: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Table: ...
 def study_id(plan: str | PathLike[str] | Path) -> str: ...
 
 @final

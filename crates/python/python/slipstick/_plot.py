@@ -84,6 +84,30 @@ class Plotter:
         ax.set(xlabel="sliding displacement [mm]", ylabel="slider force [kN]")
         return ax
 
+    def orbit(self, ax: Axes | None = None) -> Axes:
+        """Sliding displacement along y over that along x, inside the circle of the gap where there is one.
+
+        Raises
+        ------
+        ValueError
+            For a response in one direction.
+        """
+        response, ax = self._response, axes_or_new(ax)
+        knots = response.knots
+        if "sliding_displacement_y_m" not in knots:
+            raise ValueError("expected a response in two directions, found one in one")
+        x, y = (1e3 * knots[f"sliding_displacement{axis}_m"] for axis in ("", "_y"))
+        ax.plot(x, y, lw=0.9)
+        at = int(np.argmax(np.hypot(x, y)))
+        ax.plot(x[at], y[at], "o", ms=4, color="C3", label=f"peak {np.hypot(x[at], y[at]):.4g} mm")
+        gap = response.model.value("slider.gap")
+        if gap is not None:
+            around = np.linspace(0.0, 2.0 * np.pi, 181)
+            ax.plot(1e3 * gap * np.cos(around), 1e3 * gap * np.sin(around), "k--", lw=0.8, label="gap")
+        ax.legend(loc="best", frameon=False)
+        ax.set(xlabel="sliding along x [mm]", ylabel="sliding along y [mm]", aspect="equal")
+        return ax
+
     def energy(self, ax: Axes | None = None) -> Axes:
         """What became of the energy put in, over time."""
         energy, ax = self._response.energy, axes_or_new(ax)
