@@ -168,6 +168,11 @@ pub struct RunArgs {
     /// Record to use instead of the model's [motion]; the format is recognised
     #[arg(long, value_name = "FILE", conflicts_with = "records", help_heading = "Ground motion")]
     pub motion: Option<PathBuf>,
+    /// Print the model and its motion as a script for OpenSeesPy instead, with stick as a spring of this
+    /// stiffness: "100 kN/mm"; that in which friction builds up over 10 µm if none is given
+    #[arg(long, value_name = "STIFFNESS", num_args = 0..=1, require_equals = true, default_missing_value = "",
+          conflicts_with_all = ["records", "out", "json"])]
+    pub to_opensees: Option<String>,
     /// The records of a suite
     #[command(flatten)]
     pub on: SuiteArgs,

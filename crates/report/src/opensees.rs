@@ -36,6 +36,16 @@ enum SliderElement {
     Triple,
 }
 
+/// Displacement over which friction builds up in a script where nobody says another, in m.
+const YIELD_M: f64 = 1e-5;
+
+/// `μ_s N/10 µm`: the stiffness that stands for stick where nobody says another, in N/m.
+#[must_use]
+pub fn stiffness_n_per_m(model: &Model) -> f64 {
+    let [positive, negative] = model.static_friction();
+    positive.max(negative) * model.normal_n() / YIELD_M
+}
+
 /// A script for OpenSeesPy, with stick as an elastic spring of stiffness `k_init_n_per_m` in series with
 /// the friction, which is what its materials and elements know.
 ///

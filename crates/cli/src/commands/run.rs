@@ -4,20 +4,21 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use slipstick::assessment::single::Outcome;
+use slipstick::assessment::single::{Job, Outcome};
 use slipstick::error::InputError;
 use slipstick::hash::sha256_hex;
 use slipstick::input::{self, Analysis, Override, Scale};
 use slipstick::record;
 use slipstick::requests::Kind;
+use slipstick::units::Dimension;
 use slipstick_files::{
     FileError, OpenJob, OutputFolder, RecordRequest, events_csv, history_csv, read_at_most,
     record_path,
 };
-use slipstick_report::{FileNote, InputText, Report, Summary, table};
+use slipstick_report::{FileNote, InputText, Report, Summary, opensees, table};
 
 use super::histories::histories;
-use crate::args::RunArgs;
+use crate::args::{RunArgs, quantity};
 use crate::failure::{Failure, print, say};
 use crate::progress::{Lines, TRIAL, estimated, reading, writing};
 
@@ -55,6 +56,10 @@ fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
         let message = "--floor-spectrum: expected a motion in one direction, found one in two";
         return Err(Failure::Message(message.to_owned()));
     }
+    if let Some(stiffness) = &args.to_opensees {
+        print(&opensees_script(&model, &job.job, stiffness)?)?;
+        return Ok(ExitCode::SUCCESS);
+    }
     // An output folder that cannot be written is told before the work, not after it.
     let folder = args
         .on
@@ -81,6 +86,18 @@ fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
     }
     show(args, &job, &summary)?;
     Ok(ExitCode::from(status(&summary)))
+}
+
+/// The script for OpenSeesPy, with stick as a spring of the stiffness that the option gives.
+fn opensees_script(model: &ModelFile, job: &Job, stiffness: &str) -> Result<String, Failure> {
+    let of = &job.analysis.model;
+    let stiffness_n_per_m = match stiffness {
+        "" => opensees::stiffness_n_per_m(of),
+        text => quantity("--to-opensees", text, Dimension::Stiffness)?,
+    };
+    let name = job.analysis.name.as_deref().unwrap_or(&model.name);
+    let script = opensees::script(name, of, &job.motion, stiffness_n_per_m);
+    script.map_err(|error| Failure::Message(format!("--to-opensees: {error}")))
 }
 
 /// 1 where the check of a run, or of one of its bounds, failed.

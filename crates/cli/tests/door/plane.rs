@@ -249,3 +249,31 @@ fn reference_two_directions_through_the_command() {
     assert!(wrong.is_empty(), "{wrong}");
     assert_eq!(compared, 16);
 }
+
+#[test]
+fn a_script_for_opensees_is_printed_in_one_and_in_two_directions() {
+    let folder = Folder::new("plane-opensees");
+    let record = "time_s,acceleration_m_per_s2\n0,0\n0.5,3\n1,0\n";
+    folder.write("x.csv", record);
+    folder.write("y.csv", record);
+    let model = "[block]\nmass = \"100 kg\"\n[slider]\nstatic_friction = 0.1\nkinetic_friction = 0.1\n\
+                 radius = \"2 m\"\n[motion]\nrecord = \"x.csv\"\n";
+    folder.write("one.toml", model);
+    folder.write("two.toml", format!("{model}record_y = \"y.csv\"\n"));
+    let script = |model: &str, option: &str| folder.stdout(&["run", model, option]);
+    // μ N/10 µm
+    let stiffness = "K_INIT = 9806650.0";
+    assert!(script("one.toml", "--to-opensees").contains(stiffness));
+    let two = script("two.toml", "--to-opensees=2 kN/mm");
+    assert!(two.contains("K_INIT = 2000000.0") && two.contains("\"-ndm\", 3"), "{two}");
+    let refused = folder.refused(&["run", "one.toml", "--to-opensees=2 kN"]);
+    assert!(refused.contains("--to-opensees: expected"), "{refused}");
+    let refused = folder.refused(&[
+        "run",
+        "one.toml",
+        "--set",
+        "slider.static_friction=0.2",
+        "--to-opensees",
+    ]);
+    assert!(refused.contains("--to-opensees: "), "{refused}");
+}

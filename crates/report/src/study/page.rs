@@ -310,11 +310,18 @@ impl StudyReport<'_> {
             "Quantiles are exact, over all records and samples of a level, and linear between \
              neighbours of the sorted values; failed runs are left out."
                 .to_owned(),
-            format!(
-                "{} of {} runs were run again alone: the same bits, and a certificate that holds.",
-                count(self.checked),
-                count(self.study.runs())
-            ),
+            match self.checked {
+                0 => {
+                    "No run was run again alone and judged: slipstick study does so with one of a \
+                      thousand."
+                        .to_owned()
+                }
+                checked => format!(
+                    "{} of {} runs were run again alone: the same bits, and a certificate that holds.",
+                    count(checked),
+                    count(self.study.runs())
+                ),
+            },
         ];
         if self.study.has_bounds() {
             let factor = |bound: &slipstick::input::Bound| {
