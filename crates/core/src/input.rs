@@ -351,6 +351,29 @@ impl Analysis {
         }
     }
 
+    /// The same model for motions from outside its text that move the table in two horizontal directions.
+    ///
+    /// # Errors
+    /// [`InputError`] at a key of what is not solved in two directions.
+    pub fn in_plane(&self) -> Result<Self, InputError> {
+        let mut values = self.values.clone();
+        values.in_plane = true;
+        build::analysis(values)
+    }
+
+    /// Refuses a model that speaks of two horizontal directions under a motion in one.
+    ///
+    /// # Errors
+    /// [`InputError`] at the key that speaks of the second.
+    pub fn along_x_alone(&self) -> Result<(), InputError> {
+        match build::key_of_y(&self.values, self.model.storeys()) {
+            Some(path) if !motion::in_plane(&self.values) => {
+                Err(motion::only_in_plane(&self.values, &path))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// How the table moves.
     ///
     /// # Errors
