@@ -258,6 +258,14 @@ pub fn from_bytes(
     parse(source_name, utf8(source_name, bytes)?, overrides)
 }
 
+/// Refuses values that speak of two horizontal directions under a motion in one.
+fn along_x_alone(values: &reader::Values) -> Result<(), InputError> {
+    match build::key_of_y(values, values.count("storey")) {
+        Some(path) if !motion::in_plane(values) => Err(motion::only_in_plane(values, &path)),
+        _ => Ok(()),
+    }
+}
+
 /// The bytes of a file as text.
 fn utf8<'a>(source_name: &str, bytes: &'a [u8]) -> Result<&'a str, InputError> {
     let error = match std::str::from_utf8(bytes) {
@@ -366,12 +374,7 @@ impl Analysis {
     /// # Errors
     /// [`InputError`] at the key that speaks of the second.
     pub fn along_x_alone(&self) -> Result<(), InputError> {
-        match build::key_of_y(&self.values, self.model.storeys()) {
-            Some(path) if !motion::in_plane(&self.values) => {
-                Err(motion::only_in_plane(&self.values, &path))
-            }
-            _ => Ok(()),
-        }
+        along_x_alone(&self.values)
     }
 
     /// How the table moves.

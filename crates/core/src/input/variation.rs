@@ -96,6 +96,14 @@ impl Variation {
         self
     }
 
+    /// Refuses a model that speaks of two horizontal directions where motions are in one.
+    ///
+    /// # Errors
+    /// [`InputError`] at the key that speaks of the second.
+    pub fn along_x_alone(&self) -> Result<(), InputError> {
+        super::along_x_alone(&self.values)
+    }
+
     /// The model with the numbers of a sample, in the order of the paths, in SI.
     ///
     /// # Errors

@@ -378,7 +378,7 @@ impl HistoriesReport<'_> {
         }
         if self.histories.models.iter().any(ModelHistories::has_pairs) {
             method.push(
-                "At the option's word (pairs separate) each component of a pair is run by itself, under the \
+                "Pairs separate: each component of a pair is run by itself, under the \
                  factor of the pair, and the larger of its two peaks counts as that of the pair. A measure \
                  of a component is the geometric mean of both."
                     .to_owned(),
