@@ -27,8 +27,11 @@ impl Alone {
     }
 }
 
+/// A column of the runs in m: its name and its value.
+type ColumnAlone = (&'static str, fn(&Alone) -> f64);
+
 /// What components say by themselves, as columns of the runs.
-pub const ALONE: [(&str, fn(&Alone) -> f64); 3] = [
+pub const ALONE: [ColumnAlone; 3] = [
     ("peak_sliding_displacement_x_alone_m", |alone| alone.axes_m[0]),
     ("peak_sliding_displacement_y_alone_m", |alone| alone.axes_m[1]),
     ("peak_sliding_displacement_100_30_m", Alone::combined_m),
