@@ -258,6 +258,14 @@ pub fn from_bytes(
     parse(source_name, utf8(source_name, bytes)?, overrides)
 }
 
+/// Refuses values that speak of two horizontal directions under a motion in one.
+fn along_x_alone(values: &reader::Values) -> Result<(), InputError> {
+    match build::key_of_y(values, values.count("storey")) {
+        Some(path) if !motion::in_plane(values) => Err(motion::only_in_plane(values, &path)),
+        _ => Ok(()),
+    }
+}
+
 /// The bytes of a file as text.
 fn utf8<'a>(source_name: &str, bytes: &'a [u8]) -> Result<&'a str, InputError> {
     let error = match std::str::from_utf8(bytes) {
@@ -361,6 +369,24 @@ impl Analysis {
             }
             None => Ok(()),
         }
+    }
+
+    /// The same model for motions from outside its text that move the table in two horizontal directions.
+    ///
+    /// # Errors
+    /// [`InputError`] at a key of what is not solved in two directions.
+    pub fn in_plane(&self) -> Result<Self, InputError> {
+        let mut values = self.values.clone();
+        values.in_plane = true;
+        build::analysis(values)
+    }
+
+    /// Refuses a model that speaks of two horizontal directions under a motion in one.
+    ///
+    /// # Errors
+    /// [`InputError`] at the key that speaks of the second.
+    pub fn along_x_alone(&self) -> Result<(), InputError> {
+        along_x_alone(&self.values)
     }
 
     /// How the table moves.

@@ -168,9 +168,12 @@ impl Request {
     /// # Errors
     /// [`AssessmentError`], a choice by the name of its field.
     pub fn run(&self, on: &On<'_>, engine: &Engine<'_>) -> Result<Answer, AssessmentError> {
+        let together = self.together(on)?;
+        let on = &together.as_ref().map_or(*on, |(analysis, suite)| On { analysis, suite, ..*on });
         if on.suite.has_pairs() && self.kind() != Kind::Ida {
-            let expected = "an analysis that knows what a pair is: ida or response histories";
-            return Err(refuse("second", expected, self.kind().name()));
+            let expected = "pairs that are run together: each component by itself, only ida and response \
+                            histories know which of them belong together";
+            return Err(refuse("pairs", expected, self.one("pairs")));
         }
         let (found, scaled) = match self.kind() {
             Kind::Spectrum => self.spectrum(on, engine)?,
@@ -189,6 +192,24 @@ impl Request {
             warnings: on.suite.noticed(),
             found,
         })
+    }
+
+    /// The suite whose pairs move the table in two horizontal directions and the model under them; none where
+    /// there are no pairs, or where they are asked for separately.
+    pub(super) fn together(
+        &self,
+        on: &On<'_>,
+    ) -> Result<Option<(Analysis, Suite)>, AssessmentError> {
+        if !on.suite.has_pairs() || self.one("pairs") == "separate" {
+            if !on.suite.in_plane() {
+                on.analysis.along_x_alone()?;
+            }
+            return Ok(None);
+        }
+        let suite = on.suite.together().map_err(|error| {
+            refuse("second", "components whose samples make one motion", error.to_string())
+        })?;
+        Ok(Some((on.analysis.in_plane()?, suite)))
     }
 
     /// Fits a fragility.
@@ -385,7 +406,8 @@ impl Request {
             _ => varied.extend(of_friction.into_iter().chain(of_paths)),
         }
         varied.extend(over.map(|over| ("over", over.to_owned())));
-        Models::new(on.source, on.text, on.set, &varied, friction.is_some())
+        let models = Models::new(on.source, on.text, on.set, &varied, friction.is_some())?;
+        Ok(if on.suite.in_plane() { models.in_plane() } else { models })
     }
 
     fn measure(&self) -> Result<Measure, AssessmentError> {

@@ -182,6 +182,8 @@ impl Study {
             let expected = "the exact method, which is the only one of studies";
             return Err(variation.error_at("analysis.method", expected, "\"stepwise\""));
         }
+        // Each component of a pair is run by itself.
+        variation.along_x_alone()?;
         let design = Design::new(plan, &variation)?;
         let levels = match &plan.records {
             Some(records) => records.levels.clone(),

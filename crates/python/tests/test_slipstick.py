@@ -486,7 +486,9 @@ def test_a_suite_is_that_of_the_command(tmp_path: Path) -> None:
     assert [warning["kind"] for warning in found.summary["warnings"]] == ["first_sample_not_zero"]
     pairs = {name: records[name] for name in list(records)[:2]}
     other = dict(reversed(pairs.items()))
-    both = ss.suite({"a": model, "b": model}, pairs, second=other, scale=2.0)
+    together = ss.suite(model, pairs, second=other, scale=2.0)
+    assert len(together.table) == 2 * 3 and "peak_sliding_displacement_100_30_m" in together.table.columns
+    both = ss.suite({"a": model, "b": model}, pairs, second=other, scale=2.0, pairs="separate")
     assert len(both.table) == 2 * 4 * 3 and "pair" in both.table.columns
     with pytest.raises(ss.InputError, match="^scale: expected only one of scale and scale_to, found both$"):
         ss.suite(model, records, scale=2.0, scale_to="0.3 g")

@@ -84,8 +84,8 @@ pub struct SuiteArgs {
     /// Vertical components, as many and in the same order; may be repeated
     #[arg(long, value_name = "PATTERN", num_args = 1.., help_heading = "Ground motion")]
     pub vertical: Vec<String>,
-    /// Other horizontal components, as many and in the same order: both components of a pair take one factor,
-    /// and certainty is clustered by pair; may be repeated
+    /// Other horizontal components, as many and in the same order: both components of a pair take one factor
+    /// and act at once (--pairs separate: each by itself); may be repeated
     #[arg(long, value_name = "PATTERN", num_args = 1.., help_heading = "Ground motion")]
     pub second: Vec<String>,
     /// What the files do not state

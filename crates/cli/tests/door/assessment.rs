@@ -634,6 +634,48 @@ fn exact_design_counts_the_runs_that_fail() {
     );
 }
 
+/// Curves of pairs at once, under a spectrum and a design too: the runs of the suite of the same pairs.
+#[test]
+fn exact_pairs_at_once_in_every_analysis() {
+    let folder = suite("pairs-at-once", 4);
+    let pairs = [
+        "--records",
+        "records/r0.csv",
+        "records/r2.csv",
+        "--second",
+        "records/r1.csv",
+        "records/r3.csv",
+        "-q",
+        "--scale-to",
+        "3 m/s2",
+    ];
+    let asked = |command: &[&str], out: &str| {
+        folder.stdout(
+            &[&[command[0], "model.toml"], &pairs[..], &command[1..], &["--out", out]].concat(),
+        );
+    };
+    asked(&["run"], "run");
+    asked(&["ida", "--limit", "40 mm"], "ida");
+    let name = "peak_sliding_displacement_m";
+    let runs = column(&folder.read("run/runs.csv"), name);
+    assert_eq!(runs.len(), 2);
+    let ida = folder.read("ida/ida.csv");
+    assert_eq!(cells(&ida, "record"), ["r0 + r1", "r2 + r3"]);
+    assert_eq!(column(&ida, name), runs);
+    let of = |rows: &str| {
+        let rows = slipstick_files::read_columns(&folder.path().join(rows)).unwrap();
+        let found = rows.iter().find(|column| column.name == name).unwrap();
+        found.cells.to_numbers().unwrap()
+    };
+    let model = folder.read("model.toml");
+    let radius = model.lines().find_map(|line| line.strip_prefix("radius = ")).unwrap();
+    let over = format!("slider.radius={}", radius.trim_matches('"'));
+    asked(&["spectrum", "--over", &over], "spectrum");
+    assert_eq!(of("spectrum/runs.parquet"), runs);
+    asked(&["design", "--vary", &over, "--gap", "1 m", "--sensitivity", "0"], "design");
+    assert_eq!(of("design/runs.parquet"), runs);
+}
+
 /// Two components of one station are one observation: standard errors are clustered by pair.
 #[test]
 fn exact_ida_clusters_pairs() {
@@ -643,8 +685,9 @@ fn exact_ida_clusters_pairs() {
     let file = |i: usize| files[i].as_str();
     let (first, second) = ([0, 2, 4, 6].map(file), [1, 3, 5, 7].map(file));
     let ida = ["ida", "model.toml", "--records"];
-    folder
-        .stdout(&[&ida[..], &first, &["--second"], &second, &levels, &["--out", "pairs"]].concat());
+    let pairs = [&ida[..], &first, &["--second"], &second].concat();
+    let separate = ["--pairs", "separate", "--out", "pairs"];
+    folder.stdout(&[&pairs[..], &levels, &separate].concat());
     folder.stdout(&[&ida[..], &["records"], &levels, &["--out", "alone"]].concat());
     let csv = folder.read("pairs/ida.csv");
     assert_eq!(cells(&csv, "pair")[..2], ["r0", "r0"]);

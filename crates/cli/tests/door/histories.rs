@@ -123,6 +123,7 @@ fn exact_pairs_take_one_factor_as_in_a_study() {
         .chain(files.iter().map(String::as_str))
         .chain(["--second"])
         .chain(second.iter().map(String::as_str))
+        .chain(["--pairs", "separate"])
         .collect();
     let level = ["--measure", "RotD100(1 s)", "--scale-to", "0.4 g"].as_slice();
     let code = ["--code-spectrum", "sds = 1 g, sd1 = 0.6 g, tl = 8 s", "--periods", "0.5 s..3 s"];
@@ -174,6 +175,84 @@ fn exact_pairs_take_one_factor_as_in_a_study() {
     let periods =
         folder.refused(&[&["run", "plain.toml"], &*pairs, &["--periods", "1 s..2 s"]].concat());
     assert!(periods.contains("--target or --code-spectrum"), "{periods}");
+}
+
+/// Pairs at once are the runs of models with both records, bit for bit; what components say alone are runs of
+/// one record; a second component of zeros leaves the run of the first.
+#[test]
+fn exact_pairs_at_once_are_models_with_two_records() {
+    let folder = folder("histories-at-once", 4);
+    let zeros = |text: String| {
+        let mut lines = text.lines().map(str::to_owned).collect::<Vec<_>>();
+        for line in lines.iter_mut().filter(|line| line.starts_with(|c: char| c.is_ascii_digit())) {
+            let time = line.split(',').next().unwrap_or_default();
+            *line = format!("{time},0");
+        }
+        lines.join("\n") + "\n"
+    };
+    folder.write("records/zero.csv", zeros(folder.read("records/r0.csv")));
+    let run =
+        ["run", "plain.toml", "--scale-to", "3 m/s2", "--measure", "RotD50(PGA)", "--out", "out"];
+    let pairs = [
+        "--records",
+        "records/r0.csv",
+        "records/r2.csv",
+        "--second",
+        "records/r1.csv",
+        "records/r3.csv",
+    ];
+    let text = folder.stdout(&[&run[..], &pairs].concat());
+    assert!(text.contains("2 runs: 2 pairs of components in two directions"), "{text}");
+    assert!(text.contains("Both at once") && text.contains("100 % + 30 %"), "{text}");
+    let runs = folder.read("out/runs.csv");
+    assert_eq!(column(&runs, "record"), ["r0 + r1", "r2 + r3"]);
+    let number = |name: &str, row: usize| column(&runs, name)[row].parse::<f64>().unwrap();
+    let peak = |motion: &str| {
+        let model = folder.read("plain.toml");
+        folder.write("one.toml", format!("{model}[motion]\n{motion}\n"));
+        let json = folder.json(&["one.toml", "-q"]);
+        json["peak_sliding_displacement_m"].as_f64().unwrap()
+    };
+    for row in 0..2 {
+        let scale = number("scale", row);
+        let [x, y] = [2 * row, 2 * row + 1].map(|i| format!("records/r{i}.csv"));
+        let both = peak(&format!("record = \"{x}\"\nrecord_y = \"{y}\"\nscale = {scale:?}"));
+        assert_eq!(number("peak_sliding_displacement_m", row), both);
+        let alone = [x, y].map(|file| peak(&format!("record = \"{file}\"\nscale = {scale:?}")));
+        assert_eq!(number("peak_sliding_displacement_x_alone_m", row), alone[0]);
+        assert_eq!(number("peak_sliding_displacement_y_alone_m", row), alone[1]);
+        let combined = alone[0].max(alone[1]).hypot(0.3 * alone[0].min(alone[1]));
+        let found = number("peak_sliding_displacement_100_30_m", row);
+        assert!((found / combined - 1.0).abs() < 1e-15, "{found} {combined}");
+    }
+    let along_x = ["--records", "records/r0.csv", "--second", "records/zero.csv"];
+    folder.stdout(&[&["run", "plain.toml", "--out", "zero"][..], &along_x].concat());
+    folder.stdout(&["run", "plain.toml", "--out", "alone", "--records", "records/r0.csv"]);
+    let (zero, alone) = (folder.read("zero/runs.csv"), folder.read("alone/runs.csv"));
+    let heads = alone.lines().next().unwrap().split(',').filter(|head| *head != "record");
+    for head in heads {
+        assert_eq!(column(&zero, head), column(&alone, head), "{head}");
+    }
+}
+
+/// What two directions refuse names its key, and the option that runs the components by themselves.
+#[test]
+fn exact_pairs_of_a_model_in_one_direction() {
+    let folder = folder("histories-one-direction", 2);
+    let model = folder.read("plain.toml").replace("[slider]\n", "[slider]\ntilt = \"1 mrad\"\n");
+    folder.write("tilted.toml", &model);
+    let run = ["run", "tilted.toml", "--records", "records/r0.csv", "--second", "records/r1.csv"];
+    let refused = folder.refused(&run);
+    assert!(refused.contains("slider.tilt: expected a model that is solved in two"), "{refused}");
+    assert!(refused.contains("pairs = separate"), "{refused}");
+    folder.stdout(&[&run[..], &["--pairs", "separate"]].concat());
+    // What speaks of y waits for pairs, and is refused under one component.
+    let wide = folder.read("plain.toml").replace("[slider]", "width_y = \"2 m\"\n[slider]");
+    folder.write("wide.toml", &wide);
+    let run = ["run", "wide.toml", "--records", "records/r0.csv"];
+    folder.stdout(&[&run[..], &["--second", "records/r1.csv"]].concat());
+    let refused = folder.refused(&run);
+    assert!(refused.contains("block.width_y: expected a motion in two directions"), "{refused}");
 }
 
 fn strs(all: &[String]) -> Vec<&str> {
@@ -359,7 +438,7 @@ fn exact_report_of_a_suite_says_what_it_is_of() {
         "Effective damping β_M (%)",
         "Displacement D_M (mm)",
         "over D_M",
-        "Demand and capacity Demand, maximum Friction Capacity Used (%) Runs beyond Gap (mm)",
+        "Demand and capacity Demand, maximum Friction Capacity Used (%) Runs beyond Gap (m)",
         "Total displacement D_TM = 1.360 D_M (mm)",
         "* governs: the bound of friction with the larger value, of each record and of all.",
     ] {
@@ -367,9 +446,10 @@ fn exact_report_of_a_suite_says_what_it_is_of() {
     }
     let summary: serde_json::Value =
         serde_json::from_str(&folder.read("out/summary.json")).unwrap();
-    let record = &summary["suite"][1];
+    // A pair is from where its first component is, which is along x.
+    let record = &summary["suite"][0];
     assert_eq!(record["station"], "Nowhere Fire Station");
-    assert_eq!(record["azimuth_deg"], 90.0);
+    assert_eq!(record["azimuth_deg"], 0.0);
     assert_eq!(summary["model_hash"].as_str().unwrap().len(), 12);
     let lateral = &summary["lateral_force"][1];
     let number = |key: &str| lateral[key].as_f64().unwrap();

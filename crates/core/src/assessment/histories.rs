@@ -1,6 +1,9 @@
 //! Response-history analyses side by side: models on the records of suites, with lower- and
 //! upper-bound friction, and what governs.
 
+pub mod alone;
+
+use self::alone::{ALONE, Alone};
 use super::lateral::LateralForce;
 use super::single::{Job, Judged};
 use super::suite::{Scaled, Scaling, Suite, SuiteRecord};
@@ -9,10 +12,13 @@ use crate::error::RunError;
 use crate::input::loaded::Loaded;
 use crate::input::{Analysis, Bound, Names};
 use crate::model::Model;
+use crate::motion::GroundMotion;
 use crate::motion::target::Matched;
 use crate::notice::Notice;
 use crate::record::Origin;
-use crate::response::{DemandColumn, DemandShape, Demands, Method, flat_geometry, struck};
+use crate::response::{
+    DemandColumn, DemandShape, Demands, Method, Response, flat_geometry, struck,
+};
 use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
 
@@ -41,12 +47,14 @@ pub struct OnRecord {
     pub origin: Origin,
     /// Factor on it.
     pub scale: f64,
-    /// Peak of the horizontal acceleration as it was run, in m/s².
+    /// Peak of the horizontal acceleration as it was run, in m/s²; in two directions of the resultant.
     pub pga_m_per_s2: f64,
     /// Demands with each bound of friction, in the order of [`ModelHistories::bounds`], and whether their
     /// certificate holds; or why there are none.
     pub runs: Vec<Result<(Demands, bool), FailedRun>>,
-    /// Times in s and sliding displacements in m with nominal friction.
+    /// Of a pair that was run together what its components say by themselves, with each bound; else none.
+    pub alone: Vec<Option<Alone>>,
+    /// Times in s and sliding displacements (sizes of a pair that was run together) in m with nominal friction.
     pub sliding: [Vec<f64>; 2],
     /// What reading it and running it gave notice of.
     pub notices: Vec<Notice>,
@@ -140,6 +148,23 @@ impl ModelHistories {
         self.records.iter().any(|on| !on.pair.is_empty())
     }
 
+    /// Whether the records are pairs of components, run together or separately.
+    #[must_use]
+    pub fn of_pairs(&self) -> bool {
+        self.has_pairs() || self.is_in_plane()
+    }
+
+    /// The mean or the maximum of sizes, one an earthquake; NaN where one has none.
+    fn statistic_of(&self, sizes: &[f64]) -> f64 {
+        if sizes.iter().any(|size| size.is_nan()) {
+            return f64::NAN;
+        }
+        match self.statistic() {
+            "mean" => sizes.iter().sum::<f64>() / sizes.len() as f64,
+            _ => largest(sizes),
+        }
+    }
+
     /// Number of pairs, or of records alone.
     #[must_use]
     pub fn counted(&self) -> usize {
@@ -167,7 +192,6 @@ impl ModelHistories {
         if sizes.iter().any(|size| size.is_nan()) {
             return f64::NAN;
         }
-        let largest = |sizes: &[f64]| sizes.iter().fold(0.0, |most: f64, size| most.max(*size));
         let mut left = &sizes[..];
         let of_each = self.earthquakes().map(|records| {
             let (own, rest) = left.split_at(records.len());
@@ -175,10 +199,7 @@ impl ModelHistories {
             largest(own)
         });
         let of_each: Vec<f64> = of_each.collect();
-        match self.statistic() {
-            "mean" => of_each.iter().sum::<f64>() / of_each.len() as f64,
-            _ => largest(&of_each),
-        }
+        self.statistic_of(&of_each)
     }
 
     /// The bound with which a demand governs, and the demand; `None` where no record has it.
@@ -197,7 +218,12 @@ impl ModelHistories {
     }
 }
 
-/// Runs every model on every one of its records, each component of a pair by itself, and with the bounds of friction that it gives.
+fn largest(sizes: &[f64]) -> f64 {
+    sizes.iter().fold(0.0, |most: f64, size| most.max(*size))
+}
+
+/// Runs every model on every one of its records and with the bounds of friction that it gives; a record in two
+/// horizontal directions as one motion, and what each of its components says by itself beside it.
 ///
 /// # Errors
 /// [`AssessmentError`] for records that cannot be scaled so. A record without an answer is one with its reason,
@@ -211,16 +237,17 @@ pub fn run_histories(
     let mut matched = None;
     for model in models {
         let Scaled { factors, matched: of_target } = model.suite.scaled(scaling, engine)?;
-        let pairs = (0..factors.len()).step_by(2).map(|i| model.suite.pair_name(i).to_owned());
-        matched = matched.or(of_target.map(|matched| (matched, pairs.collect())));
+        matched = matched.or(of_target.map(|matched| (matched, model.suite.names_of_pairs())));
         let bounds = bounds(model.analysis);
         // Record by record, each with every bound.
         let cases = factors.len() * bounds.len();
         let case = |i: usize| (i / bounds.len(), &bounds[i % bounds.len()]);
         let run = |i: usize| {
             let (record, bound) = case(i);
-            with_bound(model, record, factors[record], bound, engine)
-                .map(|ran| Kept::of(bound, ran))
+            let with = (factors[record], bound);
+            let mut kept = Kept::of(bound, with_bound(model, record, with, engine)?);
+            kept.alone = alone::of(model, record, with, engine).ok().flatten();
+            Ok(kept)
         };
         let mut ran = engine.runs(cases, run)?.into_iter();
         let on = |(i, scale): (usize, &f64)| {
@@ -281,6 +308,7 @@ fn lateral(analysis: &Analysis, scaling: &Scaling) -> Vec<Option<LateralForce>> 
 struct Kept {
     demands: Demands,
     holds: bool,
+    alone: Option<Alone>,
     /// Times in s and sliding displacements in m, with nominal friction.
     sliding: Option<[Vec<f64>; 2]>,
     /// What was noticed of model and motion, of the response, and of its demands.
@@ -290,12 +318,14 @@ struct Kept {
 impl Kept {
     fn of(bound: &Bound, (job, judged): (Job, Judged)) -> Self {
         let Judged { model, response, certificate, .. } = judged;
-        let history = response.history.filter(|_| *bound == Bound::NOMINAL);
+        let nominal = *bound == Bound::NOMINAL;
+        let sliding = if nominal { sliding(&response) } else { None };
         let met = struck(&model, &response.demands).into_iter();
         let met = met.chain(flat_geometry(&model, &response.demands));
         Self {
             holds: response.method == Method::Stepwise || certificate.holds(),
-            sliding: history.map(|history| [history.time_s, history.sliding_displacement_m]),
+            alone: None,
+            sliding,
             noticed: [job.warnings, response.warnings, met.collect()],
             demands: response.demands,
         }
@@ -318,6 +348,7 @@ fn on_record(
         scale,
         pga_m_per_s2: scale.abs() * motion.figures().pga_m_per_s2,
         runs: Vec::new(),
+        alone: Vec::new(),
         sliding: [Vec::new(), Vec::new()],
         notices: notices.clone(),
     };
@@ -328,6 +359,7 @@ fn on_record(
         };
         let failed =
             |error| FailedRun { record: name.clone(), scale, design: design.clone(), error };
+        on.alone.push(run.as_ref().ok().and_then(|kept| kept.alone));
         let run = run.map_err(failed).map(|kept| on.take(bound, bounds.len() > 1, kept));
         on.runs.push(run);
     }
@@ -338,17 +370,40 @@ fn on_record(
 fn with_bound(
     model: &ModelOn<'_>,
     record: usize,
-    scale: f64,
-    bound: &Bound,
+    (scale, bound): (f64, &Bound),
     engine: &Engine<'_>,
 ) -> Result<(Job, Judged), RunError> {
     let motion = model.suite.motion(record, scale, 0.0)?;
-    let mut analysis = model.analysis.clone();
+    judged(model.analysis, motion, bound, engine)
+}
+
+fn judged(
+    analysis: &Analysis,
+    motion: GroundMotion,
+    bound: &Bound,
+    engine: &Engine<'_>,
+) -> Result<(Job, Judged), RunError> {
+    let mut analysis = analysis.clone();
     analysis.friction_bounds = None;
     analysis.model = bound.of(&analysis.model);
     let job = Job::new(analysis, Loaded::made(motion, String::new()))?;
     let judged = engine.watch(|go_on| job.run_while(false, go_on))?.nominal;
     Ok((job, judged))
+}
+
+/// Times in s and sliding displacements in m, sizes where they are in two directions.
+fn sliding(response: &Response) -> Option<[Vec<f64>; 2]> {
+    let history = response.history.as_ref()?;
+    let x = &history.sliding_displacement_m;
+    let along_y = response.in_plane.as_ref().and_then(|plane| plane.history.as_ref());
+    let sliding = match along_y {
+        None => x.clone(),
+        Some(y) => {
+            let both = x.iter().zip(&y.sliding_displacement_m);
+            both.map(|(x, y)| (x * x + y * y).sqrt()).collect()
+        }
+    };
+    Some([history.time_s.clone(), sliding])
 }
 
 impl OnRecord {
@@ -384,9 +439,8 @@ fn governing_history(
     let sizes = of.sizes(&peak, bound);
     let record = (0..sizes.len()).reduce(|a, b| if sizes[b] > sizes[a] { b } else { a })?;
     let (_, judged) =
-        with_bound(model, record, of.records[record].scale, &of.bounds[bound], engine).ok()?;
-    let history = judged.response.history?;
-    Some((record, bound, [history.time_s, history.sliding_displacement_m]))
+        with_bound(model, record, (of.records[record].scale, &of.bounds[bound]), engine).ok()?;
+    Some((record, bound, sliding(&judged.response)?))
 }
 
 /// Every run as a row.
@@ -419,6 +473,13 @@ fn table_of_runs(models: &[ModelHistories], shape: DemandShape) -> Table {
     for column in shape.columns() {
         let value = |(_, on, i): &(_, &OnRecord, usize)| on.value(&column, *i);
         table.numbers(&column.name(), column.unit(), rows.iter().map(value).collect());
+    }
+    if models.iter().any(ModelHistories::is_in_plane) {
+        for (name, of) in ALONE {
+            let value =
+                |(_, on, i): &(_, &OnRecord, usize)| on.alone[*i].map_or(f64::NAN, |a| of(&a));
+            table.numbers(name, "m", rows.iter().map(value).collect());
+        }
     }
     let status = |(_, on, i): &(_, &OnRecord, usize)| {
         on.runs[*i]

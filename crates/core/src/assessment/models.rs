@@ -88,6 +88,12 @@ impl Models {
         Ok(Self { variation, grid: shown, follows, periods, gravity_m_per_s2 })
     }
 
+    /// The same for motions in two horizontal directions.
+    #[must_use]
+    pub fn in_plane(self) -> Self {
+        Self { variation: self.variation.in_plane(), ..self }
+    }
+
     /// The grid, without what follows another path.
     #[must_use]
     pub fn grid(&self) -> &Grid {

@@ -78,6 +78,9 @@ impl Job {
     /// [`InputError`] for a tail that cannot be.
     pub fn new(analysis: Analysis, loaded: Loaded) -> Result<Self, InputError> {
         let bare = &loaded.motion;
+        if bare.horizontal_y_m_per_s2().is_none() {
+            analysis.along_x_alone()?;
+        }
         let motion = match analysis.tail_s {
             0.0 => bare.clone(),
             tail_s => bare.with_tail(tail_s).map_err(|error| of_tail(&analysis, &error))?,

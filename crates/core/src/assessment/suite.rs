@@ -8,7 +8,7 @@ use crate::input::loaded::Loaded;
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{LevelMeasure, Measure};
 use crate::motion::target::{Matched, TargetSpectrum, matching_periods, maximum_direction};
-use crate::notice::Notice;
+use crate::notice::{Notice, NoticeKind};
 use crate::record::Origin;
 use crate::study::engine::{Engine, made_motion, scaled_with_tail};
 use crate::table::{Column, Table};
@@ -141,10 +141,41 @@ impl Suite {
         }
     }
 
-    /// Whether there are pairs among the records.
+    /// Whether there are pairs among the records, each component by itself.
     #[must_use]
     pub fn has_pairs(&self) -> bool {
         self.records.iter().any(|record| record.pair.is_some())
+    }
+
+    /// Whether records move the table in two horizontal directions.
+    #[must_use]
+    pub fn in_plane(&self) -> bool {
+        self.records.iter().any(|record| record.motion.horizontal_y_m_per_s2().is_some())
+    }
+
+    /// The same with each pair as one motion in two horizontal directions, its first component along x, its
+    /// second along y, with the vertical component of the first.
+    ///
+    /// # Errors
+    /// [`MotionError`] where the union of their times has too many samples.
+    pub fn together(&self) -> Result<Self, MotionError> {
+        let join = |group: &[SuiteRecord]| match group {
+            [x, y] => {
+                let (motion, lengths_differ) = x.motion.with_along_y(&y.motion)?;
+                let mut notices = x.notices.clone();
+                notices.extend(y.notices.iter().filter(|n| !x.notices.contains(n)).cloned());
+                notices.extend(lengths_differ.then(|| {
+                    let message = "the components along x and along y differ in length: the shorter \
+                                   is zero after its end";
+                    Notice::new(NoticeKind::LengthsDiffer, message.to_owned())
+                }));
+                let name = format!("{} + {}", x.name, y.name);
+                Ok(SuiteRecord { name, motion, pair: None, origin: x.origin.clone(), notices })
+            }
+            _ => Ok(group[0].clone()),
+        };
+        let records = self.scaled_together().into_iter().map(join).collect::<Result<_, _>>()?;
+        Ok(Self { records, made: self.made, notices: self.notices.clone() })
     }
 
     /// What was noticed of the records, each kind once.
@@ -167,7 +198,8 @@ impl Suite {
         self.records.iter().map(of).collect()
     }
 
-    /// The measure of each record as recorded, in SI.
+    /// The measure of each record as recorded, in SI; of a motion in two horizontal directions the geometric
+    /// mean of both components.
     ///
     /// # Errors
     /// [`AssessmentError::Choice`] for a measure that does not grow as the motion does, and for a
@@ -181,7 +213,9 @@ impl Suite {
             let expected = "a measure that grows as the motion does, such as PGA or Sa(1.2 s)";
             return Err(refuse("measure", expected, measure.to_string()));
         }
-        let values = engine.map(self.records.len(), |i| Ok(measure.of(&self.records[i].motion)))?;
+        let of_pair = LevelMeasure { measure: *measure, rotated: None };
+        let value = |i: usize| of_pair.of(&self.records[i].motion, None).unwrap_or(f64::NAN);
+        let values = engine.map(self.records.len(), |i| Ok(value(i)))?;
         for (value, record) in values.iter().zip(&self.records) {
             if !(value.is_finite() && *value > 0.0) {
                 let expected = format!("records that can be scaled to {measure}");
@@ -220,6 +254,12 @@ impl Suite {
         (!alone).then(|| Column::texts("pair", names.collect()))
     }
 
+    /// Names of the pairs, those of their first components, or of the motions that they were joined to.
+    #[must_use]
+    pub fn names_of_pairs(&self) -> Vec<String> {
+        self.scaled_together().iter().map(|group| group[0].name.clone()).collect()
+    }
+
     /// Records that are scaled by one factor: a pair, or a record alone.
     fn scaled_together(&self) -> Vec<&[SuiteRecord]> {
         self.records.chunk_by(|a, b| a.pair.is_some() && a.pair == b.pair).collect()
@@ -236,7 +276,8 @@ impl Suite {
         engine: &Engine<'_>,
     ) -> Result<Scaled, AssessmentError> {
         let groups = self.scaled_together();
-        let paired = groups.iter().all(|group| group.len() == 2);
+        let in_plane = |record: &SuiteRecord| record.motion.horizontal_y_m_per_s2().is_some();
+        let paired = groups.iter().all(|group| group.len() == 2 || in_plane(&group[0]));
         let pairs = "the other components of all records beside it, `second`";
         let mut matched = None;
         let of_groups: Vec<f64> = match scaling {
@@ -266,9 +307,11 @@ impl Suite {
                     return Err(refuse("target", pairs, "records alone"));
                 }
                 let periods_s = matching_periods(*range_s);
-                let spectrum = |i: usize| match groups[i] {
-                    [x, y] => Ok(maximum_direction(&x.motion, &y.motion, &periods_s)),
-                    _ => Ok(Ok(Vec::new())),
+                let spectrum = |i: usize| {
+                    let first = &groups[i][0].motion;
+                    let other = groups[i].get(1).map(|other| other.motion.clone());
+                    let other = other.unwrap_or_else(|| first.along_y());
+                    Ok(maximum_direction(&first.along_x(), &other, &periods_s))
                 };
                 let spectra: Result<Vec<Vec<f64>>, MotionError> =
                     engine.map(groups.len(), spectrum)?.into_iter().collect();

@@ -38,7 +38,8 @@ pub(super) fn parts(values: &Values) -> Result<Parts, InputError> {
     let total_kg = contents.iter().fold(floors_kg, |sum, contents| sum + contents.mass_kg);
     let slider = slider(values, &block, total_kg, gravity_m_per_s2)?;
     let [initial, initial_y] = initial(values, frame.masses_kg.len())?;
-    let along_y = frame::along_y(values, &frame, initial_y)?;
+    let key = key_of_y(values, frame.masses_kg.len());
+    let along_y = frame::along_y(values, &frame, initial_y, key.as_deref())?;
     if along_y.is_some() {
         refuse_in_plane(values)?;
     }
@@ -400,20 +401,26 @@ pub(super) fn friction_bounds(values: &Values) -> Result<Option<FrictionBounds>,
     Ok(Some(FrictionBounds { lower, upper }))
 }
 
+/// What is given at t = 0.
+const START: [&str; 4] = [
+    "initial.sliding_displacement",
+    "initial.sliding_velocity",
+    "initial.storey_displacement",
+    "initial.storey_velocity",
+];
+
+/// A key that means something in two horizontal directions alone.
+pub(super) fn key_of_y(values: &Values, storeys: usize) -> Option<String> {
+    let is_pair = |path: &String| values.has(path) && values.number(path).is_none();
+    let pair = |path: &str| match path.contains("storey") {
+        true => (1..=storeys).map(|i| format!("{path}.{i}")).find(is_pair),
+        false => Some(path.to_owned()).filter(is_pair),
+    };
+    frame::key_of_y(values, storeys).or_else(|| START.into_iter().find_map(pair))
+}
+
 /// The state at t = 0 along x and along y.
 fn initial(values: &Values, storeys: usize) -> Result<[InitialState; 2], InputError> {
-    let paths =
-        ["sliding_displacement", "sliding_velocity", "storey_displacement", "storey_velocity"]
-            .map(|name| format!("initial.{name}"));
-    let is_pair = |path: &String| values.has(path) && values.number(path).is_none();
-    for path in &paths {
-        let items = (1..=storeys).map(|i| format!("{path}.{i}"));
-        let of_storey = path.contains("storey");
-        let pair = if of_storey { items.into_iter().find(is_pair) } else { Some(path.clone()) };
-        if let Some(path) = pair.filter(is_pair).filter(|_| !motion::in_plane(values)) {
-            return Err(motion::only_in_plane(values, &path));
-        }
-    }
     let list = |path: &str| match values.vectors(path) {
         Some(list) if list.len() != storeys => {
             let expected = format!("one value a storey, {storeys} in all");
@@ -421,7 +428,7 @@ fn initial(values: &Values, storeys: usize) -> Result<[InitialState; 2], InputEr
         }
         list => Ok(list),
     };
-    let [s, w, q, v] = &paths;
+    let [s, w, q, v] = START;
     let [s, w] = [s, w].map(|path| values.vector(path).unwrap_or_default());
     let (q, v) = (list(q)?, list(v)?);
     let of = |list: &Option<Vec<[f64; 2]>>, axis: usize| {
@@ -457,7 +464,9 @@ fn refuse_in_plane(values: &Values) -> Result<(), InputError> {
             let expected = "a model that is solved in two directions: one level surface with constant \
                             friction that is the same in all directions, without stop or contents, by \
                             the exact method";
-            Err(values.error(path, expected, path))
+            let apart = ", or the components of pairs run by themselves, pairs = separate";
+            let apart = if values.in_plane { apart } else { "" };
+            Err(values.error(path, format!("{expected}{apart}"), path))
         }
         None => Ok(()),
     }

@@ -47,22 +47,29 @@ pub(super) fn frame(values: &Values, gravity_m_per_s2: f64) -> Result<Frame, Inp
     })
 }
 
-/// What is along y; `None` where the table moves along x alone, where no key may speak of y.
+/// A key that speaks of y alone.
+pub(super) fn key_of_y(values: &Values, storeys: usize) -> Option<String> {
+    let of_storey =
+        |i| STIFFNESS.iter().chain(&DAMPING).map(move |name| key(i, &format!("{name}_y")));
+    let all = ["block.width_y", "frame.period_y"].into_iter().map(str::to_owned);
+    all.chain((1..=storeys).flat_map(of_storey)).find(|path| values.has(path))
+}
+
+/// What is along y, of which `key` speaks; `None` where the table moves along x alone, where none may.
 pub(super) fn along_y(
     values: &Values,
     frame: &Frame,
     initial: InitialState,
+    key: Option<&str>,
 ) -> Result<Option<AlongY>, InputError> {
     let masses_kg = &frame.masses_kg;
     if !motion::in_plane(values) {
-        let of_storey =
-            |i| STIFFNESS.iter().chain(&DAMPING).map(move |name| key(i, &format!("{name}_y")));
-        let all = ["block.width_y", "frame.period_y"].into_iter().map(str::to_owned);
-        let mut all = all.chain((1..=masses_kg.len()).flat_map(of_storey));
-        return match all.find(|path| values.has(path)) {
-            Some(path) => Err(motion::only_in_plane(values, &path)),
-            None => Ok(None),
-        };
+        match key {
+            None => return Ok(None),
+            Some(path) if values.has("motion") => return Err(motion::only_in_plane(values, path)),
+            // Without a motion of its own the text waits for one.
+            Some(_) => {}
+        }
     }
     Ok(Some(AlongY {
         stiffnesses_n_per_m: match masses_kg.len() {

@@ -133,7 +133,7 @@ pub(super) fn motion(values: &Values) -> Result<Option<MotionSource>, InputError
 
 /// Whether the table moves in two horizontal directions.
 pub(super) fn in_plane(values: &Values) -> bool {
-    values.has("motion.record_y") || values.has("motion.sine_y")
+    values.in_plane || values.has("motion.record_y") || values.has("motion.sine_y")
 }
 
 /// The error for a key that means something in two horizontal directions alone.

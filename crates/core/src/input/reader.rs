@@ -43,6 +43,8 @@ pub(super) struct Values {
     specials: Arc<BTreeMap<String, Node>>,
     /// Numbers that took the place of those of leaves, by their index.
     replaced: Vec<(usize, f64)>,
+    /// Whether the table moves in two horizontal directions by what comes from outside the text.
+    pub in_plane: bool,
     root: Root,
 }
 

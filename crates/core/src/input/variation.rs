@@ -89,6 +89,21 @@ impl Variation {
         Ok(this)
     }
 
+    /// The same for motions from outside the text in two horizontal directions.
+    #[must_use]
+    pub fn in_plane(mut self) -> Self {
+        self.values.in_plane = true;
+        self
+    }
+
+    /// Refuses a model that speaks of two horizontal directions where motions are in one.
+    ///
+    /// # Errors
+    /// [`InputError`] at the key that speaks of the second.
+    pub fn along_x_alone(&self) -> Result<(), InputError> {
+        super::along_x_alone(&self.values)
+    }
+
     /// The model with the numbers of a sample, in the order of the paths, in SI.
     ///
     /// # Errors
@@ -114,7 +129,8 @@ impl Variation {
     /// [`InputError`] where the model objects to the numbers.
     pub fn analysis(&self, numbers: &[f64]) -> Result<Analysis, InputError> {
         let all = self.set.iter().cloned().chain(self.overrides(numbers)?);
-        parse(&self.name, &self.text, &all.collect::<Vec<_>>())
+        let analysis = parse(&self.name, &self.text, &all.collect::<Vec<_>>())?;
+        if self.values.in_plane { analysis.in_plane() } else { Ok(analysis) }
     }
 
     /// The numbers of a sample as `--set` takes them.

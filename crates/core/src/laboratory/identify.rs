@@ -32,7 +32,9 @@ pub struct ModelText<'a> {
 
 impl ModelText<'_> {
     fn analysis(&self) -> Result<Analysis, InputError> {
-        input::parse(self.name, self.text, self.set)
+        let analysis = input::parse(self.name, self.text, self.set)?;
+        analysis.along_x_alone()?;
+        Ok(analysis)
     }
 
     /// The model with what was told, and what had to be decided for it.

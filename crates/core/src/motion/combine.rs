@@ -157,23 +157,22 @@ impl GroundMotion {
     /// [`MotionError::OutOfRange`] for a factor that is not finite, [`MotionError::TooLong`] for
     /// more than [`MAX_SAMPLES`] times in the union, and as [`GroundMotion::scaled`].
     pub fn with_vertical(&self, other: &Self, factor: f64) -> Result<(Self, bool), MotionError> {
-        let Union { times_s, own, other, lengths_differ } = self.union(&other.scaled(factor)?)?;
-        let mut own = own.into_iter();
-        let along = own.next().unwrap_or_default();
-        let joined = Self::new(times_s, along, Some(other))?.with_y_if(own.next())?;
+        let own = Self { vertical_m_per_s2: None, ..self.clone() };
+        let Union { times_s, own: [x, y, _], other, lengths_differ } =
+            own.union(&other.scaled(factor)?)?;
+        let joined = Self::new(times_s, x.unwrap_or_default(), Some(other))?.with_y_if(y)?;
         Ok((joined, lengths_differ))
     }
 
     /// This motion with the horizontal component of `other` as that along y, and whether the two differ
-    /// in length; times as of [`GroundMotion::with_vertical`]. Vertical components are left out.
+    /// in length; times as of [`GroundMotion::with_vertical`]. The vertical component stays this motion's own.
     ///
     /// # Errors
     /// As [`GroundMotion::with_vertical`].
     pub fn with_along_y(&self, other: &Self) -> Result<(Self, bool), MotionError> {
         let own = Self { horizontal_y_m_per_s2: None, ..self.clone() };
-        let Union { times_s, own, other, lengths_differ } = own.union(other)?;
-        let along = own.into_iter().next().unwrap_or_default();
-        Ok((Self::new(times_s, along, None)?.with_y(other)?, lengths_differ))
+        let Union { times_s, own: [x, _, vertical], other, lengths_differ } = own.union(other)?;
+        Ok((Self::new(times_s, x.unwrap_or_default(), vertical)?.with_y(other)?, lengths_differ))
     }
 
     /// The motion in two horizontal directions with another factor on y, then turned, x towards y.
@@ -198,7 +197,7 @@ impl GroundMotion {
         Self { horizontal_m_per_s2: Arc::new(x), ..self.clone() }.with_y(y)
     }
 
-    /// The horizontal components of this motion, then that of another, on the union of their times.
+    /// The components of this motion and the horizontal one of another on the union of their times.
     fn union(&self, other: &Self) -> Result<Union, MotionError> {
         let (own, up) = (&self.times_s, &other.times_s);
         if own.len() + up.len() > MAX_SAMPLES {
@@ -206,12 +205,13 @@ impl GroundMotion {
         }
         let slack_s = 8.0 * f64::EPSILON * self.duration_s().max(other.duration_s());
         let lengths_differ = (self.duration_s() - other.duration_s()).abs() > slack_s;
-        let mut readers: Vec<Reader> =
-            [Some(self.horizontal_m_per_s2()), self.horizontal_y_m_per_s2()]
-                .into_iter()
-                .flatten()
-                .map(|values| Reader::new(own, values, slack_s))
-                .collect();
+        let components = [
+            Some(self.horizontal_m_per_s2()),
+            self.horizontal_y_m_per_s2(),
+            self.vertical_m_per_s2(),
+        ];
+        let of_own = |values| Reader::new(own, values, slack_s);
+        let mut readers: Vec<Reader> = components.into_iter().flatten().map(of_own).collect();
         readers.push(Reader::new(up, &other.horizontal_m_per_s2, slack_s));
         let capacity = own.len().max(up.len());
         let mut times_s = Vec::with_capacity(capacity);
@@ -239,15 +239,17 @@ impl GroundMotion {
             }
         }
         let other = values.pop().unwrap_or_default();
-        Ok(Union { times_s, own: values, other, lengths_differ })
+        let mut values = values.into_iter();
+        let own = components.map(|component| component.and_then(|_| values.next()));
+        Ok(Union { times_s, own, other, lengths_differ })
     }
 }
 
 /// Components of two motions on the union of their times.
 struct Union {
     times_s: Vec<f64>,
-    /// Along x, perhaps along y.
-    own: Vec<Vec<f64>>,
+    /// Along x, along y and vertical.
+    own: [Option<Vec<f64>>; 3],
     other: Vec<f64>,
     lengths_differ: bool,
 }

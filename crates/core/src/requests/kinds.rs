@@ -64,6 +64,15 @@ const MAPPING: Field = Field::new(
 )
 .many();
 
+const PAIRS: Field = Field::new(
+    "pairs",
+    "RUN",
+    "How pairs of components are run: together, the table moving in two horizontal directions, or separate, \
+     each component by itself",
+)
+.of(&["together", "separate"])
+.or("together");
+
 const PROPERTY_FACTORS: Field = Field::new(
     "property-factors",
     "FACTORS",
@@ -121,6 +130,7 @@ const SUITE: &[Field] = &[
         "Plan of the building, for the total displacement of the hand calculation: \"e = 1.2 m, y = 9 m, \
          b = 18 m, d = 24 m, pt = 1.1\"",
     ),
+    PAIRS,
 ];
 
 /// Fields of the response over one parameter.
@@ -150,6 +160,7 @@ const SPECTRUM: &[Field] = &[
     )
     .many(),
     BOUNDS,
+    PAIRS,
 ];
 
 /// Fields of an incremental dynamic analysis.
@@ -180,6 +191,7 @@ const IDA: &[Field] = &[
     KEEP,
     BY,
     BOUNDS,
+    PAIRS,
 ];
 
 /// Fields of a fragility.
@@ -262,6 +274,7 @@ const DESIGN: &[Field] = &[
         .or("256"),
     Field::new("seed", "SEED", "Seed of those points").or("1"),
     CONFIDENCE,
+    PAIRS,
 ];
 
 /// Fields of a comparison with a measurement.
@@ -460,6 +473,10 @@ pub const NOT_OFFERED: &[(Door, Kind, Option<&str>, &str)] = &[
     (Door::Page, Kind::Run, None, "the page shows the run of its own model and motion"),
     (Door::Page, Kind::Suite, Some("code-spectrum"), "the page has no pairs of records"),
     (Door::Page, Kind::Suite, Some("periods"), "the page has no pairs of records"),
+    (Door::Page, Kind::Suite, Some("pairs"), "the page has no pairs of records"),
+    (Door::Page, Kind::Spectrum, Some("pairs"), "the page has no pairs of records"),
+    (Door::Page, Kind::Ida, Some("pairs"), "the page has no pairs of records"),
+    (Door::Page, Kind::Design, Some("pairs"), "the page has no pairs of records"),
     (Door::Page, Kind::Compare, None, "the page shows no measurements"),
     (Door::Page, Kind::Cyclic, None, "the page shows no measurements"),
     (Door::Page, Kind::FreeVibration, None, "the page shows no measurements"),

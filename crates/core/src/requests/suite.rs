@@ -30,6 +30,16 @@ impl Request {
         engine: &Engine<'_>,
     ) -> Result<Answer, AssessmentError> {
         let (scaling, scaled) = self.scaling(target)?;
+        let together = models.iter().map(|on| self.together(on));
+        let together = together.collect::<Result<Vec<_>, AssessmentError>>()?;
+        let models: Vec<On<'_>> = models
+            .iter()
+            .zip(&together)
+            .map(|(on, together)| match together {
+                Some((analysis, suite)) => On { analysis, suite, ..*on },
+                None => *on,
+            })
+            .collect();
         let mut warnings: Vec<Notice> = Vec::new();
         for warning in models.iter().flat_map(|on| on.suite.noticed()) {
             if !warnings.contains(&warning) {

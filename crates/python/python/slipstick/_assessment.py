@@ -96,6 +96,7 @@ def suite(
     property_factors: str | None = None,
     hazard: str | None = None,
     eccentricity: str | None = None,
+    pairs: str | None = None,
     jobs: int | None = None,
     progress: Progress | None = None,
 ) -> Assessment:
@@ -108,8 +109,8 @@ def suite(
     records
         The motions by name, such as from ``read_suite``.
     second
-        Other components of the records, as many and in the same order: both components of a pair take one
-        factor.
+        Other components of the records, as many and in the same order: both components of a pair act at
+        once, under one factor.
     measure, scale_to
         All records, or pairs, are scaled so that the measure takes this value; as recorded if left out.
     scale
@@ -123,6 +124,9 @@ def suite(
         What the answer calls this intensity, ``"MCE_R"``.
     eccentricity
         Plan of the building, for the total displacement of the hand calculation.
+    pairs
+        How pairs are run: ``"together"``, the table moving in two horizontal directions, or ``"separate"``, each
+        component by itself.
     jobs, progress
         As in ``study``.
 
@@ -175,6 +179,8 @@ def spectrum(
     scale: float | None = None,
     demand: Sequence[str] = (),
     bounds: str | None = None,
+    pairs: str | None = None,
+    second: Records | None = None,
     jobs: int | None = None,
     progress: Progress | None = None,
 ) -> Assessment:
@@ -199,6 +205,12 @@ def spectrum(
         Keys of demands besides those that are always told.
     bounds
         Which of the model's ``slider.bounds`` are run: ``"all"``, ``"lower"``, ``"nominal"``, ``"upper"``.
+    second
+        Other components of the records, as many and in the same order: both components of a pair act at once,
+        under one factor.
+    pairs
+        How pairs are run: ``"together"``, the table moving in two horizontal directions, or ``"separate"``, each
+        component by itself.
     jobs, progress
         As in ``study``.
 
@@ -225,7 +237,7 @@ def spectrum(
     >>> len(found.tables["runs"])
     9
     """
-    return _assess("spectrum", model, records, None, locals(), jobs, progress)
+    return _assess("spectrum", model, records, second, locals(), jobs, progress)
 
 
 def ida(
@@ -243,6 +255,7 @@ def ida(
     by: str | None = None,
     bounds: str | None = None,
     second: Records | None = None,
+    pairs: str | None = None,
     jobs: int | None = None,
     progress: Progress | None = None,
 ) -> Assessment:
@@ -268,8 +281,11 @@ def ida(
     bounds
         Which of the model's ``slider.bounds`` are run: ``"all"``, ``"lower"``, ``"nominal"``, ``"upper"``.
     second
-        Other components of the records, as many and in the same order: both components of a pair take one
-        factor, and certainty is clustered by pair.
+        Other components of the records, as many and in the same order: both components of a pair act at
+        once, under one factor.
+    pairs
+        How pairs are run: ``"together"``, the table moving in two horizontal directions, or ``"separate"``, each
+        component by itself.
     jobs, progress
         As in ``study``.
 
@@ -392,6 +408,8 @@ def design(
     sensitivity: int | None = None,
     seed: int | None = None,
     confidence: float | None = None,
+    pairs: str | None = None,
+    second: Records | None = None,
     jobs: int | None = None,
     progress: Progress | None = None,
 ) -> Assessment:
@@ -419,6 +437,12 @@ def design(
         Sample points of Sobol' indices, 0 for none, and their seed.
     confidence
         Of intervals.
+    second
+        Other components of the records, as many and in the same order: both components of a pair act at once,
+        under one factor.
+    pairs
+        How pairs are run: ``"together"``, the table moving in two horizontal directions, or ``"separate"``, each
+        component by itself.
     jobs, progress
         As in ``study``.
 
@@ -446,7 +470,7 @@ def design(
     >>> list(found.tables)
     ['front', 'runs']
     """
-    return _assess("design", model, records, None, locals(), jobs, progress)
+    return _assess("design", model, records, second, locals(), jobs, progress)
 
 
 def _assess(

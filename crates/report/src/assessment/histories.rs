@@ -61,12 +61,16 @@ impl HistoriesReport<'_> {
         let runs: usize = models.iter().map(|model| model.records.len() * model.bounds.len()).sum();
         let most = models.iter().max_by_key(|model| model.counted());
         let records =
-            most.map_or_else(String::new, |model| match (model.counted(), model.has_pairs()) {
+            most.map_or_else(String::new, |model| match (model.counted(), model.of_pairs()) {
                 (1, false) => "one record".to_owned(),
                 (1, true) => "one pair of components".to_owned(),
                 (n, false) => format!("{n} records"),
                 (n, true) => format!("{n} pairs of components"),
             });
+        let directions = match models.iter().any(ModelHistories::is_in_plane) {
+            true => " in two directions",
+            false => "",
+        };
         let broken = |run: &&Result<_, FailedRun>| matches!(run, Ok((_, false)));
         let broken = models.iter().flat_map(ModelHistories::runs).filter(broken).count();
         let certificate = match broken {
@@ -85,7 +89,11 @@ impl HistoriesReport<'_> {
             model_hash: Some(models.iter().map(|m| &m.hash[..]).collect::<Vec<_>>().join(", ")),
             suite: self.recorded(),
             first: Some(("Governs", self.governing())),
-            line: format!("{runs} runs: {records}{}{}; {certificate}", self.scaled, self.at()),
+            line: format!(
+                "{runs} runs: {records}{directions}{}{}; {certificate}",
+                self.scaled,
+                self.at()
+            ),
             complete,
             display: self.display,
             warnings: self.warnings(),
@@ -167,10 +175,12 @@ impl HistoriesReport<'_> {
             });
             let records = match model.records.as_slice() {
                 [one] => one.record.clone(),
-                _ if model.has_pairs() => match model.counted() {
-                    1 => "larger of both components".to_owned(),
-                    pairs => format!("{} of {pairs} pairs", model.statistic()),
-                },
+                _ if model.has_pairs() && model.counted() == 1 => {
+                    "larger of both components".to_owned()
+                }
+                _ if model.of_pairs() => {
+                    format!("{} of {} pairs", model.statistic(), model.counted())
+                }
                 all => format!("{} of {} records", model.statistic(), all.len()),
             };
             Some(format!(
@@ -301,12 +311,14 @@ impl HistoriesReport<'_> {
         let matched = self.histories.matched.iter();
         let of_pairs = matched.map(|(m, names)| pairs::table(names.iter().map(String::as_str), m));
         let lateral = self.histories.models.iter().filter_map(|model| self.lateral(model));
+        let alone = self.histories.models.iter().filter_map(|model| self.alone(model));
         let records = record_table(&self.recorded()).filter(|_| !self.scaled.is_empty());
         let records = records.map(|rows| ("Records".to_owned(), rows));
         let capacity = self.histories.models.iter().filter_map(|model| self.capacity(model));
         let factors = self.factors.iter().map(code::factor_table);
         let governs = capacity.chain(factors);
-        records.into_iter().chain(governs).chain(lateral).chain(demands).chain(of_pairs).collect()
+        let hidden = lateral.chain(alone);
+        records.into_iter().chain(governs).chain(hidden).chain(demands).chain(of_pairs).collect()
     }
 
     /// The records under their factors, each once.
@@ -354,9 +366,19 @@ impl HistoriesReport<'_> {
     /// How it was computed.
     fn method(&self) -> Vec<String> {
         let mut method = method();
+        if self.histories.models.iter().any(ModelHistories::is_in_plane) {
+            method.push(
+                "Both components of a pair act at once, the first along x and the second along y, under one \
+                 factor; the coefficient of friction is the same in all directions. Peaks are of vector sums \
+                 at each instant, the PGA as well. Beside them stand the peaks of each component by itself \
+                 and their combination by 100 % + 30 %, the longer of the vectors (x, 0.3 y) and (0.3 x, y). \
+                 A measure of a component is the geometric mean of both."
+                    .to_owned(),
+            );
+        }
         if self.histories.models.iter().any(ModelHistories::has_pairs) {
             method.push(
-                "The model moves in one direction: each component of a pair is run by itself, under the \
+                "Pairs separate: each component of a pair is run by itself, under the \
                  factor of the pair, and the larger of its two peaks counts as that of the pair. A measure \
                  of a component is the geometric mean of both."
                     .to_owned(),

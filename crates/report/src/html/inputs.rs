@@ -115,8 +115,14 @@ pub fn assumptions(out: &mut Markup, report: &Report) {
     let runs = report.summary.runs();
     let overturning = runs.iter().filter_map(|(_, run)| run.demands.overturning_ratio);
     let mut list = vec![
-        "Motion is in one vertical plane; there is no torsion and no second horizontal direction."
-            .to_owned(),
+        match report.response.in_plane {
+            Some(_) => "Motion is along x, along y and vertical; there is no torsion.",
+            None => {
+                "Motion is in one vertical plane; there is no torsion and no second horizontal \
+                 direction."
+            }
+        }
+        .to_owned(),
         "Vertically everything is rigid: the normal force is the total mass times g cos θ plus the \
          vertical acceleration of the table, never below 0, spread evenly over the surface."
             .to_owned(),

@@ -81,12 +81,14 @@ impl LevelMeasure {
         self.measure.scales()
     }
 
-    /// The measure of a record, or of it and the other component of its pair; NaN for a direction
-    /// without a pair.
+    /// The measure of a record, or of it and the other component of its pair, which a motion in two
+    /// horizontal directions has in it; NaN for a direction without a pair.
     ///
     /// # Errors
     /// [`MotionError`] where the union of their times has too many samples.
     pub fn of(&self, x: &GroundMotion, other: Option<&GroundMotion>) -> Result<f64, MotionError> {
+        let split = x.horizontal_y_m_per_s2().map(|_| [x.along_x(), x.along_y()]);
+        let (x, other) = split.as_ref().map_or((x, other), |[x, y]| (x, Some(y)));
         let Some(y) = other else {
             return Ok(if self.rotated.is_none() { self.measure.of(x) } else { f64::NAN });
         };

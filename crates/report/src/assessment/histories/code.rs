@@ -2,6 +2,7 @@
 
 use slipstick::assessment::code::PropertyFactors;
 use slipstick::assessment::histories::ModelHistories;
+use slipstick::assessment::histories::alone::ALONE;
 use slipstick::assessment::lateral::{LEAST_TOTAL, LateralForce};
 use slipstick::response::DemandColumn;
 
@@ -65,6 +66,37 @@ impl HistoriesReport<'_> {
             1 => heading.to_owned(),
             _ => format!("{heading}, {}", model.name),
         }
+    }
+
+    /// Peak sliding displacements in two directions beside what each component says by itself, with the bound
+    /// that governs: a row a pair, and the mean or the maximum of each column.
+    pub(super) fn alone(&self, model: &ModelHistories) -> Option<(String, Vec<Vec<String>>)> {
+        let peak = model.shape().find(SHOWN[0])?.1;
+        let bound = model.governing_bound(&peak).filter(|_| model.is_in_plane())?;
+        let unit = self.display.unit(Quantity::Length, model.governing(&peak, bound));
+        let of = |values: [f64; 4]| values.map(|value| cell(unit.of(value)));
+        let row = |name: &str, values: [f64; 4]| {
+            core::iter::once(name.to_owned()).chain(of(values)).collect::<Vec<_>>()
+        };
+        let heads = ["Pair", "Both at once", "x alone", "y alone", "100 % + 30 %"];
+        let mut rows = vec![heads.map(str::to_owned).to_vec()];
+        for on in &model.records {
+            let found = on.alone.get(bound).copied().flatten();
+            let [x, y, combined] = ALONE.map(|(_, of)| found.map_or(f64::NAN, |alone| of(&alone)));
+            rows.push(row(&on.record, [on.size(&peak, bound), x, y, combined]));
+        }
+        if model.records.len() > 1 {
+            let [x, y, combined] = ALONE.map(|(_, of)| model.governing_alone(bound, of));
+            let statistic = if model.statistic() == "mean" { "Mean" } else { "Maximum" };
+            rows.push(row(statistic, [model.governing(&peak, bound), x, y, combined]));
+        }
+        let friction = match model.bounds.len() {
+            1 => String::new(),
+            _ => format!(", {} friction", model.bounds[bound].name),
+        };
+        let heading =
+            format!("Peak sliding displacement, both components at once and alone{friction}");
+        Some((unit.label(&self.of_model(&heading, model)), rows))
     }
 
     /// The equivalent-lateral-force displacement with each bound, beside that of the runs.
