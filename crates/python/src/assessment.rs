@@ -18,9 +18,10 @@ use slipstick_report::assessment::{Sheet, Went, answer};
 
 use crate::errors::{of_argument, of_assessment, of_file, warn, warn_severe};
 use crate::model::Model;
-use crate::motion::{Motion, quantity};
+use crate::motion::Motion;
 use crate::requests::{Asked, asked};
 use crate::table::Table;
+use crate::values::quantity;
 use crate::work::followed;
 
 /// A result as people and programs read it.

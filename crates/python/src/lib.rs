@@ -9,6 +9,7 @@ mod requests;
 mod response;
 mod study;
 mod table;
+mod values;
 mod work;
 
 use pyo3::prelude::*;
@@ -21,7 +22,7 @@ mod _core {
     #[pymodule_export]
     use super::laboratory::{Comparison, Identified, compare_with, identify};
     #[pymodule_export]
-    use super::model::{Model, as_plain};
+    use super::model::Model;
     #[pymodule_export]
     use super::motion::Motion;
     #[pymodule_export]
@@ -32,6 +33,8 @@ mod _core {
     use super::study::{Study, demands, study, study_id};
     #[pymodule_export]
     use super::table::Table;
+    #[pymodule_export]
+    use super::values::as_plain;
     use pyo3::prelude::*;
 
     #[pymodule_init]

@@ -4,7 +4,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
+use pyo3::types::{PyDict, PyList, PyTuple};
 use slipstick::assessment::single::Job;
 use slipstick::error::InputError;
 use slipstick::input::{self, Analysis, InputValue, MotionSource, Override};
@@ -13,7 +13,8 @@ use slipstick_files::read_at_most;
 use slipstick_report::opensees::script;
 
 use crate::errors::{of_argument, of_file, of_input};
-use crate::motion::{Motion, quantity};
+use crate::motion::Motion;
+use crate::values::{quantity, written};
 
 /// A checked model: block, slider, storeys, perhaps its own motion and the method.
 ///
@@ -83,70 +84,6 @@ impl Model {
         let folder = self.path().parent().filter(|_| has_record);
         (self.analysis.canonical(), folder.unwrap_or(Path::new("")))
     }
-}
-
-/// A number, a flag or a text as Python's own: scalars of NumPy and arrays without a dimension, fractions,
-/// decimals; of a quantity of pint its text. None where a value is none of these.
-pub(crate) fn plain<'py>(
-    path: &str,
-    value: &Bound<'py, PyAny>,
-) -> PyResult<Option<Bound<'py, PyAny>>> {
-    let py = value.py();
-    let own = value.is_instance_of::<PyBool>() || value.is_instance_of::<PyInt>();
-    if own || value.is_instance_of::<PyString>() {
-        return Ok(Some(value.clone()));
-    }
-    if value.is_instance_of::<PyFloat>() {
-        return Ok(Some(PyFloat::new(py, value.extract()?).into_any()));
-    }
-    if value.hasattr("magnitude")? && value.hasattr("units")? {
-        let Some(number) = plain(path, &value.getattr("magnitude")?)? else { return Ok(None) };
-        let text = format!("{} {}", number.repr()?, pint_units(&value.getattr("units")?)?);
-        return Ok(Some(PyString::new(py, &text).into_any()));
-    }
-    if value.hasattr("mask")? {
-        return Err(of_argument(py, path, "a value", "a masked one"));
-    }
-    if value.hasattr("ndim")? && value.hasattr("item")? {
-        if value.getattr("ndim")?.extract::<usize>()? != 0 {
-            return Ok(None);
-        }
-        let item = value.call_method0("item")?;
-        if !item.get_type().is(value.get_type()) {
-            return plain(path, &item);
-        }
-    }
-    let number = value.hasattr("__float__")?.then(|| value.extract::<f64>().ok()).flatten();
-    Ok(number.map(|number| PyFloat::new(py, number).into_any()))
-}
-
-/// The same for the package.
-#[pyfunction]
-#[pyo3(name = "plain")]
-pub(crate) fn as_plain<'py>(
-    path: &str,
-    value: &Bound<'py, PyAny>,
-) -> PyResult<Option<Bound<'py, PyAny>>> {
-    plain(path, value)
-}
-
-/// A value as a person writes it.
-fn written(path: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
-    let Some(plain) = plain(path, value)? else {
-        let found = value.get_type().name()?.to_string();
-        let expected = "a number, or text such as \"150 mm\"";
-        return Err(of_argument(value.py(), path, expected, &found));
-    };
-    if plain.is_instance_of::<PyBool>() {
-        return Ok(if plain.extract()? { "true" } else { "false" }.to_owned());
-    }
-    Ok(plain.str()?.to_string())
-}
-
-/// The short form of pint's units, as units are written here.
-pub(crate) fn pint_units(units: &Bound<'_, PyAny>) -> PyResult<String> {
-    let short: String = units.call_method1("__format__", ("~C",))?.extract()?;
-    Ok(short.replace("**", "").replace('*', " ").replace("g_0", "g"))
 }
 
 /// `{"slider": {"radius": "2 m"}, "storey": [{…}]}` or `{"slider.radius": "2 m"}` as paths and values; no

@@ -3,20 +3,20 @@
 use std::cmp::Reverse;
 use std::path::PathBuf;
 
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::PyDict;
 use slipstick::error::MotionError;
 use slipstick::input::PairOf;
 use slipstick::input::loaded::Loaded;
 use slipstick::motion::GroundMotion;
 use slipstick::notice::{Notice, NoticeKind};
-use slipstick::record::{Origin, Quantity, Units};
-use slipstick::units::{Dimension, parse_quantity, parse_unit};
+use slipstick::record::{Origin, Units};
+use slipstick::units::Dimension;
 use slipstick_files::{AlongYRequest, LoadedMotion, RecordRequest, VerticalRequest, load_record};
 
-use crate::errors::{Escaped, of_argument, of_file, of_motion, of_unit, warn_severe};
-use crate::model::{pint_units, plain};
+use crate::errors::{Escaped, of_argument, of_file, of_motion, warn_severe};
+use crate::values::{accelerations, factor_of, quantity, samples};
 
 /// A ground motion, linear between its samples.
 ///
@@ -63,94 +63,6 @@ use crate::model::{pint_units, plain};
 #[derive(Clone, Debug)]
 pub struct Motion(pub(crate) LoadedMotion);
 
-/// A quantity with its unit; a plain number where the unit is known.
-pub(crate) fn quantity(
-    name: &str,
-    value: &Bound<'_, PyAny>,
-    dimension: Dimension,
-    number_in_si: bool,
-) -> PyResult<f64> {
-    let py = value.py();
-    if value.is_instance_of::<PyString>() {
-        let text: String = value.extract()?;
-        return parse_quantity(&text, dimension).map_err(|error| of_unit(py, name, &error));
-    }
-    if let Some(plain) = plain(name, value)? {
-        if plain.is_instance_of::<PyString>() {
-            return quantity(name, &plain, dimension, number_in_si);
-        }
-        if number_in_si {
-            return plain.extract();
-        }
-    }
-    let expected =
-        format!("{} with its unit, such as {:?}", dimension.with_article(), dimension.example());
-    Err(of_argument(py, name, &expected, &value.repr()?.to_string()))
-}
-
-/// Samples as doubles: any real array of one dimension.
-fn samples(name: &str, values: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
-    let py = values.py();
-    let numpy = py.import("numpy")?;
-    let expected = "numbers in one dimension";
-    if numpy.getattr("ma")?.call_method1("isMaskedArray", (values,))?.is_truthy()? {
-        let expected = "an array without a mask (a gap is no acceleration)";
-        return Err(of_argument(py, name, expected, "a masked one"));
-    }
-    let array = numpy
-        .call_method1("asarray", (values,))
-        .map_err(|_| of_argument(py, name, expected, "no array"))?;
-    let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
-    let shape = array.getattr("shape")?.repr()?.to_string();
-    if !matches!(kind.as_str(), "f" | "i" | "u") || array.getattr("ndim")?.extract::<usize>()? != 1
-    {
-        let found = format!("an array of shape {shape} and type {}", array.getattr("dtype")?);
-        return Err(of_argument(py, name, expected, &found));
-    }
-    let array = numpy.call_method1("require", (array, "f8", ("C_CONTIGUOUS", "ALIGNED")))?;
-    let array: PyReadonlyArray1<'_, f64> = array.extract()?;
-    Ok(array.as_slice()?.to_vec())
-}
-
-/// Units of acceleration.
-fn units_of(py: Python<'_>, text: &str) -> PyResult<Units> {
-    let units = Units::parse(text).filter(|units| units.quantity() == Quantity::Acceleration);
-    units.ok_or_else(|| match parse_unit(text, Dimension::Acceleration) {
-        Err(error) => of_unit(py, "units", &error),
-        Ok(_) => of_argument(py, "units", "units of acceleration, such as \"g\"", text),
-    })
-}
-
-/// Accelerations in SI, and the units that they were in.
-fn accelerations(
-    name: &str,
-    values: &Bound<'_, PyAny>,
-    units: Option<&str>,
-) -> PyResult<(Vec<f64>, Units)> {
-    let py = values.py();
-    let own = values.hasattr("magnitude")? && values.hasattr("units")?;
-    let (magnitudes, units) = match (own, units) {
-        (false, Some(text)) => (values.clone(), units_of(py, text)?),
-        (true, None) => {
-            let text = pint_units(&values.getattr("units")?)?;
-            (values.getattr("magnitude")?, units_of(py, &text)?)
-        }
-        (true, Some(text)) => {
-            return Err(of_argument(
-                py,
-                "units",
-                "none beside a quantity, which has its own",
-                text,
-            ));
-        }
-        (false, None) => {
-            return Err(of_argument(py, "units", "units of the values, such as \"g\"", "none"));
-        }
-    };
-    let in_si = samples(name, &magnitudes)?.into_iter().map(|value| units.si() * value);
-    Ok((in_si.collect(), units))
-}
-
 impl Motion {
     pub(crate) fn of(motion: GroundMotion) -> Self {
         Self(of_arrays(motion, &Units::m_per_s2()))
@@ -190,12 +102,6 @@ fn of_arrays(motion: GroundMotion, units: &Units) -> LoadedMotion {
     let both = motion.horizontal_y_m_per_s2().map_or("", |_| " along x and y");
     let description = format!("array{both}, {samples} values, {sampling}");
     LoadedMotion { loaded: Loaded::of_arrays(motion, units, description), sources: Vec::new() }
-}
-
-/// A factor, of any kind of number.
-fn factor_of(value: &Bound<'_, PyAny>) -> PyResult<f64> {
-    let number = plain("factor", value)?.and_then(|plain| plain.extract::<f64>().ok());
-    number.ok_or_else(|| of_argument(value.py(), "factor", "a number", &value.to_string()))
 }
 
 #[pymethods]

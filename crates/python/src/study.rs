@@ -13,9 +13,10 @@ use slipstick::table::{self, Cells};
 use slipstick_files::{OpenStudy, Shard, StudyError, clear, conclude, expand, read_table};
 
 use crate::errors::{of_argument, of_input, of_refuted, of_study};
-use crate::model::{Model, plain};
-use crate::motion::{Motion, quantity};
+use crate::model::Model;
+use crate::motion::Motion;
 use crate::table::Table;
+use crate::values::{plain, quantity};
 use crate::work::followed;
 
 /// The parts of a study in its folder.
