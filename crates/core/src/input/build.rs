@@ -442,7 +442,6 @@ fn refuse_in_plane(values: &Values) -> Result<(), InputError> {
         "slider.asymmetry",
         "slider.static_friction.positive",
         "slider.kinetic_friction.positive",
-        "slider.kinetic_friction.slow",
         "slider.kinetic_friction.velocity",
         "slider.stop",
         "slider.surface",
@@ -454,9 +453,9 @@ fn refuse_in_plane(values: &Values) -> Result<(), InputError> {
     }
     match keys.into_iter().find(|path| values.has(path)) {
         Some(path) => {
-            let expected = "a model that is solved in two directions: one level surface with constant \
-                            friction that is the same in all directions, without stop or contents, by \
-                            the exact method";
+            let expected = "a model that is solved in two directions: one level surface whose \
+                            friction is the same in all directions, constant or exponential, without \
+                            stop or contents, by the exact method";
             Err(values.error(path, expected, path))
         }
         None => Ok(()),
