@@ -13,6 +13,7 @@ mod series;
 mod stop;
 
 pub use friction::Friction;
+pub(crate) use isotropic::Kinetic;
 pub(crate) use law::{Affine, EXITS, Exit, Fading, Hold, Law, Memory, Reached, TwoBranches};
 pub(crate) use law::{Restraint, Restraints, SlipForce};
 pub(crate) use rate::Coefficient;

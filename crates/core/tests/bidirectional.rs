@@ -1,5 +1,5 @@
 //! Two horizontal directions: every verification case of `data/reference/bidirectional.json` with constant
-//! friction, as two solvers that share nothing agree on it.
+//! and with exponential friction, as two solvers that share nothing agree on it.
 
 // Every case says how close it came. Helpers of tests may panic as tests do.
 #![allow(clippy::disallowed_macros, clippy::expect_used)]
@@ -8,7 +8,7 @@ use serde_json::Value;
 use slipstick::model::{AlongY, Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::GroundMotion;
 use slipstick::response::{Demands, EventKind, History, Mode, Response};
-use slipstick::slider::{Ends, Friction};
+use slipstick::slider::{Ends, Friction, RateCurve, RateLaw};
 use slipstick::solver::exact;
 
 fn cases() -> Vec<Value> {
@@ -31,7 +31,17 @@ fn list(value: &Value) -> &[Value] {
 
 fn model(case: &Value) -> Model {
     let p = &case["params"];
-    let friction = Friction::new(number(&p["mu_s"]), number(&p["mu_d"])).expect("friction");
+    let fixed = number(&p["mu_s"]);
+    let friction = match &p["mu_exp"] {
+        Value::Null => Friction::new(fixed, number(&p["mu_d"])),
+        by_speed => {
+            let [slow, fast, rate_s_per_m] =
+                ["slow", "fast", "rate"].map(|key| number(&by_speed[key]));
+            RateLaw::new(RateCurve::Exponential { slow, fast, rate_s_per_m }, [1.0; 2])
+                .and_then(|law| Friction::by_speed([fixed; 2], law))
+        }
+    }
+    .expect("friction");
     let slider = match p["R"].as_f64() {
         Some(radius_m) => Slider::pendulum(friction, radius_m),
         None => Slider::sprung(friction, number(&p["K1"])),
@@ -265,12 +275,11 @@ macro_rules! cases {
             run($id);
         })*
 
-        /// No case with constant friction is left out.
+        /// No case is left out.
         #[test]
         fn every_case_is_a_test() {
             let ids: Vec<String> = cases()
                 .iter()
-                .filter(|case| case["step"] == 1)
                 .map(|case| case["id"].as_str().expect("a text").to_owned())
                 .collect();
             assert_eq!(ids, [$($id),*]);
@@ -295,4 +304,6 @@ cases! {
     reference_taft_pendulum_1: "BIDI-TAFT-PENDULUM-1",
     reference_uneven_2: "BIDI-UNEVEN-2",
     reference_xy_3: "BIDI-XY-3",
+    reference_exponential_friction_1: "BIDI-EXP-TAFT-1",
+    reference_weakening_friction: "BIDI-EXP-FREE",
 }

@@ -8,7 +8,7 @@
 use slipstick::model::{AlongY, Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::GroundMotion;
 use slipstick::response::{Demands, EventKind, Response};
-use slipstick::slider::Friction;
+use slipstick::slider::{Friction, RateCurve, RateLaw};
 use slipstick::solver::exact;
 
 /// Numbers of a seed.
@@ -48,6 +48,8 @@ struct System {
     /// Whether damping is by dampers, which do not part into modes.
     dampers: bool,
     friction: [f64; 2],
+    /// `μ_fast` and `α` in s/m, of friction by speed.
+    by_speed: Option<[f64; 2]>,
     slider: Restoring,
     damper: f64,
     initial: [[f64; 2]; 2],
@@ -117,6 +119,8 @@ impl System {
         let damping = if equal { [damping[0]; 2] } else { damping };
         let dampers = r.chance(0.3);
         let friction = [fixed, kinetic];
+        let by_speed = [kinetic * r.between(0.4, 2.5), r.between(2.0, 80.0)];
+        let by_speed = r.chance(0.4).then_some(by_speed);
         Self {
             mass_kg,
             floors_kg,
@@ -124,6 +128,7 @@ impl System {
             damping,
             dampers,
             friction,
+            by_speed,
             slider,
             damper,
             initial,
@@ -175,7 +180,14 @@ impl System {
 
     fn model(&self) -> Model {
         let [fixed, kinetic] = self.friction;
-        let friction = Friction::new(fixed, kinetic).expect("friction");
+        let friction = match self.by_speed {
+            None => Friction::new(fixed, kinetic),
+            Some([fast, rate_s_per_m]) => {
+                let curve = RateCurve::Exponential { slow: kinetic, fast, rate_s_per_m };
+                RateLaw::new(curve, [1.0; 2]).and_then(|law| Friction::by_speed([fixed; 2], law))
+            }
+        }
+        .expect("friction");
         let slider = match self.slider {
             Restoring::Flat => Slider::new(friction),
             Restoring::Spring(stiffness) => Slider::sprung(friction, stiffness),
@@ -398,4 +410,14 @@ fn exact_what_does_not_move_in_two_directions_is_refused() {
         Model::new(*model.block(), slider, model.frame().clone(), 9.8, InitialState::rest());
     let error = exact(&tilted.expect("a model"), &system.motion()).expect_err("a tilt");
     assert_eq!(error.to_string(), "two horizontal directions: expected a model without tilt");
+
+    let speeds_m_per_s = vec![0.0, 0.1];
+    let pieces = RateCurve::Pieces { speeds_m_per_s, coefficients: vec![0.05, 0.08] };
+    let law = RateLaw::new(pieces, [1.0; 2]).expect("a law");
+    let friction = Friction::by_speed([0.06; 2], law).expect("friction");
+    let error = exact(&model.with_friction(friction), &system.motion()).expect_err("pieces");
+    assert_eq!(
+        error.to_string(),
+        "two horizontal directions: expected a model without friction by straight lines of the speed"
+    );
 }

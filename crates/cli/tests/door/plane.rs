@@ -14,11 +14,19 @@ fn model(case: &Value) -> String {
     let pair = |value: &Value, unit: &str| {
         format!("[{}, {}]", quantity(&value[0], unit), quantity(&value[1], unit))
     };
+    let kinetic = match &p["mu_exp"] {
+        Value::Null => format!("{:?}", number(&p["mu_d"])),
+        by_speed => format!(
+            "{{ slow = {:?}, fast = {:?}, rate = {} }}",
+            number(&by_speed["slow"]),
+            number(&by_speed["fast"]),
+            quantity(&by_speed["rate"], "s/m"),
+        ),
+    };
     let mut text = format!(
-        "[block]\nmass = {}\n[slider]\nstatic_friction = {:?}\nkinetic_friction = {:?}\ndamper = {}\n",
+        "[block]\nmass = {}\n[slider]\nstatic_friction = {:?}\nkinetic_friction = {kinetic}\ndamper = {}\n",
         quantity(&p["M1"], "kg"),
         number(&p["mu_s"]),
-        number(&p["mu_d"]),
         quantity(&p["C1"], "N s/m"),
     );
     match &p["R"] {
@@ -220,10 +228,6 @@ fn reference_two_directions_through_the_command() {
     let mut wrong = String::new();
     let mut compared = 0;
     for case in file["cases"].as_array().unwrap() {
-        // Friction by speed is not solved in two directions.
-        if case["params"]["mu_exp"].is_object() {
-            continue;
-        }
         let id = name(&case["id"]);
         let folder = Folder::with_model("two-directions", &model(case));
         let columns = samples(case);
@@ -247,7 +251,7 @@ fn reference_two_directions_through_the_command() {
         compared += 1;
     }
     assert!(wrong.is_empty(), "{wrong}");
-    assert_eq!(compared, 16);
+    assert_eq!(compared, 18);
 }
 
 #[test]

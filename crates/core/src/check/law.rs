@@ -173,9 +173,16 @@ impl Law {
         -direction.sign() * mu
     }
 
-    /// `μ_k` of a slider that has the same in all directions, at all speeds.
-    pub(super) fn kinetic(&self) -> f64 {
-        self.kinetic[0]
+    /// `μ_k` at a sliding speed of a slider that is the same in all directions, and its slope in s/m.
+    pub(super) fn kinetic_at(&self, speed_m_per_s: f64) -> [f64; 2] {
+        match &self.rate {
+            Some(rate) => {
+                let factor = rate.factor(Direction::Positive);
+                [rate.coefficient(speed_m_per_s), rate.fading_slope_s_per_m(speed_m_per_s)]
+                    .map(|own| factor * own)
+            }
+            None => [self.kinetic[0], 0.0],
+        }
     }
 
     /// `μ_k` at rest.

@@ -1,6 +1,6 @@
 //! A motion in two horizontal directions: the same figures, from the equations of a plane.
 //!
-//! Only friction joins x and y: `T = −μ_k N w/|w|` in a slip, `|T| ≤ μ_s N` in a stick. From every knot the
+//! Only friction joins x and y: `T = −μ_k(|w|) N w/|w|` in a slip, `|T| ≤ μ_s N` in a stick. From every knot the
 //! equations are solved to the next by collocation in physical time, whatever variable the solver has used.
 
 mod decisions;
@@ -23,6 +23,7 @@ use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::progress::{GoOn, Pulse};
 use crate::response::{History, HistoryAlongY, Response};
+use crate::slider::{Direction, RateCurve, RateLaw};
 use frame::PlaneFrame;
 use judge::{Given, PlaneJudge};
 
@@ -69,11 +70,17 @@ fn is_within(model: &Model) -> bool {
     let same = |pair: [f64; 2]| pair[0] == pair[1];
     same(model.static_friction())
         && same(model.kinetic_friction())
-        && slider.rate().is_none()
+        && slider.rate().is_none_or(fades_alike)
         && slider.series().is_none()
         && model.stop().is_none()
         && model.contents().is_empty()
         && model.slope_m_per_s2() == 0.0
+}
+
+/// Whether friction by speed is exponential, and the same both ways.
+fn fades_alike(rate: &RateLaw) -> bool {
+    let [factor, other] = Direction::BOTH.map(|way| rate.factor(way));
+    matches!(rate.curve(), RateCurve::Exponential { .. }) && factor == other
 }
 
 /// Whether the part along y has the knots of a history.

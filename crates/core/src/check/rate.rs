@@ -62,6 +62,11 @@ impl RateFriction {
         if self.drop == 0.0 { mu } else { mu - self.faded(speed_m_per_s) }
     }
 
+    /// `dμ_k/d|ṡ|` of the exponential in s/m, for a factor of 1.
+    pub(super) fn fading_slope_s_per_m(&self, speed_m_per_s: f64) -> f64 {
+        self.rate_s_per_m * self.faded(speed_m_per_s)
+    }
+
     /// `(μ_fast − μ_slow) exp(−α |ṡ|)`.
     fn faded(&self, speed_m_per_s: f64) -> f64 {
         self.drop * libm::exp(-self.rate_s_per_m * speed_m_per_s)

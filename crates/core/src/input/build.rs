@@ -449,7 +449,6 @@ fn refuse_in_plane(values: &Values) -> Result<(), InputError> {
         "slider.asymmetry",
         "slider.static_friction.positive",
         "slider.kinetic_friction.positive",
-        "slider.kinetic_friction.slow",
         "slider.kinetic_friction.velocity",
         "slider.stop",
         "slider.surface",
@@ -461,9 +460,9 @@ fn refuse_in_plane(values: &Values) -> Result<(), InputError> {
     }
     match keys.into_iter().find(|path| values.has(path)) {
         Some(path) => {
-            let expected = "a model that is solved in two directions: one level surface with constant \
-                            friction that is the same in all directions, without stop or contents, by \
-                            the exact method";
+            let expected = "a model that is solved in two directions: one level surface whose \
+                            friction is the same in all directions, constant or exponential, without \
+                            stop or contents, by the exact method";
             let apart = ", or the components of pairs run by themselves, pairs = separate";
             let apart = if values.in_plane { apart } else { "" };
             Err(values.error(path, format!("{expected}{apart}"), path))

@@ -1,16 +1,71 @@
 //! Sliders that are the same in all horizontal directions.
 
-use super::{Bearing, Restoring, Slider};
+use super::{Bearing, Direction, RateCurve, Restoring, Slider};
+use crate::linear::polynomial::Polynomial;
 
 /// What a slider does along any direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Isotropic {
-    /// `μ_s` and `μ_k`.
+    /// `μ_s`.
     pub(crate) fixed: f64,
-    pub(crate) kinetic: f64,
+    pub(crate) kinetic: Kinetic,
     /// `K1` in N/m without that of a pendulum, which is `N/R`: `1/R` in 1/m, 0 without one.
     pub(crate) stiffness_n_per_m: f64,
     pub(crate) per_radius: f64,
+}
+
+/// `μ_k` by the sliding speed `r`: `at_rest + gain (1 − e^(−α r))`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Kinetic {
+    pub(crate) at_rest: f64,
+    gain: f64,
+    /// `α` in s/m.
+    rate_s_per_m: f64,
+}
+
+impl Kinetic {
+    /// Whether it is the same at all speeds.
+    #[inline(always)]
+    pub(crate) fn is_constant(&self) -> bool {
+        self.gain == 0.0 || self.rate_s_per_m == 0.0
+    }
+
+    /// Whether there is none at any speed.
+    pub(crate) fn is_none(&self) -> bool {
+        self.at_rest == 0.0 && self.is_constant()
+    }
+
+    /// `μ_k` at a speed in m/s.
+    pub(crate) fn at(&self, speed: f64) -> f64 {
+        self.at_rest - self.gain * libm::expm1(-self.rate_s_per_m * speed)
+    }
+
+    /// Coefficient `k` of `μ_k` along a motion, after those before it, from those of its speed up to `k`:
+    ///
+    /// ```text
+    /// μ' = α (at_rest + gain − μ) r',   so   k μ_k = α (fast k r_k − Σ_{1≤j≤k} j r_j μ_{k−j})
+    /// ```
+    pub(crate) fn expand(&self, speed: &Polynomial, before: &Polynomial, k: usize) -> f64 {
+        if k == 0 {
+            return self.at(speed[0]);
+        }
+        if self.is_constant() {
+            return 0.0;
+        }
+        let lacks = |i: usize| if i == 0 { self.lacks(before[0]) } else { -before[i] };
+        let sum: f64 = (1..=k).map(|j| j as f64 * speed[j] * lacks(k - j)).sum();
+        self.rate_s_per_m / k as f64 * sum
+    }
+
+    /// What a coefficient lacks of that at high speed.
+    fn lacks(&self, mu: f64) -> f64 {
+        (self.at_rest - mu) + self.gain
+    }
+
+    /// The same times a factor.
+    pub(crate) fn times(&self, factor: f64) -> Self {
+        Self { at_rest: factor * self.at_rest, gain: factor * self.gain, ..*self }
+    }
 }
 
 impl Slider {
@@ -22,12 +77,23 @@ impl Slider {
         let Bearing::Surface { restoring, friction } = &self.bearing else {
             return Err("surfaces in series");
         };
-        let [fixed, kinetic] = self.coefficients();
+        let [fixed, at_rest] = self.coefficients();
+        let at_rest_alike = at_rest[0] == at_rest[1];
+        let (kinetic, alike) = match friction.rate() {
+            None => (Kinetic { at_rest: at_rest[0], gain: 0.0, rate_s_per_m: 0.0 }, at_rest_alike),
+            Some(law) => {
+                let RateCurve::Exponential { slow, fast, rate_s_per_m } = *law.curve() else {
+                    return Err("friction by straight lines of the speed");
+                };
+                let [factor, other] = Direction::BOTH.map(|way| law.factor(way));
+                let gain = factor * (fast - slow);
+                (Kinetic { at_rest: at_rest[0], gain, rate_s_per_m }, factor == other)
+            }
+        };
         let refused = [
             (self.tilt_rad != 0.0, "tilt"),
             (self.stop().is_some(), "a stop"),
-            (friction.rate().is_some(), "friction by speed"),
-            (fixed[0] != fixed[1] || kinetic[0] != kinetic[1], "friction by direction"),
+            (fixed[0] != fixed[1] || !alike, "friction by direction"),
         ];
         if let Some((_, what)) = refused.into_iter().find(|(refused, _)| *refused) {
             return Err(what);
@@ -37,6 +103,6 @@ impl Slider {
             Restoring::Spring { stiffness_n_per_m } => (stiffness_n_per_m, 0.0),
             Restoring::Pendulum { radius_m } => (0.0, 1.0 / radius_m),
         };
-        Ok(Isotropic { fixed: fixed[0], kinetic: kinetic[0], stiffness_n_per_m, per_radius })
+        Ok(Isotropic { fixed: fixed[0], kinetic, stiffness_n_per_m, per_radius })
     }
 }

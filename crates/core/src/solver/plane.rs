@@ -263,7 +263,7 @@ impl<'a> Phase<'a> for Plane<'a> {
         let phase = &mut walk.phase;
         let kind = match walk.course.block.mode {
             Mode::Stick => Kind::Stick,
-            Mode::Slip(_) if loads.normal[0] * phase.system.kinetic_per_kg == 0.0 => {
+            Mode::Slip(_) if loads.normal[0] == 0.0 || phase.system.kinetic_per_kg.is_none() => {
                 Kind::Frictionless
             }
             Mode::Slip(_) if phase.state.w == [0.0; 2] => Kind::Start,

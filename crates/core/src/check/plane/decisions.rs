@@ -105,7 +105,7 @@ impl PlaneJudge<'_> {
                     .is_some_and(|(least, _)| least <= 0.5 * REST * self.speed.peak())
                 {
                     // It came to rest, was held, and slides on.
-                    let off = (self.frame().fixed - self.frame().kinetic) * self.largest.0;
+                    let off = (self.frame().fixed - self.law.kinetic_at(0.0)[0]) * self.largest.0;
                     self.figures.excess = larger(self.figures.excess, off);
                 }
                 self.speed.least.map(|(least, time_s)| ClosestCall {
@@ -124,7 +124,7 @@ impl PlaneJudge<'_> {
     /// Whether a block at rest is held though friction would not have stopped it: `f < |p| ≤ μ_s N/M1`.
     pub(super) fn holds_only(&self, state: &State, loads: &super::frame::Loads) -> bool {
         let (frame, push) = (self.frame(), norm(self.forces(state, loads).0.push));
-        frame.slowing(loads) < push && push <= frame.holding(loads)
+        frame.slowing(loads, 0.0) < push && push <= frame.holding(loads)
     }
 
     /// Judges a change of mode at a knot, at which the block has no velocity.
@@ -156,7 +156,7 @@ impl PlaneJudge<'_> {
         self.figures.excess = larger(self.figures.excess, broken);
         if !stops {
             let push = self.forces(&state, &all[3]).0.push;
-            let clear = norm(push) > 1e-6 * (self.largest.1 + self.frame().slowing(&all[3]));
+            let clear = norm(push) > 1e-6 * (self.largest.1 + self.frame().slowing(&all[3], 0.0));
             self.turns.push(Turn {
                 direction: unit(push).filter(|_| clear),
                 unsure: 0.0,
@@ -181,7 +181,7 @@ impl PlaneJudge<'_> {
         let state = self.stored(k);
         let (forces, floors) = self.forces(&state, loads);
         let (frame, tracked, push) = (self.frame(), self.tracked(), forces.push);
-        let (p, f) = (norm(push), frame.slowing(loads));
+        let (p, f) = (norm(push), frame.slowing(loads, 0.0));
         let late = 2.0 * self.instant_s * (p + f);
         if p > f * (1.0 + 1e-9) && self.arrived > late.max(2.0 * REST * self.speed.peak()) {
             let off = frame.block_kg * (p - f);
@@ -291,7 +291,8 @@ impl PlaneJudge<'_> {
     fn gains(&self, step: &Step, point: usize) -> f64 {
         let loads = step.stretch.at(self.stepper.rule.points[point] * step.stretch.step_s);
         let push = self.push_at(step, point);
-        dot(step.heading(point, push), push) - self.frame().slowing(&loads)
+        let slowing = self.frame().slowing(&loads, norm(step.speed(point)));
+        dot(step.heading(point, push), push) - slowing
     }
 
     /// Takes the speeds of a step of a slip.

@@ -64,7 +64,8 @@ pub(super) struct Forces {
 }
 
 /// Masses, springs, dampers and friction in two horizontal directions.
-pub(super) struct PlaneFrame {
+pub(super) struct PlaneFrame<'a> {
+    law: &'a Law,
     pub(super) block_kg: f64,
     pub(super) total_kg: f64,
     pub(super) spring: f64,
@@ -80,13 +81,13 @@ pub(super) struct PlaneFrame {
     pub(super) rates: [f64; 2],
     /// Upper bound on the largest undamped frequency on a block that rests, in rad/s.
     pub(super) frequency: f64,
-    /// `μ_s` and `μ_k`.
+    /// `μ_s`, and the larger of it and any `μ_k`.
     pub(super) fixed: f64,
-    pub(super) kinetic: f64,
+    pub(super) most: f64,
 }
 
-impl PlaneFrame {
-    pub(super) fn new(model: &Model, vertical: bool, law: &Law, normal: f64) -> Self {
+impl<'a> PlaneFrame<'a> {
+    pub(super) fn new(model: &Model, vertical: bool, law: &'a Law, normal: f64) -> Self {
         let along_y = model.along_y();
         let other = (&along_y.stiffnesses_n_per_m[..], &along_y.damping);
         let axes = [Structure::new(model, vertical), Structure::of(model, other, vertical)];
@@ -112,7 +113,10 @@ impl PlaneFrame {
         let curvature_per_m = law.curvature_per_m();
         let added = libm::sqrt(normal / x.block_kg * curvature_per_m);
         let fastest = |phase| x.rate(phase).max(y.rate(phase));
+        let by_speed =
+            law.rate.as_ref().map_or(0.0, |rate| rate.rate(normal / x.block_kg, 0.0, 0.0));
         Self {
+            law,
             block_kg: x.block_kg,
             total_kg: x.total_kg,
             spring: x.spring,
@@ -121,10 +125,10 @@ impl PlaneFrame {
             masses_kg: x.masses_kg.iter().flat_map(|mass| [*mass; 2]).collect(),
             stiffness,
             damping,
-            rates: [fastest(Phase::Stick), fastest(Phase::Slip) + added],
+            rates: [fastest(Phase::Stick), fastest(Phase::Slip) + added + by_speed],
             frequency: x.frame_frequency().max(y.frame_frequency()),
             fixed: law.most(),
-            kinetic: law.kinetic(),
+            most: law.most().max(law.most_sliding()),
         }
     }
 
@@ -133,9 +137,20 @@ impl PlaneFrame {
         2 + self.masses_kg.len()
     }
 
-    /// `f = μ_k N/M1`.
-    pub(super) fn slowing(&self, loads: &Loads) -> f64 {
-        self.kinetic * loads[0].normal / self.block_kg
+    /// `f = μ_k N/M1` at a sliding speed, and its slope.
+    pub(super) fn slowing_and_slope(&self, loads: &Loads, speed: f64) -> [f64; 2] {
+        self.law.kinetic_at(speed).map(|mu| mu * loads[0].normal / self.block_kg)
+    }
+
+    /// `f = μ_k N/M1` at a sliding speed.
+    pub(super) fn slowing(&self, loads: &Loads, speed: f64) -> f64 {
+        let [f, _] = self.slowing_and_slope(loads, speed);
+        f
+    }
+
+    /// Whether there is no friction at any speed.
+    pub(super) fn is_free(&self, loads: &Loads) -> bool {
+        [0.0, 1.0].iter().all(|speed| self.slowing(loads, *speed) == 0.0)
     }
 
     /// `μ_s N/M1`.

@@ -97,7 +97,7 @@ impl PlaneJudge<'_> {
     /// What the rounding of `N` makes of the force on the block.
     fn normal_drift(&self, state: &State, loads: &Loads) -> f64 {
         let frame = self.frame();
-        let per_n = frame.fixed + frame.curvature_per_m * norm([state.x[0], state.x[1]]);
+        let per_n = frame.most + frame.curvature_per_m * norm([state.x[0], state.x[1]]);
         per_n * loads[0].normal_rounding(self.grounds[0].blur())
     }
 
@@ -128,7 +128,7 @@ impl PlaneJudge<'_> {
         let Some(rested_s) = way.rested_s else { return };
         let loads = self.instant(self.h.time_s[k + 1])[0];
         let push = norm(self.forces(&way.state, &loads).0.push);
-        let slowing = self.frame().slowing(&loads);
+        let slowing = self.frame().slowing(&loads, 0.0);
         let late_s = excess(rested_s.abs() - instant_s);
         if self.stops(k + 1) {
             let f = &mut self.figures;
@@ -246,14 +246,15 @@ impl PlaneJudge<'_> {
     fn outlook(&self, way: &Way, loads: &Loads) -> f64 {
         let r = norm(way.state.speed());
         let p = norm(self.forces(&way.state, loads).0.push);
-        if r > 0.0 { 2.0 * r / (self.frame().slowing(loads) + p) } else { f64::INFINITY }
+        if r > 0.0 { 2.0 * r / (self.frame().slowing(loads, r) + p) } else { f64::INFINITY }
     }
 
     /// How far a slip goes from here without coming to rest.
     fn reach(&self, way: &Way, loads: &Loads, (t, left_s): (f64, f64)) -> Reach {
         let push = self.forces(&way.state, loads).0.push;
-        let (w, p, f) = (way.state.speed(), norm(push), self.frame().slowing(loads));
+        let (w, p) = (way.state.speed(), norm(push));
         let r = norm(w);
+        let f = self.frame().slowing(loads, r);
         if r == 0.0 || f == 0.0 || (dot(w, push) >= 0.0 && p >= f) {
             return Reach::Free;
         }
@@ -323,7 +324,7 @@ impl PlaneJudge<'_> {
             size += weight * power.abs();
             damping += weight * frame.dissipation(&state.v);
             if step.slips {
-                friction += weight * frame.block_kg * frame.slowing(&loads) * r;
+                friction += weight * frame.block_kg * frame.slowing(&loads, r) * r;
             }
             if follows {
                 let rise = frame.curvature_per_m * loads[0].normal;

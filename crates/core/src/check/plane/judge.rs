@@ -79,7 +79,7 @@ pub(super) struct PlaneJudge<'a> {
 impl<'a> PlaneJudge<'a> {
     pub(super) fn new(
         given: Given<'a>,
-        (frame, law): (&'a PlaneFrame, &'a Law),
+        (frame, law): (&'a PlaneFrame<'a>, &'a Law),
         outputs: &'a Outputs,
         pulse: Pulse<'a>,
     ) -> Self {
@@ -119,7 +119,7 @@ impl<'a> PlaneJudge<'a> {
         }
     }
 
-    pub(super) fn frame(&self) -> &'a PlaneFrame {
+    pub(super) fn frame(&self) -> &'a PlaneFrame<'a> {
         self.stepper.frame
     }
 
@@ -319,13 +319,13 @@ impl<'a> PlaneJudge<'a> {
             let split = [0, 1].map(|i| frame.block_kg * (block[i] - own[i]));
             side.defect = norm(split);
         } else {
-            let slid = frame.kinetic * loads[0].normal;
+            let slid = frame.block_kg * frame.slowing(loads, norm(state.speed()));
             let at_rest = (place == Place::Start).then(|| unit(forces.push)).flatten();
             let off = match unit(state.speed()).or(at_rest) {
                 Some(u) => norm([0, 1].map(|i| friction[i] + slid * u[i])),
                 None => (norm(friction) - slid).abs(),
             };
-            side.excess = excess(off - frame.fixed * normal_n);
+            side.excess = excess(off - frame.most * normal_n);
         }
         let Forces { base, spring, damper, .. } = forces;
         let inertia = times(block, frame.block_kg);

@@ -32,12 +32,12 @@ pub(super) struct Acting<'a> {
 
 impl Acting<'_> {
     /// `ẇ + a`, `T` and `T − K1 s − N s/R − C1 w`.
-    fn on_block(&self, frame: &PlaneFrame) -> [Pair; 3] {
+    fn on_block(&self, frame: &PlaneFrame<'_>) -> [Pair; 3] {
         let (a, Forces { push, spring, damper, .. }) = (table(&self.loads), self.forces);
         let (block, friction) = match self.direction {
             None => (a, times(push, -frame.block_kg)),
             Some(u) => {
-                let slowed = times(u, frame.slowing(&self.loads));
+                let slowed = times(u, frame.slowing(&self.loads, norm(self.state.speed())));
                 let block = [0, 1].map(|i| push[i] + a[i] - slowed[i]);
                 (block, times(slowed, -frame.block_kg))
             }
@@ -48,7 +48,7 @@ impl Acting<'_> {
 
 /// Vectors of all outputs, in their order, then `s`.
 pub(super) struct Tracked<'a> {
-    pub(super) frame: &'a PlaneFrame,
+    pub(super) frame: &'a PlaneFrame<'a>,
     pub(super) outputs: &'a Outputs,
 }
 

@@ -1,9 +1,9 @@
 //! One step of the motion in a plane: Gauss collocation with eight nodes in physical time, by Newton's method.
 //!
-//! With `F_i` the accelerations at the nodes, `w_i = w_0 + h Σ_j A_ij F_j` and `∂u/∂w = (I − u uᵀ)/r`:
+//! With `F_i` the accelerations at the nodes, `w_i = w_0 + h Σ_j A_ij F_j` and `∂(f u)/∂w = (f/r)(I − u uᵀ) + f′(r) u uᵀ`:
 //!
 //! ```text
-//! δ_i + h P_i Σ_j A_ij δ_j = p_i − f_i u_i − F_i        P = (f/r)(I − u uᵀ)
+//! δ_i + h P_i Σ_j A_ij δ_j = p_i − f_i u_i − F_i        P = ∂(f u)/∂w
 //! ```
 //!
 //! for the block's part; what the structure does to `p` and to itself follows by iteration, as λ h ≤ 1/2.
@@ -101,7 +101,7 @@ impl Step {
     }
 
     /// `w` at a point.
-    fn speed(&self, point: usize) -> Pair {
+    pub(super) fn speed(&self, point: usize) -> Pair {
         [self.v[0][point], self.v[1][point]]
     }
 
@@ -153,7 +153,7 @@ impl Step {
 
 /// Solves steps.
 pub(super) struct Stepper<'a> {
-    pub(super) frame: &'a PlaneFrame,
+    pub(super) frame: &'a PlaneFrame<'a>,
     pub(super) rule: &'static Rule,
 }
 
@@ -165,20 +165,15 @@ impl Stepper<'_> {
     /// the push: `None` where that does not exceed friction.
     pub(super) fn solve(&self, from: &State, stretch: Stretch, slips: bool) -> Option<Step> {
         let mut rates = vec![[0.0; NODES]; self.frame.degrees()];
-        if !slips {
-            return self
-                .settle(from, stretch, None, &mut rates)
-                .then(|| self.step(from, stretch, false, &rates));
+        if slips {
+            if unit(from.speed()).is_some() || stretch.loads.iter().all(|l| self.frame.is_free(l)) {
+                self.go_on(from, stretch, &mut rates);
+            } else {
+                self.depart(from, stretch, &mut rates)?;
+            }
         }
-        let friction = |i: usize| self.frame.slowing(&between(&stretch.loads, self.rule.c[i]));
-        let slowing: [f64; NODES] = core::array::from_fn(friction);
-        if unit(from.speed()).is_some() || slowing.iter().all(|f| *f == 0.0) {
-            self.go_on(from, stretch, &mut rates);
-        } else {
-            self.depart(from, stretch, &slowing, &mut rates)?;
-        }
-        let settled = self.settle(from, stretch, Some(&slowing), &mut rates);
-        settled.then(|| self.step(from, stretch, true, &rates))
+        let settled = self.settle(from, stretch, slips, &mut rates);
+        settled.then(|| self.step(from, stretch, slips, &rates))
     }
 
     /// Accelerations to begin a slip with that is under way: those at its start.
@@ -187,7 +182,7 @@ impl Stepper<'_> {
         let loads = &stretch.loads[0];
         let push = self.frame.forces(&from.x, &from.v, loads, &mut floors).push;
         let u = unit(from.speed()).unwrap_or([0.0; 2]);
-        let f = self.frame.slowing(loads);
+        let f = self.frame.slowing(loads, norm(from.speed()));
         let block = [0, 1].map(|i| push[i] - f * u[i]);
         for (k, list) in rates.iter_mut().enumerate() {
             *list = [block[k % 2]; NODES];
@@ -199,15 +194,9 @@ impl Stepper<'_> {
     }
 
     /// Accelerations to begin a release with: `(|p| − f) p/|p|` of a block that would rest.
-    fn depart(
-        &self,
-        from: &State,
-        stretch: Stretch,
-        slowing: &[f64; NODES],
-        rates: &mut Rates,
-    ) -> Option<()> {
+    fn depart(&self, from: &State, stretch: Stretch, rates: &mut Rates) -> Option<()> {
         let mut floors = vec![0.0; self.frame.masses_kg.len()];
-        if !self.settle(from, stretch, None, rates) {
+        if !self.settle(from, stretch, false, rates) {
             return None;
         }
         let step = self.step(from, stretch, false, rates);
@@ -217,7 +206,7 @@ impl Stepper<'_> {
             step.at_point(1 + i, &mut state);
             let loads = between(&stretch.loads, self.rule.c[i]);
             let push = self.frame.forces(&state.x, &state.v, &loads, &mut floors).push;
-            let beyond = norm(push) - slowing[i];
+            let beyond = norm(push) - self.frame.slowing(&loads, 0.0);
             leaves |= beyond > 0.0;
             let start = times(unit(push)?, beyond.max(1e-3 * beyond.abs()));
             (rates[0][i], rates[1][i]) = (start[0], start[1]);
@@ -225,14 +214,8 @@ impl Stepper<'_> {
         leaves.then_some(())
     }
 
-    /// Iterates accelerations at the nodes; `slowing` of a slip. Whether they settle.
-    fn settle(
-        &self,
-        from: &State,
-        stretch: Stretch,
-        slowing: Option<&[f64; NODES]>,
-        rates: &mut Rates,
-    ) -> bool {
+    /// Iterates accelerations at the nodes. Whether they settle.
+    fn settle(&self, from: &State, stretch: Stretch, slips: bool, rates: &mut Rates) -> bool {
         let (rule, frame, h) = (self.rule, self.frame, stretch.step_s);
         let d = frame.degrees();
         let mut floors = vec![0.0; d - 2];
@@ -250,22 +233,26 @@ impl Stepper<'_> {
                 for (k, (floor, mass)) in floors.iter().zip(&frame.masses_kg).enumerate() {
                     pulls[i * (d - 2) + k] = -floor / mass - a[k % 2];
                 }
-                let Some(slowing) = slowing else { continue };
+                if !slips {
+                    continue;
+                }
                 let w = state.speed();
-                let (r, f) = (norm(w), slowing[i]);
+                let r = norm(w);
+                let [f, slope] = frame.slowing_and_slope(&loads, r);
                 let mut rate = push;
                 let mut bend = [[0.0; 2]; 2];
                 if f > 0.0 && r > 0.0 {
                     let u = [w[0] / r, w[1] / r];
                     rate = [push[0] - f * u[0], push[1] - f * u[1]];
                     bend = [0, 1].map(|a| {
-                        [0, 1].map(|b| f / r * (if a == b { 1.0 } else { 0.0 } - u[a] * u[b]))
+                        let across = |b: usize| if a == b { 1.0 } else { 0.0 } - u[a] * u[b];
+                        [0, 1].map(|b| f / r * across(b) + slope * u[a] * u[b])
                     });
                 }
                 size = size.max(norm(push) + f);
                 system.take(rule, h, i, bend, [rate[0] - rates[0][i], rate[1] - rates[1][i]]);
             }
-            if slowing.is_some() {
+            if slips {
                 let Some(steps) = system.solve() else { return false };
                 for i in 0..NODES {
                     for axis in 0..2 {

@@ -151,9 +151,12 @@ fn exact_keys_of_one_direction_or_two() {
         (
             format!(
                 "{}{PAIR}",
-                BLOCK.replace("= 0.05", "= { slow = 0.03, fast = 0.05, rate = \"25 s/m\" }")
+                BLOCK.replace(
+                    "= 0.05",
+                    "= { velocity = [\"0 m/s\", \"1 m/s\"], coefficient = [0.03, 0.05] }"
+                )
             ),
-            "slider.kinetic_friction.slow",
+            "slider.kinetic_friction.velocity",
         ),
         (
             format!("{}{PAIR}", BLOCK.replace("= 0.05", "= { positive = 0.03, negative = 0.05 }")),

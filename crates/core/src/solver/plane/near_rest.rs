@@ -62,7 +62,6 @@ impl Series {
         let z = root(state.w);
         (self.root[0][0], self.root[1][0]) = (z[0], z[1]);
         let mut push = [[0.0; DEGREE + 4]; 2];
-        let [f, f_rate] = loads.normal.map(|n| system.kinetic_per_kg * n);
         for k in 0..=order {
             let per = unit / (k + 1) as f64;
             self.restore(system, k);
@@ -71,6 +70,7 @@ impl Series {
             self.speed[k] = squares[0] + squares[1];
             self.w[0][k] = squares[0] - squares[1];
             self.w[1][k] = 2.0 * product(a, b, k);
+            self.find_slowing(system, k);
             let time = self.time[k];
             for axis in 0..2 {
                 let s = &self.s[axis];
@@ -87,16 +87,10 @@ impl Series {
                 break;
             }
             // p z̄ − f z, and f w
-            let [p, q] = &push;
+            let ([p, q], [a, b]) = (&push, &self.root);
             let turned = [product(p, a, k) + product(q, b, k), product(q, a, k) - product(p, b, k)];
-            let mut of_friction = [f * a[k], f * b[k]];
-            let mut taken = [f * self.w[0][k], f * self.w[1][k]];
-            if f_rate != 0.0 {
-                for axis in 0..2 {
-                    of_friction[axis] += f_rate * product(&self.time, &self.root[axis], k);
-                    taken[axis] += f_rate * product(&self.time, &self.w[axis], k);
-                }
-            }
+            let of_friction = [a, b].map(|z| self.slowed(system, z, k));
+            let taken = [0, 1].map(|axis| self.slowed(system, &self.w[axis], k));
             let mut block = [0.0; 2];
             for axis in 0..2 {
                 block[axis] = product(&self.speed, &self.pull[axis], k) - taken[axis];

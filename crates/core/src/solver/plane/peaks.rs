@@ -189,7 +189,6 @@ struct Composed {
 
 /// `φ = f u` near rest, where it is no series: bounds of its size and of its first two derivatives.
 struct NearRest {
-    friction: [f64; 2],
     sizes: [f64; 3],
 }
 
@@ -337,7 +336,7 @@ impl Peaks {
 
     /// The outputs that friction is part of.
     fn look_at_block(&mut self, system: &System, series: &Series, to: f64) {
-        let near = (series.kind == Kind::NearRest).then(|| near_rest(system, series, to));
+        let near = (series.kind == Kind::NearRest).then(|| near_rest(series, to));
         let pull = &series.pull;
         let block = Composed { steady: *pull, of_friction: 1.0 };
         let friction = Composed { steady: [ZERO; 2], of_friction: system.block_kg };
@@ -382,7 +381,7 @@ impl Peaks {
         }
     }
 
-    /// In slip the size of friction is linear in the time: its ends are its peaks.
+    /// Where the size of constant friction is linear in the time its ends are its peaks.
     fn look_at_friction(
         &mut self,
         system: &System,
@@ -391,7 +390,8 @@ impl Peaks {
         near: Option<&NearRest>,
         to: f64,
     ) {
-        if matches!(series.kind, Kind::Slip | Kind::Start) {
+        let is_constant = system.kinetic_per_kg.is_constant();
+        if is_constant && matches!(series.kind, Kind::Slip | Kind::Start) {
             let f: [Polynomial; 2] = series.friction.map(|f| scaled(&f, system.block_kg));
             self.all[Output::FrictionForce.place(self.storeys)].look_at_axes(&f, to);
         } else {
@@ -467,8 +467,7 @@ fn combined(row: &[f64], list: &[f64], order: usize) -> Polynomial {
 /// |θ''| ≤ |p| |θ'| + |u × p'|,   |u × p'| ≤ |u_0 × p'| + x |p'| |θ'|
 /// |θ'| ≤ (|u_0 × p_0| + x |u_0 × p'|) e^{(|p| + x |p'|) x}
 /// ```
-fn near_rest(system: &System, series: &Series, to: f64) -> NearRest {
-    let [f, f_rate] = series.loads.normal.map(|n| system.kinetic_per_kg * n);
+fn near_rest(series: &Series, to: f64) -> NearRest {
     let h = series.unit;
     let [u_x, u_y] = [series.w[0][0], series.w[1][0]].map(|w| w / series.speed[0]);
     let push = [0, 1].map(|axis| -> Polynomial {
@@ -484,27 +483,27 @@ fn near_rest(system: &System, series: &Series, to: f64) -> NearRest {
     let growth = libm::exp((size + to * slope) * to);
     let turn = size.min((across[0].abs() + to * across_slope) * growth);
     let second_turn = size * turn + slope.min(across_slope + to * slope * turn);
-    let [time_slope, _] = bounds(&series.time, to);
-    let largest = f.max(f + f_rate * value(&series.time, to));
-    let changes = f_rate.abs() * time_slope;
-    let of_time = 8.0 * f_rate.abs() * bend(&series.time, to) / (to * to).max(f64::MIN_POSITIVE);
-    let second = largest * (turn * turn + second_turn) + 2.0 * changes * turn + of_time;
+    let f = &series.slowing;
+    let [changes, _] = bounds(f, to);
+    let bend = bend(f, to);
+    let largest = f[0].max(value(f, to)) + bend;
+    let bent = 8.0 * bend / (to * to).max(f64::MIN_POSITIVE);
+    let second = largest * (turn * turn + second_turn) + 2.0 * changes * turn + bent;
     let first = largest * turn + changes;
-    NearRest { friction: [f, f_rate], sizes: [largest, first, second] }
+    NearRest { sizes: [largest, first, second] }
 }
 
 impl NearRest {
-    fn composed(&self, composed: &Composed, series: &Series, x: f64) -> [f64; 2] {
+    fn composed(composed: &Composed, series: &Series, x: f64) -> [f64; 2] {
         let w = series.velocity_at(x);
-        let f = self.friction[0] + self.friction[1] * value(&series.time, x);
-        let per_speed = composed.of_friction * f / norm(w);
+        let per_speed = composed.of_friction * value(&series.slowing, x) / norm(w);
         [0, 1].map(|k| value(&composed.steady[k], x) - per_speed * w[k])
     }
 
     /// Looks for peaks of `V = A − c φ`; with `|φ| = f` that of `|V|² = |A|² − 2 c A·φ + c² f²` is flat where
     /// `A` is small.
     fn look(&self, peak: &mut Peak, composed: &Composed, series: &Series, to: f64) {
-        let of = |x: f64| self.composed(composed, series, x);
+        let of = |x: f64| Self::composed(composed, series, x);
         let ends = [of(0.0), of(to)];
         peak.note_ends(ends, to);
         let (a, c) = (&composed.steady, composed.of_friction);
@@ -523,9 +522,9 @@ impl NearRest {
         let [slope, steady] = [norm(slopes), norm(sizes)];
         let product =
             norm(bends) * size + 0.125 * (to * to) * (2.0 * slope * first + steady * second);
-        let change = self.friction[1] * bounds(&series.time, to)[0];
-        let of_friction = 0.25 * (to * to) * (change * change)
-            + 2.0 * size * self.friction[1].abs() * bend(&series.time, to);
+        let [change, _] = bounds(&series.slowing, to);
+        let of_friction =
+            0.25 * (to * to) * (change * change) + 2.0 * size * bend(&series.slowing, to);
         let bend = bend(&squared(a), to) + 2.0 * c * product + c * c * of_friction;
         let square = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
         let rounding = ROUNDING * (peak.norm * peak.norm);

@@ -54,6 +54,9 @@ pub(super) struct Series {
     /// `P`, and what friction takes of it, `f u`: in stick `p`; not near rest.
     pub(super) pull: [Polynomial; 2],
     pub(super) friction: [Polynomial; 2],
+    /// `μ_k/M1` and `f` in slip.
+    pub(super) kinetic_per_kg: Polynomial,
+    pub(super) slowing: Polynomial,
     /// `u` in slip; not near rest.
     pub(super) direction: [Polynomial; 2],
     pub(super) shear: [Polynomial; 2],
@@ -118,6 +121,8 @@ impl Series {
             w: pair(),
             pull: pair(),
             friction: pair(),
+            kinetic_per_kg: ZERO,
+            slowing: ZERO,
             direction: pair(),
             shear: pair(),
             eta: list(),
@@ -138,6 +143,7 @@ impl Series {
             Kind::Stick | Kind::Frictionless => {}
         }
         (self.time, self.speed) = (ZERO, ZERO);
+        (self.kinetic_per_kg, self.slowing) = (ZERO, ZERO);
         for k in 0..2 {
             (self.s[k][0], self.w[k][0]) = (state.s[k], state.w[k]);
         }
@@ -193,9 +199,6 @@ impl Series {
                 self.integrate(system, k);
             }
         }
-        if kind == Kind::Start {
-            self.speed = along.speed;
-        }
         self.fit(scales);
     }
 
@@ -220,22 +223,44 @@ impl Series {
                 }
                 return;
             }
-            Kind::Slip => self.find_direction(k),
+            Kind::Slip => {
+                self.find_direction(k);
+                self.find_slowing(system, k);
+            }
             Kind::Start => self.find_start(system, along, k),
         }
-        let [f, change] = self.friction_per_kg(system);
         for axis in 0..2 {
-            let u = &self.direction[axis];
-            let before = if k > 0 { u[k - 1] } else { 0.0 };
-            self.friction[axis][k] = f * u[k] + change * before;
+            self.friction[axis][k] = self.slowed(system, &self.direction[axis], k);
         }
     }
 
-    /// `f` and its change over the unit.
+    /// Coefficient `k` of `f = μ_k N/M1`, from `|w|` and the time up to `k`.
     #[inline(always)]
-    pub(super) fn friction_per_kg(&self, system: &System) -> [f64; 2] {
+    pub(super) fn find_slowing(&mut self, system: &System, k: usize) {
         let [normal, rate] = self.loads.normal;
-        [system.kinetic_per_kg * normal, system.kinetic_per_kg * (rate * self.unit)]
+        let law = &system.kinetic_per_kg;
+        self.kinetic_per_kg[k] = law.expand(&self.speed, &self.kinetic_per_kg, k);
+        let change = match rate {
+            0.0 => 0.0,
+            rate if law.is_constant() => rate * self.kinetic_per_kg[0] * self.time[k],
+            rate => rate * product(&self.kinetic_per_kg, &self.time, k),
+        };
+        self.slowing[k] = normal * self.kinetic_per_kg[k] + change;
+    }
+
+    /// Coefficient `k` of `f` times a series.
+    #[inline(always)]
+    pub(super) fn slowed(&self, system: &System, of: &Polynomial, k: usize) -> f64 {
+        let f = &self.slowing;
+        if !system.kinetic_per_kg.is_constant() {
+            return product(f, of, k);
+        }
+        match self.kind {
+            Kind::NearRest if self.loads.normal[1] != 0.0 => product(f, of, k),
+            // Linear in the time.
+            _ if k > 0 => f[0] * of[k] + f[1] * of[k - 1],
+            _ => f[0] * of[0],
+        }
     }
 
     /// `r² = w·w` and `r u = w`.

@@ -11,7 +11,6 @@ pub(super) struct Along {
     cosine: Polynomial,
     sine: Polynomial,
     w: [Polynomial; 2],
-    pub(super) speed: Polynomial,
 }
 
 impl Series {
@@ -25,14 +24,14 @@ impl Series {
     /// It is convergent for `|p| > f`, where `r_1 = |p| − f`. For `|p| = f`, `r_1 = 0`, the direction is slaved
     /// to that of `p`, and the series asymptotic.
     pub(super) fn find_start(&mut self, system: &System, along: &mut Along, k: usize) {
-        let [f, change] = self.friction_per_kg(system);
         let h = self.unit;
         let push = [0, 1].map(|axis| self.pull[axis][k] - self.table(axis, k));
         if k == 0 {
-            let size = norm(push);
+            self.find_slowing(system, 0);
+            let (size, f) = (norm(push), self.slowing[0]);
             let e = if size > 0.0 { push.map(|p| p / size) } else { [1.0, 0.0] };
             along.axes = [e, [-e[1], e[0]]];
-            (along.cosine[0], along.speed[1]) = (1.0, h * beyond(size, f));
+            (along.cosine[0], self.speed[1]) = (1.0, h * beyond(size, f));
             // b = a + (|p| − f) e₁: what of it is rounding is none.
             for axis in 0..2 {
                 self.pull[axis][0] = self.table(axis, 0) + (f + beyond(size, f)) * e[axis];
@@ -41,16 +40,18 @@ impl Series {
             for (w, e) in along.w.iter_mut().zip(along.axes) {
                 w[k] = inner([self.w[0][k], self.w[1][k]], e);
             }
-            let (r, c, s) = (&along.speed, &along.cosine, &along.sine);
+            let (c, s) = (&along.cosine, &along.sine);
             // r_k = Σ_{0<j≤k} (w₁_j c_{k−j} + w₂_j s_{k−j})
             let [w1, w2] = &along.w;
-            let r_k = convolved(&w1[1..=k], &c[..k]) + convolved(&w2[1..=k], &s[..k]);
-            along.speed[k] = if k == 1 { r[1] } else { r_k };
-            let r = &along.speed;
+            if k > 1 {
+                self.speed[k] = convolved(&w1[1..=k], &c[..k]) + convolved(&w2[1..=k], &s[..k]);
+            }
+            self.find_slowing(system, k);
+            let (r, f) = (&self.speed, &self.slowing);
             let turns = (k + 1) as f64 / h;
             let known = if k > 1 { convolved(&r[2..=k], &s[1..k]) } else { 0.0 };
-            let across = inner(push, along.axes[1]) - change * s[k - 1] - turns * known;
-            let factor = f + turns * r[1];
+            let across = inner(push, along.axes[1]) - convolved(&f[1..=k], &s[..k]) - turns * known;
+            let factor = f[0] + turns * r[1];
             let s_k = if across == 0.0 { 0.0 } else { across / factor };
             let within = |p: &Polynomial| if k > 1 { convolved(&p[1..k], &p[1..k]) } else { 0.0 };
             let c_k = -0.5 * (within(c) + within(s));

@@ -84,8 +84,8 @@ impl Plane<'_> {
     pub(super) fn slide(&mut self, stretch: &Stretch, at_s: f64) -> f64 {
         let left_s = stretch.to_s - at_s;
         let loads = self.loads(stretch, at_s);
-        let has_friction =
-            self.system.kinetic_per_kg > 0.0 && (loads.normal[0] > 0.0 || loads.normal[1] > 0.0);
+        let is_pressed = loads.normal[0] > 0.0 || loads.normal[1] > 0.0;
+        let has_friction = is_pressed && !self.system.kinetic_per_kg.is_none();
         if !has_friction {
             self.starts = false;
             return self.step_in_time(Kind::Frictionless, (stretch, at_s), loads, left_s);

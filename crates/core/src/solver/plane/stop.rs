@@ -17,8 +17,9 @@ pub(super) struct Instant {
     /// `P` and `p`.
     pub(super) pull: [f64; 2],
     pub(super) push: [f64; 2],
-    /// `f`, and `μ_s N/M1`.
+    /// `f`, between which two it is down to rest, and `μ_s N/M1`.
     pub(super) friction: f64,
+    to_rest: [f64; 2],
     pub(super) holds: f64,
 }
 
@@ -26,11 +27,15 @@ impl Instant {
     /// Of a state under loads; leaves `g` behind.
     pub(super) fn new(system: &System, state: &State, loads: &Loads, g: &mut [f64]) -> Self {
         let pull = state.pull(system, loads.normal[0], g);
+        let speed = norm(state.w);
+        let [friction, at_rest] =
+            [speed, 0.0].map(|r| system.kinetic_per_kg.at(r) * loads.normal[0]);
         Self {
-            speed: norm(state.w),
+            speed,
             pull,
             push: loads.push(pull),
-            friction: system.kinetic_per_kg * loads.normal[0],
+            friction,
+            to_rest: [friction.min(at_rest), friction.max(at_rest)],
             holds: system.static_per_kg * loads.normal[0],
         }
     }
@@ -44,7 +49,7 @@ impl Instant {
         loads: &Loads,
         g: &[f64],
     ) -> Option<f64> {
-        let (p, f, r) = (norm(self.push), self.friction, self.speed);
+        let (p, [f, most], r) = (norm(self.push), self.to_rest, self.speed);
         if !(p < f) {
             return None;
         }
@@ -53,15 +58,16 @@ impl Instant {
             return None;
         }
         let longest_s = r / (f - p);
-        let of_friction = system.kinetic_per_kg * loads.normal[1];
-        let rate = 2.0 * self.rate_of_push(system, state, loads, g) + of_friction.abs();
+        let per_n = most / loads.normal[0];
+        let of_friction = per_n * loads.normal[1].abs();
+        let rate = 2.0 * self.rate_of_push(system, state, loads, g) + of_friction;
         (p + rate * longest_s < f).then_some(time_s.max(0.0))
     }
 
     /// A bound on `|ṗ|` over times in which nothing but the direction of `w` changes: there `|b| ≤ |P| + f`.
     fn rate_of_push(&self, system: &System, state: &State, loads: &Loads, g: &[f64]) -> f64 {
         let modes = system.modes();
-        let largest = norm(self.pull) + self.friction;
+        let largest = norm(self.pull) + self.to_rest[1];
         let mut bound = 0.0;
         let mut of_rates = vec![0.0; modes];
         let forces: Vec<f64> = (0..modes)

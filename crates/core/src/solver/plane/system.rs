@@ -4,6 +4,7 @@ use crate::error::SolveError;
 use crate::linear;
 use crate::model::Model;
 use crate::numerics::algebra::dot;
+use crate::slider::Kinetic;
 use crate::solver::outputs::overturning;
 use crate::solver::tables::system_of;
 
@@ -30,7 +31,7 @@ pub(in crate::solver) struct System {
     pub(super) per_radius: f64,
     /// `μ_s/M1` and `μ_k/M1`: times `N` the accelerations that friction holds and takes.
     pub(super) static_per_kg: f64,
-    pub(super) kinetic_per_kg: f64,
+    pub(super) kinetic_per_kg: Kinetic,
     omega2: Vec<f64>,
     /// `D`, row by row where the modes are coupled, else its diagonal.
     damping: Vec<f64>,
@@ -82,7 +83,7 @@ impl System {
             damper_n_s_per_m: model.slider().damper_n_s_per_m,
             per_radius: slider.per_radius,
             static_per_kg: slider.fixed * per_kg,
-            kinetic_per_kg: slider.kinetic * per_kg,
+            kinetic_per_kg: slider.kinetic.times(per_kg),
             omega2: if n == 0 {
                 Vec::new()
             } else {

@@ -35,6 +35,7 @@ pub(super) struct Sizes {
     s: f64,
     of_velocity: f64,
     push: f64,
+    slowing: f64,
     eta: f64,
     rate: f64,
     is_known: bool,
@@ -55,6 +56,7 @@ impl Sizes {
             s: first(&series.s, scales.s),
             of_velocity: if is_near_rest { norm(root) } else { first(&series.w, scales.w) },
             push: if is_stuck { (0..LOW).fold(0.0, |all, k| push(k).max(all)) } else { 1.0 },
+            slowing: largest(&series.slowing[..LOW], 0.0),
             eta: of_modes(&series.eta, scales.eta),
             rate: of_modes(&series.rate, scales.rate),
             is_known: true,
@@ -76,6 +78,7 @@ impl Sizes {
         let at = k * series.modes..(k + 1) * series.modes;
         let of_modes = over(largest(&series.eta[at.clone()], 0.0), self.eta)
             .max(over(largest(&series.rate[at], 0.0), self.rate));
+        let of_kind = of_kind.max(over(series.slowing[k].abs(), self.slowing));
         of_kind.max(pair(&series.s, self.s)).max(of_modes)
     }
 

@@ -14,16 +14,15 @@ use crate::model::{AlongY, Block, Damping, Frame, InitialState, Model, Slider};
 use crate::response::{
     Demands, Event, EventInPlane, EventKind, InPlane, Method, Mode, StoreyDemands,
 };
-use crate::slider::{Direction, Friction};
+use crate::slider::Friction;
 
-/// The cases of step 1.
+/// The reference cases.
 pub(super) fn cases() -> Vec<Value> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let path = root.join("../../data/reference/bidirectional.json");
     let text = std::fs::read_to_string(path).expect("the reference cases");
     let file: Value = serde_json::from_str(&text).expect("JSON");
-    let all = file["cases"].as_array().expect("cases").iter();
-    all.filter(|case| case["step"] == 1).cloned().collect()
+    file["cases"].as_array().expect("cases").clone()
 }
 
 pub(super) fn number(value: &Value) -> f64 {
@@ -53,7 +52,17 @@ pub(super) struct System {
 
 pub(super) fn system(case: &Value) -> System {
     let p = |name: &str| case["params"].get(name).and_then(Value::as_f64);
-    let friction = Friction::new(p("mu_s").unwrap(), p("mu_d").unwrap()).unwrap();
+    let fixed = p("mu_s").unwrap();
+    let friction = match &case["params"]["mu_exp"] {
+        Value::Null => Friction::new(fixed, p("mu_d").unwrap()),
+        by_speed => {
+            let [slow, fast, rate_s_per_m] =
+                ["slow", "fast", "rate"].map(|name| number(&by_speed[name]));
+            RateLaw::new(RateCurve::Exponential { slow, fast, rate_s_per_m }, [1.0; 2])
+                .and_then(|law| Friction::by_speed([fixed; 2], law))
+        }
+    };
+    let friction = friction.unwrap();
     let mut slider = match p("R") {
         Some(radius_m) => Slider::pendulum(friction, radius_m),
         None => Slider::sprung(friction, p("K1").unwrap()),
@@ -140,7 +149,7 @@ impl Driver<'_> {
         } else {
             let from_rest = unit(forces.push).filter(|_| self.heading.is_none());
             let u = unit(state.speed()).or(from_rest).or(self.heading).unwrap_or([0.0; 2]);
-            let f = frame.slowing(loads);
+            let f = frame.slowing(loads, norm(state.speed()));
             let block = [0, 1].map(|i| forces.push[i] + a[i] - f * u[i]);
             (times(u, -frame.block_kg * f), block)
         };
@@ -189,7 +198,8 @@ impl Driver<'_> {
             if slips {
                 let loads = stretch.at(t);
                 let push = frame.forces(&state.x, &state.v, &loads, &mut floors).push;
-                let (r, p, f) = (norm(state.speed()), norm(push), frame.slowing(&loads));
+                let (r, p) = (norm(state.speed()), norm(push));
+                let f = frame.slowing(&loads, r);
                 self.heading = unit(state.speed());
                 if r > 0.0 && (dot(push, state.speed()) < 0.0 || p < f) {
                     step_s = step_s.min(0.25 * r / (f + p));
@@ -238,29 +248,35 @@ impl Driver<'_> {
 /// What all of a judge's parts are borrowed from.
 pub(super) struct Parts {
     law: Law,
-    frame: PlaneFrame,
     outputs: Outputs,
+}
+
+impl Parts {
+    pub(super) fn frame(&self, system: &System) -> PlaneFrame<'_> {
+        let vertical = system.motion.vertical_m_per_s2().is_some();
+        let end_s = system.motion.duration_s();
+        let normal = Ground::new(&system.model, &system.motion, end_s).largest(end_s).0;
+        PlaneFrame::new(&system.model, vertical, &self.law, normal)
+    }
 }
 
 pub(super) fn parts(system: &System) -> Parts {
     let vertical = system.motion.vertical_m_per_s2().is_some();
     let law = Law::new(&system.model, vertical);
-    let end_s = system.motion.duration_s();
-    let normal = Ground::new(&system.model, &system.motion, end_s).largest(end_s).0;
-    let frame = PlaneFrame::new(&system.model, vertical, &law, normal);
-    Parts { law, frame, outputs: Outputs::with_moment(&system.model, false) }
+    Parts { law, outputs: Outputs::with_moment(&system.model, false) }
 }
 
 /// The true history of a system, by its known events.
 pub(super) fn drive(system: &System) -> Response {
     let parts = parts(system);
+    let frame = parts.frame(system);
     let (model, motion) = (&system.model, &system.motion);
     let end_s = motion.duration_s();
     let table_y = motion.horizontal_y_m_per_s2().unwrap();
     let grounds =
         [motion.horizontal_m_per_s2(), table_y].map(|list| Ground::of(model, motion, list, end_s));
     let h = History { storeys: model.storeys(), ..History::default() };
-    let stepper = Stepper { frame: &parts.frame, rule: Rule::get() };
+    let stepper = Stepper { frame: &frame, rule: Rule::get() };
     let mut driver = Driver { stepper, grounds, h, y: HistoryAlongY::default(), heading: None };
     let mut times_s = motion.times_s().to_vec();
     times_s.extend(&system.events_s);
@@ -332,6 +348,7 @@ pub(super) fn with_judge<T>(
     tell: impl FnOnce(&PlaneJudge<'_>) -> T,
 ) -> T {
     let parts = parts(system);
+    let frame = parts.frame(system);
     let plane = response.in_plane.as_deref().unwrap();
     let given = Given {
         model: &system.model,
@@ -343,7 +360,7 @@ pub(super) fn with_judge<T>(
         along_y: plane.history.as_ref().unwrap(),
     };
     let pulse = Pulse::new(crate::progress::UNWATCHED);
-    let mut judge = PlaneJudge::new(given, (&parts.frame, &parts.law), &parts.outputs, pulse);
+    let mut judge = PlaneJudge::new(given, (&frame, &parts.law), &parts.outputs, pulse);
     assert!(judge.measure());
     judge.go_through().unwrap();
     tell(&judge)

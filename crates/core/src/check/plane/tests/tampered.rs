@@ -4,7 +4,7 @@ use super::drive::{System, cases, drive, system};
 use crate::check::{Certificate, check};
 use crate::model::{AlongY, Damping, Model, Slider};
 use crate::response::{Demands, History, HistoryAlongY, InPlane, Mode, Response};
-use crate::slider::{Direction, Friction};
+use crate::slider::{Direction, Friction, RateCurve, RateLaw};
 
 /// A tampered figure must stand above this.
 const SHOWS: f64 = 1e-9;
@@ -28,9 +28,10 @@ fn must_show_in_demands(system: &System, response: &Response, what: &str) {
     assert!(found > SHOWS, "{}: {what} went unnoticed: {found:e}", system.id);
 }
 
-/// Systems with their true responses: rigid, with a vertical motion, one and two storeys.
+/// Systems with their true responses: rigid, with a vertical motion, one and two storeys, friction by speed.
 fn systems() -> Vec<(System, Response)> {
-    let some = ["BIDI-SINES-EQUAL", "BIDI-VERTICAL-0", "BIDI-XY-1", "BIDI-UNEVEN-2"];
+    let some =
+        ["BIDI-SINES-EQUAL", "BIDI-VERTICAL-0", "BIDI-XY-1", "BIDI-UNEVEN-2", "BIDI-EXP-TAFT-1"];
     let cases = cases();
     let chosen = cases.iter().filter(|case| some.iter().any(|id| case["id"] == *id));
     chosen
@@ -167,6 +168,30 @@ fn exact_release_astray_shows() {
     }
 }
 
+/// The friction of a model with factors on the static and on the kinetic one.
+fn friction(model: &Model, of_fixed: f64, of_kinetic: f64) -> Friction {
+    let fixed = of_fixed * model.static_friction()[0];
+    match model.slider().rate() {
+        Some(law) => Friction::by_speed([fixed; 2], law.scaled(of_kinetic)),
+        None => Friction::new(fixed, of_kinetic * model.kinetic_friction()[0]),
+    }
+    .unwrap()
+}
+
+/// Friction by speed with another value at high speed, and with another rate.
+fn faded(model: &Model, part: f64) -> Vec<Friction> {
+    let Some(law) = model.slider().rate() else { return Vec::new() };
+    let RateCurve::Exponential { slow, fast, rate_s_per_m } = *law.curve() else {
+        return Vec::new();
+    };
+    let curves = [[fast * part, rate_s_per_m], [fast, rate_s_per_m * part]];
+    let of = |[fast, rate_s_per_m]: [f64; 2]| {
+        let law = RateLaw::new(RateCurve::Exponential { slow, fast, rate_s_per_m }, [1.0; 2]);
+        law.and_then(|law| Friction::by_speed(model.static_friction(), law)).unwrap()
+    };
+    curves.map(of).to_vec()
+}
+
 #[test]
 fn exact_changed_model_shows() {
     for (system, response) in systems() {
@@ -179,14 +204,17 @@ fn exact_changed_model_shows() {
         let all_slides = !response.history.as_ref().unwrap().mode.contains(&Mode::Stick);
         for part in [1.0 + 1e-6, 1.0 - 1e-6] {
             let equal = fixed == kinetic;
-            let pairs = [
-                Some([fixed * part, kinetic * part]),
-                (!equal && !all_slides).then_some([fixed * part, kinetic]),
-                (!equal).then_some([fixed, kinetic * part]),
+            let parts = [
+                Some([part, part]),
+                (!equal && !all_slides).then_some([part, 1.0]),
+                (!equal).then_some([1.0, part]),
             ];
-            for [fixed, kinetic] in pairs.into_iter().flatten() {
-                let friction = Friction::new(fixed, kinetic).unwrap();
+            for [of_fixed, of_kinetic] in parts.into_iter().flatten() {
+                let friction = friction(&system.model, of_fixed, of_kinetic);
                 must_show(system.model.with_friction(friction), "μ changed by 1e-6");
+            }
+            for friction in faded(&system.model, part) {
+                must_show(system.model.with_friction(friction), "what the speed does to μ");
             }
             let with = |slider: Slider, along_y: AlongY| {
                 let m = &system.model;
@@ -198,9 +226,8 @@ fn exact_changed_model_shows() {
             let (slider, mut along_y) = (system.model.slider().clone(), system.model.along_y());
             let damper = Slider { damper_n_s_per_m: 0.1 * part, ..slider.clone() };
             must_show(with(damper, along_y.clone()), "a damper");
-            let friction = Friction::new(fixed, kinetic).unwrap();
             if let Some(radius_m) = slider.radius_m() {
-                let other = Slider::pendulum(friction, radius_m * part);
+                let other = Slider::pendulum(friction(&system.model, 1.0, 1.0), radius_m * part);
                 must_show(with(other, along_y.clone()), "a radius");
             }
             if let Some(k) = along_y.stiffnesses_n_per_m.first_mut() {
