@@ -26,7 +26,7 @@ pub use globs::{expand, expand_all};
 pub use laboratory::{LaboratoryError, TextFile, read_mapping, read_measured};
 pub use load::{LoadedMotion, RecordRequest, SourceFile, VerticalRequest, load_record};
 pub use parquet::{UNIT_KEY, columns_to_bytes, read_columns, write_columns};
-pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve};
+pub use read::{MAX_BYTES, modes_beside, read_at_most, read_bytes, resolve};
 pub use records::{
     FileNames, RecordOptions, Wanted, WrittenFormat, channels, one_channel, open_record,
 };
