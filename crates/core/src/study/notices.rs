@@ -64,9 +64,11 @@ fn missing_mass(model: &Model) -> Option<Notice> {
     };
     let more = if found < ENOUGH_MODES { "; below 90 % more modes are needed" } else { "" };
     let message = format!(
-        "the modes have {:.2} % of the structure's mass; the rest, {missing_kg:.6} kg, moves with the \
+        "the modes have {:.4} % of the structure's mass; the rest, {:.4} % or {} kg, moves with the \
          block{more}",
-        100.0 * found
+        100.0 * found,
+        100.0 - 100.0 * found,
+        missing_kg.round()
     );
     Some(Notice::new(kind, message))
 }
