@@ -131,7 +131,10 @@ fn assert_alike(name: &str, frame: &Response, modes: &Response) {
     same("residual", residual[0], residual[1], slide);
     same("path", a.sliding_path_m, b.sliding_path_m, a.sliding_path_m);
     for (what, of) in [
-        ("velocity", (|d| d.peak_sliding_velocity_m_per_s) as fn(&slipstick::response::Demands) -> f64),
+        (
+            "velocity",
+            (|d| d.peak_sliding_velocity_m_per_s) as fn(&slipstick::response::Demands) -> f64,
+        ),
         ("block", |d| d.peak_block_acceleration_m_per_s2),
         ("base shear", |d| d.peak_base_shear_n),
         ("friction", |d| d.peak_friction_force_n),
@@ -188,8 +191,8 @@ fn frame(n: usize, slider: Slider) -> (Model, GroundMotion) {
         let t = 0.01 * f64::from(i);
         2.5 * (6.1 * t).sin() + 1.5 * (19.3 * t).sin()
     };
-    let motion = GroundMotion::evenly_spaced(0.01, (0..1500).map(sample).collect(), None)
-        .expect("a motion");
+    let motion =
+        GroundMotion::evenly_spaced(0.01, (0..1500).map(sample).collect(), None).expect("a motion");
     (model, motion)
 }
 
@@ -227,16 +230,16 @@ fn exact_mass_without_a_mode_moves_with_the_block() {
     let block = Block { mass_kg: whole.bare_block_kg(), ..*whole.block() };
     let (slider, initial) = (whole.slider().clone(), InitialState::rest());
     let cut = Model::with_modes(block, slider, structure, 9.80665, initial).expect("modes");
-    let (total, missing_kg) = (cut.total_mass_kg(), cut.structure().expect("modes").missing_mass_kg());
+    let (total, missing_kg) =
+        (cut.total_mass_kg(), cut.structure().expect("modes").missing_mass_kg());
     assert!((total / whole.total_mass_kg() - 1.0).abs() < 1e-14 && missing_kg > 0.0);
     let response = exact(&cut, &motion).expect("a response");
     assert!(check(&cut, &motion, &response).holds());
     let history = response.history.as_ref().expect("a history");
     // Σ φ q̈ + (1 − Σ φ L) u is the printed acceleration: its largest at knots is below the peak.
     for (i, point) in response.demands.points.iter().enumerate() {
-        let largest = (0..history.len())
-            .map(|k| history.point_acceleration(k, i).abs())
-            .fold(0.0, f64::max);
+        let largest =
+            (0..history.len()).map(|k| history.point_acceleration(k, i).abs()).fold(0.0, f64::max);
         let peak = point.peak_acceleration_m_per_s2;
         assert!(largest <= peak * (1.0 + 1e-12) && largest > 0.9 * peak, "{i}: {largest} {peak}");
     }

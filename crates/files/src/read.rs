@@ -67,7 +67,10 @@ pub fn modes_beside(path: &Path, name: &str, bytes: &[u8]) -> Result<Option<Over
     input::modes_beside(name, &text, |written| {
         let path = resolve(folder, written);
         let table = read_at_most(&path, input::MAX_TEXT_BYTES as u64)?;
-        Ok::<_, FileError>((path.display().to_string(), String::from_utf8_lossy(&table).into_owned()))
+        Ok::<_, FileError>((
+            path.display().to_string(),
+            String::from_utf8_lossy(&table).into_owned(),
+        ))
     })
 }
 

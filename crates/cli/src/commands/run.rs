@@ -11,8 +11,8 @@ use slipstick::input::{self, Analysis, Override, Scale};
 use slipstick::record;
 use slipstick::requests::Kind;
 use slipstick_files::{
-    FileError, OpenJob, OutputFolder, RecordRequest, events_csv, history_csv, modes_beside, read_at_most,
-    record_path,
+    FileError, OpenJob, OutputFolder, RecordRequest, events_csv, history_csv, modes_beside,
+    read_at_most, record_path,
 };
 use slipstick_report::{FileNote, InputText, Report, Summary, table};
 
@@ -115,7 +115,8 @@ impl ModelFile {
     /// What is wrong with it: with the line in question, unless that is one of the table of modes.
     pub fn failure(&self, error: InputError) -> Failure {
         let named = |modes: &Override| modes.text().ends_with(&error.place.source_name);
-        match self.modes.as_ref().filter(|_| !error.place.source_name.is_empty()).is_some_and(named) {
+        match self.modes.as_ref().filter(|_| !error.place.source_name.is_empty()).is_some_and(named)
+        {
             true => Failure::Message(error.to_string()),
             false => Failure::input(error, &self.text()),
         }

@@ -31,7 +31,7 @@ fn folder(test: &str, modes: &str) -> Folder {
 
 #[test]
 fn exact_points_have_names_and_peaks() {
-    let json = folder("structure-points", MODES).json(&["run", "model.toml", "--json"]);
+    let json = folder("structure-points", MODES).json(&["model.toml"]);
     let points = json["points"].as_array().expect("a list");
     assert_eq!(points.len(), 2);
     assert_eq!((&points[0]["name"], &points[1]["name"]), (&"Roof".into(), &"first".into()));
@@ -51,10 +51,25 @@ fn exact_faults_of_a_table_of_modes_are_told_where_they_are() {
         ("nan", "0.0012", "nan", "modes.csv:2:22: expected a finite number, found \"nan\""),
         ("short", ",0.0012", "", "modes.csv:2:1: expected 5 values, as the header has, found 4"),
         ("complex", "0.2,", "0.2+1i,", "modes.csv:3:1: expected a finite number, found \"0.2+1i\""),
-        ("order", "0.2,", "0.6,", "modes.csv:3:1: structure.mode.2.period: expected a period of at most 0.5 s"),
+        (
+            "order",
+            "0.2,",
+            "0.6,",
+            "modes.csv:3:1: structure.mode.2.period: expected a period of at most 0.5 s",
+        ),
         ("unit", "period_s", "period", "modes.csv:1:1: expected its unit in the name"),
-        ("sum", ",300,", ",500,", "modes.csv:3:10: structure.mode.2.participation: expected effective masses"),
-        ("negative", "0.5,", "-0.5,", "modes.csv:2:1: structure.mode.1.period: expected a finite time > 0"),
+        (
+            "sum",
+            ",300,",
+            ",500,",
+            "modes.csv:3:10: structure.mode.2.participation: expected effective masses",
+        ),
+        (
+            "negative",
+            "0.5,",
+            "-0.5,",
+            "modes.csv:2:1: structure.mode.1.period: expected a finite time > 0",
+        ),
     ] {
         let folder = folder(&format!("structure-{name}"), &MODES.replacen(from, to, 1));
         let message = folder.refused(&["run", "model.toml"]);
@@ -76,7 +91,7 @@ fn exact_examples_of_structures_run_as_they_stand() {
     for example in ["structure", "tank-sloshing"] {
         let folder = Folder::new(&format!("structure-init-{example}"));
         folder.stdout(&["init", "it", "--example", example]);
-        let json = folder.json(&["run", "it.toml", "--json"]);
+        let json = folder.json(&["it.toml"]);
         assert!(json["points"].as_array().is_some_and(|points| points.len() >= 2), "{example}");
         let warnings = json["warnings"].as_array().expect("a list");
         assert!(warnings.iter().all(|w| w["kind"] != "missing_modes"), "{warnings:?}");

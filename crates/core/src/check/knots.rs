@@ -291,13 +291,10 @@ impl LaneJudge<'_> {
         viscous.fill(Eight::ZERO);
         match &structure.damping {
             StoreyDamping::Chain(c) => {
-                term = larger(term, add_chain(
-                    simd,
-                    n,
-                    (c, structure.on_block),
-                    &bodies.v,
-                    &mut bodies.viscous,
-                ));
+                term = larger(
+                    term,
+                    add_chain(simd, n, (c, structure.on_block), &bodies.v, &mut bodies.viscous),
+                );
             }
             StoreyDamping::Full(c) => {
                 for i in 0..n {

@@ -3,9 +3,9 @@
 use core::f64::consts::TAU;
 
 use super::frame;
-use super::structure;
 use super::motion::{self, MotionSource};
 use super::reader::Values;
+use super::structure;
 use super::{Analysis, FrictionBounds, Names};
 use crate::error::{InputError, ModelError};
 use crate::model::{Block, Contents, InitialState, Model, Slider, Stop};
@@ -46,9 +46,7 @@ pub(super) fn parts(values: &Values) -> Result<Parts, InputError> {
         refuse_in_plane(values)?;
     }
     let model = match structure {
-        Some(structure) => {
-            Model::with_modes(block, slider, structure, gravity_m_per_s2, initial)
-        }
+        Some(structure) => Model::with_modes(block, slider, structure, gravity_m_per_s2, initial),
         None => Model::new(block, slider, frame, gravity_m_per_s2, initial),
     };
     let model = model

@@ -156,7 +156,10 @@ fn read<'a>(
     for cell in &names {
         let column = column(&cell.text.trim_matches('"').to_lowercase()).map_err(|expected| {
             let error = sources.error(&cell.spot, "", expected, format!("{:?}", cut(cell.text)));
-            InputError { nearest: similar(cell.text, COLUMNS.into_iter().map(|column| column.0)), ..error }
+            InputError {
+                nearest: similar(cell.text, COLUMNS.into_iter().map(|column| column.0)),
+                ..error
+            }
         })?;
         let key = |column: &Column| match column {
             Column::Mode(key, _) => Some((*key).to_owned()),

@@ -124,10 +124,7 @@ fn points(values: &Values) -> Result<Vec<StructurePoint>, InputError> {
     Ok(points)
 }
 
-fn normalisation(
-    values: &Values,
-    points: &[StructurePoint],
-) -> Result<Normalisation, InputError> {
+fn normalisation(values: &Values, points: &[StructurePoint]) -> Result<Normalisation, InputError> {
     let path = "structure.normalisation";
     let Some(name) = values.text(path).filter(|name| *name != "mass") else {
         return Ok(Normalisation::Mass);

@@ -98,7 +98,8 @@ pub fn linear_fit<R: AsRef<[f64]>>(rows: &[(R, f64)]) -> Option<LinearFit> {
 pub fn solution(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Option<Vec<f64>> {
     let n = b.len();
     for k in 0..n {
-        let pivot = (k..n).reduce(|best, i| if a[i][k].abs() > a[best][k].abs() { i } else { best })?;
+        let pivot =
+            (k..n).reduce(|best, i| if a[i][k].abs() > a[best][k].abs() { i } else { best })?;
         if a[pivot][k] == 0.0 {
             return None;
         }

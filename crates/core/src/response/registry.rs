@@ -554,8 +554,7 @@ impl DemandColumn {
     /// The demand of any structure with this name in tables: `slip_count`, `storey12_peak_drift_m`.
     #[must_use]
     pub fn of_name(name: &str) -> Option<Self> {
-        let of_part =
-            [DemandOf::Storey, DemandOf::Point, DemandOf::Surface, DemandOf::Contents];
+        let of_part = [DemandOf::Storey, DemandOf::Point, DemandOf::Surface, DemandOf::Contents];
         let parted = of_part.into_iter().find_map(|of| {
             let (number, key) = name.strip_prefix(of.part()?)?.split_once('_')?;
             Some((Some(of), number.parse().ok().filter(|part| *part > 0)?, key))
@@ -665,7 +664,8 @@ mod tests {
     /// No name twice, every name found again, and names end in the unit of their demand.
     #[test]
     fn exact_names_are_found_again() {
-        let columns = DemandShape { storeys: 12, points: 3, stop: true, surfaces: 3, contents: 2 }.columns();
+        let columns =
+            DemandShape { storeys: 12, points: 3, stop: true, surfaces: 3, contents: 2 }.columns();
         for (i, column) in columns.iter().enumerate() {
             let name = column.name();
             assert_eq!(DemandColumn::of_name(&name), Some(*column), "{name}");

@@ -20,9 +20,9 @@ const HIGH_DAMPING: f64 = 0.3;
 /// Values that are possible and hardly meant.
 pub(crate) fn suspicious(model: &Model) -> Vec<Notice> {
     let coefficient = model.static_friction().into_iter().fold(0.0, f64::max);
-    let of_modes = model.structure().map(|structure| {
-        structure.modes.iter().map(|mode| mode.damping_ratio).fold(0.0, f64::max)
-    });
+    let of_modes = model
+        .structure()
+        .map(|structure| structure.modes.iter().map(|mode| mode.damping_ratio).fold(0.0, f64::max));
     let ratio = match model.frame().damping {
         _ if of_modes.is_some() => of_modes.unwrap_or(0.0),
         Damping::Ratio(ratio) if model.storeys() > 0 => ratio,

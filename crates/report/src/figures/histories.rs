@@ -185,10 +185,7 @@ pub fn drifts(scene: &Scene) -> Option<Drawn> {
              relative to the block)."
         }
     };
-    let caption = format!(
-        "{what} {SHADING}{}",
-        shown_note(&shown, history.told())
-    );
+    let caption = format!("{what} {SHADING}{}", shown_note(&shown, history.told()));
     Some(over_time(scene, ("drifts", "Storey drifts over time"), panels, caption))
 }
 

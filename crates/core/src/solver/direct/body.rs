@@ -254,7 +254,11 @@ impl Body {
         let chained = self.points.is_none();
         let below = if floor > 1 && chained { x.q[floor - 2] } else { 0.0 };
         let lower = (k[floor - 1] * (x.q[floor - 1] - below)).abs();
-        let upper = if floor < n && chained { (k[floor] * (x.q[floor] - x.q[floor - 1])).abs() } else { 0.0 };
+        let upper = if floor < n && chained {
+            (k[floor] * (x.q[floor] - x.q[floor - 1])).abs()
+        } else {
+            0.0
+        };
         dampers + lower + upper
     }
 
