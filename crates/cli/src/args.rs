@@ -396,4 +396,8 @@ pub enum Example {
     TriplePendulum,
     /// A laboratory with unfastened equipment
     Contents,
+    /// A building by its modes
+    Structure,
+    /// A tank with sloshing liquid
+    TankSloshing,
 }

@@ -18,6 +18,7 @@ mod json_schema;
 mod keys;
 pub mod loaded;
 mod mapping;
+mod modes;
 mod motion;
 mod overrides;
 mod paths;
@@ -25,6 +26,7 @@ pub mod plan;
 mod plan_keys;
 mod reader;
 mod schema;
+mod structure;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -71,6 +73,8 @@ pub struct Names {
     pub block: Option<String>,
     /// Of the storeys from the block up, such as `Roof`.
     pub storeys: Vec<Option<String>>,
+    /// Of the points of a structure by its modes.
+    pub points: Vec<String>,
 }
 
 impl Names {
@@ -85,6 +89,14 @@ impl Names {
     pub fn storey(&self, storey: usize) -> String {
         let name = self.storeys.get(storey.wrapping_sub(1)).and_then(Option::as_ref);
         name.cloned().unwrap_or_else(|| format!("Storey {storey}"))
+    }
+}
+
+impl Names {
+    /// What a point (from 1) is called: the storey, or the point of a structure by its modes.
+    #[must_use]
+    pub fn point(&self, point: usize) -> String {
+        self.points.get(point.wrapping_sub(1)).cloned().unwrap_or_else(|| self.storey(point))
     }
 }
 
@@ -244,6 +256,33 @@ pub fn from_values(values: &[(&str, InputValue<'_>)]) -> Result<Analysis, InputE
         set.add(&mut sources, &mut root)?;
     }
     build::analysis(reader::Values::read(sources, &root, &keys::MODEL)?)
+}
+
+/// The table of modes that a model file names, as what [`parse`] puts in its place: `read` gives the text of a
+/// file by its path, which is relative to the model file, with what errors call it.
+///
+/// # Errors
+/// [`InputError`] at the path, for what `read` says of a file that it cannot read. What is wrong with the model
+/// itself [`parse`] tells.
+pub fn modes_beside<E: core::fmt::Display>(
+    source_name: &str,
+    text: &str,
+    read: impl FnOnce(&str) -> Result<(String, String), E>,
+) -> Result<Option<Override>, InputError> {
+    let mut sources = tree::Sources::default();
+    let file = sources.add(source_name, text);
+    let Ok(root) = tree::parse_document(&sources, file) else { return Ok(None) };
+    let structure = root.get("structure").map(|entry| &entry.node.value);
+    let Some(tree::Value::Table(structure)) = structure else { return Ok(None) };
+    let Some(node) = structure.get("modes").map(|entry| &entry.node) else { return Ok(None) };
+    let tree::Value::Text(path) = &node.value else { return Ok(None) };
+    match read(path) {
+        Ok((name, table)) => Ok(Some(Override::modes(&name, &table))),
+        Err(error) => {
+            let expected = "a table of modes that can be read";
+            Err(sources.error(&node.spot, "structure.modes", expected, error.to_string()))
+        }
+    }
 }
 
 /// As [`parse`], for the bytes of a file.

@@ -1,8 +1,11 @@
 //! Masses, springs, dampers, storeys: inert, checked data without an algorithm.
 
 mod builder;
+mod structure;
 
 pub use builder::ModelBuilder;
+pub(crate) use structure::ROUNDED_MASS;
+pub use structure::{Structure, StructureMode, StructurePoint};
 
 use crate::error::ModelError;
 use crate::slider::{Bearing, Ends, Friction, Law, Restoring};
@@ -139,6 +142,7 @@ pub struct Model {
     block: Block,
     slider: Slider,
     frame: Frame,
+    structure: Option<Structure>,
     gravity_m_per_s2: f64,
     initial: InitialState,
     along_y: Option<AlongY>,
@@ -201,12 +205,85 @@ impl Model {
             block,
             slider,
             frame,
+            structure: None,
             gravity_m_per_s2,
             initial,
             along_y: None,
             contents: Vec::new(),
         };
         model.with_contents(Vec::new())
+    }
+
+    /// A model whose structure is given by its modes, each an oscillator on the block; what they lack of the
+    /// mass is added to the block's.
+    ///
+    /// # Errors
+    /// [`ModelError`] as [`Model::new`]; a structure needs a mode that takes part, a value a point in each, and
+    /// effective masses that sum to at most its mass.
+    pub fn with_modes(
+        block: Block,
+        slider: Slider,
+        structure: Structure,
+        gravity_m_per_s2: f64,
+        initial: InitialState,
+    ) -> Result<Self, ModelError> {
+        positive("block mass_kg", block.mass_kg)?;
+        structure.check()?;
+        let frame = structure.oscillators();
+        let block = Block { mass_kg: block.mass_kg + structure.missing_mass_kg(), ..block };
+        let model = Self::new(block, slider, frame, gravity_m_per_s2, initial)?;
+        Ok(Self { structure: Some(structure), ..model })
+    }
+
+    /// The structure, where it is given by its modes; [`frame`](Self::frame) then has their oscillators, each
+    /// on the block.
+    #[must_use]
+    pub fn structure(&self) -> Option<&Structure> {
+        self.structure.as_ref()
+    }
+
+    /// Number of points whose motion is told: the floors of a frame, or the points of a structure by its modes.
+    #[must_use]
+    pub fn points(&self) -> usize {
+        self.structure.as_ref().map_or(self.storeys(), |structure| structure.points.len())
+    }
+
+    /// Mass of the block in kg without what the modes of the structure lack.
+    #[must_use]
+    pub fn bare_block_kg(&self) -> f64 {
+        let missing = self.structure.as_ref().map_or(0.0, Structure::missing_mass_kg);
+        self.block.mass_kg - missing
+    }
+
+    /// Mass of each point and its height above the sliding surface, in kg and m, where block and points have
+    /// what an overturning moment is made of.
+    #[must_use]
+    pub fn lever_arms(&self) -> Option<Vec<[f64; 2]>> {
+        let block_m = self.block.height_m.unwrap_or(0.0);
+        if let Some(structure) = &self.structure {
+            let raised = |[mass_kg, height_m]: [f64; 2]| [mass_kg, block_m + height_m];
+            return Some(structure.shares()?.into_iter().map(raised).collect());
+        }
+        let heights_m = match &self.frame.heights_m {
+            Some(heights_m) => heights_m.as_slice(),
+            None if self.storeys() == 0 && self.block.height_m.is_some() => &[],
+            None => return None,
+        };
+        let mut above_m = block_m;
+        let floors = self.frame.masses_kg.iter().zip(heights_m).map(|(mass_kg, height_m)| {
+            above_m += height_m;
+            [*mass_kg, above_m]
+        });
+        Some(floors.collect())
+    }
+
+    /// Height of a floor above the one below or of a point above the one before it, in m, where it is known.
+    #[must_use]
+    pub fn rise_m(&self, point: usize) -> Option<f64> {
+        match &self.structure {
+            Some(structure) => structure.rise_m(point),
+            None => self.frame.heights_m.as_ref().map(|heights_m| heights_m[point]),
+        }
     }
 
     /// The same model with another structure or start along y; without it y is as x, and starts at rest.
@@ -255,7 +332,9 @@ impl Model {
     /// [`ModelError`] for contents without mass, with more kinetic than static friction, or on a floor
     /// that is not there.
     pub fn with_contents(mut self, contents: Vec<Contents>) -> Result<Self, ModelError> {
-        contents.iter().try_for_each(|contents| contents.check(self.storeys()))?;
+        // The oscillators of modes are no floors.
+        let floors = if self.structure.is_some() { 0 } else { self.storeys() };
+        contents.iter().try_for_each(|contents| contents.check(floors))?;
         self.contents = contents;
         // That of a pendulum may have grown beyond all numbers.
         not_negative("slider stiffness_n_per_m", self.slider_stiffness_n_per_m())?;
@@ -402,6 +481,7 @@ impl Model {
             && self.gravity_m_per_s2 == other.gravity_m_per_s2
             && self.block == other.block
             && self.frame == other.frame
+            && self.structure == other.structure
             && self.initial == other.initial
             && self.contents == other.contents
     }
@@ -436,6 +516,10 @@ impl Model {
         let mut q = vec![0.0; m.len()];
         let mut below_m = 0.0;
         for i in 0..m.len() {
+            if self.structure.is_some() {
+                q[i] = -slope * m[i] / k[i];
+                continue;
+            }
             // Storey i carries the slope's pull on all floors from i up.
             let floors_kg: f64 = m[i..].iter().sum();
             let contents = self.contents.iter().filter(|contents| contents.floor > i);

@@ -100,6 +100,10 @@ kinds! {
     LengthsDiffer "lengths_differ" Warning,
     /// The mean was taken off the values.
     MeanRemoved "mean_removed" Note,
+    /// The modes of the structure lack some of its mass, which moves with the block.
+    MissingMass "missing_mass" Note,
+    /// They lack more than a tenth of it.
+    MissingModes "missing_modes" Warning,
     /// Values are marked as missing.
     MissingValues "missing_values" Warning,
     /// The channel has no intensity measures.

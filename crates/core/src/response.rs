@@ -11,6 +11,9 @@ pub use registry::{
     demand_values,
 };
 
+use std::sync::Arc;
+
+use crate::model::Model;
 use crate::notice::Notice;
 use crate::slider::Direction;
 
@@ -132,6 +135,29 @@ pub(crate) fn interface_name(interface: usize) -> String {
     }
 }
 
+/// How the motion of points follows from that of the oscillators which the modes of a structure are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointFactors {
+    /// Point by point: what of each oscillator's motion the point has.
+    pub of_modes: Vec<Vec<f64>>,
+    /// What of the block's acceleration it has besides.
+    pub with_block: Vec<f64>,
+}
+
+impl PointFactors {
+    /// Those of a model whose structure is given by its modes.
+    #[must_use]
+    pub fn of(model: &Model) -> Option<Arc<Self>> {
+        let structure = model.structure()?;
+        let of_modes = |i: usize| structure.modes.iter().map(|mode| mode.points[i]).collect();
+        let points = 0..structure.points.len();
+        Some(Arc::new(Self {
+            of_modes: points.clone().map(of_modes).collect(),
+            with_block: points.map(|i| structure.with_block(i)).collect(),
+        }))
+    }
+}
+
 /// States at *knots*: every sample and both sides of every event, in order of time.
 ///
 /// Between two neighbouring knots with different times the table acceleration is linear, and modes
@@ -139,8 +165,11 @@ pub(crate) fn interface_name(interface: usize) -> String {
 /// event or a jump. Storey values are stored knot by knot, `storeys` values each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {
-    /// Number of storeys.
+    /// Number of storeys; of a structure by its modes that of the oscillators that its modes are, whose
+    /// motions are then stored as those of storeys.
     pub storeys: usize,
+    /// How the points of a structure by its modes follow from these; `None` of a frame.
+    pub points: Option<Arc<PointFactors>>,
     /// Number of sliding interfaces: the slider, then the contents.
     pub interfaces: usize,
     /// Number of surfaces in series; 0 of a slider that has one.
@@ -184,6 +213,7 @@ impl Default for History {
     fn default() -> Self {
         Self {
             storeys: 0,
+            points: None,
             interfaces: 1,
             surfaces: 0,
             time_s: Vec::new(),
@@ -246,6 +276,46 @@ impl History {
             self.contents_velocity_m_per_s[at],
             self.contents_acceleration_m_per_s2[at],
         ]
+    }
+
+    /// Number of points whose motion is told: storeys, or the points of a structure by its modes.
+    #[must_use]
+    pub fn point_count(&self) -> usize {
+        self.points.as_ref().map_or(self.storeys, |points| points.of_modes.len())
+    }
+
+    /// Displacement of a point at a knot in m, relative to the block.
+    #[must_use]
+    pub fn point_displacement(&self, knot: usize, point: usize) -> f64 {
+        self.of_point(self.storey_displacements(knot), point)
+    }
+
+    /// Velocity of a point at a knot in m/s, relative to the block.
+    #[must_use]
+    pub fn point_velocity(&self, knot: usize, point: usize) -> f64 {
+        self.of_point(self.storey_velocities(knot), point)
+    }
+
+    /// Total acceleration of a point at a knot in m/s².
+    #[must_use]
+    pub fn point_acceleration(&self, knot: usize, point: usize) -> f64 {
+        let of_modes = self.of_point(self.storey_accelerations(knot), point);
+        match &self.points {
+            None => of_modes,
+            Some(points) => {
+                of_modes + points.with_block[point] * self.block_acceleration_m_per_s2[knot]
+            }
+        }
+    }
+
+    fn of_point(&self, values: &[f64], point: usize) -> f64 {
+        match &self.points {
+            None => values[point],
+            Some(points) => {
+                let of = points.of_modes[point].iter().zip(values);
+                of.fold(0.0, |sum, (factor, value)| sum + factor * value)
+            }
+        }
     }
 
     /// Storey displacements at a knot, in m.
@@ -363,6 +433,9 @@ pub struct Demands {
     pub peak_block_acceleration_m_per_s2: f64,
     /// One entry a storey, from the block up.
     pub storeys: Vec<StoreyDemands>,
+    /// One entry a point of a structure by its modes, which has no storeys; the drift is that from the point
+    /// before, of the first point that from the block.
+    pub points: Vec<StoreyDemands>,
     /// Largest force of spring and damper of storey 1 in N, 0 without storeys; with a damping ratio,
     /// whose dampers join all floors, the whole force of the structure on the block.
     pub peak_base_shear_n: f64,

@@ -28,7 +28,7 @@ pub use load::{
     AlongYRequest, LoadedMotion, RecordRequest, SourceFile, VerticalRequest, load_record,
 };
 pub use parquet::{UNIT_KEY, columns_to_bytes, read_columns, write_columns};
-pub use read::{MAX_BYTES, read_at_most, read_bytes, resolve};
+pub use read::{MAX_BYTES, modes_beside, read_at_most, read_bytes, resolve};
 pub use records::{
     FileNames, RecordOptions, Wanted, WrittenFormat, channels, one_channel, open_record,
 };

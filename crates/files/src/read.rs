@@ -4,6 +4,9 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use slipstick::error::InputError;
+use slipstick::input::{self, Override};
+
 use crate::error::FileError;
 
 /// Largest file that is read: 1 GiB, ten bytes for each sample that a motion may have.
@@ -52,6 +55,23 @@ pub fn resolve(folder: &Path, written: &str) -> PathBuf {
         return as_written;
     }
     folder.join(written.replace('\\', "/"))
+}
+
+/// The table of modes beside a model file, where that names one: what is read in its place.
+///
+/// # Errors
+/// [`InputError`] at the path of a table that cannot be read.
+pub fn modes_beside(path: &Path, name: &str, bytes: &[u8]) -> Result<Option<Override>, InputError> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let text = String::from_utf8_lossy(bytes);
+    input::modes_beside(name, &text, |written| {
+        let path = resolve(folder, written);
+        let table = read_at_most(&path, input::MAX_TEXT_BYTES as u64)?;
+        Ok::<_, FileError>((
+            path.display().to_string(),
+            String::from_utf8_lossy(&table).into_owned(),
+        ))
+    })
 }
 
 #[cfg(test)]

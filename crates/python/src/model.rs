@@ -9,7 +9,7 @@ use slipstick::assessment::single::Job;
 use slipstick::error::InputError;
 use slipstick::input::{self, Analysis, InputValue, MotionSource, Override};
 use slipstick::units::Dimension;
-use slipstick_files::read_at_most;
+use slipstick_files::{modes_beside, read_at_most};
 use slipstick_report::opensees::script;
 
 use crate::errors::{of_argument, of_file, of_input};
@@ -169,9 +169,15 @@ impl Model {
         let limit = input::MAX_TEXT_BYTES as u64;
         let bytes = read_at_most(&path, limit).map_err(|error| of_file(py, &error))?;
         let source = path.display().to_string();
+        let modes = modes_beside(&path, &source, &bytes).map_err(|error| of_input(py, &error))?;
+        let modes: Vec<Override> = modes.into_iter().collect();
         let analysis =
-            input::from_bytes(&source, &bytes, &[]).map_err(|error| of_input(py, &error))?;
-        let text = String::from_utf8_lossy(&bytes).into_owned();
+            input::from_bytes(&source, &bytes, &modes).map_err(|error| of_input(py, &error))?;
+        let text = match modes.is_empty() {
+            true => String::from_utf8_lossy(&bytes).into_owned(),
+            // One text, with the modes in it.
+            false => analysis.to_toml_with_motion(),
+        };
         Ok(Self { analysis, source: absolute(&source), text })
     }
 

@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use slipstick::model::{Damping, Model, Stop, StopKind};
+use slipstick::model::{Damping, Model, Stop, StopKind, Structure, StructureMode};
 use slipstick::response::{Event, Mode};
 use slipstick::slider::{Direction, RateCurve};
 
@@ -22,8 +22,13 @@ pub fn value(display: DisplayUnits, quantity: Quantity, si: f64) -> String {
 pub fn model_line(model: &Model, display: DisplayUnits) -> String {
     let slider = model.slider();
     let mut parts =
-        vec![format!("block {}", value(display, Quantity::Mass, model.block().mass_kg))];
+        vec![format!("block {}", value(display, Quantity::Mass, model.bare_block_kg()))];
     parts.push(match model.storeys() {
+        n if model.structure().is_some() => {
+            let mass_kg = model.structure().map_or(0.0, |structure| structure.mass_kg);
+            let mass = value(display, Quantity::Mass, mass_kg);
+            format!("structure of {mass} by {n} mode{}", if n == 1 { "" } else { "s" })
+        }
         0 => "no storeys".to_owned(),
         1 => format!("1 storey of {}", value(display, Quantity::Mass, model.frame().masses_kg[0])),
         n => {
@@ -140,7 +145,16 @@ pub fn model_rows(model: &Model, display: DisplayUnits) -> Vec<(&'static str, St
         let unit = display.unit(quantity, si);
         format!("{} {}", significant(unit.of(si), 4), unit.symbol)
     };
-    let mut rows = vec![("Mass of the block M₁", show(Quantity::Mass, block.mass_kg))];
+    let mut rows = vec![("Mass of the block M₁", show(Quantity::Mass, model.bare_block_kg()))];
+    if let Some(structure) = model.structure() {
+        rows.push(("Mass of the structure", show(Quantity::Mass, structure.mass_kg)));
+        let missing_kg = structure.missing_mass_kg();
+        if missing_kg > 0.0 {
+            let share = compact(1e2 * missing_kg / structure.mass_kg);
+            let mass = derived(Quantity::Mass, missing_kg);
+            rows.push(("  of it with the block", format!("{mass} ({share} %)")));
+        }
+    }
     if model.storeys() > 0 {
         rows.push(("Total mass", show(Quantity::Mass, model.total_mass_kg())));
     }
@@ -243,6 +257,9 @@ pub fn storey_rows(
     };
     let q = model.initial().storey_displacement_m.as_ref();
     let v = model.initial().storey_velocity_m_per_s.as_ref();
+    if let Some(structure) = model.structure() {
+        return Some(mode_rows(structure, display));
+    }
     let columns = [
         ("Mass", Quantity::Mass, Some(&frame.masses_kg)),
         ("Stiffness", Quantity::Stiffness, Some(&frame.stiffnesses_n_per_m)),
@@ -263,6 +280,23 @@ pub fn storey_rows(
     }
     rows.reverse();
     (n > 0).then_some((header, rows))
+}
+
+/// Header and one row a mode.
+fn mode_rows(structure: &Structure, display: DisplayUnits) -> (Vec<String>, Vec<Vec<String>>) {
+    let unit = display.unit(Quantity::Mass, structure.mass_kg);
+    let header = ["Mode".to_owned(), "Period (s)".to_owned(), "Damping (%)".to_owned()];
+    let header = header.into_iter().chain([unit.label("Effective mass"), "Share (%)".to_owned()]);
+    let row = |(j, mode): (usize, &StructureMode)| {
+        vec![
+            (j + 1).to_string(),
+            significant(core::f64::consts::TAU / mode.frequency_rad_per_s, 4),
+            compact(1e2 * mode.damping_ratio),
+            significant(unit.of(mode.effective_mass_kg), 4),
+            significant(1e2 * mode.effective_mass_kg / structure.mass_kg, 4),
+        ]
+    };
+    (header.collect(), structure.modes.iter().enumerate().map(row).collect())
 }
 
 /// Which way the block slides after an event in two horizontal directions: an angle from x towards y.

@@ -46,7 +46,8 @@ fn demand_rows(
         let printed = column.demand.row?;
         let all = [demands, along_x(summary), along_y(summary)];
         let has_value = all.into_iter().any(|demands| column.value(demands).is_some());
-        let fits = has_value && (shape.storeys > 0 || !printed.needs_storeys);
+        let has_structure = shape.storeys + shape.points > 0;
+        let fits = has_value && (has_structure || !printed.needs_storeys);
         (fits && wanted(column.demand.kind)).then_some((printed, column))
     };
     let mut rows: Vec<(PrintedRow, DemandColumn)> =
@@ -124,8 +125,8 @@ fn row(
             Some(name) => printed.label.replace("block", &shortened(name, 24)),
             None => printed.label.to_owned(),
         },
-        (DemandOf::Storey, storey) => {
-            format!("{} {}", shortened(&summary.names.storey(storey), 24), printed.label)
+        (DemandOf::Storey | DemandOf::Point, point) => {
+            format!("{} {}", shortened(&summary.names.point(point), 24), printed.label)
         }
         (DemandOf::Surface, surface) => format!("Surface {surface} {}", printed.label),
         (DemandOf::Contents, contents) => format!("Contents {contents} {}", printed.label),

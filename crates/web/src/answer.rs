@@ -3,8 +3,9 @@
 use slipstick::assessment::single::{Job, Judged, Outcome};
 use slipstick::error::SolveError;
 use slipstick::input::{Input, MotionSource};
+use slipstick::model::Model;
 use slipstick::notice::Notice;
-use slipstick::response::{Demands, EventKind, History, Response};
+use slipstick::response::{Demands, EventKind, History, Response, StoreyDemands};
 use slipstick::units::{Dimension, parse_unit};
 use slipstick_report::display::{DisplayUnits, Quantity};
 use slipstick_report::json::Json;
@@ -51,7 +52,8 @@ impl Answer {
 
     /// A history at the knots, SI: 0 time, 1 table acceleration, 2 sliding displacement, 3 sliding
     /// velocity, 4 total acceleration of the block, 5 friction force, 6 force of the block on its slider,
-    /// 7 storey displacements and 8 storey accelerations, all storeys of a knot together, 9 displacements
+    /// 7 displacements and 8 accelerations of the storeys, or of the points of a structure by its modes,
+    /// all of a knot together, 9 displacements
     /// of the contents; in two directions these are along x, and 10 sliding displacement and 11 friction
     /// force are along y.
     #[must_use]
@@ -100,6 +102,12 @@ impl Answer {
         let empty = History::default();
         let history = response.history.as_ref().unwrap_or(&empty);
         let model = &job.analysis.model;
+        let of_points = |value: fn(&History, usize, usize) -> f64| {
+            let knots = 0..history.len();
+            knots
+                .flat_map(|knot| (0..history.point_count()).map(move |i| value(history, knot, i)))
+                .collect()
+        };
         let along_y = response.in_plane.as_ref().and_then(|plane| plane.history.as_ref());
         let force = (0..history.len()).map(|knot| history.slider_force_n(model, knot)).collect();
         let columns = vec![
@@ -110,8 +118,8 @@ impl Answer {
             history.block_acceleration_m_per_s2.clone(),
             history.friction_force_n.iter().map(|force| -force).collect(),
             force,
-            history.storey_displacement_m.clone(),
-            history.storey_acceleration_m_per_s2.clone(),
+            of_points(History::point_displacement),
+            of_points(History::point_acceleration),
             history.contents_displacement_m.clone(),
             along_y.map_or_else(Vec::new, |y| y.sliding_displacement_m.clone()),
             along_y
@@ -214,10 +222,15 @@ impl Judgement {
     }
 }
 
+/// Demands of the highest storey, or point of a structure by its modes.
+fn roof(demands: &Demands) -> Option<&StoreyDemands> {
+    demands.storeys.last().or(demands.points.last())
+}
+
 /// A row of a sweep.
 pub fn sweep_row(value: f64, demands: &Demands) -> [f64; 6] {
     let block = demands.peak_block_acceleration_m_per_s2;
-    let roof = demands.storeys.last().map_or(block, |roof| roof.peak_acceleration_m_per_s2);
+    let roof = roof(demands).map_or(block, |roof| roof.peak_acceleration_m_per_s2);
     [
         value,
         demands.peak_sliding_displacement_m,
@@ -319,10 +332,9 @@ fn state(job: &Job, words: &str, summary: &Summary, display: DisplayUnits) -> Js
         None => "",
     };
     let numbers = |values: &[f64]| Json::List(values.iter().map(|v| (*v).into()).collect());
-    let frame = model.frame();
-    let heights = frame.heights_m.as_deref().unwrap_or(&[]);
+    let (masses_kg, heights_m) = floors(model);
     let stop_m = slider.stop().map(|stop| numbers(&stop_gaps(&stop.gap_m)));
-    let names = (1..=model.storeys()).map(|i| Json::Text(analysis.names.storey(i)));
+    let names = (1..=model.points()).map(|i| Json::Text(analysis.names.point(i)));
     let demands = &summary.demands;
     Json::Object(vec![
         ("name", Json::Text(summary.model.clone())),
@@ -342,8 +354,8 @@ fn state(job: &Job, words: &str, summary: &Summary, display: DisplayUnits) -> Js
             "structure",
             Json::Object(vec![
                 ("blockMass_kg", model.block().mass_kg.into()),
-                ("storeyMasses_kg", numbers(&frame.masses_kg)),
-                ("heights_m", numbers(heights)),
+                ("storeyMasses_kg", numbers(&masses_kg)),
+                ("heights_m", numbers(&heights_m)),
                 ("width_m", model.block().width_m.into()),
                 ("gap_m", slider.gap_m().into()),
                 ("stop_m", stop_m.unwrap_or(Json::Null)),
@@ -367,10 +379,7 @@ fn state(job: &Job, words: &str, summary: &Summary, display: DisplayUnits) -> Js
                 ("peakTime_s", demands.peak_sliding_displacement_time_s.into()),
                 ("residual_m", demands.residual_sliding_displacement_m.into()),
                 ("block_m_per_s2", demands.peak_block_acceleration_m_per_s2.into()),
-                (
-                    "roof_m_per_s2",
-                    demands.storeys.last().map(|roof| roof.peak_acceleration_m_per_s2).into(),
-                ),
+                ("roof_m_per_s2", roof(demands).map(|roof| roof.peak_acceleration_m_per_s2).into()),
                 ("gapRatio", demands.gap_ratio.into()),
                 ("slips", demands.slip_count.into()),
                 ("baseShear", demands.base_shear_coefficient.into()),
@@ -378,6 +387,19 @@ fn state(job: &Job, words: &str, summary: &Summary, display: DisplayUnits) -> Js
         ),
         ("method", slipstick_report::summary::method_name(summary.method).into()),
     ])
+}
+
+/// Mass and height of the storeys in kg and m, as they are drawn; of a structure by its modes each point is
+/// one, of equal masses where it has none, and the heights are empty where they are not all known.
+fn floors(model: &Model) -> (Vec<f64>, Vec<f64>) {
+    let Some(structure) = model.structure() else {
+        let frame = model.frame();
+        return (frame.masses_kg.clone(), frame.heights_m.clone().unwrap_or_default());
+    };
+    let points = 0..structure.points.len();
+    let masses_kg = structure.points.iter().map(|point| point.mass_kg.unwrap_or(1.0)).collect();
+    let heights_m: Option<Vec<f64>> = points.map(|point| structure.rise_m(point)).collect();
+    (masses_kg, heights_m.unwrap_or_default())
 }
 
 fn stop_gaps(gaps_m: &[Option<f64>; 2]) -> Vec<f64> {
@@ -429,7 +451,8 @@ fn in_si(symbol: &str, dimension: Dimension) -> f64 {
 
 /// Units of the plots, each by its largest value.
 fn units(display: DisplayUnits, demands: &Demands) -> Json {
-    let roof = demands.storeys.iter().fold(0.0_f64, |l, s| l.max(s.peak_displacement_m));
+    let all = demands.storeys.iter().chain(&demands.points);
+    let roof = all.fold(0.0_f64, |l, s| l.max(s.peak_displacement_m));
     let unit = |quantity, largest: f64| {
         let unit = display.unit(quantity, largest);
         Json::Object(vec![("in_si", unit.in_si.into()), ("symbol", unit.symbol.into())])

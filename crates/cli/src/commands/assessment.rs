@@ -19,7 +19,7 @@ use slipstick_report::assessment::{Sheet, Went};
 use slipstick_report::{FileNote, InputText};
 
 use super::compare::name as model_name;
-use super::run::{ModelFile, command_line, overrides, read_model, tell_replaced};
+use super::run::{ModelFile, command_line, read_model, tell_replaced};
 use crate::args::{ResultArgs, SuiteArgs};
 use crate::failure::{Failure, print, say};
 use crate::progress::counted;
@@ -48,9 +48,9 @@ impl Opened {
         records: impl FnOnce() -> Result<Option<OpenSuite>, Failure>,
     ) -> Result<Self, Failure> {
         let file = read_model(model)?;
-        let overrides = overrides(&args.set)?;
+        let overrides = file.overrides(&args.set)?;
         let analysis = input::from_bytes(&file.name, &file.bytes, &overrides)
-            .map_err(|error| Failure::input(error, &file.text()))?;
+            .map_err(|error| file.failure(error))?;
         tell_replaced(&file, &overrides, &analysis, args.result.quiet);
         if analysis.method != Method::Exact {
             let expected = "the exact method, which is the only one over a suite";

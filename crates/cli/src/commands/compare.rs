@@ -12,7 +12,7 @@ use slipstick_files::{OutputFolder, SourceFile, TextFile, read_mapping, read_mea
 use slipstick_report::laboratory::CompareReport;
 
 use super::assessment::{Written, conclude};
-use super::run::{ModelFile, overrides, read_model};
+use super::run::{ModelFile, read_model};
 use crate::args::{CompareArgs, ResultArgs};
 use crate::failure::{Failure, say};
 use crate::progress::{TRIAL, estimated, reading};
@@ -22,8 +22,8 @@ pub fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let asked = args.fields.asked()?;
     let Comparing { within, method } = asked.comparing()?;
     let model = read_model(&args.model)?;
-    let mut analysis = input::from_bytes(&model.name, &model.bytes, &overrides(&args.set)?)
-        .map_err(|error| Failure::input(error, &model.text()))?;
+    let mut analysis = input::from_bytes(&model.name, &model.bytes, &model.overrides(&args.set)?)
+        .map_err(|error| model.failure(error))?;
     analysis.method = method.unwrap_or(analysis.method);
     let (mapping, mapping_file) = read_mapping(&asked.mapping())?;
     let piece = |bytes: &[u8]| drop(Measured::read("", bytes, &mapping));

@@ -31,8 +31,8 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
     // A record among the models is told before a model that lacks one.
     for model in args.models.iter().filter(|path| path.extension().is_some_and(|e| e != "toml")) {
         let file = read_model(model)?;
-        input::from_bytes(&file.name, &file.bytes, &[])
-            .map_err(|error| Failure::input(error, &file.text()))?;
+        input::from_bytes(&file.name, &file.bytes, &file.overrides(&[])?)
+            .map_err(|error| file.failure(error))?;
     }
     // Every model has the same records: they are read once.
     let mut records = None;

@@ -115,6 +115,12 @@ impl<'a> Job<'a> {
 /// The text of a model file.
 fn text(model: &ModelFile) -> Result<String, Failure> {
     let text = model.text();
+    if let Some(modes) = &model.modes {
+        // One text, with the modes in it.
+        let analysis = input::from_bytes(&model.name, &model.bytes, core::slice::from_ref(modes))
+            .map_err(|error| model.failure(error))?;
+        return Ok(analysis.to_toml_with_motion());
+    }
     if text.as_bytes() != model.bytes {
         input::from_bytes(&model.name, &model.bytes, &[])
             .map_err(|error| Failure::input(error, &text))?;

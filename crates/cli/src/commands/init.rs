@@ -13,6 +13,8 @@ const STOP: &str = include_str!("../../models/stop.toml");
 const DOUBLE_PENDULUM: &str = include_str!("../../models/double-pendulum.toml");
 const TRIPLE_PENDULUM: &str = include_str!("../../models/triple-pendulum.toml");
 const CONTENTS: &str = include_str!("../../models/contents.toml");
+const STRUCTURE: &str = include_str!("../../models/structure.toml");
+const TANK_SLOSHING: &str = include_str!("../../models/tank-sloshing.toml");
 
 /// Writes `NAME.toml` into the working folder.
 pub fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
@@ -25,6 +27,8 @@ pub fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
         Example::DoublePendulum => DOUBLE_PENDULUM,
         Example::TriplePendulum => TRIPLE_PENDULUM,
         Example::Contents => CONTENTS,
+        Example::Structure => STRUCTURE,
+        Example::TankSloshing => TANK_SLOSHING,
     };
     let path = PathBuf::from(format!("{stem}.toml"));
     let nameless = Path::new(stem).file_name().is_none() || stem.ends_with(['/', '\\']);

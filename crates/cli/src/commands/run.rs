@@ -12,8 +12,8 @@ use slipstick::record;
 use slipstick::requests::Kind;
 use slipstick::units::Dimension;
 use slipstick_files::{
-    FileError, OpenJob, OutputFolder, RecordRequest, events_csv, history_csv, read_at_most,
-    record_path,
+    FileError, OpenJob, OutputFolder, RecordRequest, events_csv, history_csv, modes_beside,
+    read_at_most, record_path,
 };
 use slipstick_report::{FileNote, InputText, Report, Summary, opensees, table};
 
@@ -36,12 +36,12 @@ fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
     args.suite.none_beside(Kind::Run, "a suite beside it, --records <PATTERN>")?;
     let asked = args.one.asked()?.single()?;
     let model = read_model(model)?;
-    let mut overrides = overrides(&args.on.set)?;
+    let mut overrides = model.overrides(&args.on.set)?;
     let keys = asked.keys(args.motion.is_none());
     overrides.extend(keys.map_err(|error| Failure::Message(error.to_string()))?);
     let analysis = input::from_bytes(&model.name, &model.bytes, &overrides).map_err(|error| {
         let of_scale = asked.of_scale(&error).map(Failure::from);
-        of_scale.unwrap_or_else(|| Failure::input(error, &model.text()))
+        of_scale.unwrap_or_else(|| model.failure(error))
     })?;
     tell_replaced(&model, &overrides, &analysis, args.on.result.quiet);
     args.on.record.only_with("--motion <FILE>", args.motion.is_some())?;
@@ -113,6 +113,31 @@ pub(super) struct ModelFile {
     pub path: PathBuf,
     /// All of it.
     pub bytes: Vec<u8>,
+    /// The table of modes that it names.
+    pub modes: Option<Override>,
+}
+
+impl ModelFile {
+    fn new(name: String, path: PathBuf, bytes: Vec<u8>) -> Result<Self, Failure> {
+        let modes = modes_beside(&path, &name, &bytes)
+            .map_err(|error| Failure::input(error, &String::from_utf8_lossy(&bytes)))?;
+        Ok(Self { name, path, bytes, modes })
+    }
+
+    /// The table of modes, then the options that set keys of the model.
+    pub fn overrides(&self, set: &[String]) -> Result<Vec<Override>, Failure> {
+        Ok(self.modes.iter().cloned().chain(overrides(set)?).collect())
+    }
+
+    /// What is wrong with it: with the line in question, unless that is one of the table of modes.
+    pub fn failure(&self, error: InputError) -> Failure {
+        let named = |modes: &Override| modes.text().ends_with(&error.place.source_name);
+        match self.modes.as_ref().filter(|_| !error.place.source_name.is_empty()).is_some_and(named)
+        {
+            true => Failure::Message(error.to_string()),
+            false => Failure::input(error, &self.text()),
+        }
+    }
 }
 
 impl ModelFile {
@@ -126,7 +151,7 @@ pub(super) fn read_model(path: &Path) -> Result<ModelFile, Failure> {
     let limit = input::MAX_TEXT_BYTES as u64;
     if path != Path::new("-") {
         let name = path.display().to_string();
-        return Ok(ModelFile { name, path: path.to_owned(), bytes: read_at_most(path, limit)? });
+        return ModelFile::new(name, path.to_owned(), read_at_most(path, limit)?);
     }
     let path = PathBuf::from("standard input");
     let mut bytes = Vec::new();
@@ -137,7 +162,7 @@ pub(super) fn read_model(path: &Path) -> Result<ModelFile, Failure> {
     if bytes.len() as u64 > limit {
         return Err(FileError::TooLarge { path, limit }.into());
     }
-    Ok(ModelFile { name: path.display().to_string(), path: PathBuf::new(), bytes })
+    ModelFile::new(path.display().to_string(), PathBuf::new(), bytes)
 }
 
 /// The options that set keys of the model.
@@ -154,15 +179,17 @@ pub(super) fn tell_replaced(
     analysis: &Analysis,
     quiet: bool,
 ) {
-    if quiet || overrides.is_empty() {
+    let (modes, set): (Vec<Override>, Vec<Override>) =
+        overrides.iter().cloned().partition(Override::is_modes);
+    if quiet || set.is_empty() {
         return;
     }
-    let Ok(written) = input::from_bytes(&model.name, &model.bytes, &[]) else { return };
+    let Ok(written) = input::from_bytes(&model.name, &model.bytes, &modes) else { return };
     let kept: Vec<&str> = analysis.inputs().map(|input| input.path).collect();
     let gone: Vec<&str> =
         written.inputs().map(|input| input.path).filter(|path| !kept.contains(path)).collect();
     if !gone.is_empty() {
-        let set: Vec<&str> = overrides.iter().map(Override::path).collect();
+        let set: Vec<&str> = set.iter().map(Override::path).collect();
         say(format_args!("note: {} replaces {} of the model", set.join(", "), gone.join(", ")));
     }
 }

@@ -18,5 +18,6 @@ mod readme;
 mod record;
 mod records;
 mod refused;
+mod structure;
 mod studies;
 mod support;

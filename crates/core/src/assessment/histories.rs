@@ -272,6 +272,7 @@ pub fn run_histories(
     let shapes = done.iter().map(ModelHistories::shape);
     let shape = shapes.fold(DemandShape::default(), |all, shape| DemandShape {
         storeys: all.storeys.max(shape.storeys),
+        points: all.points.max(shape.points),
         stop: all.stop || shape.stop,
         surfaces: all.surfaces.max(shape.surfaces),
         contents: all.contents.max(shape.contents),

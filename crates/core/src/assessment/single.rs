@@ -223,15 +223,14 @@ fn floor_spectra(
         }
         Ok(all)
     };
-    let n = history.storeys;
     let storey = |i: usize| -> Vec<f64> {
-        history.storey_acceleration_m_per_s2.iter().skip(i).step_by(n).copied().collect()
+        (0..history.len()).map(|knot| history.point_acceleration(knot, i)).collect()
     };
     Ok(FloorSpectra {
         damping_ratio: FLOOR_SPECTRUM_DAMPING,
         table_m_per_s2: of(motion.times_s(), motion.horizontal_m_per_s2())?,
         block_m_per_s2: of(&history.time_s, &history.block_acceleration_m_per_s2)?,
-        storeys_m_per_s2: (0..n)
+        storeys_m_per_s2: (0..history.point_count())
             .map(|i| of(&history.time_s, &storey(i)))
             .collect::<Result<_, _>>()?,
         periods_s,

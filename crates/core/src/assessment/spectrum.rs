@@ -9,7 +9,7 @@ use super::suite::{Scaling, Suite, SuiteRecord};
 use super::{AssessmentError, FailedRun, refuse};
 use crate::error::{ModelError, MotionError, RunError, Stopped};
 use crate::input::{Bound, Parts};
-use crate::model::{InitialState, Model, Slider};
+use crate::model::{Block, InitialState, Model, Slider};
 use crate::motion::GroundMotion;
 use crate::notice::Notice;
 use crate::numerics::fractile::fractiles;
@@ -42,7 +42,14 @@ pub fn fixed_base(model: &Model) -> Result<Model, ModelError> {
     let spring = Slider::sprung(held, model.slider_stiffness_n_per_m());
     let Slider { damper_n_s_per_m, tilt_rad, .. } = *model.slider();
     let slider = Slider { damper_n_s_per_m, tilt_rad, ends, ..spring };
-    Model::new(*model.block(), slider, model.frame().clone(), model.gravity_m_per_s2(), initial)
+    let (block, gravity_m_per_s2) = (*model.block(), model.gravity_m_per_s2());
+    match model.structure() {
+        Some(structure) => {
+            let block = Block { mass_kg: model.bare_block_kg(), ..block };
+            Model::with_modes(block, slider, structure.clone(), gravity_m_per_s2, initial)
+        }
+        None => Model::new(block, slider, model.frame().clone(), gravity_m_per_s2, initial),
+    }
 }
 
 /// The motion along the sliding surface alone.
@@ -210,7 +217,7 @@ pub fn run_spectrum(
         demands: demand_values(&response.demands),
         table: peak(motion),
     })?;
-    let fixed = match models.shape().storeys {
+    let fixed = match models.shape().storeys + models.shape().points {
         0 => vec![f64::NAN; runs.len()],
         _ => on_fixed_base(&parts, suite, &factors, engine)?,
     };
@@ -218,7 +225,7 @@ pub fn run_spectrum(
     let stem = roof
         .trim_end_matches("_peak_acceleration_m_per_s2")
         .trim_end_matches(".peak_acceleration_m_per_s2");
-    let ratio_keys = if models.shape().storeys > 0 {
+    let ratio_keys = if models.shape().storeys + models.shape().points > 0 {
         vec![format!("{stem}_fixed_base_ratio"), format!("{stem}_amplification")]
     } else {
         vec![format!("{stem}_amplification")]
@@ -422,6 +429,7 @@ fn tail_s(parts: &[Result<Parts, RunError>]) -> f64 {
 /// Whether two models on a fixed base answer alike: all but the block and its slider is the same.
 fn same_structure(a: &Model, b: &Model) -> bool {
     a.frame() == b.frame()
+        && a.structure() == b.structure()
         && a.gravity_m_per_s2() == b.gravity_m_per_s2()
         && a.slider().tilt_rad == b.slider().tilt_rad
         && a.initial() == b.initial()

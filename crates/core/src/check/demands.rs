@@ -198,13 +198,22 @@ pub(super) fn of_peaks(
     own: &Own<'_>,
     (peak_m, rounding): (f64, &Rounding),
 ) {
-    let (weight_n, n) = (model.weight_n(), model.storeys());
+    let (weight_n, n) = (model.weight_n(), model.points());
     let (force_n, near_m) = (rounding.force_n, rounding.displacement_m);
     let over = |i: usize, divisor: f64| own.peak(i).map(|peak| peak / divisor);
     let near = rounding.velocity_m_per_s;
     c.within(d.peak_sliding_velocity_m_per_s, own.peak(VELOCITY), near);
     let near = force_n / model.block().mass_kg;
     c.within(d.peak_block_acceleration_m_per_s2, own.peak(BLOCK), near);
+    // What rounding of forces makes of an acceleration: of a point through the oscillators of its modes.
+    let of_mode = |i: usize| {
+        let modes = model.structure().into_iter().flat_map(|structure| &structure.modes);
+        modes.map(move |mode| (mode.points[i] / mode.effective_mass_kg).abs()).sum::<f64>()
+    };
+    let mass_kg = |i: usize| match model.structure() {
+        Some(_) => 1.0 / (of_mode(i) + 1.0 / model.block().mass_kg),
+        None => model.frame().masses_kg[i],
+    };
     for (printed, coefficient, i) in [
         (d.peak_base_shear_n, d.base_shear_coefficient, BASE_SHEAR),
         (d.peak_friction_force_n, d.friction_coefficient_used, FRICTION),
@@ -213,19 +222,19 @@ pub(super) fn of_peaks(
         c.within(printed, own.peak(i), force_n);
         c.within(coefficient, over(i, weight_n), force_n / weight_n);
     }
-    for (i, storey) in d.storeys.iter().enumerate().take(n) {
+    let points = if model.structure().is_some() { &d.points } else { &d.storeys };
+    for (i, storey) in points.iter().enumerate().take(n) {
         c.within(storey.peak_displacement_m, own.peak(STOREYS + i), near_m);
         c.within(storey.peak_drift_m, own.peak(STOREYS + n + i), near_m);
-        let near = force_n / model.frame().masses_kg[i];
+        let near = force_n / mass_kg(i);
         c.within(storey.peak_acceleration_m_per_s2, own.peak(STOREYS + 2 * n + i), near);
     }
-    let heights_m = model.frame().heights_m.as_ref();
-    for (i, storey) in d.storeys.iter().enumerate().take(n) {
-        let height_m = heights_m.map(|heights_m| heights_m[i]);
+    for (i, storey) in points.iter().enumerate().take(n) {
+        let height_m = model.rise_m(i);
         let ratio = height_m.map(|height_m| over(STOREYS + n + i, height_m));
         c.optional(storey.peak_drift_ratio, ratio, near_m / height_m.unwrap_or(1.0));
     }
-    c.same(d.storeys.len() == n);
+    c.same(d.storeys.len() + d.points.len() == n && points.len() == n);
     let ratio = own.gap_m.map(|gap_m| [peak_m / gap_m; 3]);
     c.optional(d.gap_ratio, ratio, near_m / own.gap_m.unwrap_or(1.0));
     let width_m = own.width_m.filter(|_| own.outputs.has_moment());
@@ -244,7 +253,7 @@ fn of_contents(
 ) {
     let contents = model.contents();
     c.same(d.contents.len() == contents.len());
-    let peaks = &own.peaks[STOREYS + 3 * model.storeys()..];
+    let peaks = &own.peaks[own.outputs.of_contents()..];
     for (e, (printed, given)) in d.contents.iter().zip(contents).enumerate() {
         let places = (0..h.len()).map(|k| h.contents_state(k, e)[0]);
         let [peak_m, _, _, last_m] = extremes(places);

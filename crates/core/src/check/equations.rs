@@ -114,17 +114,19 @@ impl LaneJudge<'_> {
         let block = stuck.select(now.a, sliding);
         bodies[0].store(block);
         for k in 0..n {
-            let below = if k == 0 { all(simd, 0.0) } else { x(k) };
+            // Oscillators of modes stand each on the block, floors on the one below.
+            let (lowest, highest) = (k == 0 || s.on_block, k + 1 == n || s.on_block);
+            let below = if lowest { all(simd, 0.0) } else { x(k) };
             let mut force = all(simd, s.stiffnesses[k]) * (x(k + 1) - below);
-            if k + 1 < n {
+            if !highest {
                 let above = x(k + 2) - x(k + 1);
                 force -= all(simd, s.stiffnesses[k + 1]) * above;
             }
             match &s.damping {
                 StoreyDamping::Chain(c) => {
-                    let below = if k == 0 { all(simd, 0.0) } else { v(k) };
+                    let below = if lowest { all(simd, 0.0) } else { v(k) };
                     force += all(simd, c[k]) * (v(k + 1) - below);
-                    if k + 1 < n {
+                    if !highest {
                         let above = v(k + 2) - v(k + 1);
                         force -= all(simd, c[k + 1]) * above;
                     }
@@ -322,21 +324,38 @@ impl LaneJudge<'_> {
             stop += friction - asked;
         }
         let total = body(0);
+        let point = inlined(
+            #[inline(always)]
+            |i: usize| {
+                outputs.point(
+                    simd,
+                    i,
+                    total,
+                    #[inline(always)]
+                    |j| x(1 + j),
+                    #[inline(always)]
+                    |j| body(1 + j),
+                )
+            },
+        );
         let moment = outputs.moment(
             simd,
             total,
             #[inline(always)]
-            |j| body(1 + j),
+            |i| point(i)[1],
             #[inline(always)]
             |e| body(1 + n + e),
         );
         let fixed = [v(0), total - slope, slider, friction, forces[0], moment, stop];
         each_output(
             simd,
-            (n, structure.contents.len()),
+            (outputs.points(), structure.contents.len()),
             fixed,
             #[inline(always)]
-            |j| [x(1 + j), body(1 + j) - slope],
+            |i| {
+                let [q, a] = point(i);
+                [q, a - slope]
+            },
             #[inline(always)]
             |e| [v(1 + n + e), body(1 + n + e) - slope],
             out,

@@ -10,7 +10,7 @@ use super::knots::{Knots, LaneJudge, Worst};
 use super::lane::LANES;
 use super::maps::{Maps, Spread};
 use super::margins::{Points, Watch};
-use super::outputs::{FRICTION, SLIDER, STOREYS, VELOCITY};
+use super::outputs::{FRICTION, SLIDER, VELOCITY};
 use super::path::{Pass, Work};
 use super::sweep::{Even, EvenRun, Floors, MOST_STEPS, terms};
 use crate::error::Stopped;
@@ -342,7 +342,7 @@ impl<'a> Judge<'a> {
     }
 
     fn place_of_speed(&self, i: usize) -> usize {
-        i.checked_sub(1).map_or(VELOCITY, |e| STOREYS + 3 * self.h.storeys + e)
+        i.checked_sub(1).map_or(VELOCITY, |e| self.outputs.of_contents() + e)
     }
 
     /// Whether an interface could stick where it slides, without slowing down to it smoothly.

@@ -138,7 +138,7 @@ impl LaneJudge<'_> {
     ) -> f64x8<S> {
         let s = self.structure;
         let storeys = match &s.damping {
-            StoreyDamping::Chain(c) => chain_form(simd, c, v),
+            StoreyDamping::Chain(c) => chain_form(simd, (c, s.on_block), v),
             StoreyDamping::Full(c) => {
                 let n = s.masses_kg.len();
                 let mut sum = all(simd, 0.0);
@@ -166,6 +166,11 @@ impl LaneJudge<'_> {
         let s = self.structure;
         let Some(&k) = s.stiffnesses.first() else { return all(simd, 0.0) };
         let mut sum = all(simd, k) * q(0);
+        if s.on_block {
+            for (j, &k) in s.stiffnesses.iter().enumerate().skip(1) {
+                sum += all(simd, k) * q(j);
+            }
+        }
         for (j, &c) in s.base_damping.iter().enumerate() {
             sum += all(simd, c) * v(j);
         }
@@ -272,11 +277,11 @@ impl LaneJudge<'_> {
             bodies.viscous[i] = Eight::ZERO;
         }
         // Eqs (9), (10): the largest defect and the largest single term.
-        let mut term = add_chain(simd, n, &structure.stiffnesses, &bodies.q, &mut bodies.elastic);
+        let mut term = add_chain(simd, n, structure.springs(), &bodies.q, &mut bodies.elastic);
         let Bodies { v, elastic, viscous, .. } = &mut *bodies;
         for (first, forces) in [(2 * d + 1, &mut *elastic), (2 * d + 1 + n, &mut *viscous)] {
             if first > 2 * d + 1 {
-                add_chain(simd, n, &structure.stiffnesses, v, forces);
+                add_chain(simd, n, structure.springs(), v, forces);
             }
             for (i, force) in forces.iter_mut().enumerate() {
                 let per_kg = all(simd, 1.0 / structure.masses_kg[i]);
@@ -286,7 +291,10 @@ impl LaneJudge<'_> {
         viscous.fill(Eight::ZERO);
         match &structure.damping {
             StoreyDamping::Chain(c) => {
-                term = larger(term, add_chain(simd, n, c, &bodies.v, &mut bodies.viscous));
+                term = larger(
+                    term,
+                    add_chain(simd, n, (c, structure.on_block), &bodies.v, &mut bodies.viscous),
+                );
             }
             StoreyDamping::Full(c) => {
                 for i in 0..n {
@@ -362,7 +370,7 @@ impl LaneJudge<'_> {
         let half = all(simd, 0.5);
         let form = chain_form(
             simd,
-            &structure.stiffnesses,
+            structure.springs(),
             #[inline(always)]
             |i| bodies.q[i].load(simd),
         );
@@ -393,14 +401,34 @@ impl LaneJudge<'_> {
         if !held.is_empty() {
             slider *= all(simd, 1.0) - one(held);
         }
-        let moment = outputs.moment(simd, total, floor, carried);
+        let point = inlined(
+            #[inline(always)]
+            |i: usize| {
+                let q = inlined(
+                    #[inline(always)]
+                    |j: usize| bodies.q[j].load(simd),
+                );
+                outputs.point(simd, i, total, q, floor)
+            },
+        );
+        let moment = outputs.moment(
+            simd,
+            total,
+            #[inline(always)]
+            |i| point(i)[1],
+            carried,
+        );
         let fixed = [w, block, slider, force, base, moment, stop];
         each_output(
             simd,
-            (n, structure.contents.len()),
+            (outputs.points(), structure.contents.len()),
             fixed,
             #[inline(always)]
-            |i| [bodies.q[i].load(simd), bodies.a[i].load(simd)],
+            |i| {
+                let [q, a] = point(i);
+                // Without a detour over the slope where a floor's acceleration is stored as it is.
+                [q, if structure.on_block { a - slope } else { bodies.a[i].load(simd) }]
+            },
             #[inline(always)]
             |e| [bodies.carried[e][0].load(simd), bodies.carried[e][1].load(simd)],
             out,

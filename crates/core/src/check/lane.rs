@@ -107,7 +107,7 @@ pub(super) fn keep<S: Simd>(simd: S, worst: &mut Eight, value: f64x8<S>) {
 pub(super) fn add_chain<S: Simd>(
     simd: S,
     n: usize,
-    chain: &[f64],
+    (chain, on_block): (&[f64], bool),
     q: &[Eight],
     out: &mut [Eight],
 ) -> f64x8<S> {
@@ -117,11 +117,14 @@ pub(super) fn add_chain<S: Simd>(
         let force = k * (here - below);
         let sum = out[i].load(simd) + force;
         out[i].store(sum);
+        term = larger(larger(term, (k * here).abs()), (k * below).abs());
+        if on_block {
+            continue;
+        }
         if i > 0 {
             let sum = out[i - 1].load(simd) - force;
             out[i - 1].store(sum);
         }
-        term = larger(larger(term, (k * here).abs()), (k * below).abs());
         below = here;
     }
     term
@@ -131,7 +134,7 @@ pub(super) fn add_chain<S: Simd>(
 #[inline(always)]
 pub(super) fn chain_form<S: Simd>(
     simd: S,
-    chain: &[f64],
+    (chain, on_block): (&[f64], bool),
     x: impl Fn(usize) -> f64x8<S>,
 ) -> f64x8<S> {
     let (mut below, mut sum) = (all(simd, 0.0), all(simd, 0.0));
@@ -139,7 +142,9 @@ pub(super) fn chain_form<S: Simd>(
         let here = x(i);
         let over = here - below;
         sum += all(simd, c) * over * over;
-        below = here;
+        if !on_block {
+            below = here;
+        }
     }
     sum
 }

@@ -243,6 +243,13 @@ impl LaneJudge<'_> {
     fn by_forces(&self, columns: &mut [Vec<f64>]) {
         let s = self.structure;
         let n = s.masses_kg.len();
+        if s.on_block {
+            for (i, column) in columns[..n].iter_mut().enumerate() {
+                let per_force = s.masses_kg[i] / s.stiffnesses[i];
+                column.iter_mut().for_each(|x| *x *= per_force);
+            }
+            return;
+        }
         // Of drifts: all storeys above move with one.
         for i in (1..n).rev() {
             let (below, above) = columns.split_at_mut(i);
@@ -264,7 +271,7 @@ impl LaneJudge<'_> {
         sizes.fill(Eight::ZERO);
         for first in [0, d] {
             let (from, to) = (first + 1, first + 1 + n);
-            add_chain(simd, n, &s.stiffnesses, &input[from..to], &mut sizes[from..to]);
+            add_chain(simd, n, s.springs(), &input[from..to], &mut sizes[from..to]);
             for (size, mass) in sizes[from..to].iter_mut().zip(&s.masses_kg) {
                 size.store((size.load(simd) * all(simd, 1.0 / mass)).abs());
             }

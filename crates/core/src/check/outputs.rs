@@ -58,7 +58,10 @@ struct Arm {
 pub(super) struct Outputs {
     /// `None`: no moment is asked for.
     arm: Option<Arm>,
-    storeys: usize,
+    /// Number of points: floors, or those of a structure by its modes.
+    points: usize,
+    /// Of those, point by point: what the oscillators add, and what of the motion is the block's.
+    of_modes: Option<Vec<(Vec<f64>, f64)>>,
     contents: usize,
 }
 
@@ -69,14 +72,50 @@ impl Outputs {
 
     /// With the moment if it is asked for and heights are given.
     pub(super) fn with_moment(model: &Model, asked: bool) -> Self {
-        let (storeys, contents) = (model.storeys(), model.contents().len());
+        let (points, contents) = (model.points(), model.contents().len());
         let arm = if asked { arm(model) } else { None };
-        Self { arm, storeys, contents }
+        let of_modes = model.structure().map(|structure| {
+            let of = |i: usize| structure.modes.iter().map(move |mode| mode.points[i]);
+            (0..points).map(|i| (of(i).collect(), 1.0 - of(i).sum::<f64>())).collect()
+        });
+        Self { arm, points, of_modes, contents }
     }
 
     /// How many there are.
     pub(super) fn len(&self) -> usize {
-        STOREYS + 3 * self.storeys + 2 * self.contents
+        self.of_contents() + 2 * self.contents
+    }
+
+    /// Number of points.
+    pub(super) fn points(&self) -> usize {
+        self.points
+    }
+
+    /// Place of the first output of contents.
+    pub(super) fn of_contents(&self) -> usize {
+        STOREYS + 3 * self.points
+    }
+
+    /// Displacement and total acceleration of a point, from the block's and those of floors or oscillators:
+    /// `Σ φ η` and `Σ φ η̈ + u`.
+    #[inline(always)]
+    pub(super) fn point<S: Simd>(
+        &self,
+        simd: S,
+        i: usize,
+        block: f64x8<S>,
+        x: impl Fn(usize) -> f64x8<S>,
+        a: impl Fn(usize) -> f64x8<S>,
+    ) -> [f64x8<S>; 2] {
+        let Some(of_modes) = &self.of_modes else { return [x(i), a(i)] };
+        let (factors, with_block) = &of_modes[i];
+        let mut sums = [f64x8::splat(simd, 0.0), f64x8::splat(simd, *with_block) * block];
+        for (j, &factor) in factors.iter().enumerate() {
+            let factor = f64x8::splat(simd, factor);
+            sums[0] += factor * x(j);
+            sums[1] += factor * a(j);
+        }
+        sums
     }
 
     /// The overturning moment about the sliding surface from total accelerations with the slope's share.
@@ -108,8 +147,10 @@ impl Outputs {
 
     /// Height of what a moment is asked of, in m; 0 without one.
     pub(super) fn height_m(&self, model: &Model) -> f64 {
-        let heights = model.frame().heights_m.iter().flatten().sum::<f64>();
-        if self.arm.is_some() { heights + model.block().height_m.unwrap_or(0.0) } else { 0.0 }
+        let block_m = model.block().height_m.unwrap_or(0.0);
+        let points = model.lever_arms();
+        let highest = points.iter().flatten().fold(block_m, |most, [_, above_m]| above_m.max(most));
+        if self.arm.is_some() { highest } else { 0.0 }
     }
 
     /// Whether a moment is asked for.
@@ -120,24 +161,14 @@ impl Outputs {
 
 /// The arms, where heights are given.
 fn arm(model: &Model) -> Option<Arm> {
-    let (block, frame) = (model.block(), model.frame());
-    let heights_m = match &frame.heights_m {
-        Some(heights_m) => heights_m.as_slice(),
-        None if model.storeys() == 0 && block.height_m.is_some() => &[],
-        None => return None,
-    };
-    let mut above_m = block.height_m.unwrap_or(0.0);
-    let mut floors_m = vec![above_m];
-    for height_m in heights_m {
-        above_m += height_m;
-        floors_m.push(above_m);
-    }
-    let floors = frame.masses_kg.iter().zip(&floors_m[1..]).map(|(mass, z)| mass * z);
+    let points = model.lever_arms()?;
+    let block_m = model.block().height_m.unwrap_or(0.0);
+    let height_m = |floor: usize| floor.checked_sub(1).map_or(block_m, |floor| points[floor][1]);
     let contents = model.contents().iter();
     Some(Arm {
-        block: 0.5 * floors_m[0] * block.mass_kg,
-        floors: floors.collect(),
-        contents: contents.map(|c: &Contents| c.mass_kg * floors_m[c.floor]).collect(),
+        block: 0.5 * block_m * model.bare_block_kg(),
+        floors: points.iter().map(|[mass_kg, above_m]| mass_kg * above_m).collect(),
+        contents: contents.map(|c: &Contents| c.mass_kg * height_m(c.floor)).collect(),
     })
 }
 

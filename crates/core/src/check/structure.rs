@@ -5,6 +5,7 @@
 //! acceleration with the slope, `s̈ + a`.
 
 use super::damping::modal_damping;
+use super::outputs::STOREYS;
 use crate::model::{Contents, Damping, Model, StopKind};
 
 /// Which equations hold: the block rests on the table, or slides over it.
@@ -29,6 +30,10 @@ pub(super) struct Structure {
     pub(super) block_kg: f64,
     pub(super) total_kg: f64,
     pub(super) masses_kg: Vec<f64>,
+    /// Whether each of them stands on the block, as the oscillators of modes do, not on the one below.
+    pub(super) on_block: bool,
+    /// Place of the first output of contents.
+    pub(super) of_contents: usize,
     /// What moves with each degree: the momentum is their sum with the velocities.
     pub(super) moved_kg: Vec<f64>,
     pub(super) spring: f64,
@@ -53,8 +58,9 @@ impl Structure {
     /// The same with other stiffnesses and damping of the storeys.
     pub(super) fn of(model: &Model, (k, damping): (&[f64], &Damping), vertical: bool) -> Self {
         let m = &model.frame().masses_kg;
-        let n = m.len();
+        let (n, on_block) = (m.len(), model.structure().is_some());
         let (damping, base_damping) = match damping {
+            Damping::Dampers(c) if on_block => (StoreyDamping::Chain(c.clone()), c.clone()),
             Damping::Dampers(c) => {
                 let mut base = vec![0.0; n];
                 base[..n.min(1)].copy_from_slice(&c[..n.min(1)]);
@@ -82,6 +88,8 @@ impl Structure {
             block_kg: model.block().mass_kg,
             total_kg: model.total_mass_kg(),
             masses_kg: m.clone(),
+            on_block,
+            of_contents: STOREYS + 3 * model.points(),
             spring: match model.slider().pendulum_radius_m(vertical).filter(|_| vertical) {
                 Some(_) => 0.0,
                 None => model.slider_stiffness_n_per_m(),
@@ -143,9 +151,7 @@ impl Structure {
     pub(super) fn rate(&self, phase: Phase) -> f64 {
         let m = &self.masses_kg;
         let (storey_damping, base): (Vec<f64>, f64) = match &self.damping {
-            StoreyDamping::Chain(c) => {
-                (self.floor_rows(c).collect(), 2.0 * c.first().unwrap_or(&0.0))
-            }
+            StoreyDamping::Chain(c) => (self.floor_rows(c).collect(), self.base_row(c)),
             StoreyDamping::Full(c) => {
                 let rows = c.chunks_exact(m.len()).zip(&self.base_damping);
                 let rows = rows.map(|(row, b)| row.iter().map(|c| c.abs()).sum::<f64>() + b.abs());
@@ -156,7 +162,7 @@ impl Structure {
         let mut decay = storey_damping.iter().zip(m).map(|(row, m)| row / m).fold(0.0, f64::max);
         if phase != Phase::Stick {
             let [spring, damper] = self.slider(phase);
-            let stiffness = spring + 2.0 * self.stiffnesses.first().unwrap_or(&0.0);
+            let stiffness = spring + self.base_row(&self.stiffnesses);
             frequency = frequency.max(libm::sqrt(stiffness / self.block_kg));
             decay = decay.max((damper + base) / self.block_kg);
         }
@@ -166,7 +172,19 @@ impl Structure {
     /// Sums of the sizes in each floor's row of a chain's matrix, the block's column included.
     fn floor_rows<'a>(&self, chain: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
         let above = chain.iter().skip(1).chain(core::iter::once(&0.0));
-        chain.iter().zip(above).map(|(below, above)| 2.0 * (below + above))
+        let share = if self.on_block { 0.0 } else { 1.0 };
+        chain.iter().zip(above).map(move |(below, above)| 2.0 * (below + share * above))
+    }
+
+    /// The same of the block's row.
+    fn base_row(&self, chain: &[f64]) -> f64 {
+        let on_block = if self.on_block { chain.len() } else { 1 };
+        2.0 * chain.iter().take(on_block).sum::<f64>()
+    }
+
+    /// Stiffnesses with whether each is that of a spring to the block.
+    pub(super) fn springs(&self) -> (&[f64], bool) {
+        (&self.stiffnesses, self.on_block)
     }
 }
 

@@ -22,7 +22,7 @@ use super::intervals::Kind;
 use super::knots::{BATCH, LaneJudge};
 use super::lane::{Eight, LANES, Places, all, both, inlined, larger, smaller};
 use super::maps::{Map, Spread};
-use super::outputs::{FRICTION, STOREYS, VELOCITY};
+use super::outputs::{FRICTION, VELOCITY};
 use super::path::{Pass, Spent, Work};
 use crate::error::Stopped;
 
@@ -113,14 +113,14 @@ impl Even {
         map: Map,
     ) -> Self {
         let lanes = || Lanes { group: Group::new(bench), samples: [0; LANES] };
-        let (n, e) = (bench.structure.masses_kg.len(), bench.structure.contents.len());
+        let (e, first) = (bench.structure.contents.len(), bench.structure.of_contents);
         let deciding = (0..=e).map(|i| {
             let sticks = key.stuck >> i & 1 == 1;
             let output = match (i.checked_sub(1), sticks) {
                 (None, true) => FRICTION,
                 (None, false) => VELOCITY,
-                (Some(i), false) => STOREYS + 3 * n + i,
-                (Some(i), true) => STOREYS + 3 * n + e + i,
+                (Some(i), false) => first + i,
+                (Some(i), true) => first + e + i,
             };
             Deciding { sticks, output, off: Vec::new() }
         });

@@ -5,6 +5,7 @@ use core::f64::consts::TAU;
 use super::frame;
 use super::motion::{self, MotionSource};
 use super::reader::Values;
+use super::structure;
 use super::{Analysis, FrictionBounds, Names};
 use crate::error::{InputError, ModelError};
 use crate::model::{Block, Contents, InitialState, Model, Slider, Stop};
@@ -33,8 +34,10 @@ pub(super) fn parts(values: &Values) -> Result<Parts, InputError> {
         height_m: values.number("block.height"),
     };
     let frame = frame::frame(values, gravity_m_per_s2)?;
+    let structure = structure::structure(values, gravity_m_per_s2)?;
     let contents = contents(values, frame.masses_kg.len(), gravity_m_per_s2)?;
-    let floors_kg = frame.masses_kg.iter().fold(block.mass_kg, |sum, m| sum + m);
+    let own_kg = block.mass_kg + structure.as_ref().map_or(0.0, |structure| structure.mass_kg);
+    let floors_kg = frame.masses_kg.iter().fold(own_kg, |sum, m| sum + m);
     let total_kg = contents.iter().fold(floors_kg, |sum, contents| sum + contents.mass_kg);
     let slider = slider(values, &block, total_kg, gravity_m_per_s2)?;
     let [initial, initial_y] = initial(values, frame.masses_kg.len())?;
@@ -43,7 +46,11 @@ pub(super) fn parts(values: &Values) -> Result<Parts, InputError> {
     if along_y.is_some() {
         refuse_in_plane(values)?;
     }
-    let model = Model::new(block, slider, frame, gravity_m_per_s2, initial)
+    let model = match structure {
+        Some(structure) => Model::with_modes(block, slider, structure, gravity_m_per_s2, initial),
+        None => Model::new(block, slider, frame, gravity_m_per_s2, initial),
+    };
+    let model = model
         .and_then(|model| model.with_contents(contents))
         .and_then(|model| match along_y {
             Some(along_y) => model.with_along_y(along_y),
@@ -65,7 +72,10 @@ pub(super) fn analysis(values: Values) -> Result<Analysis, InputError> {
         name: values.text("name").map(str::to_owned),
         names: Names {
             block: values.text("block.name").map(str::to_owned),
-            storeys: (1..=model.storeys())
+            points: model.structure().map_or_else(Vec::new, |structure| {
+                structure.points.iter().map(|point| point.name.clone()).collect()
+            }),
+            storeys: (1..=values.count("storey"))
                 .map(|i| values.text(&format!("storey.{i}.name")).map(str::to_owned))
                 .collect(),
         },
@@ -474,7 +484,7 @@ fn refuse_in_plane(values: &Values) -> Result<(), InputError> {
 /// The model's objection at the key that caused it.
 fn model_error(values: &Values, error: &ModelError) -> InputError {
     // What the constructors call a quantity, and the keys that it may come from.
-    const KEYS: [(&str, &[&str]); 33] = [
+    const KEYS: [(&str, &[&str]); 36] = [
         ("block mass_kg", &["block.mass", "block.weight"]),
         ("block width_m", &["block.width"]),
         ("block width_y_m", &["block.width_y"]),
@@ -487,6 +497,9 @@ fn model_error(values: &Values, error: &ModelError) -> InputError {
         ("stop damper_n_s_per_m", &["slider.stop.damper", "slider.stop.damping_ratio"]),
         ("slider tilt_rad", &["slider.tilt"]),
         ("gravity_m_per_s2", &["analysis.gravity"]),
+        ("structure mass_kg", &["structure.mass", "structure.weight"]),
+        ("structure mode points", &["structure.point"]),
+        ("structure effective_mass_kg", &["structure.mode"]),
         ("storey masses_kg", &["storey"]),
         ("storey stiffnesses_n_per_m", &["storey"]),
         ("storey stiffnesses_y_n_per_m", &["storey"]),

@@ -10,6 +10,9 @@ use crate::units::Dimension::{
 /// modes takes a second.
 pub const MAX_STOREYS: usize = 200;
 
+/// The most modes of a structure, and points of it.
+pub const MAX_MODES: usize = 200;
+
 /// The most items of contents, surfaces in series, and points of friction by speed: several times what
 /// anyone models, few enough that an analysis takes seconds.
 pub const MAX_CONTENTS: usize = 50;
@@ -32,6 +35,11 @@ pub static MODEL: Section = Section {
             Kind::Sections(&CONTENTS, MAX_CONTENTS),
             "What stands unfastened on the block or on a floor and may slide there.",
         ),
+        Key::optional(
+            "structure",
+            Kind::Section(&STRUCTURE),
+            "The structure on the block by its modes, instead of storeys.",
+        ),
         Key::optional("frame", Kind::Section(&FRAME), "What the storeys have in common."),
         Key::optional("motion", Kind::Section(&MOTION), "How the table moves."),
         Key::optional(
@@ -41,7 +49,10 @@ pub static MODEL: Section = Section {
         ),
         Key::optional("analysis", Kind::Section(&ANALYSIS), "How the response is computed."),
     ],
-    choices: &[],
+    choices: &[
+        Exclusive::at_most(&["structure", "storey"]),
+        Exclusive::at_most(&["structure", "frame"]),
+    ],
 };
 
 static BLOCK: Section = Section {
@@ -417,6 +428,104 @@ static STOREY: Section = Section {
         Exclusive::at_most(&["frequency_y", "period_y", "stiffness_y"]),
         Exclusive::at_most(&["damping_ratio_y", "damper_y"]),
     ],
+};
+
+static STRUCTURE: Section = Section {
+    keys: &[
+        Key::optional("mass", Kind::Quantity(Mass, Range::Positive), "All of its mass."),
+        Key::optional(
+            "weight",
+            Kind::Quantity(Force, Range::Positive),
+            "Its weight instead of its mass: mass = weight / g.",
+        ),
+        Key::optional(
+            "modes",
+            Kind::Text("modes.csv"),
+            "Table of the modes, relative to the model file: period_s or frequency_hz, damping_ratio, \
+             participation_x, and the shape at each point, NAME_x.",
+        ),
+        Key::optional(
+            "normalisation",
+            Kind::Text("mass"),
+            "\"mass\": shapes of unit modal mass (default); or the name of a point: shapes that are 1 \
+             there, with effective masses.",
+        ),
+        Key::optional(
+            "damping_ratio",
+            Kind::Number(Range::NotNegative),
+            "Ratio of critical damping of all modes, instead of their own.",
+        ),
+        Key::optional(
+            "period_factor",
+            Kind::Number(Range::Positive),
+            "Factor on the periods of all modes; default 1.",
+        ),
+        Key::optional(
+            "mode",
+            Kind::Sections(&MODE, MAX_MODES),
+            "Modes on a fixed base, the longest period first.",
+        ),
+        Key::optional(
+            "point",
+            Kind::Sections(&POINT, MAX_MODES),
+            "Points whose motion is wanted, from the block up.",
+        ),
+    ],
+    choices: &[Exclusive::one_of(&["mass", "weight"]), Exclusive::at_most(&["modes", "mode"])],
+};
+
+static MODE: Section = Section {
+    keys: &[
+        Key::optional("period", Kind::Quantity(Time, Range::Positive), "Its period."),
+        Key::optional("frequency", Kind::Quantity(Frequency, Range::Positive), "Its frequency."),
+        Key::optional(
+            "damping_ratio",
+            Kind::Number(Range::NotNegative),
+            "Ratio of critical damping; needed unless that of all modes is given.",
+        ),
+        Key::optional(
+            "effective_mass",
+            Kind::Quantity(Mass, Range::NotNegative),
+            "Effective mass, L² of a shape of unit modal mass.",
+        ),
+        Key::optional(
+            "effective_mass_ratio",
+            Kind::Number(Range::NotNegative),
+            "Effective mass over the mass of the structure.",
+        ),
+        Key::optional(
+            "participation",
+            Kind::Number(Range::Any),
+            "Participation L = φᵀ M 1 of a shape of unit modal mass, in √kg; of shapes that are 1 at a \
+             point the participation factor, beside the effective mass.",
+        ),
+    ],
+    choices: &[
+        Exclusive::one_of(&["period", "frequency"]),
+        Exclusive::at_most(&["effective_mass", "effective_mass_ratio"]),
+    ],
+};
+
+static POINT: Section = Section {
+    keys: &[
+        Key::required("name", Kind::Text("roof"), "Its name in results."),
+        Key::optional(
+            "height",
+            Kind::Quantity(Length, Range::Positive),
+            "Height above the block: drift ratio and overturning are reported.",
+        ),
+        Key::optional(
+            "mass",
+            Kind::Quantity(Mass, Range::Positive),
+            "Its share of the mass, of whose inertia the overturning moment is made.",
+        ),
+        Key::optional(
+            "shape",
+            Kind::Numbers(Range::Any, MAX_MODES),
+            "Shapes of the modes at this point, one a mode.",
+        ),
+    ],
+    choices: &[],
 };
 
 static FRAME: Section = Section {

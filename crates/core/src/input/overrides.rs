@@ -1,6 +1,9 @@
 //! Keys set from outside the file: `--set PATH=VALUE`, and the paths that a study varies.
 
+use std::sync::Arc;
+
 use super::keys::MODEL;
+use super::modes;
 use super::paths::{NearestKey, join, matching, nearest_key};
 use super::schema::{Kind, Section};
 use super::tree::{self, Entry, Node, Sources, Spot, Table, Value};
@@ -20,6 +23,8 @@ pub struct Override {
     option: String,
     /// What it does where the path is in a tree.
     put: Put,
+    /// The table of modes that stands in the place of the file that the path names.
+    modes: Option<Arc<str>>,
 }
 
 /// A value of a key: a number in SI, or text as a person writes it.
@@ -57,7 +62,8 @@ impl Override {
             return Err(sources.error(&spot, "", "PATH=VALUE", "no \"=\""));
         };
         let (text, option) = (text.to_owned(), option.to_owned());
-        let this = Self { text, value_at: equals + 1, number: None, option, put: Put::Set };
+        let (number, put, modes) = (None, Put::Set, None);
+        let this = Self { text, value_at: equals + 1, number, option, put, modes };
         this.check_path()?;
         Ok(this)
     }
@@ -96,9 +102,25 @@ impl Override {
         Self { put: Put::Grow, ..self }
     }
 
+    /// Puts a table of modes in the place of `structure.modes`: its file's name, as errors call it, and its
+    /// text.
+    #[must_use]
+    pub fn modes(name: &str, table: &str) -> Self {
+        let path = "structure.modes";
+        let (text, value_at) = (format!("{path}={name}"), path.len() + 1);
+        let (number, option) = (None, String::new());
+        Self { text, value_at, number, option, put: Put::Set, modes: Some(table.into()) }
+    }
+
+    /// Whether it is a table of modes, which sets no key of its own.
+    #[must_use]
+    pub fn is_modes(&self) -> bool {
+        self.modes.is_some()
+    }
+
     fn given(path: &str, text: String, number: Option<f64>) -> Result<Self, InputError> {
         let (value_at, option) = (path.len() + 1, String::new());
-        let this = Self { text, value_at, number, option, put: Put::Set };
+        let this = Self { text, value_at, number, option, put: Put::Set, modes: None };
         this.check_path()?;
         Ok(this)
     }
@@ -176,6 +198,10 @@ impl Override {
     }
 
     fn put(&self, sources: &mut Sources, root: &mut Table, put: Put) -> Result<(), InputError> {
+        if let Some(table) = &self.modes {
+            let name = self.text.get(self.value_at..).unwrap_or("");
+            return modes::expand(sources, root, name, table);
+        }
         self.check_path()?;
         let source = sources.add(&self.source_name(), &self.text);
         let value = self.text.get(self.value_at..).unwrap_or("");

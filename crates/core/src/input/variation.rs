@@ -168,6 +168,7 @@ impl Variation {
     pub fn shape(&self) -> DemandShape {
         DemandShape {
             storeys: self.values.count("storey"),
+            points: self.values.count("structure.point"),
             stop: self.has("slider.stop"),
             surfaces: if self.has("slider.triple") {
                 3

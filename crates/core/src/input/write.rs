@@ -41,6 +41,18 @@ impl List {
     }
 }
 
+/// The last entry as that of a list in a table of a list: the first number opens it, others join it.
+fn join_list(entries: &mut Vec<String>, name: &str, place: &str, value: &str) {
+    entries.pop();
+    match entries.last_mut().filter(|_| place != "1") {
+        Some(list) => {
+            list.pop();
+            list.push_str(&format!(", {value}]"));
+        }
+        None => entries.push(format!("{name} = [{value}]")),
+    }
+}
+
 /// The text of some values, a table a section; see [`super::Analysis::to_toml`].
 pub(super) fn toml(values: &Values, motion: Motion<'_>) -> String {
     let mut text = String::new();
@@ -76,6 +88,11 @@ pub(super) fn toml(values: &Values, motion: Motion<'_>) -> String {
         match list.items.last_mut() {
             Some((last, _, entries)) if last == number => entries.push(entry),
             _ => list.items.push((number.to_owned(), item, vec![entry])),
+        }
+        if let (Some((name, place)), Some((_, _, entries))) =
+            (inner.split_once('.'), list.items.last_mut())
+        {
+            join_list(entries, name, place, &value(leaf));
         }
     }
     if let Some(list) = open {

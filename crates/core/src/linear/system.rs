@@ -49,10 +49,22 @@ pub struct System {
     shapes: Vec<f64>,
     /// Drift of storey `i` in mode `j`, in the same way.
     drifts: Vec<f64>,
+    /// Points of a structure by its modes.
+    points: Option<Points>,
     /// Bound on the rates of stick in rad/s: of `‖A x‖` over `‖x‖` in the energy norm.
     pub stick_rate_rad_per_s: f64,
     /// Bound on the rates of slip in rad/s, not below that of stick.
     pub slip_rate_rad_per_s: f64,
+}
+
+/// Points of a structure by its modes.
+#[derive(Clone, Debug, PartialEq)]
+struct Points {
+    /// Displacements in kg^(−1/2), and differences from the point before: point `i`, mode `j` at `i * n + j`.
+    shapes: Vec<f64>,
+    drifts: Vec<f64>,
+    /// What of each point's motion is the block's.
+    with_block: Vec<f64>,
 }
 
 /// Four numbers of a padded list from a place on, zeros beyond its end.
@@ -93,10 +105,57 @@ impl System {
         stiffnesses_n_per_m: &[f64],
         damping: StoreyDamping<'_>,
     ) -> Self {
+        let slider = (block_mass_kg, stiffness_n_per_m, damper_n_s_per_m);
+        let mut system = Self::unfinished(slider, masses_kg);
+        if !masses_kg.is_empty() {
+            system.set_modes(masses_kg, stiffnesses_n_per_m);
+            system.set_damping(damping);
+        }
+        system.finished()
+    }
+
+    /// The same with oscillators that stand each on the block: modes by their effective masses. To every
+    /// point each adds its displacement times a factor; the rest of the point's motion is the block's.
+    #[must_use]
+    pub fn of_oscillators(
+        slider: (f64, f64, f64),
+        (masses_kg, stiffnesses_n_per_m, dampers): (&[f64], &[f64], &[f64]),
+        points: &[Vec<f64>],
+    ) -> Self {
         let n = masses_kg.len();
+        let mut system = Self::unfinished(slider, masses_kg);
+        let roots: Vec<f64> = masses_kg.iter().map(|m| m.sqrt()).collect();
+        let over = |list: &[f64]| list.iter().zip(masses_kg).map(|(x, m)| x / m).collect();
+        (system.omega2, system.damping) = (over(stiffnesses_n_per_m), over(dampers));
+        system.shapes = vec![0.0; n * n];
+        for (j, root) in roots.iter().enumerate() {
+            system.shapes[j * n + j] = 1.0 / root;
+        }
+        let shape = |factors: &Vec<f64>| -> Vec<f64> {
+            factors.iter().zip(&roots).map(|(factor, root)| factor / root).collect()
+        };
+        let still = vec![0.0; n];
+        let below = core::iter::once(&still).chain(points);
+        let drift = |(here, below): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
+            shape(&here.iter().zip(below).map(|(here, below)| here - below).collect())
+        };
+        system.points = Some(Points {
+            shapes: points.iter().flat_map(shape).collect(),
+            drifts: points.iter().zip(below).flat_map(drift).collect(),
+            with_block: points.iter().map(|of| of.iter().fold(1.0, |rest, x| rest - x)).collect(),
+        });
+        system.participation = roots;
+        system.finished()
+    }
+
+    /// A system without its modes.
+    fn unfinished(
+        (block_mass_kg, stiffness_n_per_m, damper_n_s_per_m): (f64, f64, f64),
+        masses_kg: &[f64],
+    ) -> Self {
         let total_kg = masses_kg.iter().fold(block_mass_kg, |sum, m| sum + m);
-        let mut system = Self {
-            storeys: n,
+        Self {
+            storeys: masses_kg.len(),
             block_mass_kg,
             per_block_mass: 1.0 / block_mass_kg,
             per_root_block: 1.0 / block_mass_kg.sqrt(),
@@ -111,22 +170,23 @@ impl System {
             by_four: Vec::new(),
             shapes: Vec::new(),
             drifts: Vec::new(),
+            points: None,
             stick_rate_rad_per_s: 0.0,
             slip_rate_rad_per_s: 0.0,
-        };
-        if n > 0 {
-            system.set_modes(masses_kg, stiffnesses_n_per_m);
-            system.set_damping(damping);
         }
-        if !system.coupled {
-            let lists = [&system.omega2, &system.damping, &system.participation];
-            system.by_four = (0..system.modes())
+    }
+
+    /// What follows from the modes.
+    fn finished(mut self) -> Self {
+        if !self.coupled {
+            let lists = [&self.omega2, &self.damping, &self.participation];
+            self.by_four = (0..self.modes())
                 .step_by(4)
                 .map(|first| lists.map(|list| Four::new(&list[first..])))
                 .collect();
         }
-        system.set_rates();
-        system
+        self.set_rates();
+        self
     }
 
     /// The same structure on another spring and damper.
@@ -225,6 +285,40 @@ impl System {
     #[must_use]
     pub fn floor(&self, floor: usize) -> &[f64] {
         &self.shapes[floor * self.storeys..][..self.storeys]
+    }
+
+    /// Number of points whose motion is told: floors, or the points of a structure by its modes.
+    #[must_use]
+    pub fn points(&self) -> usize {
+        self.points.as_ref().map_or(self.storeys, |points| points.with_block.len())
+    }
+
+    /// Whether the structure is given by its modes.
+    #[must_use]
+    pub fn is_by_modes(&self) -> bool {
+        self.points.is_some()
+    }
+
+    /// What the coordinates do to one point.
+    #[must_use]
+    pub fn point(&self, point: usize) -> &[f64] {
+        self.points.as_ref().map_or_else(|| self.floor(point), |of| self.row(&of.shapes, point))
+    }
+
+    /// What the coordinates do to the drift of one point from the one before it.
+    #[must_use]
+    pub fn point_drift(&self, point: usize) -> &[f64] {
+        self.points.as_ref().map_or_else(|| self.drift(point), |of| self.row(&of.drifts, point))
+    }
+
+    /// What of a point's motion is the block's.
+    #[must_use]
+    pub fn with_block(&self, point: usize) -> f64 {
+        self.points.as_ref().map_or(0.0, |points| points.with_block[point])
+    }
+
+    fn row<'a>(&self, rows: &'a [f64], row: usize) -> &'a [f64] {
+        &rows[row * self.storeys..][..self.storeys]
     }
 
     /// What the coordinates do to the drift of one storey.
@@ -450,13 +544,13 @@ impl System {
         }
         let squares = [first, second].map(|sums| (sums[0] + sums[1]) + (sums[2] + sums[3]));
         let block = slip.then(|| [x[1], u - a, dot(l, f)]);
-        self.with_block(squares, block, [jerk, force_rate])
+        self.norms_with_block(squares, block, [jerk, force_rate])
     }
 
     /// Norms of `ẋ` and `ẍ` from the squares of the structure's parts, in slip with those of the block at
     /// `ṡ`, `s̈` and a rate of the base shear.
     #[inline(always)]
-    fn with_block(
+    fn norms_with_block(
         &self,
         [mut first, mut second]: [f64; 2],
         block: Option<[f64; 3]>,
@@ -506,7 +600,7 @@ impl System {
         }
         let squares = [first, second].map(sum_of_lanes);
         let block = slip.then(|| [x[1], u - a, sum_of_lanes(shear)]);
-        self.with_block(squares, block, [jerk, force_rate])
+        self.norms_with_block(squares, block, [jerk, force_rate])
     }
 
     /// Four modes of a padded state and their rates. Beyond the last mode stands what multiplies zeros.

@@ -93,6 +93,32 @@ pub fn linear_fit<R: AsRef<[f64]>>(rows: &[(R, f64)]) -> Option<LinearFit> {
     Some(LinearFit { coefficients, covariance, sse })
 }
 
+/// Solution of `A x = b` by elimination with pivots, `None` of a singular matrix given row by row.
+#[must_use]
+pub fn solution(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Option<Vec<f64>> {
+    let n = b.len();
+    for k in 0..n {
+        let pivot =
+            (k..n).reduce(|best, i| if a[i][k].abs() > a[best][k].abs() { i } else { best })?;
+        if a[pivot][k] == 0.0 {
+            return None;
+        }
+        a.swap(k, pivot);
+        b.swap(k, pivot);
+        let (done, rest) = a.split_at_mut(k + 1);
+        for (i, row) in rest.iter_mut().enumerate() {
+            let factor = row[k] / done[k][k];
+            row.iter_mut().zip(&done[k]).skip(k).for_each(|(x, y)| *x -= factor * y);
+            b[k + 1 + i] -= factor * b[k];
+        }
+    }
+    for k in (0..n).rev() {
+        let known = (k + 1..n).fold(b[k], |rest, j| rest - a[k][j] * b[j]);
+        b[k] = known / a[k][k];
+    }
+    Some(b)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,6 +3,9 @@
 use super::{History, HistoryAlongY, Response};
 use crate::model::Model;
 
+/// A quantity of a point at a knot: history, knot, point.
+type OfPoint = fn(&History, usize, usize) -> f64;
+
 impl Response {
     /// Names and values of all columns of the history at some knots, as [`History::columns`]; in two
     /// horizontal directions each that is along x is followed by the same along y, `…_y_m`. None where no
@@ -68,7 +71,8 @@ impl History {
     }
 
     /// Names and values of all columns at some knots: time, table acceleration, sliding displacement
-    /// and velocity, total acceleration of the block, friction force; of each storey displacement and
+    /// and velocity, total acceleration of the block, friction force; of each storey, or point of a
+    /// structure by its modes, displacement and
     /// velocity relative to the block and total acceleration; displacements of surfaces in series; of
     /// contents displacement and velocity relative to their floor and total acceleration. Units are in
     /// the names.
@@ -88,6 +92,17 @@ impl History {
         .into_iter()
         .map(|(name, list)| (name.to_owned(), of(list, 1, 0)))
         .collect();
+        let kinds: [(&str, OfPoint); 3] = [
+            ("displacement_m", Self::point_displacement),
+            ("velocity_m_per_s", Self::point_velocity),
+            ("acceleration_m_per_s2", Self::point_acceleration),
+        ];
+        for i in 0..self.points.as_ref().map_or(0, |_| self.point_count()) {
+            columns.extend(kinds.map(|(kind, value)| {
+                let values = knots.iter().map(|&knot| value(self, knot, i)).collect();
+                (format!("point{}_{kind}", i + 1), values)
+            }));
+        }
         let mut add = |part: &str, count: usize, lists: [&[f64]; 3]| {
             let kinds = ["displacement_m", "velocity_m_per_s", "acceleration_m_per_s2"];
             for i in 0..count {
@@ -96,15 +111,17 @@ impl History {
                 }
             }
         };
-        add(
-            "storey",
-            self.storeys,
-            [
-                &self.storey_displacement_m,
-                &self.storey_velocity_m_per_s,
-                &self.storey_acceleration_m_per_s2,
-            ],
-        );
+        if self.points.is_none() {
+            add(
+                "storey",
+                self.storeys,
+                [
+                    &self.storey_displacement_m,
+                    &self.storey_velocity_m_per_s,
+                    &self.storey_acceleration_m_per_s2,
+                ],
+            );
+        }
         add("surface", self.surfaces, [&self.surface_displacement_m, &[], &[]]);
         add(
             "contents",

@@ -25,6 +25,8 @@ pub enum DemandOf {
     Run,
     /// Each storey.
     Storey,
+    /// Each point of a structure by its modes.
+    Point,
     /// The stop, where the model has one.
     Stop,
     /// Each surface in series.
@@ -40,6 +42,7 @@ impl DemandOf {
         match self {
             Self::Run | Self::Stop => None,
             Self::Storey => Some("storey"),
+            Self::Point => Some("point"),
             Self::Surface => Some("surface"),
             Self::Contents => Some("contents"),
         }
@@ -51,6 +54,7 @@ impl DemandOf {
         match self {
             Self::Run | Self::Stop => None,
             Self::Storey => Some("storeys"),
+            Self::Point => Some("points"),
             Self::Surface => Some("surfaces"),
             Self::Contents => Some("contents"),
         }
@@ -162,6 +166,10 @@ impl Demand {
         Self { of: DemandOf::Storey, ..self }
     }
 
+    const fn of_point(self) -> Self {
+        Self { of: DemandOf::Point, ..self }
+    }
+
     const fn of_surface(self) -> Self {
         Self { of: DemandOf::Surface, ..self }
     }
@@ -218,7 +226,7 @@ const SURFACES: u8 = 44;
 const CONTENTS: u8 = 45;
 
 /// The demands in the order of the summary and of tables.
-pub static DEMANDS: [Demand; 43] = [
+pub static DEMANDS: [Demand; 47] = [
     Demand::number("peak_sliding_displacement_m", "peak sliding displacement", Length, |d, _| {
         Some(d.peak_sliding_displacement_m)
     })
@@ -304,6 +312,28 @@ pub static DEMANDS: [Demand; 43] = [
         d.storeys.get(i).and_then(|storey| storey.peak_drift_ratio)
     })
     .of_storey()
+    .row(STOREYS, "peak drift ratio"),
+    Demand::number("peak_acceleration_m_per_s2", "peak acceleration", Acceleration, |d, i| {
+        d.points.get(i).map(|point| point.peak_acceleration_m_per_s2)
+    })
+    .of_point()
+    .row(STOREYS, "peak acceleration")
+    .in_study(6),
+    Demand::number("peak_displacement_m", "peak displacement", Length, |d, i| {
+        d.points.get(i).map(|point| point.peak_displacement_m)
+    })
+    .of_point()
+    .row(STOREYS, "peak displacement"),
+    Demand::number("peak_drift_m", "peak drift", Length, |d, i| {
+        d.points.get(i).map(|point| point.peak_drift_m)
+    })
+    .of_point()
+    .row(STOREYS, "peak drift")
+    .in_study(7),
+    Demand::ratio("peak_drift_ratio", "peak drift ratio", |d, i| {
+        d.points.get(i).and_then(|point| point.peak_drift_ratio)
+    })
+    .of_point()
     .row(STOREYS, "peak drift ratio"),
     Demand::number("peak_base_shear_n", "peak base shear", Force, |d, _| Some(d.peak_base_shear_n))
         .row_with_storeys(30, "Peak base shear"),
@@ -438,6 +468,8 @@ fn of_stop(demands: &Demands, pick: fn(&StopDemands) -> f64) -> Option<f64> {
 pub struct DemandShape {
     /// Number of storeys.
     pub storeys: usize,
+    /// Number of points of a structure by its modes, 0 of a frame.
+    pub points: usize,
     /// Whether there is a stop that acts.
     pub stop: bool,
     /// Number of surfaces in series, 0 where there is one surface only.
@@ -470,6 +502,7 @@ impl DemandShape {
             DemandOf::Run => 1,
             DemandOf::Stop => usize::from(self.stop),
             DemandOf::Storey => self.storeys,
+            DemandOf::Point => self.points,
             DemandOf::Surface => self.surfaces,
             DemandOf::Contents => self.contents,
         }
@@ -501,12 +534,13 @@ impl DemandShape {
     /// The demand that people look at first: the total acceleration of the roof, or of the block.
     #[must_use]
     pub fn roof_acceleration(self) -> DemandColumn {
-        let key = match self.storeys {
-            0 => "block.peak_acceleration_m_per_s2",
-            _ => "peak_acceleration_m_per_s2",
+        let (of, part, key) = match (self.storeys, self.points) {
+            (0, 0) => (DemandOf::Run, 0, "block.peak_acceleration_m_per_s2"),
+            (0, points) => (DemandOf::Point, points, "peak_acceleration_m_per_s2"),
+            (storeys, _) => (DemandOf::Storey, storeys, "peak_acceleration_m_per_s2"),
         };
-        let index = DEMANDS.iter().position(|demand| demand.key == key).unwrap_or(0);
-        DemandColumn { demand: &DEMANDS[index], part: self.storeys }
+        let found = DEMANDS.iter().position(|demand| demand.of == of && demand.key == key);
+        DemandColumn { demand: &DEMANDS[found.unwrap_or(0)], part }
     }
 }
 
@@ -520,7 +554,7 @@ impl DemandColumn {
     /// The demand of any structure with this name in tables: `slip_count`, `storey12_peak_drift_m`.
     #[must_use]
     pub fn of_name(name: &str) -> Option<Self> {
-        let of_part = [DemandOf::Storey, DemandOf::Surface, DemandOf::Contents];
+        let of_part = [DemandOf::Storey, DemandOf::Point, DemandOf::Surface, DemandOf::Contents];
         let parted = of_part.into_iter().find_map(|of| {
             let (number, key) = name.strip_prefix(of.part()?)?.split_once('_')?;
             Some((Some(of), number.parse().ok().filter(|part| *part > 0)?, key))
@@ -589,6 +623,7 @@ impl Demands {
     pub fn shape(&self) -> DemandShape {
         DemandShape {
             storeys: self.storeys.len(),
+            points: self.points.len(),
             stop: self.stop.is_some(),
             surfaces: self.surfaces.len(),
             contents: self.contents.len(),
@@ -629,7 +664,8 @@ mod tests {
     /// No name twice, every name found again, and names end in the unit of their demand.
     #[test]
     fn exact_names_are_found_again() {
-        let columns = DemandShape { storeys: 12, stop: true, surfaces: 3, contents: 2 }.columns();
+        let columns =
+            DemandShape { storeys: 12, points: 3, stop: true, surfaces: 3, contents: 2 }.columns();
         for (i, column) in columns.iter().enumerate() {
             let name = column.name();
             assert_eq!(DemandColumn::of_name(&name), Some(*column), "{name}");

@@ -172,7 +172,7 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
         let n = width.modes();
         let [mut x, next] = workspace.states.each_mut().map(|x| Workspace::list(x, stride, 0.0));
         x.copy_from_slice(&tables.start);
-        let outputs = output::count(system.storeys);
+        let outputs = output::count(system.points());
         let groups = outputs.div_ceil(8);
         let values = Workspace::list(&mut workspace.values, groups, Eight::ZERO);
         let [mut amplitudes, f, g] =

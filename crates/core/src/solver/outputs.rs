@@ -13,7 +13,7 @@ use crate::linear::lanes::{Eight, combine8, dot, eight};
 use crate::model::Model;
 use crate::slider::Restraint;
 
-/// Places of the outputs of the block; those of the storeys follow.
+/// Places of the outputs of the block; those of the points follow: floors, or points of a structure by its modes.
 pub(super) mod output {
     /// `ṡ` in m/s.
     pub(in crate::solver) const VELOCITY: usize = 0;
@@ -72,7 +72,7 @@ pub(super) struct OutputRow {
 pub(super) struct Overturning {
     /// Masses of the floors times their heights, `Φᵀ z`.
     arm: Vec<f64>,
-    /// Half the block's mass times its height.
+    /// Half the block's mass times its height, with what of the points' motion is the block's.
     block: f64,
 }
 
@@ -95,24 +95,16 @@ impl Overturning {
 
 /// Moment arms of the floors' and the block's inertia, where width and heights are given.
 pub(super) fn overturning(model: &Model, system: &System) -> Option<Overturning> {
-    let (block, frame) = (model.block(), model.frame());
-    block.width_m?;
-    let n = system.storeys;
-    let block_height_m = block.height_m.unwrap_or(0.0);
-    let heights_m = match &frame.heights_m {
-        Some(heights_m) => heights_m.as_slice(),
-        None if n == 0 && block.height_m.is_some() => &[],
-        None => return None,
-    };
+    model.block().width_m?;
     let mut arm = vec![0.0; system.modes()];
-    let mut above_m = block_height_m;
-    for (i, height_m) in heights_m.iter().enumerate() {
-        above_m += height_m;
-        for (arm, shape) in arm.iter_mut().zip(system.floor(i)) {
-            *arm += frame.masses_kg[i] * above_m * shape;
+    let mut block = 0.5 * model.block().height_m.unwrap_or(0.0) * model.bare_block_kg();
+    for (i, [mass_kg, above_m]) in model.lever_arms()?.into_iter().enumerate() {
+        for (arm, shape) in arm.iter_mut().zip(system.point(i)) {
+            *arm += mass_kg * above_m * shape;
         }
+        block += mass_kg * above_m * system.with_block(i);
     }
-    Some(Overturning { arm, block: 0.5 * block_height_m * block.mass_kg })
+    Some(Overturning { arm, block })
 }
 
 /// All outputs of stick, or of slip with what of its restraint is friction, in their order.
@@ -186,15 +178,24 @@ pub(super) fn rows(
         row.of_stop = moment.block * u.of_stop;
         row
     });
+    let points = 0..system.points();
+    // −Φ_i f, and with the block what of the point's motion is the block's.
+    let acceleration = |i: usize| {
+        let (mut row, part) = (of_f(system.point(i), -1.0), system.with_block(i));
+        if part != 0.0 {
+            row.state.iter_mut().zip(&u.state).for_each(|(row, u)| *row += part * u);
+            [row.of_a, row.of_friction, row.of_stop] =
+                [u.of_a, u.of_friction, u.of_stop].map(|u| part * u);
+        }
+        OutputRow { constant: -slope, ..row }
+    };
+    let accelerations: Vec<OutputRow> = points.clone().map(acceleration).collect();
     let block = OutputRow { constant: -slope, ..u };
-    let mut all = Vec::with_capacity(output::count(system.storeys));
+    let mut all = Vec::with_capacity(output::count(system.points()));
     all.extend([velocity, block, slider, friction, of_f(l, 1.0), moment]);
-    let storeys = 0..system.storeys;
-    all.extend(storeys.clone().map(|i| of_eta(system.floor(i))));
-    all.extend(
-        storeys.clone().map(|i| OutputRow { constant: -slope, ..of_f(system.floor(i), -1.0) }),
-    );
-    all.extend(storeys.skip(1).map(|i| of_eta(system.drift(i))));
+    all.extend(points.clone().map(|i| of_eta(system.point(i))));
+    all.extend(accelerations);
+    all.extend(points.skip(1).map(|i| of_eta(system.point_drift(i))));
     all
 }
 

@@ -23,7 +23,7 @@ use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::numerics::fractile::upper_median;
 use crate::progress::{GoOn, Pulse, UNWATCHED};
-use crate::response::{Method, Response, StopDemands};
+use crate::response::{History, Method, PointFactors, Response, StopDemands};
 use crate::slider::Law;
 
 /// Most work of an analysis: radians that the fastest mode turns, times the square of the number of
@@ -379,7 +379,7 @@ fn solve_along_x(
         method: Method::Exact,
         demands,
         events: outcome.events,
-        history: recorder.map(|recorder| recorder.history),
+        history: recorder.map(|recorder| with_points(recorder.history, model)),
         contact_loss_s,
         iterations: None,
         warnings,
@@ -405,12 +405,17 @@ fn stepped(
         method: Method::Exact,
         demands,
         events: stepped.outcome.events,
-        history: stepped.history,
+        history: stepped.history.map(|history| with_points(history, model)),
         contact_loss_s,
         iterations: None,
         warnings,
         in_plane: None,
     })
+}
+
+/// The same with how the points of a structure by its modes follow from it.
+fn with_points(history: History, model: &Model) -> History {
+    History { points: PointFactors::of(model), ..history }
 }
 
 /// `∫|Ü| dt` by the trapezoidal rule, in m/s.

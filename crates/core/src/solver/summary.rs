@@ -23,18 +23,21 @@ pub(super) struct Outcome {
 pub(super) fn demands(model: &Model, outcome: &Outcome, peak: impl Fn(usize) -> f64) -> Demands {
     let n = model.storeys();
     let weight_n = model.weight_n();
-    let storeys: Vec<StoreyDemands> = (0..n)
+    let n_points = model.points();
+    let points: Vec<StoreyDemands> = (0..n_points)
         .map(|i| StoreyDemands {
-            peak_acceleration_m_per_s2: peak(output::acceleration(n, i)),
+            peak_acceleration_m_per_s2: peak(output::acceleration(n_points, i)),
             peak_displacement_m: peak(output::displacement(i)),
-            peak_drift_m: peak(output::drift(n, i)),
+            peak_drift_m: peak(output::drift(n_points, i)),
             peak_drift_ratio: model
-                .frame()
-                .heights_m
-                .as_ref()
-                .map(|heights_m| peak(output::drift(n, i)) / heights_m[i]),
+                .rise_m(i)
+                .map(|rise_m| peak(output::drift(n_points, i)) / rise_m),
         })
         .collect();
+    let (storeys, points) = match model.structure() {
+        Some(_) => (Vec::new(), points),
+        None => (points, Vec::new()),
+    };
     let [mut slip_count, mut reversal_count, mut stick_count] = [0; 3];
     for event in outcome.events.iter().filter(|e| e.interface == 0) {
         slip_count += u64::from(event.kind == EventKind::Slip);
@@ -59,6 +62,7 @@ pub(super) fn demands(model: &Model, outcome: &Outcome, peak: impl Fn(usize) -> 
         stick_count,
         peak_block_acceleration_m_per_s2: peak(output::BLOCK),
         storeys,
+        points,
         peak_base_shear_n,
         peak_friction_force_n: peak(output::FRICTION),
         peak_slider_force_n: peak(output::SLIDER),

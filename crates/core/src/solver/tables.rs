@@ -151,6 +151,19 @@ pub(super) struct Batch {
 /// The linear system of a model.
 pub(super) fn system_of(model: &Model) -> System {
     let frame = model.frame();
+    if let (Some(structure), Damping::Dampers(dampers)) = (model.structure(), &frame.damping) {
+        let of_point = |i: usize| structure.modes.iter().map(|mode| mode.points[i]).collect();
+        let points: Vec<Vec<f64>> = (0..structure.points.len()).map(of_point).collect();
+        return System::of_oscillators(
+            (
+                model.block().mass_kg,
+                model.slider_stiffness_n_per_m(),
+                model.slider().damper_n_s_per_m,
+            ),
+            (&frame.masses_kg, &frame.stiffnesses_n_per_m, dampers),
+            &points,
+        );
+    }
     let damping = match &frame.damping {
         Damping::Ratio(ratio) => StoreyDamping::Ratio(*ratio),
         Damping::Dampers(dampers) => StoreyDamping::Dampers(dampers),
@@ -226,8 +239,8 @@ impl Tables {
             }
         }
         let start = start(model, &free);
-        let plain_s =
-            dt_s.filter(|_| free.storeys <= 1 && is_tabled && law.two_branches(normal_n).is_some());
+        let fits = free.storeys <= 1 && !free.is_by_modes();
+        let plain_s = dt_s.filter(|_| fits && is_tabled && law.two_branches(normal_n).is_some());
         let dense = plain_s.and_then(|dt_s| {
             let moment = stick.overturning.as_deref();
             let rows = [None, Some(&Restraint::default())]

@@ -20,7 +20,11 @@ const HIGH_DAMPING: f64 = 0.3;
 /// Values that are possible and hardly meant.
 pub(crate) fn suspicious(model: &Model) -> Vec<Notice> {
     let coefficient = model.static_friction().into_iter().fold(0.0, f64::max);
+    let of_modes = model
+        .structure()
+        .map(|structure| structure.modes.iter().map(|mode| mode.damping_ratio).fold(0.0, f64::max));
     let ratio = match model.frame().damping {
+        _ if of_modes.is_some() => of_modes.unwrap_or(0.0),
         Damping::Ratio(ratio) if model.storeys() > 0 => ratio,
         _ => 0.0,
     };
@@ -38,10 +42,35 @@ pub(crate) fn suspicious(model: &Model) -> Vec<Notice> {
         );
         Notice::new(NoticeKind::HighDamping, message)
     });
-    [high_friction, high_damping, small_radius(model), inner_friction(model)]
+    [high_friction, high_damping, small_radius(model), inner_friction(model), missing_mass(model)]
         .into_iter()
         .flatten()
         .collect()
+}
+
+/// Part of the mass that modes must have without a warning, and without a word.
+const ENOUGH_MODES: f64 = 0.9;
+const ALL_MODES: f64 = 1.0 - 1e-6;
+
+/// What the modes of a structure lack of its mass.
+fn missing_mass(model: &Model) -> Option<Notice> {
+    let structure = model.structure()?;
+    let missing_kg = structure.missing_mass_kg();
+    let found = 1.0 - missing_kg / structure.mass_kg;
+    let kind = match found {
+        found if found < ENOUGH_MODES => NoticeKind::MissingModes,
+        found if found < ALL_MODES => NoticeKind::MissingMass,
+        _ => return None,
+    };
+    let more = if found < ENOUGH_MODES { "; below 90 % more modes are needed" } else { "" };
+    let message = format!(
+        "the modes have {:.4} % of the structure's mass; the rest, {:.4} % or {} kg, moves with the \
+         block{more}",
+        100.0 * found,
+        100.0 - 100.0 * found,
+        missing_kg.round()
+    );
+    Some(Notice::new(kind, message))
 }
 
 /// A radius that no slider has.
@@ -80,7 +109,10 @@ fn inner_friction(model: &Model) -> Option<Notice> {
 /// Frequency of the highest mode, or of the block on its spring, in Hz.
 pub(crate) fn highest_hz(model: &Model) -> f64 {
     let frame = model.frame();
-    let of_frame = shear_frame_frequencies(&frame.masses_kg, &frame.stiffnesses_n_per_m);
+    let of_frame = match model.structure() {
+        Some(structure) => structure.modes.iter().map(|mode| mode.frequency_rad_per_s).collect(),
+        None => shear_frame_frequencies(&frame.masses_kg, &frame.stiffnesses_n_per_m),
+    };
     let of_slider = (model.slider_stiffness_n_per_m() / model.total_mass_kg()).sqrt();
     of_frame.into_iter().fold(of_slider, f64::max) / (2.0 * core::f64::consts::PI)
 }

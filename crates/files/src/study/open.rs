@@ -15,7 +15,7 @@ use super::StudyError;
 use crate::error::FileError;
 use crate::globs::{expand, named_twice};
 use crate::load::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
-use crate::read::{read_at_most, read_bytes, resolve};
+use crate::read::{modes_beside, read_at_most, read_bytes, resolve};
 use crate::run::request;
 use crate::table::read_table;
 use crate::unfit::refuse_unfit;
@@ -77,7 +77,15 @@ impl OpenStudy {
             let expected = "a model file that can be read";
             in_plan(plan.error_at("model", expected, error.to_string()))
         })?;
-        let model_text = String::from_utf8_lossy(&model_bytes).into_owned();
+        let mut model_text = String::from_utf8_lossy(&model_bytes).into_owned();
+        let modes = modes_beside(&model_path, &portable(&plan.model), &model_bytes)
+            .map_err(|error| StudyError::input(error, &model_text))?;
+        if let Some(modes) = modes {
+            // The study reads one text: that of the model with its modes in it.
+            let analysis = input::parse(&portable(&plan.model), &model_text, &[modes])
+                .map_err(|error| StudyError::input(error, &model_text))?;
+            model_text = analysis.to_toml_with_motion();
+        }
         let in_model = |error| StudyError::input(error, &model_text);
         let mut inputs = vec![
             (file_name(plan_path), sha256_hex(&plan_bytes)),
@@ -86,7 +94,7 @@ impl OpenStudy {
         let mut notices = Vec::new();
         let loaded = match &plan.records {
             Some(records) => load_all(&plan, records, folder, &in_plan, &mut notices, engine)?,
-            None => own_record(&plan, &model_path, &model_bytes, &in_model)?,
+            None => own_record(&plan, &model_path, model_text.as_bytes(), &in_model)?,
         };
         let mut records = Vec::new();
         let mut record_paths = Vec::new();

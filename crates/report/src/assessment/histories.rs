@@ -118,6 +118,9 @@ impl HistoriesReport<'_> {
         if shape.storeys > 0 {
             columns.push(roofs);
             columns.extend([drift].iter().chain(rest).filter_map(named));
+        } else if shape.points > 0 {
+            columns.push(roofs);
+            columns.extend(["point1_peak_drift_m"].iter().chain(rest).filter_map(named));
         }
         // What the slider strikes, and what slides on the floors.
         let met = shape.columns().into_iter().filter(|column| {
@@ -287,10 +290,12 @@ impl HistoriesReport<'_> {
         let title = column.title();
         let (what, storey) = match column.demand.of {
             DemandOf::Storey => (format!("Storey {}", column.part), column.part),
+            DemandOf::Point => (format!("Point {}", column.part), column.part),
             _ => ("Block".to_owned(), 0),
         };
         let name = |names: &Names| match storey {
             0 => names.block.clone(),
+            point if column.demand.of == DemandOf::Point => names.points.get(point - 1).cloned(),
             storey => names.storeys.get(storey - 1).cloned().flatten(),
         };
         let mut names = self.histories.models.iter().map(|model| name(&model.names));

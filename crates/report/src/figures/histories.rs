@@ -1,5 +1,7 @@
 //! Sliding displacement, accelerations and drifts over time.
 
+use slipstick::response::{Demands, StoreyDemands};
+
 use super::trace::Trace;
 use super::{Drawn, Scene, drawn, shown_note, shown_storeys};
 use crate::display::{Quantity, Unit};
@@ -124,28 +126,33 @@ pub fn accelerations(scene: &Scene) -> Drawn {
         ),
     ];
     let peaks: Vec<f64> =
-        demands.storeys.iter().map(|storey| storey.peak_acceleration_m_per_s2).collect();
+        of_points(demands).iter().map(|point| point.peak_acceleration_m_per_s2).collect();
     let shown = shown_storeys(&peaks);
     for &i in &shown {
-        let floor = scene.over_time(unit, |knot| history.storey_accelerations(knot)[i]);
+        let floor = scene.over_time(unit, |knot| history.point_acceleration(knot, i));
         let trace = Trace::with_peak(floor, unit.of(peaks[i]));
-        panels.push(history_panel(scene, &acceleration(&names.storey(i + 1)), trace, unit));
+        panels.push(history_panel(scene, &acceleration(&names.point(i + 1)), trace, unit));
     }
     let caption = format!(
         "Total accelerations, each on its own scale. {SHADING} While the block sticks it moves with \
          the ground; while it slides only friction, spring and structure drive it, which caps its \
          acceleration.{}",
-        shown_note(&shown, history.storeys)
+        shown_note(&shown, history.point_count())
     );
     let title = "Accelerations of ground, block and storeys over time";
     over_time(scene, ("accelerations", title), panels, caption)
 }
 
+/// Demands of the storeys, or of the points of a structure by its modes.
+fn of_points(demands: &Demands) -> &[StoreyDemands] {
+    if demands.points.is_empty() { &demands.storeys } else { &demands.points }
+}
+
 /// Displacement of each floor relative to the one below; none without storeys.
 pub fn drifts(scene: &Scene) -> Option<Drawn> {
     let (report, history) = (scene.report, scene.history);
-    let storeys = &report.summary.demands.storeys;
-    let peaks: Vec<f64> = storeys.iter().map(|storey| storey.peak_drift_m).collect();
+    let points = of_points(&report.summary.demands);
+    let peaks: Vec<f64> = points.iter().map(|storey| storey.peak_drift_m).collect();
     let largest = peaks.iter().copied().fold(0.0, f64::max);
     let unit = report.display.unit(Quantity::Length, largest);
     let shown = shown_storeys(&peaks);
@@ -156,23 +163,29 @@ pub fn drifts(scene: &Scene) -> Option<Drawn> {
         .iter()
         .map(|&i| {
             let drift = scene.over_time(unit, |knot| {
-                let q = history.storey_displacements(knot);
-                if i == 0 { q[0] } else { q[i] - q[i - 1] }
+                let below = if i == 0 { 0.0 } else { history.point_displacement(knot, i - 1) };
+                history.point_displacement(knot, i) - below
             });
             let trace = Trace::with_peak(drift, unit.of(peaks[i]));
             history_panel(
                 scene,
-                &format!("{} drift", shortened(&report.summary.names.storey(i + 1), 24)),
+                &format!("{} drift", shortened(&report.summary.names.point(i + 1), 24)),
                 trace,
                 unit,
             )
         })
         .collect();
-    let caption = format!(
-        "Drift of each storey: displacement of its floor relative to the floor below (storey 1: \
-         relative to the block). {SHADING}{}",
-        shown_note(&shown, history.storeys)
-    );
+    let what = match report.model.structure() {
+        Some(_) => {
+            "Drift of each point: its displacement relative to the point before it (the first: \
+             relative to the block)."
+        }
+        None => {
+            "Drift of each storey: displacement of its floor relative to the floor below (storey 1: \
+             relative to the block)."
+        }
+    };
+    let caption = format!("{what} {SHADING}{}", shown_note(&shown, history.point_count()));
     Some(over_time(scene, ("drifts", "Storey drifts over time"), panels, caption))
 }
 

@@ -33,7 +33,7 @@ pub fn floors(report: &Report, spectra: &FloorSpectra) -> Option<Drawn> {
         points: periods.iter().zip(values).map(|(&t, &a)| [t, unit.of(a)]).collect(),
     };
     let storeys = shown.iter().zip(storey_styles).map(|(&i, style)| {
-        line(names.storey(i + 1).to_lowercase(), style, &spectra.storeys_m_per_s2[i])
+        line(names.point(i + 1).to_lowercase(), style, &spectra.storeys_m_per_s2[i])
     });
     let mut series: Vec<Series> = storeys.collect();
     if !spectra.table_m_per_s2.is_empty() {

@@ -105,12 +105,14 @@ fn rest(report: &Report) -> String {
     let acceleration = |si: f64| with_unit(report.display.unit(Quantity::Acceleration, si), si);
     let block = largest(&|run| run.demands.peak_block_acceleration_m_per_s2);
     let mut text = format!("Peak acceleration of the block {}", acceleration(block));
-    if report.model.storeys() > 0 {
+    if report.model.points() > 0 {
         let floors = |run: &Summary| {
-            let all = run.demands.storeys.iter().map(|s| s.peak_acceleration_m_per_s2);
+            let points = run.demands.storeys.iter().chain(&run.demands.points);
+            let all = points.map(|s| s.peak_acceleration_m_per_s2);
             all.fold(0.0, f64::max)
         };
-        text.push_str(&format!(", of the floors {}", acceleration(largest(&floors))));
+        let of = if report.model.structure().is_some() { "points" } else { "floors" };
+        text.push_str(&format!(", of the {of} {}", acceleration(largest(&floors))));
     }
     text.push_str(&format!(
         "; peak ground acceleration {}.",

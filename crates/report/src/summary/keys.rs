@@ -161,7 +161,8 @@ fn demands(
         let own = DEMANDS.iter().filter(|demand| demand.of == of);
         let own = own.map(|demand| (demand.key, json(DemandColumn { demand, part })));
         let storey = names.storeys.get(part - 1).filter(|_| of == DemandOf::Storey);
-        let named = storey.and_then(name);
+        let point = names.points.get(part - 1).filter(|_| of == DemandOf::Point);
+        let named = storey.and_then(name).or(point.map(|point| ("name", point.as_str().into())));
         Json::Object(named.into_iter().chain(own).collect())
     };
     let mut keys: Vec<(&'static str, Json)> = Vec::new();
@@ -170,6 +171,7 @@ fn demands(
             let count = match demand.of {
                 DemandOf::Surface => demands.surfaces.len(),
                 DemandOf::Contents => demands.contents.len(),
+                DemandOf::Point => demands.points.len(),
                 _ => demands.storeys.len(),
             };
             // Only storeys are listed where there are none.

@@ -35,7 +35,7 @@ fn exact_unknown_keys_at_any_depth() {
     );
     assert_eq!(
         changed("[analysis]", "[analyses]"),
-        "m.toml:38:2: analyses: expected one of the keys name, block, slider, storey, contents, frame, \
+        "m.toml:38:2: analyses: expected one of the keys name, block, slider, storey, contents, structure, frame, \
          motion, initial, analysis, found \"analyses\"; nearest is \"analysis\""
     );
     assert_eq!(

@@ -16,6 +16,9 @@ pub(super) struct Body {
     pub(super) total_kg: f64,
     pub(super) masses_kg: Vec<f64>,
     pub(super) stiffnesses_n_per_m: Vec<f64>,
+    /// Of a structure by its modes: what each oscillator adds to the points, point by point, and what of
+    /// their motion is the block's. Its oscillators stand each on the block.
+    pub(super) points: Option<(Vec<Vec<f64>>, Vec<f64>)>,
     /// `C` row by row.
     damping: Vec<f64>,
     /// What slides as one: items on one floor with the same coefficients, which start from rest and so
@@ -131,6 +134,12 @@ pub(in crate::solver) struct Expansion {
     pub(super) part: f64,
 }
 
+/// `Σ c p`.
+fn combined(factors: &[f64], of: &[Polynomial]) -> Polynomial {
+    let all = || factors.iter().zip(of);
+    core::array::from_fn(|k| all().fold(0.0, |sum, (c, p)| sum + c * p[k]))
+}
+
 impl Body {
     pub(super) fn new(model: &Model, system: &System) -> Self {
         let frame = model.frame();
@@ -157,7 +166,13 @@ impl Body {
             contents.len() - 1
         };
         let part_of = model.contents().iter().map(join).collect();
+        let points = model.structure().map(|structure| {
+            let of_point = |i: usize| structure.modes.iter().map(|mode| mode.points[i]).collect();
+            let all = 0..structure.points.len();
+            (all.clone().map(of_point).collect(), all.map(|i| structure.with_block(i)).collect())
+        });
         Self {
+            points,
             block_kg: model.block().mass_kg,
             total_kg: model.total_mass_kg(),
             masses_kg: m.clone(),
@@ -173,6 +188,26 @@ impl Body {
         self.masses_kg.len()
     }
 
+    /// Points whose motion is told: floors, or those of a structure by its modes.
+    pub(super) fn point_count(&self) -> usize {
+        self.points.as_ref().map_or(self.storeys(), |(points, _)| points.len())
+    }
+
+    /// Displacement of a point in a series.
+    pub(super) fn displacement(&self, series: &Expansion, point: usize) -> Polynomial {
+        match &self.points {
+            None => series.q[point],
+            Some((points, _)) => combined(&points[point], &series.q),
+        }
+    }
+
+    /// Total acceleration of a point in a series, with the slope's share.
+    pub(super) fn acceleration(&self, series: &Expansion, point: usize) -> Polynomial {
+        let Some((points, with_block)) = &self.points else { return series.floors[point] };
+        let of_modes = combined(&points[point], &series.floors);
+        core::array::from_fn(|k| of_modes[k] + with_block[point] * series.u[k])
+    }
+
     /// `K q + C v`, order by order.
     #[inline(always)]
     fn restoring(&self, q: &[Polynomial], v: &[Polynomial], k: usize, out: &mut [f64]) {
@@ -185,6 +220,9 @@ impl Body {
             let here = q[i][k];
             let force = self.stiffnesses_n_per_m[i] * (here - below);
             out[i] = drag + force;
+            if self.points.is_some() {
+                continue;
+            }
             if i > 0 {
                 out[i - 1] -= force;
             }
@@ -213,9 +251,14 @@ impl Body {
         let (n, k) = (self.storeys(), &self.stiffnesses_n_per_m);
         let row = &self.damping[(floor - 1) * n..][..n];
         let dampers = row.iter().zip(&x.v).map(|(c, v)| (c * v).abs()).sum::<f64>();
-        let below = if floor > 1 { x.q[floor - 2] } else { 0.0 };
+        let chained = self.points.is_none();
+        let below = if floor > 1 && chained { x.q[floor - 2] } else { 0.0 };
         let lower = (k[floor - 1] * (x.q[floor - 1] - below)).abs();
-        let upper = if floor < n { (k[floor] * (x.q[floor] - x.q[floor - 1])).abs() } else { 0.0 };
+        let upper = if floor < n && chained {
+            (k[floor] * (x.q[floor] - x.q[floor - 1])).abs()
+        } else {
+            0.0
+        };
         dampers + lower + upper
     }
 

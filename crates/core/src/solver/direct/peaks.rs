@@ -20,7 +20,10 @@ pub(super) struct Peaks {
     pub(super) values: Vec<f64>,
     /// Whether the overturning moment is asked for.
     pub(super) overturns: bool,
-    /// Heights of the block and of the floors above the sliding surface in m.
+    /// Mass times lever arm of the points' inertia.
+    arms: Vec<f64>,
+    /// Of the block's, and heights of the block and of the floors for what stands on them.
+    block_arm: f64,
     heights_m: Vec<f64>,
     /// `g sin θ`, which accelerations are reported without.
     pub(super) slope_m_per_s2: f64,
@@ -29,29 +32,20 @@ pub(super) struct Peaks {
 impl Peaks {
     /// None so far, of so many `contents` that slide each by itself.
     pub(super) fn new(model: &Model, contents: usize) -> Self {
-        let n = model.storeys();
-        let block = model.block();
-        let mut above_m = block.height_m.unwrap_or(0.0);
-        let mut heights_m = vec![above_m];
-        if let Some(storeys) = &model.frame().heights_m {
-            heights_m.extend(storeys.iter().map(|height_m| {
-                above_m += height_m;
-                above_m
-            }));
-        }
-        let known = heights_m.len() == n + 1 && (n > 0 || block.height_m.is_some());
+        let block_m = model.block().height_m.unwrap_or(0.0);
+        let oscillators = if model.structure().is_some() { model.storeys() } else { 0 };
+        let arms = model.lever_arms();
+        let points = arms.iter().flatten();
+        let heights_m = core::iter::once(block_m).chain(points.clone().map(|point| point[1]));
         Self {
-            values: vec![0.0; contents_outputs(n) + 2 * contents],
-            overturns: block.width_m.is_some() && known,
-            heights_m,
+            values: vec![0.0; output::count(model.points()) + 2 * contents + oscillators],
+            overturns: model.block().width_m.is_some() && arms.is_some(),
+            heights_m: heights_m.collect(),
+            arms: points.map(|[mass_kg, above_m]| mass_kg * above_m).collect(),
+            block_arm: 0.5 * block_m * model.bare_block_kg(),
             slope_m_per_s2: model.slope_m_per_s2(),
         }
     }
-}
-
-/// Place of the outputs of contents, after all others of `n` storeys.
-fn contents_outputs(n: usize) -> usize {
-    output::STOREYS + (3 * n).saturating_sub(1)
 }
 
 /// Raises a peak to the largest size of a polynomial on [0, `part`].
@@ -109,17 +103,19 @@ impl<'a> Direct<'a> {
     /// Output of the velocity of an interface.
     pub(super) fn velocity_output(&self, interface: usize) -> usize {
         let Some(i) = interface.checked_sub(1) else { return output::VELOCITY };
-        contents_outputs(self.body.storeys()) + i
+        output::count(self.body.point_count()) + i
     }
 
     /// Output of the acceleration of contents.
     pub(super) fn contents_acceleration_output(&self, i: usize) -> usize {
-        contents_outputs(self.body.storeys()) + self.body.contents.len() + i
+        output::count(self.body.point_count()) + self.body.contents.len() + i
     }
 
-    /// An output: those of [`output`], then velocities and accelerations of contents.
+    /// An output: those of [`output`], then velocities and accelerations of contents, then accelerations of
+    /// the oscillators of modes.
     pub(super) fn output<'e>(&self, series: &'e Expansion, j: usize) -> Output<'e> {
-        let (n, slope) = (self.body.storeys(), self.peaks.slope_m_per_s2);
+        let (body, n, slope) = (&self.body, self.body.point_count(), self.peaks.slope_m_per_s2);
+        let by_modes = body.points.is_some();
         match j {
             output::VELOCITY => Output::Less(&series.w, 0.0),
             output::BLOCK => Output::Less(&series.u, slope),
@@ -127,22 +123,35 @@ impl<'a> Direct<'a> {
             output::FRICTION => Output::Less(&series.friction, 0.0),
             output::BASE_SHEAR => Output::Less(&series.shear, 0.0),
             output::OVERTURNING => Output::Made(self.moment(series)),
+            j if by_modes && j < output::acceleration(n, 0) => {
+                Output::Made(body.displacement(series, j - output::displacement(0)))
+            }
+            j if by_modes && j < output::acceleration(n, n) => {
+                let mut p = body.acceleration(series, j - output::acceleration(n, 0));
+                p[0] -= slope;
+                Output::Made(p)
+            }
+            j if by_modes && j < output::count(n) => {
+                let i = 1 + j - output::acceleration(n, n);
+                let [here, below] = [i, i - 1].map(|i| body.displacement(series, i));
+                Output::Made(core::array::from_fn(|k| here[k] - below[k]))
+            }
             j if j < output::acceleration(n, 0) => {
                 Output::Less(&series.q[j - output::displacement(0)], 0.0)
             }
             j if j < output::acceleration(n, n) => {
                 Output::Less(&series.floors[j - output::acceleration(n, 0)], slope)
             }
-            j if j < contents_outputs(n) => {
+            j if j < output::count(n) => {
                 let i = 1 + j - output::acceleration(n, n);
                 Output::Difference([&series.q[i], &series.q[i - 1]])
             }
             j => {
-                let (i, contents) = (j - contents_outputs(n), self.body.contents.len());
-                if i < contents {
-                    Output::Less(&series.p[i], 0.0)
-                } else {
-                    Output::Less(&series.carried[i - contents], slope)
+                let (i, contents) = (j - output::count(n), self.body.contents.len());
+                match i {
+                    i if i < contents => Output::Less(&series.p[i], 0.0),
+                    i if i < 2 * contents => Output::Less(&series.carried[i - contents], slope),
+                    i => Output::Less(&series.floors[i - 2 * contents], slope),
                 }
             }
         }
@@ -172,12 +181,12 @@ impl<'a> Direct<'a> {
             return ZERO;
         }
         let body = &self.body;
-        let heights_m = &self.peaks.heights_m;
+        let Peaks { heights_m, arms, block_arm, .. } = &self.peaks;
+        let points: Vec<Polynomial> =
+            (0..arms.len()).map(|i| body.acceleration(series, i)).collect();
         core::array::from_fn(|k| {
-            let own = 0.5 * heights_m[0] * body.block_kg * series.u[k];
-            let floors = (0..body.storeys())
-                .map(|i| heights_m[i + 1] * body.masses_kg[i] * series.floors[i][k])
-                .sum::<f64>();
+            let own = block_arm * series.u[k];
+            let floors = arms.iter().zip(&points).map(|(arm, a)| arm * a[k]).sum::<f64>();
             let contents = body.contents.iter().zip(&series.carried);
             let contents =
                 contents.map(|(c, a)| heights_m[c.floor] * c.mass_kg * a[k]).sum::<f64>();
@@ -298,9 +307,13 @@ impl<'a> Direct<'a> {
         let (of_storeys, of_contents) = states[2..].split_at(2 * n);
         side_by_side(count, &mut h.storey_displacement_m, &of_storeys[..n]);
         side_by_side(count, &mut h.storey_velocity_m_per_s, &of_storeys[n..]);
-        let accelerations = &outputs[output::acceleration(n, 0)..][..n];
+        let first = match self.body.points {
+            Some(_) => output::count(self.body.point_count()) + 2 * parts,
+            None => output::acceleration(n, 0),
+        };
+        let accelerations = &outputs[first..][..n];
         side_by_side(count, &mut h.storey_acceleration_m_per_s2, accelerations);
-        let accelerations = &outputs[contents_outputs(n) + parts..][..parts];
+        let accelerations = &outputs[output::count(self.body.point_count()) + parts..][..parts];
         let (displacements, velocities) = of_contents.split_at(parts);
         for k in 0..count {
             for &part in items {

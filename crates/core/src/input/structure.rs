@@ -1,0 +1,254 @@
+//! The structure on the block, by its modes.
+
+use core::f64::consts::TAU;
+
+use super::build::mass_kg;
+use super::motion;
+use super::reader::Values;
+use crate::error::InputError;
+use crate::model::{ROUNDED_MASS, Structure, StructureMode, StructurePoint};
+use crate::numerics::algebra::{dot, solution};
+
+/// Part of 1 by which the shape at the point of the normalisation may differ from it.
+const ROUNDED_UNIT: f64 = 1e-6;
+
+/// What modes are normalised to.
+#[derive(Clone, Copy)]
+enum Normalisation {
+    /// Unit modal mass: participations `L = φᵀ M 1` in √kg, shapes in 1/√kg.
+    Mass,
+    /// Unit displacement at a point.
+    Point(usize),
+}
+
+/// The structure of a model file; `None` where it has none, or storeys.
+pub(super) fn structure(
+    values: &Values,
+    gravity_m_per_s2: f64,
+) -> Result<Option<Structure>, InputError> {
+    if !values.has("structure") {
+        return Ok(None);
+    }
+    refuse_beside(values)?;
+    let mass_kg = mass_kg(values, "structure", gravity_m_per_s2)?;
+    let points = points(values)?;
+    let normalisation = normalisation(values, &points)?;
+    let factor = values.number("structure.period_factor").unwrap_or(1.0);
+    let count = values.count("structure.mode");
+    if count == 0 {
+        let path = if values.has("structure.modes") { "structure.modes" } else { "structure" };
+        let expected = "modes: a table [[structure.mode]] for each, or modes = \"modes.csv\" beside a \
+                        model file";
+        return Err(values.error(path, expected, "none that can be read here"));
+    }
+    let shapes = shapes(values, count, points.len())?;
+    let factors = match normalisation {
+        Normalisation::Mass => None,
+        Normalisation::Point(at) => Some(factors(values, &points, &shapes, at)?),
+    };
+    let (mut modes, mut sum_kg, mut longest_s) = (Vec::new(), 0.0, f64::INFINITY);
+    for (j, shape) in shapes.iter().enumerate() {
+        let table = format!("structure.mode.{}", j + 1);
+        let (path, period_s) = period(values, &table)?;
+        if period_s > longest_s {
+            let expected = format!(
+                "a period of at most {longest_s} s, that of the mode before: modes stand in order of \
+                 period, the longest first"
+            );
+            return Err(values.wrong(&path, expected));
+        }
+        longest_s = period_s;
+        let (path, effective_mass_kg) = effective_mass(values, &table, mass_kg, normalisation)?;
+        sum_kg += effective_mass_kg;
+        if sum_kg > mass_kg * (1.0 + ROUNDED_MASS) {
+            let expected =
+                format!("effective masses that sum to at most the structure's {mass_kg} kg");
+            return Err(values.error(&path, expected, format!("{sum_kg} kg with this mode")));
+        }
+        let of_oscillator = match &factors {
+            Some(factors) => factors[j],
+            // L, with the sign of the shape: Σ m φ.
+            None => match values.number(&format!("{table}.participation")) {
+                Some(participation) => participation,
+                None => effective_mass_kg.sqrt().copysign(momentum(&points, shape)),
+            },
+        };
+        let damping_ratio = damping_ratio(values, &table)?;
+        // A mode that takes no part moves nothing.
+        if effective_mass_kg > 0.0 {
+            modes.push(StructureMode {
+                frequency_rad_per_s: TAU / (period_s * factor),
+                damping_ratio,
+                effective_mass_kg,
+                points: shape.iter().map(|shape| shape * of_oscillator).collect(),
+            });
+        }
+    }
+    if modes.is_empty() {
+        let expected = "a mode with an effective mass or a participation that is not 0";
+        return Err(values.error("structure.mode", expected, "none"));
+    }
+    Ok(Some(Structure { mass_kg, modes, points }))
+}
+
+/// Refuses what a structure by its modes cannot have.
+fn refuse_beside(values: &Values) -> Result<(), InputError> {
+    let refuse = |path: &str, expected: &str| Err(values.error(path, expected, path));
+    for path in ["initial.storey_displacement", "initial.storey_velocity"] {
+        if values.has(path) {
+            return refuse(path, "no state of storeys: a structure by its modes starts at rest");
+        }
+    }
+    if values.text("analysis.method") == Some("stepwise") {
+        let expected = "the exact method, which a structure by its modes needs";
+        return refuse("analysis.method", expected);
+    }
+    if motion::in_plane(values) {
+        let path = if values.has("motion.record_y") { "motion.record_y" } else { "motion.sine_y" };
+        return refuse(path, "a motion along x alone, where the structure is given by its modes");
+    }
+    Ok(())
+}
+
+fn points(values: &Values) -> Result<Vec<StructurePoint>, InputError> {
+    let mut points: Vec<StructurePoint> = Vec::new();
+    for i in 1..=values.count("structure.point") {
+        let path = |key: &str| format!("structure.point.{i}.{key}");
+        let name = values.text(&path("name")).unwrap_or_default().to_owned();
+        if points.iter().any(|point| point.name.to_lowercase() == name.to_lowercase()) {
+            return Err(values.wrong(&path("name"), "a name that no other point has"));
+        }
+        let [height_m, mass_kg] = ["height", "mass"].map(|key| values.number(&path(key)));
+        points.push(StructurePoint { name, height_m, mass_kg });
+    }
+    Ok(points)
+}
+
+fn normalisation(values: &Values, points: &[StructurePoint]) -> Result<Normalisation, InputError> {
+    let path = "structure.normalisation";
+    let Some(name) = values.text(path).filter(|name| *name != "mass") else {
+        return Ok(Normalisation::Mass);
+    };
+    let is_named = |point: &StructurePoint| point.name.to_lowercase() == name.to_lowercase();
+    match points.iter().position(is_named) {
+        Some(place) => Ok(Normalisation::Point(place)),
+        None => Err(values.wrong(path, "\"mass\" or the name of a point")),
+    }
+}
+
+/// Shapes, mode by mode.
+fn shapes(values: &Values, modes: usize, points: usize) -> Result<Vec<Vec<f64>>, InputError> {
+    let mut shapes = vec![Vec::with_capacity(points); modes];
+    for i in 1..=points {
+        let path = format!("structure.point.{i}.shape");
+        let of_modes = values.numbers(&path).unwrap_or_default();
+        if of_modes.len() != modes {
+            let expected = format!("one value a mode, {modes} in all");
+            return Err(values.error(&path, expected, of_modes.len().to_string()));
+        }
+        shapes.iter_mut().zip(of_modes).for_each(|(shape, value)| shape.push(value));
+    }
+    Ok(shapes)
+}
+
+fn period(values: &Values, table: &str) -> Result<(String, f64), InputError> {
+    let path = format!("{table}.period");
+    if let Some(period_s) = values.number(&path) {
+        return Ok((path, period_s));
+    }
+    let path = format!("{table}.frequency");
+    values.required(&path).map(|frequency_hz| (path, 1.0 / frequency_hz))
+}
+
+fn damping_ratio(values: &Values, table: &str) -> Result<f64, InputError> {
+    match values.number("structure.damping_ratio") {
+        Some(ratio) => Ok(ratio),
+        None => values.required(&format!("{table}.damping_ratio")),
+    }
+}
+
+/// The effective mass of a mode, and the path of the key that gives it.
+fn effective_mass(
+    values: &Values,
+    table: &str,
+    mass_kg: f64,
+    normalisation: Normalisation,
+) -> Result<(String, f64), InputError> {
+    let of = |key: &str| {
+        let path = format!("{table}.{key}");
+        values.number(&path).map(|number| (path, number))
+    };
+    let direct = of("effective_mass")
+        .or_else(|| of("effective_mass_ratio").map(|(path, ratio)| (path, ratio * mass_kg)));
+    let participation = of("participation");
+    match (direct, participation, normalisation) {
+        (Some(_), Some((path, _)), Normalisation::Mass) => {
+            let expected = "only one of effective_mass, effective_mass_ratio, participation where \
+                            modes have unit mass";
+            Err(values.wrong(&path, expected))
+        }
+        (Some(found), ..) => Ok(found),
+        (None, Some((path, l)), Normalisation::Mass) => Ok((path, l * l)),
+        (None, _, normalisation) => {
+            let expected = match normalisation {
+                Normalisation::Mass => {
+                    "one of the keys effective_mass, effective_mass_ratio, participation"
+                }
+                Normalisation::Point(_) => "effective_mass or effective_mass_ratio",
+            };
+            Err(values.error(table, expected, "none"))
+        }
+    }
+}
+
+/// `Σ m φ` over the points, where all have a mass; else 1.
+fn momentum(points: &[StructurePoint], shape: &[f64]) -> f64 {
+    let masses_kg: Option<Vec<f64>> = points.iter().map(|point| point.mass_kg).collect();
+    masses_kg.filter(|m| !m.is_empty()).map_or(1.0, |m| dot(&m, shape))
+}
+
+/// Participation factors `Γ` of shapes that are 1 at a point: as given; from the points' masses,
+/// `Γ = Σ m φ/Σ m φ²`; or from `Σ Γ φ = 1` at every point, where no mode is missing.
+fn factors(
+    values: &Values,
+    points: &[StructurePoint],
+    shapes: &[Vec<f64>],
+    at: usize,
+) -> Result<Vec<f64>, InputError> {
+    for (j, shape) in shapes.iter().enumerate() {
+        if (shape[at] - 1.0).abs() > ROUNDED_UNIT {
+            let path = format!("structure.point.{}.shape.{}", at + 1, j + 1);
+            return Err(values.wrong(&path, "1, to which modes are normalised at this point"));
+        }
+    }
+    let given = |j: usize| values.number(&format!("structure.mode.{}.participation", j + 1));
+    if let Some(factors) = (0..shapes.len()).map(given).collect() {
+        return Ok(factors);
+    }
+    let masses_kg: Option<Vec<f64>> = points.iter().map(|point| point.mass_kg).collect();
+    if let Some(m) = masses_kg {
+        let of = |shape: &Vec<f64>| {
+            let weighted: Vec<f64> = m.iter().zip(shape).map(|(m, shape)| m * shape).collect();
+            weighted.iter().sum::<f64>() / dot(&weighted, shape)
+        };
+        return Ok(shapes.iter().map(of).collect());
+    }
+    // Rows of Φᵀ; where there are more points than modes, ΦᵀΦ Γ = Φᵀ1.
+    let square = shapes.len() == points.len();
+    let matrix = (0..shapes.len()).map(|i| match square {
+        true => shapes.iter().map(|shape| shape[i]).collect(),
+        false => shapes.iter().map(|shape| dot(&shapes[i], shape)).collect(),
+    });
+    let right = shapes.iter().map(|shape| if square { 1.0 } else { shape.iter().sum() });
+    let solved = solution(matrix.collect(), right.collect()).filter(|factors| {
+        (0..points.len()).all(|i| {
+            let sum: f64 = factors.iter().zip(shapes).map(|(factor, of)| factor * of[i]).sum();
+            (sum - 1.0).abs() < ROUNDED_UNIT
+        })
+    });
+    solved.ok_or_else(|| {
+        let expected = "beside it the mass of every point or the participation factor of every mode, \
+                        since the points do not show all modes";
+        values.error("structure.normalisation", expected, "neither")
+    })
+}

@@ -1,0 +1,124 @@
+//! A linear structure by its modes on a fixed base.
+//!
+//! A mode on a moving base is an oscillator of its effective mass on the block: with `L = φᵀ M 1` of a shape of
+//! unit modal mass, `η = L d` and
+//!
+//! ```text
+//! d̈ + 2 ξ ω ḋ + ω² d = −(s̈ + a)        m = L²
+//! displacement of a point = Σ φ η = Σ (φ L) d
+//! ```
+
+use super::{Damping, Frame, positive};
+use crate::error::ModelError;
+
+/// A mode on a fixed base.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StructureMode {
+    /// Circular frequency `ω` in rad/s.
+    pub frequency_rad_per_s: f64,
+    /// Ratio of critical damping `ξ`.
+    pub damping_ratio: f64,
+    /// Effective mass `L²` in kg.
+    pub effective_mass_kg: f64,
+    /// Displacement of each point over that of the mode's oscillator, `φ L`.
+    pub points: Vec<f64>,
+}
+
+/// A point of the structure whose motion is wanted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StructurePoint {
+    /// Its name.
+    pub name: String,
+    /// Height above the block in m.
+    pub height_m: Option<f64>,
+    /// Its share of the mass in kg, of whose inertia the overturning moment is made.
+    pub mass_kg: Option<f64>,
+}
+
+/// A structure by its modes. Mass that they lack moves with the block.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Structure {
+    /// All of its mass in kg.
+    pub mass_kg: f64,
+    /// Modes that take part.
+    pub modes: Vec<StructureMode>,
+    /// Points, in the order of the results.
+    pub points: Vec<StructurePoint>,
+}
+
+/// Part of the mass by which effective masses may exceed it: what rounding to seven digits makes.
+pub(crate) const ROUNDED_MASS: f64 = 1e-6;
+
+impl Structure {
+    /// What the modes lack of the mass, in kg.
+    #[must_use]
+    pub fn missing_mass_kg(&self) -> f64 {
+        let found = self.modes.iter().fold(0.0, |sum, mode| sum + mode.effective_mass_kg);
+        (self.mass_kg - found).max(0.0)
+    }
+
+    /// What of a point's motion is the block's: `1 − Σ φ L`, the residual of modes that are not given.
+    #[must_use]
+    pub fn with_block(&self, point: usize) -> f64 {
+        1.0 - self.modes.iter().fold(0.0, |sum, mode| sum + mode.points[point])
+    }
+
+    /// Height of a point above the one before it, of the first above the block, in m.
+    #[must_use]
+    pub fn rise_m(&self, point: usize) -> Option<f64> {
+        let below_m = match point.checked_sub(1) {
+            Some(below) => self.points[below].height_m?,
+            None => 0.0,
+        };
+        self.points[point].height_m.map(|height_m| height_m - below_m).filter(|rise| *rise > 0.0)
+    }
+
+    /// Mass and height of every point in kg and m, where all have both.
+    #[must_use]
+    pub fn shares(&self) -> Option<Vec<[f64; 2]>> {
+        let share = |point: &StructurePoint| Some([point.mass_kg?, point.height_m?]);
+        self.points.iter().map(share).collect::<Option<Vec<_>>>().filter(|all| !all.is_empty())
+    }
+
+    /// The oscillators that the modes are, each on the block.
+    pub(super) fn oscillators(&self) -> Frame {
+        let masses_kg: Vec<f64> = self.modes.iter().map(|mode| mode.effective_mass_kg).collect();
+        let of = |value: fn(&StructureMode) -> f64| {
+            self.modes.iter().map(|mode| mode.effective_mass_kg * value(mode)).collect()
+        };
+        Frame {
+            masses_kg,
+            stiffnesses_n_per_m: of(|mode| mode.frequency_rad_per_s * mode.frequency_rad_per_s),
+            damping: Damping::Dampers(of(|mode| {
+                2.0 * mode.damping_ratio * mode.frequency_rad_per_s
+            })),
+            heights_m: None,
+        }
+    }
+
+    pub(super) fn check(&self) -> Result<(), ModelError> {
+        positive("structure mass_kg", self.mass_kg)?;
+        if self.modes.is_empty() {
+            let (quantity, expected) = ("structure modes", "a mode that takes part");
+            return Err(ModelError::Missing { quantity, expected });
+        }
+        for mode in &self.modes {
+            let (expected, found) = (self.points.len(), mode.points.len());
+            if expected != found {
+                let quantity = "structure mode points";
+                return Err(ModelError::WrongCount { quantity, expected, found });
+            }
+            for value in &mode.points {
+                super::finite("structure mode points", *value)?;
+            }
+        }
+        for point in &self.points {
+            super::optional_positive("structure point mass_kg", point.mass_kg)?;
+            super::optional_positive("structure point height_m", point.height_m)?;
+        }
+        let found = self.modes.iter().fold(0.0, |sum, mode| sum + mode.effective_mass_kg);
+        let expected = "effective masses that sum to at most the mass of the structure";
+        let within = found <= self.mass_kg * (1.0 + ROUNDED_MASS);
+        super::in_range("structure effective_mass_kg", expected, found, within)
+    }
+}
