@@ -317,7 +317,13 @@ mod tests {
     fn notes_change_no_decision() {
         let notes = NoticeKind::ALL.iter().filter(|kind| kind.severity() == Severity::Note);
         let notes: Vec<String> = notes.map(|kind| kind.words()).collect();
-        let known = ["column skipped", "first sample small", "mean removed", "read along lines"];
+        let known = [
+            "column skipped",
+            "first sample small",
+            "mean removed",
+            "missing mass",
+            "read along lines",
+        ];
         assert_eq!(notes, known);
         assert!(Severity::Note < Severity::Warning && Severity::Warning < Severity::Severe);
         let notice = Notice::new(NoticeKind::MeanRemoved, "the mean was removed");

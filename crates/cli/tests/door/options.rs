@@ -63,7 +63,17 @@ fn exact_options_are_the_fields_of_the_requests() {
         }
         // Besides them: what goes in, and what becomes of the answer.
         let files = ["motion", "records", "vertical", "second", "target", "units", "dt", "channel"];
-        let others = ["set", "model", "jobs", "json", "display-units", "help", "version", "quiet"];
+        let others = [
+            "set",
+            "model",
+            "jobs",
+            "json",
+            "display-units",
+            "help",
+            "version",
+            "quiet",
+            "to-opensees",
+        ];
         let fields = || Kind::ALL.into_iter().flat_map(Kind::fields).map(|field| field.name);
         for option in options.iter().filter(|option| **option != "out") {
             let known = files.contains(option) || others.contains(option);

@@ -269,7 +269,10 @@ fn a_script_for_opensees_is_printed_in_one_and_in_two_directions() {
     let stiffness = "K_INIT = 9806650.0";
     assert!(script("one.toml", "--to-opensees").contains(stiffness));
     let two = script("two.toml", "--to-opensees=2 kN/mm");
-    assert!(two.contains("K_INIT = 2000000.0") && two.contains("\"-ndm\", 3"), "{two}");
+    assert!(
+        two.contains("K_INIT = 2000000.0") && two.contains("NDM, NDF, TOLERANCE = 3, 6"),
+        "{two}"
+    );
     let refused = folder.refused(&["run", "one.toml", "--to-opensees=2 kN"]);
     assert!(refused.contains("--to-opensees: expected"), "{refused}");
     let refused = folder.refused(&[

@@ -48,7 +48,7 @@ fn exact_points_have_names_and_peaks() {
 #[test]
 fn exact_faults_of_a_table_of_modes_are_told_where_they_are() {
     for (name, from, to, place) in [
-        ("nan", "0.0012", "nan", "modes.csv:2:22: expected a finite number, found \"nan\""),
+        ("nan", "0.0012", "nan", "modes.csv:2:21: expected a finite number, found \"nan\""),
         ("short", ",0.0012", "", "modes.csv:2:1: expected 5 values, as the header has, found 4"),
         ("complex", "0.2,", "0.2+1i,", "modes.csv:3:1: expected a finite number, found \"0.2+1i\""),
         (

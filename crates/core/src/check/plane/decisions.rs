@@ -5,6 +5,7 @@ use super::super::near::{Dips, dip};
 use super::super::structure::{excess, larger};
 use super::super::{ClosestCall, DecisionKind};
 use super::frame::{Pair, between, dot, norm, unit};
+use super::interval::FINE;
 use super::judge::PlaneJudge;
 use super::peaks::Acting;
 use super::step::{State, Step, sine};
@@ -304,26 +305,34 @@ impl PlaneJudge<'_> {
             step.at_point(point, &mut state);
             *speed = norm(state.speed());
         }
-        let point = (1..POINTS).fold(0, |best, i| if speeds[i] < speeds[best] { i } else { best });
-        let inside = match point {
-            0 => self.gains(step, 0) < 0.0,
-            i if i + 1 == POINTS => self.gains(step, i) > 0.0,
-            _ => true,
-        };
-        let least = inside.then(|| {
-            let found = rule.least_of((point, speeds[point]), |t| {
+        let least_near = |point: usize| {
+            rule.least_of((point, speeds[point]), |t| {
                 let mut state = State::default();
-                step.at(rule, t, &mut state);
+                if step.tail > FINE {
+                    self.stepper.at(step, t, &mut state);
+                } else {
+                    step.at(rule, t, &mut state);
+                }
                 norm(state.speed())
-            });
-            (point, found)
-        });
-        let mut speed = core::mem::replace(&mut self.speed, Speed::new(0.0));
-        let mut points: Vec<(f64, f64)> = rule.points.into_iter().zip(speeds).collect();
-        if let Some((point, found)) = least {
-            // Its place is that of the point, beside it at an end.
-            points.insert(if found.0 < points[point].0 { point } else { point + 1 }, found);
+            })
+        };
+        let last = POINTS - 1;
+        let mut points = Vec::with_capacity(POINTS + 1);
+        for (point, at) in rule.points.into_iter().zip(speeds).enumerate() {
+            let is_below = |other: usize| speeds[point] < speeds[other];
+            let is_least = match point {
+                0 => is_below(1) && self.gains(step, 0) < 0.0,
+                _ if point == last => is_below(last - 1) && self.gains(step, last) > 0.0,
+                _ => is_below(point - 1) && is_below(point + 1),
+            };
+            points.push(at);
+            if is_least {
+                let found = least_near(point);
+                // Its place is that of the point, beside it at an end.
+                points.insert(points.len() - usize::from(found.0 < at.0), found);
+            }
         }
+        let mut speed = core::mem::replace(&mut self.speed, Speed::new(0.0));
         for (t, size) in points {
             speed.feed(step.stretch.from_s + t * step.stretch.step_s, size, || {
                 step.at(rule, t, &mut state);

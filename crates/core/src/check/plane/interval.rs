@@ -10,10 +10,10 @@ use super::step::{State, Step, Stretch, time_to_rest};
 use crate::error::Stopped;
 use crate::response::Mode;
 
-/// A way to rest shorter than this is its end, in m: what friction does on it is known. In straight motion it
-/// does nothing but slow down.
 /// Part of the peak speed of a slip below which it is near rest: where it is straight, rounding tells its direction.
 const NEAR_REST: f64 = 1e-6;
+/// A way to rest shorter than this is its end, in m: what friction does on it is known. In straight motion it
+/// does nothing but slow down.
 const SHORTEST_M: f64 = 1e-26;
 const SHORTEST_STRAIGHT_M: f64 = 2e-18;
 /// Defect of a step over the largest velocity.
@@ -21,7 +21,7 @@ const DEFECT: f64 = 2e-15;
 /// Largest last Legendre coefficient over the largest acceleration: beyond it they say nothing.
 const TAIL: f64 = 1e-4;
 /// The same where a peak is told.
-const FINE: f64 = 1e-10;
+pub(super) const FINE: f64 = 1e-10;
 /// Most halvings to tell a peak.
 const DEEPEST: u32 = 12;
 /// Most steps of an interval.
@@ -383,7 +383,7 @@ impl PlaneJudge<'_> {
             return;
         }
         let mut state = State::default();
-        step.at(self.stepper.rule, ((at_s - from_s) / step_s).clamp(0.0, 1.0), &mut state);
+        self.stepper.at(step, ((at_s - from_s) / step_s).clamp(0.0, 1.0), &mut state);
         let s = [state.x[0], state.x[1]];
         if self.at_peak.is_none_or(|found| norm(s) > norm(found)) {
             self.at_peak = Some(s);

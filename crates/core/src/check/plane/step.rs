@@ -176,6 +176,19 @@ impl Stepper<'_> {
         settled.then(|| self.step(from, stretch, slips, &rates))
     }
 
+    /// The state at a part of a step, by a step that ends there: an end is known better than what lies between
+    /// the points.
+    pub(super) fn at(&self, step: &Step, part: f64, state: &mut State) {
+        step.at_point(0, state);
+        if part > 0.0 {
+            let stretch = step.stretch.part(0.0, part * step.stretch.step_s);
+            match self.solve(state, stretch, step.slips) {
+                Some(part) => part.at_point(POINTS - 1, state),
+                None => step.at(self.rule, part, state),
+            }
+        }
+    }
+
     /// Accelerations to begin a slip with that is under way: those at its start.
     fn go_on(&self, from: &State, stretch: Stretch, rates: &mut Rates) {
         let mut floors = vec![0.0; self.frame.masses_kg.len()];
