@@ -135,13 +135,26 @@ impl<'a> Plane<'a> {
         let (push, holds) = (norm(at.push), at.holds);
         if is_stuck {
             let leaves = core::mem::take(&mut self.is_released) || self.leaves(loads, &at);
-            return leaves.then(|| Due::Slip(at.push.map(|p| p / push)));
+            return leaves.then(|| Due::Slip(self.direction_of(at.push, loads)));
         }
         if push <= holds {
             let margin = (holds > 0.0).then(|| (push - holds).abs() / holds);
             return Some(Due::Stick(margin));
         }
         Some(Due::GoOn(at.push.map(|p| p / push)))
+    }
+
+    /// The direction of a push; without one, that in which it grows.
+    fn direction_of(&mut self, push: [f64; 2], loads: Loads) -> [f64; 2] {
+        let mut growing = push;
+        if push == [0.0; 2] {
+            self.expand_stick(loads, 1e-3);
+            let [x, y] = &self.series.friction;
+            let orders = x.iter().zip(y).map(|(x, y)| [*x, *y]);
+            growing = orders.into_iter().find(|p| *p != [0.0; 2]).unwrap_or([1.0, 0.0]);
+        }
+        let size = norm(growing);
+        growing.map(|p| p / size)
     }
 
     /// Whether a stick is beyond its bound, or at it and about to leave it: the first derivative of the distance

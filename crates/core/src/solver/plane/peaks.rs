@@ -534,6 +534,6 @@ impl NearRest {
 }
 
 /// `|v|²` as a series.
-fn squared(v: &[Polynomial; 2]) -> Polynomial {
+pub(super) fn squared(v: &[Polynomial; 2]) -> Polynomial {
     core::array::from_fn(|k| if k > DEGREE { 0.0 } else { square(&v[0], k) + square(&v[1], k) })
 }

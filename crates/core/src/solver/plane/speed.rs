@@ -1,6 +1,6 @@
 //! The sliding speed over a step: its least minimum, and the path.
 
-use super::peaks::bend;
+use super::peaks::{bend, squared};
 use super::series::{Kind, Series};
 use super::system::norm;
 use crate::linear::polynomial::{DEGREE, Polynomial, derivative, value};
@@ -22,30 +22,52 @@ impl Least {
         self.speed = Some(self.speed.map_or(speed, |least| least.min(speed)));
     }
 
-    /// Looks at the speed over `[0, to]`.
-    pub(super) fn look(&mut self, speed: &Polynomial, to: f64) {
+    /// Looks at the speed over the first part of a series.
+    pub(super) fn look(&mut self, series: &Series, to: f64) {
+        match series.kind {
+            Kind::Stick => self.interrupt(),
+            // Without friction |w| is no series where w passes 0: its square is.
+            Kind::Frictionless => {
+                let slope = derivative(&squared(&series.w));
+                self.look_at(&slope, |x| norm(series.velocity_at(x)), (0.0, to));
+            }
+            _ => {
+                let speed = &series.speed;
+                let lowest = speed[0].min(value(speed, to)) - bend(speed, to);
+                self.look_at(&derivative(speed), |x| value(speed, x), (lowest, to));
+            }
+        }
+    }
+
+    /// Looks at a speed over `[0, to]` by a function that has the sign of its slope, and its lower bound.
+    fn look_at(&mut self, slope: &Polynomial, of: impl Fn(f64) -> f64, (lowest, to): (f64, f64)) {
         if to == 0.0 {
             return;
         }
-        let slope = derivative(speed);
-        let (mut from, end) = (0.0, value(&slope, to));
+        let end = value(slope, to);
         if self.is_falling && slope[0] >= 0.0 {
-            self.note(speed[0]);
+            self.note(of(0.0));
         }
-        let lowest = speed[0].min(value(speed, to)) - bend(speed, to);
         if self.speed.is_none_or(|least| lowest < least) || end < 0.0 && slope[0] >= 0.0 {
-            // From one zero of the slope to the next.
-            let mut falls = slope[0] < 0.0;
-            for _ in 0..DEGREE {
-                let Some(x) = next_zero(&slope, from, to, falls) else { break };
-                if falls {
-                    self.note(value(speed, x));
+            for (x, is_least) in turns(slope, to) {
+                if is_least {
+                    self.note(of(x));
                 }
-                (from, falls) = (x, !falls);
             }
         }
         self.is_falling = end < 0.0;
     }
+}
+
+/// Points of `(0, to]` at which a slope changes its sign, and whether it is to +.
+fn turns(slope: &Polynomial, to: f64) -> impl Iterator<Item = (f64, bool)> {
+    let (mut from, mut falls) = (0.0, slope[0] < 0.0);
+    let next = move || {
+        let turn = (next_zero(slope, from, to, falls)?, falls);
+        (from, falls) = (turn.0, !falls);
+        Some(turn)
+    };
+    core::iter::from_fn(next).take(DEGREE)
 }
 
 /// The next point of `(from, to]` at which a slope changes its sign.
@@ -96,9 +118,21 @@ pub(super) fn path_m(series: &Series, to: f64) -> f64 {
         }),
         Kind::Frictionless => {
             let speed = |x: f64| series.unit * norm(series.velocity_at(x));
-            adaptive(&speed, [0.0, to], gauss(0.0, to, &speed), 40)
+            let slope = derivative(&squared(&series.w));
+            integral_of_length(&speed, &slope, to)
         }
     }
+}
+
+/// `∫|w|` over `[0, to]`, from one turn of `|w|²` to the next: where it passes 0 it has a bend.
+fn integral_of_length(of: &dyn Fn(f64) -> f64, slope: &Polynomial, to: f64) -> f64 {
+    let tolerance = 4e-15 * gauss(0.0, to, of);
+    let (mut sum, mut from) = (0.0, 0.0);
+    for (end, _) in turns(slope, to).chain([(to, true)]) {
+        sum += adaptive(of, [from, end], gauss(from, end, of), tolerance);
+        from = end;
+    }
+    sum
 }
 
 /// Nodes and weights of the Gauss–Legendre rule of 12 points on [−1, 1], one side of it.
@@ -119,13 +153,52 @@ fn gauss(from: f64, to: f64, of: &dyn Fn(f64) -> f64) -> f64 {
 }
 
 /// The same, halved where halves tell another story.
-fn adaptive(of: &dyn Fn(f64) -> f64, [from, to]: [f64; 2], whole: f64, depth: u32) -> f64 {
+fn adaptive(of: &dyn Fn(f64) -> f64, [from, to]: [f64; 2], whole: f64, tolerance: f64) -> f64 {
     let middle = 0.5 * (from + to);
     let halves = [gauss(from, middle, of), gauss(middle, to, of)];
     let sum = halves[0] + halves[1];
-    if depth == 0 || (sum - whole).abs() <= 1e-15 * sum {
+    // A part whose middle is one of its ends has no halves.
+    if middle <= from || middle >= to || (sum - whole).abs() <= tolerance {
         return sum;
     }
-    adaptive(of, [from, middle], halves[0], depth - 1)
-        + adaptive(of, [middle, to], halves[1], depth - 1)
+    adaptive(of, [from, middle], halves[0], tolerance)
+        + adaptive(of, [middle, to], halves[1], tolerance)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linear::polynomial::ZERO;
+
+    /// A polynomial by its lowest coefficients.
+    fn polynomial(of: &[f64]) -> Polynomial {
+        let mut c = ZERO;
+        c[..of.len()].copy_from_slice(of);
+        c
+    }
+
+    /// A speed that falls, rises, falls deeper and rises within one step.
+    #[test]
+    fn all_minima_of_a_step_are_looked_at() {
+        // c' = (x − 0.2)(x − 0.5)(x − 0.8) − 0.003
+        let slope = polynomial(&[-0.083, 0.66, -1.5, 1.0]);
+        let speed = polynomial(&[0.1, -0.083, 0.33, -0.5, 0.25]);
+        let mut least = Least::default();
+        least.look_at(&slope, |x| value(&speed, x), (0.0, 1.0));
+        let by_samples =
+            (0..=100_000).map(|k| value(&speed, k as f64 * 1e-5)).fold(f64::INFINITY, f64::min);
+        let found = least.speed.expect("a minimum");
+        assert!((found - by_samples).abs() <= 1e-10, "{found} {by_samples}");
+    }
+
+    /// `∫|x − c|`, and that of a length which comes to 1e-9 of zero, wherever that is.
+    #[test]
+    fn the_path_through_rest_is_found() {
+        for (least, c) in [(0.0, 0.3), (1e-9, 0.3), (0.0, 1e-5), (1e-9, 1.0 - 1e-6)] {
+            let of = |x: f64| norm([0.6 * (x - c) + 0.8 * least, 0.8 * (x - c) - 0.6 * least]);
+            let found = integral_of_length(&of, &polynomial(&[-2.0 * c, 2.0]), 1.0);
+            let expected = 0.5 * (c * c + (1.0 - c) * (1.0 - c));
+            assert!((found - expected).abs() <= 1e-15, "{least} {c}: {found}");
+        }
+    }
 }

@@ -205,10 +205,7 @@ impl Plane<'_> {
     fn look(&mut self, stretch: &Stretch, at_s: f64, part: f64) {
         self.look_for_peaks(stretch, at_s, part);
         self.path_m += path_m(&self.series, part);
-        match self.series.kind {
-            Kind::Stick | Kind::Frictionless => self.least.interrupt(),
-            _ => self.least.look(&self.series.speed, part),
-        }
+        self.least.look(&self.series, part);
     }
 
     /// Looks for peaks in the first part of the series, up to the state.
