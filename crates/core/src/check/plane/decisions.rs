@@ -305,16 +305,18 @@ impl PlaneJudge<'_> {
             step.at_point(point, &mut state);
             *speed = norm(state.speed());
         }
+        // The square has no corner where the speed passes 0.
         let least_near = |point: usize| {
-            rule.least_of((point, speeds[point]), |t| {
+            let (t, square) = rule.least_of((point, speeds[point] * speeds[point]), |t| {
                 let mut state = State::default();
                 if step.tail > FINE {
                     self.stepper.at(step, t, &mut state);
                 } else {
                     step.at(rule, t, &mut state);
                 }
-                norm(state.speed())
-            })
+                dot(state.speed(), state.speed())
+            });
+            (t, square.sqrt())
         };
         let last = POINTS - 1;
         let mut points = Vec::with_capacity(POINTS + 1);

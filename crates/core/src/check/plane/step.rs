@@ -118,25 +118,33 @@ impl Step {
         along.or(unit(beside)).unwrap_or_default()
     }
 
-    /// `∫|w| dt`, by halves where the speed has corners.
+    /// `∫|w| dt`, by halves where the speed has corners: it may have one where it is least.
     pub(super) fn path_m(&self, rule: &Rule) -> f64 {
         let speed = |t: f64| norm([0, 1].map(|axis| rule.interpolate(&self.v[axis], t)));
         let over = |from: f64, to: f64| {
             let nodes = rule.c.iter().zip(&rule.weights);
             (to - from) * nodes.map(|(c, b)| b * speed(from + (to - from) * c)).sum::<f64>()
         };
-        let speeds = core::array::from_fn(|i| norm([self.v[0][1 + i], self.v[1][1 + i]]));
-        let whole: f64 = rule.weights.iter().zip(&speeds).map(|(b, r)| b * r).sum();
-        let last = [NODES - 2, NODES - 1].map(|k| coefficient(rule, k, &speeds).abs());
-        if last[0].max(last[1]) <= 1e-7 * whole {
+        let speeds: [f64; POINTS] = core::array::from_fn(|i| norm(self.speed(i)));
+        let inside: [f64; NODES] = core::array::from_fn(|i| speeds[1 + i]);
+        let whole: f64 = rule.weights.iter().zip(&inside).map(|(b, r)| b * r).sum();
+        let last = [NODES - 2, NODES - 1].map(|k| coefficient(rule, k, &inside).abs());
+        let corners: Vec<f64> = (0..POINTS)
+            .filter(|&i| speeds[i] <= 0.1 * whole && is_least(&speeds, i))
+            .map(|i| rule.least_of((i, speeds[i] * speeds[i]), |t| speed(t) * speed(t)).0)
+            .filter(|t| *t > 0.0 && *t < 1.0)
+            .collect();
+        if corners.is_empty() && last[0].max(last[1]) <= 1e-7 * whole {
             return self.stretch.step_s * whole;
         }
-        let (mut sum, mut parts) = (0.0, vec![(0.0, 1.0, whole)]);
-        while let Some((from, to, whole)) = parts.pop() {
+        let ends = [&[0.0], &corners[..], &[1.0]].concat();
+        let mut parts: Vec<_> = ends.windows(2).map(|e| (e[0], e[1], over(e[0], e[1]))).collect();
+        let mut sum = 0.0;
+        while let Some((from, to, one)) = parts.pop() {
             let middle = 0.5 * (from + to);
             let halves = [over(from, middle), over(middle, to)];
             let both = halves[0] + halves[1];
-            if (both - whole).abs() <= 1e-15 * (sum + both) || to - from < 1e-12 {
+            if (both - one).abs() <= 1e-15 * whole || to - from < 1e-12 {
                 sum += both;
             } else {
                 parts.extend([(from, middle, halves[0]), (middle, to, halves[1])]);
@@ -149,6 +157,12 @@ impl Step {
     pub(super) fn defect(&self) -> f64 {
         self.stretch.step_s * self.sharpest * self.tail * self.tail
     }
+}
+
+/// Whether a value is below those beside it.
+fn is_least(values: &[f64; POINTS], point: usize) -> bool {
+    let below = |other: Option<&f64>| other.is_none_or(|other| values[point] < *other);
+    below(point.checked_sub(1).map(|i| &values[i])) && below(values.get(point + 1))
 }
 
 /// Solves steps.
