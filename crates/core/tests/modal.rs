@@ -97,8 +97,7 @@ fn exact_ratios_alone_have_no_signs_and_say_so() {
     assert_eq!(table.mass_kg, [None; 2]);
     assert!(table.notes.iter().any(|note| note.contains("modes 1, 2, 3")), "{:?}", table.notes);
     let csv = table.to_csv();
-    let header =
-        "period_s,effective_mass_ratio_x,effective_mass_ratio_y\n0.326394,0.004655,0.8759";
+    let header = "period_s,effective_mass_ratio_x,effective_mass_ratio_y\n0.326394,0.004655,0.8759";
     assert!(csv.starts_with(header), "{csv}");
 }
 

@@ -13,6 +13,7 @@ use crate::error::InputError;
 mod cells;
 mod csi;
 mod opensees;
+mod ours;
 
 pub use opensees::OPENSEES_TITLE;
 
@@ -74,7 +75,7 @@ pub struct ModalTable {
 }
 
 /// Reads the files of one structure, each a name and its text: tables of ETABS or SAP2000, or the report of
-/// OpenSees with the eigenvectors.
+/// OpenSees with the eigenvectors; or one `modes.csv`.
 ///
 /// # Errors
 /// [`InputError`] at the first fault.
@@ -82,6 +83,11 @@ pub fn read_modes(
     files: &[(&str, &str)],
     options: &ModalOptions,
 ) -> Result<ModalTable, InputError> {
+    if let [(name, text)] = files
+        && ours::is_ours(text)
+    {
+        return ours::read(name, text);
+    }
     let mut sources = Sources::default();
     let texts: Vec<(usize, &str)> =
         files.iter().map(|(name, text)| (sources.add(name, text), *text)).collect();
@@ -111,6 +117,12 @@ impl ModalTable {
             }
             Share::Ratio(ratio) => Some(ratio),
         }
+    }
+
+    /// The sum of effective masses over the mass of the structure.
+    #[must_use]
+    pub fn sum(&self, axis: usize, mass_kg: Option<f64>) -> Option<f64> {
+        (0..self.modes.len()).map(|j| self.ratio(j, axis, mass_kg)).sum()
     }
 
     /// `modes.csv`, the table that `structure.modes` of a model file names.

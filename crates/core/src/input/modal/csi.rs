@@ -194,7 +194,7 @@ pub(super) fn read(
         compare_periods(sources, table, &out, options)?;
     }
     let ratios = match found.get(Kind::Ratios) {
-        Some(table) => ratios(sources, table, &rows, &mut out)?,
+        Some(table) => ratios(sources, table, &rows, found.get(Kind::Factors).is_some(), &mut out)?,
         None => [0.0; 2],
     };
     if let Some(table) = found.get(Kind::Factors) {
@@ -263,6 +263,7 @@ fn ratios(
     sources: &Sources,
     table: &Exported<'_>,
     rows: &[&Vec<Cell<'_>>],
+    has_factors: bool,
     out: &mut ModalTable,
 ) -> Result<[f64; 2], InputError> {
     let mut sums = [0.0; 2];
@@ -297,14 +298,14 @@ fn ratios(
             }
             mode.shares[axis] = Some(Share::Ratio(ratio));
         }
-        if sum > 1.0 {
+        if sum > 1.0 && !has_factors {
             for mode in &mut out.modes {
                 if let Some(Share::Ratio(ratio)) = &mut mode.shares[axis] {
                     *ratio /= sum;
                 }
             }
             out.notes.push(format!(
-                "ratios along {} sum to {sum} by their rounding and are divided by that",
+                "ratios along {} sum to {sum:.6} by their rounding and are divided by that",
                 AXES[axis]
             ));
         }
