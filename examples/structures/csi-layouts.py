@@ -4,6 +4,8 @@ Not from those programs: the numbers are computed here, the layout follows what 
 sap2000-layout.csv (kN, m) and etabs-layout.csv (N, mm; decimals after a comma).
 """
 
+from pathlib import Path
+
 import numpy as np
 
 masses_t = np.array([420.0, 400.0, 380.0])
@@ -76,5 +78,5 @@ def etabs():
 order = np.argsort(-periods)
 periods, values, phi = periods[order], values[order], phi[:, order]
 factors, ratios = [f[order] for f in factors], [r[order] for r in ratios]
-open("sap2000-layout.csv", "w").write(sap2000())
-open("etabs-layout.csv", "w").write(etabs())
+Path("sap2000-layout.csv").write_text(sap2000())
+Path("etabs-layout.csv").write_text(etabs())

@@ -3,6 +3,7 @@
 // Helpers of tests may panic as tests do.
 #![allow(clippy::expect_used, clippy::panic)]
 
+use proptest::prelude::*;
 use slipstick::input::{ModalOptions, ModalTable, Share, read_modes};
 
 const SAP2000: &str = include_str!("../../../examples/structures/sap2000-layout.csv");
@@ -99,6 +100,29 @@ fn exact_ratios_alone_have_no_signs_and_say_so() {
     let csv = table.to_csv();
     let header = "period_s,effective_mass_ratio_x,effective_mass_ratio_y\n0.326394,0.004655,0.8759";
     assert!(csv.starts_with(header), "{csv}");
+}
+
+#[test]
+fn exact_table_of_ours_reads_back_as_it_was_written() {
+    let written = read(SAP2000);
+    let read = read_modes(&[("modes.csv", &written.to_csv())], &ModalOptions::default());
+    let read = read.expect("a table");
+    assert_eq!((read.format.as_str(), read.modes.len(), read.points.len()), ("modes.csv", 9, 3));
+    for (one, other) in written.modes.iter().zip(&read.modes) {
+        assert!((one.period_s / other.period_s - 1.0).abs() < 1e-15);
+    }
+    for j in 0..9 {
+        let [one, other] = [&written, &read].map(|table| participation(table, j, 0));
+        assert!((one.abs() / other - 1.0).abs() < 1e-14);
+        // A mode may be turned round.
+        for (point, back) in written.points.iter().zip(&read.points) {
+            let [x, again] = [point, back].map(|p| p.shapes[0].as_ref().expect("along x")[j]);
+            assert!((x * one - again * other).abs() < 1e-14 * (x * one).abs());
+        }
+    }
+    let text = "period_s,damping_ratio,effective_mass_ratio\n0.5,0.05,0.8\n";
+    let read = read_modes(&[("modes.csv", text)], &ModalOptions::default()).expect("a table");
+    assert!((read.sum(0, None).expect("a ratio") - 0.8).abs() < 1e-15);
 }
 
 /// Four digits are printed: the sum of what was rounded is divided away, and that is said.
@@ -228,4 +252,22 @@ fn opensees_faults_are_told_where_they_are() {
     let options = ModalOptions::default();
     let error = read_modes(&[("modal.txt", REPORT)], &options).expect_err("no unit");
     assert!(error.to_string().contains("add --mass-unit"), "{error}");
+}
+
+proptest! {
+    /// Whatever becomes of a file on its way, there is an answer or an error.
+    #[test]
+    fn prop_damaged_files_never_panic(
+        which in 0..3_usize, at in 0..20_000_usize, length in 0..200_usize, put in "[-0-9.,;*#\"eTé\n ]{0,6}",
+    ) {
+        let text = [SAP2000, ETABS, REPORT][which];
+        let mut chars: Vec<char> = text.chars().collect();
+        let at = at % chars.len();
+        let end = (at + length).min(chars.len());
+        chars.splice(at..end, put.chars());
+        let damaged: String = chars.into_iter().collect();
+        let options = ModalOptions { mass_unit_kg: Some(1.0), ..Default::default() };
+        let _ = read_modes(&[("damaged", &damaged)], &options);
+        let _ = read_modes(&[("report", REPORT), ("damaged", &damaged)], &options);
+    }
 }

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use slipstick::input::{MAX_TEXT_BYTES, ModalOptions, ModalTable, from_bytes, read_modes};
 use slipstick::units::Dimension;
 use slipstick_files::{modes_beside, read_at_most, refuse_inputs, write_whole};
+use slipstick_report::number::rounded;
 use slipstick_report::structure::ModalInfo;
 
 use super::record::damping_ratio;
@@ -124,13 +125,12 @@ fn convert(args: &StructureConvertArgs) -> Result<ExitCode, Failure> {
     refuse_inputs(path, &args.read.files)?;
     write_whole(path, csv.as_bytes())?;
     let largest_kg = table.mass_kg.into_iter().flatten().reduce(f64::max);
-    let mass = match mass_kg.or(largest_kg) {
-        Some(kg) => format!("\"{kg} kg\""),
-        None => "\"…\"".to_owned(),
-    };
-    let path = path.display();
+    let mass =
+        mass_kg.or(largest_kg).map_or("…".to_owned(), |kg| format!("{} t", rounded(kg / 1e3, 8)));
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
     say(format_args!(
-        "wrote {path}; in the model: [structure] with mass = {mass}, modes = \"{path}\""
+        "wrote {}; in a model beside it: [structure] with mass = {mass:?}, modes = {name:?}",
+        path.display()
     ));
     Ok(ExitCode::SUCCESS)
 }

@@ -158,7 +158,10 @@ fn exact_converted_tables_run_in_a_model() {
     let output = folder.output(&convert);
     assert!(output.status.success());
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(said.contains("wrote modes.csv; in the model: [structure] with mass = "), "{said}");
+    assert!(
+        said.contains("wrote modes.csv; in a model beside it: [structure] with mass = \"1200."),
+        "{said}"
+    );
     let header = "period_s,damping_ratio,participation_x,participation_y,roof_x,roof_y\n";
     assert!(folder.read("modes.csv").starts_with(header));
     let json = folder.json(&["model.toml", "--set", "structure.mass=\"1201 t\""]);
@@ -169,6 +172,17 @@ fn exact_converted_tables_run_in_a_model() {
     folder.write("model.toml", MODEL.replace("800 t", "1201 t"));
     let text = folder.stdout(&["structure", "info", "model.toml"]);
     assert!(text.contains("model.toml  (model)") && text.contains("1201.0 t along x"), "{text}");
+}
+
+/// The example that the book runs names what is made of the table beside it.
+#[test]
+fn exact_example_of_an_exported_building() {
+    let folder = Folder::new("structure-example");
+    folder.write("building.csv", example("sap2000-layout.csv"));
+    let points = ["--point", "First=C1", "--point", "Second=C2", "--point", "Roof=C3"];
+    let convert = ["structure", "convert", "building.csv", "--damping", "3 %"];
+    let csv = folder.stdout(&[&convert[..], &points[..]].concat());
+    assert_eq!(csv, example("building-modes.csv"));
 }
 
 #[test]

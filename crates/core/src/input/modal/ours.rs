@@ -10,16 +10,21 @@ use crate::model::Structure;
 /// A mass in kg that bounds no sum of effective masses, where `modes.csv` is read without its model.
 const ANY_MASS_KG: f64 = 1e15;
 
-/// Whether a text is a `modes.csv`: its first line that is no comment names periods or frequencies.
-pub(super) fn is_ours(text: &str) -> bool {
+/// The first line that is no comment, in lower case.
+fn header(text: &str) -> String {
     let is_comment = |line: &str| line.trim().is_empty() || line.trim_start().starts_with('#');
-    let header = text.lines().find(|line| !is_comment(line)).unwrap_or("").to_lowercase();
+    text.lines().find(|line| !is_comment(line)).unwrap_or("").to_lowercase()
+}
+
+/// Whether a text is a `modes.csv`: its header names periods or frequencies.
+pub(super) fn is_ours(text: &str) -> bool {
+    let header = header(text);
     header.contains("period_s") || header.contains("frequency_hz")
 }
 
 /// Reads `modes.csv` as the model reads it that names it.
 pub(super) fn read(name: &str, text: &str) -> Result<ModalTable, InputError> {
-    let header = text.to_lowercase();
+    let header = header(text);
     let has_damping = header.contains("damping_ratio");
     let damping = if has_damping { "" } else { "damping_ratio = 0\n" };
     let model = format!(
@@ -43,6 +48,12 @@ pub(super) fn read(name: &str, text: &str) -> Result<ModalTable, InputError> {
             "shapes are shown as those of unit modal mass; what they are normalised to is said in the model"
                 .to_owned(),
         );
+    }
+    let is_along_y = |name: &str| name.trim_matches(['"', ' ']).ends_with("_y");
+    if out.modes.iter().all(|mode| mode.shares[1].is_none())
+        && header.split([',', ';', '\t']).any(is_along_y)
+    {
+        out.notes.push("columns that end in _y are not used".to_owned());
     }
     Ok(out)
 }
