@@ -3,10 +3,14 @@
 mod assessment;
 mod fields;
 mod laboratory;
+mod structure;
 
 pub use assessment::{AssessArgs, FragilityArgs, SuiteArgs};
 pub use fields::Fields;
 pub use laboratory::{CompareArgs, IdentifyCommand, ResultArgs, TestArgs};
+pub use structure::{
+    ModalArgs, StructureCommand, StructureConvertArgs, StructureInfoArgs, StructureTankArgs,
+};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -128,6 +132,9 @@ pub enum Command {
     /// Inspect, convert, process and plot records
     #[command(subcommand, after_help = crate::record_args::EXAMPLES)]
     Record(crate::record_args::RecordCommand),
+    /// Inspect and convert the modes of a structure: tables of ETABS, SAP2000 and OpenSees
+    #[command(subcommand, after_help = structure::EXAMPLES)]
+    Structure(StructureCommand),
     /// Run many analyses: records, levels and samples of a plan
     #[command(after_help = STUDY_EXAMPLES)]
     Study(StudyArgs),

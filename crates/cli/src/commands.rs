@@ -9,5 +9,7 @@ pub mod init;
 pub mod paper;
 pub mod record;
 pub mod run;
+pub mod structure;
 pub mod study;
+mod tank;
 pub mod text;

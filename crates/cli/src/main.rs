@@ -103,6 +103,7 @@ fn run() -> Result<ExitCode, Failure> {
         Command::Fragility(args) => commands::assess::fragility(args),
         Command::Design(args) => commands::assess::assess(args),
         Command::Record(command) => commands::record::record(command),
+        Command::Structure(command) => commands::structure::structure(command),
         Command::Study(args) => commands::study::study(args),
         Command::Identify { job } => commands::identify::identify(job),
         Command::Init(args) => commands::init::init(args),

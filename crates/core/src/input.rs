@@ -18,6 +18,7 @@ mod json_schema;
 mod keys;
 pub mod loaded;
 mod mapping;
+mod modal;
 mod modes;
 mod motion;
 mod overrides;
@@ -38,6 +39,9 @@ pub use edit::with_keys;
 pub use json_schema::{json_schema, plan_json_schema};
 pub use keys::MAX_STOREYS;
 pub use mapping::{Channel, ColumnRef, MappedColumn, Mapping, Zero};
+pub use modal::{
+    ModalOptions, ModalPoint, ModalRow, ModalTable, OPENSEES_TITLE, Share, read_modes,
+};
 pub use motion::{MotionSource, PairOf, RecordAlongY, RecordSource, Scale};
 pub use overrides::{InputValue, Override, dimension_of};
 pub use plan_keys::MAX_RUNS;

@@ -2,10 +2,12 @@
 
 mod builder;
 mod structure;
+mod tank;
 
 pub use builder::ModelBuilder;
 pub(crate) use structure::ROUNDED_MASS;
 pub use structure::{Structure, StructureMode, StructurePoint};
+pub use tank::LiquidTank;
 
 use crate::error::ModelError;
 use crate::slider::{Bearing, Ends, Friction, Law, Restoring};

@@ -202,6 +202,52 @@ impl Model {
         Ok(Self { analysis, source, text: text.to_owned() })
     }
 
+    /// Take the structure from an eigenvalue analysis of OpenSees that stands in memory.
+    ///
+    /// Parameters
+    /// ----------
+    /// ops
+    ///     The module ``openseespy.opensees`` with a model on a fixed base; z is upwards, in two dimensions y.
+    /// values
+    ///     All other keys, as for a new model: block, slider, motion.
+    /// mass_unit
+    ///     What one unit of mass of that model is, ``"1 t"``; OpenSees has no units. Times are in s.
+    /// nodes
+    ///     Nodes whose motion is wanted, by the names that they get: ``{"Roof": 40}``.
+    /// damping_ratio
+    ///     Ratio of critical damping of all modes.
+    /// modes
+    ///     Number of modes to compute; without it those of the last call of ``eigen``.
+    /// direction
+    ///     ``"x"`` or ``"y"``: the direction of OpenSees along which the ground moves.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For what makes no model, and for a unit or a direction that is none.
+    #[staticmethod]
+    #[pyo3(signature = (ops, values, *, mass_unit, nodes, damping_ratio, modes = None, direction = "x"))]
+    #[allow(clippy::too_many_arguments)]
+    fn from_opensees(
+        ops: &Bound<'_, PyAny>,
+        values: &Bound<'_, PyDict>,
+        mass_unit: &Bound<'_, PyAny>,
+        nodes: &Bound<'_, PyDict>,
+        damping_ratio: f64,
+        modes: Option<usize>,
+        direction: &str,
+    ) -> PyResult<Self> {
+        let py = ops.py();
+        let unit_kg = quantity("mass_unit", mass_unit, Dimension::Mass, false)?;
+        if !["x", "y"].contains(&direction) {
+            return Err(of_argument(py, "direction", "\"x\" or \"y\"", &format!("{direction:?}")));
+        }
+        let asked = (ops, unit_kg, nodes, damping_ratio, modes, direction);
+        let structure = py.import("slipstick._opensees")?.call_method1("structure", asked)?;
+        let text = format!("{}\n{}", Self::new(values)?.text, structure.extract::<String>()?);
+        Self::from_toml(py, &text, "")
+    }
+
     /// Give the same model with other values of some keys.
     ///
     /// Setting one of two keys that exclude each other removes the other; None removes a key, a storey, a table.

@@ -50,6 +50,7 @@ pub mod peaks;
 pub mod plot;
 pub mod records;
 pub mod report;
+pub mod structure;
 pub mod study;
 pub mod summary;
 pub mod table;

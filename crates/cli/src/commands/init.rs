@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use super::tank;
 use crate::args::{Example, InitArgs};
 use crate::failure::{Failure, say};
 
@@ -14,7 +15,6 @@ const DOUBLE_PENDULUM: &str = include_str!("../../models/double-pendulum.toml");
 const TRIPLE_PENDULUM: &str = include_str!("../../models/triple-pendulum.toml");
 const CONTENTS: &str = include_str!("../../models/contents.toml");
 const STRUCTURE: &str = include_str!("../../models/structure.toml");
-const TANK_SLOSHING: &str = include_str!("../../models/tank-sloshing.toml");
 
 /// Writes `NAME.toml` into the working folder.
 pub fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
@@ -28,7 +28,7 @@ pub fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
         Example::TriplePendulum => TRIPLE_PENDULUM,
         Example::Contents => CONTENTS,
         Example::Structure => STRUCTURE,
-        Example::TankSloshing => TANK_SLOSHING,
+        Example::TankSloshing => &tank::example()?,
     };
     let path = PathBuf::from(format!("{stem}.toml"));
     let nameless = Path::new(stem).file_name().is_none() || stem.ends_with(['/', '\\']);

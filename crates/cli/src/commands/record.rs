@@ -46,18 +46,20 @@ fn damping_ratios(typed: &[String]) -> Result<Vec<f64>, Failure> {
     if typed.is_empty() {
         return Ok(vec![0.05]);
     }
-    let ratio = |text: &String| {
-        let word = text.trim();
-        let ratio = match word.strip_suffix('%') {
-            Some(percent) => percent.trim_end().parse::<f64>().map(|percent| percent / 100.0),
-            None => word.parse::<f64>(),
-        };
-        ratio.ok().filter(|ratio| (0.0..1.0).contains(ratio)).ok_or_else(|| {
-            let expected = "expected damping from 0 % to below 100 %, such as \"5 %\" or 0.05";
-            refuse("--damping", &format!("{expected}, found {text:?}"))
-        })
+    typed.iter().map(|text| damping_ratio(text)).collect()
+}
+
+/// A damping ratio as typed: percent or ratio.
+pub(super) fn damping_ratio(text: &str) -> Result<f64, Failure> {
+    let word = text.trim();
+    let ratio = match word.strip_suffix('%') {
+        Some(percent) => percent.trim_end().parse::<f64>().map(|percent| percent / 100.0),
+        None => word.parse::<f64>(),
     };
-    typed.iter().map(ratio).collect()
+    ratio.ok().filter(|ratio| (0.0..1.0).contains(ratio)).ok_or_else(|| {
+        let expected = "expected damping from 0 % to below 100 %, such as \"5 %\" or 0.05";
+        refuse("--damping", &format!("{expected}, found {text:?}"))
+    })
 }
 
 /// What became of many files: the good ones go on, the bad ones are told as they come.

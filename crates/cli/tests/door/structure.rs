@@ -97,3 +97,106 @@ fn exact_examples_of_structures_run_as_they_stand() {
         assert!(warnings.iter().all(|w| w["kind"] != "missing_modes"), "{warnings:?}");
     }
 }
+
+/// A file of the examples.
+fn example(name: &str) -> String {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/structures");
+    std::fs::read_to_string(format!("{folder}/{name}")).expect("an example")
+}
+
+#[test]
+fn exact_info_says_what_was_understood_of_exported_tables() {
+    let folder = Folder::new("structure-info");
+    folder.write("building.csv", example("sap2000-layout.csv"));
+    let text = folder.stdout(&["structure", "info", "building.csv", "--svg", "modes.svg"]);
+    for line in [
+        "building.csv  (tables of ETABS or SAP2000)",
+        "  Joint Displacements: 30 rows; m, Radians",
+        "Mass     1200.0 t along x, 1200.0 t along y",
+        "Points   c1, c2, c3",
+    ] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+    assert!(folder.read("modes.svg").contains("Mode 6"));
+    let json = folder.stdout(&["structure", "info", "building.csv", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).expect("an object");
+    let ratio = json["modes"][1]["effective_mass_ratio"]["x"].as_f64().expect("a number");
+    assert!((ratio - 0.804896).abs() < 1e-6, "{ratio}");
+    let sum = json["effective_mass_ratio_sum"]["y"].as_f64().expect("a number");
+    assert!((sum - 1.0).abs() < 1e-5, "{sum}");
+}
+
+#[test]
+fn opensees_report_needs_the_unit_of_mass() {
+    let folder = Folder::new("structure-opensees");
+    folder.write("modal.txt", example("opensees-modal.txt"));
+    let message = folder.refused(&["structure", "info", "modal.txt"]);
+    assert!(message.contains("add --mass-unit"), "{message}");
+    let text = folder.stdout(&["structure", "info", "modal.txt", "--mass-unit", "t"]);
+    assert!(text.contains("242.40 t along x"), "{text}");
+    // kip s²/in
+    let unit = ["structure", "info", "modal.txt", "--mass-unit", "175.127 t"];
+    assert!(folder.stdout(&unit).contains("42451 t along x"));
+}
+
+/// From an exported table to a certified answer; the table of ours reads back as it was written.
+#[test]
+fn exact_converted_tables_run_in_a_model() {
+    let folder = Folder::with_model("structure-convert", MODEL);
+    folder.write("building.csv", example("etabs-layout.csv"));
+    let convert = [
+        "structure",
+        "convert",
+        "building.csv",
+        "--point",
+        "Roof=Roof 7",
+        "--damping",
+        "3 %",
+        "-o",
+        "modes.csv",
+    ];
+    let output = folder.output(&convert);
+    assert!(output.status.success());
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        said.contains("wrote modes.csv; in a model beside it: [structure] with mass = \"1200."),
+        "{said}"
+    );
+    let header = "period_s,damping_ratio,participation_x,participation_y,roof_x,roof_y\n";
+    assert!(folder.read("modes.csv").starts_with(header));
+    let json = folder.json(&["model.toml", "--set", "structure.mass=\"1201 t\""]);
+    assert_eq!(json["points"][0]["name"], "Roof");
+    assert!(json["checks"]["demands_error"].as_f64().expect("a number") < 1e-10);
+    let text = folder.stdout(&["structure", "info", "modes.csv", "--mass", "1201 t"]);
+    assert!(text.contains("modes.csv  (modes.csv)") && text.contains("Points   roof"), "{text}");
+    folder.write("model.toml", MODEL.replace("800 t", "1201 t"));
+    let text = folder.stdout(&["structure", "info", "model.toml"]);
+    assert!(text.contains("model.toml  (model)") && text.contains("1201.0 t along x"), "{text}");
+}
+
+/// The example that the book runs names what is made of the table beside it.
+#[test]
+fn exact_example_of_an_exported_building() {
+    let folder = Folder::new("structure-example");
+    folder.write("building.csv", example("sap2000-layout.csv"));
+    let points = ["--point", "First=C1", "--point", "Second=C2", "--point", "Roof=C3"];
+    let convert = ["structure", "convert", "building.csv", "--damping", "3 %"];
+    let csv = folder.stdout(&[&convert[..], &points[..]].concat());
+    assert_eq!(csv, example("building-modes.csv"));
+}
+
+#[test]
+fn exact_tank_of_the_example_is_that_of_its_dimensions() {
+    let folder = Folder::new("structure-tank");
+    folder.stdout(&["init", "it", "--example", "tank-sloshing"]);
+    let feet = ["--radius", "32.808398950131235 ft", "--height", "26.246719160104988 ft"];
+    folder.stdout(&[&["structure", "tank", "-o", "us.toml"], &feet[..]].concat());
+    assert_eq!(folder.read("it.toml"), folder.read("us.toml"));
+    assert!(folder.read("it.toml").contains("mass = \"2513.27 t\""));
+    // A tall one, an oil: no more mass than the liquid's.
+    let tall = ["--radius", "4 m", "--height", "16 m", "--specific-gravity", "0.85"];
+    folder.stdout(&[&["structure", "tank", "-o", "tall.toml"], &tall[..]].concat());
+    assert_eq!(folder.json(&["tall.toml"])["points"][1]["name"], "Sloshing");
+    let message = folder.refused(&["structure", "tank", "--radius", "-1 m", "--height", "8 m"]);
+    assert!(message.contains("radius"), "{message}");
+}

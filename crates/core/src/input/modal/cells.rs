@@ -1,0 +1,175 @@
+//! Exported tables as cells that know where they stand: title, names of columns, units, rows.
+
+use super::super::tree::{Sources, Spot};
+use crate::error::{InputError, cut};
+
+/// A cell and where it stands.
+#[derive(Clone, Debug)]
+pub(super) struct Cell<'a> {
+    pub text: &'a str,
+    pub spot: Spot,
+}
+
+/// A column: its name without spaces, in lower case, and its unit, empty where there is none.
+#[derive(Clone, Debug)]
+pub(super) struct Column<'a> {
+    pub name: String,
+    pub unit: &'a str,
+    pub spot: Spot,
+}
+
+/// One table of a file.
+#[derive(Debug)]
+pub(super) struct Exported<'a> {
+    /// What stands behind `TABLE:`.
+    pub title: Option<&'a str>,
+    pub spot: Spot,
+    pub columns: Vec<Column<'a>>,
+    pub rows: Vec<Vec<Cell<'a>>>,
+    /// Whether decimals may follow a comma.
+    decimal_comma: bool,
+}
+
+/// All tables of a text. A line `TABLE: …` begins one; the first line below it has the names, the next the units,
+/// unless it begins the rows.
+pub(super) fn tables<'a>(
+    sources: &Sources,
+    source: usize,
+    text: &'a str,
+) -> Result<Vec<Exported<'a>>, InputError> {
+    let mut all: Vec<Exported<'a>> = Vec::new();
+    let (mut title, mut separator) = (None, ',');
+    let mut at = 0;
+    for whole in text.split_inclusive('\n') {
+        let from = at;
+        at += whole.len();
+        let line = whole.trim_end_matches(['\r', '\n']);
+        let bare = line.trim_start_matches('\u{feff}');
+        let start = from + line.len() - bare.len();
+        if bare.trim_matches(|c: char| c.is_whitespace() || ",;".contains(c)).is_empty() {
+            continue;
+        }
+        if let Some(name) = title_of(bare) {
+            title = Some((name, Spot { source, span: start..start + bare.len() }));
+            continue;
+        }
+        let is_header = title.is_some() || all.is_empty();
+        if is_header {
+            separator = [';', '\t', ','].into_iter().find(|c| bare.contains(*c)).unwrap_or(',');
+        }
+        let cells = split(bare, start, separator, source);
+        if is_header {
+            let (title, spot) = match title.take() {
+                Some((name, spot)) => (Some(name), spot),
+                None => (None, Spot { source, span: start..start + bare.len() }),
+            };
+            let columns = cells.iter().map(column).collect();
+            let decimal_comma = separator != ',';
+            all.push(Exported { title, spot, columns, rows: Vec::new(), decimal_comma });
+            continue;
+        }
+        let Some(table) = all.last_mut() else { continue };
+        if table.rows.is_empty() && is_row_of_units(&cells) {
+            for (column, cell) in table.columns.iter_mut().zip(&cells) {
+                column.unit = if column.unit.is_empty() { cell.text } else { column.unit };
+            }
+            continue;
+        }
+        if cells.len() != table.columns.len() {
+            let spot = Spot { source, span: start..start + bare.len() };
+            let expected = format!("{} values, as the header has", table.columns.len());
+            return Err(sources.error(&spot, "", expected, cells.len().to_string()));
+        }
+        table.rows.push(cells);
+    }
+    Ok(all)
+}
+
+/// The name behind `TABLE:`, without quotes and what a spreadsheet adds.
+fn title_of(line: &str) -> Option<&str> {
+    let line = line.trim_matches(|c: char| c.is_whitespace() || ",;\"".contains(c));
+    let (word, name) = line.split_at_checked(6)?;
+    let is_title = word.eq_ignore_ascii_case("table:");
+    is_title.then(|| name.trim_matches(|c: char| c.is_whitespace() || c == '"'))
+}
+
+fn column<'a>(cell: &Cell<'a>) -> Column<'a> {
+    let (name, unit) = match cell.text.split_once('(') {
+        Some((name, unit)) => (name, unit.trim_end_matches(')').trim()),
+        None => (cell.text, ""),
+    };
+    let name = name.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase();
+    Column { name, unit, spot: cell.spot.clone() }
+}
+
+/// No number, and a unit or the kind of a column: `sec`, `Unitless`, `Text`.
+fn is_row_of_units(cells: &[Cell<'_>]) -> bool {
+    let is_number = |cell: &Cell<'_>| cell.text.replace(',', ".").parse::<f64>().is_ok();
+    !cells.iter().any(is_number)
+}
+
+/// The cells of a line; a separator between quotes is none.
+fn split(line: &str, at: usize, separator: char, source: usize) -> Vec<Cell<'_>> {
+    let mut ends = Vec::new();
+    let mut quoted = false;
+    for (i, c) in line.char_indices() {
+        quoted ^= c == '"';
+        if c == separator && !quoted {
+            ends.push(i);
+        }
+    }
+    ends.push(line.len());
+    let mut from = 0;
+    let cell = |end: usize| {
+        let part = line.get(from..end).unwrap_or("");
+        let text = part.trim();
+        let start = at + from + part.len() - part.trim_start().len();
+        from = end + separator.len_utf8();
+        Cell {
+            text: text.trim_matches('"').trim(),
+            spot: Spot { source, span: start..start + text.len() },
+        }
+    };
+    ends.into_iter().map(cell).collect()
+}
+
+impl<'a> Exported<'a> {
+    /// The place of the first column of one of these names.
+    pub fn find(&self, names: &[&str]) -> Option<usize> {
+        names.iter().find_map(|name| self.columns.iter().position(|column| column.name == *name))
+    }
+
+    /// The same, which must be there; the error says `expected`.
+    pub fn required(
+        &self,
+        sources: &Sources,
+        names: &[&str],
+        expected: &str,
+    ) -> Result<usize, InputError> {
+        self.find(names).ok_or_else(|| {
+            let spot = self.columns.first().map_or(&self.spot, |column| &column.spot);
+            sources.error(spot, "", format!("a column {expected}"), "none")
+        })
+    }
+
+    /// The number in a cell.
+    pub fn number(&self, sources: &Sources, cell: &Cell<'_>) -> Result<f64, InputError> {
+        let value = match self.decimal_comma {
+            true => cell.text.replace(',', ".").parse::<f64>(),
+            false => cell.text.parse::<f64>(),
+        };
+        value.ok().filter(|value| value.is_finite()).ok_or_else(|| {
+            sources.error(&cell.spot, "", "a finite number", format!("{:?}", cut(cell.text)))
+        })
+    }
+
+    /// The number of a mode in a cell, from 1.
+    pub fn mode(&self, sources: &Sources, cell: &Cell<'_>) -> Result<usize, InputError> {
+        let number = self.number(sources, cell)?;
+        if number >= 1.0 && number.fract() == 0.0 && number < 1e6 {
+            return Ok(number as usize);
+        }
+        let found = format!("{:?}", cut(cell.text));
+        Err(sources.error(&cell.spot, "", "the number of a mode, from 1", found))
+    }
+}
