@@ -466,7 +466,7 @@ mod tests {
     /// Both components of a pair take one factor, by which the measure of the pair takes its level.
     #[test]
     fn exact_pairs_take_one_factor() {
-        for (measure, level) in [("RotD50(0.5 s)", 2.0), ("RotD100(PGA)", 3.0), ("PGA", 2.0)] {
+        for (measure, level) in [("RotD50(0.5 s)", 12.0), ("RotD100(PGA)", 6.0), ("PGA", 6.0)] {
             let keys = format!("measure = \"{measure}\"\nlevels = [\"1 m/s2\", \"{level} m/s2\"]");
             let study = of_pairs("separate", &keys);
             assert!(study.has_pairs() && study.runs() == 8);
