@@ -204,6 +204,15 @@ pub fn parse(
     text: &str,
     overrides: &[Override],
 ) -> Result<Analysis, InputError> {
+    build::analysis(values(source_name, text, overrides)?)
+}
+
+/// The values of a model's text.
+fn values(
+    source_name: &str,
+    text: &str,
+    overrides: &[Override],
+) -> Result<reader::Values, InputError> {
     let mut sources = tree::Sources::default();
     let file = sources.add(source_name, text);
     if text.len() > MAX_TEXT_BYTES {
@@ -215,8 +224,7 @@ pub fn parse(
     for set in overrides {
         set.apply(&mut sources, &mut root)?;
     }
-    let values = reader::Values::read(sources, &root, &keys::MODEL)?;
-    build::analysis(values)
+    reader::Values::read(sources, &root, &keys::MODEL)
 }
 
 /// A model from the values of its keys, without a text: paths are keys joined by dots, storeys counted

@@ -27,11 +27,11 @@ use std::sync::OnceLock;
 use engine::Engine;
 
 use crate::error::{InputError, MotionError, RunError, Stopped};
-use crate::input::plan::{Levels, Plan, Target};
+use crate::input::plan::{Levels, Plan, Records, Target};
 use crate::input::{Bound, FrictionBounds, MAX_RUNS, Parts, Variation};
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{IntensityMeasures, Measure};
-use crate::motion::target::{Matched, TargetSpectrum, matching_periods, maximum_direction};
+use crate::motion::target::{Matched, TargetSpectrum, matching_periods, maximum_direction_of_pair};
 use crate::notice::NoticeKind;
 use crate::numerics::random::{GOLDEN, mix};
 use crate::response::DemandShape;
@@ -52,6 +52,28 @@ pub struct Record {
     pub warnings: Vec<NoticeKind>,
     /// Number of the pair of horizontal components that it is one of, the other beside it.
     pub pair: Option<usize>,
+}
+
+impl Record {
+    /// Components that stand beside each other as one motion a pair in two horizontal directions, which has
+    /// the name of the first.
+    fn together(records: &[Self]) -> Result<Vec<Self>, MotionError> {
+        let join = |group: &[Self]| match group {
+            [x, y] => {
+                let (motion, lengths_differ) = x.motion.with_along_y(&y.motion)?;
+                let mut warnings = x.warnings.clone();
+                let more = lengths_differ.then_some(NoticeKind::LengthsDiffer);
+                for kind in y.warnings.iter().copied().chain(more) {
+                    if !warnings.contains(&kind) {
+                        warnings.push(kind);
+                    }
+                }
+                Ok(Self { motion, warnings, pair: None, ..x.clone() })
+            }
+            _ => Ok(group[0].clone()),
+        };
+        scaled_together(records).into_iter().map(join).collect()
+    }
 }
 
 /// A study whose runs can be computed, in any order.
@@ -100,8 +122,8 @@ pub struct Study {
     /// How pairs were brought to a target spectrum.
     matched: Option<Matched>,
     shape: DemandShape,
-    /// Number of demands.
-    demands: usize,
+    /// Whether the table moves in two horizontal directions.
+    in_plane: bool,
     samples: OnceLock<Vec<Sample>>,
     /// What rows say of their motion.
     measures: Vec<Measure>,
@@ -182,8 +204,20 @@ impl Study {
             let expected = "the exact method, which is the only one of studies";
             return Err(variation.error_at("analysis.method", expected, "\"stepwise\""));
         }
-        // Each component of a pair is run by itself.
-        variation.along_x_alone()?;
+        let records = match &plan.records {
+            Some(Records { together: true, .. }) => {
+                Record::together(&records).map_err(|error| {
+                    let expected = "components whose samples make one motion";
+                    plan.error_at("records.second", expected, error.to_string())
+                })?
+            }
+            _ => records,
+        };
+        let in_plane = records.iter().any(|record| record.motion.horizontal_y_m_per_s2().is_some());
+        if !in_plane {
+            variation.along_x_alone()?;
+        }
+        let variation = if in_plane { variation.in_plane() } else { variation };
         let design = Design::new(plan, &variation)?;
         let levels = match &plan.records {
             Some(records) => records.levels.clone(),
@@ -239,7 +273,7 @@ impl Study {
             bounds,
             matched: None,
             shape,
-            demands: shape.columns().len(),
+            in_plane,
             samples: OnceLock::new(),
             measures,
         })
@@ -269,7 +303,13 @@ impl Study {
         &self.records
     }
 
-    /// Whether records are pairs of horizontal components.
+    /// Whether the table moves in two horizontal directions.
+    #[must_use]
+    pub fn is_in_plane(&self) -> bool {
+        self.in_plane
+    }
+
+    /// Whether records are pairs of horizontal components, each run by itself.
     #[must_use]
     pub fn has_pairs(&self) -> bool {
         self.records.iter().any(|record| record.pair.is_some())
@@ -475,9 +515,9 @@ fn scaled(
             }
         };
         let periods_s = matching_periods(range_s);
-        let spectrum = |i: usize| match groups[i] {
-            [x, y] => maximum_direction(&x.motion, &y.motion, &periods_s),
-            _ => Ok(Vec::new()),
+        let spectrum = |i: usize| {
+            let other = groups[i].get(1).map(|other| &other.motion);
+            maximum_direction_of_pair(&groups[i][0].motion, other, &periods_s)
         };
         let spectra = engine.runs(groups.len(), spectrum)?.into_iter().collect();
         let spectra: Result<Vec<Vec<f64>>, MotionError> = spectra;

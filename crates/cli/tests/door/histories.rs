@@ -140,7 +140,7 @@ fn exact_pairs_take_one_factor_as_in_a_study() {
             "plan.toml",
             format!(
                 "name = \"Pairs\"\nmodel = \"plain.toml\"\n[records]\nfiles = {files:?}\n\
-                 second = {second:?}\n{in_plan}"
+                 second = {second:?}\npairs = \"separate\"\n{in_plan}"
             ),
         );
         folder.stdout(&["study", "plan.toml", "--out", "study", "--force", "-q"]);

@@ -393,9 +393,12 @@ fn exact_repeat_reproduces_rows() {
 fn compare(result: &serde_json::Value, row: &BTreeMap<String, f64>) {
     let mut compared = 0;
     for (name, value) in row {
+        let axis = ["x", "y"].iter().find(|axis| name.starts_with(&format!("{axis}.")));
+        let of = axis.map_or(result, |axis| &result[axis]);
+        let name = axis.map_or(name.as_str(), |_| &name[2..]);
         let found = match name.strip_prefix("storey1_") {
-            Some(name) => &result["storeys"][0][name],
-            None => name.split('.').fold(result, |found, key| &found[key]),
+            Some(name) => &of["storeys"][0][name],
+            None => name.split('.').fold(of, |found, key| &found[key]),
         };
         let found = match found {
             serde_json::Value::Bool(flag) => f64::from(u8::from(*flag)),
@@ -855,7 +858,7 @@ fn exact_pairs_of_components() {
     let plan = |keys: &str| {
         format!(
             "model = \"model.toml\"\n[records]\nfiles = [\"records/*.csv\"]\n\
-             second = [\"second/*.csv\"]\n{keys}\n"
+             second = [\"second/*.csv\"]\npairs = \"separate\"\n{keys}\n"
         )
     };
     folder.write("plan.toml", plan("measure = \"RotD50(1.2 s)\"\nlevels = [\"0.3 g\"]"));
@@ -909,4 +912,40 @@ fn exact_pairs_of_components() {
     folder.write("plan.toml", plan(""));
     let refused = folder.refused(&["study", "plan.toml", "--dry-run"]);
     assert!(refused.contains("one other component for each of 2 files, found 3"), "{refused}");
+}
+
+/// Both components at once: a row a pair, with the resultants as its demands and the components beside them, to
+/// the last bit those of the command that repeats it; other stiffness along y is varied.
+#[test]
+fn exact_pairs_of_components_at_once() {
+    let folder = folder("study-plane");
+    let other = RECORD.replace("1,5", "1,2").replace("2,-5", "2,4");
+    folder.write("second/a.csv", &other);
+    folder.write("second/b.csv", other.replace('4', "3"));
+    folder.write(
+        "plan.toml",
+        "model = \"model.toml\"\n[records]\nfiles = [\"records/*.csv\"]\n\
+         second = [\"second/*.csv\"]\nmeasure = \"RotD100(1 s)\"\nlevels = [\"0.3 g\", \"0.5 g\"]\n\
+         [vary]\n\"storey.1.period_y\" = { values = [\"0.4 s\", \"0.6 s\"] }\n[sampling]\n\
+         method = \"grid\"\n",
+    );
+    folder.stdout(&["study", "plan.toml", "--out", "out", "--report", "-q"]);
+    let part = "out/parts/part-00000.parquet";
+    let columns = read_columns(&folder.path().join(part)).unwrap();
+    let names: Vec<&str> = columns.iter().map(|column| &*column.name).collect();
+    assert_eq!(columns[0].cells.len(), 2 * 2 * 2);
+    assert!(!names.contains(&"pair"), "{names:?}");
+    for run in [0, 3, 6] {
+        let line = folder.stdout(&["study", "plan.toml", "--repeat", &run.to_string()]);
+        let words = words(line.trim());
+        let arguments: Vec<&str> = words[2..].iter().map(String::as_str).collect();
+        let row = row(&folder, part, run);
+        compare(&folder.json(&arguments), &row);
+        let resultant = row["peak_sliding_displacement_m"];
+        assert!(resultant >= row["y.peak_sliding_displacement_m"].abs());
+        assert!(row["peak_sliding_displacement_m"] > 0.0);
+        assert!(row["max_sliding_displacement_m"].is_nan());
+        assert!(!names.contains(&"x.slip_count") && row["slip_count"] > 0.0);
+    }
+    assert!(folder.read("out/report.html").contains("move the table at once"));
 }

@@ -7,7 +7,7 @@ use crate::input::Parts;
 use crate::input::loaded::Loaded;
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{LevelMeasure, Measure};
-use crate::motion::target::{Matched, TargetSpectrum, matching_periods, maximum_direction};
+use crate::motion::target::{Matched, TargetSpectrum, matching_periods, maximum_direction_of_pair};
 use crate::notice::{Notice, NoticeKind};
 use crate::record::Origin;
 use crate::study::engine::{Engine, made_motion, scaled_with_tail};
@@ -308,10 +308,8 @@ impl Suite {
                 }
                 let periods_s = matching_periods(*range_s);
                 let spectrum = |i: usize| {
-                    let first = &groups[i][0].motion;
-                    let other = groups[i].get(1).map(|other| other.motion.clone());
-                    let other = other.unwrap_or_else(|| first.along_y());
-                    Ok(maximum_direction(&first.along_x(), &other, &periods_s))
+                    let other = groups[i].get(1).map(|other| &other.motion);
+                    Ok(maximum_direction_of_pair(&groups[i][0].motion, other, &periods_s))
                 };
                 let spectra: Result<Vec<Vec<f64>>, MotionError> =
                     engine.map(groups.len(), spectrum)?.into_iter().collect();

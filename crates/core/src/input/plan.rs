@@ -43,6 +43,8 @@ pub struct Records {
     pub files: Vec<String>,
     /// Files or patterns of the other horizontal components, in the order of the first.
     pub second: Vec<String>,
+    /// Whether both components of a pair move the table at once, else each by itself.
+    pub together: bool,
     /// Spectrum to which pairs are brought, and the periods in s over which.
     pub target: Option<(Target, [f64; 2])>,
     /// Unit of their values, where the files do not state it.

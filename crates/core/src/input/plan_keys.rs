@@ -48,8 +48,15 @@ static RECORDS: Section = Section {
             "second",
             Kind::Texts("far-field/*-090.AT2"),
             "Files or patterns of the other horizontal components, one for each of files in the same \
-             order: both are run, with one factor for the pair.",
+             order, with one factor for the pair.",
         ),
+        Key::optional(
+            "pairs",
+            Kind::Word(&["together", "separate"]),
+            "How pairs of components are run: together, the table moving in two horizontal directions, or \
+             separate, each component by itself; default together.",
+        )
+        .beside("second"),
         UNITS,
         RECORD_STEP,
         CHANNEL,

@@ -129,8 +129,10 @@ impl Variation {
     /// [`InputError`] where the model objects to the numbers.
     pub fn analysis(&self, numbers: &[f64]) -> Result<Analysis, InputError> {
         let all = self.set.iter().cloned().chain(self.overrides(numbers)?);
-        let analysis = parse(&self.name, &self.text, &all.collect::<Vec<_>>())?;
-        if self.values.in_plane { analysis.in_plane() } else { Ok(analysis) }
+        let mut values = super::values(&self.name, &self.text, &all.collect::<Vec<_>>())?;
+        // Before it is read as a model: keys along y are refused where nothing moves along y.
+        values.in_plane = self.values.in_plane;
+        build::analysis(values)
     }
 
     /// The numbers of a sample as `--set` takes them.

@@ -128,6 +128,22 @@ pub fn maximum_direction(
     Ok(largest.of_damping(0).iter().map(|ordinates| ordinates.psa_m_per_s2).collect())
 }
 
+/// The same of a record and the other component of its pair, which a motion in two horizontal directions
+/// has in it.
+///
+/// # Errors
+/// As [`maximum_direction`].
+pub fn maximum_direction_of_pair(
+    first: &GroundMotion,
+    other: Option<&GroundMotion>,
+    periods_s: &[f64],
+) -> Result<Vec<f64>, MotionError> {
+    match other {
+        Some(other) => maximum_direction(first, other, periods_s),
+        None => maximum_direction(&first.along_x(), &first.along_y(), periods_s),
+    }
+}
+
 impl Matched {
     /// The factors that bring spectra of pairs to a target in the mean of the logarithms over the
     /// periods, all raised by one more where the mean of the pairs falls below [`LEAST_SHARE`] of the

@@ -1,7 +1,7 @@
 //! The columns of a study's table.
 
 use super::{Row, Study};
-use crate::response::DemandKind;
+use crate::response::{DemandColumn, DemandKind, InDirections, Response, demand_values};
 use crate::table::{Cells, Column, Field, Kind, Table};
 
 impl From<DemandKind> for Kind {
@@ -14,7 +14,42 @@ impl From<DemandKind> for Kind {
     }
 }
 
+/// What stands before the names of demands by axis.
+const AXES: [&str; 2] = ["x.", "y."];
+
+/// The demands of a structure that exist along an axis.
+fn along_an_axis(columns: &[DemandColumn]) -> impl Iterator<Item = DemandColumn> {
+    columns.iter().copied().filter(|c| c.demand.in_directions != InDirections::Resultant)
+}
+
 impl Study {
+    /// The columns of demands, those of [`Study::shape`] first, each after what stands before its name; in two
+    /// horizontal directions they are of the resultants, and those along x and then along y follow.
+    pub(super) fn demand_columns(&self) -> Vec<(&'static str, DemandColumn)> {
+        let all = self.shape.columns();
+        let axes = if self.in_plane { &AXES[..] } else { &[] };
+        let by_axis = axes.iter().flat_map(|axis| along_an_axis(&all).map(|c| (*axis, c)));
+        all.iter().map(|column| ("", *column)).chain(by_axis).collect()
+    }
+
+    /// The values of [`Study::demand_columns`]; NaN where one does not exist.
+    pub(super) fn demands(&self, response: &Response) -> Vec<f64> {
+        if !self.in_plane {
+            return demand_values(&response.demands);
+        }
+        let all = self.shape.columns();
+        let nan = |value: Option<f64>| value.unwrap_or(f64::NAN);
+        let of_resultant = all.iter().map(|column| match column.demand.in_directions {
+            InDirections::Axis => f64::NAN,
+            _ => nan(column.value(&response.demands)),
+        });
+        let axes = response.in_plane.as_ref().map(|plane| plane.axes.each_ref());
+        let of_axis = |i: usize| {
+            along_an_axis(&all).map(move |c| nan(axes.and_then(|axes| c.value(axes[i]))))
+        };
+        of_resultant.chain((0..AXES.len()).flat_map(of_axis)).collect()
+    }
+
     /// The columns of the study's table: the run, its motion and the measures of that, the varied
     /// values, the demands, warnings and status.
     #[must_use]
@@ -32,9 +67,9 @@ impl Study {
         fields.extend(self.has_bounds().then(|| Field::text("friction")));
         let varied = self.design.vary().iter();
         fields.extend(varied.map(|varied| Field::number(varied.path.clone(), varied.unit)));
-        fields.extend(self.shape.columns().iter().map(|column| Field {
+        fields.extend(self.demand_columns().iter().map(|(axis, column)| Field {
             kind: column.demand.kind.into(),
-            ..Field::number(column.name(), column.unit())
+            ..Field::number(format!("{axis}{}", column.name()), column.unit())
         }));
         fields.extend([Field::text("warnings"), Field::text("status")]);
         fields
@@ -74,7 +109,7 @@ impl Study {
         }
         let varied = self.design.vary().len();
         cells.extend((0..varied).map(|i| numbers(&|row| of(&row.values, i))));
-        cells.extend(self.shape.columns().iter().enumerate().map(|(i, column)| {
+        cells.extend(self.demand_columns().iter().enumerate().map(|(i, (_, column))| {
             Cells::of_numbers(column.demand.kind.into(), rows.iter().map(|row| of(&row.demands, i)))
         }));
         cells.push(texts(&Row::kinds));

@@ -10,9 +10,9 @@ use crate::error::{RunError, Stopped};
 use crate::input::{MotionSource, Parts};
 use crate::model::Model;
 use crate::motion::GroundMotion;
-use crate::motion::intensity::{IntensityMeasures, Measure};
+use crate::motion::intensity::{IntensityMeasures, LevelMeasure, Measure};
 use crate::notice::{NoticeKind, Severity};
-use crate::response::{Response, demand_values, flat_geometry};
+use crate::response::{Response, flat_geometry};
 use crate::solver::{PreparedMotion, Workspace};
 
 /// Most samples of scaled copies of a record that are held at a time.
@@ -32,8 +32,8 @@ pub struct Row {
     pub measures: Arc<[f64]>,
     /// Values at the varied paths, in SI.
     pub values: Vec<f64>,
-    /// Demands in the order of the columns of [`Study::shape`]; NaN where one does not exist, all of them
-    /// where the run failed.
+    /// Demands in the order of [`Study::demand_columns`]; NaN where one does not exist, all of them where the
+    /// run failed.
     pub demands: Vec<f64>,
     /// Kinds of warnings, each once.
     pub warnings: Vec<NoticeKind>,
@@ -220,9 +220,9 @@ impl Study {
                     },
                 );
                 let model = sample.parts.as_ref().ok().map(|parts| &parts.model);
-                (demand_values(&response.demands), warnings(&noticed, model, &response), None)
+                (self.demands(&response), warnings(&noticed, model, &response), None)
             }
-            Err(error) => (vec![f64::NAN; self.demands], Vec::new(), Some(error)),
+            Err(error) => (vec![f64::NAN; self.demand_columns().len()], Vec::new(), Some(error)),
         };
         Row { run, case, scale, measures, values, demands, warnings, error }
     }
@@ -271,15 +271,25 @@ impl Study {
         else {
             return Arc::default();
         };
+        let of = |motion: &GroundMotion| {
+            IntensityMeasures::of(motion).columns().map(|(.., value)| value)
+        };
         let unscaled = kept.get_or_init(|| {
-            IntensityMeasures::of(&record.motion).columns().map(|(.., value)| value).to_vec()
+            if !self.in_plane {
+                return of(&record.motion).to_vec();
+            }
+            let [x, y] = [record.motion.along_x(), record.motion.along_y()];
+            of(&x).iter().zip(of(&y)).map(|(x, y)| (x * y).sqrt()).collect()
         });
         let of_scaled = |(measure, unscaled): (&Measure, &f64)| match measure {
             measure if measure.scales() => unscaled * scale.abs(),
             Measure::Arias => unscaled * (scale * scale),
             // A motion times 0 has none of them.
             Measure::D5To75 | Measure::D5To95 | Measure::MeanPeriod if scale != 0.0 => *unscaled,
-            measure => measure.of(scaled),
+            measure => {
+                let of_pair = LevelMeasure { measure: *measure, rotated: None };
+                of_pair.of(scaled, None).unwrap_or(f64::NAN)
+            }
         };
         self.measures.iter().zip(unscaled).map(of_scaled).collect()
     }
@@ -429,10 +439,10 @@ mod tests {
     }
 
     /// Two pairs of components under plans.
-    fn of_pairs(records_table: &str) -> Study {
+    fn of_pairs(pairs: &str, records_table: &str) -> Study {
         let text = format!(
             "model = \"m.toml\"\n[records]\nfiles = \"*x.txt\"\nsecond = \"*y.txt\"\n\
-             {records_table}\n"
+             pairs = \"{pairs}\"\n{records_table}\n"
         );
         let plan = Plan::parse("p.toml", &text).unwrap();
         let record = |i: usize| {
@@ -456,10 +466,9 @@ mod tests {
     /// Both components of a pair take one factor, by which the measure of the pair takes its level.
     #[test]
     fn exact_pairs_take_one_factor() {
-        for (measure, level) in [("RotD50(0.5 s)", 2.0), ("RotD100(PGA)", 3.0), ("PGA", 2.0)] {
-            let study = of_pairs(&format!(
-                "measure = \"{measure}\"\nlevels = [\"1 m/s2\", \"{level} m/s2\"]"
-            ));
+        for (measure, level) in [("RotD50(0.5 s)", 12.0), ("RotD100(PGA)", 6.0), ("PGA", 6.0)] {
+            let keys = format!("measure = \"{measure}\"\nlevels = [\"1 m/s2\", \"{level} m/s2\"]");
+            let study = of_pairs("separate", &keys);
             assert!(study.has_pairs() && study.runs() == 8);
             let factor = |record| study.factor(Case { record, level: 1, sample: 0, bound: 0 });
             assert_eq!((factor(0), factor(2)), (factor(1), factor(3)));
@@ -472,6 +481,28 @@ mod tests {
             }
             let table = study.table(&rows(&study, 0..8));
             assert_eq!(table.texts_of("pair").unwrap()[5], "r2");
+
+            let together = of_pairs("together", &keys);
+            assert!(together.is_in_plane() && !together.has_pairs() && together.runs() == 4);
+            let both = rows(&together, 0..4);
+            for (row, (run, first)) in both.iter().zip([(0, "r0"), (1, "r0"), (4, "r2"), (5, "r2")])
+            {
+                let alone = &rows(&study, run..run + 1)[0];
+                assert!((row.scale / alone.scale - 1.0).abs() < 1e-14, "{first}: {row:?}");
+                assert_eq!(together.records()[row.case.record as usize].name, first);
+                let verdict = together.verify(row);
+                assert!(verdict.holds(), "{verdict:?} {row:?}");
+            }
+            let table = together.table(&both);
+            let [r, x, y] = ["", "x.", "y."].map(|axis| {
+                let name = format!("{axis}peak_sliding_displacement_m");
+                let column = table.columns.iter().find(|column| column.name == name).unwrap();
+                column.cells.to_numbers().unwrap()
+            });
+            assert!(r.iter().any(|r| *r > 0.0));
+            for ((r, x), y) in r.iter().zip(&x).zip(&y) {
+                assert!(x.max(*y) <= *r && *r <= x.hypot(*y), "{x} {y} {r}");
+            }
         }
     }
 
@@ -479,6 +510,7 @@ mod tests {
     #[test]
     fn exact_pairs_are_brought_to_a_spectrum() {
         let study = of_pairs(
+            "separate",
             "code_spectrum = { sds = \"1 g\", sd1 = \"0.6 g\", tl = \"8 s\" }\n\
              periods = [\"0.2 s\", \"2 s\"]\nscale = [1, 1.5]",
         );

@@ -8,7 +8,6 @@ use crate::check::{self, Certificate};
 use crate::error::{RunError, Stopped};
 use crate::input::Analysis;
 use crate::motion::GroundMotion;
-use crate::response::demand_values;
 use crate::solver;
 
 /// What became of running a row again.
@@ -76,7 +75,7 @@ impl Study {
         let highest_hz = highest_hz(&analysis.model);
         let noticed = self.noticed(row.case, &suspicious, highest_hz, step_s);
         let same = row.error.is_none()
-            && bits(&demand_values(&response.demands)) == bits(&row.demands)
+            && bits(&self.demands(&response)) == bits(&row.demands)
             && warnings(&noticed, Some(&analysis.model), &response) == row.warnings;
         let holds = certificate.holds();
         let Certificate {

@@ -311,8 +311,9 @@ fn file_name(path: &Path) -> String {
     path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
-/// Hash of the version, of the inputs in their order, and of the bounds of friction that are run, where
-/// the model has some: an earlier version ran the nominal friction alone.
+/// Hash of the version, of the inputs in their order, of the bounds of friction that are run, where the model
+/// has some, and of how pairs are run: an earlier version ran the nominal friction alone, and each component by
+/// itself.
 fn id(inputs: &[(String, String)], study: &Study) -> String {
     let mut text = format!("slipstick {}\n", env!("CARGO_PKG_VERSION"));
     // The plan's own name does not matter.
@@ -323,6 +324,9 @@ fn id(inputs: &[(String, String)], study: &Study) -> String {
     if study.has_bounds() {
         let names: Vec<&str> = study.bounds().iter().map(|bound| bound.name).collect();
         text.push_str(&format!("friction {}\n", names.join(" ")));
+    }
+    if study.is_in_plane() {
+        text.push_str("pairs together\n");
     }
     sha256_hex(text.as_bytes())
 }

@@ -26,7 +26,7 @@ impl OpenStudy {
         let mut set = Vec::new();
         if let Some(records) = &self.plan.records {
             let factor = self.study.factor(case);
-            self.record(case.record as usize, factor, records, &mut words, &mut set);
+            self.record(case.record as usize, factor, records, (&mut words, &mut set));
         }
         let varied = self.study.overrides(case);
         set.extend(varied.map_err(|error| StudyError::input(error, ""))?);
@@ -42,20 +42,23 @@ impl OpenStudy {
         })
     }
 
-    /// The record by the options of `run`; with a vertical component, which those do not have, by
+    /// The record by the options of `run`; with other components, which those do not have, by
     /// the keys of the model, whose paths start at the model's folder.
     fn record(
         &self,
         index: usize,
         factor: f64,
         records: &Records,
-        words: &mut Vec<String>,
-        set: &mut Vec<String>,
+        (words, set): (&mut Vec<String>, &mut Vec<String>),
     ) {
-        let Some(paths) = self.record_paths.get(index) else { return };
+        // The components of a pair stand beside each other.
+        let components = 1 + usize::from(self.study.is_in_plane());
+        let beside = self.record_paths.get(index * components..).unwrap_or_default();
+        let Some((paths, others)) = beside.split_first() else { return };
+        let along_y = others.first().filter(|_| components == 2).map(|other| &other.horizontal);
         let units = records.unit_name.map(str::to_owned);
         let dt = records.dt_s.map(|dt_s| format!("{dt_s:?} s"));
-        let Some(vertical) = &paths.vertical else {
+        if along_y.is_none() && paths.vertical.is_none() {
             let mut option = |name: &str, value: Option<String>| {
                 if let Some(value) = value {
                     words.extend([name.to_owned(), value]);
@@ -67,7 +70,7 @@ impl OpenStudy {
             option("--channel", records.channel.clone());
             option("--scale", Some(format!("{factor:?}")));
             return;
-        };
+        }
         let from_model = |path: &std::path::Path| {
             let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
             absolute.display().to_string()
@@ -81,7 +84,8 @@ impl OpenStudy {
         key("units", units);
         key("dt", dt);
         key("channel", records.channel.clone());
-        key("vertical", Some(from_model(vertical)));
+        key("record_y", along_y.map(|path| from_model(path)));
+        key("vertical", paths.vertical.as_deref().map(from_model));
         key("vertical_scale", records.vertical_scale.map(|scale| format!("{scale:?}")));
         key("scale", Some(format!("{factor:?}")));
     }

@@ -45,8 +45,10 @@ class Plan:
     records
         Motions by name, which rows keep; the model's own motion if left out, which must then be a made one.
     second
-        Other components of the records, as many and in the same order: both are run, with one factor for the
-        pair.
+        Other components of the records, as many and in the same order, with one factor for the pair.
+    pairs
+        How pairs are run: ``"together"``, the table moving in two horizontal directions, or ``"separate"``, each
+        component by itself; together if left out.
     vary
         What is varied, as in a plan: ``{"slider.kinetic_friction": {"uniform": [0.02, 0.06]}}``; a list
         is one of its values.
@@ -90,6 +92,7 @@ class Plan:
     name: str | None = None
     second: Mapping[str, _core.Motion] | None = None
     correlation: Sequence[Sequence[Any]] | None = None
+    pairs: str | None = None
 
     def __post_init__(self) -> None:
         if self.records is not None and not self.records:
@@ -99,6 +102,7 @@ class Plan:
             raise wrong("second", expected, str(len(self.second)))
         for of, beside in [
             (("measure", "levels", "scale"), "records"),
+            (("pairs",), "second"),
             (("samples", "seed", "correlation"), "vary"),
         ]:
             for name in of if not getattr(self, beside) else ():
@@ -154,6 +158,7 @@ class Plan:
             name=said.get("name"),
             second=suite("second"),
             correlation=sampling.get("correlation"),
+            pairs=records.get("pairs"),
         )
 
     @property
@@ -201,7 +206,8 @@ class Plan:
             if isinstance(levels, str):
                 levels = _core.levels(levels, self.measure or "PGA")
             measured = {"measure": self.measure, "levels": levels, "scale": self.scale}
-            text += ["[records]", *rows({"files": records, "second": second, **measured})]
+            pairs = {"second": second, "pairs": self.pairs}
+            text += ["[records]", *rows({"files": records, **pairs, **measured})]
         if self.vary:
             varied = {k: v if isinstance(v, Mapping) else {"values": v} for k, v in self.vary.items()}
             counted = {"method": self.method, "count": self.samples, "seed": self.seed}

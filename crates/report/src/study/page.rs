@@ -233,7 +233,8 @@ impl StudyReport<'_> {
 
     /// Names of the pairs, those of their first components.
     fn pairs(&self) -> impl Iterator<Item = &str> {
-        self.study.records().iter().step_by(2).map(|record| super::file_name(&record.name))
+        let components = 1 + usize::from(self.study.has_pairs());
+        self.study.records().iter().step_by(components).map(|record| super::file_name(&record.name))
     }
 
     /// Names of the bounds of friction; one empty name without them.
@@ -333,7 +334,13 @@ impl StudyReport<'_> {
         if let Some(matched) = self.study.matched() {
             method.push(pairs::method(matched));
         }
-        if self.study.has_pairs() && self.study.level(0).is_some() {
+        if self.study.is_in_plane() {
+            let both =
+                "Both components of a pair move the table at once; demands are of the resultants.";
+            method.push(both.to_owned());
+        }
+        let pairs = self.study.has_pairs() || self.study.is_in_plane();
+        if pairs && self.study.level(0).is_some() {
             method.push(
                 "Both components of a pair take one factor; a measure of a component is the geometric \
                  mean of both."

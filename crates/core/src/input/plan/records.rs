@@ -31,6 +31,7 @@ pub(super) fn read(values: &Values) -> Result<Option<Records>, InputError> {
         dt_s: values.number("records.dt"),
         channel: values.leaf("records.channel").map(|leaf| leaf.written.clone()),
         second: texts("records.second"),
+        together: values.text("records.pairs") != Some("separate"),
         target: target(values)?,
         vertical: texts("records.vertical"),
         vertical_scale: values.number("records.vertical_scale"),
