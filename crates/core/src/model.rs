@@ -5,7 +5,7 @@ mod structure;
 
 pub use builder::ModelBuilder;
 pub(crate) use structure::ROUNDED_MASS;
-pub use structure::{Structure, StructureMode, StructurePoint};
+pub use structure::{ModeInPlane, Structure, StructureMode, StructurePoint};
 
 use crate::error::ModelError;
 use crate::slider::{Bearing, Ends, Friction, Law, Restoring};
