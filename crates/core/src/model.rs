@@ -6,7 +6,7 @@ mod tank;
 
 pub use builder::ModelBuilder;
 pub(crate) use structure::ROUNDED_MASS;
-pub use structure::{Structure, StructureMode, StructurePoint};
+pub use structure::{ModeInPlane, Structure, StructureMode, StructurePoint};
 pub use tank::LiquidTank;
 
 use crate::error::ModelError;

@@ -99,7 +99,7 @@ fn by_modes(model: &Model) -> Model {
         mass_kg: Some(m[i]),
     };
     let points = (0..n).map(point).collect();
-    let structure = Structure { mass_kg: m.iter().sum(), modes, points };
+    let structure = Structure { mass_kg: m.iter().sum(), modes, in_plane: Vec::new(), points };
     let initial = InitialState {
         storey_displacement_m: Some(q),
         storey_velocity_m_per_s: Some(v),

@@ -442,7 +442,7 @@ static STRUCTURE: Section = Section {
             "modes",
             Kind::Text("modes.csv"),
             "Table of the modes, relative to the model file: period_s or frequency_hz, damping_ratio, \
-             participation_x, and the shape at each point, NAME_x.",
+             participation_x[, participation_y], and the shape at each point, NAME_x[, NAME_y].",
         ),
         Key::optional(
             "normalisation",
@@ -499,10 +499,26 @@ static MODE: Section = Section {
             "Participation L = φᵀ M 1 of a shape of unit modal mass, in √kg; of shapes that are 1 at a \
              point the participation factor, beside the effective mass.",
         ),
+        Key::optional(
+            "effective_mass_y",
+            Kind::Quantity(Mass, Range::NotNegative),
+            "Effective mass along y.",
+        ),
+        Key::optional(
+            "effective_mass_ratio_y",
+            Kind::Number(Range::NotNegative),
+            "Effective mass along y over the mass of the structure.",
+        ),
+        Key::optional(
+            "participation_y",
+            Kind::Number(Range::Any),
+            "Participation along y, with the sign that belongs to the shape.",
+        ),
     ],
     choices: &[
         Exclusive::one_of(&["period", "frequency"]),
         Exclusive::at_most(&["effective_mass", "effective_mass_ratio"]),
+        Exclusive::at_most(&["effective_mass_y", "effective_mass_ratio_y"]),
     ],
 };
 
@@ -524,6 +540,7 @@ static POINT: Section = Section {
             Kind::Numbers(Range::Any, MAX_MODES),
             "Shapes of the modes at this point, one a mode.",
         ),
+        Key::optional("shape_y", Kind::Numbers(Range::Any, MAX_MODES), "The same along y."),
     ],
     choices: &[],
 };

@@ -8,9 +8,9 @@ use crate::error::{InputError, cut, similar};
 enum Column {
     /// A key of the mode, and the factor that makes SI of it where it has a unit.
     Mode(&'static str, bool),
-    /// The shape at a point of this name along x.
-    Point(String),
-    /// What is along y or counts rows: nothing of it is needed.
+    /// The shape at a point of this name along an axis, by its key.
+    Point(String, &'static str),
+    /// What counts rows: nothing of it is needed.
     Other,
 }
 
@@ -21,7 +21,7 @@ struct Cell<'a> {
 }
 
 /// Columns of a mode by their names: the key of a mode, and whether it has a unit.
-const COLUMNS: [(&str, &str, bool); 12] = [
+const COLUMNS: [(&str, &str, bool); 16] = [
     ("period_s", "period", true),
     ("frequency_hz", "frequency", true),
     ("damping_ratio", "damping_ratio", false),
@@ -33,6 +33,10 @@ const COLUMNS: [(&str, &str, bool); 12] = [
     ("effective_mass", "effective_mass", true),
     ("effective_mass_ratio_x", "effective_mass_ratio", false),
     ("effective_mass_ratio", "effective_mass_ratio", false),
+    ("participation_y", "participation_y", false),
+    ("effective_mass_y_kg", "effective_mass_y", true),
+    ("effective_mass_y", "effective_mass_y", true),
+    ("effective_mass_ratio_y", "effective_mass_ratio_y", false),
     ("mode", "", false),
 ];
 
@@ -67,7 +71,7 @@ pub(super) fn expand(
             let unit = match *name {
                 "period" => " s",
                 "frequency" => " Hz",
-                "effective_mass" => " kg",
+                "effective_mass" | "effective_mass_y" => " kg",
                 _ => "",
             };
             let value = match has_unit {
@@ -93,12 +97,12 @@ pub(super) fn expand(
         structure.0.push(list("point", Vec::new()));
     }
     for (c, column) in columns.iter().enumerate() {
-        let Column::Point(name) = column else { continue };
+        let Column::Point(name, key) = column else { continue };
         let shape = rows.iter().map(|row| {
             let (value, cell) = &row[c];
             Node { spot: cell.spot.clone(), value: Value::Number(*value, cell.text.to_owned()) }
         });
-        let shape = list("shape", shape.collect());
+        let shape = list(key, shape.collect());
         let Some(Value::List(points)) = structure
             .0
             .iter_mut()
@@ -113,9 +117,9 @@ pub(super) fn expand(
         });
         match named {
             Some(table) => {
-                if let Some(entry) = table.get("shape") {
+                if let Some(entry) = table.get(key) {
                     let expected = "no shape beside that of the table of modes";
-                    return Err(sources.error(&entry.key, "structure.point", expected, "shape"));
+                    return Err(sources.error(&entry.key, "structure.point", expected, *key));
                 }
                 table.0.push(shape);
             }
@@ -163,7 +167,7 @@ fn read<'a>(
         })?;
         let key = |column: &Column| match column {
             Column::Mode(key, _) => Some((*key).to_owned()),
-            Column::Point(name) => Some(format!("{name}_x")),
+            Column::Point(name, key) => Some(format!("{name}.{key}")),
             Column::Other => None,
         };
         if key(&column).is_some() && columns.iter().any(|other| key(other) == key(&column)) {
@@ -251,13 +255,13 @@ fn column(name: &str) -> Result<Column, String> {
     if UNITLESS.contains(&name) {
         return Err("its unit in the name: period_s or frequency_hz".to_owned());
     }
-    if let Some(point) = name.strip_suffix("_x").filter(|point| !point.is_empty()) {
-        return Ok(Column::Point(point.to_owned()));
-    }
-    if name.ends_with("_y") || name.ends_with("_y_kg") {
-        return Ok(Column::Other);
+    for (suffix, key) in [("_x", "shape"), ("_y", "shape_y")] {
+        if let Some(point) = name.strip_suffix(suffix).filter(|point| !point.is_empty()) {
+            return Ok(Column::Point(point.to_owned(), key));
+        }
     }
     Err("period_s, frequency_hz, damping_ratio, participation_x, effective_mass_kg, \
-         effective_mass_ratio, or the shape at a point, NAME_x"
+         effective_mass_ratio, the same along y as participation_y, effective_mass_y_kg, \
+         effective_mass_ratio_y, or the shape at a point, NAME_x and NAME_y"
         .to_owned())
 }

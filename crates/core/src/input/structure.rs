@@ -6,7 +6,7 @@ use super::build::mass_kg;
 use super::motion;
 use super::reader::Values;
 use crate::error::InputError;
-use crate::model::{ROUNDED_MASS, Structure, StructureMode, StructurePoint};
+use crate::model::{ModeInPlane, ROUNDED_MASS, Structure, StructureMode, StructurePoint};
 use crate::numerics::algebra::{dot, solution};
 
 /// Part of 1 by which the shape at the point of the normalisation may differ from it.
@@ -41,12 +41,15 @@ pub(super) fn structure(
                         model file";
         return Err(values.error(path, expected, "none that can be read here"));
     }
-    let shapes = shapes(values, count, points.len())?;
+    let shapes_y = shapes_y(values, count, points.len())?;
+    let shapes = shapes(values, "shape", count, points.len())?;
     let factors = match normalisation {
         Normalisation::Mass => None,
         Normalisation::Point(at) => Some(factors(values, &points, &shapes, at)?),
     };
-    let (mut modes, mut sum_kg, mut longest_s) = (Vec::new(), 0.0, f64::INFINITY);
+    let (mut modes, mut sums_kg, mut longest_s) = (Vec::new(), [0.0; 2], f64::INFINITY);
+    // None where one of the modes is not known along y.
+    let mut in_plane = is_along_y(values, count).then(Vec::new);
     for (j, shape) in shapes.iter().enumerate() {
         let table = format!("structure.mode.{}", j + 1);
         let (path, period_s) = period(values, &table)?;
@@ -58,13 +61,8 @@ pub(super) fn structure(
             return Err(values.wrong(&path, expected));
         }
         longest_s = period_s;
-        let (path, effective_mass_kg) = effective_mass(values, &table, mass_kg, normalisation)?;
-        sum_kg += effective_mass_kg;
-        if sum_kg > mass_kg * (1.0 + ROUNDED_MASS) {
-            let expected =
-                format!("effective masses that sum to at most the structure's {mass_kg} kg");
-            return Err(values.error(&path, expected, format!("{sum_kg} kg with this mode")));
-        }
+        let masses_kg = effective_masses(values, &table, (mass_kg, &mut sums_kg), normalisation)?;
+        let effective_mass_kg = masses_kg[0];
         let of_oscillator = match &factors {
             Some(factors) => factors[j],
             // L, with the sign of the shape: Σ m φ.
@@ -74,10 +72,25 @@ pub(super) fn structure(
             },
         };
         let damping_ratio = damping_ratio(values, &table)?;
+        let frequency_rad_per_s = TAU / (period_s * factor);
+        let plane = shapes_y.as_ref().and_then(|shapes_y| {
+            let along_y = values.number(&format!("{table}.participation_y"));
+            let factor = factors.as_ref().map(|factors| factors[j]);
+            let along_x = factor.or_else(|| values.number(&format!("{table}.participation")));
+            let given = [along_x, along_y];
+            let unit = factor.map_or(1.0, |factor| effective_mass_kg.sqrt() / factor.abs());
+            let both = [shape.as_slice(), &shapes_y[j]];
+            let (participation, points) = of_unit_mass(masses_kg, given, (&points, both), unit)?;
+            Some(ModeInPlane { frequency_rad_per_s, damping_ratio, participation, points })
+        });
+        in_plane = in_plane.zip(plane).map(|(mut all, plane)| {
+            all.push(plane);
+            all
+        });
         // A mode that takes no part moves nothing.
         if effective_mass_kg > 0.0 {
             modes.push(StructureMode {
-                frequency_rad_per_s: TAU / (period_s * factor),
+                frequency_rad_per_s,
                 damping_ratio,
                 effective_mass_kg,
                 points: shape.iter().map(|shape| shape * of_oscillator).collect(),
@@ -88,7 +101,61 @@ pub(super) fn structure(
         let expected = "a mode with an effective mass or a participation that is not 0";
         return Err(values.error("structure.mode", expected, "none"));
     }
-    Ok(Some(Structure { mass_kg, modes, points }))
+    Ok(Some(Structure { mass_kg, modes, in_plane: in_plane.unwrap_or_default(), points }))
+}
+
+/// Whether a mode says what it does along y.
+fn is_along_y(values: &Values, modes: usize) -> bool {
+    let keys = ["participation_y", "effective_mass_y", "effective_mass_ratio_y"];
+    (1..=modes).any(|j| keys.iter().any(|key| values.has(&format!("structure.mode.{j}.{key}"))))
+}
+
+/// Effective masses of a mode along x and y, added to the sums, which the mass of the structure bounds.
+fn effective_masses(
+    values: &Values,
+    table: &str,
+    (mass_kg, sums_kg): (f64, &mut [f64; 2]),
+    normalisation: Normalisation,
+) -> Result<[f64; 2], InputError> {
+    let mut masses_kg = [0.0; 2];
+    let mut is_given = false;
+    for (k, axis) in ["", "_y"].into_iter().enumerate() {
+        let found = effective_mass(values, (table, axis), mass_kg, normalisation)?;
+        let Some((path, effective_mass_kg)) = found else { continue };
+        (is_given, masses_kg[k]) = (true, effective_mass_kg);
+        sums_kg[k] += effective_mass_kg;
+        if sums_kg[k] > mass_kg * (1.0 + ROUNDED_MASS) {
+            let expected =
+                format!("effective masses that sum to at most the structure's {mass_kg} kg");
+            return Err(values.error(&path, expected, format!("{} kg with this mode", sums_kg[k])));
+        }
+    }
+    if !is_given {
+        return Err(none_of_mode(values, (table, ""), normalisation));
+    }
+    Ok(masses_kg)
+}
+
+/// Participations and shapes of unit modal mass along x and y. `L` is the root of the effective mass with the sign
+/// of the participation that is given, else of the momentum `Σ m φ` of the points' masses; `None` where neither
+/// tells it, or where the unit of the shapes is not known.
+fn of_unit_mass(
+    masses_kg: [f64; 2],
+    given: [Option<f64>; 2],
+    (points, shapes): (&[StructurePoint], [&[f64]; 2]),
+    unit: f64,
+) -> Option<([f64; 2], Vec<[f64; 2]>)> {
+    let all_have_mass = !points.is_empty() && points.iter().all(|point| point.mass_kg.is_some());
+    let along = |axis: usize| {
+        if masses_kg[axis] == 0.0 {
+            return Some(0.0);
+        }
+        let by_masses = || all_have_mass.then(|| momentum(points, shapes[axis]));
+        Some(masses_kg[axis].sqrt().copysign(given[axis].or_else(by_masses)?))
+    };
+    let participation = [along(0)?, along(1)?];
+    let of_points = shapes[0].iter().zip(shapes[1]).map(|(x, y)| [x / unit, y / unit]);
+    (unit.is_finite() && unit > 0.0).then(|| (participation, of_points.collect()))
 }
 
 /// Refuses what a structure by its modes cannot have.
@@ -136,11 +203,29 @@ fn normalisation(values: &Values, points: &[StructurePoint]) -> Result<Normalisa
     }
 }
 
-/// Shapes, mode by mode.
-fn shapes(values: &Values, modes: usize, points: usize) -> Result<Vec<Vec<f64>>, InputError> {
+/// Shapes along y, mode by mode; `None` unless every point has one.
+fn shapes_y(
+    values: &Values,
+    modes: usize,
+    points: usize,
+) -> Result<Option<Vec<Vec<f64>>>, InputError> {
+    let given = (1..=points).filter(|i| values.has(&format!("structure.point.{i}.shape_y")));
+    if given.count() < points {
+        return Ok(None);
+    }
+    shapes(values, "shape_y", modes, points).map(Some)
+}
+
+/// Shapes by a key of the points, mode by mode.
+fn shapes(
+    values: &Values,
+    key: &str,
+    modes: usize,
+    points: usize,
+) -> Result<Vec<Vec<f64>>, InputError> {
     let mut shapes = vec![Vec::with_capacity(points); modes];
     for i in 1..=points {
-        let path = format!("structure.point.{i}.shape");
+        let path = format!("structure.point.{i}.{key}");
         let of_modes = values.numbers(&path).unwrap_or_default();
         if of_modes.len() != modes {
             let expected = format!("one value a mode, {modes} in all");
@@ -167,15 +252,16 @@ fn damping_ratio(values: &Values, table: &str) -> Result<f64, InputError> {
     }
 }
 
-/// The effective mass of a mode, and the path of the key that gives it.
+/// The effective mass of a mode along x, or with `_y` along y, and the path of the key that gives it; `None`
+/// where no key does.
 fn effective_mass(
     values: &Values,
-    table: &str,
+    (table, axis): (&str, &str),
     mass_kg: f64,
     normalisation: Normalisation,
-) -> Result<(String, f64), InputError> {
+) -> Result<Option<(String, f64)>, InputError> {
     let of = |key: &str| {
-        let path = format!("{table}.{key}");
+        let path = format!("{table}.{key}{axis}");
         values.number(&path).map(|number| (path, number))
     };
     let direct = of("effective_mass")
@@ -187,18 +273,25 @@ fn effective_mass(
                             modes have unit mass";
             Err(values.wrong(&path, expected))
         }
-        (Some(found), ..) => Ok(found),
-        (None, Some((path, l)), Normalisation::Mass) => Ok((path, l * l)),
-        (None, _, normalisation) => {
-            let expected = match normalisation {
-                Normalisation::Mass => {
-                    "one of the keys effective_mass, effective_mass_ratio, participation"
-                }
-                Normalisation::Point(_) => "effective_mass or effective_mass_ratio",
-            };
-            Err(values.error(table, expected, "none"))
-        }
+        (None, Some((path, l)), Normalisation::Mass) => Ok(Some((path, l * l))),
+        (None, Some(_), _) => Err(none_of_mode(values, (table, axis), normalisation)),
+        (found, ..) => Ok(found),
     }
+}
+
+/// A mode of which no key says how it takes part along an axis.
+fn none_of_mode(
+    values: &Values,
+    (table, axis): (&str, &str),
+    normalisation: Normalisation,
+) -> InputError {
+    let expected = match normalisation {
+        Normalisation::Mass => {
+            "one of the keys effective_mass, effective_mass_ratio, participation".to_owned()
+        }
+        Normalisation::Point(_) => format!("effective_mass{axis} or effective_mass_ratio{axis}"),
+    };
+    values.error(table, expected, "none")
 }
 
 /// `Σ m φ` over the points, where all have a mass; else 1.

@@ -24,6 +24,26 @@ pub struct StructureMode {
     pub points: Vec<f64>,
 }
 
+/// A mode that may move along x and y at once, by its shape of unit modal mass.
+///
+/// On a base that moves along both,
+///
+/// ```text
+/// η̈ + 2 ξ ω η̇ + ω² η = −L_x (s̈_x + a_x) − L_y (s̈_y + a_y)        L = φᵀ M 1
+/// displacement of a point along an axis = Σ φ η
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModeInPlane {
+    /// Circular frequency `ω` in rad/s.
+    pub frequency_rad_per_s: f64,
+    /// Ratio of critical damping `ξ`.
+    pub damping_ratio: f64,
+    /// Participations `L` along x and y in √kg.
+    pub participation: [f64; 2],
+    /// Shape `φ` at each point along x and y in 1/√kg.
+    pub points: Vec<[f64; 2]>,
+}
+
 /// A point of the structure whose motion is wanted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StructurePoint {
@@ -40,10 +60,30 @@ pub struct StructurePoint {
 pub struct Structure {
     /// All of its mass in kg.
     pub mass_kg: f64,
-    /// Modes that take part.
+    /// Modes that take part along x.
     pub modes: Vec<StructureMode>,
+    /// All modes with what they do along x and along y; none where nothing is known along y.
+    pub in_plane: Vec<ModeInPlane>,
     /// Points, in the order of the results.
     pub points: Vec<StructurePoint>,
+}
+
+impl ModeInPlane {
+    fn check(&self, points: usize) -> Result<(), ModelError> {
+        let quantity = "structure frequency_rad_per_s";
+        positive(quantity, self.frequency_rad_per_s)?;
+        super::not_negative("structure damping_ratio", self.damping_ratio)?;
+        for value in self.participation {
+            super::finite("structure participation", value)?;
+        }
+        let (expected, found) = (points, self.points.len());
+        if expected != found {
+            let quantity = "structure mode points";
+            return Err(ModelError::WrongCount { quantity, expected, found });
+        }
+        let mut shape = self.points.iter().flatten();
+        shape.try_for_each(|value| super::finite("structure mode points", *value))
+    }
 }
 
 /// Part of the mass by which effective masses may exceed it: what rounding to seven digits makes.
@@ -55,6 +95,17 @@ impl Structure {
     pub fn missing_mass_kg(&self) -> f64 {
         let found = self.modes.iter().fold(0.0, |sum, mode| sum + mode.effective_mass_kg);
         (self.mass_kg - found).max(0.0)
+    }
+
+    /// What all modes together have of the mass, in kg: `Σ L Lᵀ` along x and y, whose part beside the diagonal is 0
+    /// where no mode is missing.
+    #[must_use]
+    pub fn mass_in_plane_kg(&self) -> [[f64; 2]; 2] {
+        let of = |i: usize, j: usize| {
+            let product = |mode: &ModeInPlane| mode.participation[i] * mode.participation[j];
+            self.in_plane.iter().map(product).sum()
+        };
+        [[of(0, 0), of(0, 1)], [of(1, 0), of(1, 1)]]
     }
 
     /// What of a point's motion is the block's: `1 − Σ φ L`, the residual of modes that are not given.
@@ -112,6 +163,14 @@ impl Structure {
                 super::finite("structure mode points", *value)?;
             }
         }
+        for mode in &self.in_plane {
+            mode.check(self.points.len())?;
+        }
+        let along_y = self.mass_in_plane_kg()[1][1];
+        let expected =
+            "participations along y whose squares sum to at most the mass of the structure";
+        let within = along_y <= self.mass_kg * (1.0 + ROUNDED_MASS);
+        super::in_range("structure participation along y", expected, along_y, within)?;
         for point in &self.points {
             super::optional_positive("structure point mass_kg", point.mass_kg)?;
             super::optional_positive("structure point height_m", point.height_m)?;

@@ -168,3 +168,71 @@ fn exact_keys_of_one_direction_or_two() {
         assert!(found.contains(&expected) && found.ends_with(&format!("found {key}")), "{found}");
     }
 }
+
+const TABLE: &str = "period_s,damping_ratio,participation_x,participation_y,roof_x,roof_y\n\
+                     0.8,0.02,200,-60,0.004,-0.0012\n0.5,0.02,60,200,0.0011,0.004\n";
+
+fn structure(keys: &str, table: &str) -> Result<crate::model::Structure, String> {
+    let text = format!("{BLOCK}[structure]\nmass = \"100 t\"\nmodes = \"modes.csv\"\n{keys}");
+    let modes = [Override::modes("modes.csv", table)];
+    let parsed = parse("m.toml", &text, &modes).map_err(|error| error.to_string())?;
+    Ok(parsed.model.structure().unwrap().clone())
+}
+
+/// Participations and shapes along y are kept with their signs, those of a mode along y alone too.
+#[test]
+fn exact_modes_keep_what_they_do_along_y() {
+    let found = structure("period_factor = 2.0\n", TABLE).unwrap();
+    let mode = &found.in_plane[0];
+    assert_eq!((mode.participation, mode.points[0]), ([200.0, -60.0], [0.004, -0.0012]));
+    let longer = core::f64::consts::TAU / (0.8 * 2.0);
+    assert_eq!((mode.frequency_rad_per_s, mode.damping_ratio), (longer, 0.02));
+    // Σ L Lᵀ
+    assert_eq!(found.mass_in_plane_kg(), [[43600.0, 0.0], [0.0, 43600.0]]);
+    // A mode along y alone is none of the motion along x.
+    let alone = structure("", &TABLE.replace(",60,200,", ",0,200,")).unwrap();
+    assert_eq!((alone.modes.len(), alone.in_plane.len()), (1, 2));
+    assert_eq!(alone.in_plane[1].participation, [0.0, 200.0]);
+    // Effective masses have the sign of the momentum Σ m φ, where it is known.
+    let masses = TABLE
+        .replace("participation_x,participation_y", "effective_mass_x_kg,effective_mass_y_kg")
+        .replace(",200,-60,", ",40000,3600,")
+        .replace(",60,200,", ",3600,40000,");
+    assert!(structure("", &masses).unwrap().in_plane.is_empty());
+    let point = "[[structure.point]]\nname = \"Roof\"\nmass = \"40 t\"\n";
+    let found = structure(point, &masses).unwrap();
+    assert_eq!(found.in_plane[0].participation, [200.0, -60.0]);
+    // Shapes that are 1 at a point: those of unit modal mass are φ/√M, √M = √m_x/Γ_x.
+    let unit = masses.replace("0.004,-0.0012", "1,-0.3").replace("0.0011,0.004", "1,4");
+    let found = structure(&format!("normalisation = \"roof\"\n{point}"), &unit).unwrap();
+    assert_eq!(found.in_plane[0].points[0], [1.0 / 200.0, -0.3 / 200.0]);
+    // Nothing along y, or not at every point.
+    for (from, to) in [(",participation_y", ",effective_mass_ratio_y"), (",roof_y", ",top_y")] {
+        let table =
+            TABLE.replace(from, to).replace(",-60,", ",0.036,").replace(",200,0.0", ",0.4,0.0");
+        let found = structure("", &table);
+        assert!(found.map_or(true, |found| found.in_plane.is_empty()), "{to}");
+    }
+}
+
+/// What is wrong along y is said with its place.
+#[test]
+fn exact_modes_wrong_along_y() {
+    for (from, to, expected) in [
+        (
+            ",60,200,",
+            ",60,400,",
+            "modes.csv:3:13: structure.mode.2.participation_y: expected effective masses that sum to \
+             at most the structure's 100000 kg, found 163600 kg with this mode",
+        ),
+        (",-0.0012", ",x", "modes.csv:2:24: expected a finite number, found \"x\""),
+        (
+            "roof_y",
+            "roof_x",
+            "modes.csv:1:63: expected each column once, found a second column \"roof_x\"",
+        ),
+    ] {
+        let error = structure("", &TABLE.replace(from, to)).unwrap_err();
+        assert_eq!(error, expected, "{to}");
+    }
+}
