@@ -405,7 +405,8 @@ impl Planned {
         let mut numbers = Vec::with_capacity(rows.len() * self.width());
         for row in &rows {
             numbers.push(if row.error.is_none() { 1.0 } else { 0.0 });
-            numbers.extend(&row.demands);
+            // Those by axis come after them, which no page shows.
+            numbers.extend(row.demands.iter().take(self.width() - 1));
         }
         Ok(numbers)
     }

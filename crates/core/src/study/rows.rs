@@ -32,7 +32,7 @@ pub struct Row {
     pub measures: Arc<[f64]>,
     /// Values at the varied paths, in SI.
     pub values: Vec<f64>,
-    /// Demands in the order of [`Study::demand_columns`]; NaN where one does not exist, all of them where the
+    /// Demands in the order of `Study::demand_columns`; NaN where one does not exist, all of them where the
     /// run failed.
     pub demands: Vec<f64>,
     /// Kinds of warnings, each once.

@@ -229,7 +229,8 @@ test("a plan of pairs with vertical motions runs", () =>
     await page.locator("#panel-study .fault").waitFor();
     assert.match(await page.locator("#panel-study .fault").innerText(), /plan\.toml:5:\d+: records\.vertical: expected one vertical motion for each of 1 records, found 2/);
     await dropped(["plan.toml", plan('"up.csv"')]);
-    await page.waitForFunction(() => /h2\.csv/.test(document.querySelector("#panel-study")?.textContent ?? ""), null, { timeout: 20000 });
+    await page.waitForFunction(() => /h1\.csv/.test(document.querySelector("#panel-study")?.textContent ?? ""), null, { timeout: 20000 });
+    assert.equal(await page.locator("#panel-study .fault").count(), 0);
   }));
 
 const sine = (amplitude) => `time_s,acceleration_m_per_s2\n${Array.from({ length: 400 }, (_, i) => `${(i * 0.01).toFixed(2)},${(amplitude * Math.sin(i * 0.06)).toFixed(6)}\n`).join("")}`;
