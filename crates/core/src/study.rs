@@ -27,7 +27,7 @@ use std::sync::OnceLock;
 use engine::Engine;
 
 use crate::error::{InputError, MotionError, RunError, Stopped};
-use crate::input::plan::{Levels, Plan, Records, Target};
+use crate::input::plan::{Levels, Plan, ROTATE, Records, Target, is_of_motion};
 use crate::input::{Bound, FrictionBounds, MAX_RUNS, Parts, Variation};
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{IntensityMeasures, Measure};
@@ -124,6 +124,8 @@ pub struct Study {
     shape: DemandShape,
     /// Whether the table moves in two horizontal directions.
     in_plane: bool,
+    /// Which of the varied paths turns the pairs of records.
+    turned: Option<usize>,
     samples: OnceLock<Vec<Sample>>,
     /// What rows say of their motion.
     measures: Vec<Measure>,
@@ -214,6 +216,14 @@ impl Study {
             _ => records,
         };
         let in_plane = records.iter().any(|record| record.motion.horizontal_y_m_per_s2().is_some());
+        let turned = plan.vary.iter().position(|varied| varied.path == ROTATE);
+        let turned = turned.filter(|_| !records.is_empty());
+        if turned.is_some() && !in_plane {
+            let expected =
+                "pairs of components that move the table together, which alone are turned";
+            let found = format!("\"{ROTATE}\" of records in one direction");
+            return Err(plan.error_at(&format!("vary.{ROTATE}"), expected, found));
+        }
         if !in_plane {
             variation.along_x_alone()?;
         }
@@ -235,7 +245,7 @@ impl Study {
         }
         if plan.records.is_none()
             && !records.is_empty()
-            && let Some(varied) = plan.vary.iter().find(|v| v.path.starts_with("motion."))
+            && let Some(varied) = plan.vary.iter().find(|v| is_of_motion(&v.path))
         {
             let expected = "[records] with their levels: a record is not varied by its keys";
             let place = format!("vary.{}", varied.path);
@@ -274,6 +284,7 @@ impl Study {
             matched: None,
             shape,
             in_plane,
+            turned,
             samples: OnceLock::new(),
             measures,
         })
@@ -398,6 +409,11 @@ impl Study {
     pub fn factor(&self, case: Case) -> f64 {
         let index = (case.record * self.cases.levels + case.level) as usize;
         self.factors.get(index).copied().unwrap_or(1.0)
+    }
+
+    /// The angle by which a sample turns a pair of records, x towards y; `None` where it is not varied.
+    fn turned_rad(&self, values: &[f64]) -> Option<f64> {
+        self.turned.map(|path| values[path])
     }
 
     /// The values of a run's sample as `--set` takes them, `PATH=VALUE`.

@@ -111,6 +111,8 @@ pub struct Varied {
     pub unit: &'static str,
     /// The values that the model takes there.
     pub(super) range: Range,
+    /// Whether it is of the records, and no key of the model's text.
+    pub(super) of_records: bool,
     /// What is drawn: values, or factors where `factor_of` is given.
     pub distribution: Distribution,
     /// The path whose value is multiplied by what is drawn.
@@ -243,6 +245,14 @@ pub struct Sampling {
     pub correlation: Option<Vec<f64>>,
 }
 
+/// The path of `[motion]` that may be varied beside records: it turns their pairs.
+pub(crate) const ROTATE: &str = "motion.rotate";
+
+/// Whether a path says how the table moves, which records do in its place.
+pub(crate) fn is_of_motion(path: &str) -> bool {
+    path.starts_with("motion.") && path != ROTATE
+}
+
 impl Plan {
     /// Reads a plan's text. `source_name` is what errors call it.
     ///
@@ -276,12 +286,15 @@ impl Plan {
         }
         let root = tree::parse_document(&sources, file)?;
         let mut values = Values::read(sources, &root, &super::plan_keys::PLAN)?;
-        let vary = vary::read(&mut values)?;
+        let mut vary = vary::read(&mut values)?;
         let records = records::read(&values)?;
+        for varied in &mut vary {
+            varied.of_records = records.is_some() && varied.path == ROTATE;
+        }
         if records.is_some()
-            && let Some(moved) = vary.iter().find(|varied| varied.path.starts_with("motion."))
+            && let Some(moved) = vary.iter().find(|varied| is_of_motion(&varied.path))
         {
-            let expected = "no path of [motion] beside [records], which replaces it";
+            let expected = "no path of [motion] but rotate beside [records], which replaces it";
             let path = format!("vary.{}", moved.path);
             return Err(values.error(&path, expected, format!("\"{}\"", moved.path)));
         }

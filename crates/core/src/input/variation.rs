@@ -30,6 +30,8 @@ struct Path {
     path: String,
     unit: &'static str,
     range: Range,
+    /// Whether it is of the records, and no key of the text.
+    of_records: bool,
 }
 
 impl Variation {
@@ -67,12 +69,13 @@ impl Variation {
                 path: varied.path.clone(),
                 unit: varied.unit,
                 range: varied.range,
+                of_records: varied.of_records,
             })
             .collect();
         for set in set {
             set.apply(&mut sources, &mut root)?;
         }
-        for path in &paths {
+        for path in paths.iter().filter(|path| !path.of_records) {
             // One half lies within every range.
             path.set(0.5)?.replace(&mut sources, &mut root)?;
         }
@@ -80,7 +83,7 @@ impl Variation {
         let (name, text) = (name.into(), text.into());
         let this = Self { name, text, set: set.into(), paths: paths.into(), values };
         for path in this.paths.iter() {
-            if this.values.number(&path.path).is_none() {
+            if !path.of_records && this.values.number(&path.path).is_none() {
                 let expected = "no other varied path that takes its place";
                 let found = format!("\"{}\" removed by another", path.path);
                 return Err(this.values.error(&path.path, expected, found));
@@ -113,7 +116,8 @@ impl Variation {
         let mut values = self.values.clone();
         let mut in_range = true;
         for (path, &number) in self.paths.iter().zip(numbers) {
-            in_range &= path.range.contains(number) && values.set_number(&path.path, number);
+            in_range &= path.range.contains(number)
+                && (path.of_records || values.set_number(&path.path, number));
         }
         if in_range && let Ok(parts) = build::parts(&values) {
             return Ok(parts);
@@ -128,7 +132,9 @@ impl Variation {
     /// # Errors
     /// [`InputError`] where the model objects to the numbers.
     pub fn analysis(&self, numbers: &[f64]) -> Result<Analysis, InputError> {
-        let all = self.set.iter().cloned().chain(self.overrides(numbers)?);
+        let own = self.paths.iter().zip(self.overrides(numbers)?);
+        let own = own.filter(|(path, _)| !path.of_records).map(|(_, set)| set);
+        let all = self.set.iter().cloned().chain(own);
         let mut values = super::values(&self.name, &self.text, &all.collect::<Vec<_>>())?;
         // Before it is read as a model: keys along y are refused where nothing moves along y.
         values.in_plane = self.values.in_plane;

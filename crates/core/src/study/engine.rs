@@ -195,7 +195,23 @@ pub fn scaled_with_tail(
     tail_s: f64,
 ) -> Result<GroundMotion, MotionError> {
     let scaled = if factor == 1.0 { motion.clone() } else { motion.scaled(factor)? };
-    if tail_s == 0.0 { Ok(scaled) } else { scaled.with_tail(tail_s) }
+    turned_with_tail(&scaled, None, tail_s)
+}
+
+/// A motion turned by an angle, x towards y, with a tail of free vibration.
+///
+/// # Errors
+/// [`MotionError`] for a tail that cannot be.
+pub(super) fn turned_with_tail(
+    motion: &GroundMotion,
+    turned_rad: Option<f64>,
+    tail_s: f64,
+) -> Result<GroundMotion, MotionError> {
+    let turned = match turned_rad {
+        Some(angle_rad) => motion.turned(1.0, angle_rad)?,
+        None => motion.clone(),
+    };
+    if tail_s == 0.0 { Ok(turned) } else { turned.with_tail(tail_s) }
 }
 
 #[cfg(test)]

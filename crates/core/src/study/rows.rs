@@ -3,11 +3,11 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::engine::{Engine, Running, made_motion};
+use super::engine::{Engine, Running, made_motion, turned_with_tail};
 use super::notices::{coarse_sampling, longest_step_s};
 use super::{Case, Sample, Study, chunks};
 use crate::error::{RunError, Stopped};
-use crate::input::{MotionSource, Parts};
+use crate::input::MotionSource;
 use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{IntensityMeasures, LevelMeasure, Measure};
@@ -63,6 +63,8 @@ struct Shaking {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct MotionOrigin<'a> {
     source: Option<&'a MotionSource>,
+    /// Angle by which a pair of recorded components is turned, where it is varied.
+    turned_rad: Option<f64>,
     tail_s: f64,
 }
 
@@ -164,21 +166,24 @@ impl Study {
         scaled: Option<&Result<Shaking, RunError>>,
         room: &mut Workspace,
     ) -> Vec<Row> {
-        let made = |parts: &'s Parts| {
+        let made = |sample: &'s Sample| {
+            let parts = sample.parts.as_ref().ok()?;
             let source = if scaled.is_some() { None } else { parts.motion.as_ref() };
-            MotionOrigin { source, tail_s: parts.tail_s }
+            let turned_rad = self.turned_rad(&sample.values);
+            Some(MotionOrigin { source, turned_rad, tail_s: parts.tail_s })
         };
-        let made = |sample: &'s Sample| sample.parts.as_ref().ok().map(made);
         let none = Err(RunError::NoMotion);
         let mut rows = Vec::with_capacity(samples.len());
         while let Some(sample) = samples.get(rows.len()) {
             let alike = made(sample);
             let own;
             let motion = match (scaled, &alike) {
-                (Some(scaled), None | Some(MotionOrigin { tail_s: 0.0, .. })) => scaled,
+                (Some(scaled), None | Some(MotionOrigin { turned_rad: None, tail_s: 0.0, .. })) => {
+                    scaled
+                }
                 (None, None) => &none,
                 (_, Some(made)) => {
-                    own = self.with_tail(*made, scaled);
+                    own = self.own_motion(*made, scaled);
                     &own
                 }
             };
@@ -242,7 +247,8 @@ impl Study {
         of_record.chain(suspicious).copied().chain(of_model).collect()
     }
 
-    fn with_tail(
+    /// The motion of the runs that agree on its origin; what rows say of it is of the record as it stands.
+    fn own_motion(
         &self,
         made: MotionOrigin<'_>,
         scaled: Option<&Result<Shaking, RunError>>,
@@ -256,10 +262,10 @@ impl Study {
                 Shaking { motion: PreparedMotion::new(motion), measures, longest_step_s }
             }
         };
-        if made.tail_s == 0.0 {
+        if made.tail_s == 0.0 && made.turned_rad.is_none() {
             return Ok(bare);
         }
-        let motion = bare.motion.motion().clone().with_tail(made.tail_s)?;
+        let motion = turned_with_tail(bare.motion.motion(), made.turned_rad, made.tail_s)?;
         Ok(Shaking { motion: PreparedMotion::new(motion), ..bare })
     }
 
@@ -504,6 +510,54 @@ mod tests {
                 assert!(x.max(*y) <= *r && *r <= libm::hypot(*x, *y), "{x} {y} {r}");
             }
         }
+    }
+
+    /// A pair turned by a right angle moves the table along y as it did along x, and against x as along y;
+    /// by half a turn, it slides the other way.
+    #[test]
+    fn exact_pairs_are_turned() {
+        let vary = "[vary]\n\"motion.rotate\" = { values = [\"0 deg\", \"90 deg\", \"180 deg\"] }\n\
+                    [sampling]\nmethod = \"grid\"";
+        let plain = of_pairs("together", "scale = [12]");
+        let study = of_pairs("together", &format!("scale = [12]\n{vary}"));
+        assert_eq!((plain.runs(), study.runs()), (2, 6));
+        let (plain, turned) = (rows(&plain, 0..2), rows(&study, 0..6));
+        assert!(turned.iter().all(|row| study.verify(row).holds()));
+        let table = study.table(&turned);
+        let column = |name: &str| {
+            let column = table.columns.iter().find(|column| column.name == name).unwrap();
+            column.cells.to_numbers().unwrap()
+        };
+        let [r, x, y] =
+            ["", "x.", "y."].map(|axis| column(&format!("{axis}peak_sliding_displacement_m")));
+        let near = |a: f64, b: f64| a > 0.0 && (a / b - 1.0).abs() < 1e-11;
+        for (pair, at) in [(0, 0), (1, 3)] {
+            let demands = |row: &Row| row.demands.iter().map(|d| d.to_bits()).collect::<Vec<_>>();
+            assert_eq!(demands(&turned[at]), demands(&plain[pair]));
+            assert_eq!(turned[at + 1].measures, plain[pair].measures);
+            assert!(near(r[at + 1], r[at]) && near(r[at + 2], r[at]), "{r:?}");
+            assert!(near(y[at + 1], x[at]) && near(x[at + 1], y[at]), "{x:?} {y:?}");
+            assert!(near(x[at + 2], x[at]) && near(y[at + 2], y[at]), "{x:?} {y:?}");
+        }
+    }
+
+    /// Nothing but pairs that move the table together is turned.
+    #[test]
+    fn exact_records_in_one_direction_are_not_turned() {
+        let plan = Plan::parse(
+            "p.toml",
+            "model = \"m.toml\"\n[records]\nfiles = \"*x.txt\"\n\
+             [vary]\n\"motion.rotate\" = { values = [\"30 deg\"] }\n[sampling]\nmethod = \"grid\"",
+        );
+        let motion = GroundMotion::evenly_spaced(0.01, vec![1.0; 9], None).unwrap();
+        let (name, channel) = ("r".to_owned(), String::new());
+        let record = Record { name, channel, motion, warnings: vec![], pair: None };
+        let error = Study::new(&plan.unwrap(), "m.toml", MODEL, vec![record]).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "p.toml:5:19: vary.motion.rotate: expected pairs of components that move the table together, \
+             which alone are turned, found \"motion.rotate\" of records in one direction"
+        );
     }
 
     /// Pairs are brought to a spectrum by one factor each, and levels are factors besides.

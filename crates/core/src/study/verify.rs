@@ -1,6 +1,6 @@
 //! Rows under test: run again alone, from the model's text, with history and certificate.
 
-use super::engine::{Engine, made_motion, scaled_with_tail};
+use super::engine::{Engine, made_motion, turned_with_tail};
 use super::notices::{highest_hz, longest_step_s, suspicious};
 use super::rows::warnings;
 use super::{Row, Study};
@@ -101,14 +101,10 @@ impl Study {
         let mut analysis = self.variation.analysis(&values)?;
         analysis.model = self.bound(row.case).of(&analysis.model);
         let motion = match self.records.get(row.case.record as usize) {
-            Some(record) => {
-                scaled_with_tail(&record.motion, self.factor(row.case), analysis.tail_s)?
-            }
-            None => {
-                let made = made_motion(analysis.motion.as_ref())?;
-                scaled_with_tail(&made, 1.0, analysis.tail_s)?
-            }
+            Some(record) => record.motion.scaled(self.factor(row.case))?,
+            None => made_motion(analysis.motion.as_ref())?,
         };
+        let motion = turned_with_tail(&motion, self.turned_rad(&values), analysis.tail_s)?;
         Ok((analysis, motion))
     }
 }

@@ -105,7 +105,7 @@ fn varied(values: &mut Values, path: &str, entry: &Entry) -> Result<Varied, Inpu
         _ => "",
     };
     let (path, range) = (path.to_owned(), takes.range);
-    Ok(Varied { path, unit, range, distribution, factor_of, paired_with: None })
+    Ok(Varied { path, unit, range, of_records: false, distribution, factor_of, paired_with: None })
 }
 
 fn takes(values: &Values, path: &str, key: &Spot) -> Result<Takes, InputError> {

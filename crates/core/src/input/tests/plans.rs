@@ -295,7 +295,7 @@ fn exact_errors_say_where_and_what() {
         ),
         (
             records(&format!("[vary]\n\"motion.scale\" = {{ values = [2] }}\n{SAMPLING}")),
-            "p.toml:5:18: vary.motion.scale: expected no path of [motion] beside [records], which replaces it, found \"motion.scale\"",
+            "p.toml:5:18: vary.motion.scale: expected no path of [motion] but rotate beside [records], which replaces it, found \"motion.scale\"",
         ),
     ];
     for (text, expected) in cases {
