@@ -14,6 +14,9 @@ const AXES: [&str; 2] = ["x", "y"];
 const DRAWN: usize = 6;
 const IN_A_ROW: usize = 3;
 
+/// Identifiers of the rows, each its own on a page.
+const ROWS: [&str; DRAWN / IN_A_ROW] = ["mode-shapes", "mode-shapes-further"];
+
 /// Below this part of the mass the modes lack too much of it.
 const ENOUGH: f64 = 0.9;
 
@@ -162,13 +165,14 @@ impl ModalInfo<'_> {
         let drawn: Vec<usize> = (0..table.modes.len().min(DRAWN)).collect();
         let figures: Vec<Svg> = drawn
             .chunks(IN_A_ROW)
-            .map(|modes| {
+            .zip(ROWS)
+            .map(|(modes, id)| {
                 let panels = modes.iter().map(|mode| self.panel(*mode)).collect();
                 let title = format!("Modes {} to {}", modes[0] + 1, modes[modes.len() - 1] + 1);
                 let description = "Shapes of modes at the points, the lowest point first; full line along x, dashed \
                                    along y.";
                 Figure {
-                    id: "mode-shapes",
+                    id,
                     title,
                     description: description.to_owned(),
                     layout: Layout::Beside,
