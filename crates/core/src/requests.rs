@@ -30,7 +30,7 @@ use crate::assessment::suite::{Recorded, Suite};
 use crate::assessment::{AssessmentError, refuse};
 use crate::error::{ChoiceError, MeasureError};
 use crate::input::{Analysis, Bound, FrictionBounds, Override};
-use crate::motion::intensity::Measure;
+use crate::motion::intensity::LevelMeasure;
 use crate::notice::Notice;
 use crate::response::DemandColumn;
 use crate::study::engine::Engine;
@@ -109,7 +109,7 @@ pub enum Results {
     /// An incremental dynamic analysis.
     Ida {
         /// The intensity measure.
-        measure: Measure,
+        measure: LevelMeasure,
         /// Key of the demand.
         demand: String,
         /// The limit on it, SI.
@@ -323,17 +323,17 @@ impl Request {
     fn levels(
         &self,
         on: &On<'_>,
-        measure: &Measure,
+        measure: &LevelMeasure,
         engine: &Engine<'_>,
     ) -> Result<IdaLevels, AssessmentError> {
         if let Some(text) = self.given("scale-to") {
             if self.given("between").is_some() {
                 return Err(refuse("between", "a hunt, without `scale-to`", "both"));
             }
-            return Ok(IdaLevels::Fixed(levels("scale-to", text, measure)?));
+            return Ok(IdaLevels::Fixed(levels("scale-to", text, &measure.measure)?));
         }
         if let Some(text) = self.given("between") {
-            return match levels("between", &format!("{text}:2"), measure)?[..] {
+            return match levels("between", &format!("{text}:2"), &measure.measure)?[..] {
                 [start, top] => Ok(IdaLevels::Hunt { start, top }),
                 _ => Err(refuse("between", "two levels, 0.05..2 g", format!("{text:?}"))),
             };
@@ -410,8 +410,8 @@ impl Request {
         Ok(if on.suite.in_plane() { models.in_plane() } else { models })
     }
 
-    fn measure(&self) -> Result<Measure, AssessmentError> {
-        Ok(Measure::parse(self.one("measure")).map_err(of_measure)?)
+    fn measure(&self) -> Result<LevelMeasure, AssessmentError> {
+        Ok(LevelMeasure::parse(self.one("measure")).map_err(of_measure)?)
     }
 
     /// The bounds of friction to run; none for a model without them.

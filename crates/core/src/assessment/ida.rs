@@ -15,7 +15,7 @@ use super::{AssessmentError, FailedRun, refuse};
 use crate::error::{FitError, RunError, Stopped};
 use crate::input::{Bound, Parts};
 use crate::motion::GroundMotion;
-use crate::motion::intensity::Measure;
+use crate::motion::intensity::LevelMeasure;
 use crate::notice::Notice;
 use crate::numerics::fractile;
 use crate::numerics::sort;
@@ -234,8 +234,8 @@ pub struct IdaRequest<'a> {
     pub bounds: &'a [Bound],
     /// The records.
     pub suite: &'a Suite,
-    /// The measure.
-    pub measure: Measure,
+    /// The measure; that of a component is of a pair the geometric mean.
+    pub measure: LevelMeasure,
     /// Key of the demand.
     pub demand: &'a str,
     /// The limit on it, SI; a hunt needs one.
@@ -320,7 +320,7 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
     // The designs that are kept, in their own order.
     let mut kept: Vec<usize> = groups.iter().flat_map(|group| group.designs.clone()).collect();
     kept.sort_unstable();
-    let unscaled = suite.measure_of_pairs(measure, engine)?;
+    let unscaled = suite.measure(measure, engine)?;
     let clusters = suite.clusters();
     let parts = kept.iter().map(|&design| designs.parts(design));
     let parts = parts.collect::<Result<Vec<_>, AssessmentError>>()?;
@@ -517,7 +517,7 @@ fn fit_of(curves: &[Curve], limit: f64, clusters: &[usize]) -> Result<Fragility,
 }
 
 /// The first crossings, a row a curve.
-fn capacities(curves: &[Curve], limit: f64, names: &[String], measure: &Measure) -> Table {
+fn capacities(curves: &[Curve], limit: f64, names: &[String], measure: &LevelMeasure) -> Table {
     let crossings: Vec<_> = curves.iter().map(|curve| curve.first_crossing(limit)).collect();
     let unit = measure.unit();
     let mut table = Table::default();

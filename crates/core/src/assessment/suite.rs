@@ -19,6 +19,9 @@ pub fn times(factor: f64) -> String {
     if factor == 1.0 { " as recorded".to_owned() } else { format!(" × {factor}") }
 }
 
+/// What a measure over all directions and a target spectrum ask for.
+const PAIRS: &str = "the other components of all records beside it, `second`";
+
 /// How records are scaled, vertical components with them; the two components of a pair take one factor.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Scaling {
@@ -198,53 +201,60 @@ impl Suite {
         self.records.iter().map(of).collect()
     }
 
-    /// The measure of each record as recorded, in SI; of a motion in two horizontal directions the geometric
-    /// mean of both components.
+    /// The measure of each record as recorded, in SI; that of a pair is one of both components.
     ///
     /// # Errors
-    /// [`AssessmentError::Choice`] for a measure that does not grow as the motion does, and for a
-    /// record of which it is 0.
+    /// [`AssessmentError::Choice`] for a measure that does not grow as the motion does, a measure of pairs
+    /// where there are none, and for a record or pair of which it is 0; stopped.
     pub fn measure(
         &self,
-        measure: &Measure,
+        measure: &LevelMeasure,
+        engine: &Engine<'_>,
+    ) -> Result<Vec<f64>, AssessmentError> {
+        let values = self.measure_of_groups(measure, engine)?;
+        Ok(self.on_each_record(&values))
+    }
+
+    /// The measure of each record alone, or pair.
+    fn measure_of_groups(
+        &self,
+        measure: &LevelMeasure,
         engine: &Engine<'_>,
     ) -> Result<Vec<f64>, AssessmentError> {
         if !measure.scales() {
             let expected = "a measure that grows as the motion does, such as PGA or Sa(1.2 s)";
             return Err(refuse("measure", expected, measure.to_string()));
         }
-        let of_pair = LevelMeasure { measure: *measure, rotated: None };
-        let value = |i: usize| of_pair.of(&self.records[i].motion, None).unwrap_or(f64::NAN);
-        let values = engine.map(self.records.len(), |i| Ok(value(i)))?;
-        for (value, record) in values.iter().zip(&self.records) {
+        if measure.rotated.is_some() && !self.is_of_pairs() {
+            return Err(refuse("measure", PAIRS, measure.to_string()));
+        }
+        let groups = self.scaled_together();
+        let value = |i: usize| {
+            let [first, rest @ ..] = groups[i] else { return f64::NAN };
+            let other = rest.first().map(|other| &other.motion);
+            measure.of(&first.motion, other).unwrap_or(f64::NAN)
+        };
+        let values = engine.map(groups.len(), |i| Ok(value(i)))?;
+        for (value, group) in values.iter().zip(&groups) {
             if !(value.is_finite() && *value > 0.0) {
                 let expected = format!("records that can be scaled to {measure}");
-                let found = format!("{measure} = {value} of {}", record.name);
+                let found = format!("{measure} = {value} of {}", group[0].name);
                 return Err(refuse("measure", expected, found));
             }
         }
         Ok(values)
     }
 
-    /// The same, of a pair the geometric mean of its components: both take one factor.
-    ///
-    /// # Errors
-    /// As [`Suite::measure`].
-    pub(super) fn measure_of_pairs(
-        &self,
-        measure: &Measure,
-        engine: &Engine<'_>,
-    ) -> Result<Vec<f64>, AssessmentError> {
-        let mut values = self.measure(measure, engine)?;
-        for i in 1..values.len() {
-            let pair = self.records[i].pair;
-            if pair.is_some() && pair == self.records[i - 1].pair {
-                let mean = (values[i - 1] * values[i]).sqrt();
-                values[i - 1] = mean;
-                values[i] = mean;
-            }
-        }
-        Ok(values)
+    /// Values of records alone and pairs, those of pairs on both components.
+    fn on_each_record(&self, of_groups: &[f64]) -> Vec<f64> {
+        let groups = self.scaled_together().into_iter().zip(of_groups);
+        groups.flat_map(|(group, value)| vec![*value; group.len()]).collect()
+    }
+
+    /// Whether every record has both horizontal components.
+    fn is_of_pairs(&self) -> bool {
+        let in_plane = |record: &SuiteRecord| record.motion.horizontal_y_m_per_s2().is_some();
+        self.scaled_together().iter().all(|group| group.len() == 2 || in_plane(&group[0]))
     }
 
     /// The column `pair` with the name of each row's cluster; none where every record is alone.
@@ -276,35 +286,16 @@ impl Suite {
         engine: &Engine<'_>,
     ) -> Result<Scaled, AssessmentError> {
         let groups = self.scaled_together();
-        let in_plane = |record: &SuiteRecord| record.motion.horizontal_y_m_per_s2().is_some();
-        let paired = groups.iter().all(|group| group.len() == 2 || in_plane(&group[0]));
-        let pairs = "the other components of all records beside it, `second`";
         let mut matched = None;
         let of_groups: Vec<f64> = match scaling {
             Scaling::Factor(factor) => vec![*factor; groups.len()],
             Scaling::Level(measure, level) => {
-                if measure.rotated.is_some() && !paired {
-                    return Err(refuse("measure", pairs, measure.to_string()));
-                }
-                let factor = |i: usize| -> Result<f64, AssessmentError> {
-                    let Some((first, rest)) = groups[i].split_first() else { return Ok(1.0) };
-                    let other = rest.first().map(|other| &other.motion);
-                    let unscaled = measure.of(&first.motion, other).unwrap_or(f64::NAN);
-                    if unscaled.is_finite() && unscaled > 0.0 {
-                        return Ok(level / unscaled);
-                    }
-                    let expected = format!("records that can be scaled to {measure}");
-                    let found = format!("{measure} = {unscaled} of {}", first.name);
-                    Err(refuse("measure", expected, found))
-                };
-                engine
-                    .map(groups.len(), |i| Ok(factor(i)))?
-                    .into_iter()
-                    .collect::<Result<_, _>>()?
+                let values = self.measure_of_groups(measure, engine)?;
+                values.iter().map(|value| level / value).collect()
             }
             Scaling::Target(target, range_s) => {
-                if !paired {
-                    return Err(refuse("target", pairs, "records alone"));
+                if !self.is_of_pairs() {
+                    return Err(refuse("target", PAIRS, "records alone"));
                 }
                 let periods_s = matching_periods(*range_s);
                 let spectrum = |i: usize| {
@@ -323,8 +314,7 @@ impl Suite {
                 factors
             }
         };
-        let each = groups.iter().zip(of_groups);
-        let factors = each.flat_map(|(group, factor)| vec![factor; group.len()]).collect();
+        let factors = self.on_each_record(&of_groups);
         Ok(Scaled { factors, matched })
     }
 
@@ -365,9 +355,11 @@ impl Suite {
         let (measure, levels) = match scaling {
             Scaling::Level(measure, level) => (*measure, vec![*level; self.records.len()]),
             Scaling::Factor(_) | Scaling::Target(..) => {
-                let values = self.measure(&Measure::Pga, engine)?;
+                let pga = LevelMeasure { measure: Measure::Pga, rotated: None };
+                let of = |i: usize| Ok(pga.of(&self.records[i].motion, None).unwrap_or(f64::NAN));
+                let values = engine.map(self.records.len(), of)?;
                 let levels = values.iter().zip(factors).map(|(value, factor)| value * factor.abs());
-                (LevelMeasure { measure: Measure::Pga, rotated: None }, levels.collect())
+                (pga, levels.collect())
             }
         };
         table

@@ -13,7 +13,7 @@ const METHOD: Field = Field::new(
 const MEASURE: Field = Field::new(
     "measure",
     "NAME",
-    "Intensity measure: PGA, PGV, Sa(1.2 s), Sa(1.2 s, 2 %), Sa_avg(0.5 s, 3 s), …",
+    "Intensity measure: PGA, PGV, Sa(1.2 s), Sa(1.2 s, 2 %), Sa_avg(0.5 s, 3 s), of pairs RotD50(1.2 s), …",
 )
 .or("PGA");
 const SCALE_TO: Field = Field::new(

@@ -18,7 +18,7 @@ use crate::error::{SolveError, Stopped};
 use crate::input::loaded::Loaded;
 use crate::input::{self, Bound};
 use crate::motion::GroundMotion;
-use crate::motion::intensity::{LevelMeasure, Measure};
+use crate::motion::intensity::{LevelMeasure, Measure, RotD};
 use crate::record::Origin;
 use crate::response::demand_values;
 use crate::solver;
@@ -109,7 +109,7 @@ fn exact_a_fragility_comes_of_an_ida_without_a_file() {
     let request = IdaRequest {
         models: &models,
         suite: &suite,
-        measure: Measure::Pga,
+        measure: PGA,
         demand,
         limit: Some(0.02),
         levels,
@@ -147,6 +147,46 @@ fn exact_a_fragility_comes_of_an_ida_without_a_file() {
         assert!(crossing.reached && high - low <= 0.01 * high, "{crossing:?} {fixed:?}");
     }
     after(30, |engine| run_ida(&hunt, engine).unwrap_err());
+}
+
+/// Levels of RotD50 are those of the pair, and both components take its factor.
+#[test]
+fn exact_levels_of_an_ida_are_those_of_the_pair_in_all_directions() {
+    let (models, mut suite) = (models(&[]), suite());
+    suite.records.truncate(4);
+    for (i, record) in suite.records.iter_mut().enumerate() {
+        record.pair = Some(i / 2);
+    }
+    let request = |suite, measure| IdaRequest {
+        models: &models,
+        suite,
+        measure: LevelMeasure::parse(measure).unwrap(),
+        demand: "peak_sliding_displacement_m",
+        limit: Some(0.02),
+        levels: IdaLevels::Fixed(vec![2.0, 4.0]),
+        bounds: &[],
+        keep: &[],
+        by: None,
+    };
+    let run = run_ida(&request(&suite, "RotD50(1.2 s)"), &Engine::unwatched()).unwrap();
+    let cells = |name: &str| run.rows.find(name).unwrap().cells.clone();
+    let (Cells::Numbers(levels), Cells::Numbers(scales)) = (cells("level"), cells("scale")) else {
+        panic!("no numbers")
+    };
+    let measure = Measure::parse("PSa(1.2 s)").unwrap();
+    for (row, (level, scale)) in levels.iter().zip(&scales).enumerate() {
+        let [x, y] = [0, 1].map(|component| &suite.records[row / 4 * 2 + component].motion);
+        let rotated = RotD::of(&measure, x, y).unwrap();
+        assert_eq!(level / rotated.median(), *scale, "row {row}");
+    }
+    let Cells::Texts(measures) = cells("measure") else { panic!("no texts") };
+    assert!(measures.iter().all(|measure| measure == "RotD50(1.2 s)"), "{measures:?}");
+
+    let mut one_alone = suite.clone();
+    one_alone.records[3].pair = None;
+    let alone = run_ida(&request(&one_alone, "RotD50(1.2 s)"), &Engine::unwatched()).unwrap_err();
+    let expected = "measure: expected the other components of all records beside it, `second`";
+    assert!(alone.to_string().starts_with(expected), "{alone}");
 }
 
 #[test]
@@ -208,7 +248,8 @@ fn exact_choices_are_named() {
     let error = models.column("peak_slidng_displacement_m").unwrap_err().to_string();
     assert!(error.starts_with("demand: expected the key of a demand"), "{error}");
     assert!(error.ends_with("nearest is \"peak_sliding_displacement_m\""), "{error}");
-    let error = suite.measure(&Measure::Arias, &Engine::unwatched()).unwrap_err().to_string();
+    let arias = LevelMeasure { measure: Measure::Arias, rotated: None };
+    let error = suite.measure(&arias, &Engine::unwatched()).unwrap_err().to_string();
     assert!(error.starts_with("measure: expected a measure that grows"), "{error}");
 }
 
@@ -244,7 +285,7 @@ fn exact_designs_of_an_ida_are_those_of_each_alone() {
         models,
         bounds,
         suite: &suite,
-        measure: Measure::Pga,
+        measure: PGA,
         demand,
         limit: Some(0.02),
         levels: IdaLevels::Fixed(vec![1.0, 2.0, 4.0]),

@@ -2,7 +2,7 @@
 
 use slipstick::assessment::FailedRun;
 use slipstick::assessment::ida::{IdaGroup, IdaRun, level_fractiles};
-use slipstick::motion::intensity::Measure;
+use slipstick::motion::intensity::LevelMeasure;
 use slipstick::notice::Notice;
 
 use super::{BEYOND, IdaReport};
@@ -21,7 +21,7 @@ pub struct IdaFamily<'a> {
     /// Name of the model.
     pub name: &'a str,
     /// The intensity measure.
-    pub measure: &'a Measure,
+    pub measure: &'a LevelMeasure,
     /// Key of the demand.
     pub demand: &'a str,
     /// The limit on the demand, SI, where one is asked for.
