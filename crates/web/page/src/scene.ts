@@ -83,6 +83,9 @@ const STOREY_M = 3;
 const BELOW = 52;
 const ABOVE = 46;
 
+/** Length of the arrow of the largest friction force, in px. */
+const ARROW = 46;
+
 /** Largest storey displacement in m, and friction force in N, of an answer. */
 interface Largest {
   storey: number;
@@ -177,9 +180,10 @@ export class Scene {
     const seen = this.magnified && this.factor > 1;
     const passed = seen ? -ground * scale : ground * k;
     let tableX = width / 2 + (seen ? 0 : passed);
-    // The block does not leave the picture: the eye follows.
+    // The block and the arrow at its edge do not leave the picture: the eye follows.
     const off = tableX + s * k;
-    const follow = Math.max(0, bw / 2 + 12 - off) + Math.min(0, width - bw / 2 - 12 - off);
+    const edge = Math.min(width / 2, bw / 2 + ARROW + 16);
+    const follow = Math.max(0, edge - off) + Math.min(0, width - edge - off);
     tableX += follow;
     const blockX = tableX + s * k;
 
@@ -340,7 +344,7 @@ export class Scene {
     c.setLineDash([]);
     c.globalAlpha = 1;
     const away = blockX - tableX;
-    if (Math.abs(away) < 10) return;
+    if (Math.abs(away) < 3) return;
     const side = away > 0 ? -1 : 1;
     if (Math.abs(away) > 26) this.label(c, "start", tableX + (side * bw) / 2 - side * 2, base - bh - 5, side < 0 ? "left" : "right");
     const edge = side < 0 ? tableX - bw / 2 : tableX + bw / 2 - Math.abs(away);
@@ -417,7 +421,7 @@ export class Scene {
   private friction({ c, answer, base }: Frame, knot: number, blockX: number, bw: number, bh: number): void {
     const most = largestOf(answer).friction;
     const force = -(answer.friction[knot] ?? 0);
-    const length = most > 0 ? (46 * Math.abs(force)) / most : 0;
+    const length = most > 0 ? (ARROW * Math.abs(force)) / most : 0;
     if (length < 3) return;
     const sign = Math.sign(force);
     const [from, y] = [blockX + (sign * bw) / 2 + sign * 4, base - Math.min(9, bh / 2)];
