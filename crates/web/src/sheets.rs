@@ -491,13 +491,7 @@ fn planned(
                 let options = Options { format: None, units: wanted.units, dt_s: wanted.dt_s };
                 let channel = wanted.channel.as_deref();
                 let loaded = recorded(records, name, &options, (channel, up))?;
-                suite.push(Record {
-                    name: name.clone(),
-                    channel: loaded.channel.clone(),
-                    warnings: loaded.warnings.iter().map(|warning| warning.kind).collect(),
-                    motion: loaded.motion,
-                    pair: (!second.is_empty()).then_some(i),
-                });
+                suite.push(Record::read(name.clone(), loaded, (!second.is_empty()).then_some(i)));
             }
         }
     }

@@ -6,11 +6,12 @@ use slipstick::response::{Demands, History, HistoryAlongY};
 
 use super::histories::{SHADING, history_panel, of_points, over_time};
 use super::trace::Trace;
-use super::{Drawn, Scene, drawn, shown_note, shown_storeys};
+use super::{Drawn, Scene, shown_note, shown_storeys};
+use crate::assessment::lines::{laid, panel};
 use crate::display::{Quantity, Unit};
 use crate::markup::shortened;
 use crate::number::{compact, printed};
-use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Layout, Limit, Panel, Series, Shape, Style};
 
 const AXES: [&str; 2] = ["x", "y"];
 
@@ -88,15 +89,12 @@ fn orbits(scene: &Scene, s: Vector, friction: Vector) -> Drawn {
          sticks and lies on that of kinetic friction, against the velocity, while it slides.{varies}",
         if gap_m.is_some() { ", inside its gap" } else { "" }
     );
-    let figure = Figure {
-        id: "orbits",
-        title: "Orbits of sliding displacement and friction force".to_owned(),
-        description: caption.clone(),
-        layout: Layout::Square,
+    laid(
+        Layout::Square,
+        ("orbits", "Orbits of sliding displacement and friction force"),
+        caption,
         panels,
-        shaded: Vec::new(),
-    };
-    drawn(&figure, caption)
+    )
 }
 
 /// The orbit of a vector, with circles around it.
@@ -122,15 +120,7 @@ fn orbit(label: &str, unit: Unit, vector: Vector, circles: &[(&str, Style, f64)]
     let mut series: Vec<Series> = circles.iter().map(circle).collect();
     let (style, shape) = (Style::MAIN, Shape::Curve);
     series.push(Series { label: String::new(), style, shape, points });
-    Panel {
-        x: axis("x"),
-        y: axis("y"),
-        height: 0.0,
-        series,
-        limits: Vec::new(),
-        peak: None,
-        note: String::new(),
-    }
+    panel(axis("x"), axis("y"), 0.0, series)
 }
 
 /// Total accelerations of ground, block and floors along x and along y.
