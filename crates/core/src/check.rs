@@ -234,7 +234,8 @@ pub fn check_while(
     let fastest = if model.stop().is_some() { Phase::Pressed } else { Phase::Slip };
     let radians = structure.rate(fastest) * end_s;
     let bound = (100.0 * f64::EPSILON * radians).max(1e-10);
-    let judged = history.filter(|h| radians <= MAX_RADIANS && well_formed(model, model.storeys(), motion, h));
+    let judged = history
+        .filter(|h| radians <= MAX_RADIANS && well_formed(model, model.storeys(), motion, h));
     let run = |history| {
         let (law, given) = (Law::new(model, vertical), (response, history));
         Judge::new(model, motion, given, (&structure, &law), Pulse::new(go_on)).run(bound)

@@ -218,7 +218,8 @@ impl Peaks {
         for g in BY_DIRECTION.into_iter().chain((0..n).map(|i| STOREYS + 2 * n + i)) {
             for view in 0..3 {
                 let size = |i: usize| sizes(all[i][g])[view];
-                let best = (1..=LOOKS).fold(0, |best, i| if size(i) > size(best) { i } else { best });
+                let best =
+                    (1..=LOOKS).fold(0, |best, i| if size(i) > size(best) { i } else { best });
                 let mut most = size(best);
                 let [mut low, mut high] = [best.saturating_sub(1), (best + 1).min(LOOKS)]
                     .map(|i| i as f64 / LOOKS as f64);

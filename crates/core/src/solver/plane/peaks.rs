@@ -378,9 +378,8 @@ impl Peaks {
                 let Some((arm, along)) = &system.overturning[axis] else { continue };
                 let modes = combined(arm, &series.g, series.degree);
                 let mut steady = [ZERO; 2];
-                steady[axis] = core::array::from_fn(|k| {
-                    inner(*along, [block[0][k], block[1][k]]) - modes[k]
-                });
+                steady[axis] =
+                    core::array::from_fn(|k| inner(*along, [block[0][k], block[1][k]]) - modes[k]);
                 let moment = Composed { steady, of_friction: 0.0 };
                 self.look_at_moment(axis, &moment, series, None, to);
             }
@@ -453,8 +452,6 @@ impl Peaks {
         self.look_at_composed(Output::Moment, moment, series, near, to);
         let peak = &mut self.all[Output::Moment.place(self.points)];
         peak.axes[1 - axis] = kept.axes[1 - axis];
-        // Lengths mean nothing here: kept out of the way.
-        peak.norm = f64::INFINITY;
     }
 
     /// Notes the outputs that friction is part of on the arc at a stop, from `P` and `L g` at both of its ends.
@@ -475,6 +472,20 @@ impl Peaks {
             (Output::FrictionForce, [[0.0; 2]; 2], kg * arc.friction),
             (Output::SliderForce, slider, kg * arc.friction),
         ];
+        for (axis, moment) in system.overturning.iter().enumerate() {
+            let Some((arm, along)) = moment.as_ref().filter(|_| system.mass.is_none()) else {
+                continue;
+            };
+            let modes = dot(arm, g);
+            let [from, to] = pulls;
+            let within = arc.extremes(to).map(|u| (u, arc.part_left(u)));
+            for (u, left) in within.chain([(arc.to, 0.0)]) {
+                let pull = to[axis] + (from[axis] - to[axis]) * left;
+                let size = (along[axis] * (pull - arc.friction * u[axis]) - modes).abs();
+                let peak = &mut self.all[Output::Moment.place(self.points)];
+                peak.axes[axis] = peak.axes[axis].max(size);
+            }
+        }
         let of = of.into_iter().chain(system.mass.is_none().then_some(block));
         for (output, [from, to], c) in of {
             let peak = &mut self.all[output.place(self.points)];
@@ -508,9 +519,10 @@ impl Peaks {
             };
             raise(Output::Acceleration(i), &of);
         }
-        let moments = system.overturning.each_ref().map(|moment| {
-            moment.as_ref().map(|(arm, along)| (dot(arm, g), *along))
-        });
+        let moments = system
+            .overturning
+            .each_ref()
+            .map(|moment| moment.as_ref().map(|(arm, along)| (dot(arm, g), *along)));
         let of = |u: [f64; 2]| {
             let b = block(u);
             moments.map(|moment| moment.map_or(0.0, |(modes, along)| inner(along, b) - modes))
