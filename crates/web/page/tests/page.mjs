@@ -8,6 +8,9 @@ import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { unzipSync } from "fflate";
 import { browser, drop, headline, host, message, open, settled, temporary } from "./harness.mjs";
+import { loading } from "./loading.mjs";
+import { runs } from "./runs.mjs";
+import { whole } from "./whole.mjs";
 
 const folder = resolve(process.argv[2]);
 const only = process.argv[3];
@@ -355,14 +358,14 @@ test("a link restores the tab with its settings, records and all", () =>
     const limit = page.locator("#panel-ida [name=limit]");
     await limit.fill("33 mm");
     await limit.blur();
-    await page.locator("#panel-ida input[type=checkbox]").last().click();
+    await page.locator("#panel-ida .workbench tbody input").last().click();
     await page.waitForTimeout(300);
     const other = await context.newPage();
     await other.goto(page.url());
     await settled(other);
     assert.equal(await other.locator("#tab-ida").getAttribute("aria-selected"), "true");
     await other.waitForFunction(() => document.querySelector("#panel-ida [name=limit]")?.value === "33 mm");
-    const ticked = await other.locator("#panel-ida .records input").evaluateAll((all) => all.map((box) => box.checked));
+    const ticked = await other.locator("#panel-ida .workbench tbody input").evaluateAll((all) => all.map((box) => box.checked));
     assert.deepEqual(ticked, [true, true, false]);
     await other.close();
   }));
@@ -718,6 +721,10 @@ for (const scheme of ["light", "dark"]) {
       { colorScheme: scheme, bypassCSP: true },
     ));
 }
+
+loading(test, on, site);
+whole(test, on, root);
+runs(test, on);
 
 test("it opens without a network once it was open, and asks for nothing after it", async () => {
   const opened = await open(chromium, site.url, { serviceWorkers: "allow" });
