@@ -4,6 +4,7 @@ use slipstick::input::loaded::{Loaded, Wanted};
 use slipstick::motion::intensity::LevelMeasure;
 use slipstick::notice::Notice;
 use slipstick::record::Options;
+use slipstick::requests::measured;
 use slipstick::response::DemandColumn;
 use slipstick::table::{Cells, Column};
 use slipstick::units::Dimension;
@@ -17,8 +18,8 @@ use crate::failure::Failure;
 use crate::records::Records;
 use crate::session::texts;
 
-/// Tables as `[{name, columns: [{name, title, unit: {in_si, symbol}, si, values}]}]`, values in SI,
-/// whose unit is `si`.
+/// Tables as `[{name, columns: [{name, title, unit: {in_si, symbol}, si, path, values}]}]`, values in SI,
+/// whose unit is `si`; `path` where it is one of the model.
 pub fn tables(tabled: &[Tabled], display: DisplayUnits) -> Json {
     let one = |Tabled { name, table, .. }: &Tabled| {
         let columns = table.columns.iter().map(|column| self::column(column, display));
@@ -47,13 +48,16 @@ fn column(Column { name, unit, cells }: &Column, display: DisplayUnits) -> Json 
     } else {
         unit_of(name, unit, display, largest)
     };
-    // A path is called as the model calls it.
-    let title = if name.contains('.') { name.clone() } else { title(name) };
+    // A path is called as the model calls it; demands by axis have points in their names too.
+    let by_axis = name.starts_with("x.") || name.starts_with("y.");
+    let path = name.contains('.') && !by_axis && measured(name).0.is_none();
+    let title = if path { name.clone() } else { title(name) };
     Json::Object(vec![
         ("name", name.as_str().into()),
         ("title", Json::Text(title)),
         ("unit", self::unit(shown)),
         ("si", unit.as_str().into()),
+        ("path", path.into()),
         ("values", values),
     ])
 }

@@ -617,6 +617,10 @@ impl Planned {
         let mut table = Table::default();
         table.numbers("run", "", (0..rows.len()).map(|run| run as f64).collect());
         table.texts("record", cases.iter().map(record).collect());
+        if self.study.has_bounds() {
+            let bound = |case: &Case| self.study.bound(*case).name.to_owned();
+            table.texts("friction", cases.iter().map(bound).collect());
+        }
         table.numbers("level", self.study.level_unit(), cases.iter().map(level).collect());
         for (i, column) in self.study.shape().columns().iter().enumerate() {
             table.numbers(
@@ -628,7 +632,7 @@ impl Planned {
         Tabled { name: "runs", forms: &[], table }
     }
 
-    /// What makes a run by itself: `{record, scale, set: [[path, value]]}`, without a record where the motion is
+    /// What makes a run by itself: `{record, scale, friction, set: [[path, value]]}`, without a record where the motion is
     /// made.
     pub fn run(&self, run: u64) -> Result<Json, Failure> {
         let case = self.study.cases().case(run.min(self.study.runs().saturating_sub(1)));
@@ -641,6 +645,7 @@ impl Planned {
         Ok(Json::Object(vec![
             ("record", record.map_or(Json::Null, |record| record.name.as_str().into())),
             ("scale", self.study.factor(case).into()),
+            ("friction", self.study.bound(case).name.into()),
             ("set", Json::List(set.iter().map(pair).collect())),
         ]))
     }

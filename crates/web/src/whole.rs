@@ -199,7 +199,7 @@ impl Session {
         Ok(self.planned(plan, text, &names)?.rows(u64::from(from), u64::from(to))?)
     }
 
-    /// What makes a run of a study by itself: `{record, scale, set: [[path, value]]}`.
+    /// What makes a run of a study by itself: `{record, scale, friction, set: [[path, value]]}`.
     ///
     /// # Errors
     /// As [`Session::study_size`].

@@ -406,10 +406,21 @@ export class App {
   }
 
   /** Shows a run of an analysis over many by itself. */
-  private load({ record, scale, set }: Run): void {
+  private load({ record, scale, friction, set }: Run): void {
+    const inputs = this.answer?.state.inputs ?? [];
+    const factor = inputs.find(({ path }) => path === `slider.bounds.${friction}`)?.value ?? 1;
+    // The coefficients of a bound, which are then those of the model.
+    const bounded = inputs.flatMap(({ path, value }): Setting[] => {
+      if (!/^slider\.(static|kinetic)_friction(\.(positive|negative|slow|fast))?$/.test(path) || typeof value !== "number") return [];
+      const own = set.find(([key]) => key === path)?.[1];
+      return [[path, String((own === undefined ? value : Number(own)) * factor)]];
+    });
+    const all = factor === 1 ? set : [...set.filter(([path]) => bounded.every(([other]) => other !== path)), ...bounded];
     this.setText(record === null ? this.text : onRecord(this.text, this.records.choice(record), scale));
-    if (set.length > 0) this.set(set);
+    if (all.length > 0) this.set(all);
     this.select("motion", true);
+    const cannot = factor === 1 && friction !== "nominal";
+    this.notices.tell(cannot ? `The run has ${friction} friction; shown is the model's own, with ${friction} friction beside it.` : `Shown: ${[record ?? "the model's motion", friction === "nominal" ? "" : `${friction} friction`].filter(Boolean).join(", ")}. Undo returns to what stood here.`);
   }
 
   /** Takes a whole text that Reset returns to. */

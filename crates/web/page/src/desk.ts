@@ -51,7 +51,7 @@ export class Helper {
   /** Told of what was judged at rest. */
   onjudged: (number: number, found: Judgement | Fault) => void = () => {};
   /** Told where the whole module has taken the first one's place, and knows of no answer yet. */
-  onwhole: () => void = () => {};
+  onwhole: () => unknown = () => {};
   /** Whether the first module is at work. */
   early: boolean;
   private whole: "wanted" | "here" | undefined;
@@ -254,9 +254,11 @@ export class Desk {
 
   constructor(readonly engine: Engine) {
     this.helper = new Helper(engine, this.records, true);
-    this.helper.onwhole = () => {
-      if (this.shown && !this.wish && !this.asked) this.want(this.shown);
-    };
+    // An answer of the first module that has just come is taken in before it is asked for again.
+    this.helper.onwhole = () =>
+      setTimeout(() => {
+        if (this.shown && !this.wish && !this.asked) this.want(this.shown);
+      });
     this.helper.onjudged = (number, found) => {
       if (this.shown?.number === number && number === this.number) this.settle(this.shown, found);
     };

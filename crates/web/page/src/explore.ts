@@ -88,7 +88,7 @@ export class Explorer {
   private choose([x, y]: [RegExp, RegExp]): void {
     const columns = this.table.columns.filter(isNumeric);
     const has = (pattern: RegExp) => columns.find((column) => pattern.test(column.name));
-    const path = columns.find(({ name }) => name.includes("."));
+    const path = columns.find(({ path }) => path);
     const across = has(x) ?? path ?? has(/^level$/) ?? columns[0];
     const up = has(y) ?? columns.find((column) => column !== across && column.name !== "scale") ?? columns[1] ?? columns[0];
     const options = (chosen: RunColumn | undefined) => columns.map((column) => h("option", { value: column.name, selected: column === chosen }, named(column)));
@@ -110,7 +110,7 @@ export class Explorer {
   /** What the runs of one line share: every text, and the values that are varied and on no axis. */
   private groups(rows: number[]): Map<string, number[]> {
     const [x, y] = [this.x.value, this.y.value];
-    const keys = this.table.columns.filter((column) => column.name !== x && column.name !== y && (column.name === "record" || column.name === "friction" || column.name.includes(".")));
+    const keys = this.table.columns.filter((column) => column.name !== x && column.name !== y && (column.name === "record" || column.name === "friction" || column.path));
     const groups = new Map<string, number[]>();
     for (const row of rows) {
       const key = keys.map(({ values, unit, title }) => {
@@ -237,7 +237,7 @@ export class Explorer {
     }
     const row = this.points[at]![2];
     this.svg?.querySelector(`[data-row="${row}"]`)?.classList.add("here");
-    const shown = this.table.columns.filter(({ name }) => name === "record" || name === "friction" || name.includes(".") || name === "level" || name === this.x.value || name === this.y.value);
+    const shown = this.table.columns.filter(({ name, path }) => name === "record" || name === "friction" || path || name === "level" || name === this.x.value || name === this.y.value);
     this.said.textContent = shown.map((column) => (typeof column.values[row] === "number" ? `${column.title} ${digits(number(column, row))} ${column.unit.symbol}`.trim() : String(column.values[row]))).join(" · ");
   }
 

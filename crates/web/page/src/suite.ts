@@ -210,7 +210,7 @@ export class SuiteTab implements Tab {
     const coupled = this.options().some(([name]) => name === "friction");
     const take = (table: RunTable, row: number) => this.take(state, coupled, sheet, table, row);
     const word = this.id === "design" ? "a click uses this design" : "a click shows the run by itself";
-    return [h("div", { class: "card pad" }, new Explorer(tables, this.id, word, take, axes[this.id] ?? [/\./, /^peak_sliding_displacement_m/]).element)];
+    return [h("div", { class: "card pad" }, new Explorer(tables, this.id, word, take, axes[this.id] ?? [/^(?!)/, /^peak_sliding_displacement_m/]).element)];
   }
 
   private take(state: State, coupled: boolean, sheet: Sheet, { columns }: RunTable, row: number): void {
@@ -219,9 +219,9 @@ export class SuiteTab implements Tab {
     const stem = (path: string) => path.replace(/^.*\//, "").replace(/\.[^.]*$/, "");
     const file = sheet.records.find(({ path }) => path === name || stem(path) === name)?.file;
     const known = this.page.records().find((record) => record.name === file);
-    const set = columns.flatMap(({ name, si, values }): Setting[] => {
+    const set = columns.flatMap(({ name, si, path, values }): Setting[] => {
       const number = values[row];
-      if (!name.includes(".") || typeof number !== "number") return [];
+      if (!path || typeof number !== "number") return [];
       if (name === "isolator.period") {
         const rate = number / (2 * Math.PI);
         return [["slider.radius", `${(value(state, "analysis.gravity")?.value ?? 9.80665) * rate * rate} m`]];
@@ -231,7 +231,7 @@ export class SuiteTab implements Tab {
       return coupled && name === "slider.kinetic_friction" && kinetic && still ? [["slider.static_friction", String(number * (still / kinetic))], own] : [own];
     });
     const scale = cell("scale");
-    this.page.load({ record: known ? known.name : null, scale: typeof scale === "number" ? scale : 1, set });
+    this.page.load({ record: known ? known.name : null, scale: typeof scale === "number" ? scale : 1, friction: String(cell("friction") ?? "nominal"), set });
   }
 
   private async exportPlan(): Promise<void> {

@@ -161,6 +161,8 @@ export interface RunColumn {
   title: string;
   unit: Unit;
   si: string;
+  /** Whether it is a path of the model. */
+  path: boolean;
   values: (number | string | boolean | null)[];
 }
 
@@ -169,10 +171,11 @@ export interface RunTable {
   columns: RunColumn[];
 }
 
-/** What makes a run by itself: its record by name, none where the motion is made; the factor on it; keys of the model. */
+/** What makes a run by itself: its record by name, none where the motion is made; the factor on it; which bound of friction; keys of the model. */
 export interface Run {
   record: string | null;
   scale: number;
+  friction: string;
   set: Setting[];
 }
 

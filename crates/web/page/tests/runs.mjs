@@ -11,28 +11,25 @@ async function ran(page, id, timeout = 90000) {
   await page.locator(`#panel-${id} .sheet`).waitFor({ timeout });
 }
 
-/** Clicks a run of a table by its row, and returns its cells. */
-async function clicked(page, id, pick) {
-  const dots = page.locator(`#panel-${id} .explorer circle.run`);
-  const row = await dots.evaluateAll((all, pick) => Number(all[Math.floor(all.length * pick)].dataset.row), pick);
-  await page.locator(`#panel-${id} .explorer circle.run[data-row="${row}"]`).first().click();
-  return row;
+/** Points at one of the runs that are drawn, and returns what is said of it; `press` clicks there. */
+async function pointed(page, id, number) {
+  const dot = page.locator(`#panel-${id} .explorer circle.run`).nth(number);
+  await dot.scrollIntoViewIfNeeded();
+  const box = await dot.boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x + 1, y);
+  await page.mouse.move(x, y);
+  const said = await page.locator(`#panel-${id} .explorer .readout`).innerText();
+  return { said, press: () => page.mouse.click(x, y) };
 }
 
 export function runs(test, on) {
   test("a click on a run of an IDA shows that run, with its figure", () =>
     on(async (page) => {
       await ran(page, "ida");
-      const demands = await page.evaluate(() => {
-        const [csv] = [document.querySelector("#panel-ida .explorer")];
-        return !!csv;
-      });
-      assert.ok(demands);
-      await page.evaluate(() => document.querySelector("#panel-ida .explorer svg").scrollIntoView());
-      await page.locator("#panel-ida .explorer circle.run").nth(12).hover();
-      const said = await page.locator("#panel-ida .explorer .readout").innerText();
+      const { said, press } = await pointed(page, "ida", 12);
       const [, peak, unit] = /Peak sliding displacement ([\d.]+) (\w+)/.exec(said);
-      await page.locator("#panel-ida .explorer circle.run").nth(12).click();
+      await press();
       await settled(page);
       assert.equal(await page.locator("#tab-motion").getAttribute("aria-selected"), "true");
       assert.match(await page.locator("#model-text").inputValue(), /scale = /);
@@ -44,11 +41,9 @@ export function runs(test, on) {
   test("a design of the front is used by a click", () =>
     on(async (page) => {
       await ran(page, "design");
-      await page.locator("#panel-design .explorer circle.run").first().scrollIntoViewIfNeeded();
-      await page.locator("#panel-design .explorer circle.run").first().hover();
-      const said = await page.locator("#panel-design .explorer .readout").innerText();
+      const { said, press } = await pointed(page, "design", 0);
       const [, friction] = /slider\.kinetic_friction ([\d.]+)/.exec(said);
-      await clicked(page, "design", 0);
+      await press();
       await settled(page);
       const text = await page.locator("#model-text").inputValue();
       const [, now] = /kinetic_friction\s*=\s*([\d.]+)/.exec(text);
@@ -59,11 +54,9 @@ export function runs(test, on) {
   test("a run of a study shows that run", () =>
     on(async (page) => {
       await ran(page, "study");
-      await page.locator("#panel-study .explorer circle.run").nth(20).scrollIntoViewIfNeeded();
-      await page.locator("#panel-study .explorer circle.run").nth(20).hover();
-      const said = await page.locator("#panel-study .explorer .readout").innerText();
+      const { said, press } = await pointed(page, "study", 20);
       const [, peak, unit] = /Peak sliding displacement ([\d.]+) (\w+)/.exec(said);
-      await page.locator("#panel-study .explorer circle.run").nth(20).click();
+      await press();
       await page.waitForFunction(() => document.querySelector("#tab-motion").getAttribute("aria-selected") === "true");
       await settled(page);
       const si = await page.evaluate(() => globalThis.slipstick.answer.state.headline.peak_m);
@@ -78,6 +71,7 @@ export function runs(test, on) {
         const dots = () => explorer.locator("circle.run").count();
         const all = await dots();
         assert.ok(all >= 100, `${all} runs`);
+        await explorer.locator("svg").first().scrollIntoViewIfNeeded();
         const box = await explorer.locator("svg").first().boundingBox();
         await page.mouse.move(box.x + box.width * 0.2, box.y + box.height * 0.2);
         await page.mouse.down();
@@ -86,8 +80,8 @@ export function runs(test, on) {
         assert.ok((await dots()) < all, "zoomed");
         await explorer.getByRole("button", { name: "Whole" }).click();
         assert.equal(await dots(), all);
-        await explorer.getByLabel("Up").selectOption("peak_block_acceleration_m_per_s2");
-        assert.match(await explorer.locator("text.axis").last().textContent(), /^Peak block acceleration \(.+\)$/);
+        await explorer.getByLabel("Up").selectOption("block.peak_acceleration_m_per_s2");
+        assert.match(await explorer.locator("text.axis").last().textContent(), /^Block peak acceleration \(.+\)$/);
         for (const [name, ending] of [["CSV", /\.csv$/], ["SVG", /\.svg$/], ["PNG", /\.png$/]]) {
           const [got] = await Promise.all([page.waitForEvent("download"), explorer.getByRole("button", { name, exact: true }).click()]);
           assert.match(got.suggestedFilename(), ending);
@@ -110,8 +104,8 @@ export function runs(test, on) {
       await panel.locator("[name=measure]").waitFor();
       await panel.getByLabel("Measure: choose").selectOption("Sa");
       assert.equal(await panel.locator("[name=measure]").inputValue(), "Sa(1 s)");
-      await panel.getByLabel("Demand: choose").selectOption({ label: "Peak block acceleration (m/s²)" });
-      assert.equal(await panel.locator("[name=demand]").inputValue(), "peak_block_acceleration_m_per_s2");
+      await panel.getByLabel("Demand: choose").selectOption("block.peak_acceleration_m_per_s2");
+      assert.equal(await panel.locator("[name=demand]").inputValue(), "block.peak_acceleration_m_per_s2");
       await panel.getByText("More", { exact: true }).click();
       await panel.getByLabel("Vary: key").selectOption("slider.radius");
       await panel.getByRole("button", { name: "Add" }).click();
