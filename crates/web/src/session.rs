@@ -102,7 +102,10 @@ impl Session {
         set: Vec<String>,
         display: &str,
     ) -> Result<Answer, JsValue> {
-        let set = overrides(&set)?;
+        let (mut set, modes) = (overrides(&set)?, self.records.modes(text)?);
+        #[cfg(feature = "whole")]
+        let as_written = set.is_empty();
+        set.extend(modes);
         let analysis =
             input::parse(MODEL, text, &set).map_err(|error| Failure::input(&error, text))?;
         let display = display_units(display);
@@ -131,6 +134,8 @@ impl Session {
         let answer = Answer::new(&job, &words, &response, &summary, display, ground.number);
         #[cfg(feature = "whole")]
         {
+            // Without keys set the text is as written, its table of modes beside it.
+            let set = if as_written { Vec::new() } else { set };
             let (text, judged) = (text.to_owned(), None);
             self.last = Some(Last { job, name, words, text, set, response, judged, display });
         }
@@ -225,8 +230,8 @@ fn overrides(set: &[String]) -> Result<Vec<Override>, Failure> {
 }
 
 #[cfg(feature = "whole")]
-pub(crate) fn parse(text: &str) -> Result<Analysis, Failure> {
-    input::parse(MODEL, text, &[]).map_err(|error| Failure::input(&error, text))
+pub(crate) fn parse(text: &str, set: &[Override]) -> Result<Analysis, Failure> {
+    input::parse(MODEL, text, set).map_err(|error| Failure::input(&error, text))
 }
 
 pub(crate) fn display_units(name: &str) -> DisplayUnits {

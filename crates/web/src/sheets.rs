@@ -9,7 +9,7 @@ use slipstick::assessment::models::Models;
 use slipstick::assessment::suite::Suite;
 use slipstick::input::loaded::{Components, Loaded, Wanted};
 use slipstick::input::plan::Plan;
-use slipstick::input::{Analysis, MotionSource};
+use slipstick::input::{Analysis, MotionSource, Override};
 use slipstick::notice::Notice;
 use slipstick::record::{self, Options};
 use slipstick::requests::{Answer, Door, Field, Kind, On, Request, Results, Runs, Takes};
@@ -245,9 +245,14 @@ fn requests(what: Kind) -> Vec<Kind> {
 }
 
 /// The form of an analysis: what it is, and its fields.
-pub fn form(what: &str, text: &str, display: DisplayUnits) -> Result<Json, Failure> {
-    let model = &parse(text)?;
-    let models = Models::new(MODEL, text, &[], &[], false);
+pub fn form(
+    what: &str,
+    text: &str,
+    set: &[Override],
+    display: DisplayUnits,
+) -> Result<Json, Failure> {
+    let model = &parse(text, set)?;
+    let models = Models::new(MODEL, text, set, &[], false);
     let demands = models.map_err(|error| Failure::assessment(&error, text))?.columns();
     let mut fields: Vec<&Field> = Vec::new();
     let kinds = Kind::of_name(what).map_or_else(Vec::new, requests);
@@ -299,6 +304,8 @@ fn followed<T>(work: impl FnOnce(&Engine<'_>) -> T) -> T {
 struct Job<'a> {
     settings: Settings<'a>,
     text: &'a str,
+    /// The table of modes that the model names.
+    set: Vec<Override>,
     name: String,
     analysis: Analysis,
     suite: Suite,
@@ -325,7 +332,8 @@ impl Taken {
 
 impl<'a> Job<'a> {
     fn new(records: &mut Records, text: &'a str, options: &'a [String]) -> Result<Self, Failure> {
-        let (settings, analysis) = (Settings(options), parse(text)?);
+        let (settings, set) = (Settings(options), records.modes(text)?);
+        let analysis = parse(text, &set)?;
         if analysis.method != Method::Exact {
             let expected = "the exact method, which is the only one over a suite";
             let error = analysis.error_at("analysis.method", expected, "\"stepwise\"");
@@ -333,7 +341,7 @@ impl<'a> Job<'a> {
         }
         let (suite, taken) = suite(records, &settings, &analysis, text)?;
         let name = analysis.name.clone().unwrap_or_else(|| UNNAMED.to_owned());
-        Ok(Self { settings, text, name, analysis, suite, taken })
+        Ok(Self { settings, text, set, name, analysis, suite, taken })
     }
 
     fn on(&self) -> On<'_> {
@@ -341,7 +349,7 @@ impl<'a> Job<'a> {
             name: &self.name,
             source: MODEL,
             text: self.text,
-            set: &[],
+            set: &self.set,
             analysis: &self.analysis,
             suite: &self.suite,
         }
@@ -731,13 +739,7 @@ fn planned(
                 let options = Options { format: None, units: wanted.units, dt_s: wanted.dt_s };
                 let channel = wanted.channel.as_deref();
                 let loaded = recorded(records, name, &options, (channel, up))?;
-                suite.push(Record {
-                    name: name.clone(),
-                    channel: loaded.channel.clone(),
-                    warnings: loaded.warnings.iter().map(|warning| warning.kind).collect(),
-                    motion: loaded.motion,
-                    pair: (!second.is_empty()).then_some(i),
-                });
+                suite.push(Record::read(name.clone(), loaded, (!second.is_empty()).then_some(i)));
             }
         }
     }

@@ -85,7 +85,7 @@ impl Session {
     ) -> Result<Vec<f64>, JsValue> {
         let key = format!("{over}\n{text}");
         if self.more.sweep.as_ref().is_none_or(|(of, _)| *of != key) {
-            let analysis = parse(text)?;
+            let analysis = parse(text, &[])?;
             let one = analysis.in_one_direction("a sweep follows");
             one.map_err(|error| Failure::input(&error, text))?;
             self.load(&analysis, text)?;
@@ -131,7 +131,8 @@ impl Session {
     /// # Errors
     /// With the place in the text where the model cannot be understood.
     pub fn form(&self, what: &str, text: &str, display: &str) -> Result<String, JsValue> {
-        Ok(sheets::form(what, text, display_units(display))?.to_pretty())
+        Ok(sheets::form(what, text, &self.records.modes(text)?, display_units(display))?
+            .to_pretty())
     }
 
     /// What is known of a record: `{pga, pgv, measure, duration_s, notices}`, the first three with their units;

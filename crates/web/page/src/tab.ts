@@ -55,7 +55,7 @@ export function identity(bytes: Uint8Array): number {
 }
 
 /** What a result is of, as text: the model, the bytes of the records, what was asked. */
-export function subject({ desk, text }: Page, asked: unknown): string {
+export function subject({ desk, text }: Pick<Page, "desk" | "text">, asked: unknown): string {
   const records = [...desk.records].map(([name, bytes]) => [name, identity(bytes)]);
   return JSON.stringify([text(), records, asked]);
 }
