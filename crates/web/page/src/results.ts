@@ -111,6 +111,21 @@ export function sentence({ headline, units }: State, holds: boolean | null | und
   return `Peak sliding displacement ${length(headline.peak_m)}, residual ${length(headline.residual_m)}. ${checked}`;
 }
 
+/** What is said of a picture while the page loads: that there is none, that it is of the build, that it is not checked. */
+const LOADING = {
+  nothing: "The solver is on its way.",
+  built: "This picture was computed when the page was built. It is computed here as soon as the solver has come, and what you change is answered then.",
+  answer: "Not yet checked: the check, and the analyses over many runs, are on their way.",
+};
+
+/** That a part of the page is on its way. */
+export function loading(into: HTMLElement, shown: keyof typeof LOADING): void {
+  if (into.dataset.state === shown) return;
+  into.dataset.state = shown;
+  into.className = "certificate";
+  fill(into, h("strong", {}, "Loading"), h("span", {}, LOADING[shown]));
+}
+
 /** What the figures of the check say. */
 const MEANINGS: Record<string, string> = {
   "Equilibrium residual": "Largest difference from an integration by another method, as a share of the peak",

@@ -14,7 +14,7 @@ export class SweepTab implements Tab {
   private readonly from = h("input", { type: "text", inputmode: "decimal" });
   private readonly to = h("input", { type: "text", inputmode: "decimal" });
   private readonly count = h("input", { type: "text", inputmode: "numeric", value: "200" });
-  private readonly progress = new Progress();
+  private readonly progress = new Progress((text) => this.page.progress(this.id, text));
   private readonly go = h("button", { type: "submit", class: "main" }, "Run");
   private readonly charts = h("div", { class: "plots" });
   private readonly result = new Result();
