@@ -289,7 +289,7 @@ export class App {
       this.certificate,
       h("div", { class: "card pad" }, h("h2", {}, "Force on the slider"), this.stage.loopBox),
       h("div", { class: "card pad peaks" }, h("h2", {}, "Peaks"), this.peaks.table, this.peaks.warnings),
-      h("div", { class: "card pad" }, h("h2", {}, "Beside it"), h("label", { class: "switch" }, this.stepwise, "The paper's stepwise method"), this.beside),
+      h("div", { class: "card pad" }, h("h2", {}, "For comparison"), h("label", { class: "switch" }, this.stepwise, "The paper's stepwise method"), this.beside),
       h("details", { class: "card pad fold" }, h("summary", {}, "Events"), this.events),
     );
   }

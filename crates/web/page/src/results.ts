@@ -3,6 +3,14 @@
 import { digits, fill, h } from "./dom";
 import type { Answer, Judgement, State, Warning } from "./types";
 
+/** What the figures of the check say. */
+const MEANINGS: Record<string, string> = {
+  "Equilibrium residual": "Largest difference from an integration by another method, as a share of the peak",
+  "Friction excess": "Largest excess of the force on the slider over what friction can give, as a share of it",
+  "Energy balance error": "What went in and is found nowhere, as a share of the energy",
+  "Demands error": "Largest difference of a printed figure from the same figure computed anew, as a share of it",
+};
+
 /** A figure that is read first: its value in SI, and how it is written. */
 interface Figure {
   label: string;
@@ -110,14 +118,6 @@ export function sentence({ headline, units }: State, holds: boolean | null | und
   const checked = holds === true ? "Computed right." : holds === false ? "The check failed." : "Not judged.";
   return `Peak sliding displacement ${length(headline.peak_m)}, residual ${length(headline.residual_m)}. ${checked}`;
 }
-
-/** What the figures of the check say. */
-const MEANINGS: Record<string, string> = {
-  "Equilibrium residual": "Largest difference from an integration by another method, as a share of the peak",
-  "Friction excess": "Largest excess of the force on the slider over what friction can give, as a share of it",
-  "Energy balance error": "What went in and is found nowhere, as a share of the energy",
-  "Demands error": "Largest difference of a printed figure from the same figure computed anew, as a share of it",
-};
 
 /** The certificate of a judged answer; that there is none yet, without one. `last`: of the last good state. */
 export function certificate(into: HTMLElement, judgement: Judgement | undefined, last = false): void {

@@ -720,10 +720,6 @@ for (const [scheme, forcedColors] of [["light", "none"], ["dark", "none"], ["lig
     ));
 }
 
-minute(test, on);
-compare(test, on);
-scenes(test, on, site);
-
 test("it opens without a network once it was open, and asks for nothing after it", async () => {
   const opened = await open(chromium, site.url, { serviceWorkers: "allow" });
   try {
@@ -793,6 +789,10 @@ test("reduced motion: it stands at its peak", () =>
     },
     { reducedMotion: "reduce" },
   ));
+
+minute(test, on);
+compare(test, on);
+scenes(test, on, site);
 
 test("it prints as pages of A4 with the report's figures", () =>
   on(async (page) => {
