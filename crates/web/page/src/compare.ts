@@ -39,7 +39,7 @@ export function differences(now: State, pinned: State): string[] {
     return input ? (input.shown ? `${input.shown} ${input.symbol ?? ""}`.trim() : input.text) : "none";
   };
   return [...new Set([...a.keys(), ...b.keys()])]
-    .filter((path) => words(a, path) !== words(b, path))
+    .filter((path) => path !== "name" && words(a, path) !== words(b, path))
     .map((path) => `${labelOf(path)}: ${words(a, path)}, in B ${words(b, path)}`);
 }
 

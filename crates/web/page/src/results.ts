@@ -20,6 +20,9 @@ interface Figure {
   over?: boolean;
 }
 
+/** Share of the peak below which a residual is that of rounding. */
+const ROUNDING = 1e-9;
+
 function figures({ headline, units, structure }: State): Figure[] {
   const length = (label: string, value: number): Figure => ({ label, value, text: digits(value / units.length.in_si), unit: units.length.symbol });
   const acceleration = (label: string, value: number): Figure => ({ label, value, text: digits(value / units.acceleration.in_si), unit: units.acceleration.symbol });
@@ -27,7 +30,8 @@ function figures({ headline, units, structure }: State): Figure[] {
   const gap = structure.gap_m !== null && gapRatio !== null;
   return [
     length("Peak sliding", headline.peak_m),
-    length("Residual", headline.residual_m),
+    // What is left of a return to where it stood is rounding.
+    length("Residual", Math.abs(headline.residual_m) < ROUNDING * headline.peak_m ? 0 : headline.residual_m),
     gap ? { label: "Gap used", value: gapRatio, text: digits(100 * gapRatio, 3), unit: "%", over: gapRatio > 1 } : { label: "Times it slides", value: slips, text: String(slips), unit: "" },
     roof === null ? acceleration("Block accel\u00aderation", headline.block_m_per_s2) : acceleration("Roof accel\u00aderation", roof),
     ...(roof === null ? [] : [{ label: "Base shear / weight", value: baseShear, text: digits(baseShear, 3), unit: "" }]),
