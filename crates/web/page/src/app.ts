@@ -87,7 +87,7 @@ export class App {
   // Elements that change.
   private readonly title = h("span", {}, "");
   private readonly headline = h("dl", { class: "headline" });
-  private readonly severe = h("div", { class: "severe", role: "region", "aria-label": "Severe warnings", hidden: true });
+  private readonly severe = h("div", { class: "severe", tabindex: 0, role: "region", "aria-label": "Severe warnings", hidden: true });
   private readonly certificate = h("section", { class: "certificate", "aria-label": "Certificate" });
   private readonly beside = h("div", {});
   private readonly events = h("div", { class: "table-scroll", tabindex: 0, role: "region", "aria-label": "Events" });
