@@ -93,7 +93,7 @@ export class App {
   // Elements that change.
   private readonly title = h("span", {}, "");
   private readonly headline = h("dl", { class: "headline" });
-  private readonly severe = h("div", { class: "severe", role: "region", "aria-label": "Severe warnings", hidden: true });
+  private readonly severe = h("div", { class: "severe", tabindex: 0, role: "region", "aria-label": "Severe warnings", hidden: true });
   private readonly certificate = h("section", { class: "certificate", "aria-label": "Certificate" });
   private readonly beside = h("div", {});
   private readonly events = h("div", { class: "table-scroll", tabindex: 0, role: "region", "aria-label": "Events" });
@@ -318,7 +318,7 @@ export class App {
       this.certificate,
       h("div", { class: "card pad" }, h("h2", {}, "Force on the slider"), this.stage.loopBox),
       h("div", { class: "card pad peaks" }, h("h2", {}, "Peaks"), this.peaks.table, this.peaks.warnings),
-      h("div", { class: "card pad" }, h("h2", {}, "Beside it"), h("label", { class: "switch" }, this.stepwise, "The paper's stepwise method"), this.beside),
+      h("div", { class: "card pad" }, h("h2", {}, "For comparison"), h("label", { class: "switch" }, this.stepwise, "The paper's stepwise method"), this.beside),
       h("details", { class: "card pad fold" }, h("summary", {}, "Events"), this.events),
     );
   }

@@ -728,9 +728,6 @@ for (const [scheme, forcedColors] of [["light", "none"], ["dark", "none"], ["lig
     ));
 }
 
-minute(test, on);
-compare(test, on);
-scenes(test, on, site);
 loading(test, on, site);
 whole(test, on, root);
 runs(test, on);
@@ -804,6 +801,10 @@ test("reduced motion: it stands at its peak", () =>
     },
     { reducedMotion: "reduce" },
   ));
+
+minute(test, on);
+compare(test, on);
+scenes(test, on, site);
 
 test("it prints as pages of A4 with the report's figures", () =>
   on(async (page) => {
