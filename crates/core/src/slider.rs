@@ -5,17 +5,21 @@
 //! [`Stop`]. It cannot hold what no slider has. Its law (`law`) says what is in force, where that ends,
 //! what holds at rest and what follows; nothing else knows one kind of slider from another.
 
+mod branch;
 mod friction;
+mod hold;
 mod isotropic;
 mod law;
 mod rate;
 mod series;
 mod stop;
 
+pub(crate) use branch::{Affine, EXITS, Exit, Fading, Reached, TwoBranches};
+pub(crate) use branch::{Restraint, Restraints, SlipForce};
 pub use friction::Friction;
+pub(crate) use hold::{Disc, Hold};
 pub(crate) use isotropic::Kinetic;
-pub(crate) use law::{Affine, EXITS, Exit, Fading, Hold, Law, Memory, Reached, TwoBranches};
-pub(crate) use law::{Restraint, Restraints, SlipForce};
+pub(crate) use law::{Law, Memory};
 pub(crate) use rate::Coefficient;
 pub use rate::{RateCurve, RateLaw};
 pub use series::{Surface, SurfacesInSeries};

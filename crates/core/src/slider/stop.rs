@@ -4,7 +4,7 @@
 //! pulls; left behind, it has recovered. Mirrored on the other side.
 
 use super::Direction;
-use super::law::{Exit, Reached, Restraint};
+use super::branch::{Exit, Reached, Restraint};
 
 /// A stop at the end of the slider's travel, on one side or on both.
 #[derive(Clone, Copy, Debug, PartialEq)]
