@@ -466,7 +466,7 @@ impl<'a> Law<'a> {
         &self,
         displacements_m: &'d [f64],
     ) -> impl Iterator<Item = bool> + use<'a, 'd> {
-        let surfaces = self.bearing.series().map_or(&[][..], SurfacesInSeries::surfaces);
+        let surfaces = self.bearing.surfaces();
         let at_end = |(surface, u): (&super::Surface, &f64)| {
             surface.travel_m.is_some_and(|travel_m| u.abs() >= travel_m)
         };
